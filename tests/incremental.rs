@@ -509,7 +509,7 @@ fn dense_count(bench: &Bench, problem: &Problem, state: &State) -> usize {
     negative
 }
 
-/// The same by conjugate gradients, whose coarse space is split with the body: residuals of 1e-8 times what a body that hangs together by
+/// Bound of that by conjugate gradients, whose coarse space is split with the body: residuals of 1e-8 times what a body that hangs together by
 /// single bonds makes of them. Mechanisms of several points (without shear stiffness) are not held: nothing moves them, and energies are
 /// those of the factor.
 #[test]

@@ -16,7 +16,7 @@ const CG: &str = "solver.method=iterative";
 /// Residual 1e-10 times a condition number of some 10 to 100 between displacements and forces at a point.
 const ELASTIC: f64 = 1e-8;
 
-/// The same with the residual of 1e-8 after a breakage.
+/// Bound of displacements with the residual of 1e-8 after a breakage.
 const BROKEN: f64 = 1e-6;
 
 const EVENT: &str = "fracture={ control = \"event\", stop = { bonds = 60 } }";
@@ -137,7 +137,7 @@ fn assert_same_breakages(name: &str, [direct, iterative]: &[Run; 2], least: usiz
     assert!(force < BROKEN, "{name}: {force:e}");
 }
 
-/// The same bonds in the same order as with the factor, in load steps and along the exact path.
+/// Bonds break in the order in which they do with the factor, in load steps and along the exact path.
 #[test]
 fn bonds_break_in_the_order_of_the_factor() {
     let stop = "fracture.stop.bonds=60";

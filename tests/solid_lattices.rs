@@ -51,8 +51,7 @@ fn counted(cells: u32) -> [f64; 3] {
 fn the_mean_stress_of_a_pressure_in_a_hole_is_exact() {
     let solution = sphere(16);
     let (state, system) = (&solution.outcome.state, &*solution.model.system);
-    let deformations =
-        system.deformations(&state.intact, &state.displacement, ThermalStrain::NONE);
+    let deformations = system.deformations(&state.intact, &state.displacement, ThermalStrain::NONE);
     let [taken, left, rows] = counted(16);
     assert_eq!(system.n_points() as f64, left);
     let mut mean = [0.0; 6];

@@ -14,8 +14,8 @@ use ligament_analysis::{
     Component, Control, ControlKind, Equilibrium, Problem, ProportionalLoading, SolverSettings,
     State, Unknowns, assembly, gauges, internal,
 };
-use ligament_model::correction::domain::{StopRule, Sweeps};
 use ligament_model::correction::length::length_factors;
+use ligament_model::correction::{StopRule, Sweeps};
 use ligament_model::failure::{Criteria, Criterion, Measure};
 use ligament_model::interface::StressReading;
 use ligament_model::space::correction::axes;

@@ -2,11 +2,11 @@
 //!
 //! A sweep over all bonds is one call through the interface; the loop inside knows the element as a type.
 
-use crate::bonds::Incidence;
+use crate::bonds::{BondSet, Incidence};
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
 use crate::deformation::Deformations;
-use crate::element::{BondDeformation, Remaining, Term};
+use crate::element::{BondDeformation, Remaining, Rigidities, Term};
 use crate::failure::{Criteria, Criterion};
 use crate::layout::{Component, Layout};
 use crate::rigid_motions::FreeMotion;
@@ -293,6 +293,28 @@ pub struct PointStiffness {
     pub force: f64,
     /// Moment for a rotation of 1 rad, in the units of what it is compared with.
     pub moment: f64,
+}
+
+impl PointStiffness {
+    /// Sums over the bonds of each point of (|axial| + |shear rigidity|)/l^2 and of (|shear| + |rotational rigidity|)/l, shape (n_points).
+    pub(crate) fn of_bonds<const D: usize>(
+        rigidities: &Rigidities,
+        bonds: &BondSet<D>,
+    ) -> Vec<Self> {
+        let of_point = |point: u32| {
+            let (mut force, mut moment) = (0.0, 0.0);
+            for &bond in bonds.incidence.at(point) {
+                let bond = bond as usize;
+                let (length, shear) = (bonds.length[bond], rigidities.shear[bond].abs());
+                force += (rigidities.axial[bond].abs() + shear) / length.powi(2);
+                moment += (shear + rigidities.rotational[bond].abs()) / length;
+            }
+            Self { force, moment }
+        };
+        (0..bonds.incidence.n_points() as u32)
+            .map(of_point)
+            .collect()
+    }
 }
 
 /// Readings of the forces of the bonds as stresses, see [`crate::stress`].

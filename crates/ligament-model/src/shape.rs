@@ -2,6 +2,20 @@
 
 use robust::{Coord, orient2d};
 
+/// A closed region of the plane or of space, by which cells are removed or gathered.
+pub trait Region<const D: usize>: Clone + Sync {
+    /// The region moved by a vector, m.
+    #[must_use]
+    fn moved(&self, by: [f64; D]) -> Self;
+
+    /// Whether a point lies in the region or on its rim, or no farther than `slack` outside of it (m).
+    fn contains(&self, point: [f64; D], slack: f64) -> bool;
+
+    /// Whether the straight line between two points meets the inside of the region deeper than `slack` (m): a line along the rim or one
+    /// that touches it does not.
+    fn is_crossed_by(&self, a: [f64; D], b: [f64; D], slack: f64) -> bool;
+}
+
 /// A closed region of the plane.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
@@ -23,14 +37,8 @@ pub enum Shape {
     Polygon(Vec<[f64; 2]>),
 }
 
-impl Shape {
-    /// The rectangle between two opposite corners.
-    pub fn rectangle([a, b]: [[f64; 2]; 2]) -> Self {
-        Self::Polygon(vec![a, [b[0], a[1]], b, [a[0], b[1]]])
-    }
-
-    /// The shape moved by a vector, m.
-    pub fn moved(&self, by: [f64; 2]) -> Self {
+impl Region<2> for Shape {
+    fn moved(&self, by: [f64; 2]) -> Self {
         let move_point = |p: &[f64; 2]| [p[0] + by[0], p[1] + by[1]];
         match self {
             Self::Circle { centre, radius } => Self::Circle {
@@ -45,14 +53,11 @@ impl Shape {
         }
     }
 
-    /// Whether a point lies in the shape or on its rim, or no farther than `slack` outside of it (m).
-    pub fn contains(&self, point: [f64; 2], slack: f64) -> bool {
+    fn contains(&self, point: [f64; 2], slack: f64) -> bool {
         self.depth(point) >= -slack
     }
 
-    /// Whether the straight line between two points meets the inside of the shape deeper than `slack` (m): a line along
-    /// the rim or one that touches it does not.
-    pub fn is_crossed_by(&self, a: [f64; 2], b: [f64; 2], slack: f64) -> bool {
+    fn is_crossed_by(&self, a: [f64; 2], b: [f64; 2], slack: f64) -> bool {
         match self {
             Self::Circle { centre, .. } => self.depth(along(a, b, foot(a, b, *centre))) > slack,
             // A disk is convex: a line leaves it nowhere if its ends do not.
@@ -65,6 +70,13 @@ impl Shape {
                 !misses && self.is_crossed_near(corners, a, b, slack)
             }
         }
+    }
+}
+
+impl Shape {
+    /// The rectangle between two opposite corners.
+    pub fn rectangle([a, b]: [[f64; 2]; 2]) -> Self {
+        Self::Polygon(vec![a, [b[0], a[1]], b, [a[0], b[1]]])
     }
 
     /// Between two places where the line crosses a side or passes a corner, the distance to each side changes in

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::correction::patch::CellForces;
+use crate::deformation::Deformations;
 use crate::element::Remaining;
 use crate::interface::Bonds;
 use crate::layout::Component;
@@ -96,9 +97,24 @@ pub fn loads(system: &BondSystem, forces: &CellForces) -> [Vec<f64>; 3] {
 /// What bonds across an interface exert on their ends in a uniform strain (eps_xx, eps_yy, gamma_xy) more than in the softer material,
 /// shape (n_degrees_of_freedom).
 fn excess_across(system: &BondSystem, strain: [f64; 3]) -> Vec<f64> {
-    let n = system.layout().n_degrees_of_freedom();
-    if system.series.is_empty() {
-        return vec![0.0; n];
+    // An expansion without a motion is the strain with the opposite sign.
+    let strains = vec![strain.map(|it| -it); system.cloud.len()];
+    let expansion = ThermalStrain::proportional(&strains, 1.0);
+    excess_in(system, &system.series, |intact, at_rest| {
+        system.deformations(intact, &at_rest, expansion)
+    })
+}
+
+/// What bonds exert on their ends more than without the factors of bonds in series (n_bonds; none without an interface), shape
+/// (n_degrees_of_freedom). `deformed` makes deformations of the intact bonds and the motions of a body at rest.
+pub(crate) fn excess_in(
+    system: &dyn Bonds,
+    series: &[f64],
+    deformed: impl FnOnce(&[bool], Vec<f64>) -> Deformations,
+) -> Vec<f64> {
+    let at_rest = vec![0.0; system.layout().n_degrees_of_freedom()];
+    if series.is_empty() {
+        return at_rest;
     }
     let excess = |factor: &f64| {
         let part = 1.0 - 1.0 / factor;
@@ -108,20 +124,15 @@ fn excess_across(system: &BondSystem, strain: [f64; 3]) -> Vec<f64> {
             rotational: part,
         }
     };
-    let remaining: Vec<_> = system.series.iter().map(excess).collect();
-    let intact = vec![true; system.bonds.len()];
+    let remaining: Vec<_> = series.iter().map(excess).collect();
+    let intact = vec![true; series.len()];
     let left = BondsLeft {
         intact: &intact,
         remaining: &remaining,
     };
-    // An expansion without a motion is the strain with the opposite sign.
-    let strains = vec![strain.map(|it| -it); system.cloud.len()];
-    let expansion = ThermalStrain::proportional(&strains, 1.0);
-    let deformations = system.deformations(&intact, &vec![0.0; n], expansion);
-    system
-        .forces(left, deformations, ThermalStrain::NONE)
-        .internal
-        .values
+    let deformations = deformed(&intact, at_rest);
+    let sweep = system.forces(left, deformations, ThermalStrain::NONE);
+    sweep.internal.values
 }
 
 /// The strains a_l of affine motions on which all three forces do the work that they do on displacements u_l: sum over m of

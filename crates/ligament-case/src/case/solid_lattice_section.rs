@@ -122,6 +122,11 @@ impl SolidLatticeSection {
             let key = key.child("remove").child(index);
             if let Some(name) = &hole.name {
                 require_column_name(|| key.child("name"), name)?;
+                if self.sets.contains_key(name) {
+                    let reason =
+                        format!("`solid_lattice.set` has a `{name}` as well: rename one of them");
+                    return Err(KeyFault::new(key.child("name"), reason));
+                }
             }
             Ok(SolidHole {
                 name: hole.name.clone(),

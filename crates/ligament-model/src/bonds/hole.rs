@@ -5,13 +5,17 @@ use rayon::prelude::*;
 use super::BondSet;
 use crate::cloud::PointCloud;
 use crate::horizon::INCLUSION_TOLERANCE;
-use crate::shape::Shape;
+use crate::shape::Region;
 
 /// For each bond, whether it meets the inside of a hole (coordinates of the case) by more than 1e-9 of the nearest distance
 /// of its ends, shape (n_bonds). Without this slack rounding would decide about bonds along a rim.
-pub fn bonds_across(holes: &[Shape], bonds: &BondSet, cloud: &PointCloud) -> Vec<bool> {
+pub fn bonds_across<const D: usize, S: Region<D>>(
+    holes: &[S],
+    bonds: &BondSet<D>,
+    cloud: &PointCloud<D>,
+) -> Vec<bool> {
     let to_local = cloud.origin.map(|coordinate| -coordinate);
-    let holes: Vec<Shape> = holes.iter().map(|hole| hole.moved(to_local)).collect();
+    let holes: Vec<S> = holes.iter().map(|hole| hole.moved(to_local)).collect();
     (bonds.ends.par_iter())
         .map(|&[a, b]| {
             let [a, b] = [a, b].map(|end| end as usize);

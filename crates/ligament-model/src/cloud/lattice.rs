@@ -1,111 +1,196 @@
-//! A regular lattice: points at the centres of the cells of a rectangle, some of which may be removed.
+//! A regular lattice: points at the centres of the cells of a rectangle or a box, some of which may be removed.
 
 use super::PointCloud;
 use crate::curve::along_hilbert_curve;
 use crate::horizon::INCLUSION_TOLERANCE;
-use crate::shape::Shape;
+use crate::shape::{Region, Shape};
 
-/// A rectangle of equal cells without those that holes take away.
+/// No cell is left at a place.
+const NONE: u32 = u32::MAX;
+
+/// A rectangle of equal cells, or for D = 3 a box, without those that holes take away.
 ///
-/// The cells that are left are numbered row by row from the lower left corner, x fastest.
+/// The cells that are left are numbered from the lowest corner, x fastest, then y.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Lattice {
-    /// Cells nx, ny of the whole rectangle.
-    pub size: [u32; 2],
-    /// Sides dx, dy of a cell, m.
-    pub spacing: [f64; 2],
-    /// Lower left corner of the rectangle, m.
-    pub corner: [f64; 2],
+pub struct Lattice<const D: usize = 2, S = Shape> {
+    /// Cells along each axis of the whole box.
+    pub size: [u32; D],
+    /// Sides of a cell, m.
+    pub spacing: [f64; D],
+    /// Corner of the lowest coordinates, m.
+    pub corner: [f64; D],
     /// Holes: cells whose centre lies in one are removed, and bonds across one are no bonds.
-    pub holes: Vec<Shape>,
-    /// Column and row (from 0) of each cell that is left, shape (n_points).
-    pub cells: Vec<[u32; 2]>,
+    pub holes: Vec<S>,
+    /// Place along each axis (from 0) of each cell that is left, shape (n_points).
+    pub cells: Vec<[u32; D]>,
+    /// Number of the cell at each place of the whole box, x fastest.
+    numbers: Vec<u32>,
 }
 
 /// A side of a cell behind which there is no cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Face {
+pub struct Face<const D: usize = 2> {
     /// The point at the centre of the cell.
     pub point: u32,
     /// Outward normal.
-    pub normal: [i8; 2],
-    /// Whether the face lies on the outline of the rectangle.
-    pub is_on_rectangle: bool,
-    /// Number of the first hole in which the centre of the missing cell lies; the cells go on beyond the rectangle.
+    pub normal: [i8; D],
+    /// Whether the face lies on the outline of the box.
+    pub is_on_box: bool,
+    /// Number of the first hole in which the centre of the missing cell lies; the cells go on beyond the box.
     pub hole: Option<usize>,
 }
 
-impl Lattice {
-    /// The rectangle of nx by ny cells with its lower left corner at `corner`, without the cells whose centre lies in one
-    /// of the holes (rim included, to 1e-9 of the spacing).
-    pub fn new(size: [u32; 2], spacing: [f64; 2], corner: [f64; 2], holes: Vec<Shape>) -> Self {
-        let whole = (0..size[1]).flat_map(|row| (0..size[0]).map(move |column| [column, row]));
+impl<const D: usize, S: Region<D>> Lattice<D, S> {
+    /// The box of so many cells with its lowest corner at `corner`, without the cells whose centre lies in one of the holes (rim
+    /// included, to 1e-9 of the spacing).
+    pub fn new(size: [u32; D], spacing: [f64; D], corner: [f64; D], holes: Vec<S>) -> Self {
         let mut lattice = Self {
             size,
             spacing,
             corner,
             holes,
             cells: Vec::new(),
+            numbers: Vec::new(),
         };
-        let local: Vec<Shape> = lattice
-            .holes
-            .iter()
-            .map(|hole| lattice.local(hole))
-            .collect();
+        let local: Vec<S> = lattice.holes.iter().map(|it| lattice.local(it)).collect();
         let slack = lattice.slack();
-        lattice.cells = whole
-            .filter(|&cell| {
-                let centre = lattice.offset(cell);
-                !local.iter().any(|hole| hole.contains(centre, slack))
-            })
-            .collect();
+        let n_whole: usize = size.iter().map(|&count| count as usize).product();
+        for place in 0..n_whole {
+            let mut rest = place;
+            let cell = size.map(|count| {
+                let along = rest % count as usize;
+                rest /= count as usize;
+                along as u32
+            });
+            let centre = lattice.offset(cell);
+            let is_taken = local.iter().any(|hole| hole.contains(centre, slack));
+            let number = lattice.cells.len() as u32;
+            lattice.numbers.push(if is_taken { NONE } else { number });
+            if !is_taken {
+                lattice.cells.push(cell);
+            }
+        }
         lattice
     }
 
-    /// Number of cells of the whole rectangle.
+    /// Number of cells of the whole box.
     pub fn n_whole(&self) -> usize {
-        self.size[0] as usize * self.size[1] as usize
+        self.numbers.len()
     }
 
-    /// Middle of the rectangle, m.
-    pub fn middle(&self) -> [f64; 2] {
-        [0, 1].map(|axis| self.corner[axis] + 0.5 * f64::from(self.size[axis]) * self.spacing[axis])
+    /// Middle of the box, m.
+    pub fn middle(&self) -> [f64; D] {
+        std::array::from_fn(|axis| {
+            self.corner[axis] + 0.5 * f64::from(self.size[axis]) * self.spacing[axis]
+        })
     }
 
-    /// Centre of a cell relative to the middle of the rectangle, m: a whole number of half cells, so that opposite cells
-    /// have opposite positions to the last bit and distances are rounded but once.
-    pub fn offset(&self, cell: [u32; 2]) -> [f64; 2] {
+    /// Centre of a cell relative to the middle of the box, m: a whole number of half cells, so that opposite cells have opposite
+    /// positions to the last bit and distances are rounded but once.
+    pub fn offset(&self, cell: [u32; D]) -> [f64; D] {
         self.centre(cell.map(i64::from))
     }
 
-    /// Centre of a cell that may lie beyond the rectangle, relative to the middle of the rectangle, m.
-    fn centre(&self, cell: [i64; 2]) -> [f64; 2] {
-        [0, 1].map(|axis| {
+    /// Centre of a cell that may lie beyond the box, relative to the middle of the box, m.
+    fn centre(&self, cell: [i64; D]) -> [f64; D] {
+        std::array::from_fn(|axis| {
             let half_cells = 2 * cell[axis] + 1 - i64::from(self.size[axis]);
             half_cells as f64 * (0.5 * self.spacing[axis])
         })
     }
 
-    /// The number of the point in a cell that may lie beyond the rectangle; None where there is none.
-    fn point_in(&self, [column, row]: [i64; 2]) -> Option<u32> {
-        let place = |&[column, row]: &[u32; 2]| [i64::from(row), i64::from(column)];
-        let found = self.cells.binary_search_by_key(&[row, column], place);
-        found.ok().map(|point| point as u32)
+    /// The number of the point in a cell that may lie beyond the box; None where there is none.
+    pub fn point_in(&self, cell: [i64; D]) -> Option<u32> {
+        let mut place = 0;
+        for (along, count) in cell.into_iter().zip(self.size).rev() {
+            let along = u32::try_from(along).ok().filter(|along| *along < count)?;
+            place = place * count as usize + along as usize;
+        }
+        let number = self.numbers[place];
+        (number != NONE).then_some(number)
     }
 
-    /// The faces between two cells: the point on the left or below, the normal towards the other and the other point.
-    pub fn inner_faces(&self) -> Vec<(u32, [i8; 2], u32)> {
-        let of_cell = |(point, cell): (u32, &[u32; 2])| {
-            let [column, row] = cell.map(i64::from);
-            let right = self.point_in([column + 1, row]);
-            let above = self.point_in([column, row + 1]);
-            [([1, 0], right), ([0, 1], above)]
-                .into_iter()
-                .filter_map(move |(normal, next)| Some((point, normal, next?)))
+    /// The faces between two cells: the point with the lower coordinate, the normal towards the other and the other point.
+    pub fn inner_faces(&self) -> Vec<(u32, [i8; D], u32)> {
+        let of_cell = |(point, cell): (u32, &[u32; D])| {
+            let cell = *cell;
+            let upwards = sides().skip(1).step_by(2);
+            upwards.filter_map(move |normal| {
+                Some((point, normal, self.point_in(beside(cell, normal))?))
+            })
         };
         (0..).zip(&self.cells).flat_map(of_cell).collect()
     }
 
+    /// The faces of cells behind which there is no cell, by the numbers of the points, then below and above along x, y and z.
+    pub fn outline(&self) -> Vec<Face<D>> {
+        let (slack, size) = (self.slack(), self.size.map(i64::from));
+        let holes: Vec<S> = self.holes.iter().map(|hole| self.local(hole)).collect();
+        let mut faces = Vec::new();
+        for (point, &cell) in (0..).zip(&self.cells) {
+            for normal in sides() {
+                let next = beside(cell, normal);
+                if self.point_in(next).is_some() {
+                    continue;
+                }
+                let centre = self.centre(next);
+                faces.push(Face {
+                    point,
+                    normal,
+                    is_on_box: (0..D).any(|axis| next[axis] < 0 || next[axis] >= size[axis]),
+                    hole: holes.iter().position(|hole| hole.contains(centre, slack)),
+                });
+            }
+        }
+        faces
+    }
+
+    /// Size of the faces of cells across an axis: a length (m), in space an area (m^2).
+    pub fn face_size(&self, normal: [i8; D]) -> f64 {
+        let along = (0..D).filter(|&axis| normal[axis] == 0);
+        along.map(|axis| self.spacing[axis]).product()
+    }
+
+    /// Numbers of the points whose centre lies in a shape (rim included, to 1e-9 of the spacing), ascending.
+    pub fn points_in(&self, shape: &S) -> Vec<u32> {
+        let (shape, slack) = (self.local(shape), self.slack());
+        self.points_where(|cell| shape.contains(self.offset(cell), slack))
+    }
+
+    /// Numbers of the points in so many layers at the side of the box with this outward normal, ascending.
+    pub fn points_at_side(&self, normal: [i8; D], layers: u32) -> Vec<u32> {
+        self.points_where(|cell| {
+            (0..D).any(|axis| match normal[axis] {
+                0 => false,
+                1.. => self.size[axis] - cell[axis] <= layers,
+                _ => cell[axis] < layers,
+            })
+        })
+    }
+
+    fn points_where(&self, condition: impl Fn([u32; D]) -> bool) -> Vec<u32> {
+        let numbered = (0..).zip(&self.cells);
+        numbered
+            .filter(|(_, cell)| condition(**cell))
+            .map(|(point, _)| point)
+            .collect()
+    }
+
+    /// A shape in coordinates relative to the middle.
+    fn local(&self, shape: &S) -> S {
+        shape.moved(self.middle().map(|coordinate| -coordinate))
+    }
+
+    fn slack(&self) -> f64 {
+        INCLUSION_TOLERANCE * self.shortest_side()
+    }
+
+    fn shortest_side(&self) -> f64 {
+        self.spacing.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+}
+
+impl Lattice {
     /// The squares between the centres of four cells around a corner, anticlockwise.
     pub fn squares(&self) -> Vec<[u32; 4]> {
         let around = |cell: &[u32; 2]| {
@@ -115,82 +200,46 @@ impl Lattice {
         };
         self.cells.iter().filter_map(around).collect()
     }
-
-    /// The faces of cells behind which there is no cell, by the numbers of the points, then left, right, below, above.
-    pub fn outline(&self) -> Vec<Face> {
-        let (slack, size) = (self.slack(), self.size.map(i64::from));
-        let holes: Vec<Shape> = self.holes.iter().map(|hole| self.local(hole)).collect();
-        let mut faces = Vec::new();
-        for (point, cell) in (0..).zip(&self.cells) {
-            for normal in [[-1, 0], [1, 0], [0, -1], [0, 1]] {
-                let next = [0, 1].map(|axis| i64::from(cell[axis]) + i64::from(normal[axis]));
-                if self.point_in(next).is_some() {
-                    continue;
-                }
-                let centre = self.centre(next);
-                faces.push(Face {
-                    point,
-                    normal,
-                    is_on_rectangle: (0..2).any(|axis| next[axis] < 0 || next[axis] >= size[axis]),
-                    hole: holes.iter().position(|hole| hole.contains(centre, slack)),
-                });
-            }
-        }
-        faces
-    }
-
-    /// Numbers of the points whose centre lies in a shape (rim included, to 1e-9 of the spacing), ascending.
-    pub fn points_in(&self, shape: &Shape) -> Vec<u32> {
-        let (shape, slack) = (self.local(shape), self.slack());
-        self.points_where(|cell| shape.contains(self.offset(cell), slack))
-    }
-
-    /// Numbers of the points whose column and row fulfil a condition, ascending.
-    pub fn points_where(&self, condition: impl Fn([u32; 2]) -> bool) -> Vec<u32> {
-        let numbered = (0..).zip(&self.cells);
-        numbered
-            .filter(|(_, cell)| condition(**cell))
-            .map(|(point, _)| point)
-            .collect()
-    }
-
-    /// A shape in coordinates relative to the middle.
-    fn local(&self, shape: &Shape) -> Shape {
-        shape.moved(self.middle().map(|coordinate| -coordinate))
-    }
-
-    fn slack(&self) -> f64 {
-        INCLUSION_TOLERANCE * self.spacing[0].min(self.spacing[1])
-    }
 }
 
-impl PointCloud {
-    /// A point at the centre of each cell of a lattice, with the volume V = dx dy t.
+/// Outward normals of the sides of a box, below and above along x, then along y, then along z.
+fn sides<const D: usize>() -> impl Iterator<Item = [i8; D]> {
+    let along = |axis: usize, sign: i8| std::array::from_fn(|it| if it == axis { sign } else { 0 });
+    (0..D).flat_map(move |axis| [-1, 1].map(|sign| along(axis, sign)))
+}
+
+/// The cell behind a side of a cell.
+fn beside<const D: usize>(cell: [u32; D], normal: [i8; D]) -> [i64; D] {
+    std::array::from_fn(|axis| i64::from(cell[axis]) + i64::from(normal[axis]))
+}
+
+impl<const D: usize> PointCloud<D> {
+    /// A point at the centre of each cell of a lattice, with the volume of the cell times the thickness (1 in space).
     ///
-    /// The nearest distance is min(dx, dy) for every point, also where a hole took its neighbours: horizons that go by it
+    /// The nearest distance is the shortest side for every point, also where a hole took its neighbours: horizons that go by it
     /// are unified. `material_of_cell` (n_points) holds the index of each cell's material.
-    pub fn from_lattice(
-        lattice: &Lattice,
+    pub fn from_lattice<S: Region<D>>(
+        lattice: &Lattice<D, S>,
         thickness: f64,
         material_of_cell: &[u32],
         n_materials: usize,
     ) -> Self {
-        let positions: Vec<[f64; 2]> = (lattice.cells.iter())
+        let positions: Vec<[f64; D]> = (lattice.cells.iter())
             .map(|&cell| lattice.offset(cell))
             .collect();
-        let [dx, dy] = lattice.spacing;
         let n_points = positions.len();
         let mut material_shares = vec![0.0; n_points * n_materials];
         for (point, &material) in material_of_cell.iter().enumerate() {
             material_shares[point * n_materials + material as usize] = 1.0;
         }
+        let volume = lattice.spacing.iter().product::<f64>() * thickness;
         Self {
             curve: along_hilbert_curve(&positions),
             positions,
             origin: lattice.middle(),
             thickness,
-            volumes: vec![dx * dy * thickness; n_points],
-            spacing: vec![dx.min(dy); n_points],
+            volumes: vec![volume; n_points],
+            spacing: vec![lattice.shortest_side(); n_points],
             lattice_cell: Some(lattice.spacing),
             n_materials,
             material_shares,

@@ -139,6 +139,28 @@ impl<const D: usize> PointCloud<D> {
             .collect()
     }
 
+    /// Orders some points so that the first half of them lies on one side of the second along the axis in which they reach farthest (the
+    /// first of several), with ties to the smaller number.
+    pub(crate) fn halve(&self, points: &mut [u32]) {
+        let extent = |axis: usize| {
+            let (lowest, highest) = (points.iter())
+                .map(|&point| self.positions[point as usize][axis])
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                    (low.min(x), high.max(x))
+                });
+            highest - lowest
+        };
+        let extents: [f64; D] = std::array::from_fn(extent);
+        let axis = (0..D)
+            .rev()
+            .max_by(|one, other| extents[*one].total_cmp(&extents[*other]));
+        let axis = axis.unwrap_or_default();
+        points.select_nth_unstable_by(points.len() / 2, |&one, &other| {
+            let [first, second] = [one, other].map(|point| self.positions[point as usize][axis]);
+            first.total_cmp(&second).then(one.cmp(&other))
+        });
+    }
+
     /// Distance that counts as zero in comparisons at a point, m. On a lattice points lie exactly on the rims of boxes and
     /// halfway between others, and rounding must not decide about them.
     fn slack(&self, point: usize) -> f64 {

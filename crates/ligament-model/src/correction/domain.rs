@@ -5,32 +5,15 @@
 
 use nalgebra::Vector3;
 
+use super::Correction;
 use super::families::Families;
 use super::strain_mode::StrainMode;
-use super::{Correction, CorrectionReport, DomainReport};
+use super::sweeps::Sweeps;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::element::imaginary::matrix;
 use crate::law::BondStiffness;
 use crate::material::{Material, Plane};
-
-/// Condition at which the sweeps end.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum StopRule {
-    /// The sum over the bonds of |change of Omega| falls below this (the paper's rule; asks more of larger meshes).
-    Sum(f64),
-    /// The mean over the bonds of |change of Omega| falls below this (independent of the size).
-    Mean(f64),
-}
-
-/// Stop rule and limit of the sweeps.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sweeps {
-    /// Condition at which the sweeps end.
-    pub stop: StopRule,
-    /// Sweeps after which the iteration is given up, with the factors reached.
-    pub limit: usize,
-}
 
 /// The continuum whose strain energies the bonds are to have.
 #[derive(Debug, Clone, Copy)]
@@ -55,30 +38,11 @@ pub fn iterate(
     continuum: Continuum<'_>,
     sweeps: Sweeps,
 ) -> Correction {
-    let tolerance = match sweeps.stop {
-        StopRule::Sum(tolerance) => tolerance,
-        StopRule::Mean(tolerance) => tolerance * bonds.len() as f64,
-    };
     let density = |mode, bond| energy_density(mode, bond, bonds, stiffness, &length_factor);
     let targets = [StrainMode::UniaxialX, StrainMode::UniaxialY]
         .map(|mode| target_energies(mode, cloud, continuum));
-    let mut families = Families::new(bonds, cloud, density, &targets);
-    let mut last_change = f64::INFINITY;
-    let mut done = 0;
-    while last_change >= tolerance && done < sweeps.limit {
-        last_change = families.sweep();
-        done += 1;
-    }
-    let report = DomainReport {
-        sweeps: done,
-        converged: last_change < tolerance,
-        last_change,
-        largest_residual: families.largest_residual(),
-    };
-    Correction {
-        report: Some(CorrectionReport::Domain(report)),
-        ..Correction::fixed(length_factor, families.into_domain_factors())
-    }
+    let families = Families::new(bonds, cloud, density, &targets);
+    sweeps.correct(families, length_factor)
 }
 
 /// Strain energy density of every point over the continuum's, for each of [`StrainMode::ALL`], shape (4, n_points).

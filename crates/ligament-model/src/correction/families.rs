@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::members::{BLOCK, Members};
 use super::strain_mode::StrainMode;
+use super::sweeps::SweptFamilies;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 
@@ -64,9 +65,10 @@ impl<'a> Families<'a> {
             ratios,
         }
     }
+}
 
-    /// One sweep of NHPD eq. 13; the sum over the bonds of |change of Omega|.
-    pub(super) fn sweep(&mut self) -> f64 {
+impl SweptFamilies for Families<'_> {
+    fn sweep(&mut self) -> f64 {
         std::mem::swap(&mut self.ratios, &mut self.before);
         let (coefficients, before, target) = (&self.coefficients, &self.before, &self.target);
         let changes: Vec<f64> = (
@@ -90,14 +92,12 @@ impl<'a> Families<'a> {
         0.5 * changes.iter().sum::<f64>()
     }
 
-    /// Largest |etil/e - 1| of a point along x or y.
-    pub(super) fn largest_residual(&self) -> f64 {
+    fn largest_residual(&self) -> f64 {
         let ratios = self.ratios.as_flattened().iter();
         ratios.map(|r| (1.0 / r - 1.0).abs()).fold(0.0, f64::max)
     }
 
-    /// Omega of every bond, shape (n_bonds).
-    pub(super) fn into_domain_factors(self) -> Vec<f64> {
+    fn into_domain_factors(self) -> Vec<f64> {
         self.coefficients.members.of_bonds(&self.domain_factor)
     }
 }

@@ -16,9 +16,11 @@ pub mod partial_volume;
 pub mod patch;
 mod strain_mode;
 pub mod surface;
+pub(crate) mod sweeps;
 
-pub use domain::{Continuum, StopRule, Sweeps, energy_ratios};
+pub use domain::{Continuum, energy_ratios};
 pub use strain_mode::StrainMode;
+pub use sweeps::{StopRule, Sweeps};
 
 use crate::bonds::retained;
 

@@ -19,7 +19,7 @@ pub mod spring;
 pub mod true_strain;
 
 use crate::bonds::{BondSet, Incidence};
-use crate::layout::Component;
+use crate::layout::{Component, Layout};
 
 /// Kinematics of the bonds of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -141,6 +141,26 @@ impl Rigidities {
     /// Rigidities against stretch and shear, which bonds of springs have.
     pub fn of_springs(&self) -> impl Iterator<Item = &f64> {
         self.axial.iter().chain(&self.shear)
+    }
+
+    /// Whether a bond resists rotations of its ends, if these can turn.
+    pub(crate) fn resist_rotations(&self, bond: usize) -> bool {
+        self.shear[bond] != 0.0 || self.rotational[bond] != 0.0
+    }
+
+    /// Degrees of freedom that bonds may resist: all displacements, and rotations where a bond does, shape (n_degrees_of_freedom).
+    pub(crate) fn resisted(&self, ends: &[[u32; 2]], layout: Layout) -> Vec<bool> {
+        let all = 0..layout.n_degrees_of_freedom();
+        let mut resisted: Vec<bool> = all
+            .map(|dof| !layout.component(dof).is_rotation())
+            .collect();
+        let resisting = (0..)
+            .zip(ends)
+            .filter(|(bond, _)| self.resist_rotations(*bond));
+        for end in resisting.flat_map(|(_, ends)| ends) {
+            resisted[layout.range(*end)].fill(true);
+        }
+        resisted
     }
 }
 

@@ -4,9 +4,9 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::crack_at_points::CrackAtPoints;
-use super::measure::Measure;
+use super::measure::{Measure, Weakened};
 use super::softening::{AfterLimit, brittle};
-use crate::element::BondDeformation;
+use crate::element::{BondDeformation, Rigidities};
 
 /// A failure criterion with its limits.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,6 +35,20 @@ impl Criterion {
             coefficient: Vec::new(),
             after: AfterLimit::new(brittle::LAW, Vec::new()),
             crack_at_points: None,
+        }
+    }
+
+    /// Energy of a bond at its limit, J; zero without a limit.
+    pub(crate) fn energy_at_limit(&self, rigidities: &Rigidities, bond: usize) -> f64 {
+        let rigidity = match self.measure.weakens() {
+            Weakened::Opening | Weakened::Crushing => rigidities.axial[bond],
+            Weakened::Sliding => rigidities.shear[bond],
+        };
+        let limit = self.limit[bond];
+        if limit.is_finite() {
+            0.5 * rigidity * limit * limit
+        } else {
+            0.0
         }
     }
 

@@ -14,7 +14,7 @@ use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::material::{Isotropic, Plane};
 
-/// Scales the densities of a law so that every point has the right energy, with the factors alpha (n_bonds).
+/// Scales the densities of a law in the plane so that every point has the right energy, with the factors alpha (n_bonds).
 ///
 /// With (k_n, k_t) of the law a strain eps along x and y costs a point 1/4 sum alpha V_B l k_n eps^2 (MPPD eq. 33 in sums), which
 /// should be (C_11 + C_12) eps^2; a shear gamma costs 1/32 sum alpha V_B l (k_n + k_t) gamma^2 in the mean over its directions,
@@ -22,8 +22,7 @@ use crate::material::{Isotropic, Plane};
 ///
 /// q_n = 4 (C_11 + C_12) / sum(alpha V_B l k_n), q_t = (16 G - 4 (C_11 + C_12)) / sum(alpha V_B l k_t)
 ///
-/// are the factors of a point, and a bond takes the mean of its ends'. Points near a surface have smaller sums and larger
-/// factors: there is nothing left for a surface correction. `materials` are those that the law makes of the given ones.
+/// are the factors of a point. `materials` are those that the law makes of the given ones.
 pub fn calibrated(
     stiffness: BondStiffness,
     length_factor: &[f64],
@@ -32,17 +31,28 @@ pub fn calibrated(
     materials: &[Isotropic],
     plane: Plane,
 ) -> BondStiffness {
-    let targets: [Vec<f64>; 2] = {
-        let stiffness: Vec<_> = materials
-            .iter()
-            .map(|material| material.plane_stiffness(plane))
-            .collect();
-        let bulk = stiffness.iter().map(|c| 4.0 * (c[(0, 0)] + c[(0, 1)]));
-        let bulk: Vec<f64> = bulk.collect();
-        let shear = stiffness.iter().zip(&bulk);
-        let shear = shear.map(|(c, bulk)| 16.0 * c[(2, 2)] - bulk).collect();
-        [bulk, shear]
-    };
+    let of_planes = materials.iter().map(|it| it.plane_stiffness(plane));
+    let targets = of_planes.map(|c| {
+        let bulk = 4.0 * (c[(0, 0)] + c[(0, 1)]);
+        [bulk, 16.0 * c[(2, 2)] - bulk]
+    });
+    scaled_to(targets, stiffness, length_factor, bonds, cloud)
+}
+
+/// Scales the densities of a law so that the sums of alpha V_B l k_n and of alpha V_B l k_t over the bonds of a point are the targets
+/// of its materials, shape (n_materials), J/m^3.
+///
+/// A bond takes the mean of the factors of its ends. Points near a surface have smaller sums and larger factors: there is nothing
+/// left for a surface correction.
+pub(crate) fn scaled_to<const D: usize>(
+    targets: impl Iterator<Item = [f64; 2]>,
+    stiffness: BondStiffness,
+    length_factor: &[f64],
+    bonds: &BondSet<D>,
+    cloud: &PointCloud<D>,
+) -> BondStiffness {
+    let (of_stretch, of_shear): (Vec<f64>, Vec<f64>) = targets.map(<(f64, f64)>::from).unzip();
+    let targets = [of_stretch, of_shear];
     let BondStiffness {
         mut axial,
         mut shear,

@@ -9,7 +9,7 @@ use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
 use crate::deformation::{Deformations, SpaceDeformation};
 use crate::element::{BondDeformation, Remaining, Term};
-use crate::failure::{Criteria, Criterion, Weakened};
+use crate::failure::{Criteria, Criterion};
 use crate::interface::{
     Bonds, CentralMotions, CoupledPoints, PointStiffness, StressReading, Stresses,
 };
@@ -112,59 +112,15 @@ impl Bonds for SolidSystem {
     }
 
     fn resisted(&self) -> Vec<bool> {
-        let components = self.components();
-        let of_point = components.iter().map(|it| !it.is_rotation());
-        let mut resisted: Vec<bool> = (0..self.n_points())
-            .flat_map(|_| of_point.clone())
-            .collect();
-        let layout = self.layout();
-        for (bond, ends) in self.bonds.ends.iter().enumerate() {
-            if self.resists_rotations(bond) {
-                for end in ends {
-                    resisted[layout.range(*end)].fill(true);
-                }
-            }
-        }
-        resisted
+        self.rigidities.resisted(&self.bonds.ends, self.layout())
     }
 
-    /// Sums over the bonds of a point of (|axial| + |shear rigidity|)/l^2 and of (|shear| + |rotational rigidity|)/l.
     fn point_stiffness(&self) -> Vec<PointStiffness> {
-        let of_point = |point: u32| {
-            let (mut force, mut moment) = (0.0, 0.0);
-            for &bond in self.bonds.incidence.at(point) {
-                let bond = bond as usize;
-                let (length, shear) = (self.bonds.length[bond], self.rigidities.shear[bond].abs());
-                force += (self.rigidities.axial[bond].abs() + shear) / length.powi(2);
-                moment += (shear + self.rigidities.rotational[bond].abs()) / length;
-            }
-            PointStiffness { force, moment }
-        };
-        (0..self.cloud.len() as u32).map(of_point).collect()
+        PointStiffness::of_bonds(&self.rigidities, &self.bonds)
     }
 
     fn halve(&self, points: &mut [u32]) {
-        let positions = &self.cloud.positions;
-        let extent = |axis: usize| {
-            let (lowest, highest) = (points.iter())
-                .map(|&point| positions[point as usize][axis])
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-                    (low.min(x), high.max(x))
-                });
-            highest - lowest
-        };
-        let longer = |one: usize, other: usize| {
-            if extent(other) > extent(one) {
-                other
-            } else {
-                one
-            }
-        };
-        let axis = longer(longer(0, 1), 2);
-        points.select_nth_unstable_by(points.len() / 2, |&one, &other| {
-            let [first, second] = [one, other].map(|point| positions[point as usize][axis]);
-            first.total_cmp(&second).then(one.cmp(&other))
-        });
+        self.cloud.halve(points);
     }
 
     fn holds(
@@ -313,16 +269,7 @@ impl Bonds for SolidSystem {
     }
 
     fn energy_at_limit(&self, criterion: &Criterion, bond: usize) -> f64 {
-        let rigidity = match criterion.measure.weakens() {
-            Weakened::Opening | Weakened::Crushing => self.rigidities.axial[bond],
-            Weakened::Sliding => self.rigidities.shear[bond],
-        };
-        let limit = criterion.limit[bond];
-        if limit.is_finite() {
-            0.5 * rigidity * limit * limit
-        } else {
-            0.0
-        }
+        criterion.energy_at_limit(&self.rigidities, bond)
     }
 
     fn terms(&self, _intact: &[bool], bond: usize, remaining: &Remaining) -> Vec<Term> {

@@ -12,9 +12,8 @@
 //! | stage | module |
 //! |---|---|
 //! | points of solid meshes and of lattices | [`cloud`], [`lattice`] |
-//! | bonds across holes, and out of a mesh | [`hole`], [`outline`] |
+//! | bonds out of a mesh | [`outline`] |
 //! | pre-cracks | [`precrack`] |
-//! | whether points and bonds are fit | [`soundness`] |
 //! | micromoduli | [`law`] |
 //! | factors alpha and Omega | [`correction`] |
 //! | failure criteria with their limits | [`criteria`] |
@@ -27,7 +26,6 @@ pub mod cloud;
 pub mod correction;
 pub mod criteria;
 pub mod element;
-pub mod hole;
 pub mod lattice;
 pub mod law;
 mod mass;
@@ -37,7 +35,6 @@ mod predicates;
 mod product;
 mod rigid_motions;
 pub mod shape;
-pub mod soundness;
 pub mod stress;
 mod sweep;
 pub mod system;

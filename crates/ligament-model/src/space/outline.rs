@@ -20,8 +20,8 @@ use crate::bonds::BondSet;
 use crate::cloud::{PointCloud, distance, search_tree};
 use crate::horizon::INCLUSION_TOLERANCE;
 use crate::space::cloud::shortest_edges;
-pub use surface::Surface;
 use surface::Facet;
+pub use surface::Surface;
 
 /// Points along the curve that are asked for together whether the outline is near: most of a body is far from it.
 const BLOCK: usize = 64;
@@ -69,11 +69,7 @@ pub fn first_crossing(cells: &[SolidCell], cloud: &PointCloud<3>) -> Option<[u32
 /// Distance of each node of the mesh of `cells` to the nearest other one that it sees within their surface, shape (n_points), m.
 ///
 /// Across a thin slot the nearest node of all may be much nearer; a horizon that follows it would reach nothing but the other side.
-pub fn spacing_inside(
-    surface: &Surface,
-    cells: &[SolidCell],
-    cloud: &PointCloud<3>,
-) -> Vec<f64> {
+pub fn spacing_inside(surface: &Surface, cells: &[SolidCell], cloud: &PointCloud<3>) -> Vec<f64> {
     let shortest = shortest_edges(cloud, cells);
     let mut spacing = cloud.spacing.clone();
     // What is nearer than the ends of all edges of cells may lie behind a void.

@@ -13,7 +13,7 @@ impl SolidSystem {
         let mut bonds = points
             .iter()
             .flat_map(|&point| self.bonds.incidence.at(point));
-        let resist = bonds.any(|&bond| self.resists_rotations(bond as usize));
+        let resist = bonds.any(|&bond| self.rigidities.resist_rotations(bond as usize));
         let turn = match (resist, self.element) {
             (true, SolidElement::Beam) => Turn::OfPointsAlong,
             (true, SolidElement::Spring) => Turn::Costly,
@@ -31,11 +31,6 @@ impl SolidSystem {
         let size = |p: [f64; 3]| dot(p, p).sqrt();
         let positions = &self.cloud.positions;
         RigidMotions::new(self.layout(), positions, points, turn, (size, row_in_space))
-    }
-
-    /// Whether a bond resists rotations of its ends, if these can turn.
-    pub(super) fn resists_rotations(&self, bond: usize) -> bool {
-        self.rigidities.shear[bond] != 0.0 || self.rigidities.rotational[bond] != 0.0
     }
 
     /// The rigid motions of the whole body about the centre of its masses (n_points).

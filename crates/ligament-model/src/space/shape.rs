@@ -1,6 +1,7 @@
 //! Shapes in space: holes of a lattice, and the parts of a body that its sets are.
 
 use super::vector::{dot, minus, norm};
+use crate::shape::Region;
 
 /// A closed region of space.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,17 +43,8 @@ pub enum SolidShape {
     },
 }
 
-impl SolidShape {
-    /// The box between two opposite corners.
-    pub fn between([a, b]: [[f64; 3]; 2]) -> Self {
-        Self::Box {
-            lower: [0, 1, 2].map(|axis| a[axis].min(b[axis])),
-            upper: [0, 1, 2].map(|axis| a[axis].max(b[axis])),
-        }
-    }
-
-    /// The shape moved by a vector, m.
-    pub fn moved(&self, by: [f64; 3]) -> Self {
+impl Region<3> for SolidShape {
+    fn moved(&self, by: [f64; 3]) -> Self {
         let moved = |p: &[f64; 3]| [p[0] + by[0], p[1] + by[1], p[2] + by[2]];
         match self {
             Self::Sphere { centre, radius } => Self::Sphere {
@@ -78,8 +70,7 @@ impl SolidShape {
         }
     }
 
-    /// Whether a point lies in the shape or on its surface, or no farther than `slack` outside of it (m).
-    pub fn contains(&self, point: [f64; 3], slack: f64) -> bool {
+    fn contains(&self, point: [f64; 3], slack: f64) -> bool {
         match self {
             Self::Sphere { centre, radius } => norm(minus(point, *centre)) <= radius + slack,
             Self::OutsideSphere { centre, radius } => norm(minus(point, *centre)) >= radius - slack,
@@ -98,9 +89,7 @@ impl SolidShape {
         }
     }
 
-    /// Whether the straight line between two points meets the inside of the shape deeper than `slack` (m): a line along the surface
-    /// or one that touches it does not.
-    pub fn is_crossed_by(&self, a: [f64; 3], b: [f64; 3], slack: f64) -> bool {
+    fn is_crossed_by(&self, a: [f64; 3], b: [f64; 3], slack: f64) -> bool {
         let way = minus(b, a);
         match self {
             Self::Sphere { centre, radius } => is_open(
@@ -131,6 +120,16 @@ impl SolidShape {
                 let meet = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a.max(c), b.min(d)];
                 is_open(sides.fold([0.0, 1.0], meet), [0.0, 1.0])
             }
+        }
+    }
+}
+
+impl SolidShape {
+    /// The box between two opposite corners.
+    pub fn between([a, b]: [[f64; 3]; 2]) -> Self {
+        Self::Box {
+            lower: [0, 1, 2].map(|axis| a[axis].min(b[axis])),
+            upper: [0, 1, 2].map(|axis| a[axis].max(b[axis])),
         }
     }
 }

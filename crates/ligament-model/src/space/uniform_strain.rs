@@ -4,11 +4,10 @@ use nalgebra::{Matrix6, Vector6};
 
 use super::correction::patch::{SolidCellForces, force_in};
 use super::system::SolidSystem;
-use crate::element::Remaining;
 use crate::interface::Bonds;
 use crate::material::Isotropic;
-use crate::system::BondsLeft;
 use crate::thermal::ThermalStrain;
+use crate::uniform_strain::excess_in;
 
 const HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
@@ -124,38 +123,17 @@ pub fn loads(system: &SolidSystem, forces: &SolidCellForces) -> [Vec<f64>; 6] {
 /// What bonds across an interface exert on their ends in a uniform strain more than in the softer material, shape
 /// (n_degrees_of_freedom).
 fn excess_across(system: &SolidSystem, [xx, yy, zz, xy, xz, yz]: [f64; 6]) -> Vec<f64> {
-    let n = system.layout().n_degrees_of_freedom();
-    if system.series.is_empty() {
-        return vec![0.0; n];
-    }
-    let excess = |factor: &f64| {
-        let part = 1.0 - 1.0 / factor;
-        Remaining {
-            axial: part,
-            shear: part,
-            rotational: part,
-        }
-    };
-    let remaining: Vec<_> = system.series.iter().map(excess).collect();
-    let intact = vec![true; system.bonds.len()];
-    let left = BondsLeft {
-        intact: &intact,
-        remaining: &remaining,
-    };
-    // The motion of the strain itself about the middle of the body.
     let rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
     let layout = system.layout();
-    let mut motions = vec![0.0; n];
-    for (point, position) in (0..).zip(&system.cloud.positions) {
-        for (value, row) in motions[layout.range(point)].iter_mut().zip(rows) {
-            *value = row.iter().zip(position).map(|(part, x)| part * x).sum();
+    excess_in(system, &system.series, |intact, mut motions| {
+        // The motion of the strain itself about the middle of the body.
+        for (point, position) in (0..).zip(&system.cloud.positions) {
+            for (value, row) in motions[layout.range(point)].iter_mut().zip(rows) {
+                *value = row.iter().zip(position).map(|(part, x)| part * x).sum();
+            }
         }
-    }
-    let deformations = system.deformations(&intact, &motions, ThermalStrain::NONE);
-    system
-        .forces(left, deformations, ThermalStrain::NONE)
-        .internal
-        .values
+        system.deformations(intact, &motions, ThermalStrain::NONE)
+    })
 }
 
 /// The strains a_l of affine motions on which all six forces do the work that they do on displacements u_l: sum over m of

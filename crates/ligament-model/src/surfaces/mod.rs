@@ -16,7 +16,7 @@
 //! 4. Middles of edges follow the cells and are jagged on their scale: each place moves along the normal of the surface towards
 //!    the mean of its neighbours ([`CrackSurface::smoothed`]).
 //!
-//! The same sides cut cells into pieces that move apart ([`opened_cells`]).
+//! Sides of tetrahedra also cut cells into pieces that move apart ([`opened_cells`]).
 
 mod crack;
 mod lattice;

@@ -6,7 +6,7 @@ use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
 use crate::deformation::Deformations;
 use crate::element::{BondDeformation, Element, Elements, Remaining, Term};
-use crate::failure::{Criteria, Criterion, Weakened};
+use crate::failure::{Criteria, Criterion};
 use crate::interface::{
     Bonds, CentralMotions, CoupledPoints, PointStiffness, StressReading, Stresses,
 };
@@ -125,51 +125,15 @@ impl Bonds for BondSystem {
     }
 
     fn resisted(&self) -> Vec<bool> {
-        let components = self.components();
-        let resisted =
-            (0..self.n_points()).flat_map(|_| components.iter().map(|it| !it.is_rotation()));
-        let mut resisted: Vec<bool> = resisted.collect();
-        let layout = self.layout();
-        for (bond, ends) in self.bonds.ends.iter().enumerate() {
-            if self.resists_rotations(bond) {
-                for end in ends {
-                    resisted[layout.range(*end)].fill(true);
-                }
-            }
-        }
-        resisted
+        self.rigidities.resisted(&self.bonds.ends, self.layout())
     }
 
-    /// Sums over the bonds of a point of (|axial| + |shear rigidity|)/l^2 and of (|shear| + |rotational rigidity|)/l.
     fn point_stiffness(&self) -> Vec<PointStiffness> {
-        let of_point = |point: u32| {
-            let (mut force, mut moment) = (0.0, 0.0);
-            for &bond in self.bonds.incidence.at(point) {
-                let bond = bond as usize;
-                let (length, shear) = (self.bonds.length[bond], self.rigidities.shear[bond].abs());
-                force += (self.rigidities.axial[bond].abs() + shear) / length.powi(2);
-                moment += (shear + self.rigidities.rotational[bond].abs()) / length;
-            }
-            PointStiffness { force, moment }
-        };
-        (0..self.cloud.len() as u32).map(of_point).collect()
+        PointStiffness::of_bonds(&self.rigidities, &self.bonds)
     }
 
     fn halve(&self, points: &mut [u32]) {
-        let positions = &self.cloud.positions;
-        let extent = |axis: usize| {
-            let (lowest, highest) = (points.iter())
-                .map(|&point| positions[point as usize][axis])
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-                    (low.min(x), high.max(x))
-                });
-            highest - lowest
-        };
-        let axis = usize::from(extent(1) > extent(0));
-        points.select_nth_unstable_by(points.len() / 2, |&one, &other| {
-            let [first, second] = [one, other].map(|point| positions[point as usize][axis]);
-            first.total_cmp(&second).then(one.cmp(&other))
-        });
+        self.cloud.halve(points);
     }
 
     fn holds(
@@ -337,16 +301,7 @@ impl Bonds for BondSystem {
     }
 
     fn energy_at_limit(&self, criterion: &Criterion, bond: usize) -> f64 {
-        let rigidity = match criterion.measure.weakens() {
-            Weakened::Opening | Weakened::Crushing => self.rigidities.axial[bond],
-            Weakened::Sliding => self.rigidities.shear[bond],
-        };
-        let limit = criterion.limit[bond];
-        if limit.is_finite() {
-            0.5 * rigidity * limit * limit
-        } else {
-            0.0
-        }
+        criterion.energy_at_limit(&self.rigidities, bond)
     }
 
     fn terms(&self, intact: &[bool], bond: usize, remaining: &Remaining) -> Vec<Term> {
@@ -386,7 +341,7 @@ impl BondSystem {
         let mut bonds = points
             .iter()
             .flat_map(|&point| self.bonds.incidence.at(point));
-        let resist = bonds.any(|&bond| self.resists_rotations(bond as usize));
+        let resist = bonds.any(|&bond| self.rigidities.resist_rotations(bond as usize));
         let turn_points = self.components().contains(&Component::Rotation);
         let turn = match (resist, typed!(self, it => it.elements.turns_freely())) {
             (true, true) if turn_points => Turn::OfPointsAlong,
@@ -394,11 +349,6 @@ impl BondSystem {
             (false, _) | (true, true) => Turn::OfPositions,
         };
         RigidMotions::in_plane(self.layout(), &self.cloud.positions, points, turn)
-    }
-
-    /// Whether a bond resists rotations of its ends, if these can turn.
-    fn resists_rotations(&self, bond: usize) -> bool {
-        self.rigidities.shear[bond] != 0.0 || self.rigidities.rotational[bond] != 0.0
     }
 
     /// Virial stress of every point, xx, yy and xy, shape (n_points), Pa.

@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use ligament_model::cloud::lattice::Face;
 use ligament_model::{BodyGrid, Canvas, Lattice, PointCloud, Shape, raised};
-use thiserror::Error;
 
+use super::cells::{self, CellSets, Cells, Hole, LatticeError, rim};
 use super::interface::{Body, OffOutline, Origin};
 
 /// A body with a point at the centre of each cell of a lattice, and named sets of its cells.
@@ -13,16 +12,7 @@ use super::interface::{Body, OffOutline, Origin};
 pub struct LatticeBody {
     lattice: Lattice,
     positions: Vec<[f64; 2]>,
-    sets: BTreeMap<String, Set>,
-}
-
-/// A hole: cells whose centre lies in it are removed.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Hole {
-    /// Name of the group of the cells at the hole's rim; several holes may share it.
-    pub name: Option<String>,
-    /// Shape of the hole: cells whose centre lies in it are taken away.
-    pub shape: Shape,
+    sets: CellSets<2>,
 }
 
 /// A set of cells.
@@ -40,49 +30,16 @@ pub enum CellSet {
     Inside(Shape),
 }
 
-/// Why a lattice is no body.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum LatticeError {
-    /// Holes take all cells.
-    #[error("nothing is left of the {cells} cells")]
-    NothingLeft {
-        /// Number of cells of the whole rectangle.
-        cells: usize,
-    },
-    /// A set without a cell.
-    #[error("no cell has its centre in this set")]
-    EmptySet {
-        /// Name of the set.
-        name: String,
-    },
-    /// A named hole without a cell at its rim.
-    #[error("no cell that is left borders on this hole")]
-    NoRim {
-        /// Index of the hole.
-        hole: usize,
-    },
-}
-
-/// A named set of points.
-#[derive(Debug)]
-struct Set {
-    /// Points of the set, ascending.
-    points: Vec<u32>,
-    /// Length of the side that each point stands for, m: none where the set is no part of a side.
-    length: Option<f64>,
-    /// Part of the outline that belongs to the set.
-    faces: Faces,
-}
-
-/// The faces, with no cell behind them, that belong to a set.
-#[derive(Debug)]
-enum Faces {
-    /// The faces of the cells of the set.
-    OfCells,
-    /// The faces on one side of the rectangle, with this outward normal.
-    OfSide([i8; 2]),
-    /// The faces at some of the holes, shape (n_holes).
-    AtHoles(Vec<bool>),
+impl CellSet {
+    fn cells(&self) -> Cells<2, Shape> {
+        match self {
+            Self::Bottom(rows) => Cells::AtSide([0, -1], *rows),
+            Self::Top(rows) => Cells::AtSide([0, 1], *rows),
+            Self::Left(columns) => Cells::AtSide([-1, 0], *columns),
+            Self::Right(columns) => Cells::AtSide([1, 0], *columns),
+            Self::Inside(shape) => Cells::Inside(shape.clone()),
+        }
+    }
 }
 
 impl LatticeBody {
@@ -99,82 +56,13 @@ impl LatticeBody {
         holes: &[Hole],
         named: &BTreeMap<String, CellSet>,
     ) -> Result<Self, LatticeError> {
-        let shapes = holes.iter().map(|it| it.shape.clone()).collect();
-        let lattice = Lattice::new(size, spacing, corner, shapes);
-        if lattice.cells.is_empty() {
-            let cells = lattice.n_whole();
-            return Err(LatticeError::NothingLeft { cells });
-        }
-        let mut sets = BTreeMap::new();
-        for (name, cells) in named {
-            let set = Set::from_cells(cells, &lattice);
-            if set.points.is_empty() {
-                return Err(LatticeError::EmptySet { name: name.clone() });
-            }
-            sets.insert(name.clone(), set);
-        }
-        for (index, hole) in holes.iter().enumerate() {
-            let Some(name) = hole.name.as_ref().filter(|&name| !sets.contains_key(name)) else {
-                continue;
-            };
-            let shares_name = |it: &Hole| it.name.as_ref() == Some(name);
-            let set = Set::at_holes(holes.iter().map(shares_name).collect(), &lattice);
-            if set.points.is_empty() {
-                return Err(LatticeError::NoRim { hole: index });
-            }
-            sets.insert(name.clone(), set);
-        }
-        let middle = lattice.middle();
-        let positions = lattice.cells.iter().map(|&cell| {
-            let [x, y] = lattice.offset(cell);
-            [middle[0] + x, middle[1] + y]
-        });
+        let (lattice, positions) = cells::lattice(size, spacing, corner, holes)?;
+        let named = named.iter().map(|(name, set)| (name.clone(), set.cells()));
         Ok(Self {
-            positions: positions.collect(),
+            sets: CellSets::new(&lattice, holes, named)?,
+            positions,
             lattice,
-            sets,
         })
-    }
-}
-
-impl Set {
-    /// The cells at the rim of some of the holes, marked in `holes` (n_holes).
-    fn at_holes(holes: Vec<bool>, lattice: &Lattice) -> Self {
-        let faces = lattice.outline().into_iter();
-        let towards = faces.filter(|face| face.hole.is_some_and(|hole| holes[hole]));
-        let mut points: Vec<u32> = towards.map(|face| face.point).collect();
-        points.dedup();
-        Self {
-            points,
-            length: None,
-            faces: Faces::AtHoles(holes),
-        }
-    }
-
-    fn from_cells(cells: &CellSet, lattice: &Lattice) -> Self {
-        let ([columns, rows], [dx, dy]) = (lattice.size, lattice.spacing);
-        let side = |is_in: &dyn Fn([u32; 2]) -> bool, count: u32, normal: [i8; 2]| {
-            let length = if normal[0] == 0 { dx } else { dy };
-            Self {
-                points: lattice.points_where(is_in),
-                length: Some(length / f64::from(count)),
-                faces: Faces::OfSide(normal),
-            }
-        };
-        let part = |shape: Shape| Self {
-            points: lattice.points_in(&shape),
-            length: None,
-            faces: Faces::OfCells,
-        };
-        match cells {
-            CellSet::Bottom(count) => side(&|[_, row]| row < *count, *count, [0, -1]),
-            CellSet::Top(count) => side(&|[_, row]| rows - row <= *count, *count, [0, 1]),
-            CellSet::Left(count) => side(&|[column, _]| column < *count, *count, [-1, 0]),
-            CellSet::Right(count) => {
-                side(&|[column, _]| columns - column <= *count, *count, [1, 0])
-            }
-            CellSet::Inside(shape) => part(shape.clone()),
-        }
     }
 }
 
@@ -209,11 +97,11 @@ impl Body for LatticeBody {
     }
 
     fn group_names(&self) -> Vec<String> {
-        self.sets.keys().cloned().collect()
+        self.sets.names()
     }
 
     fn points_of(&self, group: &str) -> Option<Vec<u32>> {
-        self.sets.get(group).map(|set| set.points.clone())
+        self.sets.points(group)
     }
 
     /// Cells of the group, which are its points.
@@ -223,46 +111,19 @@ impl Body for LatticeBody {
 
     /// The side of a cell spread over the rows or columns of the set.
     fn lengths_of(&self, group: &str) -> Vec<(u32, f64)> {
-        let set = self.sets.get(group);
-        set.and_then(|set| {
-            let length = set.length?;
-            Some(set.points.iter().map(|&point| (point, length)).collect())
-        })
-        .unwrap_or_default()
+        self.sets.parts_of_side(group)
     }
 
-    /// The face of a cell at its point; on rows and columns of a side those on the rectangle, at the cells of a hole those towards
-    /// it, else all faces of the cells behind which there is no cell.
     fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; 2])>, OffOutline> {
-        let Some(set) = self.sets.get(group) else {
-            return Ok(Vec::new());
-        };
-        let belongs = |face: &Face| match set.faces {
-            Faces::OfSide(normal) => face.is_on_rectangle && face.normal == normal,
-            Faces::AtHoles(ref holes) => face.hole.is_some_and(|hole| holes[hole]),
-            Faces::OfCells => set.points.binary_search(&face.point).is_ok(),
-        };
-        let [dx, dy] = self.lattice.spacing;
-        let mut normals: BTreeMap<u32, [f64; 2]> = BTreeMap::new();
-        for face in self.lattice.outline().iter().filter(|face| belongs(face)) {
-            let [x, y] = face.normal.map(f64::from);
-            let sum = normals.entry(face.point).or_default();
-            *sum = [sum[0] + x * dy, sum[1] + y * dx];
-        }
-        Ok(normals.into_iter().collect())
+        Ok(self.sets.outline(group, &self.lattice))
     }
 
     fn holes(&self) -> &[Shape] {
         &self.lattice.holes
     }
 
-    /// The cells that lack one of four neighbours.
     fn rim(&self) -> Vec<bool> {
-        let mut marked = vec![false; self.positions.len()];
-        for face in self.lattice.outline() {
-            marked[face.point as usize] = true;
-        }
-        marked
+        rim(&self.lattice)
     }
 
     fn grid(&self) -> BodyGrid {

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use ligament_model::space::lattice::{SolidFace, SolidLattice};
+use ligament_model::space::lattice::SolidLattice;
 use ligament_model::space::shape::SolidShape;
 use ligament_model::{BodyGrid, Canvas, PointCloud};
 
+use super::cells::{self, CellSets, Cells, Hole, LatticeError, rim};
 use super::interface::{Body, OffOutline, Origin};
-use super::lattice::LatticeError;
 
 /// A body with a point at the centre of each cell of a box, by named sets of cells.
 #[derive(Debug)]
@@ -15,48 +15,14 @@ pub struct SolidLatticeBody {
     lattice: SolidLattice,
     /// Positions of the points, shape (n_points), m.
     positions: Vec<[f64; 3]>,
-    sets: BTreeMap<String, Set>,
+    sets: CellSets<3>,
 }
 
 /// A hole of a box.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SolidHole {
-    /// Name of the cells at its surface; none where it makes no group.
-    pub name: Option<String>,
-    /// Shape of the hole.
-    pub shape: SolidShape,
-}
+pub type SolidHole = Hole<SolidShape>;
 
 /// Cells that make a set of a box.
-#[derive(Debug, Clone, PartialEq)]
-pub enum SolidCellSet {
-    /// So many layers at the side of the box with this outward normal.
-    AtSide([i8; 3], u32),
-    /// Cells whose centre lies in a shape.
-    Inside(SolidShape),
-}
-
-/// A named set of points.
-#[derive(Debug)]
-struct Set {
-    /// Points of the set, ascending.
-    points: Vec<u32>,
-    /// Area of the side that each point stands for, m^2: none where the set is no part of a side.
-    area: Option<f64>,
-    /// Part of the outline that belongs to the set.
-    faces: Faces,
-}
-
-/// The faces, with no cell behind them, that belong to a set.
-#[derive(Debug)]
-enum Faces {
-    /// The faces of the cells of the set.
-    OfCells,
-    /// The faces on one side of the box, with this outward normal.
-    OfSide([i8; 3]),
-    /// The faces at some of the holes, shape (n_holes).
-    AtHoles(Vec<bool>),
-}
+pub type SolidCellSet = Cells<3, SolidShape>;
 
 impl SolidLatticeBody {
     /// A box with named sets of cells and the holes that took cells from it; named holes are groups too, unless a set has their name.
@@ -71,71 +37,13 @@ impl SolidLatticeBody {
         holes: &[SolidHole],
         named: &BTreeMap<String, SolidCellSet>,
     ) -> Result<Self, LatticeError> {
-        let shapes = holes.iter().map(|it| it.shape.clone()).collect();
-        let lattice = SolidLattice::new(size, spacing, corner, shapes);
-        if lattice.cells.is_empty() {
-            let cells = lattice.n_whole();
-            return Err(LatticeError::NothingLeft { cells });
-        }
-        let mut sets = BTreeMap::new();
-        for (name, cells) in named {
-            let set = Set::from_cells(cells, &lattice);
-            if set.points.is_empty() {
-                return Err(LatticeError::EmptySet { name: name.clone() });
-            }
-            sets.insert(name.clone(), set);
-        }
-        for (index, hole) in holes.iter().enumerate() {
-            let Some(name) = hole.name.as_ref().filter(|&name| !sets.contains_key(name)) else {
-                continue;
-            };
-            let shares_name = |it: &SolidHole| it.name.as_ref() == Some(name);
-            let set = Set::at_holes(holes.iter().map(shares_name).collect(), &lattice);
-            if set.points.is_empty() {
-                return Err(LatticeError::NoRim { hole: index });
-            }
-            sets.insert(name.clone(), set);
-        }
-        let middle = lattice.middle();
-        let positions = lattice.cells.iter().map(|&cell| {
-            let offset = lattice.offset(cell);
-            [0, 1, 2].map(|axis| middle[axis] + offset[axis])
-        });
+        let (lattice, positions) = cells::lattice(size, spacing, corner, holes)?;
+        let named = named.iter().map(|(name, set)| (name.clone(), set.clone()));
         Ok(Self {
-            positions: positions.collect(),
+            sets: CellSets::new(&lattice, holes, named)?,
+            positions,
             lattice,
-            sets,
         })
-    }
-}
-
-impl Set {
-    /// The cells at the surface of some of the holes, marked in `holes` (n_holes).
-    fn at_holes(holes: Vec<bool>, lattice: &SolidLattice) -> Self {
-        let faces = lattice.outline().into_iter();
-        let towards = faces.filter(|face| face.hole.is_some_and(|hole| holes[hole]));
-        let mut points: Vec<u32> = towards.map(|face| face.point).collect();
-        points.dedup();
-        Self {
-            points,
-            area: None,
-            faces: Faces::AtHoles(holes),
-        }
-    }
-
-    fn from_cells(cells: &SolidCellSet, lattice: &SolidLattice) -> Self {
-        match cells {
-            SolidCellSet::AtSide(normal, layers) => Self {
-                points: lattice.points_at_side(*normal, *layers),
-                area: Some(lattice.face_area(*normal) / f64::from(*layers)),
-                faces: Faces::OfSide(*normal),
-            },
-            SolidCellSet::Inside(shape) => Self {
-                points: lattice.points_in(shape),
-                area: None,
-                faces: Faces::OfCells,
-            },
-        }
     }
 }
 
@@ -162,7 +70,7 @@ impl Body<3> for SolidLatticeBody {
     }
 
     fn cloud(&self, _: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<3> {
-        PointCloud::from_solid_lattice(&self.lattice, material_of_cell, n_materials)
+        PointCloud::from_lattice(&self.lattice, 1.0, material_of_cell, n_materials)
     }
 
     fn group_kind(&self) -> &'static str {
@@ -170,11 +78,11 @@ impl Body<3> for SolidLatticeBody {
     }
 
     fn group_names(&self) -> Vec<String> {
-        self.sets.keys().cloned().collect()
+        self.sets.names()
     }
 
     fn points_of(&self, group: &str) -> Option<Vec<u32>> {
-        self.sets.get(group).map(|set| set.points.clone())
+        self.sets.points(group)
     }
 
     /// Cells of the group, which are its points.
@@ -188,43 +96,15 @@ impl Body<3> for SolidLatticeBody {
 
     /// The side of a cell spread over the layers of the set.
     fn areas_of(&self, group: &str) -> Vec<(u32, f64)> {
-        let set = self.sets.get(group);
-        set.and_then(|set| {
-            let area = set.area?;
-            Some(set.points.iter().map(|&point| (point, area)).collect())
-        })
-        .unwrap_or_default()
+        self.sets.parts_of_side(group)
     }
 
-    /// The face of a cell at its point; on layers of a side those on the box, at the cells of a hole those towards it, else all faces of the
-    /// cells behind which there is no cell.
     fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; 3])>, OffOutline> {
-        let Some(set) = self.sets.get(group) else {
-            return Ok(Vec::new());
-        };
-        let belongs = |face: &SolidFace| match set.faces {
-            Faces::OfSide(normal) => face.is_on_box && face.normal == normal,
-            Faces::AtHoles(ref holes) => face.hole.is_some_and(|hole| holes[hole]),
-            Faces::OfCells => set.points.binary_search(&face.point).is_ok(),
-        };
-        let mut normals: BTreeMap<u32, [f64; 3]> = BTreeMap::new();
-        for face in self.lattice.outline().iter().filter(|face| belongs(face)) {
-            let area = self.lattice.face_area(face.normal);
-            let sum = normals.entry(face.point).or_default();
-            for (axis, cosine) in face.normal.into_iter().enumerate() {
-                sum[axis] += f64::from(cosine) * area;
-            }
-        }
-        Ok(normals.into_iter().collect())
+        Ok(self.sets.outline(group, &self.lattice))
     }
 
-    /// The cells that lack one of six neighbours.
     fn rim(&self) -> Vec<bool> {
-        let mut marked = vec![false; self.positions.len()];
-        for face in self.lattice.outline() {
-            marked[face.point as usize] = true;
-        }
-        marked
+        rim(&self.lattice)
     }
 
     fn grid(&self) -> BodyGrid {

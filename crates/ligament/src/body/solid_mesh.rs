@@ -1,8 +1,6 @@
 //! A body meshed with solid cells: points at the nodes, physical groups.
 
-use std::collections::{BTreeMap, BTreeSet};
-
-use ligament_mesh::{Cell, Faces, Group, NodeField, SolidMesh};
+use ligament_mesh::{Cell, Group, NodeField, SolidMesh};
 use ligament_model::{BodyGrid, Canvas, PointCloud};
 
 use super::interface::{Body, OffOutline, Origin};
@@ -28,43 +26,10 @@ impl SolidMeshBody {
         Some(all)
     }
 
-    /// Faces of the surface groups of a name, each once.
+    /// Faces of the surface groups of a name.
     fn faces_of(&self, group: &str) -> Vec<Cell> {
-        let faces = self.0.groups_named(group).flat_map(|it| &it.faces);
-        let sorted = |face: &Cell| {
-            let mut corners = face.corners().to_vec();
-            corners.sort_unstable();
-            corners
-        };
-        let once: BTreeMap<Vec<u32>, Cell> = faces.map(|it| (sorted(it), *it)).collect();
-        once.into_values().collect()
-    }
-
-    /// Parts of the area vector of a face at its corners, m^2: of a triangle a third each, of a quadrangle what its shape functions make of
-    /// the two triangles on either side of each diagonal in the mean.
-    fn areas_at_corners(&self, face: &Cell) -> Vec<(u32, [f64; 3])> {
-        let place = |node: u32| self.0.positions[node as usize];
-        let of_triangle = |[a, b, c]: [u32; 3]| {
-            let cross = cross(less(place(b), place(a)), less(place(c), place(a)));
-            cross.map(|it| it / 6.0)
-        };
-        match *face {
-            Cell::Triangle(corners) => {
-                let third = of_triangle(corners);
-                corners.map(|node| (node, third)).to_vec()
-            }
-            Cell::Quadrangle([a, b, c, d]) => {
-                let mut areas = BTreeMap::new();
-                for triangle in [[a, b, c], [a, c, d], [a, b, d], [b, c, d]] {
-                    let third = of_triangle(triangle);
-                    for node in triangle {
-                        let sum = areas.entry(node).or_insert([0.0; 3]);
-                        *sum = [0, 1, 2].map(|axis| sum[axis] + 0.5 * third[axis]);
-                    }
-                }
-                areas.into_iter().collect()
-            }
-        }
+        let groups = self.0.groups_named(group);
+        groups.flat_map(|it| &it.faces).copied().collect()
     }
 }
 
@@ -112,25 +77,14 @@ impl Body<3> for SolidMeshBody {
 
     /// Half of the edges of a curve group at each of its nodes.
     fn lengths_of(&self, group: &str) -> Vec<(u32, f64)> {
-        let mut lengths = BTreeMap::new();
-        for edge in self.0.groups_named(group).flat_map(|group| &group.edges) {
-            let [p, q] = edge.map(|node| self.0.positions[node as usize]);
-            for &node in edge {
-                *lengths.entry(node).or_insert(0.0) += 0.5 * norm(less(q, p));
-            }
-        }
-        lengths.into_iter().collect()
+        let groups = self.0.groups_named(group);
+        let edges: Vec<[u32; 2]> = groups.flat_map(|it| &it.edges).copied().collect();
+        self.0.lengths_at_nodes(&edges)
     }
 
     /// Parts of the faces of a surface group at each of their nodes.
     fn areas_of(&self, group: &str) -> Vec<(u32, f64)> {
-        let mut areas = BTreeMap::new();
-        for face in self.faces_of(group) {
-            for (node, area) in self.areas_at_corners(&face) {
-                *areas.entry(node).or_insert(0.0) += norm(area);
-            }
-        }
-        areas.into_iter().collect()
+        self.0.areas_at_nodes(&self.faces_of(group))
     }
 
     fn around(&self, point: u32) -> Vec<u32> {
@@ -141,23 +95,13 @@ impl Body<3> for SolidMeshBody {
 
     /// Parts of the area vector of each face, away from its one cell, at each of its nodes.
     fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; 3])>, OffOutline> {
-        let faces = self.faces_of(group);
-        if faces.is_empty() {
-            return Ok(Vec::new());
-        }
-        let of_cells = Faces::new(&self.0.cells, self.0.positions.len());
-        let mut normals = BTreeMap::new();
-        for face in faces {
-            let sides = of_cells.sides_at(&face);
-            let [side] = sides.as_slice() else {
-                return Err(self.off_outline(&face, sides.len()));
-            };
-            for (node, area) in self.areas_at_corners(&side.face) {
-                let sum = normals.entry(node).or_insert([0.0; 3]);
-                *sum = [0, 1, 2].map(|axis| sum[axis] + area[axis]);
-            }
-        }
-        Ok(normals.into_iter().collect())
+        let areas = self.0.outward_areas(&self.faces_of(group));
+        areas.map_err(|it| OffOutline {
+            side: "face",
+            nodes: it.nodes,
+            middle: it.middle.to_vec(),
+            cells: it.cells,
+        })
     }
 
     fn fields(&self) -> &[NodeField] {
@@ -166,14 +110,7 @@ impl Body<3> for SolidMeshBody {
 
     /// The nodes of faces that one cell has alone.
     fn rim(&self) -> Vec<bool> {
-        let mut marked = vec![false; self.0.positions.len()];
-        let outer = Faces::new(&self.0.cells, marked.len()).outer();
-        let nodes: BTreeSet<u32> = outer
-            .iter()
-            .flat_map(|it| it.face.corners().to_vec())
-            .collect();
-        nodes.iter().for_each(|&node| marked[node as usize] = true);
-        marked
+        self.0.is_on_outline()
     }
 
     fn remarks(&self) -> Vec<String> {
@@ -189,35 +126,4 @@ impl Body<3> for SolidMeshBody {
             canvas: Canvas::Solid(self.0.cells.clone()),
         }
     }
-}
-
-impl SolidMeshBody {
-    fn off_outline(&self, face: &Cell, cells: usize) -> OffOutline {
-        let corners = face.corners();
-        let positions = corners.iter().map(|&node| self.0.positions[node as usize]);
-        let mean =
-            |axis: usize| positions.clone().map(|it| it[axis]).sum::<f64>() / corners.len() as f64;
-        OffOutline {
-            side: "face",
-            nodes: corners.iter().map(|&node| self.tag(node)).collect(),
-            middle: (0..3).map(mean).collect(),
-            cells,
-        }
-    }
-}
-
-fn less(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-fn norm(vector: [f64; 3]) -> f64 {
-    vector.iter().map(|it| it * it).sum::<f64>().sqrt()
 }

@@ -442,7 +442,7 @@ pub(super) fn positive(field: Field, value: Option<f64>) -> Checked {
     require(value > 0.0, field, "greater than 0", value)
 }
 
-pub(super) fn contradiction(field: Field, reason: impl Into<Cow<'static, str>>) -> Checked {
+pub(crate) fn contradiction(field: Field, reason: impl Into<Cow<'static, str>>) -> Checked {
     Err(field.error(Fault::Contradiction(reason.into())))
 }
 

@@ -1,7 +1,7 @@
 //! The setup: everything that a computation is told, as typed values.
 
 mod analysis;
-mod check;
+pub(crate) mod check;
 mod check_control;
 mod check_plane;
 mod check_stages;

@@ -6,7 +6,8 @@ use ligament_model::Elasticity;
 use ligament_model::law::rotational::RotationalScale;
 
 use crate::body::Origin;
-use crate::error::{Fault, Field, SetupError};
+use crate::error::{Field, SetupError};
+use crate::setup::check::contradiction;
 use crate::setup::{Action, Checks, Dim, Law, Reading, Setup, Surface};
 
 type Checked = Result<(), SetupError>;
@@ -99,8 +100,4 @@ impl Setup<3> {
         }
         Ok(())
     }
-}
-
-fn contradiction(field: Field, reason: impl Into<std::borrow::Cow<'static, str>>) -> Checked {
-    Err(field.error(Fault::Contradiction(reason.into())))
 }

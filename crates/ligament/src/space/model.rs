@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use ligament_model::bonds::hole::bonds_across;
 use ligament_model::correction::Correction;
 use ligament_model::space::SolidSystem;
-use ligament_model::space::hole::bonds_across;
 use ligament_model::space::outline::{Surface, bonds_outside, spacing_inside};
 use ligament_model::space::precrack::{SolidPreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::{

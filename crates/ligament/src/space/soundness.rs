@@ -91,3 +91,69 @@ pub(super) fn require_numbers(body: &dyn Body<3>, system: &SolidSystem) -> Resul
     let rigidities: &Rigidities = &system.rigidities;
     require_rigidities(body, rigidities, &system.bonds.ends)
 }
+
+#[cfg(test)]
+mod tests {
+    use ligament_mesh::{SolidCell, SolidMesh};
+    use ligament_model::Material;
+
+    use super::*;
+    use crate::body::SolidMeshBody;
+    use crate::setup::Law;
+
+    /// Two bricks of different heights on each other.
+    fn tower(z: [f64; 3], factor: f64) -> (Setup<3>, PointCloud<3>) {
+        let layer = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
+        let mesh = SolidMesh {
+            node_tags: (1..=12).collect(),
+            positions: z.map(layer).concat(),
+            cells: vec![
+                SolidCell::Hexahedron([0, 1, 2, 3, 4, 5, 6, 7]),
+                SolidCell::Hexahedron([4, 5, 6, 7, 8, 9, 10, 11]),
+            ],
+            ..SolidMesh::default()
+        };
+        let cloud = PointCloud::from_solid_mesh(&mesh, &[0, 0], 1);
+        let material = Material::isotropic(1e9, 0.2);
+        let mut setup = Setup::new(SolidMeshBody::from(mesh), material, Law::Nhpd);
+        setup.horizon = Horizon::Factor(factor);
+        (setup, cloud)
+    }
+
+    #[test]
+    fn long_edges_tear_a_body() {
+        let fault_at = |factor: f64| {
+            let (setup, cloud) = tower([0.0, 1.0, 4.0], factor);
+            let horizons = setup.horizon.of_points(&cloud);
+            let bonds = BondSet::search(&cloud, &horizons);
+            require_connected(&setup, &cloud, &horizons, &bonds)
+        };
+        let Fault::Torn(found) = *fault_at(1.5).unwrap_err().fault else {
+            panic!("another fault");
+        };
+        assert_eq!((found.parts, found.of_body), (2, 1));
+        assert_eq!((found.length, found.horizon), (3.0, 1.5));
+        assert_eq!(fault_at(3.0), Ok(()));
+    }
+
+    #[test]
+    fn nearly_coincident_points_are_found() {
+        let fault_at = |z: f64| {
+            let (setup, cloud) = tower([0.0, 1.0, z], 3.0);
+            require_distinct(&*setup.body, &cloud)
+        };
+        let error = fault_at(1.0 + 2e-6).unwrap_err();
+        let Fault::NearPoints {
+            places,
+            distance,
+            size,
+        } = *error.fault
+        else {
+            panic!("another fault");
+        };
+        assert!(places[0].starts_with("node 5 ") && places[1].starts_with("node 9 "));
+        // The height is a difference of numbers near 1, the size that of half a brick for each of two cells.
+        assert!((distance - 2e-6).abs() < 1e-15 && (size - 0.5).abs() < 1e-5);
+        assert_eq!(fault_at(1.01), Ok(()));
+    }
+}

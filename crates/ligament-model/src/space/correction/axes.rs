@@ -7,8 +7,7 @@ use super::families::Families;
 use super::strain_mode::SolidStrainMode;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
-use crate::correction::domain::{StopRule, Sweeps};
-use crate::correction::{Correction, CorrectionReport, DomainReport};
+use crate::correction::{Correction, Sweeps};
 use crate::law::BondStiffness;
 use crate::material::Isotropic;
 
@@ -29,10 +28,6 @@ pub fn iterate(
     materials: &[Isotropic],
     sweeps: Sweeps,
 ) -> Correction {
-    let tolerance = match sweeps.stop {
-        StopRule::Sum(tolerance) => tolerance,
-        StopRule::Mean(tolerance) => tolerance * bonds.len() as f64,
-    };
     let densities = |bond: usize| {
         let factor = length_factor[bond] * bonds.length[bond];
         [
@@ -41,23 +36,8 @@ pub fn iterate(
         ]
     };
     let targets = target_energies(SolidStrainMode::UniaxialX, cloud, materials);
-    let mut families = Families::new(bonds, cloud, densities, &targets);
-    let mut last_change = f64::INFINITY;
-    let mut done = 0;
-    while last_change >= tolerance && done < sweeps.limit {
-        last_change = families.sweep();
-        done += 1;
-    }
-    let report = DomainReport {
-        sweeps: done,
-        converged: last_change < tolerance,
-        last_change,
-        largest_residual: families.largest_residual(),
-    };
-    Correction {
-        report: Some(CorrectionReport::Domain(report)),
-        ..Correction::fixed(length_factor, families.into_domain_factors())
-    }
+    let families = Families::new(bonds, cloud, densities, &targets);
+    sweeps.correct(families, length_factor)
 }
 
 /// Strain energy density of every point over the continuum's, for each of [`SolidStrainMode::ALL`], shape (7, n_points).

@@ -1,10 +1,9 @@
 //! Discrete calibration in space: sums over the families of the points in place of the integrals over a full ball.
 
-use rayon::prelude::*;
-
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::law::BondStiffness;
+use crate::law::calibration::scaled_to;
 use crate::material::Isotropic;
 
 /// Scales the densities of a law so that every point has the right energy, with the factors alpha (n_bonds).
@@ -14,7 +13,7 @@ use crate::material::Isotropic;
 ///
 /// q_n = 18 K/sum(alpha V_B l k_n), q_t = (20 G - 12 K)/sum(alpha V_B l k_t)
 ///
-/// are the factors of a point, and a bond takes the mean of its ends'. `materials` are those that the law makes of the given ones.
+/// are the factors of a point. `materials` are those that the law makes of the given ones.
 pub fn calibrated(
     stiffness: BondStiffness,
     length_factor: &[f64],
@@ -22,50 +21,14 @@ pub fn calibrated(
     cloud: &PointCloud<3>,
     materials: &[Isotropic],
 ) -> BondStiffness {
-    let bulk: Vec<f64> = materials.iter().map(|it| 18.0 * bulk_modulus(it)).collect();
-    let shear: Vec<f64> = (materials.iter().zip(&bulk))
-        .map(|(it, bulk)| 10.0 * it.young / (1.0 + it.poisson) - bulk * 12.0 / 18.0)
-        .collect();
-    let targets = [bulk, shear];
-    let BondStiffness {
-        mut axial,
-        mut shear,
-        mut rotational,
-        ..
-    } = stiffness;
-    let factors = cloud.over_points(|point| {
-        let mut sums = [0.0; 2];
-        for &bond in bonds.incidence.at(point) {
-            let volume = cloud.volumes[bonds.neighbour(bond, point) as usize];
-            let bond = bond as usize;
-            let weight = length_factor[bond] * volume * bonds.length[bond];
-            sums[0] += weight * axial[bond];
-            sums[1] += weight * shear[bond];
-        }
-        [0, 1].map(|k| {
-            let target = cloud.mean_property(point as usize, &targets[k]);
-            // Without a density there is nothing to scale: k_t = 0, or a point without bonds.
-            if sums[k] == 0.0 {
-                1.0
-            } else {
-                target / sums[k]
-            }
-        })
+    let targets = materials.iter().map(|it| {
+        let bulk = 18.0 * bulk_modulus(it);
+        [
+            bulk,
+            10.0 * it.young / (1.0 + it.poisson) - bulk * 12.0 / 18.0,
+        ]
     });
-    (&mut axial, &mut shear, &mut rotational, &bonds.ends)
-        .into_par_iter()
-        .for_each(|(axial, shear, rotational, ends)| {
-            let [a, b] = ends.map(|end| factors[end as usize]);
-            *axial *= 0.5 * (a[0] + b[0]);
-            *shear *= 0.5 * (a[1] + b[1]);
-            *rotational *= 0.5 * (a[1] + b[1]);
-        });
-    BondStiffness {
-        axial,
-        shear,
-        rotational,
-        ..stiffness
-    }
+    scaled_to(targets, stiffness, length_factor, bonds, cloud)
 }
 
 /// Bulk modulus K = E/(3 (1 - 2 nu)), Pa.

@@ -8,12 +8,11 @@
 //! | [`mppd`] | c | 24 d/H^2 | a choice | beam |
 //!
 //! c = 6 E/(pi H^4 (1 - 2 nu)), d = E (1 - 4 nu)/(4 pi H^2 (1 + nu)(1 - 2 nu)), from integrals over a full ball of radius H;
-//! [`calibration`] puts sums over the families of the points in their place, and [`moment`] integrals with a factor alpha of the length.
+//! [`calibration`] puts sums over the families of the points in their place.
 //! Above nu = 1/4 d is negative, see [`stability`].
 
 pub mod bbpd;
 pub mod calibration;
-pub mod moment;
 pub mod mppd;
 pub mod nhpd;
 pub mod pds;

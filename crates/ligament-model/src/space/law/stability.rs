@@ -5,9 +5,8 @@
 
 use std::fmt;
 
+use super::ShearForm;
 use super::bbpd::POISSON;
-use super::{ShearForm, bending_constant};
-use crate::material::Isotropic;
 
 /// Poisson's ratio from which irregular free bodies of micropolar bonds lose stability, by the form of the shear stiffness and the
 /// horizon over the spacing (measured on irregular balls of 121 and 661 points: negative eigenvalues beyond one a rotation).
@@ -28,22 +27,11 @@ pub struct NegativeShear {
     pub unstable_from: Option<f64>,
 }
 
-/// The warning that a law with a shear stiffness takes along for some materials; none up to nu = 1/4.
-///
-/// `form` is that of the shear stiffness of bonds between points that turn, none of points that do not; `horizon_factor` the horizon over
-/// the distance of the points.
-pub fn negative_shear(
-    materials: &[Isotropic],
-    form: Option<ShearForm>,
-    horizon_factor: f64,
-) -> Option<NegativeShear> {
-    let negative = materials.iter().filter(|it| bending_constant(it) < 0.0);
-    let poisson = negative.map(|it| it.poisson).reduce(f64::max)?;
-    Some(NegativeShear::new(poisson, form, horizon_factor))
-}
-
 impl NegativeShear {
-    /// The warning for a Poisson's ratio above 1/4, see [`negative_shear`].
+    /// The warning for a Poisson's ratio above 1/4.
+    ///
+    /// `form` is that of the shear stiffness of bonds between points that turn, none of points that do not; `horizon_factor` the horizon
+    /// over the distance of the points.
     pub fn new(poisson: f64, form: Option<ShearForm>, horizon_factor: f64) -> Self {
         let suits =
             |(of, up_to, _): &&(ShearForm, f64, f64)| form == Some(*of) && horizon_factor <= *up_to;
@@ -91,30 +79,16 @@ impl fmt::Display for NegativeShear {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 mod tests {
     use super::*;
 
     #[test]
-    fn warnings_come_above_a_quarter() {
-        let of = |poisson: f64, form, factor| {
-            let steel = Isotropic {
-                young: 1.0,
-                poisson: 0.2,
-            };
-            let material = Isotropic {
-                young: 1.0,
-                poisson,
-            };
-            negative_shear(&[steel, material], form, factor)
-        };
-        assert_eq!(of(0.25, Some(ShearForm::Constant), 3.0), None);
-        assert_eq!(of(0.1, None, 3.0), None);
-        let warning = of(0.28, Some(ShearForm::Constant), 2.5).unwrap();
+    fn forms_and_horizons_decide_what_is_past_stability() {
+        let warning = NegativeShear::new(0.28, Some(ShearForm::Constant), 2.5);
         assert!(!warning.is_past_stability());
         assert!(warning.to_string().contains("up to about 0.3:"));
-        let warning = of(0.28, Some(ShearForm::Falling), 3.0).unwrap();
+        let warning = NegativeShear::new(0.28, Some(ShearForm::Falling), 3.0);
         assert!(warning.is_past_stability());
-        assert!(of(0.26, None, 3.0).unwrap().is_past_stability());
+        assert!(NegativeShear::new(0.26, None, 3.0).is_past_stability());
     }
 }

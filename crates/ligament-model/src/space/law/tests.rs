@@ -193,37 +193,6 @@ fn curvatures_cost_chi_chi() {
     assert!((found / (expected * square) - 1.0).abs() < ROUNDING);
 }
 
-/// With a factor of the length, such as exp(-x), the moment takes the place of pi H^4; and NHPD's form 12 d/l^2, which has another moment,
-/// is then 1.16 times too stiff in shear.
-#[test]
-fn moments_hold_for_any_factor_of_the_length() {
-    let (bonds, cloud) = ball();
-    let alpha = |x: f64| (-x).exp();
-    // 4 (6 - 16/e).
-    let closed = 4.0 * (6.0 - 16.0 * (-1.0_f64).exp());
-    assert!((moment::relative_moment(alpha) / closed - 1.0).abs() < 1e-12);
-    let constant = nhpd::stiffness(&bonds, &cloud, &[MATERIAL], ShearForm::Constant);
-    let constant = moment::over_moment(constant, closed);
-    for strain in STRAINS {
-        let found = energy(&constant, alpha, |it: &BeamBond| it.deformation_in(strain));
-        let error = found / elastic(&MATERIAL, strain) - 1.0;
-        // What Gauss misses of exp(-x) x^3 in forty parts.
-        assert!(error.abs() < 1e-8, "{strain:?}: {error:e}");
-    }
-    let falling = nhpd::stiffness(&bonds, &cloud, &[MATERIAL], ShearForm::Falling);
-    let of_shear = |stiffness: &BondStiffness| {
-        let only_shear = BondStiffness {
-            axial: vec![0.0; bonds.len()],
-            ..stiffness.clone()
-        };
-        energy(&only_shear, alpha, |it: &BeamBond| {
-            it.deformation_in(STRAINS[2])
-        })
-    };
-    let ratio = of_shear(&falling) / closed / of_shear(&constant);
-    assert!((ratio - 1.16).abs() < 5e-3, "{ratio}");
-}
-
 /// Sums over the family make up for whatever factor the bonds have and for a density that is off.
 #[test]
 fn discrete_calibration_needs_no_integral() {

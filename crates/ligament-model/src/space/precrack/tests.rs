@@ -5,7 +5,7 @@ use crate::space::lattice::SolidLattice;
 /// A lattice of 8 by 8 by 8 cells of side 1 around the origin, with bonds up to 2.1.
 fn lattice() -> (PointCloud<3>, BondSet<3>) {
     let lattice = SolidLattice::new([8; 3], [1.0; 3], [-4.0; 3], Vec::new());
-    let cloud = PointCloud::from_solid_lattice(&lattice, &[0; 512], 1);
+    let cloud = PointCloud::from_lattice(&lattice, 1.0, &[0; 512], 1);
     let bonds = BondSet::search(&cloud, &Horizons::unified(2.1, 512));
     (cloud, bonds)
 }

@@ -1,5 +1,6 @@
 use super::*;
 use crate::correction::length::length_factors;
+use crate::correction::{CorrectionReport, StopRule};
 use crate::horizon::Horizons;
 use crate::space::correction::surface::surface_factors;
 use crate::space::law::{ShearForm, nhpd};

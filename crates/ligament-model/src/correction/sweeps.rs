@@ -1,0 +1,63 @@
+//! Sweeps of a correction over the families of all points, until the factors Omega stand.
+
+use super::{Correction, CorrectionReport, DomainReport};
+
+/// Condition at which the sweeps end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StopRule {
+    /// The sum over the bonds of |change of Omega| falls below this (the paper's rule; asks more of larger meshes).
+    Sum(f64),
+    /// The mean over the bonds of |change of Omega| falls below this (independent of the size).
+    Mean(f64),
+}
+
+/// Stop rule and limit of the sweeps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sweeps {
+    /// Condition at which the sweeps end.
+    pub stop: StopRule,
+    /// Sweeps after which the iteration is given up, with the factors reached.
+    pub limit: usize,
+}
+
+/// The families of all points with factors Omega that sweeps improve.
+pub(crate) trait SweptFamilies {
+    /// One sweep; the sum over the bonds of |change of Omega|.
+    fn sweep(&mut self) -> f64;
+
+    /// Largest |etil/e - 1| of a point along an axis.
+    fn largest_residual(&self) -> f64;
+
+    /// Omega of every bond, shape (n_bonds).
+    fn into_domain_factors(self) -> Vec<f64>;
+}
+
+impl Sweeps {
+    /// The correction with length factors alpha (n_bonds) and the factors Omega that sweeps over the families reach.
+    pub(crate) fn correct(
+        self,
+        mut families: impl SweptFamilies,
+        length_factor: Vec<f64>,
+    ) -> Correction {
+        let tolerance = match self.stop {
+            StopRule::Sum(tolerance) => tolerance,
+            StopRule::Mean(tolerance) => tolerance * length_factor.len() as f64,
+        };
+        let mut last_change = f64::INFINITY;
+        let mut done = 0;
+        while last_change >= tolerance && done < self.limit {
+            last_change = families.sweep();
+            done += 1;
+        }
+        let report = DomainReport {
+            sweeps: done,
+            converged: last_change < tolerance,
+            last_change,
+            largest_residual: families.largest_residual(),
+        };
+        Correction {
+            report: Some(CorrectionReport::Domain(report)),
+            ..Correction::fixed(length_factor, families.into_domain_factors())
+        }
+    }
+}

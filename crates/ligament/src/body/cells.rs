@@ -1,0 +1,217 @@
+//! Named sets of the cells of a lattice, in the plane and in space.
+
+use std::collections::BTreeMap;
+
+use ligament_model::cloud::lattice::{Face, Lattice};
+use ligament_model::shape::{Region, Shape};
+use thiserror::Error;
+
+/// A hole: cells whose centre lies in it are removed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hole<S = Shape> {
+    /// Name of the group of the cells at the hole's rim; several holes may share it.
+    pub name: Option<String>,
+    /// Shape of the hole.
+    pub shape: S,
+}
+
+/// Cells that make a set.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Cells<const D: usize, S> {
+    /// So many layers at the side with this outward normal.
+    AtSide([i8; D], u32),
+    /// Cells whose centre lies in a shape.
+    Inside(S),
+}
+
+/// Why a lattice is no body.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum LatticeError {
+    /// Holes take all cells.
+    #[error("nothing is left of the {cells} cells")]
+    NothingLeft {
+        /// Number of cells of the whole lattice.
+        cells: usize,
+    },
+    /// A set without a cell.
+    #[error("no cell has its centre in this set")]
+    EmptySet {
+        /// Name of the set.
+        name: String,
+    },
+    /// A named hole without a cell at its rim.
+    #[error("no cell that is left borders on this hole")]
+    NoRim {
+        /// Index of the hole.
+        hole: usize,
+    },
+}
+
+/// The named sets of a lattice.
+#[derive(Debug)]
+pub(super) struct CellSets<const D: usize>(BTreeMap<String, Set<D>>);
+
+/// A named set of points.
+#[derive(Debug)]
+struct Set<const D: usize> {
+    /// Points of the set, ascending.
+    points: Vec<u32>,
+    /// Size of the side that each point stands for, a length (m), in space an area (m^2): none where the set is no part of a side.
+    part_of_side: Option<f64>,
+    /// Part of the outline that belongs to the set.
+    faces: Faces<D>,
+}
+
+/// The faces, with no cell behind them, that belong to a set.
+#[derive(Debug)]
+enum Faces<const D: usize> {
+    /// The faces of the cells of the set.
+    OfCells,
+    /// The faces on one side of the lattice, with this outward normal.
+    OfSide([i8; D]),
+    /// The faces at some of the holes, shape (n_holes).
+    AtHoles(Vec<bool>),
+}
+
+/// A lattice with a point in each cell that is left.
+///
+/// # Errors
+///
+/// If nothing is left.
+pub(super) fn lattice<const D: usize, S: Region<D>>(
+    size: [u32; D],
+    spacing: [f64; D],
+    corner: [f64; D],
+    holes: &[Hole<S>],
+) -> Result<(Lattice<D, S>, Vec<[f64; D]>), LatticeError> {
+    let shapes = holes.iter().map(|it| it.shape.clone()).collect();
+    let lattice = Lattice::new(size, spacing, corner, shapes);
+    if lattice.cells.is_empty() {
+        let cells = lattice.n_whole();
+        return Err(LatticeError::NothingLeft { cells });
+    }
+    let middle = lattice.middle();
+    let positions = lattice.cells.iter().map(|&cell| {
+        let offset = lattice.offset(cell);
+        std::array::from_fn(|axis| middle[axis] + offset[axis])
+    });
+    let positions = positions.collect();
+    Ok((lattice, positions))
+}
+
+impl<const D: usize> CellSets<D> {
+    /// The sets of a lattice by their names, and those of its named holes, unless a set has their name.
+    ///
+    /// # Errors
+    ///
+    /// If a set or the rim of a named hole has no cell.
+    pub(super) fn new<S: Region<D>>(
+        lattice: &Lattice<D, S>,
+        holes: &[Hole<S>],
+        named: impl Iterator<Item = (String, Cells<D, S>)>,
+    ) -> Result<Self, LatticeError> {
+        let mut sets = BTreeMap::new();
+        for (name, cells) in named {
+            let set = Set::from_cells(&cells, lattice);
+            if set.points.is_empty() {
+                return Err(LatticeError::EmptySet { name });
+            }
+            sets.insert(name, set);
+        }
+        for (index, hole) in holes.iter().enumerate() {
+            let Some(name) = hole.name.as_ref().filter(|&name| !sets.contains_key(name)) else {
+                continue;
+            };
+            let shares_name = |it: &Hole<S>| it.name.as_ref() == Some(name);
+            let set = Set::at_holes(holes.iter().map(shares_name).collect(), lattice);
+            if set.points.is_empty() {
+                return Err(LatticeError::NoRim { hole: index });
+            }
+            sets.insert(name.clone(), set);
+        }
+        Ok(Self(sets))
+    }
+
+    pub(super) fn names(&self) -> Vec<String> {
+        self.0.keys().cloned().collect()
+    }
+
+    pub(super) fn points(&self, group: &str) -> Option<Vec<u32>> {
+        self.0.get(group).map(|set| set.points.clone())
+    }
+
+    /// The face of a cell spread over the layers of a set at a side.
+    pub(super) fn parts_of_side(&self, group: &str) -> Vec<(u32, f64)> {
+        let set = self.0.get(group);
+        set.and_then(|set| {
+            let part = set.part_of_side?;
+            Some(set.points.iter().map(|&point| (point, part)).collect())
+        })
+        .unwrap_or_default()
+    }
+
+    /// The face of a cell, with its outward normal, at its point; on layers of a side those on the lattice's outline, at the cells of a
+    /// hole those towards it, else all faces of the cells behind which there is no cell.
+    pub(super) fn outline<S: Region<D>>(
+        &self,
+        group: &str,
+        lattice: &Lattice<D, S>,
+    ) -> Vec<(u32, [f64; D])> {
+        let Some(set) = self.0.get(group) else {
+            return Vec::new();
+        };
+        let belongs = |face: &Face<D>| match set.faces {
+            Faces::OfSide(normal) => face.is_on_box && face.normal == normal,
+            Faces::AtHoles(ref holes) => face.hole.is_some_and(|hole| holes[hole]),
+            Faces::OfCells => set.points.binary_search(&face.point).is_ok(),
+        };
+        let mut normals: BTreeMap<u32, [f64; D]> = BTreeMap::new();
+        for face in lattice.outline().iter().filter(|face| belongs(face)) {
+            let size = lattice.face_size(face.normal);
+            let sum = normals.entry(face.point).or_insert([0.0; D]);
+            for (axis, cosine) in face.normal.into_iter().enumerate() {
+                sum[axis] += f64::from(cosine) * size;
+            }
+        }
+        normals.into_iter().collect()
+    }
+}
+
+impl<const D: usize> Set<D> {
+    /// The cells at the rim of some of the holes, marked in `holes` (n_holes).
+    fn at_holes<S: Region<D>>(holes: Vec<bool>, lattice: &Lattice<D, S>) -> Self {
+        let faces = lattice.outline().into_iter();
+        let towards = faces.filter(|face| face.hole.is_some_and(|hole| holes[hole]));
+        let mut points: Vec<u32> = towards.map(|face| face.point).collect();
+        points.dedup();
+        Self {
+            points,
+            part_of_side: None,
+            faces: Faces::AtHoles(holes),
+        }
+    }
+
+    fn from_cells<S: Region<D>>(cells: &Cells<D, S>, lattice: &Lattice<D, S>) -> Self {
+        match cells {
+            Cells::AtSide(normal, layers) => Self {
+                points: lattice.points_at_side(*normal, *layers),
+                part_of_side: Some(lattice.face_size(*normal) / f64::from(*layers)),
+                faces: Faces::OfSide(*normal),
+            },
+            Cells::Inside(shape) => Self {
+                points: lattice.points_in(shape),
+                part_of_side: None,
+                faces: Faces::OfCells,
+            },
+        }
+    }
+}
+
+/// The cells that lack a neighbour, shape (n_points).
+pub(super) fn rim<const D: usize, S: Region<D>>(lattice: &Lattice<D, S>) -> Vec<bool> {
+    let mut marked = vec![false; lattice.cells.len()];
+    for face in lattice.outline() {
+        marked[face.point as usize] = true;
+    }
+    marked
+}
