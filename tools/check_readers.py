@@ -2,7 +2,8 @@
 """Checks that the files of a result folder mean the same to VTK, PyVista and meshio.
 
 Prints one line per check and exits with status 1 if one failed. What a complete result folder holds must be there
-unless --allow-missing names it.
+unless --allow-missing names it. Of a solid the files of `ligament crack` (crack.vtu, opened.vtu, iso.vtu, and those of all
+steps) are checked where they are, or must be there with --with-surfaces.
 """
 
 import argparse
@@ -21,10 +22,18 @@ import pyvista
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
-# Fields of every fields_NNNN.vtu and their numbers of components.
-REQUIRED_FIELDS = {"displacement": 3, "rotation": 1, "damage": 1, "volume": 1, "horizon": 1}
+# Fields of every fields_NNNN.vtu and their numbers of components; a point of a solid turns about three axes.
+REQUIRED_FIELDS = {"displacement": 3, "damage": 1, "volume": 1, "horizon": 1}
 # VTK's numbers for meshio's names of the cells that Ligament writes.
-VTK_TYPES = {"vertex": 1, "line": 3, "triangle": 5, "quad": 9}
+VTK_TYPES = {"vertex": 1, "line": 3, "triangle": 5, "quad": 9, "tetra": 10, "hexahedron": 12, "wedge": 13, "pyramid": 14}
+# The cells of solids, and their corners.
+SOLID_CORNERS = {10: 4, 12: 8, 13: 6, 14: 5}
+# Fields of the files of `ligament crack` on points and cells, of a solid.
+SURFACE_FIELDS = {
+    "crack": ({"opening", "sliding", "load_factor", "step"}, {"part", "precrack"}),
+    "opened": ({"displacement", "damage", "strain_energy_density"}, {"cell_of_mesh"}),
+    "iso": ({"displacement", "damage", "volume", "horizon"}, set()),
+}
 OPTIONAL_PARTS = ("fields", "bonds", "pvd", "history", "summary")
 
 
@@ -84,6 +93,11 @@ def read_pyvista(path):
     return Grid(grid.points, grid.celltypes, grid.cell_offsets, grid.cell_connectivity, *fields)
 
 
+def corners_of(block):
+    """The corners of meshio's cells in the order of the file: it turns both triangles of a wedge round when it reads one."""
+    return block.data[:, [0, 2, 1, 3, 5, 4]] if block.type == "wedge" else block.data
+
+
 def read_meshio(path):
     mesh = meshio.read(path)
     sizes = [size for block in mesh.cells for size in [block.data.shape[1]] * len(block.data)]
@@ -92,7 +106,7 @@ def read_meshio(path):
         mesh.points,
         np.array(types),
         np.cumsum([0, *sizes]),
-        np.concatenate([block.data.ravel() for block in mesh.cells]),
+        np.concatenate([corners_of(block).ravel() for block in mesh.cells]),
         mesh.point_data,
         {name: np.concatenate(blocks) for name, blocks in mesh.cell_data.items()},
     )
@@ -164,7 +178,10 @@ def check_fields(report, path, volume):
     fields, size = (grid.cell_fields, len(grid.cell_types)) if on_cells else (grid.point_fields, len(grid.points))
     if on_cells:
         check_corners(report, path, grid)
-    for name, n_components in REQUIRED_FIELDS.items():
+    is_solid = set(grid.cell_types) <= SOLID_CORNERS.keys()
+    if is_solid:
+        check_solid_cells(report, path, grid, volume)
+    for name, n_components in (REQUIRED_FIELDS | {"rotation": 3 if is_solid else 1}).items():
         shape = (size,) if n_components == 1 else (size, n_components)
         found = fields.get(name)
         detail = "missing" if found is None else f"shape {found.shape}"
@@ -175,14 +192,75 @@ def check_fields(report, path, volume):
         report.check(f"{path.name} volume sums to that of summary.json", agrees, f"{total!r} and {volume!r}")
 
 
+def check_solid_cells(report, path, grid, volume):
+    """The cells of a solid have the corners of their kind, positive volumes to VTK, and the volume of the body together."""
+    corners = [SOLID_CORNERS[kind] for kind in grid.cell_types]
+    report.check(f"{path.name} has the corners of its cells", np.array_equal(np.diff(grid.offsets), corners))
+    sizes = pyvista.read(path).compute_cell_sizes(length=False, area=False, volume=True).cell_data["Volume"]
+    report.check(f"{path.name} has no inverted cell", min(sizes) > 0.0, f"smallest volume {min(sizes):.3g}")
+    if volume is not None:
+        total = math.fsum(sizes)
+        # VTK parts cells that are no tetrahedra by itself.
+        report.check(f"{path.name} cells fill the volume", math.isclose(total, volume, rel_tol=1e-6), f"{total!r} and {volume!r}")
+
+
 def check_corners(report, path, grid):
-    """Each cell of a lattice has four corners of its own, which move as it does."""
+    """Each cell of a lattice has four corners of its own, in space eight, which move as it does."""
     n_cells = len(grid.cell_types)
-    own = np.array_equal(grid.connectivity, np.arange(4 * n_cells))
-    report.check(f"{path.name} has four corners a cell", own and set(grid.cell_types) == {VTK_TYPES["quad"]})
+    count, kind = (4, VTK_TYPES["quad"]) if VTK_TYPES["quad"] in grid.cell_types else (8, VTK_TYPES["hexahedron"])
+    own = np.array_equal(grid.connectivity, np.arange(count * n_cells))
+    report.check(f"{path.name} has {count} corners a cell", own and set(grid.cell_types) == {kind})
     report.check(f"{path.name} has only the displacement on corners", set(grid.point_fields) == {"displacement"})
-    moved = np.repeat(grid.cell_fields["displacement"], 4, axis=0)
+    moved = np.repeat(grid.cell_fields["displacement"], count, axis=0)
     report.check(f"{path.name} moves corners with cells", np.array_equal(grid.point_fields["displacement"], moved))
+
+
+def check_surface(report, path):
+    """A file of `ligament crack`: triangles of a crack or of a value of a field, or cells that open."""
+    grid = check_grid(report, path)
+    if grid is None:
+        return
+    kind = re.match("[a-z]+", path.name)[0]
+    on_points, on_cells = SURFACE_FIELDS[kind]
+    missing = (on_points - grid.point_fields.keys()) | (on_cells - grid.cell_fields.keys())
+    report.check(f"{path.name} has its fields", not missing, ", ".join(sorted(missing)))
+    known = SOLID_CORNERS.keys() if kind == "opened" else {VTK_TYPES["triangle"]}
+    report.check(f"{path.name} has the right cells", set(grid.cell_types) <= known, str(set(grid.cell_types)))
+    used = np.unique(grid.connectivity)
+    report.check(f"{path.name} uses all of its points", kind == "opened" or len(used) == len(grid.points))
+    finite = [name for name, values in grid.point_fields.items() if not np.isfinite(values).all() and name != "load_factor"]
+    report.check(f"{path.name} has finite values", not finite, ", ".join(finite))
+
+
+def check_stl(report, path):
+    """The crack as STL has the triangles of crack.vtu, at their places to single precision."""
+    surface, solid = pyvista.read(path.with_suffix(".vtu")), meshio.read(path)
+    triangles = surface.points[surface.cells.reshape(-1, 4)[:, 1:]]
+    found = solid.points[solid.cells_dict["triangle"]]
+    same_places = found.shape == triangles.shape and np.allclose(found, triangles, rtol=1e-6, atol=1e-7 * np.abs(triangles).max())
+    report.check(f"{path.name} has the triangles of crack.vtu", same_places, f"{len(found)} triangles")
+
+
+def check_surfaces(report, folder, required):
+    """The files of `ligament crack` on a solid."""
+    for name in ("crack", "opened", "iso"):
+        paths = [path for path in sorted(folder.glob(f"{name}*.vtu")) if set(pyvista.read(path).celltypes) != {VTK_TYPES["line"]}]
+        if required and not paths and not (name == "opened" and is_of_boxes(folder)):
+            report.check(f"{folder} has {name}.vtu", False)
+        for path in paths:
+            check_surface(report, path)
+        for path in folder.glob(f"{name}.pvd"):
+            series = pyvista.get_reader(path)
+            there = all((folder / dataset.path).is_file() for dataset in series.datasets)
+            report.check(f"{path.name} lists files that are there", there, f"{len(series.datasets)} outputs")
+    for path in folder.glob("crack.stl"):
+        check_stl(report, path)
+
+
+def is_of_boxes(folder):
+    """Whether the cells of the body are boxes of one point each, which move apart as they are."""
+    paths = sorted(folder.glob("fields_*.vtu"))
+    return bool(paths) and "damage" in pyvista.read(paths[0]).cell_data
 
 
 def step_of(file):
@@ -226,7 +304,7 @@ def read_volume(path):
     return float(json.loads(path.read_text(encoding="utf-8"))["volume"])
 
 
-def check_folder(report, folder, allowed):
+def check_folder(report, folder, allowed, with_surfaces):
     def find(part, pattern):
         paths = sorted(folder.glob(pattern))
         if not paths and part in allowed:
@@ -252,6 +330,7 @@ def check_folder(report, folder, allowed):
         check_grid(report, path)
     for path in find("pvd", "fields.pvd"):
         check_collection(report, path, history)
+    check_surfaces(report, folder, with_surfaces)
 
 
 def main():
@@ -265,11 +344,12 @@ def main():
         metavar="PART",
         help=f"do not fail if this part is absent: one of {', '.join(OPTIONAL_PARTS)}; may be repeated",
     )
+    parser.add_argument("--with-surfaces", action="store_true", help="fail if the files of `ligament crack` of a solid are absent")
     arguments = parser.parse_args()
     if not arguments.folder.is_dir():
         parser.error(f"{arguments.folder} is not a folder")
     report = Report()
-    check_folder(report, arguments.folder, arguments.allow_missing)
+    check_folder(report, arguments.folder, arguments.allow_missing, arguments.with_surfaces)
     print(f"{report.n_passed} passed, {report.n_failed} failed")
     return 1 if report.n_failed else 0
 

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Checks in Chromium the page that `ligament report` makes of result folders: check_report.py PROGRAM FOLDER...
 
-The last of the folders must have broken bonds and several steps. Values under the pointer must be those of the VTU files to half of
+The last of the folders in the plane must have broken bonds and several steps, and so must solids, whose pages have pictures: each must be
+the one that `ligament plot` draws. Values under the pointer must be those of the VTU files to half of
 the last digit shown, bonds those of model.vtu and breaks.csv. Nothing may be asked of a network or complained of in the console.
 """
 
+import base64
 import csv
 import json
 import re
@@ -13,6 +15,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import zlib
 from pathlib import Path
 
 import meshio
@@ -197,10 +200,87 @@ def check_layouts(report):
         assert not page.complaints(), page.complaints()
 
 
+def is_solid(folder):
+    """Whether the body of a folder of results is a solid."""
+    kinds = {block.type for block in meshio.read(min(Path(folder).glob("fields_*.vtu"))).cells}
+    return bool(kinds & {"tetra", "hexahedron", "wedge", "pyramid"})
+
+
+def drawn_by_plot(program, folder, field, options, place):
+    """The pictures of all steps that `ligament plot` draws."""
+    words = [program, "plot", folder, "--field", field, "--step", "all", "--width", "100", *options, "--out", place / "plotted.svg"]
+    said = subprocess.run(words, check=True, capture_output=True, text=True).stdout
+    return [Path(line).read_text() for line in said.splitlines()]
+
+
+def check_pictures(page, program, folder, run, place):
+    """Compares pictures of the page with those of `ligament plot`, and shows each series; returns how many pictures it has."""
+    texts = page.value("Object.fromEntries([...document.querySelectorAll('script[id^=t]')].map((it) => [it.id, it.textContent]))")
+    options = {"outside": ["--view", "iso", "--crack"], "behind": ["--view", "120,28", "--crack"], "crack": ["--crack=lines"]}
+    series = run["pictures"]["series"]
+    compared = set()
+    for it in series:
+        view, field = it["view"], it["field"]
+        assert len(it["texts"]) == len(run["steps"]), it
+        if view in options and view not in compared:
+            compared.add(view)
+            unpacked = [zlib.decompress(base64.b64decode(texts[f"t{number}"]), -15).decode() for number in it["texts"]]
+            assert unpacked == drawn_by_plot(program, folder, field, options[view], place), (view, field)
+        page.value(
+            f"{{ const view = document.getElementById('view'); view.value = '{view}'; view.dispatchEvent(new Event('change'));"
+            f" const it = document.getElementById('solid-field'); it.value = '{field}'; it.dispatchEvent(new Event('change')); }}"
+        )
+        page.until(f"document.documentElement.dataset.drawn.endsWith(' {view} {field}')")
+        width, height = page.value("(({ naturalWidth, naturalHeight }) => [naturalWidth, naturalHeight])(document.getElementById('picture'))")
+        assert width > 200 and height > 50, (view, field, width, height)
+    assert compared == options.keys(), compared
+    return sum(len(it["texts"]) for it in series)
+
+
+def check_solid(program, folder, plane, place):
+    """The page of a solid beside a body in the plane; returns how many pictures it has."""
+    report = place / "solid.html"
+    subprocess.run([program, "report", folder, plane, "--output", report], check=True, stdout=subprocess.DEVNULL)
+    shown = "({ picture: document.getElementById('picture').offsetHeight, body: document.getElementById('body').offsetHeight })"
+    with browser.Browser() as page:
+        page.open(report, READY)
+        run = described(page)["runs"][0]
+        count = check_pictures(page, program, folder, run, place)
+        heights = page.value(shown)
+        assert heights["picture"] > 100 and heights["body"] == 0, heights
+        last = len(run["steps"]) - 1
+        go(page, last)
+        drawn(page, run["steps"][last])
+        source = "document.getElementById('picture').src"
+        before = page.value(source)
+        go(page, 0)
+        page.until(f"{source} !== {json.dumps(before)}")
+        page.key("ArrowRight")
+        drawn(page, run["steps"][1])
+        assert page.value(STEP) == 1, "an arrow goes to the next step"
+        choose = "{{ const it = document.getElementById('run'); it.value = {}; it.dispatchEvent(new Event('change')); }}"
+        page.value(choose.format(1))
+        drawn(page, Path(plane).name)
+        heights = page.value(shown)
+        assert heights["picture"] == 0 and heights["body"] > 100, heights
+        page.value(choose.format(0))
+        drawn(page, Path(folder).name)
+        assert page.value(shown)["body"] == 0
+        assert page.pdf().startswith(b"%PDF")
+        assert not page.complaints(), page.complaints()
+    with browser.Browser(width=390, height=844, mobile=True) as page:
+        page.open(report, READY)
+        assert page.value("document.documentElement.scrollWidth") <= 390
+        assert not page.complaints(), page.complaints()
+    return count
+
+
 def main(program, *folders):
     if browser.program() is None:
         print("skipped: the page of `ligament report` is looked at in Chromium, which is not here (apt-get install chromium)")
         return
+    solids = [folder for folder in folders if is_solid(folder)]
+    folders = [folder for folder in folders if folder not in solids]
     with tempfile.TemporaryDirectory() as place:
         copy = Path(place) / "titled"
         shutil.copytree(folders[-1], copy)
@@ -223,7 +303,9 @@ def main(program, *folders):
             assert page.value("document.querySelectorAll('#curve .curve').length") == len(results)
             assert not page.complaints(), page.complaints()
         check_layouts(report)
+        n_pictures = sum(check_solid(program, solid, folders[-1], Path(place)) for solid in solids)
     print(f"report: {n_values} values under the pointer and {n_bonds} bonds as in the files, first picture after {seconds:.1f} s")
+    print(f"report: {n_pictures} pictures of {len(solids)} solid(s)")
 
 
 main(*sys.argv[1:])

@@ -12,29 +12,56 @@ use rayon::prelude::*;
 
 use crate::unknowns::Unknowns;
 
+/// Points whose columns are one task.
+const TASK: usize = 1024;
+
 /// The pattern of the matrix (upper triangle) for some unknowns, with all bonds: breakages only take couplings away.
 pub fn pattern(system: &dyn Bonds, unknowns: &Unknowns) -> Result<Pattern, PatternError> {
-    let coupled = system.coupled_points();
+    let lower_rows = |point: usize| {
+        let (layout, restraints) = (unknowns.layout(), unknowns.restraints());
+        let lower = restraints.lower_points(layout, system.coupled_points(), point);
+        let of_point = |other: u32| unknowns.of_point(other as usize).map(|(row, _)| row);
+        lower.into_iter().flat_map(of_point)
+    };
+    let n_points = system.n_points();
+    let n_lower: Vec<usize> = (0..n_points)
+        .into_par_iter()
+        .with_min_len(TASK)
+        .map(|point| lower_rows(point).count())
+        .collect();
     let mut column_starts = vec![0];
-    let mut rows = Vec::new();
-    for point in 0..system.n_points() {
-        let lower = unknowns
-            .restraints()
-            .lower_points(unknowns.layout(), coupled, point);
-        let lower_rows: Vec<usize> = (lower.into_iter())
-            .flat_map(|other| unknowns.of_point(other as usize).map(|(row, _)| row))
-            .collect();
-        for (column, _) in unknowns.of_point(point) {
-            rows.extend_from_slice(&lower_rows);
-            rows.extend(
-                unknowns
-                    .of_point(point)
-                    .map(|(row, _)| row)
-                    .filter(|&row| row <= column),
-            );
-            column_starts.push(rows.len());
+    let mut n_entries = 0;
+    // First entry of each task.
+    let mut tasks = Vec::new();
+    for (point, n_lower) in n_lower.into_iter().enumerate() {
+        if point % TASK == 0 {
+            tasks.push(n_entries);
+        }
+        for own in 1..=unknowns.of_point(point).count() {
+            n_entries += n_lower + own;
+            column_starts.push(n_entries);
         }
     }
+    let mut rows = vec![0; n_entries];
+    let mut rest = rows.as_mut_slice();
+    let ends = tasks.iter().skip(1).chain([&n_entries]);
+    let slots: Vec<&mut [usize]> = (tasks.iter().zip(ends))
+        .map(|(start, end)| rest.split_off_mut(..end - start).unwrap_or_default())
+        .collect();
+    slots.into_par_iter().enumerate().for_each(|(task, slots)| {
+        let mut slots = slots.iter_mut();
+        for point in TASK * task..(TASK * (task + 1)).min(n_points) {
+            let lower: Vec<usize> = lower_rows(point).collect();
+            for (column, _) in unknowns.of_point(point) {
+                let own = unknowns.of_point(point).map(|(row, _)| row);
+                let own = own.take_while(|&row| row <= column);
+                let of_column = lower.iter().copied().chain(own);
+                of_column
+                    .zip(&mut slots)
+                    .for_each(|(row, slot)| *slot = row);
+            }
+        }
+    });
     Pattern::new(column_starts, rows)
 }
 

@@ -3,6 +3,8 @@
 //! A part is cut at the median of its longer side (George 1973); the points of one half that bonds
 //! connect with the other separate the two, and are eliminated after both.
 
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
 use ligament_model::Bonds;
 use ligament_model::interface::CoupledPoints;
 
@@ -11,6 +13,9 @@ use crate::unknowns::Unknowns;
 /// Parts of so many points are not cut any further: most of their points are bonded with each other, and smaller parts
 /// were measured to save 0.2 % of the fill.
 const SMALLEST_PART: usize = 12;
+
+/// Points of a part whose two sides are tasks.
+const TASK: usize = 1024;
 
 /// The unknowns in the order of elimination: those of a point together, points by nested dissection.
 pub fn elimination_order(system: &dyn Bonds, unknowns: &Unknowns) -> Vec<usize> {
@@ -24,33 +29,33 @@ pub fn elimination_order(system: &dyn Bonds, unknowns: &Unknowns) -> Vec<usize> 
 /// The points by nested dissection.
 fn points_in_order(system: &dyn Bonds) -> Vec<u32> {
     let n_points = system.n_points() as u32;
-    let mut dissection = Dissection {
+    let dissection = Dissection {
         system,
         coupled: system.coupled_points(),
-        half: vec![0; n_points as usize],
-        halves: 0,
-        order: Vec::with_capacity(n_points as usize),
+        half: (0..n_points).map(|_| AtomicU32::new(0)).collect(),
+        halves: AtomicU32::new(0),
     };
-    dissection.part(&mut (0..n_points).collect::<Vec<_>>());
-    dissection.order
+    dissection.part(&mut (0..n_points).collect::<Vec<_>>())
 }
 
+/// What all parts share. Parts are dissected at the same time: each writes at its own points alone, and what it may read of
+/// another's is the number of a half of that one, whatever it is.
 struct Dissection<'a> {
     system: &'a dyn Bonds,
     coupled: CoupledPoints<'a>,
     /// Number of the last half that a point was put into.
-    half: Vec<u32>,
-    halves: u32,
-    order: Vec<u32>,
+    half: Vec<AtomicU32>,
+    halves: AtomicU32,
 }
 
 impl Dissection<'_> {
-    fn part(&mut self, points: &mut [u32]) {
+    /// The points of a part in their order.
+    fn part(&self, points: &mut [u32]) -> Vec<u32> {
         if points.len() <= SMALLEST_PART {
-            self.order.extend_from_slice(points);
-            return;
+            return points.to_vec();
         }
-        let middle = points.len() / 2;
+        let n_points = points.len();
+        let middle = n_points / 2;
         self.system.halve(points);
         let (lower, upper) = points.split_at_mut(middle);
         let [in_lower, in_upper] = [&*lower, &*upper].map(|half| self.mark(half));
@@ -65,18 +70,23 @@ impl Dissection<'_> {
         let mut inner: Vec<u32> = cut
             .iter()
             .copied()
-            .filter(|&point| self.half[point as usize] != in_separator)
+            .filter(|&point| !self.is_in(point, in_separator))
             .collect();
-        self.part(&mut inner);
-        self.part(whole);
-        self.order.extend_from_slice(&separator);
+        let (mut order, of_whole) = if n_points < TASK {
+            (self.part(&mut inner), self.part(whole))
+        } else {
+            rayon::join(|| self.part(&mut inner), || self.part(whole))
+        };
+        order.extend(of_whole);
+        order.extend(separator);
+        order
     }
 
     /// The points of one half that elements couple with the other.
     fn rim(&self, half: &[u32], other_half: u32) -> Vec<u32> {
         let touches = |point: u32| {
             let mut coupled = self.coupled.at(point);
-            coupled.any(|other| self.half[other as usize] == other_half)
+            coupled.any(|other| self.is_in(other, other_half))
         };
         half.iter()
             .copied()
@@ -84,11 +94,15 @@ impl Dissection<'_> {
             .collect()
     }
 
-    fn mark(&mut self, points: &[u32]) -> u32 {
-        self.halves += 1;
+    fn is_in(&self, point: u32, half: u32) -> bool {
+        self.half[point as usize].load(Relaxed) == half
+    }
+
+    fn mark(&self, points: &[u32]) -> u32 {
+        let number = self.halves.fetch_add(1, Relaxed) + 1;
         for &point in points {
-            self.half[point as usize] = self.halves;
+            self.half[point as usize].store(number, Relaxed);
         }
-        self.halves
+        number
     }
 }

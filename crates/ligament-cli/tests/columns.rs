@@ -50,6 +50,9 @@ component = "x"
 steps = 10
 "#;
 
+/// A bar in space of 8 x 4 x 4 cells.
+const SOLID: &str = include_str!("support/small-solid.toml");
+
 const STUDY: &str = r#"title = "Bars"
 case = "bar.toml"
 [[axis]]
@@ -192,8 +195,9 @@ fn compare(heading: &str, written: &[Vec<String>], names: &Names, wrong: &mut Ve
     }
 }
 
-/// Runs whose tables together have all columns: on a lattice, brittle and softening; with strains of their own; on a mesh; with cracks that close; in stages; modes.
-fn runs(place: &Place) -> [&'static str; 6] {
+/// Runs whose tables together have all columns: on a lattice, brittle and softening; with strains of their own; on a mesh; with cracks that close; in stages;
+/// in space; modes.
+fn runs(place: &Place) -> [&'static str; 7] {
     fs::write(place.path("bar.toml"), BAR).unwrap();
     let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes");
     let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/brazilian-disk/case.toml");
@@ -222,7 +226,15 @@ fn runs(place: &Place) -> [&'static str; 6] {
     place.call(&format!(
         "run bar.toml --out stages --quiet --unset fracture.steps --set {stage}"
     ));
-    ["brittle", "soft", "mbb", "mesh", "closing", "stages"]
+    fs::write(place.path("solid.toml"), SOLID).unwrap();
+    place.call("run solid.toml --out solid --quiet");
+    place.call(
+        "run solid.toml --out solid-modal --quiet --set analysis=\"modal\" --set modal.modes=1 --unset fracture --unset load --unset probe \
+         --unset no_fail --unset output",
+    );
+    [
+        "brittle", "soft", "mbb", "mesh", "closing", "stages", "solid",
+    ]
 }
 
 #[test]
@@ -269,7 +281,7 @@ fn the_page_has_every_column_that_is_written() {
     compare("softening.csv", &soft, &names, wrong);
     compare(
         "modes.csv",
-        &[place.header("modal/modes.csv")],
+        &["modal", "solid-modal"].map(|run| place.header(&format!("{run}/modes.csv"))),
         &names,
         wrong,
     );
@@ -281,7 +293,7 @@ fn the_page_has_every_column_that_is_written() {
 
 fn of_stored_results(place: &Place, names: &Names, wrong: &mut Vec<String>) {
     place.call("crack brittle");
-    for file in ["crack.csv", "crack_tips.csv", "crack_growth.csv"] {
+    for file in ["crack.csv", "crack_tips.csv"] {
         compare(
             file,
             &[place.header(&format!("brittle/{file}"))],
@@ -289,6 +301,9 @@ fn of_stored_results(place: &Place, names: &Names, wrong: &mut Vec<String>) {
             wrong,
         );
     }
+    place.call("crack solid");
+    let growth = ["brittle", "solid"].map(|run| place.header(&format!("{run}/crack_growth.csv")));
+    compare("crack_growth.csv", &growth, names, wrong);
     place.call(
         "profile soft --from 0,0.03 --to 0.12,0.03 --field damage displacement.x --out profile.csv",
     );

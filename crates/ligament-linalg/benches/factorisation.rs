@@ -6,10 +6,14 @@
 use std::hint::black_box;
 use std::sync::Arc;
 
-use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
+use criterion::measurement::WallTime;
+use criterion::{
+    BenchmarkGroup, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
+};
 use ligament_linalg::{
     Elimination, FactorKind, Factorisation, HalfSolved, Pattern, RankOne, Symbolic, SymmetricMatrix,
 };
+use rayon::ThreadPoolBuilder;
 
 /// Horizon in spacings.
 const REACH: i64 = 3;
@@ -138,6 +142,29 @@ impl ThereAndBack {
     }
 }
 
+/// Factorisation and solution on some threads.
+fn on_threads(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    name: &str,
+    threads: usize,
+    factor: &mut dyn Factorisation,
+    matrix: &SymmetricMatrix,
+) {
+    let pool = ThreadPoolBuilder::new().num_threads(threads);
+    let pool = pool.build().unwrap();
+    group.bench_function(format!("{name}, factorisation"), |bencher| {
+        bencher.iter(|| pool.install(|| factor.refactorise(black_box(matrix)).unwrap()));
+    });
+    let loads = vec![1.0; matrix.pattern().dimension()];
+    group.bench_function(format!("{name}, solve"), |bencher| {
+        bencher.iter(|| {
+            let mut unknowns = black_box(&loads).clone();
+            pool.install(|| factor.solve_in_place(&mut unknowns));
+            unknowns
+        });
+    });
+}
+
 fn factorisation(criterion: &mut Criterion) {
     for side in [50, 100] {
         let pattern = Arc::new(pattern(side));
@@ -151,17 +178,10 @@ fn factorisation(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements(symbolic.n_factor_values() as u64));
         for (name, kind) in [("L L^T", FactorKind::Llt), ("L D L^T", FactorKind::Ldlt)] {
             let mut factor = kind.factorise(&symbolic, &matrix).unwrap();
-            group.bench_function(format!("{name}, factorisation"), |bencher| {
-                bencher.iter(|| factor.refactorise(black_box(&matrix)).unwrap());
-            });
-            let loads = vec![1.0; pattern.dimension()];
-            group.bench_function(format!("{name}, solve"), |bencher| {
-                bencher.iter(|| {
-                    let mut unknowns = black_box(&loads).clone();
-                    factor.solve_in_place(&mut unknowns);
-                    unknowns
-                });
-            });
+            for threads in [1, 2] {
+                let name = format!("{name}, {threads} threads");
+                on_threads(&mut group, &name, threads, factor.as_mut(), &matrix);
+            }
             for n_bonds in [1, 5, 10] {
                 let mut there_and_back = ThereAndBack::new(side, n_bonds);
                 let half_solved = there_and_back.change(factor.as_mut());

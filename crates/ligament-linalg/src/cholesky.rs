@@ -2,24 +2,21 @@
 
 use std::sync::Arc;
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-
 use crate::factor_error::FactorError;
 use crate::factorisation::{Factorisation, HalfSolved, Inertia};
+use crate::left_looking::LeftLooking;
 use crate::matrix::SymmetricMatrix;
 use crate::modification::{DiagonalEntry, Modification, Target, VanishingPivot};
 use crate::panels::{FactorKind, Panels};
 use crate::rank_one::RankOne;
 use crate::substitution::{solve_backward, solve_forward};
 use crate::symbolic::Symbolic;
-use crate::{ldlt, llt};
 
-/// Values of a factor and the workspace that factorising needs.
+/// Values of a factor.
 pub(crate) struct Cholesky {
     symbolic: Arc<Symbolic>,
     kind: FactorKind,
     values: Vec<f64>,
-    workspace: MemBuffer,
     /// Diagonal of the matrix in the order of elimination, shape (n).
     diagonal: Vec<DiagonalEntry>,
     negative_pivots: usize,
@@ -30,18 +27,10 @@ pub(crate) struct Cholesky {
 impl Cholesky {
     /// Room for a factor; nothing is factorised yet.
     pub(crate) fn new(kind: FactorKind, symbolic: Arc<Symbolic>) -> Result<Self, FactorError> {
-        let request = match kind {
-            FactorKind::Llt => llt::workspace(&symbolic),
-            FactorKind::Ldlt => ldlt::workspace(&symbolic),
-        };
-        let bytes = request.unaligned_bytes_required();
-        let workspace =
-            MemBuffer::try_new(request).map_err(|_| FactorError::OutOfMemory { bytes })?;
         Ok(Self {
             kind,
             values: zeros(symbolic.cholesky.len_val())?,
             symbolic,
-            workspace,
             diagonal: Vec::new(),
             negative_pivots: 0,
             modification: None,
@@ -77,11 +66,13 @@ impl Cholesky {
 
 impl Factorisation for Cholesky {
     fn refactorise(&mut self, matrix: &SymmetricMatrix) -> Result<(), FactorError> {
-        let stack = MemStack::new(&mut self.workspace);
-        let factorised = match self.kind {
-            FactorKind::Llt => llt::factorise(&self.symbolic, matrix, &mut self.values, stack),
-            FactorKind::Ldlt => ldlt::factorise(&self.symbolic, matrix, &mut self.values, stack),
+        debug_assert_eq!(matrix.pattern(), self.symbolic.pattern());
+        let left_looking = LeftLooking {
+            kind: self.kind,
+            symbolic: &self.symbolic,
+            matrix: &matrix.values,
         };
+        let factorised = left_looking.factorise(&mut self.values);
         factorised.map_err(|row| self.without_pivot(row))?;
         self.factorised(matrix);
         Ok(())
@@ -115,8 +106,8 @@ impl Factorisation for Cholesky {
     fn solve_in_place(&mut self, right_hand_side: &mut [f64]) {
         let unknowns = self.symbolic.unknown_of_row();
         let mut vector: Vec<f64> = unknowns.iter().map(|&i| right_hand_side[i]).collect();
-        solve_forward(self.panels(), &mut vector);
-        solve_backward(self.panels(), &mut vector);
+        solve_forward(self.panels(), self.symbolic.branch(), &mut vector);
+        solve_backward(self.panels(), self.symbolic.branch(), &mut vector);
         for (&unknown, value) in unknowns.iter().zip(vector) {
             right_hand_side[unknown] = value;
         }
@@ -151,7 +142,7 @@ impl Factorisation for Cholesky {
     }
 
     fn finish(&self, HalfSolved(mut vector): HalfSolved) -> Vec<f64> {
-        solve_backward(self.panels(), &mut vector);
+        solve_backward(self.panels(), self.symbolic.branch(), &mut vector);
         let rows = self.symbolic.row_of_unknown();
         rows.iter().map(|&row| vector[row]).collect()
     }

@@ -5,7 +5,7 @@ use crate::matrix::SymmetricMatrix;
 use crate::rank_one::RankOne;
 
 /// A factorised symmetric matrix.
-pub trait Factorisation {
+pub trait Factorisation: Send + Sync {
     /// Factorises other values over the same pattern. After an error the factor must not be used before another call
     /// succeeded.
     fn refactorise(&mut self, matrix: &SymmetricMatrix) -> Result<(), FactorError>;

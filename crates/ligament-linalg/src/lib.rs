@@ -3,23 +3,26 @@
 //! The pattern of a matrix is made once ([`Pattern`]), analysed once for an order of elimination ([`Symbolic`]), and then
 //! factorised as often as its values change ([`FactorKind::factorise`]). Where a change is a sum of few terms of rank one
 //! ([`RankOne`]), the factor is changed in place ([`Factorisation::change`]), for a fraction of the cost. With the products of
-//! a factor [`largest_eigenpairs`] finds the lowest modes. Everything runs on one thread in a fixed order, so that the same
-//! matrix gives the same bits.
+//! a factor [`largest_eigenpairs`] finds the lowest modes. Sums go in an order that the matrix alone gives, so that the same
+//! matrix has the same bits on any number of threads: those of rayon's pool that the caller is in.
 
+mod branches;
 mod cholesky;
+mod dense;
 mod eigen;
 mod factor_error;
 mod factor_kind;
 mod factorisation;
 mod general;
-mod ldlt;
-mod llt;
+mod left_looking;
 mod lu;
 mod matrix;
 mod modification;
 mod panels;
 mod rank_one;
+mod sources;
 mod substitution;
+mod subtraction;
 mod supernodes;
 mod symbolic;
 

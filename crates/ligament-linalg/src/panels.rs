@@ -1,5 +1,8 @@
 //! The values of a factor, panel by panel.
 
+use std::ops::Range;
+
+use crate::branches::Branch;
 use crate::supernodes::Supernodes;
 
 /// The factorisations to choose from, which store their pivots in different ways.
@@ -17,4 +20,27 @@ pub(crate) struct Panels<'a> {
     pub(crate) kind: FactorKind,
     pub(crate) supernodes: Supernodes<'a>,
     pub(crate) values: &'a [f64],
+}
+
+impl Panels<'_> {
+    /// Rows that some supernodes have as columns.
+    pub(crate) fn rows(self, supernodes: Range<usize>) -> Range<usize> {
+        let [start, end] =
+            [supernodes.start, supernodes.end].map(|it| self.supernodes.columns_before(it));
+        start..end
+    }
+
+    /// The rows of each of some branches that follow each other, of a vector that begins with those of the first.
+    pub(crate) fn split<'a>(
+        self,
+        branches: &[Branch],
+        vector: &'a mut [f64],
+    ) -> Vec<&'a mut [f64]> {
+        let mut rest = vector;
+        let mut split = |branch: &Branch| {
+            let n_rows = self.rows(branch.supernodes()).len();
+            rest.split_off_mut(..n_rows).unwrap_or_default()
+        };
+        branches.iter().map(&mut split).collect()
+    }
 }

@@ -1,30 +1,63 @@
 //! Forward and backward substitution on the panels of a factor.
 
-use pulp::{Arch, Simd, WithSimd};
+use std::ops::Range;
 
+use pulp::{Arch, Simd, WithSimd};
+use rayon::prelude::*;
+
+use crate::branches::Branch;
 use crate::panels::{FactorKind, Panels};
 
 /// Columns of a panel that are read together: as many streams from memory.
 const BLOCK: usize = 8;
 
-/// Solves L y = b in place: all supernodes, from the leaves to the root; rows in the order of elimination.
-pub(crate) fn solve_forward(panels: Panels<'_>, vector: &mut [f64]) {
-    Arch::new().dispatch(Forward { panels, vector });
+/// Solves L y = b in place, from the leaves to the root; rows in the order of elimination.
+pub(crate) fn solve_forward(panels: Panels<'_>, branch: &Branch, vector: &mut [f64]) {
+    forward_branch(panels, branch, vector);
 }
 
-/// Solves L^T x = y, or L^T x = D^-1 y, in place: all supernodes, from the root to the leaves.
-pub(crate) fn solve_backward(panels: Panels<'_>, vector: &mut [f64]) {
-    Arch::new().dispatch(Backward { panels, vector });
+/// Solves L^T x = y, or L^T x = D^-1 y, in place, from the root to the leaves.
+pub(crate) fn solve_backward(panels: Panels<'_>, branch: &Branch, vector: &mut [f64]) {
+    backward_branch(panels, branch, vector, None);
+}
+
+/// What a supernode adds to a row.
+type Addition = (usize, f64);
+
+/// Solves for the rows of a branch; gives what it adds to rows beyond, in the order of its supernodes.
+///
+/// Sums go in the order of the supernodes, whatever parts were done at the same time: a part keeps single additions and no sums.
+fn forward_branch(panels: Panels<'_>, branch: &Branch, vector: &mut [f64]) -> Vec<Addition> {
+    let rows = panels.rows(branch.supernodes());
+    let mut beyond = Vec::new();
+    let of_parts: Vec<Vec<Addition>> = (branch.parts.par_iter())
+        .zip(panels.split(&branch.parts, vector))
+        .with_max_len(1)
+        .map(|(part, vector)| forward_branch(panels, part, vector))
+        .collect();
+    for (row, value) in of_parts.into_iter().flatten() {
+        match vector.get_mut(row - rows.start) {
+            Some(sum) => *sum += value,
+            None => beyond.push((row, value)),
+        }
+    }
+    Arch::new().dispatch(Forward {
+        panels,
+        stem: branch.stem.clone(),
+        first_row: rows.start,
+        vector,
+        beyond: &mut beyond,
+    });
+    beyond
 }
 
 struct Forward<'a> {
     panels: Panels<'a>,
+    stem: Range<usize>,
+    /// The row that the vector begins with.
+    first_row: usize,
     vector: &'a mut [f64],
-}
-
-struct Backward<'a> {
-    panels: Panels<'a>,
-    vector: &'a mut [f64],
+    beyond: &'a mut Vec<Addition>,
 }
 
 impl WithSimd for Forward<'_> {
@@ -32,11 +65,81 @@ impl WithSimd for Forward<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
+        let supernodes = self.panels.supernodes;
         let mut column = Vec::new();
-        for supernode in 0..self.panels.supernodes.len() {
-            forward(simd, self.panels, supernode, self.vector, &mut column);
+        for supernode in self.stem {
+            let Range { start, end } = supernodes.columns(supernode);
+            let solution = &mut self.vector[start - self.first_row..end - self.first_row];
+            let additions = forward(simd, self.panels, supernode, solution, &mut column);
+            let below = supernodes.rows_below(supernode);
+            let own = below.partition_point(|row| row - self.first_row < self.vector.len());
+            for (&row, value) in below[..own].iter().zip(additions) {
+                self.vector[row - self.first_row] += value;
+            }
+            let additions = additions[own..].iter().copied();
+            self.beyond
+                .extend(below[own..].iter().copied().zip(additions));
         }
     }
+}
+
+/// Rows that are solved for, of the stems above a branch.
+#[derive(Clone, Copy)]
+struct Known<'a> {
+    first_row: usize,
+    solution: &'a [f64],
+    above: Option<&'a Known<'a>>,
+}
+
+impl<'a> Known<'a> {
+    /// Appends the values at some rows, ascending, none of them before these.
+    fn gather(mut self, rows: &[usize], values: &mut Vec<f64>) {
+        for row in rows {
+            while row - self.first_row >= self.solution.len()
+                && let Some(above) = self.above
+            {
+                self = *above;
+            }
+            values.push(self.solution[row - self.first_row]);
+        }
+    }
+}
+
+/// Solves for the rows of a branch, with what is known above it.
+fn backward_branch(
+    panels: Panels<'_>,
+    branch: &Branch,
+    vector: &mut [f64],
+    above: Option<&Known<'_>>,
+) {
+    let first_row = panels.rows(branch.stem.clone()).start;
+    let n_rows_of_parts = first_row - panels.rows(branch.supernodes()).start;
+    let (of_parts, of_stem) = vector.split_at_mut(n_rows_of_parts);
+    Arch::new().dispatch(Backward {
+        panels,
+        stem: branch.stem.clone(),
+        first_row,
+        vector: of_stem,
+        above,
+    });
+    let known = Known {
+        first_row,
+        solution: of_stem,
+        above,
+    };
+    (branch.parts.par_iter())
+        .zip(panels.split(&branch.parts, of_parts))
+        .with_max_len(1)
+        .for_each(|(part, vector)| backward_branch(panels, part, vector, Some(&known)));
+}
+
+struct Backward<'a> {
+    panels: Panels<'a>,
+    stem: Range<usize>,
+    /// The row that the vector begins with.
+    first_row: usize,
+    vector: &'a mut [f64],
+    above: Option<&'a Known<'a>>,
 }
 
 impl WithSimd for Backward<'_> {
@@ -44,32 +147,42 @@ impl WithSimd for Backward<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
+        let supernodes = self.panels.supernodes;
         let mut column = Vec::new();
-        for supernode in (0..self.panels.supernodes.len()).rev() {
-            backward(simd, self.panels, supernode, self.vector, &mut column);
+        for supernode in self.stem.rev() {
+            let Range { start, end } = supernodes.columns(supernode);
+            let (columns, rest) = (self.vector[start - self.first_row..]).split_at_mut(end - start);
+            let rest = Known {
+                first_row: end,
+                solution: rest,
+                above: self.above,
+            };
+            column.clear();
+            column.extend_from_slice(columns);
+            rest.gather(supernodes.rows_below(supernode), &mut column);
+            backward(simd, self.panels, supernode, &mut column);
+            columns.copy_from_slice(&column[..end - start]);
         }
     }
 }
 
-/// Solves for the columns of one supernode and takes their part off the rows below.
+/// Solves for the columns of one supernode in place; gives what has to be added to the rows below, which stands in `column`.
 #[inline(always)]
-pub(crate) fn forward<S: Simd>(
+pub(crate) fn forward<'a, S: Simd>(
     simd: S,
     panels: Panels<'_>,
     supernode: usize,
-    vector: &mut [f64],
-    column: &mut Vec<f64>,
-) {
+    solution: &mut [f64],
+    column: &'a mut Vec<f64>,
+) -> &'a [f64] {
     let Panels {
         kind,
         supernodes,
         values,
     } = panels;
-    let columns = supernodes.columns(supernode);
-    let below = supernodes.rows_below(supernode);
-    let height = columns.len() + below.len();
+    let height = solution.len() + supernodes.rows_below(supernode).len();
     column.clear();
-    column.extend_from_slice(&vector[columns.clone()]);
+    column.extend_from_slice(solution);
     column.resize(height, 0.0);
     let panel = &values[supernodes.panel(supernode)];
     for (index, block) in panel.chunks(BLOCK * height).enumerate() {
@@ -96,33 +209,20 @@ pub(crate) fn forward<S: Simd>(
             _ => subtract::<S, 1>(simd, block, &solved[first..], rest),
         }
     }
-    let (solved, rest) = column.split_at(columns.len());
-    vector[columns].copy_from_slice(solved);
-    for (&row, value) in below.iter().zip(rest) {
-        vector[row] += value;
-    }
+    let (solved, additions) = column.split_at(solution.len());
+    solution.copy_from_slice(solved);
+    additions
 }
 
-/// Solves for the columns of one supernode from the rows below, which are known.
+/// Solves for the columns of one supernode, the first entries of `column`, from the rows below, which are known.
 #[inline(always)]
-fn backward<S: Simd>(
-    simd: S,
-    panels: Panels<'_>,
-    supernode: usize,
-    vector: &mut [f64],
-    column: &mut Vec<f64>,
-) {
+fn backward<S: Simd>(simd: S, panels: Panels<'_>, supernode: usize, column: &mut [f64]) {
     let Panels {
         kind,
         supernodes,
         values,
     } = panels;
-    let columns = supernodes.columns(supernode);
-    let below = supernodes.rows_below(supernode);
-    let height = columns.len() + below.len();
-    column.clear();
-    column.extend_from_slice(&vector[columns.clone()]);
-    column.extend(below.iter().map(|&row| vector[row]));
+    let height = column.len();
     let panel = &values[supernodes.panel(supernode)];
     for (index, block) in panel.chunks(BLOCK * height).enumerate().rev() {
         let first = BLOCK * index;
@@ -149,8 +249,6 @@ fn backward<S: Simd>(
             };
         }
     }
-    let n_columns = columns.len();
-    vector[columns].copy_from_slice(&column[..n_columns]);
 }
 
 /// rest <- rest - sum over the columns of the block of l x, at the rows of `rest`.

@@ -47,6 +47,20 @@ impl<'a> Supernodes<'a> {
         starts[supernode]..starts[supernode + 1]
     }
 
+    /// Number of values in the panels of the first supernodes.
+    pub(crate) fn values_before(self, supernode: usize) -> usize {
+        let starts = self.0.map(|structure| structure.col_ptr_for_val());
+        starts.map_or(0, |starts| starts[supernode])
+    }
+
+    /// Number of columns of the first supernodes.
+    pub(crate) fn columns_before(self, supernode: usize) -> usize {
+        match supernode.checked_sub(1) {
+            Some(last) => self.columns(last).end,
+            None => 0,
+        }
+    }
+
     /// Supernode that each row belongs to as a column, shape (n).
     pub(crate) fn of_rows(self) -> Vec<u32> {
         let n_rows = self.0.map_or(0, SymbolicSupernodalCholesky::nrows);

@@ -8,10 +8,12 @@ use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
 };
-use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
+use faer::sparse::{FaerError, SymbolicSparseColMatRef};
 
+use crate::branches::Branch;
 use crate::factor_error::FactorError;
-use crate::matrix::{Pattern, SymmetricMatrix};
+use crate::matrix::Pattern;
+use crate::sources::{Reaching, Sources};
 use crate::supernodes::Supernodes;
 
 /// Operations per entry of the factor above which there are supernodes. faer's own `FORCE_SUPERNODAL` is zero, which a
@@ -34,6 +36,9 @@ pub enum Elimination {
 pub struct Symbolic {
     pattern: Arc<Pattern>,
     pub(crate) cholesky: SymbolicCholesky<usize>,
+    branch: Branch,
+    sources: Sources,
+    reaching: Reaching,
 }
 
 impl Symbolic {
@@ -49,23 +54,37 @@ impl Symbolic {
         };
         let analyse = |ordering| {
             factorize_symbolic_cholesky(symbolic_view(&pattern), Side::Upper, ordering, parameters)
+                .map_err(|error| match error {
+                    FaerError::IndexOverflow => FactorError::IndexOverflow,
+                    _ => FactorError::OutOfMemory {
+                        bytes: size_of::<usize>() * pattern.n_entries(),
+                    },
+                })
         };
-        let cholesky = match elimination {
-            Elimination::MinimumDegree => analyse(SymmetricOrdering::Amd),
+        let (cholesky, sources) = match elimination {
+            Elimination::MinimumDegree => {
+                let cholesky = analyse(SymmetricOrdering::Amd)?;
+                let sources = Sources::new(&pattern, permutation(&cholesky).1)?;
+                (cholesky, sources)
+            }
             Elimination::Given(order) => {
                 let places = inverse(&order);
-                let permutation =
-                    Perm::new_checked(order.into(), places.into(), pattern.dimension());
-                analyse(SymmetricOrdering::Custom(permutation.as_ref()))
+                let checked =
+                    Perm::new_checked(order.into(), places.clone().into(), pattern.dimension());
+                let ordering = SymmetricOrdering::Custom(checked.as_ref());
+                let (cholesky, sources) =
+                    rayon::join(|| analyse(ordering), || Sources::new(&pattern, &places));
+                (cholesky?, sources?)
             }
-        }
-        .map_err(|error| match error {
-            FaerError::IndexOverflow => FactorError::IndexOverflow,
-            _ => FactorError::OutOfMemory {
-                bytes: size_of::<usize>() * pattern.n_entries(),
-            },
-        })?;
-        Ok(Self { pattern, cholesky })
+        };
+        let supernodes = Supernodes::from_analysis(&cholesky);
+        Ok(Self {
+            branch: Branch::of_factor(supernodes),
+            reaching: Reaching::new(supernodes),
+            sources,
+            pattern,
+            cholesky,
+        })
     }
 
     /// The pattern that was analysed.
@@ -93,32 +112,34 @@ impl Symbolic {
             .sum()
     }
 
-    /// The matrix as faer sees it.
-    pub(crate) fn view<'a>(&self, matrix: &'a SymmetricMatrix) -> SparseColMatRef<'a, usize, f64> {
-        debug_assert_eq!(matrix.pattern(), &self.pattern);
-        SparseColMatRef::new(symbolic_view(matrix.pattern()), &matrix.values)
-    }
-
     /// The panels of the factor.
     pub(crate) fn supernodes(&self) -> Supernodes<'_> {
         Supernodes::from_analysis(&self.cholesky)
     }
 
+    /// The parts of the factor that do not wait for each other.
+    pub(crate) fn branch(&self) -> &Branch {
+        &self.branch
+    }
+
+    /// Where the entries of the matrix stand in the factor.
+    pub(crate) fn sources(&self) -> &Sources {
+        &self.sources
+    }
+
+    /// Supernodes that reach others.
+    pub(crate) fn reaching(&self) -> &Reaching {
+        &self.reaching
+    }
+
     /// Index in the matrix of each row of the factor, shape (n).
     pub(crate) fn unknown_of_row(&self) -> &[usize] {
-        self.permutation().0
+        permutation(&self.cholesky).0
     }
 
     /// Row of the factor for each index in the matrix, shape (n).
     pub(crate) fn row_of_unknown(&self) -> &[usize] {
-        self.permutation().1
-    }
-
-    fn permutation(&self) -> (&[usize], &[usize]) {
-        match self.cholesky.perm() {
-            Some(permutation) => permutation.arrays(),
-            None => unreachable!("both ways of ordering permute"),
-        }
+        permutation(&self.cholesky).1
     }
 
     /// Diagonal of the factor's values in the order of elimination, shape (n).
@@ -132,6 +153,14 @@ impl Symbolic {
             diagonal.extend((0..columns).map(|column| panel[column * height + column]));
         }
         diagonal
+    }
+}
+
+/// Index in the matrix of each row of the factor, and row of each index.
+fn permutation(cholesky: &SymbolicCholesky<usize>) -> (&[usize], &[usize]) {
+    match cholesky.perm() {
+        Some(permutation) => permutation.arrays(),
+        None => unreachable!("both ways of ordering permute"),
     }
 }
 

@@ -67,20 +67,18 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
     ) -> Deformations {
         assert_eq!(displacement.len(), M * self.system.cloud.len());
         let ends = &self.system.bonds.ends;
-        let mut deformations = vec![BondDeformation::default(); ends.len()];
-        deformations
-            .par_chunks_mut(TASK)
-            .enumerate()
-            .for_each(|(task, deformations)| {
-                for (bond, deformation) in (task * TASK..).zip(deformations) {
-                    let element = self.whole(intact, bond);
-                    *deformation = element.deformation(displacement);
-                    if !expansion.is_none() {
-                        let thermal = expansion.of_bond(ends[bond]);
-                        *deformation = deformation.less(&element.deformation_in(thermal));
-                    }
-                }
-            });
+        // Collected, so that each thread writes fresh memory once: zeros before would cost as much.
+        let of_bond = |bond: usize| {
+            let element = self.whole(intact, bond);
+            let deformation = element.deformation(displacement);
+            if expansion.is_none() {
+                return deformation;
+            }
+            let thermal = expansion.of_bond(ends[bond]);
+            deformation.less(&element.deformation_in(thermal))
+        };
+        let bonds = (0..ends.len()).into_par_iter().with_min_len(TASK);
+        let deformations = bonds.map(of_bond).collect();
         Deformations::in_plane(deformations)
     }
 
@@ -126,14 +124,18 @@ impl BondSweep {
             let sizes = places.flat_map(|place| sums.iter().map(move |forces| forces.size[place]));
             sizes.fold(0.0, f64::max)
         };
+        let collected = |of_point: fn(&PointForces<M>) -> [f64; M]| {
+            let of_points: Vec<[f64; M]> = sums.iter().map(of_point).collect();
+            of_points.into_flattened()
+        };
         Self {
             internal: InternalForces {
                 force_scale: largest(false),
                 moment_scale: largest(true),
-                values: sums.iter().flat_map(|forces| forces.sum).collect(),
+                values: collected(|forces| forces.sum),
                 thermal: parts.iter().map(|part| part.thermal).sum(),
             },
-            sizes: sums.iter().flat_map(|forces| forces.size).collect(),
+            sizes: collected(|forces| forces.size),
             stored_energy: parts.iter().map(|part| part.energy).sum(),
             expansion_energy: parts.iter().map(|part| part.expansion_energy).sum(),
             deformations,

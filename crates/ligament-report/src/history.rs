@@ -33,9 +33,11 @@ pub(crate) fn read(folder: &Path) -> Result<Value, Error> {
             "displacement" => units.displacement,
             "reaction" => units.force,
             name if name.ends_with("_energy") || name == "external_work" => "J",
-            name if name.ends_with(".force_x") || name.ends_with(".force_y") => "N",
-            name if name.ends_with(".moment") => "N m",
-            _ => "-",
+            name => match name.rsplit_once('.') {
+                Some((_, "force_x" | "force_y" | "force_z")) => "N",
+                Some((_, "moment" | "moment_x" | "moment_y" | "moment_z")) => "N m",
+                _ => "-",
+            },
         };
         columns.push(column(name, unit, &values));
     }

@@ -4,6 +4,9 @@
 //! |---|---|
 //! | [`page`] | the page: what is asked for, and the file that is written |
 //! | `run` | a folder of results as the page has it |
+//! | `parts` | what both kinds of bodies give to a page |
+//! | [`ReportError`] | why there is no page |
+//! | `solid` | pictures of a solid over the steps |
 //! | `body` | points, cells and the order of the points |
 //! | `fields` | fields over the steps |
 //! | `bonds` | bonds, their limits and what became of them |
@@ -19,10 +22,14 @@
 mod body;
 mod bonds;
 mod columns;
+mod error;
 mod fields;
 mod history;
 pub mod page;
+mod parts;
 mod run;
+mod solid;
 mod summary;
 
-pub use page::{Contents, ReportError, Request, Written, write_report};
+pub use error::ReportError;
+pub use page::{Contents, Request, Written, write_report};

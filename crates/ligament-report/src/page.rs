@@ -3,17 +3,18 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use ligament_output::{Error, replace_file};
+use ligament_output::replace_file;
 use serde_json::{Value, json};
-use thiserror::Error as ThisError;
 
-use crate::run::{Choice, PageRun, Texts};
+use crate::error::ReportError;
+use crate::parts::{Choice, Texts};
+use crate::run::PageRun;
 use crate::summary::escaped;
 
 /// The page with places for its parts, and the parts of its program in the order in which they are joined.
 const PAGE: &str = include_str!("viewer/page.html");
 const STYLE: &str = include_str!("viewer/style.css");
-const PROGRAM: [&str; 11] = [
+const PROGRAM: [&str; 12] = [
     include_str!("viewer/columns.js"),
     include_str!("viewer/numbers.js"),
     include_str!("viewer/run.js"),
@@ -24,6 +25,7 @@ const PROGRAM: [&str; 11] = [
     include_str!("viewer/chart.js"),
     include_str!("viewer/charts.js"),
     include_str!("viewer/panel.js"),
+    include_str!("viewer/pictures.js"),
     include_str!("viewer/main.js"),
 ];
 
@@ -41,8 +43,8 @@ pub struct Request {
     pub output: Option<PathBuf>,
     /// Digits of the largest value of a field in each step.
     pub digits: u32,
-    /// Steps of each result at most.
-    pub steps: usize,
+    /// Steps of each result at most; None: 60, and 12 of a solid, of whose steps there are pictures.
+    pub steps: Option<usize>,
     /// Bytes of the page at most, as far as fields and bonds are concerned.
     pub size: usize,
 }
@@ -69,22 +71,6 @@ pub struct Contents {
     pub steps: usize,
     /// Names of fields and properties of bonds for which there was no room.
     pub left_out: Vec<String>,
-}
-
-/// Why there is no page.
-#[derive(Debug, ThisError)]
-pub enum ReportError {
-    /// Results cannot be read, or the page cannot be written.
-    #[error(transparent)]
-    Results(#[from] Error),
-    /// There are as many labels as results, or none.
-    #[error("{n_labels} labels for {n_results} results; give one for each, in their order")]
-    Labels {
-        /// Labels given.
-        n_labels: usize,
-        /// Results given.
-        n_results: usize,
-    },
 }
 
 /// Writes a page of the results.

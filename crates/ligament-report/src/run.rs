@@ -7,6 +7,7 @@ use ligament_output::csv::read::Sheet;
 use ligament_output::folder::RESOLVED_CASE;
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::outputs::{OutputKind, Outputs};
+use ligament_output::results::solid_cracks::has_solid;
 use ligament_output::results::stored::StoredRun;
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::{Error, read_text};
@@ -17,39 +18,20 @@ use serde_json::{Value, json};
 use crate::body::Body;
 use crate::bonds::Bonds;
 use crate::columns::{Column, Digits};
+use crate::error::ReportError;
 use crate::fields::{self, Field};
 use crate::history::{self, shown};
-use crate::summary;
+use crate::parts::{Budget, Choice, Drawn, Stored, Texts};
+use crate::{solid, summary};
 
 /// Digits of positions, of the largest coordinate.
 const PLACES: u32 = 6;
 
-/// What a page takes of a run.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Choice {
-    /// Digits of the largest value of a field in each step.
-    pub(crate) digits: u32,
-    /// Steps at most.
-    pub(crate) steps: usize,
-    /// Letters that its body, fields and bonds may take.
-    pub(crate) letters: usize,
-}
+/// Steps of a body in the plane, which the page draws, where nobody says how many ...
+const DRAWN: usize = 60;
 
-/// Texts of columns, which the description of a run names by number.
-#[derive(Debug, Default)]
-pub(crate) struct Texts(pub(crate) Vec<String>);
-
-impl Texts {
-    fn letters(&self) -> usize {
-        self.0.iter().map(String::len).sum()
-    }
-
-    fn add(&mut self, column: Column) -> Value {
-        let first = self.0.len();
-        self.0.extend(column.groups);
-        json!({"texts": [first, self.0.len()], "exponents": column.exponents})
-    }
-}
+/// ... and of a solid, of which it has a picture for each step, view and field.
+const PICTURED: usize = 12;
 
 /// A run in a page.
 #[derive(Debug)]
@@ -79,86 +61,94 @@ impl PageRun {
         label: &str,
         choice: Choice,
         texts: &mut Texts,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, ReportError> {
         let outputs = Outputs::list(folder)?;
-        let files = chosen(&outputs, choice.steps)?;
+        let is_solid = has_solid(folder)?;
+        let usual = if is_solid { PICTURED } else { DRAWN };
+        let files = chosen(&outputs, choice.steps.unwrap_or(usual))?;
         let summary = summary_of(folder)?;
         let case = read_text(&folder.join(RESOLVED_CASE))?;
-        let body = Body::read(&VtuFile::open(first(&files, folder)?)?)?;
         let steps: Vec<usize> = files.keys().copied().collect();
-        let bonds = stored(folder)?.map(|run| Bonds::new(&run, &body));
-        let fields = fields::read(&files, &body, choice.digits)?;
-        let moved = fields.iter().find(|it| it.name == "displacement");
-        let before = texts.letters();
-        let drawn = describe_body(&body, moved.map_or(0.0, |it| it.usual), texts);
-        let of_body = texts.letters() - before;
-        let mut budget = Budget::new(choice.letters.saturating_sub(of_body));
-        let fields: Vec<Value> = (fields.into_iter())
-            .filter(|it| budget.takes(&it.name, it.letters()))
-            .map(|it| describe_field(it, outputs.kind, texts))
-            .collect();
-        let bonds = bonds
-            .filter(|it| budget.takes("bonds", it.letters()))
-            .map_or(Value::Null, |it| describe_bonds(it, texts, &mut budget));
+        let first = VtuFile::open(first(&files, folder)?)?;
+        let of = Stored {
+            folder,
+            files: &files,
+            kind: outputs.kind,
+        };
+        let drawn = match is_solid {
+            true => solid::drawn(&of, &first, choice, texts)?,
+            false => drawn(&of, &first, choice, texts)?,
+        };
         let is_modes = outputs.kind == OutputKind::Modes;
-        let (history, cracks) = match is_modes {
-            true => (modes(folder)?, Value::Null),
-            false => (history::read(folder)?, cracks(folder, &steps)?),
+        let history = match is_modes {
+            true => modes(folder)?,
+            false => history::read(folder)?,
         };
         let title = summary["title"].as_str().unwrap_or(label).to_owned();
-        let precracks = stored_precracks(folder)?;
-        let precracks: Vec<&[f64]> = precracks.iter().map(|it| it.as_flattened()).collect();
         let follows_path = stored_loading(folder)?.follows_path;
+        let mut description = json!({
+            "label": label,
+            "title": title,
+            "kind": if is_modes { "modes" } else { "steps" },
+            "steps": steps,
+            "beforeBreakages": follows_path,
+            "history": history,
+        });
+        if let (Value::Object(all), Value::Object(parts)) = (&mut description, drawn.parts) {
+            all.extend(parts);
+        }
         Ok(Self {
             html: summary::html(&summary, outputs.kind, &case),
-            points: body.tags.len(),
+            points: drawn.points,
             steps: steps.len(),
-            left_out: budget.left_out,
-            description: json!({
-                "label": label,
-                "title": title,
-                "kind": if is_modes { "modes" } else { "steps" },
-                "steps": steps,
-                "beforeBreakages": follows_path,
-                "history": history,
-                "body": drawn,
-                "fields": fields,
-                "bonds": bonds,
-                "cracks": cracks,
-                "precracks": precracks,
-            }),
+            left_out: drawn.left_out,
+            description,
             title,
         })
     }
 }
 
-/// Letters that are left for columns.
-struct Budget {
-    letters: usize,
-    left_out: Vec<String>,
-}
-
-impl Budget {
-    fn new(letters: usize) -> Self {
-        Self {
-            letters,
-            left_out: Vec::new(),
-        }
-    }
-
-    /// Whether there is room for so many letters, which are then taken.
-    fn takes(&mut self, name: &str, letters: usize) -> bool {
-        match self.letters.checked_sub(letters) {
-            Some(left) => {
-                self.letters = left;
-                true
-            }
-            None => {
-                self.left_out.push(name.to_owned());
-                false
-            }
-        }
-    }
+/// A body in the plane, which the page draws itself: its fields, bonds and cracks.
+fn drawn(
+    of: &Stored<'_>,
+    first: &VtuFile,
+    choice: Choice,
+    texts: &mut Texts,
+) -> Result<Drawn, ReportError> {
+    let body = Body::read(first)?;
+    let bonds = stored(of.folder)?.map(|run| Bonds::new(&run, &body));
+    let fields = fields::read(of.files, &body, choice.digits)?;
+    let moved = fields.iter().find(|it| it.name == "displacement");
+    let before = texts.letters();
+    let described = describe_body(&body, moved.map_or(0.0, |it| it.usual), texts);
+    let of_body = texts.letters() - before;
+    let mut budget = Budget::new(choice.letters.saturating_sub(of_body));
+    let fields: Vec<Value> = (fields.into_iter())
+        .filter(|it| budget.takes(&it.name, it.letters()))
+        .map(|it| describe_field(it, of.kind, texts))
+        .collect();
+    let bonds = bonds
+        .filter(|it| budget.takes("bonds", it.letters()))
+        .map_or(Value::Null, |it| describe_bonds(it, texts, &mut budget));
+    let steps: Vec<usize> = of.files.keys().copied().collect();
+    let cracks = match of.kind {
+        OutputKind::Modes => Value::Null,
+        OutputKind::Steps => cracks(of.folder, &steps)?,
+    };
+    let precracks = stored_precracks(of.folder)?;
+    let precracks: Vec<&[f64]> = precracks.iter().map(|it| it.as_flattened()).collect();
+    Ok(Drawn {
+        parts: json!({
+            "body": described,
+            "fields": fields,
+            "bonds": bonds,
+            "cracks": cracks,
+            "precracks": precracks,
+            "pictures": Value::Null,
+        }),
+        points: body.tags.len(),
+        left_out: budget.left_out,
+    })
 }
 
 /// The files of the steps of a page: all, or an even choice with the first, the largest load and the last.

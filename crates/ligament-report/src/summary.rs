@@ -144,11 +144,12 @@ fn bond(bond: &Value) -> Option<String> {
     let ends = bond["ends"].as_array()?;
     let [a, b] = [ends.first()?, ends.get(1)?].map(Value::to_string);
     let place = bond["place"].as_array()?;
-    let mm = |axis: usize| place.get(axis).and_then(Value::as_f64).map(|it| 1e3 * it);
-    let (x, y) = (mm(0)?, mm(1)?);
+    let mm = |it: &Value| Some(format!("{:.2}", 1e3 * it.as_f64()?));
+    let place: Option<Vec<String>> = place.iter().map(mm).collect();
     let (step, criterion) = (&bond["step"], bond["criterion"].as_str()?);
+    let place = place?.join(", ");
     Some(format!(
-        "{a} to {b} at ({x:.2}, {y:.2}) mm, in step {step}, by {criterion}"
+        "{a} to {b} at ({place}) mm, in step {step}, by {criterion}"
     ))
 }
 

@@ -13,12 +13,16 @@ use ligament_output::results::{
     CRACK_FILES, SURFACE_FILES, write_cracks, write_series, write_surface,
 };
 
+use ligament_plot::picture::{IsosurfaceRequest, write_isosurfaces};
+
+use super::numbers;
 use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
   ligament crack results/plate                the cracks of the last state
   ligament crack results/plate --step peak
+  ligament crack results/beam --iso 0.3       of a solid, the surface on which the damage is 0.3
 
 Writes crack.csv and crack.vtu (the lines of the step), crack_tips.csv (the tips over the load) and crack_growth.csv (length,
 area and energy release rate over the load) into the folder. A crack runs along the faces between the cells of points
@@ -26,7 +30,8 @@ whose bond broke; what is nearer than a horizon is one crack, and what stays sho
 
 Of a solid the crack is a surface of triangles: crack.vtu and crack.stl have it with its opening, opened.vtu has the cells of
 a mesh opened along it, and crack_growth.csv its area over the load. --step all writes the surface and the opened cells of all
-stored steps, crack.pvd and opened.pvd.";
+stored steps, crack.pvd and opened.pvd. --iso writes another surface, where a field has a value, and nothing else: iso.vtu has its
+triangles with all fields of the points; with --step all iso_NNNN.vtu and iso.pvd.";
 
 /// `ligament crack`.
 #[derive(Debug, Args)]
@@ -37,11 +42,20 @@ pub struct CrackArgs {
     /// Step of the crack: a number, first (breakage), peak or last; of a solid also all
     #[arg(long, value_name = "STEP", default_value = "last")]
     pub step: StepChoice,
+    /// Write the surface in a solid on which a field has this value, in SI units, into iso.vtu
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true, value_parser = number)]
+    pub iso: Option<f64>,
+    /// Field of the surface: of a vector the norm, or NAME.x and so on, of a stress NAME.xx and so on
+    #[arg(long, value_name = "NAME", default_value = "damage", requires = "iso")]
+    pub field: String,
 }
 
 impl CrackArgs {
     /// Does it.
     pub(super) fn execute(self) -> anyhow::Result<()> {
+        if let Some(level) = self.iso {
+            return self.isosurface(level);
+        }
         if has_solid(&self.results)? {
             return self.surface();
         }
@@ -96,7 +110,11 @@ impl CrackArgs {
         let choice = match self.step {
             StepChoice::All => {
                 let count = write_series(&self.results, &cracks)?;
-                writeln!(out, "{count} steps in crack.pvd and opened.pvd")?;
+                // Boxes of a lattice part by themselves.
+                let written = ["crack.pvd", "opened.pvd"].into_iter();
+                let written = written.filter(|it| self.results.join(it).is_file());
+                let written: Vec<&str> = written.collect();
+                writeln!(out, "{count} steps: {}", written.join(", "))?;
                 StepChoice::One(StepName::Last)
             }
             one => one,
@@ -116,6 +134,41 @@ impl CrackArgs {
             self.results.display()
         )?)
     }
+}
+
+impl CrackArgs {
+    /// The surface in a solid on which a field has a value.
+    fn isosurface(self, level: f64) -> anyhow::Result<()> {
+        let written = write_isosurfaces(&IsosurfaceRequest {
+            folder: self.results,
+            field: self.field.clone(),
+            level,
+            step: self.step,
+        })?;
+        let mut out = terminal::stdout();
+        for it in written {
+            match it.triangles {
+                0 => writeln!(
+                    out,
+                    "step {}: {} is nowhere {level}, no file",
+                    it.step, self.field
+                )?,
+                count => writeln!(
+                    out,
+                    "step {}: {} = {level} on {}, {count} triangles in {}",
+                    it.step,
+                    self.field,
+                    quantity(it.area, "m^2"),
+                    it.path.display()
+                )?,
+            }
+        }
+        Ok(())
+    }
+}
+
+fn number(text: &str) -> Result<f64, String> {
+    numbers::number(text).ok_or_else(|| format!("`{text}` is not a number"))
 }
 
 /// Tells area, plane and parts of a surface.

@@ -20,7 +20,8 @@ Examples:
 
 The page is one file without anything from a network: open it in a browser, send it, print it. It has
 summary and warnings, force over displacement, energies and convergence, and the body with any field,
-step by step; point at it for values, click for bonds and what became of them.";
+step by step; point at it for values, click for bonds and what became of them. Of a solid it has pictures:
+the outside, sections through the middle, and the crack surface.";
 
 /// `ligament report`.
 #[derive(Debug, Args)]
@@ -37,9 +38,9 @@ pub struct ReportArgs {
     /// Digits that the largest value of a field in a step keeps
     #[arg(long, value_name = "N", default_value = "5", value_parser = clap::value_parser!(u32).range(2..=8))]
     pub digits: u32,
-    /// Steps of a result at most; of more an even choice, with the largest load
-    #[arg(long, value_name = "N", default_value = "60", value_parser = clap::value_parser!(u32).range(2..))]
-    pub steps: u32,
+    /// Steps of a result at most; of more an even choice, with the largest load [default: 60, of a solid 12]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..))]
+    pub steps: Option<u32>,
     /// Megabytes of the page at most: what a reader wants least is left out, and named
     #[arg(long, value_name = "MB", default_value = "15", value_parser = megabytes)]
     pub size: f64,
@@ -53,7 +54,7 @@ impl ReportArgs {
             labels: self.labels,
             output: self.output,
             digits: self.digits,
-            steps: self.steps as usize,
+            steps: self.steps.map(|it| it as usize),
             size: (self.size * MEGABYTE) as usize,
         })?;
         let mut out = terminal::stdout();

@@ -157,7 +157,11 @@ impl WithSimd for Walk<'_, '_> {
                     values,
                 };
                 let column = &mut self.modification.column;
-                substitution::forward(simd, panels, supernode, right_hand_side, column);
+                let solution = &mut right_hand_side[supernodes.columns(supernode)];
+                let additions = substitution::forward(simd, panels, supernode, solution, column);
+                for (&row, value) in supernodes.rows_below(supernode).iter().zip(additions) {
+                    right_hand_side[row] += value;
+                }
             }
             if let Some(&parent_row) = supernodes.rows_below(supernode).first() {
                 self.modification.touch(parent_row);

@@ -27,7 +27,7 @@ fn assert_like_new(
 }
 
 /// Some weights of terms changed: pairs lose a part or all of what they have, or gain.
-fn random_terms(system: &mut System, count: usize, random: &mut Random) -> Vec<RankOne> {
+pub(crate) fn random_terms(system: &mut System, count: usize, random: &mut Random) -> Vec<RankOne> {
     let pairs = system.terms_of_pairs();
     (0..count)
         .map(|_| {
@@ -321,39 +321,5 @@ fn changing_back_returns() {
                 &format!("{kind:?}"),
             );
         }
-    }
-}
-
-/// Equal calls give equal bits, in a pool of any number of threads.
-#[test]
-fn the_number_of_threads_does_not_matter() {
-    let run = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
-        pool.install(|| {
-            let mut random = Random(18);
-            let original = System::new(&Graph::lattice(16, 3.0), 3, &mut random);
-            let symbolic = original.symbolic(Elimination::MinimumDegree);
-            let mut results = Vec::new();
-            for kind in KINDS {
-                let mut system = original.clone();
-                let mut factor = system.factor(kind, &symbolic);
-                for count in [3, 0, 40] {
-                    let terms = random_terms(&mut system, count, &mut random);
-                    let b = random.vector(system.n());
-                    let half_solved = factor.change(&terms, &listed(&b)[..20]).unwrap();
-                    results.extend(bits(&factor.finish(half_solved)));
-                    results.extend(bits(&solve(factor.as_mut(), &b)));
-                }
-                results.extend(bits(&factor.pivots()));
-            }
-            results
-        })
-    };
-    let alone = run(1);
-    for threads in [1, 2, 3, 8] {
-        assert_eq!(run(threads), alone, "{threads} threads");
     }
 }

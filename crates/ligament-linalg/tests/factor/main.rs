@@ -5,6 +5,7 @@ mod changes;
 mod failures;
 mod solving;
 mod systems;
+mod threads;
 
 /// Unit roundoff times two.
 const EPSILON: f64 = f64::EPSILON;

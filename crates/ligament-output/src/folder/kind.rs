@@ -10,7 +10,7 @@ pub(super) const LOCK: &str = ".lock";
 pub(super) const REPLACED: &str = ".replaced";
 
 /// Files of a run whose names do not vary.
-const OF_A_RUN: [&str; 22] = [
+const OF_A_RUN: [&str; 23] = [
     RESOLVED_CASE,
     "breaks.csv",
     "crack.csv",
@@ -22,6 +22,7 @@ const OF_A_RUN: [&str; 22] = [
     "criteria.csv",
     "history.csv",
     "iterations.csv",
+    "iso.pvd",
     "iso.vtu",
     "model.vtu",
     "modes.csv",
@@ -36,7 +37,7 @@ const OF_A_RUN: [&str; 22] = [
 ];
 
 /// Files of a run that have a number, by what stands before it.
-const NUMBERED: [&str; 5] = ["fields_", "bonds_", "mode_", "crack_", "opened_"];
+const NUMBERED: [&str; 6] = ["fields_", "bonds_", "mode_", "crack_", "opened_", "iso_"];
 
 /// A kind of result folder.
 #[derive(Debug, Clone, Copy)]

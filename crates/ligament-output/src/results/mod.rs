@@ -13,12 +13,14 @@
 //! | `bonds_NNNN.vtu`, `bonds.pvd` | the bonds as lines, if wanted |
 //!
 //! The cracks of a stored run as lines, their tips and their growth are written afterwards ([`write_cracks`]).
+//! So is the surface in a solid on which a field has a value ([`write_level_set`]).
 //! A modal analysis writes `modes.csv`, `mode_NNNN.vtu` and `modes.pvd` instead ([`write_modes`]).
 
 mod crack_tables;
 pub mod cracks;
 mod grid;
 mod largest;
+mod level_files;
 mod model_file;
 mod modes;
 mod opened_files;
@@ -47,6 +49,7 @@ use crate::vtu::{self, Field, UnstructuredGrid};
 pub use crack_tables::{CRACK_COLUMNS, CRACK_FILES, write_cracks};
 pub use grid::{fixed_fields, point_grid, write_points};
 use largest::Largest;
+pub use level_files::write_level_set;
 pub use modes::write_modes;
 use outputs::remove_others;
 pub use point_fields::{FieldValues, PointFields, displacements};

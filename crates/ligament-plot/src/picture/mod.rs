@@ -14,6 +14,7 @@ mod crack;
 pub mod curve;
 mod field;
 mod fields;
+mod isosurface;
 mod joined;
 mod levels;
 mod lines;
@@ -39,10 +40,11 @@ use thiserror::Error;
 
 pub use field::unit_of;
 pub use fields::draw_fields;
+pub use isosurface::{Isosurface, IsosurfaceRequest, write_isosurfaces};
 pub use lines::stored_precracks;
 pub use of_run::{asks_for_pictures, draw_run};
 pub use request::{CrackDrawing, FieldRequest, Magnification, SolidRequest};
-pub use series::{animate, draw_each};
+pub use series::{animate, draw_each, pictures_of_each};
 pub use solid::{Section, View};
 pub use target::{Format, Target};
 
@@ -106,7 +108,9 @@ pub enum PictureError {
         n_results: usize,
     },
     /// A solid in a kind of picture that shows bodies in the plane.
-    #[error("{0} draws bodies in the plane, and this one is a solid")]
+    #[error(
+        "{0} shows bodies in the plane, and this one is a solid; draw it, or a section of it, by `ligament plot`"
+    )]
     Solid(&'static str),
     /// A view, section or level for a body in the plane.
     #[error("{0} has a body in the plane; --view, --section and --iso are for solids")]

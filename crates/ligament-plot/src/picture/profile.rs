@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use ligament_output::FieldLocation;
 use ligament_output::csv::{Value, line};
 use ligament_output::results::outputs::Outputs;
+use ligament_output::results::solid_body::is_solid;
 use ligament_output::results::steps::StepChoice;
 use ligament_output::vtu::read::VtuFile;
 
@@ -76,6 +77,9 @@ struct Sampled {
 
 impl Sampled {
     fn read(file: &VtuFile, request: &ProfileRequest) -> Result<Self, PictureError> {
+        if is_solid(file)? {
+            return Err(PictureError::Solid("a profile"));
+        }
         let fields: Result<Vec<Field>, PictureError> = request
             .fields
             .iter()

@@ -22,6 +22,7 @@ class Page {
     this.canvas = element("body");
     this.drawing = Drawing.on(this.canvas);
     this.panel = new Panel();
+    this.pictures = new Pictures(() => this.showStep());
     this.charts = new Charts(this.runs, (number, step) => this.go(step, this.runs[number]));
     this.asked = 0;
     this.pinned = null;
@@ -45,18 +46,26 @@ class Page {
   async showRun(run) {
     const isOther = run !== this.run;
     this.run = run;
-    const choice = isOther ? element("field").value : run.firstChoice;
-    options(element("field"), run.choices.map((it) => [it.id, it.label]));
-    element("field").value = run.choice(choice).id;
     if (isOther) this.step = Math.min(this.step, run.steps.length - 1);
     Object.assign(element("step"), { max: run.steps.length - 1, value: this.step });
     element("step").closest(".steps").hidden = run.steps.length < 2;
-    this.offerMagnifications();
-    this.offerCracks();
-    if (run.isModes) element("scale").value = "inner";
     element("run").value = this.runs.indexOf(run);
     for (const summary of document.querySelectorAll(".summary")) summary.hidden = Number(summary.dataset.run) !== this.runs.indexOf(run);
     this.charts.showRun(run);
+    document.body.classList.toggle("solid", run.isSolid);
+    if (run.isSolid) this.pictures.offer(run);
+    else await this.showBody(run, isOther);
+    await this.showStep();
+  }
+
+  // A body in the plane, which is drawn here.
+  async showBody(run, isOther) {
+    const choice = isOther ? element("field").value : run.firstChoice;
+    options(element("field"), run.choices.map((it) => [it.id, it.label]));
+    element("field").value = run.choice(choice).id;
+    this.offerMagnifications();
+    this.offerCracks();
+    if (run.isModes) element("scale").value = "inner";
     this.pinned = null;
     this.family = [];
     this.panel.clear();
@@ -66,7 +75,6 @@ class Page {
     this.camera.reset();
     this.reference = new Places(this.body.x, this.body.y);
     this.drawing?.setTriangles(this.body.corners ? cornersOfSquares(this.run.nPoints) : this.body.triangles);
-    await this.showStep();
   }
 
   offerMagnifications() {
@@ -104,6 +112,12 @@ class Page {
     const asked = ++this.asked;
     const { run, step, choice } = this;
     this.tellStep();
+    if (run.isSolid) {
+      this.values = null;
+      if (await this.pictures.show(step)) document.documentElement.dataset.drawn = `${run.label} ${run.steps[step]} ${this.pictures.view.value} ${this.pictures.field.value}`;
+      this.charts.mark(run, this.step);
+      return;
+    }
     const [values, displacement, inner] = await Promise.all([
       run.values(choice, step), run.displacement(step), this.readLayers(),
     ]);
@@ -365,10 +379,10 @@ class Page {
   }
 
   key(event) {
-    const isElsewhere = event.target !== document.body && event.target !== this.canvas;
+    const isOnBody = event.target === this.canvas || event.target === this.pictures.image;
+    const isElsewhere = event.target !== document.body && !isOnBody;
     if (isElsewhere || event.ctrlKey || event.metaKey || event.altKey) return;
     const moves = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] };
-    const isOnBody = event.target === this.canvas;
     if (event.shiftKey && moves[event.key]) {
       this.camera.moveBy(...moves[event.key]);
       this.redraw();
@@ -379,7 +393,7 @@ class Page {
     else if (event.key === "+" || event.key === "=") this.zoom(1.25);
     else if (event.key === "-") this.zoom(1 / 1.25);
     else if (event.key === "0") this.zoom(0);
-    else if (event.key === "Enter" && isOnBody) this.pin(this.pointAt(this.camera.width / 2, this.camera.height / 2));
+    else if (event.key === "Enter" && isOnBody && !this.run.isSolid) this.pin(this.pointAt(this.camera.width / 2, this.camera.height / 2));
     else if (event.key === "Escape") this.pin(null);
     else return;
     event.preventDefault();
@@ -401,6 +415,7 @@ class Page {
 
   // A picture in place of the canvas, which not every browser prints.
   print(isBefore) {
+    if (this.run.isSolid) return;
     const picture = element("printed");
     if (isBefore && this.drawing) picture.src = this.canvas.toDataURL("image/png");
     picture.hidden = !(isBefore && this.drawing);

@@ -6,8 +6,11 @@ class Run {
     this.label = description.label;
     this.steps = description.steps;
     this.isModes = description.kind === "modes";
+    // Of a solid there are pictures in place of a body with fields.
+    this.pictures = description.pictures;
+    this.isSolid = Boolean(this.pictures);
     const { body } = description;
-    this.nPoints = body.count;
+    this.nPoints = body?.count ?? 0;
     this.fields = description.fields.map((field) => ({
       ...field,
       columns: field.columns.map((column) => new Column(column, body.count)),

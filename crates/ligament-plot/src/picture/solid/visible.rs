@@ -1,5 +1,7 @@
 //! What of triangles and lines is not hidden by other triangles.
 
+use std::ops::Range;
+
 /// Dots of the buffer to the pixel along each side.
 const DOTS: f64 = 3.0;
 
@@ -14,6 +16,25 @@ pub(super) struct DepthBuffer {
     size: [usize; 2],
     /// Depth, m, and number of the nearest triangle, the first of equals; rows from below.
     nearest: Vec<(f64, u32)>,
+}
+
+/// Share of a triangle by which a dot may lie outside of it, so that none is lost between two triangles.
+const SLACK: f64 = 1e-9;
+
+/// The part of a range in which none of three linear functions is below zero.
+fn within(whole: Range<f64>, starts: [f64; 3], slopes: [f64; 3]) -> Range<f64> {
+    let mut part = whole;
+    for (start, slope) in starts.into_iter().zip(slopes) {
+        let zero = -(SLACK + start) / slope;
+        if slope > 0.0 {
+            part.start = part.start.max(zero);
+        } else if slope < 0.0 {
+            part.end = part.end.min(zero);
+        } else if start < -SLACK {
+            part.end = part.start - 1.0;
+        }
+    }
+    part
 }
 
 /// No triangle.
@@ -64,19 +85,28 @@ impl DepthBuffer {
             low as usize..(high + 1.0).clamp(0.0, self.size[axis] as f64) as usize
         };
         let (columns, rows) = (span(0), span(1));
+        // Shares of the corners are linear over the dots, and so is the depth.
+        let share = |p: [f64; 2], q: [f64; 2]| {
+            let slopes = [(p[1] - q[1]) / twice, (q[0] - p[0]) / twice];
+            (slopes, -slopes[0] * p[0] - slopes[1] * p[1])
+        };
+        let shares = [share(b, c), share(c, a), share(a, b)];
+        let depths = corners.map(|it| it[2]);
+        let along = (0..3).map(|it| shares[it].0[0] * depths[it]).sum::<f64>();
         for row in rows {
-            for column in columns.clone() {
-                let at = [column as f64, row as f64];
-                let share = |p: [f64; 2], q: [f64; 2]| {
-                    ((q[0] - p[0]) * (at[1] - p[1]) - (q[1] - p[1]) * (at[0] - p[0])) / twice
-                };
-                let shares = [share(b, c), share(c, a), share(a, b)];
-                if shares.iter().all(|it| *it >= 0.0) {
-                    let depth = (0..3).map(|it| shares[it] * corners[it][2]).sum();
-                    let nearest = &mut self.nearest[row * self.size[0] + column];
-                    if depth > nearest.0 {
-                        *nearest = (depth, number);
-                    }
+            let starts = shares.map(|([_, up], at)| at + up * row as f64);
+            let slopes = shares.map(|it| it.0[0]);
+            let whole = columns.start as f64..columns.end as f64 - 1.0;
+            let inside = within(whole, starts, slopes);
+            let depth = (0..3).map(|it| starts[it] * depths[it]).sum::<f64>();
+            let first = inside.start.ceil() as usize;
+            let end = (inside.end.floor() + 1.0).max(0.0) as usize;
+            let start = row * self.size[0];
+            let dots = self.nearest.get_mut(start + first..start + end);
+            for (column, nearest) in (first..).zip(dots.unwrap_or_default()) {
+                let depth = depth + along * column as f64;
+                if depth > nearest.0 {
+                    *nearest = (depth, number);
                 }
             }
         }

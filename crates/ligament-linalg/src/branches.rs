@@ -1,0 +1,221 @@
+//! Parts of the factor that do not wait for each other: the elimination tree, cut into branches.
+//!
+//! A supernode needs those of its own subtree alone (Liu 1990), so subtrees
+//! are tasks of their own. Supernodes keep their numbers: a subtree here is a range of them, which takes in what an awkward order puts
+//! between two descendants. Nothing of this depends on the number of threads.
+
+use std::ops::Range;
+
+use crate::supernodes::Supernodes;
+
+/// Values of the factor that make a task worth while: a substitution takes a tenth of a millisecond for them.
+const SMALLEST_TASK: usize = 100_000;
+
+/// Share of the factor that a task has at most, unless one supernode has more.
+const MOST_TASKS: usize = 32;
+
+/// Consecutive supernodes that need no others: parts, and then a stem.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Branch {
+    /// Branches that need nothing of each other, ascending and without a gap up to the stem; none or several.
+    pub(crate) parts: Vec<Branch>,
+    /// Supernodes that may need those of all parts and those before them in the stem.
+    pub(crate) stem: Range<usize>,
+}
+
+impl Branch {
+    /// The whole factor.
+    pub(crate) fn of_factor(supernodes: Supernodes<'_>) -> Self {
+        let count = supernodes.len();
+        let total = supernodes.values_before(count);
+        let cutting = Cutting {
+            first: first_supernodes(supernodes),
+            supernodes,
+            most: (total / MOST_TASKS).max(SMALLEST_TASK),
+        };
+        cutting.branch(0..count)
+    }
+
+    /// All supernodes of the branch.
+    pub(crate) fn supernodes(&self) -> Range<usize> {
+        let mut first = self;
+        while let Some(part) = first.parts.first() {
+            first = part;
+        }
+        first.stem.start..self.stem.end
+    }
+}
+
+/// For each supernode the first one of the smallest range that ends with it and needs no supernode outside.
+fn first_supernodes(supernodes: Supernodes<'_>) -> Vec<usize> {
+    let count = supernodes.len();
+    let of_row = supernodes.of_rows();
+    let mut first_child: Vec<usize> = (0..count).collect();
+    let mut first = Vec::with_capacity(count);
+    // Last supernodes of the ranges so far that none includes.
+    let mut ends: Vec<usize> = Vec::new();
+    for supernode in 0..count {
+        let mut start = first_child[supernode];
+        while let Some(end) = ends.pop_if(|end| *end >= start) {
+            start = start.min(first[end]);
+        }
+        first.push(start);
+        ends.push(supernode);
+        if let Some(&row) = supernodes.rows_below(supernode).first() {
+            let parent = &mut first_child[of_row[row] as usize];
+            *parent = supernode.min(*parent);
+        }
+    }
+    first
+}
+
+struct Cutting<'a> {
+    supernodes: Supernodes<'a>,
+    /// As of [`first_supernodes`].
+    first: Vec<usize>,
+    /// Values of the factor that are not cut any further.
+    most: usize,
+}
+
+impl Cutting<'_> {
+    fn is_heavy(&self, range: &Range<usize>) -> bool {
+        let Range { start, end } = *range;
+        self.supernodes.values_before(end) - self.supernodes.values_before(start) > self.most
+    }
+
+    /// The ranges that need nothing of each other, from the first to the last, within one that needs no others.
+    fn independent(&self, range: Range<usize>) -> Vec<Range<usize>> {
+        let mut ranges = Vec::new();
+        let mut end = range.end;
+        while end > range.start {
+            let start = self.first[end - 1];
+            ranges.push(start..end);
+            end = start;
+        }
+        ranges.reverse();
+        ranges
+    }
+
+    /// A range that needs no others as a branch. Only where two heavy ones meet are there branches of branches, which bounds their depth.
+    fn branch(&self, range: Range<usize>) -> Branch {
+        let mut stem = range.end..range.end;
+        let mut ranges = self.independent(range);
+        let mut from = 0;
+        loop {
+            let is_heavy = |place: &usize| self.is_heavy(&ranges[*place]);
+            let mut heavy = (from..ranges.len()).filter(is_heavy);
+            let (Some(place), None) = (heavy.next(), heavy.next()) else {
+                break;
+            };
+            stem.start = ranges[place].end - 1;
+            let below = ranges[place].start..stem.start;
+            ranges.truncate(place);
+            ranges.extend(self.independent(below));
+            from = place;
+        }
+        let mut parts: Vec<Branch> = Vec::new();
+        let mut light: Option<Range<usize>> = None;
+        for range in ranges {
+            let with = light.as_ref().map(|light| light.start..range.end);
+            if let Some(with) = with.filter(|with| !self.is_heavy(with)) {
+                light = Some(with);
+                continue;
+            }
+            parts.extend(light.take().map(task));
+            if self.is_heavy(&range) {
+                parts.push(self.branch(range));
+            } else {
+                light = Some(range);
+            }
+        }
+        parts.extend(light.map(task));
+        if let [one] = parts.as_slice() {
+            stem.start = one.stem.start;
+            parts.clear();
+        }
+        Branch { parts, stem }
+    }
+}
+
+/// Supernodes one after the other.
+fn task(stem: Range<usize>) -> Branch {
+    let parts = Vec::new();
+    Branch { parts, stem }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::matrix::Pattern;
+    use crate::symbolic::{Elimination, Symbolic};
+    use std::sync::Arc;
+
+    /// The structure of a matrix with a diagonal and some entries (row, column) above it.
+    fn structure(n: usize, above: impl Iterator<Item = (usize, usize)>) -> Symbolic {
+        let mut columns = vec![Vec::new(); n];
+        above.for_each(|(row, column)| columns[column].push(row));
+        let (mut starts, mut rows) = (vec![0], Vec::new());
+        for (column, mut of_column) in columns.into_iter().enumerate() {
+            of_column.sort_unstable();
+            of_column.dedup();
+            rows.extend(of_column);
+            rows.push(column);
+            starts.push(rows.len());
+        }
+        let pattern = Arc::new(Pattern::new(starts, rows).expect("pattern"));
+        let in_turn = Elimination::Given((0..n).collect());
+        Symbolic::analyse(pattern, in_turn).expect("analysis")
+    }
+
+    /// Checks that parts need nothing of each other, and gives the supernodes of the branch, in their order, and its depth.
+    fn checked(supernodes: Supernodes<'_>, branch: &Branch) -> (Vec<usize>, usize) {
+        let (mut all, mut depth) = (Vec::new(), 0);
+        let of_row = supernodes.of_rows();
+        for part in &branch.parts {
+            let (of_part, depth_of_part) = checked(supernodes, part);
+            for &supernode in &of_part {
+                for &row in supernodes.rows_below(supernode) {
+                    let reached = of_row[row] as usize;
+                    assert!(part.supernodes().contains(&reached) || reached >= branch.stem.start);
+                }
+            }
+            all.extend(of_part);
+            depth = depth.max(depth_of_part + 1);
+        }
+        all.extend(branch.stem.clone());
+        (all, depth)
+    }
+
+    /// A chain, two chains, a chain with a leaf before each link, blocks on a common border, and one supernode.
+    #[test]
+    fn branches_need_nothing_of_each_other() {
+        let n = 150_000;
+        let pairs = (0..n - 1).map(|k| (k, k + 1));
+        let halves = (0..n - 1).filter(|k| k + 1 != n / 2).map(|k| (k, k + 1));
+        let leaves = (0..n - 2)
+            .step_by(2)
+            .flat_map(|k| [(k, k + 1), (k + 1, k + 3)]);
+        let leaves = leaves.filter(|&(_, column)| column < n);
+        let blocks = (0..1_000).flat_map(|block| {
+            let inside =
+                (0..20).flat_map(move |b| (0..b).map(move |a| (20 * block + a, 20 * block + b)));
+            inside.chain((0..20).map(move |a| (20 * block + a, 20_000 + a)))
+        });
+        let full = (0..500).flat_map(|b| (0..b).map(move |a| (a, b)));
+        for (name, symbolic, has_parts) in [
+            ("chain", structure(n, pairs), false),
+            ("two chains", structure(n, halves), true),
+            ("leaves", structure(n, leaves), false),
+            ("blocks", structure(20_020, blocks), true),
+            ("full", structure(500, full), false),
+        ] {
+            let supernodes = symbolic.supernodes();
+            assert!(symbolic.n_factor_values() > 2 * SMALLEST_TASK, "{name}");
+            let branch = Branch::of_factor(supernodes);
+            let (all, depth) = checked(supernodes, &branch);
+            assert!(all.into_iter().eq(0..supernodes.len()), "{name}");
+            assert!(depth <= MOST_TASKS, "{name}: {depth}");
+            assert_eq!(!branch.parts.is_empty(), has_parts, "{name}: {branch:?}");
+        }
+    }
+}

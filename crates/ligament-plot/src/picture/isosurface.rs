@@ -1,0 +1,96 @@
+//! Surfaces in solids on which a field has a value, as files beside the results.
+
+use std::path::{Path, PathBuf};
+
+use ligament_output::pvd::Collection;
+use ligament_output::results::outputs::Outputs;
+use ligament_output::results::solid_body::{SolidBody, is_solid};
+use ligament_output::results::steps::StepChoice;
+use ligament_output::results::write_level_set;
+use ligament_output::vtu::read::VtuFile;
+
+use super::PictureError;
+use super::field::Field;
+
+/// A surface that is asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct IsosurfaceRequest {
+    /// The folder of the results.
+    pub folder: PathBuf,
+    /// Field with its component, as pictures know it.
+    pub field: String,
+    /// Value of the field on the surface, SI units.
+    pub level: f64,
+    /// The steps, or modes: of one `iso.vtu` is written, of all `iso_NNNN.vtu` and `iso.pvd`.
+    pub step: StepChoice,
+}
+
+/// A surface that was written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Isosurface {
+    /// The step.
+    pub step: usize,
+    /// Area in the body without load, m^2.
+    pub area: f64,
+    /// Triangles; without any there is no file.
+    pub triangles: usize,
+    /// The file.
+    pub path: PathBuf,
+}
+
+/// Writes the surfaces of the steps.
+///
+/// # Errors
+///
+/// If there is no such step or field, the body is none in space, or a file cannot be used.
+pub fn write_isosurfaces(request: &IsosurfaceRequest) -> Result<Vec<Isosurface>, PictureError> {
+    let folder = &request.folder;
+    let outputs = Outputs::list(folder)?;
+    let stored: Vec<usize> = outputs.files.keys().copied().collect();
+    let steps = request.step.steps(folder, &stored)?;
+    let is_series = request.step == StepChoice::All;
+    let mut collection = match is_series {
+        true => Some(Collection::new(folder.join("iso.pvd"))),
+        false => None,
+    };
+    let mut written = Vec::new();
+    for step in steps.iter().map(|it| it.step) {
+        let name = match is_series {
+            true => format!("iso_{step:04}.vtu"),
+            false => "iso.vtu".to_owned(),
+        };
+        let Some(fields) = outputs.files.get(&step) else {
+            continue;
+        };
+        let surface = write(request, (step, fields.as_path()), folder.join(&name))?;
+        if let Some(collection) = collection.as_mut().filter(|_| surface.triangles > 0) {
+            collection.append(step as f64, name)?;
+        }
+        written.push(surface);
+    }
+    Ok(written)
+}
+
+fn write(
+    request: &IsosurfaceRequest,
+    (step, fields): (usize, &Path),
+    path: PathBuf,
+) -> Result<Isosurface, PictureError> {
+    let file = VtuFile::open(fields)?;
+    if !is_solid(&file)? {
+        return Err(PictureError::Plane(request.folder.clone()));
+    }
+    let body = SolidBody::read(&file)?;
+    let field = Field::read(&file, &request.field)?;
+    if field.values.len() != body.grid.positions.len() {
+        return Err(PictureError::NoLevel);
+    }
+    let of = (&file, &body);
+    let (area, triangles) = write_level_set(&path, of, &field.values, request.level)?;
+    Ok(Isosurface {
+        step,
+        area,
+        triangles,
+        path,
+    })
+}
