@@ -4,7 +4,7 @@ use std::path::Path;
 
 use ligament_case::case::CaseFile;
 use ligament_cli::inspect::write_summary;
-use ligament_mesh::gmsh;
+use ligament_mesh::{AnyMesh, gmsh};
 use ligament_study::sweep::plan;
 use ligament_study::sweep::study::Study;
 use verification::repository;
@@ -46,12 +46,16 @@ impl Target for Meshes {
 
     /// What is read is written and read back to the same body.
     fn read(&mut self, input: &[u8]) -> bool {
-        let Ok(mesh) = gmsh::parse(input) else {
+        let Ok(mesh) = gmsh::parse_any(input) else {
             return false;
         };
         write_summary(&mut Vec::new(), Path::new("a.msh"), &mesh).unwrap();
-        let again = gmsh::parse(gmsh::write(&mesh).as_bytes()).unwrap();
-        assert_eq!(again.cells.len(), mesh.cells.len());
+        let text = match &mesh {
+            AnyMesh::Plane(mesh) => gmsh::write(mesh),
+            AnyMesh::Solid(mesh) => gmsh::write_solid(mesh),
+        };
+        let again = gmsh::parse_any(text.as_bytes()).unwrap();
+        assert_eq!(again.n_nodes(), mesh.n_nodes());
         true
     }
 }

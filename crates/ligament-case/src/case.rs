@@ -5,6 +5,7 @@
 //! and checks one; every fault is reported with its line, column and key path.
 
 mod analysis;
+mod body_kind;
 mod conditions;
 mod coordinates;
 mod correction;
@@ -17,6 +18,7 @@ pub mod file;
 mod fracture;
 pub mod key_path;
 pub mod keys;
+mod kind;
 mod lattice_section;
 mod load;
 mod located;
@@ -41,6 +43,7 @@ pub mod values;
 mod word;
 
 pub use analysis::{Analysis, MOST_MODES, Modal};
+pub use body_kind::BodyKind;
 pub use conditions::{Displacement, SpringStiffness, Support, Vector};
 pub use coordinates::Coordinates;
 pub use correction::Correction;

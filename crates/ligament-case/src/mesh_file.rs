@@ -59,18 +59,22 @@ fn read<T>(path: &Path, parse: fn(&[u8]) -> Result<T, GmshError>) -> Result<T, M
     })
 }
 
-/// Whether a file holds a mesh of solids; not if it cannot be read.
-pub(crate) fn holds_solid(path: &Path) -> bool {
-    input_file::read(path).is_ok_and(|bytes| gmsh::holds_solid(&bytes))
+/// Whether a file holds a mesh of solids.
+///
+/// # Errors
+///
+/// If it cannot be read.
+pub(crate) fn holds_solid(path: &Path) -> io::Result<bool> {
+    input_file::read(path).map(|bytes| gmsh::holds_solid(&bytes))
 }
 
-/// Lower left and upper right corner.
-pub fn bounding_box(positions: &[[f64; 2]]) -> [[f64; 2]; 2] {
-    let start = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-    positions.iter().fold(start, |[low, high], [x, y]| {
+/// The lowest and the highest corner of the box around positions, m.
+pub fn bounding_box<const D: usize>(positions: &[[f64; D]]) -> [[f64; D]; 2] {
+    let start = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
+    positions.iter().fold(start, |[low, high], position| {
         [
-            [low[0].min(*x), low[1].min(*y)],
-            [high[0].max(*x), high[1].max(*y)],
+            std::array::from_fn(|axis| low[axis].min(position[axis])),
+            std::array::from_fn(|axis| high[axis].max(position[axis])),
         ]
     })
 }

@@ -33,9 +33,7 @@ impl CaseFile {
             }
             (None, None) => anyhow::bail!("the case has no body"),
         };
-        let setup = self.case.in_space(body);
-        let setup = setup.map_err(|fault| self.source.error(fault))?;
-        Ok(self.with_tables(setup)?)
+        Ok(self.setup_on_solid(body)?)
     }
 
     /// The setup of the case in the plane, with its body and the tables that it names read from their files.
@@ -45,9 +43,13 @@ impl CaseFile {
     /// If a file cannot be read, nothing is left of the lattice or of one of its sets, or the body is solid.
     pub fn setup(&self, watcher: &mut dyn StageWatcher) -> anyhow::Result<Setup> {
         let body: Arc<dyn Body> = match (&self.case.mesh, &self.case.lattice) {
-            (Some(section), _) if section.is_solid => {
-                let reason = "the mesh has solid cells, and this is for bodies in the plane";
-                return Err(self.error("mesh.file", reason).into());
+            _ if self.case.is_solid() => {
+                let key = match self.case.mesh {
+                    Some(_) => "mesh.file",
+                    None => "solid_lattice",
+                };
+                let reason = "the body is a solid, and what is asked for is known of bodies in the plane alone";
+                return Err(self.error(key, reason).into());
             }
             (Some(section), _) => {
                 let mesh = stage(watcher, "read mesh", || read_mesh(&section.file))?;
@@ -66,6 +68,16 @@ impl CaseFile {
     /// If a table of temperatures cannot be read.
     pub fn setup_on(&self, body: Arc<dyn Body>) -> Result<Setup, CaseError> {
         let setup = self.case.in_plane(body);
+        self.with_tables(setup.map_err(|fault| self.source.error(fault))?)
+    }
+
+    /// The setup of the case on a solid body that is there already, whatever body the case names.
+    ///
+    /// # Errors
+    ///
+    /// If a table of temperatures cannot be read.
+    pub fn setup_on_solid(&self, body: Arc<dyn Body<3>>) -> Result<Setup<3>, CaseError> {
+        let setup = self.case.in_space(body);
         self.with_tables(setup.map_err(|fault| self.source.error(fault))?)
     }
 

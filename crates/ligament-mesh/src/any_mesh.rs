@@ -11,3 +11,13 @@ pub enum AnyMesh {
     /// Tetrahedra, hexahedra, prisms and pyramids.
     Solid(SolidMesh),
 }
+
+impl AnyMesh {
+    /// Number of nodes.
+    pub fn n_nodes(&self) -> usize {
+        match self {
+            AnyMesh::Plane(mesh) => mesh.positions.len(),
+            AnyMesh::Solid(mesh) => mesh.positions.len(),
+        }
+    }
+}

@@ -2,45 +2,66 @@
 
 use std::sync::Arc;
 
-use ligament::body::{self, MeshBody, Points};
+use ligament::body::{self, MeshBody, Points, SolidMeshBody};
+use ligament_case::case::BodyKind;
+use ligament_mesh::AnyMesh;
 use ligament_mesh::gmsh::{self, Element};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 use crate::errors;
 
+/// A body in the plane or in space.
+#[derive(Debug, Clone)]
+pub(crate) enum AnyBody {
+    Plane(Arc<dyn body::Body>),
+    Solid(Arc<dyn body::Body<3>>),
+}
+
+impl AnyBody {
+    pub(crate) fn kind(&self) -> BodyKind {
+        match self {
+            Self::Plane(_) => BodyKind::Plane,
+            Self::Solid(_) => BodyKind::Solid,
+        }
+    }
+}
+
 /// A body that a setup stands on, whatever it was made of.
 #[pyclass(frozen, module = "ligament._native")]
 pub(crate) struct Body {
-    pub(crate) body: Arc<dyn body::Body>,
+    pub(crate) body: AnyBody,
 }
 
-/// Elements of a mesh: tags of the corners of each, shape (n, corners), and the group that they make.
-type Elements<'py> = (PyReadonlyArray2<'py, u64>, Option<String>);
+/// Elements of a mesh: their dimension, tags of the corners of each, shape (n, corners), and the group that they make.
+type Elements<'py> = (u8, PyReadonlyArray2<'py, u64>, Option<String>);
 
 #[pymethods]
 impl Body {
-    /// A body of points at positions (n, 2), each with the area that it stands for (n), and groups by their indices.
+    /// A body of points at positions (n, 2) or (n, 3), each with the area or volume that it stands for (n), and groups by their
+    /// indices.
     #[staticmethod]
     fn of_points(
         py: Python<'_>,
         positions: PyReadonlyArray2<'_, f64>,
-        areas: PyReadonlyArray1<'_, f64>,
+        sizes: PyReadonlyArray1<'_, f64>,
         groups: Vec<(String, Vec<u32>)>,
     ) -> PyResult<Self> {
-        let positions = pairs(py, &positions)?;
-        let areas = areas.as_array().to_vec();
-        let fault = |error: body::PointsError| errors::of_body(py, &error.to_string());
-        let mut points = Points::new(positions, areas).map_err(fault)?;
-        for (name, indices) in groups {
-            points = points.with_group(&name, indices).map_err(fault)?;
-        }
-        Ok(Self {
-            body: Arc::new(points),
-        })
+        let sizes = sizes.as_array().to_vec();
+        let body = match positions.as_array().ncols() {
+            3 => {
+                let points: Points<3> = points(py, positions_of(py, &positions)?, sizes, groups)?;
+                AnyBody::Solid(Arc::new(points))
+            }
+            _ => {
+                let points: Points = points(py, positions_of(py, &positions)?, sizes, groups)?;
+                AnyBody::Plane(Arc::new(points))
+            }
+        };
+        Ok(Self { body })
     }
 
-    /// A meshed body: tags of the nodes (n), their positions (n, 2), and elements with their groups.
+    /// A meshed body: tags of the nodes (n), their positions (n, 3), and elements with their groups.
     #[staticmethod]
     fn of_mesh(
         py: Python<'_>,
@@ -48,46 +69,80 @@ impl Body {
         positions: PyReadonlyArray2<'_, f64>,
         elements: Vec<Elements<'_>>,
     ) -> PyResult<Self> {
-        let positions = pairs(py, &positions)?;
-        let nodes: Vec<(u64, [f64; 2])> = tags.as_array().iter().copied().zip(positions).collect();
+        let positions = positions_of(py, &positions)?;
+        let nodes: Vec<(u64, [f64; 3])> = tags.as_array().iter().copied().zip(positions).collect();
         let mut all = Vec::new();
-        for (corners, group) in &elements {
+        for (dimension, corners, group) in &elements {
             let rows = corners.as_array();
             let rows = rows.rows().into_iter();
             all.extend(rows.map(|row| Element {
+                dimension: *dimension,
                 corners: row.to_vec(),
                 group: group.as_deref(),
             }));
         }
         let mesh = gmsh::assemble(&nodes, &all);
         let mesh = mesh.map_err(|error| errors::of_body(py, &error.to_string()))?;
-        Ok(Self {
-            body: Arc::new(MeshBody::from(mesh)),
-        })
+        let body = match mesh {
+            AnyMesh::Plane(mesh) => AnyBody::Plane(Arc::new(MeshBody::from(mesh))),
+            AnyMesh::Solid(mesh) => AnyBody::Solid(Arc::new(SolidMeshBody::from(mesh))),
+        };
+        Ok(Self { body })
     }
 
     /// Number of points.
     #[getter]
     fn n_points(&self) -> usize {
-        self.body.positions().len()
+        match &self.body {
+            AnyBody::Plane(body) => body.positions().len(),
+            AnyBody::Solid(body) => body.positions().len(),
+        }
     }
 
     /// Names of the groups.
     #[getter]
     fn groups(&self) -> Vec<String> {
-        self.body.group_names()
+        match &self.body {
+            AnyBody::Plane(body) => body.group_names(),
+            AnyBody::Solid(body) => body.group_names(),
+        }
+    }
+
+    /// Whether the body is a solid.
+    #[getter]
+    fn is_solid(&self) -> bool {
+        self.body.kind() == BodyKind::Solid
     }
 }
 
-fn pairs(py: Python<'_>, rows: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<[f64; 2]>> {
+fn points<const D: usize>(
+    py: Python<'_>,
+    positions: Vec<[f64; D]>,
+    sizes: Vec<f64>,
+    groups: Vec<(String, Vec<u32>)>,
+) -> PyResult<Points<D>> {
+    let fault = |error: body::PointsError| errors::of_body(py, &error.to_string());
+    let mut points = Points::new(positions, sizes).map_err(fault)?;
+    for (name, indices) in groups {
+        points = points.with_group(&name, indices).map_err(fault)?;
+    }
+    Ok(points)
+}
+
+fn positions_of<const D: usize>(
+    py: Python<'_>,
+    rows: &PyReadonlyArray2<'_, f64>,
+) -> PyResult<Vec<[f64; D]>> {
     let rows = rows.as_array();
-    if rows.ncols() != 2 {
-        let fault = format!("positions have the shape (n, 2), found {:?}", rows.shape());
+    if rows.ncols() != D {
+        let fault = format!(
+            "positions have the shape (n, {D}), found {:?}",
+            rows.shape()
+        );
         return Err(errors::of_body(py, &fault));
     }
+    let rows = rows.rows().into_iter();
     Ok(rows
-        .rows()
-        .into_iter()
-        .map(|row| [row[0], row[1]])
+        .map(|row| std::array::from_fn(|axis| row[axis]))
         .collect())
 }

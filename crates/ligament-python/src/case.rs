@@ -1,15 +1,13 @@
 //! Cases.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use ligament::Setup;
-use ligament::body;
 use ligament_case::case::CaseFile;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::body::Body;
+use crate::body::{AnyBody, Body};
 use crate::errors::{Failure, of_case, of_request};
 use crate::{document, errors};
 
@@ -17,7 +15,13 @@ use crate::{document, errors};
 #[pyclass(frozen, module = "ligament._native")]
 pub(crate) struct Case {
     pub(crate) file: CaseFile,
-    pub(crate) body: Option<Arc<dyn body::Body>>,
+    pub(crate) body: Option<AnyBody>,
+}
+
+/// A setup in the plane or in space.
+pub(crate) enum AnySetup {
+    Plane(Setup),
+    Solid(Setup<3>),
 }
 
 #[pymethods]
@@ -55,10 +59,14 @@ impl Case {
     ) -> PyResult<Self> {
         let document = document::document(sections)?;
         let overrides = document::overrides(changes)?;
-        let file = CaseFile::of_document(&path, document, &overrides);
+        let body = body.map(|it| it.get().body.clone());
+        let file = match &body {
+            Some(body) => CaseFile::on_body(&path, document, &overrides, body.kind()),
+            None => CaseFile::of_document(&path, document, &overrides),
+        };
         Ok(Self {
             file: file.map_err(|it| of_case(py, &it))?,
-            body: body.map(|it| it.get().body.clone()),
+            body,
         })
     }
 
@@ -108,10 +116,13 @@ impl Case {
 
 impl Case {
     /// The setup of the case on its body.
-    pub(crate) fn setup(&self) -> Result<Setup, Failure> {
+    pub(crate) fn setup(&self) -> Result<AnySetup, Failure> {
+        let file = &self.file;
         Ok(match &self.body {
-            Some(body) => self.file.setup_on(body.clone())?,
-            None => self.file.setup(&mut ())?,
+            Some(AnyBody::Plane(body)) => AnySetup::Plane(file.setup_on(body.clone())?),
+            Some(AnyBody::Solid(body)) => AnySetup::Solid(file.setup_on_solid(body.clone())?),
+            None if file.case.is_solid() => AnySetup::Solid(file.setup_in_space(&mut ())?),
+            None => AnySetup::Plane(file.setup(&mut ())?),
         })
     }
 }

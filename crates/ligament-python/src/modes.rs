@@ -1,16 +1,18 @@
 //! Natural modes, as arrays.
 
+use ligament::model::Discretises;
 use ligament::run::on_threads;
-use ligament::setup::Analysis;
-use ligament::{Fault, Field, Model, SetupError, Vibration};
+use ligament::setup::{Analysis, Dim, Dimension};
+use ligament::{Fault, Field, Model, Setup, SetupError, Vibration};
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome, Mode};
 use ligament_analysis::{Component, Layout};
+use ligament_case::case::CaseFile;
 use ligament_model::{BodyGrid, Bonds};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::{array, rows};
-use crate::case::Case;
+use crate::case::{AnySetup, Case};
 use crate::errors::Failure;
 use crate::run::positions;
 use crate::solution::watched;
@@ -42,7 +44,7 @@ pub(crate) fn modes<'py>(py: Python<'py>, case: &Bound<'py, Case>) -> PyResult<B
     let mut shapes = Vec::new();
     for mode in outcome.modes {
         let of_mode = PyDict::new(py);
-        let displacement = in_plane(layout, &mode.shape);
+        let displacement = in_space(layout, &mode.shape);
         of_mode.set_item("displacement", rows(py, displacement, 3)?)?;
         of_mode.set_item(
             "strain_energy_density",
@@ -54,17 +56,28 @@ pub(crate) fn modes<'py>(py: Python<'py>, case: &Bound<'py, Case>) -> PyResult<B
     Ok(named)
 }
 
-/// The x and y components with a third of zero, shape (n_points, 3).
-fn in_plane(layout: Layout, shape: &[f64]) -> Vec<f64> {
-    let of_point = |point| {
-        let [x, y] = [Component::X, Component::Y].map(|it| layout.value(point, it, shape));
-        [x, y, 0.0]
-    };
+/// The components along x, y and z, the last zero in the plane, shape (n_points, 3).
+fn in_space(layout: Layout, shape: &[f64]) -> Vec<f64> {
+    let axes = [Component::X, Component::Y, Component::Z];
+    let of_point = |point| axes.map(|it| layout.value(point, it, shape));
     (0..layout.n_points as u32).flat_map(of_point).collect()
 }
 
-fn find(case: &Case) -> Result<(ModalOutcome, Layout, BodyGrid), Failure> {
-    let setup = case.setup()?;
+/// Modes, the layout of their shapes and the body.
+type Found = (ModalOutcome, Layout, BodyGrid);
+
+fn find(case: &Case) -> Result<Found, Failure> {
+    let found = match case.setup()? {
+        AnySetup::Plane(setup) => on_threads(setup.threads, || find_here(&case.file, setup)),
+        AnySetup::Solid(setup) => on_threads(setup.threads, || find_here(&case.file, setup)),
+    };
+    found.map_err(|error| Failure::Other(error.into()))?
+}
+
+fn find_here<const D: usize>(case: &CaseFile, setup: Setup<D>) -> Result<Found, Failure>
+where
+    Dim: Discretises<D> + Dimension<D>,
+{
     let Analysis::Modal(settings) = setup.analysis else {
         let fault = Fault::OtherAnalysis {
             found: setup.analysis.name(),
@@ -78,17 +91,14 @@ fn find(case: &Case) -> Result<(ModalOutcome, Layout, BodyGrid), Failure> {
             },
             fault: Box::new(fault),
         };
-        return Err(Failure::setup(&case.file, error));
+        return Err(Failure::setup(case, error));
     };
-    let located = |error| Failure::setup(&case.file, error);
-    let other = |error: ligament::Error| Failure::computing(&case.file, error);
-    let found = on_threads(setup.threads, || {
-        let model = Model::build(setup, &mut ()).map_err(located)?;
-        let vibration = Vibration::new(&model.setup, &model.system).map_err(located)?;
-        let problem = vibration.problem(&model.system);
-        let analysis = ModalAnalysis::new(&problem, settings).map_err(|it| other(it.into()))?;
-        let outcome = analysis.find().map_err(|it| other(it.into()))?;
-        Ok((outcome, model.system.layout(), model.body().grid()))
-    });
-    found.map_err(|error| Failure::Other(error.into()))?
+    let located = |error| Failure::setup(case, error);
+    let other = |error: ligament::Error| Failure::computing(case, error);
+    let model = Model::build(setup, &mut ()).map_err(located)?;
+    let vibration = Vibration::new(&model.setup, &model.system).map_err(located)?;
+    let problem = vibration.problem(&model.system);
+    let analysis = ModalAnalysis::new(&problem, settings).map_err(|it| other(it.into()))?;
+    let outcome = analysis.find().map_err(|it| other(it.into()))?;
+    Ok((outcome, model.system.layout(), model.body().grid()))
 }

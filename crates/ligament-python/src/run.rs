@@ -1,14 +1,10 @@
 //! What a run gave, as arrays.
 
-use std::sync::Arc;
-
 use ligament_analysis::driver::Outcome;
 use ligament_mesh::Cell;
 use ligament_model::{Absence, BodyGrid, Canvas, FixedFields, box_corners};
 use ligament_output::results::FieldValues;
 use ligament_output::results::cracks::StoredCracks;
-use ligament_run::provenance::Provenance;
-use ligament_run::summary::Summary;
 use numpy::PyReadonlyArray1;
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
@@ -49,7 +45,8 @@ pub(crate) struct Run {
     #[pyo3(get)]
     tagged: &'static str,
     grid: BodyGrid,
-    cracks: StoredCracks,
+    /// None of a solid.
+    cracks: Option<StoredCracks>,
 }
 
 /// A line of a crack: its places (n, 2), what each end is, and its length, m.
@@ -66,14 +63,15 @@ pub(crate) fn run(
     let case = case.get();
     let (solved, stopped) = watched(py, report, |sender, stop| solve(case, sender, stop))?;
     let solved = solved.map_err(|failure| failure.exception(py))?;
-    Ok((Run::new(py, case, solved)?, stopped))
+    Ok((Run::new(py, solved)?, stopped))
 }
 
 #[pymethods]
 impl Run {
     /// The cracks in the state of a step, as lines.
     fn cracks<'py>(&self, py: Python<'py>, step: usize) -> PyResult<Vec<Line<'py>>> {
-        let lines = self.cracks.lines(step).into_iter();
+        self.require_plane(py, "lines of cracks are")?;
+        let lines = self.cracks.iter().flat_map(|it| it.lines(step));
         lines
             .map(|line| {
                 let (length, ends) = (line.length(), line.ends.map(|end| end.word()));
@@ -91,6 +89,7 @@ impl Run {
         displacement: PyReadonlyArray2<'_, f64>,
         width: f64,
     ) -> PyResult<String> {
+        self.require_plane(py, "pictures in memory are")?;
         let moved = displacement.as_array();
         let (quantity, field, title) = named;
         let picture = Picture {
@@ -107,18 +106,17 @@ impl Run {
 }
 
 impl Run {
-    fn new(py: Python<'_>, case: &Case, solved: Solved) -> PyResult<Self> {
-        let summary = summary(py, case, &solved)?;
+    fn new(py: Python<'_>, solved: Solved) -> PyResult<Self> {
         let cracks = cracks(&solved);
         let Solved {
-            model,
-            loading,
+            fixed: of_points,
+            arrays,
             grid,
             outcome,
             kept,
+            summary,
             ..
         } = solved;
-        drop(loading);
         let Kept {
             history,
             breaks,
@@ -133,19 +131,16 @@ impl Run {
         let points = PyDict::new(py);
         points.set_item(grid.tagged, array(py, grid.tags.clone()))?;
         points.set_item("position", positions(py, &grid)?)?;
-        fixed(&points, model.fixed)?;
+        fixed(&points, of_points)?;
+        points.set_item("volume", array(py, arrays.volumes))?;
+        points.set_item("nearest_distance", array(py, arrays.spacing))?;
         let bonds = PyDict::new(py);
         bonds.set_item("step_of_breaking", array(py, step_of_breaking))?;
         of_outcome(&bonds, outcome)?;
-        // The model is nobody else's any more, so that its arrays can be taken.
-        if let Some(system) = Arc::into_inner(model.system) {
-            points.set_item("volume", array(py, system.cloud.volumes))?;
-            points.set_item("nearest_distance", array(py, system.cloud.spacing))?;
-            bonds.set_item("ends", rows(py, system.bonds.ends.into_flattened(), 2)?)?;
-            bonds.set_item("length", array(py, system.bonds.length))?;
-            bonds.set_item("horizon", array(py, system.bonds.horizon))?;
-            bonds.set_item("weight", array(py, system.weight))?;
-        }
+        bonds.set_item("ends", rows(py, arrays.ends.into_flattened(), 2)?)?;
+        bonds.set_item("length", array(py, arrays.length))?;
+        bonds.set_item("horizon", array(py, arrays.horizon))?;
+        bonds.set_item("weight", array(py, arrays.weight))?;
         Ok(Self {
             history: history.into_columns(py)?.unbind(),
             breaks: breaks.into_columns(py)?.unbind(),
@@ -159,38 +154,42 @@ impl Run {
             cracks,
         })
     }
+
+    /// What is drawn as lines and maps is in the plane.
+    fn require_plane(&self, py: Python<'_>, what: &str) -> PyResult<()> {
+        if self.grid.canvas.is_solid() {
+            let fault = format!(
+                "{what} of a body in the plane, and this one is a solid; `to_pyvista` gives the whole body, and the command `ligament` \
+                 draws stored results of solids (`plot`) and finds the surfaces of their cracks (`crack`)"
+            );
+            return Err(errors::of_request(py, &fault));
+        }
+        Ok(())
+    }
 }
 
-/// The numbers of a run, as `summary.json` has them.
-fn summary(py: Python<'_>, case: &Case, solved: &Solved) -> PyResult<String> {
-    let provenance = Provenance::of_inputs(ligament_cli::BUILD, Vec::new());
-    let kept = &solved.kept;
-    let told = (provenance, kept.notices.clone(), kept.first);
-    let (model, boundary) = (&solved.model, &solved.loading.boundary);
-    let stages = solved.stages.done();
-    let summary = Summary::new(&case.file, model, boundary, &solved.outcome, told, stages);
-    let text = serde_json::to_string(&summary);
-    text.map_err(|error| errors::of_request(py, &error.to_string()))
-}
-
-fn cracks(solved: &Solved) -> StoredCracks {
+/// The cracks in the plane; of a solid none.
+fn cracks(solved: &Solved) -> Option<StoredCracks> {
     let Solved {
-        model,
+        fixed,
         grid,
         outcome,
         kept,
         ..
     } = solved;
-    let absent = model.fixed.absent.iter();
+    if grid.canvas.is_solid() {
+        return None;
+    }
+    let absent = fixed.absent.iter();
     let cut = absent.filter(|it| it.absence == Absence::PreCrack);
     let cut: Vec<[u32; 2]> = cut.map(|it| it.ends).collect();
-    StoredCracks::in_memory(
-        (grid, model.fixed.horizon.clone()),
+    Some(StoredCracks::in_memory(
+        (grid, fixed.horizon.clone()),
         &cut,
         &kept.broken,
         &kept.opened,
-        (&outcome.history, model.system.cloud.thickness),
-    )
+        (&outcome.history, solved.thickness),
+    ))
 }
 
 /// Fields of the points by their names.

@@ -1,20 +1,27 @@
 //! A run on a thread of its own, so that progress and Ctrl-C reach it.
 
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::Duration;
 
+use ligament::model::Discretises;
 use ligament::run::{follow, on_threads};
+use ligament::setup::{Dim, Dimension};
 use ligament::{Loading, Model, Setup};
+use ligament_analysis::ProportionalLoading;
 use ligament_analysis::driver::Outcome;
 use ligament_case::case::CaseFile;
-use ligament_model::BodyGrid;
+use ligament_model::space::SolidSystem;
+use ligament_model::{BodyGrid, BondSystem, Bonds, FixedFields};
 use ligament_run::loading::write_rule;
 use ligament_run::memory;
+use ligament_run::provenance::Provenance;
 use ligament_run::stages::Stages;
+use ligament_run::summary::Summary;
 use pyo3::prelude::*;
 
-use crate::case::Case;
+use crate::case::{AnySetup, Case};
 use crate::collector::{Collector, Kept, Progress, Stop};
 use crate::errors::Failure;
 
@@ -23,13 +30,51 @@ const LOOK: Duration = Duration::from_millis(50);
 
 /// What a run in memory came to.
 pub(crate) struct Solved {
-    pub(crate) model: Model,
-    pub(crate) loading: Loading,
+    pub(crate) fixed: FixedFields,
+    pub(crate) arrays: SystemArrays,
+    /// Thickness of the body, m; 1 of a solid.
+    pub(crate) thickness: f64,
     pub(crate) grid: BodyGrid,
     pub(crate) outcome: Outcome,
     pub(crate) kept: Kept,
-    pub(crate) stages: Stages,
+    /// The run in numbers, as `summary.json` has them.
+    pub(crate) summary: String,
 }
+
+/// Arrays over the points and bonds of a system.
+pub(crate) struct SystemArrays {
+    pub(crate) volumes: Vec<f64>,
+    pub(crate) spacing: Vec<f64>,
+    pub(crate) ends: Vec<[u32; 2]>,
+    pub(crate) length: Vec<f64>,
+    pub(crate) horizon: Vec<f64>,
+    pub(crate) weight: Vec<f64>,
+}
+
+/// A system whose arrays can be taken when nobody needs it any more.
+pub(crate) trait IntoArrays {
+    fn into_arrays(self) -> SystemArrays;
+}
+
+macro_rules! into_arrays {
+    ($system:ty) => {
+        impl IntoArrays for $system {
+            fn into_arrays(self) -> SystemArrays {
+                SystemArrays {
+                    volumes: self.cloud.volumes,
+                    spacing: self.cloud.spacing,
+                    ends: self.bonds.ends,
+                    length: self.bonds.length,
+                    horizon: self.bonds.horizon,
+                    weight: self.weight,
+                }
+            }
+        }
+    };
+}
+
+into_arrays!(BondSystem);
+into_arrays!(SolidSystem);
 
 /// Does some work on a thread of its own while this one lets others have Python, calls `report` for what the work tells, and
 /// looks for signals; gives what the work came to and whether it was to stop.
@@ -102,18 +147,28 @@ pub(crate) fn solve(
     progress: Sender<Progress>,
     stop: &Stop,
 ) -> Result<Solved, Failure> {
-    let setup = case.setup()?;
-    let threads = setup.threads;
-    let solved = on_threads(threads, || solve_here(&case.file, setup, progress, stop));
+    let file = &case.file;
+    let solved = match case.setup()? {
+        AnySetup::Plane(setup) => {
+            on_threads(setup.threads, || solve_here(file, setup, progress, stop))
+        }
+        AnySetup::Solid(setup) => {
+            on_threads(setup.threads, || solve_here(file, setup, progress, stop))
+        }
+    };
     solved.map_err(|error| Failure::Other(error.into()))?
 }
 
-fn solve_here(
+fn solve_here<const D: usize>(
     case: &CaseFile,
-    setup: Setup,
+    setup: Setup<D>,
     progress: Sender<Progress>,
     stop: &Stop,
-) -> Result<Solved, Failure> {
+) -> Result<Solved, Failure>
+where
+    Dim: Discretises<D> + Dimension<D>,
+    <Dim as Dimension<D>>::System: IntoArrays,
+{
     let mut stages = Stages::default();
     memory::foresee_model(case, &setup).map_err(|it| Failure::Other(it.into()))?;
     let rule = write_rule(case, &setup.analysis);
@@ -127,7 +182,7 @@ fn solve_here(
         return Err(Failure::Stopped);
     }
     let grid = model.body().grid();
-    let body = (&grid, model.system.bonds.ends.as_slice());
+    let body = (&grid, model.system.ends());
     let mut collector = Collector::new(&problem, body, rule, progress, stop);
     let outcome = stages.time("solution", || {
         follow(&problem, &model.setup.analysis, &mut collector)
@@ -137,12 +192,42 @@ fn solve_here(
         Err(_) if stop.asked(2) => return Err(Failure::Stopped),
         other => other.map_err(|it| Failure::computing(case, it))?,
     };
+    let summary = summary(
+        case,
+        (&model, &loading.boundary),
+        (&outcome, &kept),
+        &stages,
+    )?;
+    let thickness = Dim::cloud(&model.system).thickness;
+    drop(problem);
+    drop(loading);
+    let Model { system, fixed, .. } = model;
+    // The model is nobody else's any more, so that its arrays can be taken.
+    let arrays = Arc::into_inner(system).map(IntoArrays::into_arrays);
+    let shared = || Failure::Other(anyhow::anyhow!("the points and bonds are still in use"));
     Ok(Solved {
-        model,
-        loading,
+        fixed,
+        arrays: arrays.ok_or_else(shared)?,
+        thickness,
         grid,
         outcome,
         kept,
-        stages,
+        summary,
     })
+}
+
+/// The numbers of a run, as `summary.json` has them.
+fn summary<const D: usize>(
+    case: &CaseFile,
+    (model, boundary): (&Model<D>, &ProportionalLoading),
+    (outcome, kept): (&Outcome, &Kept),
+    stages: &Stages,
+) -> Result<String, Failure>
+where
+    Dim: Dimension<D>,
+{
+    let provenance = Provenance::of_inputs(ligament_cli::BUILD, Vec::new());
+    let told = (provenance, kept.notices.clone(), kept.first);
+    let summary = Summary::new(case, model, boundary, outcome, told, stages.done());
+    serde_json::to_string(&summary).map_err(|error| Failure::Other(error.into()))
 }

@@ -269,7 +269,8 @@ fn arrays_that_are_no_body_are_refused() {
         error,
         PointsError::Lengths {
             positions: 1,
-            areas: 0
+            sizes: 0,
+            what: "area"
         }
     );
     let error = Points::new(vec![[0.0; 2]; 2], vec![1.0, -1.0]).unwrap_err();

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use ligament::SetupError;
 
+use super::body_kind::BodyKind;
 use super::document::{Node, Origin, line_and_column};
 use super::fault::{CaseError, Fault, KeyFault};
 use super::key_path::KeyPath;
@@ -60,6 +61,22 @@ impl CaseFile {
         Self::read(Source::of_document(path, document, overrides)?)
     }
 
+    /// Like [`of_document`](Self::of_document), for a body in memory of a kind, whatever file the document names.
+    ///
+    /// # Errors
+    ///
+    /// If a key or value of it or of an override is wrong.
+    pub fn on_body(
+        path: &Path,
+        document: Node,
+        overrides: &[String],
+        kind: BodyKind,
+    ) -> Result<Self, CaseError> {
+        let source = Source::of_document(path, document, overrides)?;
+        let body = Some(kind);
+        Self::read(Source { body, ..source })
+    }
+
     /// The case with further overrides on top of those that it has.
     ///
     /// # Errors
@@ -72,19 +89,10 @@ impl CaseFile {
     fn read(source: Source) -> Result<Self, CaseError> {
         let folder = source.path.parent().unwrap_or(Path::new(""));
         let document = &source.document;
-        let case = check_ranges(document).and_then(|()| Case::read(document, folder));
+        let case = check_ranges(document).and_then(|()| Case::read(document, folder, source.body));
         let case = case.map_err(|fault| source.error(fault))?;
         let file = Self { source, case };
-        let case = &file.case;
-        let checked = if case.is_solid() {
-            let setup = case.solid_stand_in().and_then(|body| case.in_space(body));
-            setup.map(|setup| setup.check())
-        } else {
-            let setup = case.stand_in().and_then(|body| case.in_plane(body));
-            setup.map(|setup| setup.check())
-        };
-        let checked = checked.map_err(|fault| file.source.error(fault))?;
-        checked.map_err(|error| file.located(error))?;
+        file.case.check_kind(&file.source)?;
         Ok(file)
     }
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::body_kind::BodyKind;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{metre, refuse, require};
@@ -27,16 +28,28 @@ pub struct MeshSection {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("default" = "stress"))]
     pub plane: Option<Word<Plane>>,
-    /// Whether the cells of the mesh are solid.
+    /// Whether the cells of the mesh are solid; not if it cannot be read.
     #[serde(skip)]
     pub is_solid: bool,
+    /// Why the mesh cannot be read, if so.
+    #[serde(skip)]
+    pub(crate) unread: Option<String>,
 }
 
 impl MeshSection {
-    /// Fills in what is not given; `folder` is that of the case file.
-    pub(super) fn complete(&mut self, key: &KeyPath, folder: &Path) -> Result<(), KeyFault> {
+    /// Fills in what is not given; `folder` is that of the case file, `body` the kind of a body in memory.
+    pub(super) fn complete(
+        &mut self,
+        key: &KeyPath,
+        folder: &Path,
+        body: Option<BodyKind>,
+    ) -> Result<(), KeyFault> {
         complete_path(&key.child("file"), &mut self.file, folder)?;
-        self.is_solid = holds_solid(&self.file);
+        match (body, holds_solid(&self.file)) {
+            (Some(kind), _) => self.is_solid = kind == BodyKind::Solid,
+            (None, Ok(is_solid)) => self.is_solid = is_solid,
+            (None, Err(error)) => self.unread = Some(error.to_string()),
+        }
         if self.is_solid {
             let given = [
                 ("thickness", self.thickness.is_some()),

@@ -11,6 +11,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::analysis::{Analysis, Modal};
+use super::body_kind::BodyKind;
 use super::conditions::Support;
 use super::correction::Correction;
 use super::decode::decode;
@@ -101,14 +102,18 @@ pub struct Case {
 }
 
 impl Case {
-    /// Reads a parsed document and fills in what it leaves open; `folder` is that of the case file.
-    pub(super) fn read(document: &Node, folder: &Path) -> Result<Self, KeyFault> {
+    /// Reads a parsed document and fills in what it leaves open; `folder` is that of the case file, `body` the kind of a body in memory.
+    pub(super) fn read(
+        document: &Node,
+        folder: &Path,
+        body: Option<BodyKind>,
+    ) -> Result<Self, KeyFault> {
         let mut case: Self = decode(document, &root()).map_err(name_missing_section)?;
         let material = document.get("material");
         case.materials = material::read(material.ok_or_else(|| missing_section("material"))?)?;
         case.require_one_body()?;
         if let Some(mesh) = &mut case.mesh {
-            mesh.complete(&root().child("mesh"), folder)?;
+            mesh.complete(&root().child("mesh"), folder, body)?;
         }
         case.complete_analysis(document.get("output").is_some())?;
         let is_idle = case.loads.is_empty() && case.temperatures.is_empty();

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::body_kind::BodyKind;
 use super::document::{Node, Origin, line_and_column};
 use super::fault::{CaseError, Fault, KeyFault, Location};
 use super::key_path::KeyPath;
@@ -19,6 +20,8 @@ pub struct Source {
     pub overrides: Vec<String>,
     /// All of it, parsed.
     pub document: Node,
+    /// The kind of a body in memory, which stands in the place of the one in the file that the document names.
+    pub body: Option<BodyKind>,
 }
 
 impl Source {
@@ -49,6 +52,7 @@ impl Source {
             text: String::new(),
             overrides: Vec::new(),
             document,
+            body: None,
         };
         source.with_overrides(overrides)
     }

@@ -5,10 +5,10 @@ mod text;
 
 use std::path::{Component, Path, PathBuf};
 
-use ligament_mesh::Mesh;
+use ligament_mesh::{AnyMesh, Group};
 
-use crate::mesh_file::{MeshFileError, bounding_box, read_mesh};
-use groups::{Ends, Spot};
+use crate::mesh_file::{MeshFileError, bounding_box, read_any_mesh};
+use groups::{Ends, Named, Spot};
 use ligament::setup::Law;
 use ligament::warning::{SUSPICIOUSLY_LARGE, Warning};
 use text::{Body, Section};
@@ -47,6 +47,9 @@ pub enum StarterError {
     /// The law is for lattices alone.
     #[error("\"{}\" is a law for lattices: take --lattice NX,NY,SPACING in the place of the mesh, or another --law", .0.name())]
     NeedsLattice(Law),
+    /// The law is for bodies in the plane alone.
+    #[error("\"{}\" is a law of the plane, and the body is a solid: take nhpd, mppd, mppd-beam, pds or bbpd as --law", .0.name())]
+    NeedsPlane(Law),
 }
 
 /// The starter case of a mesh file; `folder` is that of the case file.
@@ -66,7 +69,7 @@ pub fn of_mesh(path: &Path, folder: &Path, law: Law) -> Result<Starter, StarterE
     if matches!(law, Law::MbbPd { .. }) {
         return Err(StarterError::NeedsLattice(law));
     }
-    let mesh = read_mesh(path).map_err(|source| match source {
+    let mesh = read_any_mesh(path).map_err(|source| match source {
         MeshFileError::Parse { .. } if extension != "msh" => StarterError::OtherFormat {
             path: path.to_owned(),
             source,
@@ -74,55 +77,90 @@ pub fn of_mesh(path: &Path, folder: &Path, law: Law) -> Result<Starter, StarterE
         source => StarterError::Mesh(source),
     })?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
-    Ok(of_parsed(&mesh, &relative(path, folder), &name, law))
+    let file = relative(path, folder);
+    match &mesh {
+        AnyMesh::Plane(mesh) => {
+            let spacing = (mesh.area() / mesh.positions.len() as f64).sqrt();
+            let named = named(&mesh.groups, &mesh.positions, mesh.cells.len());
+            Ok(of_parsed(named, spacing, [&file, &name], law))
+        }
+        AnyMesh::Solid(mesh) => {
+            check_solid(law)?;
+            let spacing = (mesh.volume() / mesh.positions.len() as f64).cbrt();
+            let named = named(&mesh.groups, &mesh.positions, mesh.cells.len());
+            Ok(of_parsed(named, spacing, [&file, &name], law))
+        }
+    }
 }
 
-/// The starter case of a mesh; `file` is its path in the case, `name` that of the body.
-fn of_parsed(mesh: &Mesh, file: &str, name: &str, law: Law) -> Starter {
-    let extent = bounding_box(&mesh.positions);
-    let spacing = (mesh.area() / mesh.positions.len() as f64).sqrt();
-    let sides = [0, 1].map(|axis| extent[1][axis] - extent[0][axis]);
-    let size = sides[0].max(sides[1]);
+fn named<'a, const D: usize>(
+    groups: &'a [Group],
+    positions: &'a [[f64; D]],
+    n_cells: usize,
+) -> Named<'a, D> {
+    Named {
+        groups,
+        positions,
+        n_cells,
+    }
+}
+
+fn check_solid(law: Law) -> Result<(), StarterError> {
+    match law {
+        Law::BbpdConical { .. } | Law::Orthotropic { .. } | Law::MbbPd { .. } => {
+            Err(StarterError::NeedsPlane(law))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The starter case of a mesh with points at a distance; `file` is its path in the case, `name` that of the body.
+fn of_parsed<const D: usize>(
+    mesh: Named<'_, D>,
+    spacing: f64,
+    [file, name]: [&str; 2],
+    law: Law,
+) -> Starter {
+    let extent = bounding_box(mesh.positions);
+    let sides: [f64; D] = std::array::from_fn(|axis| extent[1][axis] - extent[0][axis]);
+    let size = sides.into_iter().fold(0.0, f64::max);
     let warnings = if size > SUSPICIOUSLY_LARGE {
         vec![Warning::LargeBody { length: size }.to_string()]
     } else {
         Vec::new()
     };
-    let ends = groups::ends(mesh, extent, spacing);
-    let middle = on_body(
-        mesh,
-        [0, 1].map(|axis| 0.5 * (extent[0][axis] + extent[1][axis])),
-        spacing,
-    );
+    let ends = mesh.ends(extent, spacing);
+    let middle = std::array::from_fn(|axis| 0.5 * (extent[0][axis] + extent[1][axis]));
+    let middle = on_body(mesh.positions, middle, spacing);
     let body = Body {
         name: name.to_owned(),
         section: Section::Mesh {
             file: file.to_owned(),
-            groups: mesh.groups.clone(),
+            groups: mesh.groups.to_vec(),
         },
-        parts: groups::parts(mesh)
-            .iter()
-            .map(|it| it.name.clone())
-            .collect(),
+        parts: mesh.parts().iter().map(|it| it.name.clone()).collect(),
         extent,
         middle,
         opening: opening(middle, sides[ends.axis], ends.axis)
-            .map(|place| on_body(mesh, place, spacing)),
+            .map(|place| on_body(mesh.positions, place, spacing)),
         spacing,
     };
     starter(&body, &ends, law, warnings)
 }
 
 /// A place or, where the body has a hole there, the node nearest to it.
-fn on_body(mesh: &Mesh, place: [f64; 2], spacing: f64) -> [f64; 2] {
-    let distance = |node: &[f64; 2]| (node[0] - place[0]).hypot(node[1] - place[1]);
-    let nearest = (mesh.positions.iter()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+fn on_body<const D: usize>(positions: &[[f64; D]], place: [f64; D], spacing: f64) -> [f64; D] {
+    let distance = |node: &[f64; D]| {
+        let squares = node.iter().zip(&place).map(|(a, b)| (a - b).powi(2));
+        squares.sum::<f64>().sqrt()
+    };
+    let nearest = (positions.iter()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
     let in_hole = nearest.filter(|node| distance(node) > spacing);
     in_hole.copied().unwrap_or(place)
 }
 
 /// Places on either side of the middle, apart along an axis by a fifth of the body's size.
-fn opening(middle: [f64; 2], size: f64, axis: usize) -> [[f64; 2]; 2] {
+fn opening<const D: usize>(middle: [f64; D], size: f64, axis: usize) -> [[f64; D]; 2] {
     [-0.1, 0.1].map(|share| {
         let mut place = middle;
         place[axis] += share * size;
@@ -132,17 +170,31 @@ fn opening(middle: [f64; 2], size: f64, axis: usize) -> [[f64; 2]; 2] {
 
 /// The starter case of a lattice of square cells.
 pub fn of_lattice(cells: [u32; 2], spacing: f64, law: Law) -> Starter {
+    of_cells(cells, spacing, law)
+}
+
+/// The starter case of a lattice of cubes.
+///
+/// # Errors
+///
+/// If the law is one of the plane alone.
+pub fn of_solid_lattice(cells: [u32; 3], spacing: f64, law: Law) -> Result<Starter, StarterError> {
+    check_solid(law)?;
+    Ok(of_cells(cells, spacing, law))
+}
+
+fn of_cells<const D: usize>(cells: [u32; D], spacing: f64, law: Law) -> Starter {
     let sides = cells.map(|count| f64::from(count) * spacing);
-    let (middle, axis) = (sides.map(|side| 0.5 * side), 1);
+    let (middle, axis) = (sides.map(|side| 0.5 * side), D - 1);
     let body = Body {
         name: "lattice".to_owned(),
         section: Section::Lattice {
             cells,
             // A horizon of three cells: bonds of the points that are moved do not fail.
-            rows: 3.min(cells[1] / 3).max(1),
+            rows: 3.min(cells[axis] / 3).max(1),
         },
         parts: Vec::new(),
-        extent: [[0.0; 2], sides],
+        extent: [[0.0; D], sides],
         middle,
         opening: opening(middle, sides[axis], axis),
         spacing,
@@ -159,8 +211,13 @@ pub fn of_lattice(cells: [u32; 2], spacing: f64, law: Law) -> Starter {
     starter(&body, &ends, law, Vec::new())
 }
 
-fn starter(body: &Body, ends: &Ends, law: Law, warnings: Vec<String>) -> Starter {
-    let spot = |spot: &Spot| match spot {
+fn starter<const D: usize>(
+    body: &Body<D>,
+    ends: &Ends<D>,
+    law: Law,
+    warnings: Vec<String>,
+) -> Starter {
+    let spot = |spot: &Spot<D>| match spot {
         Spot::Group(name) => format!("at group `{name}`"),
         Spot::Box(_) => "in a box".to_owned(),
     };
@@ -168,7 +225,7 @@ fn starter(body: &Body, ends: &Ends, law: Law, warnings: Vec<String>) -> Starter
     let choice = format!(
         "held {}, {direction} along {} {} (chosen {})",
         spot(&ends.support),
-        ["x", "y"][ends.axis],
+        ["x", "y", "z"][ends.axis],
         spot(&ends.load),
         ends.found
     );

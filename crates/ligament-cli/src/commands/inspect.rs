@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use ligament_case::mesh_file::read_mesh;
+use ligament_case::mesh_file::read_any_mesh;
 
 use crate::inspect::write_summary;
 use crate::terminal;
@@ -12,6 +12,7 @@ use crate::terminal;
 pub(super) const EXAMPLES: &str = "\
 Examples:
   ligament inspect meshes/disk.msh
+  ligament inspect meshes/solids/bar.msh       a solid, with the quality of its tetrahedra
 
 Reads Gmsh files of the formats 2.2 and 4.1, ASCII or binary. Lengths are taken to be in m.";
 
@@ -26,7 +27,7 @@ pub struct InspectArgs {
 impl InspectArgs {
     /// Does it.
     pub(super) fn execute(self) -> anyhow::Result<()> {
-        let mesh = read_mesh(&self.mesh)?;
+        let mesh = read_any_mesh(&self.mesh)?;
         Ok(write_summary(&mut terminal::stdout(), &self.mesh, &mesh)?)
     }
 }

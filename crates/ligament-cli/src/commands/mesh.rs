@@ -19,6 +19,7 @@ Examples:
   ligament mesh --via-meshio plate.inp                 Abaqus, with its sets: writes plate.msh
   ligament mesh --via-meshio plate.med --python ~/venv/bin/python
 
+A geometry with volumes makes a solid mesh, if a physical volume holds them (or no group holds anything).
 A --set gives a number that the geometry declares by DefineConstant[ h = ... ].
 Lengths of the geometry, or of the mesh, are in m.";
 

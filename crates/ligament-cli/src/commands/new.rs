@@ -12,13 +12,14 @@ use super::numbers::positive;
 use crate::terminal;
 use ligament::setup::Law;
 use ligament_case::case::MOST_CELLS;
-use ligament_case::starter::{of_lattice, of_mesh};
+use ligament_case::starter::{of_lattice, of_mesh, of_solid_lattice};
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
   ligament new plate.msh                             writes case.toml, for plate.msh
   ligament new meshes/disk.msh --out disk/case.toml --law bbpd
   ligament new --lattice 60,120,0.001                a lattice in place of a mesh
+  ligament new --lattice 10,10,40,0.001              a lattice of a solid
 
 The case runs as it is; its material and loading are examples to replace by your own.";
 
@@ -28,9 +29,9 @@ pub struct NewArgs {
     /// The mesh (Gmsh .msh)
     #[arg(value_name = "MESH", required_unless_present = "lattice")]
     pub mesh: Option<PathBuf>,
-    /// A lattice in the place of a mesh: cells along x and y, and their side in m
-    #[arg(long, value_name = "NX,NY,SPACING", value_parser = lattice, conflicts_with = "mesh")]
-    pub lattice: Option<([u32; 2], f64)>,
+    /// A lattice in the place of a mesh: cells along x and y, and their side in m; of a solid along x, y and z
+    #[arg(long, value_name = "NX,NY[,NZ],SPACING", value_parser = lattice, conflicts_with = "mesh")]
+    pub lattice: Option<Lattice>,
     /// The case file to write
     #[arg(long, value_name = "CASE.toml", default_value = "case.toml")]
     pub out: PathBuf,
@@ -59,7 +60,10 @@ impl NewArgs {
         }
         let starter = match (&self.mesh, self.lattice) {
             (Some(mesh), _) => of_mesh(mesh, folder, self.law)?,
-            (None, Some((cells, spacing))) => of_lattice(cells, spacing, self.law),
+            (None, Some(Lattice::Plane(cells, spacing))) => of_lattice(cells, spacing, self.law),
+            (None, Some(Lattice::Solid(cells, spacing))) => {
+                of_solid_lattice(cells, spacing, self.law)?
+            }
             (None, None) => anyhow::bail!("there is no mesh: give one, or --lattice NX,NY,SPACING"),
         };
         replace_file(out, starter.text.as_bytes())?;
@@ -83,23 +87,39 @@ fn laws() -> impl TypedValueParser<Value = Law> {
     })
 }
 
-/// A lattice on the command line.
-fn lattice(text: &str) -> Result<([u32; 2], f64), String> {
-    let expected = "expected NX,NY,SPACING, such as 60,120,0.001 (m)";
+/// A lattice on the command line: cells along the axes, and their side, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Lattice {
+    /// Of square cells.
+    Plane([u32; 2], f64),
+    /// Of cubes.
+    Solid([u32; 3], f64),
+}
+
+fn lattice(text: &str) -> Result<Lattice, String> {
+    let expected =
+        "expected NX,NY,SPACING, such as 60,120,0.001 (m), or NX,NY,NZ,SPACING of a solid";
     let parts: Vec<&str> = text.split(',').map(str::trim).collect();
-    let [columns, rows, spacing] = parts.as_slice() else {
+    let (Some((spacing, counts)), 3 | 4) = (parts.split_last(), parts.len()) else {
         return Err(expected.to_owned());
     };
-    let count = |text: &str| text.parse::<u32>().ok().filter(|count| *count >= 4);
-    let (Some(columns), Some(rows)) = (count(columns), count(rows)) else {
-        return Err(format!("{expected}, with 4 cells or more along x and y"));
+    let count = |text: &&str| text.parse::<u32>().ok().filter(|count| *count >= 4);
+    let Some(counts) = counts.iter().map(count).collect::<Option<Vec<u32>>>() else {
+        return Err(format!("{expected}, with 4 cells or more along each axis"));
     };
-    if u64::from(columns) * u64::from(rows) > MOST_CELLS {
+    let cells = counts
+        .iter()
+        .try_fold(1_u64, |product, &it| product.checked_mul(it.into()));
+    if cells.is_none_or(|cells| cells > MOST_CELLS) {
         return Err(format!("a lattice has at most {MOST_CELLS} cells"));
     }
     let spacing = positive(spacing).filter(|it| it.is_normal());
     let spacing = spacing.ok_or(format!("{expected}, with a spacing greater than 0"))?;
-    Ok(([columns, rows], spacing))
+    match counts[..] {
+        [x, y] => Ok(Lattice::Plane([x, y], spacing)),
+        [x, y, z] => Ok(Lattice::Solid([x, y, z], spacing)),
+        _ => Err(expected.to_owned()),
+    }
 }
 
 #[cfg(test)]
@@ -108,7 +128,8 @@ mod tests {
 
     #[test]
     fn a_lattice_is_two_counts_and_a_spacing() {
-        assert_eq!(lattice("60, 120,1e-3"), Ok(([60, 120], 1e-3)));
+        assert_eq!(lattice("60, 120,1e-3"), Ok(Lattice::Plane([60, 120], 1e-3)));
+        assert_eq!(lattice("8,9,20,0.01"), Ok(Lattice::Solid([8, 9, 20], 0.01)));
         for wrong in [
             "60,120",
             "60,120,0",
@@ -117,6 +138,9 @@ mod tests {
             "60,120,1mm",
             "60,120,inf",
             "90000,90000,1",
+            "3,9,20,0.01",
+            "9,9,9,9,0.01",
+            "4000000000,4000000000,4000000000,1",
         ] {
             assert!(lattice(wrong).is_err(), "{wrong}");
         }

@@ -17,9 +17,13 @@ pub(super) fn numbers<const COUNT: usize>(text: &str) -> Option<[f64; COUNT]> {
     numbers?.try_into().ok()
 }
 
-/// A position, m.
+/// A position in the plane, m.
 pub(super) fn position(text: &str) -> Result<[f64; 2], String> {
-    numbers(text).ok_or_else(|| "expected X,Y in m, such as 0.01,-0.02".to_owned())
+    let solid = match numbers::<3>(text) {
+        Some(_) => "; lines through solids are not sampled yet",
+        None => "",
+    };
+    numbers(text).ok_or_else(|| format!("expected X,Y in m, such as 0.01,-0.02{solid}"))
 }
 
 #[cfg(test)]

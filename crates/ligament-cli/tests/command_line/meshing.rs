@@ -57,7 +57,7 @@ fn the_mesh_is_written_and_shown() {
         ["arguments", "gmsh", "plate.geo", "plate.msh"]
     );
     let arguments = fs::read_to_string(folder.path().join("arguments")).unwrap();
-    assert!(arguments.starts_with("-2 "), "{arguments}");
+    assert!(arguments.starts_with("-3 "), "{arguments}");
     let end = "-format msh41 -setnumber size 0.001 -setnumber radius -2\n";
     assert!(arguments.ends_with(end), "{arguments}");
 }

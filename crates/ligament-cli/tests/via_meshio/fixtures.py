@@ -163,8 +163,6 @@ def unfit(plate, folder):
     tilted[:, 2] = points[:, 1]
     tilted[:, 1] = 0.0
     meshio.Mesh(tilted, [("triangle", triangles)]).write(folder / "upright.vtu")
-    cube = [[x, y, z] for z in (0.0, 1.0) for y in (0.0, 1.0) for x in (0.0, 1.0)]
-    meshio.Mesh(cube, [("tetra", [[0, 1, 2, 4]])]).write(folder / "tetra.vtu")
     meshio.Mesh(points, [("line", plate.lines["left"])]).write(folder / "lines.vtu")
     (folder / "broken.vtu").write_text("<VTKFile")
     (folder / "moved.inp").write_text("*Node\n1, 0, 0\n*Instance, name=one, part=plate\n1., 0., 0.\n*End Instance\n")

@@ -12,6 +12,8 @@ use ligament_mesh::{Cell, Mesh, gmsh};
 #[path = "../support/mod.rs"]
 mod support;
 
+mod solids;
+
 use support::{ligament, text};
 
 fn repository() -> PathBuf {
@@ -310,8 +312,10 @@ fn what_is_no_planar_mesh_is_refused() {
             "upright.vtu",
             "is not planar: z goes from 0 to 0.1; y is the same everywhere",
         ),
-        ("tetra.vtu", "is a mesh of a volume (1 tetra)"),
-        ("lines.vtu", "there are no triangles or quadrangles in"),
+        (
+            "lines.vtu",
+            "there are no triangles, quadrangles or solid cells in",
+        ),
         ("broken.vtu", "meshio could not read"),
         ("moved.inp", "an instance of a part that is moved"),
         ("two.inp", "several *NODE blocks"),

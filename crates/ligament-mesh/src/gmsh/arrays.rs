@@ -5,24 +5,27 @@ use std::collections::HashMap;
 use super::cursor::Cursor;
 use super::element_type::Shape;
 use super::error::GmshError;
-use super::plane;
 use super::records::{self, Node, Records};
-use crate::mesh::Mesh;
+use super::{plane, solid};
+use crate::any_mesh::AnyMesh;
 
 /// An element by its corners, and the group that it is part of; an element in several groups stands once for each.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Element<'a> {
-    /// Tags of the corners: one of a point, two of an edge, three or four of a cell.
+    /// Dimension: 0 a point, 1 an edge, 2 a planar cell or the face of a solid one, 3 a solid cell.
+    pub dimension: u8,
+    /// Tags of the corners: one of a point, two of an edge, three or four of a planar cell; four, five, six or eight of a solid one.
     pub corners: Vec<u64>,
     /// Name of the group.
     pub group: Option<&'a str>,
 }
 
-/// The mesh of nodes, by their tags and positions (m), and elements. What no file of a mesh may have is refused here, too.
+/// The mesh of nodes, by their tags and positions (m), and elements: a solid one where an element is solid. What no file of a mesh may
+/// have is refused here, too.
 ///
 /// # Errors
-/// Where an element has more than four corners, or the elements are no planar mesh; places count elements as lines.
-pub fn assemble(nodes: &[(u64, [f64; 2])], elements: &[Element<'_>]) -> Result<Mesh, GmshError> {
+/// Where an element has other numbers of corners, or the elements are no mesh; places count elements as lines.
+pub fn assemble(nodes: &[(u64, [f64; 3])], elements: &[Element<'_>]) -> Result<AnyMesh, GmshError> {
     // An element is found by its line, as in a file.
     let lines = "\n".repeat(elements.len());
     let cursor = Cursor::new(lines.as_bytes());
@@ -30,10 +33,10 @@ pub fn assemble(nodes: &[(u64, [f64; 2])], elements: &[Element<'_>]) -> Result<M
         repeats_cells: true,
         ..Records::default()
     };
-    for &(tag, [x, y]) in nodes {
+    for &(tag, position) in nodes {
         let node = Node {
             tag,
-            position: [x, y, 0.0],
+            position,
             offset: 0,
         };
         records.push_node(&cursor, node)?;
@@ -66,16 +69,24 @@ pub fn assemble(nodes: &[(u64, [f64; 2])], elements: &[Element<'_>]) -> Result<M
             offset: index,
         });
     }
-    plane::assemble(&cursor, &records)
+    if elements.iter().any(|it| it.dimension == 3) {
+        solid::assemble(&cursor, &records).map(AnyMesh::Solid)
+    } else {
+        plane::assemble(&cursor, &records).map(AnyMesh::Plane)
+    }
 }
 
 fn shape_of(cursor: &Cursor<'_>, index: usize, element: &Element<'_>) -> Result<Shape, GmshError> {
-    match element.corners.len() {
-        1 => Ok(Shape::Point),
-        2 => Ok(Shape::Edge),
-        3 => Ok(Shape::Triangle),
-        4 => Ok(Shape::Quadrangle),
-        other => Err(GmshError::UnknownElementType {
+    match (element.dimension, element.corners.len()) {
+        (0, 1) => Ok(Shape::Point),
+        (1, 2) => Ok(Shape::Edge),
+        (2, 3) => Ok(Shape::Triangle),
+        (2, 4) => Ok(Shape::Quadrangle),
+        (3, 4) => Ok(Shape::Tetrahedron),
+        (3, 5) => Ok(Shape::Pyramid),
+        (3, 6) => Ok(Shape::Prism),
+        (3, 8) => Ok(Shape::Hexahedron),
+        (_, other) => Err(GmshError::UnknownElementType {
             place: cursor.place(index),
             code: other as i32,
         }),

@@ -3,6 +3,7 @@
 mod cell;
 mod faces;
 mod mesh;
+mod quality;
 mod surface;
 
 pub use cell::SolidCell;

@@ -194,7 +194,11 @@ impl VtuFile {
     pub fn points_in_plane(&self) -> Result<Vec<[f64; 2]>, Error> {
         let in_plane = |[x, y, z]: [f64; 3]| (z == 0.0).then_some([x, y]);
         let points: Option<Vec<[f64; 2]>> = self.points()?.into_iter().map(in_plane).collect();
-        points.ok_or_else(|| self.strange("its points do not lie in the plane z = 0"))
+        points.ok_or_else(|| {
+            self.strange(
+                "its points do not lie in the plane z = 0: the body is a solid, and what is asked for shows bodies in the plane alone",
+            )
+        })
     }
 
     /// The cells, whose points are points of the file.

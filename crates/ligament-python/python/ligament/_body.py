@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,21 +12,35 @@ from ligament import _native
 from ligament._errors import BodyError
 
 if TYPE_CHECKING:
-    Elements = list[tuple[NDArray[np.uint64], str | None]]
+    Elements = list[tuple[int, NDArray[np.uint64], str | None]]
 
-# Corners of the kinds of cells that a planar mesh has, by the names of meshio without the number of further nodes.
-CORNERS = {"vertex": 1, "line": 2, "triangle": 3, "quad": 4}
+# Dimensions and corners of the kinds of cells, by the names of meshio without the number of further nodes.
+SHAPES = {
+    "vertex": (0, 1), "line": (1, 2), "triangle": (2, 3), "quad": (2, 4), "tetra": (3, 4), "pyramid": (3, 5), "wedge": (3, 6),
+    "hexahedron": (3, 8),
+}
 
-# Of Gmsh's numbers of types of elements, those of low order and the usual ones of high order.
-GMSH_CORNERS = {15: 1, 1: 2, 8: 2, 26: 2, 2: 3, 9: 3, 21: 3, 3: 4, 10: 4, 16: 4, 36: 4}
+# Of Gmsh's numbers of types of elements, those of low order and the usual ones of high order: dimensions and corners.
+GMSH_SHAPES = {
+    15: (0, 1), 1: (1, 2), 8: (1, 2), 26: (1, 2), 2: (2, 3), 9: (2, 3), 21: (2, 3), 3: (2, 4), 10: (2, 4), 16: (2, 4), 36: (2, 4),
+    4: (3, 4), 11: (3, 4), 29: (3, 4), 5: (3, 8), 12: (3, 8), 17: (3, 8), 92: (3, 8), 6: (3, 6), 13: (3, 6), 18: (3, 6),
+    7: (3, 5), 14: (3, 5), 19: (3, 5),
+}
+
+UNREAD = "is none of points, lines, triangles, quadrangles, tetrahedra, hexahedra, prisms and pyramids"
 
 
-def of_points(positions: ArrayLike, areas: ArrayLike, groups: Mapping[str, ArrayLike] | None = None) -> _native.Body:
-    """The body of points (n, 2) with the area that each stands for (n, or one for all), and groups by indices or masks."""
+def of_points(
+    positions: ArrayLike, areas: ArrayLike | None, volumes: ArrayLike | None, groups: Mapping[str, ArrayLike] | None = None
+) -> _native.Body:
+    """The body of points (n, 2) with the area or (n, 3) with the volume that each stands for (n, or one for all)."""
     at = np.ascontiguousarray(positions, dtype=np.float64)
-    if at.ndim != 2:
-        raise BodyError(f"positions have the shape (n, 2), found {at.shape}")
-    each = np.ascontiguousarray(np.broadcast_to(np.asarray(areas, dtype=np.float64), at.shape[:1]))
+    if at.ndim != 2 or at.shape[1] not in (2, 3):
+        raise BodyError(f"positions have the shape (n, 2), or of a solid (n, 3), found {at.shape}")
+    needed, sizes, other = ("areas", areas, volumes) if at.shape[1] == 2 else ("volumes", volumes, areas)
+    if sizes is None or other is not None:
+        raise BodyError(f"points at positions of the shape {at.shape} stand for `{needed}` each: give these, and these alone")
+    each = np.ascontiguousarray(np.broadcast_to(np.asarray(sizes, dtype=np.float64), at.shape[:1]))
     return _native.Body.of_points(at, each, [(name, _indices(name, it, len(at))) for name, it in (groups or {}).items()])
 
 
@@ -49,20 +63,63 @@ def of_mesh(mesh: Any, groups: Mapping[str, ArrayLike] | None = None) -> _native
         tags, positions, elements = _of_gmsh(mesh)
     else:
         kind = type(mesh).__name__
-        raise BodyError(f"expected a mesh of meshio or the module gmsh, found {kind}; arrays go to `positions` and `areas`")
+        raise BodyError(f"expected a mesh of meshio or the module gmsh, found {kind}; arrays go to `positions` with `cells` or `areas`")
+    return _meshed(tags, positions, elements, groups)
+
+
+def of_cells(
+    positions: ArrayLike,
+    cells: Mapping[str, ArrayLike],
+    faces: Mapping[str, ArrayLike] | None = None,
+    groups: Mapping[str, ArrayLike] | None = None,
+) -> _native.Body:
+    """The body of nodes (n, 2) or (n, 3), cells of some kinds by their nodes, named faces or edges, and groups of nodes by indices."""
+    at = np.asarray(positions, dtype=np.float64)
+    if at.ndim != 2 or at.shape[1] not in (2, 3):
+        raise BodyError(f"positions have the shape (n, 2), or of a solid (n, 3), found {at.shape}")
+    tags = np.arange(1, len(at) + 1, dtype=np.uint64)
+    elements: Elements = []
+    for kind, rows in cells.items():
+        if kind not in SHAPES:
+            raise BodyError(f"cells of the kind `{kind}` are not known; there are {', '.join(SHAPES)}")
+        dimension, n = SHAPES[kind]
+        elements.append((dimension, _corners(kind, rows, (n,), tags), None))
+    top = max((dimension for dimension, _, _ in elements), default=2)
+    for name, rows in (faces or {}).items():
+        elements.append((top - 1, _corners(name, rows, (2,) if top == 2 else (3, 4), tags), name))
+    return _meshed(tags, at, elements, groups)
+
+
+def _corners(name: str, rows: ArrayLike, sizes: tuple[int, ...], tags: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    corners = np.asarray(rows, dtype=np.int64)
+    if corners.ndim != 2 or corners.shape[1] not in sizes:
+        shape = " or ".join(f"(n, {size})" for size in sizes)
+        raise BodyError(f"the nodes of `{name}` have the shape {shape}, found {corners.shape}")
+    if corners.size and (corners.min() < 0 or corners.max() >= len(tags)):
+        raise BodyError(f"`{name}` has a node outside of 0 to {len(tags) - 1}")
+    return np.ascontiguousarray(tags[corners])
+
+
+def _meshed(
+    tags: NDArray[np.uint64], positions: NDArray[Any], elements: Elements, groups: Mapping[str, ArrayLike] | None
+) -> _native.Body:
     for name, group in (groups or {}).items():
         chosen = tags[_indices(name, group, len(tags))]
-        elements.append((np.ascontiguousarray(chosen[:, None]), name))
-    return _native.Body.of_mesh(tags, _planar(positions), elements)
+        elements.append((0, np.ascontiguousarray(chosen[:, None]), name))
+    is_solid = any(dimension == 3 for dimension, _, _ in elements)
+    return _native.Body.of_mesh(tags, _in_space(positions, is_solid), elements)
 
 
-def _planar(positions: NDArray[Any]) -> NDArray[np.float64]:
+def _in_space(positions: NDArray[Any], is_solid: bool) -> NDArray[np.float64]:
+    """Positions with three coordinates, the last of which is zero in the plane."""
     at = np.asarray(positions, dtype=np.float64)
-    if at.ndim == 2 and at.shape[1] == 3:
-        if len(at) and np.ptp(at[:, 2]) > 1e-9 * max(float(np.ptp(at[:, :2])), 1e-300):
-            raise BodyError("the nodes do not lie in one plane of constant z; the body is planar, in x and y")
-        at = at[:, :2]
-    return np.ascontiguousarray(at)
+    if at.ndim != 2 or at.shape[1] not in (2, 3) or (is_solid and at.shape[1] == 2):
+        raise BodyError(f"the nodes have the shape (n, {3 if is_solid else 2}), found {at.shape}")
+    if is_solid:
+        return np.ascontiguousarray(at)
+    if at.shape[1] == 3 and len(at) and np.ptp(at[:, 2]) > 1e-9 * max(float(np.ptp(at[:, :2])), 1e-300):
+        raise BodyError("the mesh has no solid cells, and its nodes do not lie in one plane of constant z; of a solid give the cells, too")
+    return np.column_stack([at[:, :2], np.zeros(len(at))])
 
 
 def _of_meshio(mesh: Any) -> tuple[NDArray[np.uint64], NDArray[Any], Elements]:
@@ -71,22 +128,23 @@ def _of_meshio(mesh: Any) -> tuple[NDArray[np.uint64], NDArray[Any], Elements]:
     names = {(int(dimension), int(number)): name for name, (number, dimension) in mesh.field_data.items()}
     physical = mesh.cell_data.get("gmsh:physical")
     for place, block in enumerate(mesh.cells):
-        n = CORNERS.get(block.type.rstrip("0123456789"))
-        if n is None:
-            raise BodyError(f"cells of the kind `{block.type}` are in no planar mesh; triangles and quadrangles are")
+        shape = SHAPES.get(block.type.rstrip("0123456789"))
+        if shape is None:
+            raise BodyError(f"the kind of cells `{block.type}` {UNREAD}")
+        dimension, n = shape
         corners = np.ascontiguousarray(tags[np.asarray(block.data)[:, :n]])
         in_group = np.zeros(len(corners), dtype=bool)
         # A reader of Gmsh's files gives the same group as a set and by its number.
         sets = {name: sets[place] for name, sets in mesh.cell_sets.items() if not name.startswith("gmsh:")}
         if physical is not None:
-            sets.update(_by_number(physical[place], min(n - 1, 2), names))
+            sets.update(_by_number(physical[place], dimension, names))
         for name, chosen in sets.items():
             if chosen is not None and len(chosen):
                 chosen = np.asarray(chosen, dtype=np.int64)
                 in_group[chosen] = True
-                elements.append((corners[chosen], name))
-        if not in_group.all() and n > 2:
-            elements.append((corners[~in_group], None))
+                elements.append((dimension, corners[chosen], name))
+        if not in_group.all() and dimension > 1:
+            elements.append((dimension, corners[~in_group], None))
     return tags, np.asarray(mesh.points), elements
 
 
@@ -105,7 +163,7 @@ def _of_gmsh(gmsh: Any) -> tuple[NDArray[np.uint64], NDArray[Any], Elements]:
     model = gmsh.model
     tags, coordinates, _ = model.mesh.getNodes()
     if not len(tags):
-        raise BodyError("the model of gmsh has no mesh; call gmsh.model.mesh.generate(2)")
+        raise BodyError("the model of gmsh has no mesh; call gmsh.model.mesh.generate(2), or of a solid generate(3)")
     elements: Elements = []
     in_group: set[tuple[int, int]] = set()
     for dimension, number in model.getPhysicalGroups():
@@ -113,17 +171,20 @@ def _of_gmsh(gmsh: Any) -> tuple[NDArray[np.uint64], NDArray[Any], Elements]:
         for entity in model.getEntitiesForPhysicalGroup(dimension, number):
             in_group.add((dimension, int(entity)))
             elements += _of_entity(model, dimension, entity, name)
-    for dimension, entity in model.getEntities(2):
-        if (dimension, int(entity)) not in in_group:
-            elements += _of_entity(model, dimension, entity, None)
+    for top in (2, 3):
+        for dimension, entity in model.getEntities(top):
+            if (dimension, int(entity)) not in in_group:
+                elements += _of_entity(model, dimension, entity, None)
     return np.asarray(tags, dtype=np.uint64), np.asarray(coordinates).reshape(-1, 3), elements
 
 
-def _of_entity(model: Any, dimension: int, entity: int, name: str | None) -> Iterable[tuple[NDArray[np.uint64], str | None]]:
+def _of_entity(model: Any, dimension: int, entity: int, name: str | None) -> Elements:
     kinds, of_kind, nodes = model.mesh.getElements(dimension, entity)
+    elements_of_all: Elements = []
     for kind, elements, corners in zip(kinds, of_kind, nodes, strict=True):
-        n = GMSH_CORNERS.get(int(kind))
-        if n is None:
-            raise BodyError(f"elements of Gmsh's type {kind} are in no planar mesh; triangles and quadrangles are")
+        if int(kind) not in GMSH_SHAPES:
+            raise BodyError(f"Gmsh's type {kind} of elements {UNREAD}")
+        of_shape, n = GMSH_SHAPES[int(kind)]
         rows = np.asarray(corners, dtype=np.uint64).reshape(len(elements), -1)
-        yield np.ascontiguousarray(rows[:, :n]), name
+        elements_of_all.append((of_shape, np.ascontiguousarray(rows[:, :n]), name))
+    return elements_of_all

@@ -99,11 +99,14 @@ class Case:
 
 
 class Setup(Case):
-    """A case on a body in memory: points from arrays, a mesh of meshio, or the live model of gmsh.
+    """A case on a body in memory: points or cells from arrays, a mesh of meshio, or the live model of gmsh.
 
     Points take `positions` (n, 2) in m, `areas` that each of them stands for (n, or one for all) in m², and `groups` by indices or
-    masks (n). A `mesh` is an object of meshio or the module gmsh itself; its groups are its physical groups or cell sets, and
-    `groups` adds further ones of its nodes. `sections` are those of a case file, but for ``mesh`` and ``lattice``.
+    masks (n). A solid takes `positions` (n, 3) and `volumes` in m³. With `cells` the positions are nodes of a mesh: arrays of node
+    indices by the kind of cell, as meshio calls them (``triangle``, ``quad``, ``tetra``, ``hexahedron``, ``wedge``, ``pyramid``), and
+    `faces` are named sides of cells: edges (n, 2), in a solid faces (n, 3) or (n, 4). A `mesh` is an object of meshio or the module
+    gmsh itself; its groups are its physical groups or cell sets, and `groups` adds further ones of its nodes. `thickness` and `plane`
+    are those of a body in the plane. `sections` are those of a case file, but for ``mesh`` and lattices.
 
     >>> import numpy as np
     >>> x, y = np.meshgrid(0.01 * np.arange(30), 0.01 * np.arange(10))
@@ -125,17 +128,22 @@ class Setup(Case):
         *,
         positions: ArrayLike | None = None,
         areas: ArrayLike | None = None,
+        volumes: ArrayLike | None = None,
+        cells: Mapping[str, ArrayLike] | None = None,
+        faces: Mapping[str, ArrayLike] | None = None,
         groups: Mapping[str, ArrayLike] | None = None,
-        thickness: float = 1.0,
-        plane: str = "stress",
+        thickness: float | None = None,
+        plane: str | None = None,
         **sections: Section | Sequence[Section] | str,
     ) -> None:
-        if mesh is None:
-            if positions is None or areas is None:
-                raise LigamentError("a setup needs a `mesh`, or `positions` and `areas`")
-            self._body = _body.of_points(positions, areas, groups)
-        else:
+        if mesh is not None:
             self._body = _body.of_mesh(mesh, groups)
+        elif positions is not None and cells is not None:
+            self._body = _body.of_cells(positions, cells, faces, groups)
+        elif positions is not None and not (areas is None and volumes is None):
+            self._body = _body.of_points(positions, areas, volumes, groups)
+        else:
+            raise LigamentError("a setup needs a `mesh`, or `positions` with `cells`, or `positions` and `areas` (`volumes` of a solid)")
         # The body of the section is the one in memory: no such file is read.
         on_body = {"mesh": {"file": "body in memory", "thickness": thickness, "plane": plane}, **sections}
         self._native = _native.Case.of_sections(on_body, IN_MEMORY, {}, self._body)
@@ -149,6 +157,11 @@ class Setup(Case):
     def groups(self) -> list[str]:
         """Names of the groups of the body."""
         return self._body.groups
+
+    @property
+    def is_solid(self) -> bool:
+        """Whether the body is a solid."""
+        return self._body.is_solid
 
 
 def dotted(changes: Mapping[str, Any]) -> dict[str, Any]:

@@ -14,17 +14,19 @@ Column = NDArray[Any] | list[str]
 
 class Body:
     @staticmethod
-    def of_points(positions: Floats, areas: Floats, groups: Sequence[tuple[str, Sequence[int]]]) -> Body: ...
+    def of_points(positions: Floats, sizes: Floats, groups: Sequence[tuple[str, Sequence[int]]]) -> Body: ...
     @staticmethod
     def of_mesh(
         tags: NDArray[np.uint64],
         positions: Floats,
-        elements: Sequence[tuple[NDArray[np.uint64], str | None]],
+        elements: Sequence[tuple[int, NDArray[np.uint64], str | None]],
     ) -> Body: ...
     @property
     def n_points(self) -> int: ...
     @property
     def groups(self) -> list[str]: ...
+    @property
+    def is_solid(self) -> bool: ...
 
 class Case:
     @staticmethod

@@ -73,8 +73,13 @@ class Result:
 
     @property
     def points(self) -> dict[str, NDArray[Any]]:
-        """Arrays over the points that never change: position (n, 2), volume, horizon and others."""
+        """Arrays over the points that never change: position (n, 2) or (n, 3), volume, horizon and others."""
         return self._run.points
+
+    @property
+    def is_solid(self) -> bool:
+        """Whether the body is a solid."""
+        return bool(self._run.points["position"].shape[1] == 3)
 
     @property
     def bonds(self) -> dict[str, NDArray[Any]]:
@@ -155,8 +160,8 @@ class Result:
     def _scalar(self, field: str, step: int) -> tuple[NDArray[Any], str]:
         """Values of a field or of a component of one, and the name of the field."""
         stem, _, component = field.rpartition("_")
-        if field not in self._run.fields[step] and component in ("x", "y") and stem in self._run.fields[step]:
-            return self.field(stem, step)[:, "xy".index(component)], stem
+        if field not in self._run.fields[step] and component in ("x", "y", "z") and stem in self._run.fields[step]:
+            return self.field(stem, step)[:, "xyz".index(component)], stem
         values = self.field(field, step)
         return (np.linalg.norm(values, axis=1), field) if values.ndim == 2 else (values, field)
 
@@ -172,13 +177,17 @@ class Result:
         cells = self._run.cells
         if "corners" in cells:
             corners = cells["corners"]
-            n = len(corners) // 4
-            grid = pyvista.UnstructuredGrid({pyvista.CellType.QUAD: np.arange(4 * n).reshape(n, 4)}, _in_space(corners))
+            of_one, kind = (8, pyvista.CellType.HEXAHEDRON) if self.is_solid else (4, pyvista.CellType.QUAD)
+            n = len(corners) // of_one
+            grid = pyvista.UnstructuredGrid({kind: np.arange(of_one * n).reshape(n, of_one)}, _in_space(corners))
             data = grid.cell_data
-            grid.point_data["displacement"] = np.repeat(of_step["displacement"], 4, axis=0)
+            grid.point_data["displacement"] = np.repeat(of_step["displacement"], of_one, axis=0)
         else:
-            kinds = {pyvista.CellType.TRIANGLE: cells["triangles"], pyvista.CellType.QUAD: cells["quadrangles"]}
-            filled = {kind: corners for kind, corners in kinds.items() if len(corners)}
+            types = {
+                "triangles": pyvista.CellType.TRIANGLE, "quadrangles": pyvista.CellType.QUAD, "tetrahedra": pyvista.CellType.TETRA,
+                "pyramids": pyvista.CellType.PYRAMID, "prisms": pyvista.CellType.WEDGE, "hexahedra": pyvista.CellType.HEXAHEDRON,
+            }
+            filled = {types[name]: corners for name, corners in cells.items() if len(corners)}
             grid = pyvista.UnstructuredGrid(filled, _in_space(self.points["position"]))
             data = grid.point_data
         for name, values in of_step.items():
@@ -191,7 +200,7 @@ class Result:
 
     def _repr_html_(self) -> str:
         rows = "".join(f"<tr><td>{html.escape(name)}</td><td>{html.escape(value)}</td></tr>" for name, value in self._told())
-        pictures = [self.plot(width=HALF).to_html()]
+        pictures = [] if self.is_solid else [self.plot(width=HALF).to_html()]
         if len(self.columns["step"]) > 2:
             pictures.insert(0, self.curve(width=HALF).to_html())
         return f"<div><b>{html.escape(self.title)}</b><table>{rows}</table>{''.join(pictures)}</div>"
@@ -211,7 +220,7 @@ class Result:
 
 
 def _in_space(positions: NDArray[Any]) -> Floats:
-    return np.column_stack([positions, np.zeros(len(positions))])
+    return positions if positions.shape[1] == 3 else np.column_stack([positions, np.zeros(len(positions))])
 
 
 def curves(results: list[Result], labels: list[str], width: float = WIDTH) -> Picture:
@@ -246,7 +255,7 @@ class Modes:
 
     @property
     def participation(self) -> Floats:
-        """Participation of each mode in motions along x, along y and about the centre (n, 3)."""
+        """Participation of each mode in motions along x, along y and about the centre (n, 3); of a solid along and about x, y and z (n, 6)."""
         participation: Floats = self._found["participation"]
         return participation
 
@@ -262,7 +271,7 @@ class Modes:
 
     @property
     def position(self) -> Floats:
-        """Positions of the points (n, 2), m."""
+        """Positions of the points (n, 2) or (n, 3), m."""
         position: Floats = self._found["position"]
         return position
 

@@ -131,13 +131,11 @@ pub enum Refusal {
     Unreadable,
     /// The source is a Gmsh mesh already.
     IsGmsh,
-    /// The source has volumes.
-    Volumes,
     /// The source has cells of shapes that are not read.
     Shapes,
-    /// The source has no planar cells.
-    NothingPlanar,
-    /// The source is not in the plane of x and y.
+    /// The source has neither planar nor solid cells.
+    NoCells,
+    /// The source has planar cells alone and is not in the plane of x and y.
     NotPlanar,
 }
 
@@ -152,16 +150,15 @@ impl Refusal {
             ),
             Self::Unreadable => format!("meshio could not read {path}{below}"),
             Self::IsGmsh => format!("{path} is a Gmsh mesh: Ligament reads it as it is"),
-            Self::Volumes => format!(
-                "{path} is a mesh of a volume ({beside}): Ligament needs a planar mesh of triangles and quadrangles"
+            Self::Shapes => format!(
+                "{path} has cells that are neither triangles and quadrangles nor tetrahedra, hexahedra, prisms and pyramids: {beside}"
             ),
-            Self::Shapes => {
-                format!("{path} has cells that are neither triangles nor quadrangles: {beside}")
-            }
-            Self::NothingPlanar => {
-                format!("there are no triangles or quadrangles in {path}, only: {beside}")
-            }
-            Self::NotPlanar => format!("{path} is not planar: {beside}"),
+            Self::NoCells => format!(
+                "there are no triangles, quadrangles or solid cells in {path}, only: {beside}"
+            ),
+            Self::NotPlanar => format!(
+                "{path} has no solid cells and is not planar: {beside}; of a solid mesh the volume too"
+            ),
         }
     }
 }

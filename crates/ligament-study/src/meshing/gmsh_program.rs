@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use ligament_mesh::Mesh;
+use ligament_mesh::AnyMesh;
 use ligament_mesh::gmsh;
 
 use super::error::{MeshingError, Refusal};
@@ -35,7 +35,7 @@ const REMEDY: &str = "install it (`pip install gmsh`, `apt install gmsh`, or fro
 /// # Errors
 ///
 /// If gmsh is missing or fails, or its mesh cannot be used or put in place.
-pub fn make_mesh(request: &MeshRequest) -> Result<Mesh, MeshingError> {
+pub fn make_mesh(request: &MeshRequest) -> Result<AnyMesh, MeshingError> {
     let MeshRequest { geometry, out, .. } = request;
     if !geometry.is_file() {
         let (what, path) = ("geometry", geometry.clone());
@@ -69,7 +69,7 @@ pub fn make_mesh(request: &MeshRequest) -> Result<Mesh, MeshingError> {
         });
     }
     let bytes = std::fs::read(unfinished.path()).map_err(write_error)?;
-    let mesh = gmsh::parse(&bytes).map_err(|source| MeshingError::Unusable {
+    let mesh = gmsh::parse_any(&bytes).map_err(|source| MeshingError::Unusable {
         geometry: geometry.clone(),
         source,
     })?;
@@ -127,7 +127,7 @@ fn declared_constants(geometry: &str) -> Vec<String> {
 fn call_gmsh(request: &MeshRequest, out: &Path) -> Result<Output, MeshingError> {
     let mut command = Command::new(&request.gmsh);
     let [geometry, out] = [request.geometry.as_path(), out].map(operand);
-    command.arg("-2").arg(geometry).arg("-o").arg(out);
+    command.arg("-3").arg(geometry).arg("-o").arg(out);
     command.args(["-format", "msh41"]);
     for (name, value) in &request.numbers {
         command.args(["-setnumber", name, &value.to_string()]);

@@ -1,4 +1,4 @@
-//! `ligament mesh`: planar meshes from other programs.
+//! `ligament mesh`: meshes from other programs.
 //!
 //! | module | makes a mesh of |
 //! |---|---|

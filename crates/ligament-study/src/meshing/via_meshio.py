@@ -2,9 +2,10 @@
 
 The output has the sections `remarks`, `nodes`, `cells` and `groups`, each with its number of lines behind its name:
 
-    nodes N     a tag and two coordinates, with as many digits as it takes to read the same bits back
-    cells N     three or four corners each, nodes by their places from 0
-    groups N    dimension, number of members and name; then a line with a node, two nodes or the place of a cell for each member
+    nodes N     a tag and two coordinates, of a solid three, with as many digits as it takes to read the same bits back
+    cells N     three or four corners each, of a solid four, five, six or eight, nodes by their places from 0
+    groups N    dimension, number of members and name; then a line with a node, two nodes, the nodes of a face of a solid or the place
+                of a cell for each member
 
 and ends in `end`. Where there is no such mesh it is `error`, the kind of the fault and the reason in lines of their own, and the exit
 status is 1.
@@ -28,7 +29,28 @@ ZERO_IS_NONE = ("medit:ref", "su2:tag", "ugrid:ref", "cell_tags", "point_tags", 
 NO_GROUPS = ("gmsh:geometrical", "vtkOriginalCellIds", "vtkGhostType", "vtkOriginalPointIds")
 # Elements of the plane and of trusses that Abaqus has and meshio 5.3 does not know: continuum elements by their numbers of nodes.
 ABAQUS_ELEMENTS = {"3": "triangle", "4": "quad", "6": "triangle6", "8": "quad8"}
-KIND = ("points", "curve", "surface")
+ABAQUS_SOLIDS = {
+    "4": "tetra", "5": "pyramid", "6": "wedge", "8": "hexahedron", "10": "tetra10", "15": "wedge15", "20": "hexahedron20",
+}
+KIND = ("points", "curve", "surface", "volume")
+# Cells by the beginning of their names in meshio: dimension and corners, which stand first.
+SHAPES = {
+    "vertex": (0, 1), "line": (1, 2), "triangle": (2, 3), "quad": (2, 4), "tetra": (3, 4), "pyramid": (3, 5), "wedge": (3, 6),
+    "hexahedron": (3, 8),
+}
+# Sides of solid cells by their numbers of corners: Abaqus, User's Manual, "Solid elements"; Exodus II manual, "Side sets".
+SIDES_OF_ABAQUS = {
+    4: ("123", "142", "243", "341"),
+    5: ("1234", "152", "253", "354", "451"),
+    6: ("123", "465", "1452", "2563", "3641"),
+    8: ("1234", "5876", "1562", "2673", "3784", "4851"),
+}
+SIDES_OF_EXODUS = {
+    4: ("124", "234", "143", "132"),
+    5: ("125", "235", "345", "154", "1432"),
+    6: ("1254", "2365", "1463", "132", "456"),
+    8: ("1265", "2376", "3487", "1584", "1432", "5678"),
+}
 
 
 class Unfit(Exception):
@@ -80,60 +102,58 @@ def know_more_elements_of_abaqus(meshio):
         for nodes, kind in ABAQUS_ELEMENTS.items():
             for variant in ("", "R", "H", "I", "M", "T", "P", "RH", "IH", "MH", "RT", "RS", "5", "R5"):
                 known.setdefault(f"{family}{nodes}{variant}", kind)
+    for nodes, kind in ABAQUS_SOLIDS.items():
+        for variant in ("", "R", "H", "I", "M", "T", "P", "S", "RH", "IH", "MH", "RT", "RS", "HT", "MT", "RP", "IS"):
+            known.setdefault(f"C3D{nodes}{variant}", kind)
 
 
 class Elements:
     """The elements of a mesh by dimension: corners, and where they stand in the blocks of meshio."""
 
     def __init__(self, mesh, remarks):
-        self.nodes = ([], [], [])
+        self.nodes = ([], [], [], [])
         # For each block its dimension, and the place of each of its elements among those of that dimension.
         self.places = []
-        higher, volumes, foreign = 0, {}, {}
-        for block in mesh.cells:
-            corners = corners_of(block)
-            if block.dim == 3:
-                volumes[block.type] = volumes.get(block.type, 0) + len(block.data)
-            elif corners is None:
+        shapes = [shape_of(block) for block in mesh.cells]
+        # Of cells: a solid where there is a solid cell, else in the plane.
+        self.top = 3 if any(shape is not None and shape[0] == 3 for shape in shapes) else 2
+        higher, foreign = 0, {}
+        for block, shape in zip(mesh.cells, shapes):
+            if shape is None:
                 foreign[block.type] = foreign.get(block.type, 0) + len(block.data)
-            if corners is None or block.dim == 3:
                 self.places.append((None, []))
                 continue
-            if block.dim == 2 and block.data.shape[1] > corners:
+            dimension, corners = shape
+            if dimension == self.top and block.data.shape[1] > corners:
                 higher += len(block.data)
-            into = self.nodes[block.dim]
-            self.places.append((block.dim, range(len(into), len(into) + len(block.data))))
+            into = self.nodes[dimension]
+            self.places.append((dimension, range(len(into), len(into) + len(block.data))))
             into.extend(block.data[:, :corners].tolist())
-        if volumes:
-            kinds = ", ".join(f"{counted(count, kind)}" for kind, count in volumes.items())
-            raise Unfit("three-dimensional", kinds)
         if foreign:
             kinds = ", ".join(f"{counted(count, kind)}" for kind, count in foreign.items())
             raise Unfit("foreign-cells", kinds)
-        if not self.nodes[2]:
+        if not self.nodes[self.top]:
             found = ", ".join(f"{counted(len(block.data), block.type)}" for block in mesh.cells)
-            raise Unfit("nothing-planar", found or "no cells at all")
+            raise Unfit("no-cells", found or "no cells at all")
         if higher:
             what = counted(higher, "cell of higher order was", "cells of higher order were")
             remarks.add(f"{what} read by the corner nodes alone")
 
     def of(self, members):
         """Elements by dimension, of places in each block of meshio."""
-        found = ([], [], [])
+        found = ([], [], [], [])
         for (dimension, places), inside in zip(self.places, members):
             if dimension is not None and inside is not None:
                 found[dimension].extend(places[int(k)] for k in inside)
         return found
 
 
-def corners_of(block):
-    """Corners of the cells of a block, which stand first; None of those that are no points, lines, triangles or quadrangles."""
+def shape_of(block):
+    """Dimension and number of corners of the cells of a block, whose corners stand first; None of those that are not read."""
     if block.type == "polygon":
-        return block.data.shape[1] if block.data.shape[1] in (3, 4) else None
-    for name, corners in (("vertex", 1), ("line", 2), ("triangle", 3), ("quad", 4)):
-        if re.fullmatch(rf"{name}\d*", block.type):
-            return corners
-    return None
+        return (2, block.data.shape[1]) if block.data.shape[1] in (3, 4) else None
+    match = re.fullmatch(r"([a-z]+)\d*", block.type)
+    return SHAPES.get(match[1]) if match else None
 
 
 # Groups
@@ -148,7 +168,7 @@ class Groups:
         self.elements = elements
 
     def add(self, name, dimension, members, source):
-        """Members of dimension 0 are nodes, of dimension 1 and 2 places of elements."""
+        """Members of dimension 0 are nodes, else places of elements."""
         name = one_line(name).replace('"', "'")
         members = list(dict.fromkeys(int(member) for member in members))
         if not name:
@@ -167,7 +187,7 @@ class Groups:
 
     def add_elements(self, name, by_dimension, source):
         """What is one group in the file keeps its name in all dimensions."""
-        held = [k for k in (2, 1, 0) if by_dimension[k]]
+        held = [k for k in (3, 2, 1, 0) if by_dimension[k]]
         name = one_line(name).replace('"', "'")
         if not held:
             self.remarks.add(f"{source} has no elements that are read, and was left out")
@@ -229,20 +249,20 @@ def add_data(mesh, groups, remarks, numpy):
             if value == 0 and key in ZERO_IS_NONE:
                 continue
             found = groups.elements.of([numpy.flatnonzero(block == value) for block in blocks])
-            for dimension in (2, 1, 0):
+            for dimension in (3, 2, 1, 0):
                 if found[dimension]:
                     for name in names_of(key, int(value), dimension, mesh):
                         members.setdefault((name, dimension), []).extend(found[dimension])
         of_families = key == "cell_tags"
         by_name = {}
         for (name, dimension), inside in members.items():
-            by_name.setdefault(name, [[], [], []])[dimension] = inside
+            by_name.setdefault(name, [[], [], [], []])[dimension] = inside
         for name, by_dimension in by_name.items():
             source = f"the cell data `{key}`"
             if of_families:
                 groups.add_elements(name, by_dimension, source)
                 continue
-            for dimension in (2, 1, 0):
+            for dimension in (3, 2, 1, 0):
                 if by_dimension[dimension]:
                     inside = by_dimension[dimension]
                     groups.add(name, dimension, groups.points(inside) if dimension == 0 else inside, source)
@@ -359,7 +379,7 @@ def add_abaqus(file, mesh, groups, remarks):
         return element_of[number]
 
     for name in file.element_sets:
-        by_dimension = ([], [], [])
+        by_dimension = ([], [], [], [])
         for number in file.resolved(file.element_sets, name):
             dimension, place = element(number, name)
             by_dimension[dimension].append(place)
@@ -371,32 +391,36 @@ def add_abaqus(file, mesh, groups, remarks):
             raise Unfit("unreadable", f"{name} has the node {unknown[0]}, which the file does not have")
         groups.add(name, 0, [node_of[number] for number in numbers], f"the node set `{name}`")
     for name, sides in file.surfaces.items():
-        edges = []
+        found = []
         for where, side in sides:
             numbers = [int(where)] if where.isdigit() else file.resolved(file.element_sets, where)
             match = re.fullmatch(r"[SE](\d)", side.upper())
             if match is None:
                 remarks.add(f"the surface `{name}` has the side {side}, and was left out")
-                edges = []
+                found = []
                 break
-            edges += [side_of(*element(number, name), int(match[1]), groups) for number in numbers]
-        add_edges(name, edges, groups, f"the surface `{name}`")
+            found += [side_of(*element(number, name), int(match[1]), groups, SIDES_OF_ABAQUS) for number in numbers]
+        add_sides(name, found, groups, f"the surface `{name}`")
 
 
-def side_of(dimension, place, side, groups):
-    """The ends of a side of a cell, numbered from 1 at its first corner."""
+def side_of(dimension, place, side, groups, sides_of_solids):
+    """The corners of a side of a cell: of one in the plane numbered from 1 at its first corner, of a solid one by a table."""
     corners = groups.elements.nodes[dimension][place]
-    if dimension != 2 or not 1 <= side <= len(corners):
+    sides = sides_of_solids[len(corners)] if dimension == 3 else corners
+    if dimension < 2 or not 1 <= side <= len(sides):
         raise Unfit("unreadable", f"there is no side {side} of an element with {len(corners)} corners")
+    if dimension == 3:
+        return [corners[int(corner) - 1] for corner in sides[side - 1]]
     return [corners[side - 1], corners[side % len(corners)]]
 
 
-def add_edges(name, edges, groups, source):
-    """A curve whose edges are no elements of the file."""
-    if edges:
-        lines = groups.elements.nodes[1]
-        lines.extend(edges)
-        groups.add(name, 1, range(len(lines) - len(edges), len(lines)), source)
+def add_sides(name, sides, groups, source):
+    """A curve or surface whose edges or faces are no elements of the file."""
+    if sides:
+        dimension = 1 if len(sides[0]) == 2 else 2
+        elements = groups.elements.nodes[dimension]
+        elements.extend(sides)
+        groups.add(name, dimension, range(len(elements) - len(sides), len(elements)), source)
 
 
 # Exodus: meshio 5.3 leaves out blocks, side sets and node sets without names.
@@ -422,7 +446,7 @@ def add_exodus(path, groups, remarks):
         for k, name in zip(order, names("eb_names", "eb_prop1", "block")):
             dimension, places = groups.elements.places[k]
             flat += [(dimension, place) for place in places]
-            by_dimension = ([], [], [])
+            by_dimension = ([], [], [], [])
             by_dimension[dimension].extend(places)
             groups.add_elements(name, by_dimension, f"the element block `{name}`")
         for k, name in enumerate(names("ns_names", "ns_prop1", "node-set"), 1):
@@ -431,12 +455,13 @@ def add_exodus(path, groups, remarks):
         for k, name in enumerate(names("ss_names", "ss_prop1", "side-set"), 1):
             if f"elem_ss{k}" not in file.variables:
                 continue
-            if len(file.dimensions["num_dim"]) != 2:
+            elements = file.variables[f"elem_ss{k}"][:].tolist()
+            if len(file.dimensions["num_dim"]) != 2 and any(flat[number - 1][0] != 3 for number in elements):
                 remarks.add(f"the side set `{name}` was left out: sides of shells in space are numbered otherwise")
                 continue
-            sides = zip(file.variables[f"elem_ss{k}"][:].tolist(), file.variables[f"side_ss{k}"][:].tolist())
-            edges = [side_of(*flat[number - 1], side, groups) for number, side in sides]
-            add_edges(name, edges, groups, f"the side set `{name}`")
+            sides = zip(elements, file.variables[f"side_ss{k}"][:].tolist())
+            found = [side_of(*flat[number - 1], side, groups, SIDES_OF_EXODUS) for number, side in sides]
+            add_sides(name, found, groups, f"the side set `{name}`")
 
 
 def is_exodus(path):
@@ -473,19 +498,21 @@ def tags_of(mesh, abaqus):
 
 
 def hand_over(mesh, elements, groups, tags, remarks, out):
-    used = sorted({node for cell in elements.nodes[2] for node in cell})
-    points = planar(mesh, used)
+    cells, is_solid = elements.nodes[elements.top], elements.top == 3
+    used = sorted({node for cell in cells for node in cell})
+    points = mesh.points if is_solid else planar(mesh, used)
     place = {node: k for k, node in enumerate(used)}
     unused = len(mesh.points) - len(used)
     if unused:
-        what = counted(unused, "node that no corner of a triangle or quadrangle uses was", "nodes that no corner of a triangle or quadrangle uses were")
+        corner = "corner of a solid cell" if is_solid else "corner of a triangle or quadrangle"
+        what = counted(unused, f"node that no {corner} uses was", f"nodes that no {corner} uses were")
         remarks.add(f"{what} dropped")
     lines, n_groups = [], 0
     for (name, dimension), members in groups.members.items():
-        if dimension == 2:
+        if dimension == elements.top:
             rows = [str(member) for member in members]
         else:
-            nodes = [[member] if dimension == 0 else elements.nodes[1][member] for member in members]
+            nodes = [[member] if dimension == 0 else elements.nodes[dimension][member] for member in members]
             rows = [" ".join(str(place[node]) for node in ends) for ends in nodes if all(node in place for node in ends)]
         if len(rows) < len(members):
             lost = counted(len(members) - len(rows), "member")
@@ -496,10 +523,9 @@ def hand_over(mesh, elements, groups, tags, remarks, out):
     print(f"remarks {len(remarks)}", *remarks, sep="\n", file=out)
     print(f"nodes {len(used)}", file=out)
     for node in used:
-        x, y = float(points[node, 0]), float(points[node, 1])
-        print(tags[node], repr(x), repr(y), file=out)
-    print(f"cells {len(elements.nodes[2])}", file=out)
-    for cell in elements.nodes[2]:
+        print(tags[node], *(repr(float(it)) for it in points[node, : elements.top]), file=out)
+    print(f"cells {len(cells)}", file=out)
+    for cell in cells:
         print(*(place[node] for node in cell), file=out)
     print(f"groups {n_groups}", *lines, "end", sep="\n", file=out)
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use ligament_mesh::gmsh;
-use ligament_mesh::{Cell, Group, Mesh};
+use ligament_mesh::{AnyMesh, Cell, Group, Mesh, SolidCell, SolidMesh};
 
 use super::error::{MeshingError, Refusal};
 use super::{Unfinished, is_same_file, last_lines, output_of};
@@ -32,7 +32,7 @@ pub struct ConversionRequest {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Conversion {
     /// The mesh as it stands in the file that was written.
-    pub mesh: Mesh,
+    pub mesh: AnyMesh,
     /// Remarks on what was read otherwise than it stands in the source, in words.
     pub remarks: Vec<String>,
 }
@@ -41,13 +41,12 @@ pub struct Conversion {
 const REMEDY: &str = "install Python from https://python.org, or say where it is by --python PATH";
 
 /// The faults that the script finds in a source, by its words for them.
-const FAULTS: [(&str, Refusal); 7] = [
+const FAULTS: [(&str, Refusal); 6] = [
     ("unknown-format", Refusal::UnknownFormat),
     ("unreadable", Refusal::Unreadable),
     ("is-gmsh", Refusal::IsGmsh),
-    ("three-dimensional", Refusal::Volumes),
     ("foreign-cells", Refusal::Shapes),
-    ("nothing-planar", Refusal::NothingPlanar),
+    ("no-cells", Refusal::NoCells),
     ("not-planar", Refusal::NotPlanar),
 ];
 
@@ -58,7 +57,7 @@ const FAULTS: [(&str, Refusal); 7] = [
 ///
 /// # Errors
 ///
-/// If Python or meshio are missing, the file cannot be read or is no planar mesh, or the result cannot be put in place.
+/// If Python or meshio are missing, the file cannot be read or has no mesh, or the result cannot be put in place.
 pub fn convert(request: &ConversionRequest) -> Result<Conversion, MeshingError> {
     let ConversionRequest { source, out, .. } = request;
     if !source.is_file() {
@@ -84,8 +83,11 @@ pub fn convert(request: &ConversionRequest) -> Result<Conversion, MeshingError> 
     }
     let handed = output.status.success().then(|| Handed::parse(&text));
     let Handed { mesh, remarks } = handed.flatten().ok_or_else(failed)?;
-    let text = gmsh::write(&mesh);
-    let mesh = gmsh::parse(text.as_bytes()).map_err(|error| MeshingError::UnusableSource {
+    let text = match &mesh {
+        AnyMesh::Plane(mesh) => gmsh::write(mesh),
+        AnyMesh::Solid(mesh) => gmsh::write_solid(mesh),
+    };
+    let mesh = gmsh::parse_any(text.as_bytes()).map_err(|error| MeshingError::UnusableSource {
         mesh: source.clone(),
         source: error,
     })?;
@@ -129,7 +131,7 @@ fn refused(request: &ConversionRequest, fault: &str) -> Option<MeshingError> {
 
 /// What the script hands over.
 struct Handed {
-    mesh: Mesh,
+    mesh: AnyMesh,
     remarks: Vec<String>,
 }
 
@@ -139,58 +141,110 @@ impl Handed {
         let mut lines = text.lines();
         let n_remarks = section(lines.next()?, "remarks")?;
         let remarks: Vec<String> = lines.by_ref().take(n_remarks).map(str::to_owned).collect();
-
         let n_nodes = section(lines.next()?, "nodes")?;
-        let (mut node_tags, mut positions) = (Vec::new(), Vec::new());
-        for line in lines.by_ref().take(n_nodes) {
-            let mut words = line.split(' ');
-            node_tags.push(words.next()?.parse().ok()?);
-            positions.push([words.next()?.parse().ok()?, words.next()?.parse().ok()?]);
-        }
-        let is_node = |node: &u32| (*node as usize) < positions.len();
-
-        let n_cells = section(lines.next()?, "cells")?;
-        let cells: Option<Vec<Cell>> = lines
-            .by_ref()
-            .take(n_cells)
-            .map(|line| match *numbers(line)? {
-                [a, b, c] => Some(Cell::Triangle([a, b, c])),
-                [a, b, c, d] => Some(Cell::Quadrangle([a, b, c, d])),
-                _ => None,
-            })
-            .collect();
-        let cells = cells?;
-        cells
-            .iter()
-            .all(|cell| cell.corners().iter().all(is_node))
-            .then_some(())?;
-
-        let n_groups = section(lines.next()?, "groups")?;
-        let mut groups: Vec<Group> = Vec::new();
-        for _ in 0..n_groups {
-            let group = group(&mut lines, &groups, positions.len(), cells.len())?;
-            groups.push(group);
-        }
-        (lines.next()? == "end").then_some(Self {
-            mesh: Mesh {
-                node_tags,
-                positions,
-                cells,
-                groups,
-                fields: Vec::new(),
-                remarks: Vec::new(),
-            },
-            remarks,
-        })
+        let nodes: Vec<&str> = lines.by_ref().take(n_nodes).collect();
+        let mesh = match nodes.first()?.split(' ').count() {
+            3 => AnyMesh::Plane(plane(&nodes, lines)?),
+            _ => AnyMesh::Solid(solid(&nodes, lines)?),
+        };
+        Some(Self { mesh, remarks })
     }
 }
 
-/// The next group, after those that came before, of a mesh with so many nodes and cells.
+/// The mesh of the plane of these lines of nodes and the lines behind them.
+fn plane<'a>(nodes: &[&str], mut lines: impl Iterator<Item = &'a str>) -> Option<Mesh> {
+    let (node_tags, positions) = tags_and_positions(nodes)?;
+    let cells = cells(&mut lines, positions.len(), face)?;
+    let groups = groups(&mut lines, 2, positions.len(), cells.len())?;
+    Some(Mesh {
+        node_tags,
+        positions,
+        cells,
+        groups,
+        ..Mesh::default()
+    })
+}
+
+/// The solid mesh of these lines of nodes and the lines behind them.
+fn solid<'a>(nodes: &[&str], mut lines: impl Iterator<Item = &'a str>) -> Option<SolidMesh> {
+    let (node_tags, positions) = tags_and_positions(nodes)?;
+    let cells = cells(&mut lines, positions.len(), solid_cell)?;
+    let groups = groups(&mut lines, 3, positions.len(), cells.len())?;
+    Some(SolidMesh {
+        node_tags,
+        positions,
+        cells,
+        groups,
+        ..SolidMesh::default()
+    })
+}
+
+fn tags_and_positions<const D: usize>(nodes: &[&str]) -> Option<(Vec<u64>, Vec<[f64; D]>)> {
+    let node = |line: &&str| {
+        let mut words = line.split(' ');
+        let tag: u64 = words.next()?.parse().ok()?;
+        let position: Option<Vec<f64>> = words.map(|word| word.parse().ok()).collect();
+        let position: [f64; D] = position?.try_into().ok()?;
+        Some((tag, position))
+    };
+    nodes.iter().map(node).collect()
+}
+
+fn face(corners: &[u32]) -> Option<Cell> {
+    match *corners {
+        [a, b, c] => Some(Cell::Triangle([a, b, c])),
+        [a, b, c, d] => Some(Cell::Quadrangle([a, b, c, d])),
+        _ => None,
+    }
+}
+
+fn solid_cell(corners: &[u32]) -> Option<SolidCell> {
+    match corners.len() {
+        4 => Some(SolidCell::Tetrahedron(corners.try_into().ok()?)),
+        5 => Some(SolidCell::Pyramid(corners.try_into().ok()?)),
+        6 => Some(SolidCell::Prism(corners.try_into().ok()?)),
+        8 => Some(SolidCell::Hexahedron(corners.try_into().ok()?)),
+        _ => None,
+    }
+}
+
+/// The section of cells, each made of its corners among so many nodes.
+fn cells<'a, C>(
+    lines: &mut impl Iterator<Item = &'a str>,
+    n_nodes: usize,
+    of_corners: fn(&[u32]) -> Option<C>,
+) -> Option<Vec<C>> {
+    let n_cells = section(lines.next()?, "cells")?;
+    let cell = |line: &str| {
+        let corners = numbers(line)?;
+        let are_nodes = corners.iter().all(|&node| (node as usize) < n_nodes);
+        are_nodes.then(|| of_corners(&corners))?
+    };
+    lines.take(n_cells).map(cell).collect()
+}
+
+/// The section of groups of a mesh with so many nodes and cells, the cells of a dimension, and the end.
+fn groups<'a>(
+    lines: &mut impl Iterator<Item = &'a str>,
+    of_cells: u8,
+    n_nodes: usize,
+    n_cells: usize,
+) -> Option<Vec<Group>> {
+    let n_groups = section(lines.next()?, "groups")?;
+    let mut groups: Vec<Group> = Vec::new();
+    for _ in 0..n_groups {
+        let group = group(lines, &groups, of_cells, [n_nodes, n_cells])?;
+        groups.push(group);
+    }
+    (lines.next()? == "end").then_some(groups)
+}
+
+/// The next group, after those that came before.
 fn group<'a>(
     lines: &mut impl Iterator<Item = &'a str>,
     before: &[Group],
-    n_nodes: usize,
-    n_cells: usize,
+    of_cells: u8,
+    [n_nodes, n_cells]: [usize; 2],
 ) -> Option<Group> {
     let mut words = lines.next()?.splitn(3, ' ');
     let dimension: u8 = words.next()?.parse().ok()?;
@@ -202,12 +256,22 @@ fn group<'a>(
         number: 1 + before.iter().filter(|it| it.dimension == dimension).count() as i32,
         ..Group::default()
     };
-    let is_node = |node: u32| (node as usize) < n_nodes;
     for line in lines.take(count) {
-        match (dimension, numbers(line)?.as_slice()) {
-            (0, &[node]) if is_node(node) => group.nodes.push(node),
-            (1, &[a, b]) if is_node(a) && is_node(b) => group.edges.push([a, b]),
-            (2, &[cell]) if (cell as usize) < n_cells => group.cells.push(cell),
+        let members = numbers(line)?;
+        let below = if dimension == of_cells {
+            n_cells
+        } else {
+            n_nodes
+        };
+        members
+            .iter()
+            .all(|&it| (it as usize) < below)
+            .then_some(())?;
+        match (dimension, members.as_slice()) {
+            (_, &[cell]) if dimension == of_cells => group.cells.push(cell),
+            (0, &[node]) => group.nodes.push(node),
+            (1, &[a, b]) => group.edges.push([a, b]),
+            (2, corners) if of_cells == 3 => group.faces.push(face(corners)?),
             _ => return None,
         }
     }
@@ -246,6 +310,9 @@ mod tests {
     #[test]
     fn what_is_handed_over_is_read() {
         let Handed { mesh, remarks } = Handed::parse(HANDED).unwrap();
+        let AnyMesh::Plane(mesh) = mesh else {
+            panic!("{mesh:?}")
+        };
         assert_eq!(remarks, ["2 nodes were dropped"]);
         assert_eq!(mesh.node_tags, [7, 8, 9, 4]);
         assert_eq!(mesh.positions[2], [1.0, 0.1 + 0.2]);
@@ -258,11 +325,38 @@ mod tests {
         assert_eq!(mesh.groups[2].nodes, [0, 3]);
     }
 
+    const SOLID: &str = "remarks 0\nnodes 5\n1 0.0 0.0 0.0\n2 1.0 0.0 0.0\n3 1.0 1.0 0.0\n4 0.0 1.0 0.0\n9 0.5 0.5 -1.0\n\
+        cells 1\n0 1 2 3 4\ngroups 3\n3 1 all\n0\n2 1 side\n0 1 4\n1 1 edge\n0 4\nend\n";
+
+    #[test]
+    fn solids_are_handed_over_with_faces() {
+        let Some(Handed {
+            mesh: AnyMesh::Solid(mesh),
+            ..
+        }) = Handed::parse(SOLID)
+        else {
+            panic!("a solid mesh");
+        };
+        assert_eq!(mesh.cells, [SolidCell::Pyramid([0, 1, 2, 3, 4])]);
+        assert_eq!(mesh.positions[4], [0.5, 0.5, -1.0]);
+        assert_eq!(mesh.groups[0].cells, [0]);
+        assert_eq!(mesh.groups[1].faces, [Cell::Triangle([0, 1, 4])]);
+        assert_eq!(mesh.groups[2].edges, [[0, 4]]);
+        // The pyramid hangs from its base: the reader turns it round.
+        let Ok(AnyMesh::Solid(read)) = gmsh::parse_any(gmsh::write_solid(&mesh).as_bytes()) else {
+            panic!("a solid mesh");
+        };
+        assert_eq!(read.volume(), 1.0 / 3.0);
+        assert_eq!(read.groups[1].faces.len(), 1);
+    }
+
     /// A text that ends early, or has nodes and cells that are not there, is none.
     #[test]
     fn anything_else_is_refused() {
-        for end in 0..HANDED.len() - 1 {
-            assert!(Handed::parse(&HANDED[..end]).is_none(), "{end}");
+        for text in [HANDED, SOLID] {
+            for end in 0..text.len() - 1 {
+                assert!(Handed::parse(&text[..end]).is_none(), "{end}");
+            }
         }
         for (from, to) in [("0 2 3\n", "0 2 4\n"), ("part\n1\n", "part\n2\n")] {
             assert!(Handed::parse(&HANDED.replace(from, to)).is_none(), "{to}");

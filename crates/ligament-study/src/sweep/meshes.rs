@@ -86,7 +86,7 @@ fn make_one(
     match make_mesh(&request) {
         Ok(mesh) => {
             let name = request.out.display();
-            tell(&format!("meshed {name}: {} nodes", mesh.positions.len()));
+            tell(&format!("meshed {name}: {} nodes", mesh.n_nodes()));
             Ok(None)
         }
         Err(error @ (MeshingError::Refused { .. } | MeshingError::Unusable { .. })) => {

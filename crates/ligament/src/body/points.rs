@@ -7,12 +7,12 @@ use thiserror::Error;
 
 use super::interface::{Body, OffOutline, Origin};
 
-/// A body of points that are given one by one, each with the area that it stands for. Its groups are sets of points; they have
-/// no length and no outline, so that forces are spread over their points by volume.
+/// A body of points that are given one by one, each with the area, or in space the volume, that it stands for. Its groups are sets of
+/// points; they have no length and no outline, so that forces are spread over their points by volume.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Points {
-    positions: Vec<[f64; 2]>,
-    areas: Vec<f64>,
+pub struct Points<const D: usize = 2> {
+    positions: Vec<[f64; D]>,
+    sizes: Vec<f64>,
     groups: BTreeMap<String, Vec<u32>>,
 }
 
@@ -21,25 +21,29 @@ pub struct Points {
 pub enum PointsError {
     /// Arrays of different lengths, or none at all.
     #[error(
-        "{positions} positions and {areas} areas: every point needs one of each, and there must be a point"
+        "{positions} positions and {sizes} {what}s: every point needs one of each, and there must be a point"
     )]
     Lengths {
         /// Number of positions.
         positions: usize,
-        /// Number of areas.
-        areas: usize,
+        /// Number of areas or volumes.
+        sizes: usize,
+        /// What a point stands for: `area`, or in space `volume`.
+        what: &'static str,
     },
-    /// A position or an area that is no number, or an area that is not positive.
+    /// A position, an area or a volume that is no number, or one of the latter that is not positive.
     #[error(
-        "point {point} has the position {position:?} and the area {area:?}: positions must be finite, areas greater than 0"
+        "point {point} has the position {position:?} and the {what} {size:?}: positions must be finite, {what}s greater than 0"
     )]
     NoSuchPoint {
         /// Index of the point.
         point: usize,
         /// Position of the point, m.
-        position: [f64; 2],
-        /// Area of the point, m^2.
-        area: f64,
+        position: Vec<f64>,
+        /// Area of the point, m^2, or its volume, m^3.
+        size: f64,
+        /// What a point stands for: `area`, or in space `volume`.
+        what: &'static str,
     },
     /// A group without points, or with a point that there is not.
     #[error("group `{group}` {}: it takes indices below {n_points}, one or more", match found {
@@ -56,32 +60,35 @@ pub enum PointsError {
     },
 }
 
-impl Points {
-    /// Points at `positions` (n_points, m), each with the area (n_points, m^2) that it stands for.
+impl<const D: usize> Points<D> {
+    /// Points at `positions` (n_points, m), each with the area (n_points, m^2) or in space the volume (n_points, m^3) that it stands for.
     ///
     /// # Errors
     ///
-    /// If the arrays have different lengths or no element, or a position or an area is none.
-    pub fn new(positions: Vec<[f64; 2]>, areas: Vec<f64>) -> Result<Self, PointsError> {
-        if positions.len() != areas.len() || positions.is_empty() {
+    /// If the arrays have different lengths or no element, or a position, an area or a volume is none.
+    pub fn new(positions: Vec<[f64; D]>, sizes: Vec<f64>) -> Result<Self, PointsError> {
+        let what = if D == 2 { "area" } else { "volume" };
+        if positions.len() != sizes.len() || positions.is_empty() {
             return Err(PointsError::Lengths {
                 positions: positions.len(),
-                areas: areas.len(),
+                sizes: sizes.len(),
+                what,
             });
         }
-        let is_point = |(position, area): (&[f64; 2], &f64)| {
-            position.iter().all(|it| it.is_finite()) && *area > 0.0 && area.is_finite()
+        let is_point = |(position, size): (&[f64; D], &f64)| {
+            position.iter().all(|it| it.is_finite()) && *size > 0.0 && size.is_finite()
         };
-        let wrong = (positions.iter().zip(&areas)).position(|it| !is_point(it));
+        let wrong = (positions.iter().zip(&sizes)).position(|it| !is_point(it));
         match wrong {
             Some(point) => Err(PointsError::NoSuchPoint {
                 point,
-                position: positions[point],
-                area: areas[point],
+                position: positions[point].to_vec(),
+                size: sizes[point],
+                what,
             }),
             None => Ok(Self {
                 positions,
-                areas,
+                sizes,
                 groups: BTreeMap::new(),
             }),
         }
@@ -137,7 +144,7 @@ impl Body for Points {
     }
 
     fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud {
-        let volumes: Vec<f64> = self.areas.iter().map(|area| area * thickness).collect();
+        let volumes: Vec<f64> = self.sizes.iter().map(|area| area * thickness).collect();
         PointCloud::from_points(
             &self.positions,
             &volumes,
@@ -183,12 +190,84 @@ impl Body for Points {
             [[-half, -half], [half, -half], [half, half], [-half, half]]
                 .map(|[right, up]| [x + right, y + up])
         };
-        let squares = self.positions.iter().zip(&self.areas).map(square);
+        let squares = self.positions.iter().zip(&self.sizes).map(square);
         BodyGrid {
             positions: raised(&self.positions),
             tags: (0..self.positions.len() as i64).collect(),
             tagged: self.tagged(),
             canvas: Canvas::Around(squares.collect()),
+        }
+    }
+}
+
+impl Body<3> for Points<3> {
+    fn origin(&self) -> Origin<'_> {
+        Origin::Points
+    }
+
+    fn positions(&self) -> &[[f64; 3]] {
+        &self.positions
+    }
+
+    fn tagged(&self) -> &'static str {
+        "point"
+    }
+
+    fn tag(&self, point: u32) -> u64 {
+        u64::from(point)
+    }
+
+    /// Number of cells: each point is a cell of its own.
+    fn n_cells(&self) -> usize {
+        self.positions.len()
+    }
+
+    fn cloud(&self, _: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<3> {
+        let (positions, volumes) = (&self.positions, &self.sizes);
+        PointCloud::from_points(positions, volumes, 1.0, material_of_cell, n_materials)
+    }
+
+    fn group_kind(&self) -> &'static str {
+        "group of points"
+    }
+
+    fn group_names(&self) -> Vec<String> {
+        self.groups.keys().cloned().collect()
+    }
+
+    fn points_of(&self, group: &str) -> Option<Vec<u32>> {
+        self.groups.get(group).cloned()
+    }
+
+    fn cells_of(&self, group: &str) -> Option<Vec<u32>> {
+        self.points_of(group)
+    }
+
+    fn lengths_of(&self, _: &str) -> Vec<(u32, f64)> {
+        Vec::new()
+    }
+
+    fn outline_of(&self, _: &str) -> Result<Vec<(u32, [f64; 3])>, OffOutline> {
+        Ok(Vec::new())
+    }
+
+    /// No point: arrays do not say where the body ends.
+    fn rim(&self) -> Vec<bool> {
+        vec![false; self.positions.len()]
+    }
+
+    /// A cube of its volume around each point.
+    fn grid(&self) -> BodyGrid {
+        let cube = |(position, volume): (&[f64; 3], &f64)| {
+            let half = 0.5 * volume.cbrt();
+            [position.map(|it| it - half), position.map(|it| it + half)]
+        };
+        let cubes = self.positions.iter().zip(&self.sizes).map(cube);
+        BodyGrid {
+            positions: self.positions.clone(),
+            tags: (0..self.positions.len() as i64).collect(),
+            tagged: self.tagged(),
+            canvas: Canvas::Boxes(cubes.collect()),
         }
     }
 }

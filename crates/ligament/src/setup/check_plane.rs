@@ -1,15 +1,20 @@
 //! What a setup says of a body in the plane alone.
 
 use ligament_analysis::Component;
+use ligament_analysis::probe::PointField;
 use ligament_model::horizon::INCLUSION_TOLERANCE;
 
 use super::check::{Checked, Checks, contradiction, positive, require};
-use super::{Action, Analysis, Axis, Dim, Displacement, Form, Law, Probe, Reading, Setup, Strains};
+use super::{Action, Analysis, Axis, Dim, Displacement, Form, Law, Reading, Setup, Strains};
 use crate::body::Origin;
 use crate::error::Field;
 
 /// What is wrong with a z axis in the plane.
 const NO_Z: &str = "a body in the plane has no z: give \"x\" or \"y\"";
+
+/// What is said of a motion along z or about x or y.
+const MOTIONS: &str =
+    "a body in the plane moves by `x`, `y` and `rotation`: the others are those of solids";
 
 impl Checks<2> for Dim {
     fn check(setup: &Setup) -> Checked {
@@ -27,28 +32,36 @@ impl Setup {
         self.check_rotational_scale()?;
         self.check_precracks()?;
         self.check_closing()?;
-        self.check_sections()?;
+        self.check_readings()?;
         self.check_components()
     }
 
-    /// Sections carry forces along x and y.
-    fn check_sections(&self) -> Checked {
-        let is_along_z = |it: &Probe| {
-            let Reading::Section { component, .. } = it.reading else {
-                return false;
-            };
-            component == Axis::Z
-        };
-        match self.probes.iter().position(is_along_z) {
-            None => Ok(()),
-            Some(index) => contradiction(Field::element("probes", index).part("component"), NO_Z),
+    /// Probes read forces along x and y, and motions that points of the plane have.
+    fn check_readings(&self) -> Checked {
+        for (index, probe) in self.probes.iter().enumerate() {
+            let probed = Field::element("probes", index);
+            match probe.reading {
+                Reading::Section { component, .. } if component == Axis::Z => {
+                    return contradiction(probed.part("component"), NO_Z);
+                }
+                Reading::Between { component, .. } if !Component::ALL.contains(&component) => {
+                    return contradiction(probed.part("component"), MOTIONS);
+                }
+                Reading::At {
+                    field: PointField::Motion(component),
+                    ..
+                } if !Component::ALL.contains(&component) => {
+                    return contradiction(probed.part("field"), MOTIONS);
+                }
+                _ => {}
+            }
         }
+        Ok(())
     }
 
     /// Points of the plane move along x and y and turn about z.
     fn check_components(&self) -> Checked {
-        let reason =
-            "a body in the plane moves by `x`, `y` and `rotation`: the others are those of solids";
+        let reason = MOTIONS;
         let leaves = |given: &Displacement| {
             let beyond = [
                 given.z,

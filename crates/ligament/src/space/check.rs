@@ -86,16 +86,16 @@ impl Setup<3> {
             }
         }
         for (index, probe) in self.probes.iter().enumerate() {
-            let component = match probe.reading {
-                Reading::Between { component, .. } => Some(component),
+            let (component, part) = match probe.reading {
+                Reading::Between { component, .. } => (component, "component"),
                 Reading::At {
                     field: PointField::Motion(component),
                     ..
-                } => Some(component),
-                _ => None,
+                } => (component, "field"),
+                _ => continue,
             };
-            if component == Some(Component::Rotation) {
-                return contradiction(Field::element("probes", index).part("reading"), reason);
+            if component == Component::Rotation {
+                return contradiction(Field::element("probes", index).part(part), reason);
             }
         }
         Ok(())

@@ -1,38 +1,21 @@
 //! The text of a starter case.
 
+mod body;
+mod numbers;
+mod precrack;
+mod section;
+
 use std::fmt::Write;
 
-use ligament_mesh::Group;
 use toml_edit::{Key, Value};
 
 use super::groups::{Ends, Spot};
+use body::size;
+pub(super) use body::{Body, Section};
 use ligament::setup::Law;
-
-/// What the case is about.
-pub(super) struct Body {
-    /// Name of the body, for the title.
-    pub(super) name: String,
-    /// Where it comes from.
-    pub(super) section: Section,
-    /// Groups with a material each; none where one material fills the body.
-    pub(super) parts: Vec<String>,
-    /// Lower left and upper right corner, m.
-    pub(super) extent: [[f64; 2]; 2],
-    /// Where it is in the middle, m.
-    pub(super) middle: [f64; 2],
-    /// Two places on it whose distance along the load is an opening, m.
-    pub(super) opening: [[f64; 2]; 2],
-    /// Distance of the points, m.
-    pub(super) spacing: f64,
-}
-
-/// Where a body comes from.
-pub(super) enum Section {
-    /// From a mesh file.
-    Mesh { file: String, groups: Vec<Group> },
-    /// From a lattice; so many rows are held, and so many are moved.
-    Lattice { cells: [u32; 2], rows: u32 },
-}
+use numbers::{coordinates, digits, exact, quoted};
+use precrack::precrack;
+use section::section;
 
 /// The example material: a concrete-like one.
 const YOUNG: f64 = 30e9;
@@ -44,8 +27,15 @@ const STRETCH: f64 = TENSILE_STRENGTH / YOUNG;
 const PULLED: f64 = 4.0;
 const PRESSED: f64 = 16.0;
 
+const AXES: [&str; 3] = ["x", "y", "z"];
+
 /// The case. Lines of prose begin with `# `; lines that are settings to be taken by removing the sign, with `#` alone.
-pub(super) fn case_text(body: &Body, ends: &Ends, law: Law, warnings: &[String]) -> String {
+pub(super) fn case_text<const D: usize>(
+    body: &Body<D>,
+    ends: &Ends<D>,
+    law: Law,
+    warnings: &[String],
+) -> String {
     let mut text = String::new();
     let sections = [
         head(body, law, warnings),
@@ -65,7 +55,7 @@ pub(super) fn case_text(body: &Body, ends: &Ends, law: Law, warnings: &[String])
     text + "\n"
 }
 
-fn head(body: &Body, law: Law, warnings: &[String]) -> String {
+fn head<const D: usize>(body: &Body<D>, law: Law, warnings: &[String]) -> String {
     let mut text = "\
 # A case to start from: it runs as it is, with an example material and loading.
 #   EXAMPLE   a value to replace by your own
@@ -81,72 +71,14 @@ fn head(body: &Body, law: Law, warnings: &[String]) -> String {
     text
 }
 
-fn section(body: &Body) -> String {
-    let [width, height] = [0, 1].map(|axis| size(body, axis));
-    let shared = "\
-thickness = 1.0 # m, EXAMPLE
-plane = \"stress\" # thin bodies; \"strain\" for long ones
-";
-    match &body.section {
-        Section::Mesh { file, groups } => {
-            let mut text = format!(
-                "[mesh]\nfile = {} # from the folder of this file\n{shared}",
-                quoted(file)
-            );
-            let _ = writeln!(text, "# {} m wide, {} m high.", short(width), short(height));
-            if groups.is_empty() {
-                text += "# It has no physical groups, so that supports and loads are placed by `box` or `at`.\n";
-            } else {
-                text += "# Its physical groups, each of which can stand as `group` below:\n";
-            }
-            for group in groups {
-                let kind = ["points", "curve", "surface"][usize::from(group.dimension.min(2))];
-                let _ = writeln!(
-                    text,
-                    "#   {} {kind}, {} nodes",
-                    quoted(&group.name),
-                    group.nodes.len()
-                );
-            }
-            text
-        }
-        Section::Lattice {
-            cells: [columns, rows],
-            rows: held,
-        } => {
-            let (spacing, columns, rows) = (exact(body.spacing), columns, rows);
-            format!(
-                "\
-[lattice]
-cells = [{columns}, {rows}] # along x and y, with a point at the centre of each
-spacing = {spacing} # m
-{shared}\
-#corner = [0.0, 0.0] # lower left corner, m
-
-# Sets of cells, which stand as `group` below.
-[lattice.set]
-bottom = {{ bottom = {held} }} # rows from below
-top = {{ top = {held} }}
-
-# Cells of a hole are removed, and bonds across it.
-#[[lattice.remove]]
-#circle = {{ centre = [{}, {}], radius = {} }} # m
-",
-                exact(quantum(body).round(0.5 * width)),
-                exact(quantum(body).round(0.5 * height)),
-                exact(quantum(body).round(0.1 * width).max(body.spacing)),
-            )
-        }
-    }
-}
-
-fn materials(body: &Body, law: Law) -> String {
+fn materials<const D: usize>(body: &Body<D>, law: Law) -> String {
     if body.parts.is_empty() {
         return format!("[material]\n{}", constants(body, law));
     }
-    let mut text =
-        "# A material for each physical surface; bonds between two take the smaller limit.\n"
-            .to_owned();
+    let part = ["surface", "volume"][usize::from(D > 2)];
+    let mut text = format!(
+        "# A material for each physical {part}; bonds between two take the smaller limit.\n"
+    );
     for part in &body.parts {
         let key = Key::new(part.as_str());
         let _ = write!(
@@ -162,7 +94,7 @@ fn materials(body: &Body, law: Law) -> String {
     text + "\n"
 }
 
-fn constants(body: &Body, law: Law) -> String {
+fn constants<const D: usize>(body: &Body<D>, law: Law) -> String {
     let density = "#density = 2400.0 # kg/m^3, for analysis = \"modal\"\n";
     let strength = format!(
         "tensile_strength = {} # Pa, EXAMPLE\n",
@@ -197,6 +129,9 @@ angle = 0.0 # rad, from the x axis to the axis 1, counter-clockwise, EXAMPLE
             );
             isotropic("0.2 #", &failure)
         }
+        law if law.fixes_poisson() && D > 2 => {
+            isotropic("0.25 # the law has 1/4 whatever stands here;", &strength)
+        }
         law if law.fixes_poisson() => isotropic(
             "0.3333 # the law has 1/3 (plane strain: 1/4) whatever stands here;",
             &strength,
@@ -205,15 +140,30 @@ angle = 0.0 # rad, from the x axis to the axis 1, counter-clockwise, EXAMPLE
     }
 }
 
-fn model(body: &Body, law: Law) -> String {
+fn model<const D: usize>(body: &Body<D>, law: Law) -> String {
+    let is_lattice = matches!(body.section, Section::Lattice { .. });
     let fits = |other: &Law| {
         *other != law
-            && (!matches!(other, Law::MbbPd { .. })
-                || matches!(body.section, Section::Lattice { .. }))
+            && match other {
+                Law::MbbPd { .. } => is_lattice && D == 2,
+                Law::Orthotropic { .. } | Law::BbpdConical { .. } => D == 2,
+                _ => true,
+            }
     };
     let others = Law::ALL.into_iter().filter(fits).map(|it| it.name());
+    let constants = match D {
+        2 => "; `orthotropic` and `mbb-pd` take other constants of the material.",
+        _ => ".",
+    };
     let correction = match law {
         Law::MbbPd { .. } => "",
+        _ if D > 2 && is_lattice => {
+            "
+# Makes the energies of stretches along the axes those of the material. Others: volume, none; for meshes patch.
+[correction]
+surface = \"domain\"
+"
+        }
         _ => {
             "
 # Makes the body as stiff as its material, with every uniform strain in equilibrium. Others: domain (NHPD), volume, none.
@@ -224,7 +174,7 @@ surface = \"patch\"
     };
     format!(
         "\
-# Other laws: {}; `orthotropic` and `mbb-pd` take other constants of the material.
+# Other laws: {}{constants}
 [model]
 law = \"{}\"
 # Horizon of a point over the distance to its nearest neighbour. The strength depends on it, so compare runs with the same.
@@ -235,66 +185,53 @@ horizon_factor = 3.0
     )
 }
 
-fn precrack(body: &Body, ends: &Ends) -> String {
-    let quantum = quantum(body);
-    let [x, y] = body.middle.map(|it| exact(quantum.round(it)));
-    let length = quantum.round(0.2 * size(body, 1 - ends.axis));
-    let length = exact(length.max(quantum.step));
-    // Across the load.
-    let angle = ["1.5707963268", "0.0"][ends.axis];
-    format!(
-        "\
-# A crack or slot that is there from the start: bonds across it are cut. In the place of the three keys of a straight one,
-# `points = [[x, y], [x, y]]` with two corners or more.
-#[[precrack]]
-#centre = [{x}, {y}] # m
-#length = {length} # m
-#angle = {angle} # rad, from the x axis, counter-clockwise; 30 degrees are 0.5235987756
-"
-    )
-}
-
-fn conditions(body: &Body, ends: &Ends) -> String {
+fn conditions<const D: usize>(body: &Body<D>, ends: &Ends<D>) -> String {
     let length = size(body, ends.axis);
     let factor = if ends.presses { -PRESSED } else { PULLED };
     let displacement = exact(digits(ends.away * factor * STRETCH * length, 2));
     let (axis, how) = (
-        ["x", "y"][ends.axis],
+        AXES[ends.axis],
         if ends.presses {
             "towards the support"
         } else {
             "away from the support"
         },
     );
+    let held: Vec<String> = AXES[..D].iter().map(|it| format!("{it} = 0.0")).collect();
     let name = match &ends.load {
         Spot::Group(group) if group.contains([',', '"']) || group.trim() != group => {
             "name = \"load\"\n"
         }
         _ => "",
     };
-    let roller = |place: &Spot| {
+    let roller = |place: &Spot<D>| {
         let place = spot(place, body);
         format!("\n[[support]]\n{place}displacement = {{ {axis} = 0.0 }} # m, free to slide\n")
     };
     let rollers: String = ends.rollers.iter().map(roller).collect();
+    let actions = match D {
+        2 => "force, force_per_length, moment, pressure",
+        _ => "force, force_per_area, moment, pressure",
+    };
     let mut text = format!(
         "\
 # What holds the body. It and the load were chosen {}. A component that is not given is free.
 [[support]]
-{}displacement = {{ x = 0.0, y = 0.0 }} # m
+{}displacement = {{ {} }} # m
 {rollers}
 # What loads it, as it is at load factor 1. Its displacement and the force for it are the curve in history.csv. In the place of
-# `displacement`: force, force_per_length, moment, pressure and others.
+# `displacement`: {actions} and others.
 [[load]]
 {name}{}displacement = {{ {axis} = {displacement} }} # m, {how}; EXAMPLE
 ",
         ends.found,
         spot(&ends.support, body),
+        held.join(", "),
         spot(&ends.load, body)
     );
     match &body.section {
         Section::Lattice { .. } => {
-            text += "\n# Bonds that never break, so that the crack does not run along the rows that are held and moved.\n";
+            text += "\n# Bonds that never break, so that the crack does not run along the cells that are held and moved.\n";
             for set in [&ends.support, &ends.load] {
                 let _ = write!(text, "[[no_fail]]\n{}", spot(set, body));
             }
@@ -307,7 +244,7 @@ fn conditions(body: &Body, ends: &Ends) -> String {
     text
 }
 
-fn fracture(body: &Body, law: Law) -> String {
+fn fracture<const D: usize>(body: &Body<D>, law: Law) -> String {
     let criterion = match law {
         Law::Orthotropic { .. } => format!(
             "\
@@ -319,6 +256,13 @@ limit = {} # stretch, EXAMPLE
             exact(STRETCH)
         ),
         Law::MbbPd { .. } => "# Without a [[fracture.criterion]] bonds fail by the fracture energy (\"mixed-mode\").\n".to_owned(),
+        _ if D > 2 => "\
+# When a bond fails: at the stretch F_t/E, whatever its length. Others: strength (NHPD), sliding, compression, critical-stretch,
+# bond-energy. With a crack or notch in glass, ceramics or rock: critical-stretch or bond-energy, with `fracture_energy` of the material.
+[[fracture.criterion]]
+kind = \"tension\"
+"
+        .to_owned(),
         _ => "\
 # When a bond fails: at the stretch F_t/E, whatever its length. Others: strength (NHPD), sliding, frictional, critical-stretch, ...
 # With a crack or notch in glass, ceramics or rock: critical-stretch or bond-energy, with the `fracture_energy` of the material. Concrete:
@@ -328,8 +272,10 @@ kind = \"tension\"
 "
         .to_owned(),
     };
-    let points = (size(body, 0) / body.spacing) * (size(body, 1) / body.spacing);
-    let large = if points > 20_000.0 {
+    let along = (0..D).map(|axis| size(body, axis) / body.spacing);
+    let points: f64 = along.product();
+    let many = if D == 2 { 20_000.0 } else { 5_000.0 };
+    let large = if points > many {
         "# The body has many points: try `steps = 20` first.\n"
     } else {
         ""
@@ -345,10 +291,8 @@ stop = {{ load_fraction = 0.5 }} # when the load has fallen to this share of its
     )
 }
 
-fn records(body: &Body, ends: &Ends) -> String {
-    let quantum = quantum(body);
-    let point =
-        |[x, y]: [f64; 2]| format!("[{}, {}]", exact(quantum.round(x)), exact(quantum.round(y)));
+fn records<const D: usize>(body: &Body<D>, ends: &Ends<D>) -> String {
+    let point = |position| coordinates(body, position);
     format!(
         "\
 # Extra columns of history.csv: here an opening, and the damage of a point.
@@ -368,77 +312,18 @@ fn records(body: &Body, ends: &Ends) -> String {
 ",
         point(body.opening[0]),
         point(body.opening[1]),
-        ["x", "y"][ends.axis],
+        AXES[ends.axis],
         point(body.middle)
     )
 }
 
-fn spot(spot: &Spot, body: &Body) -> String {
+fn spot<const D: usize>(spot: &Spot<D>, body: &Body<D>) -> String {
     match spot {
         Spot::Group(name) => format!("group = {}\n", quoted(name)),
         Spot::Box(corners) => {
-            let quantum = quantum(body);
-            let [[a, b], [c, d]] = corners.map(|corner| corner.map(|it| exact(quantum.round(it))));
-            format!(
-                "box = [[{a}, {b}], [{c}, {d}]] # two corners, m: the points in this rectangle\n"
-            )
+            let [low, high] = corners.map(|corner| coordinates(body, corner));
+            let shape = ["rectangle", "box"][usize::from(D > 2)];
+            format!("box = [{low}, {high}] # two corners, m: the points in this {shape}\n")
         }
-    }
-}
-
-fn size(body: &Body, axis: usize) -> f64 {
-    body.extent[1][axis] - body.extent[0][axis]
-}
-
-/// A TOML string.
-fn quoted(text: &str) -> String {
-    Value::from(text).to_string().trim().to_owned()
-}
-
-/// What coordinates are rounded to: a power of ten at most a tenth of the distance of points.
-#[derive(Clone, Copy)]
-struct Quantum {
-    step: f64,
-    exponent: i32,
-}
-
-fn quantum(body: &Body) -> Quantum {
-    let exponent = body.spacing.log10().floor() as i32 - 1;
-    Quantum {
-        step: 10_f64.powi(exponent),
-        exponent,
-    }
-}
-
-impl Quantum {
-    fn round(self, value: f64) -> f64 {
-        let rounded = (value / self.step).round();
-        // Division by a power of ten gives the nearest decimal, multiplication by a rounded 0.0001 does not.
-        let rounded = if self.exponent < 0 {
-            rounded / 10_f64.powi(-self.exponent)
-        } else {
-            rounded * self.step
-        };
-        rounded + 0.0
-    }
-}
-
-/// A number rounded to so many significant digits.
-fn digits(value: f64, count: usize) -> f64 {
-    format!("{value:.*e}", count - 1).parse().unwrap_or(value)
-}
-
-/// A number for a sentence.
-pub(super) fn short(value: f64) -> String {
-    exact(digits(value, 4))
-}
-
-/// A number as TOML has it: with a point or an exponent.
-fn exact(value: f64) -> String {
-    let size = value.abs();
-    if size != 0.0 && !(1e-3..1e5).contains(&size) {
-        format!("{value:e}")
-    } else {
-        format!("{value:?}")
     }
 }

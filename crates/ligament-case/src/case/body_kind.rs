@@ -1,0 +1,10 @@
+//! Bodies in the plane and solids.
+
+/// A body in the plane, or a solid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BodyKind {
+    /// In the plane of x and y.
+    Plane,
+    /// In space.
+    Solid,
+}

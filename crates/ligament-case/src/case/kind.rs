@@ -1,0 +1,84 @@
+//! Whether a case fits its body, one in the plane or a solid, before the body is made.
+
+use super::fault::{CaseError, Fault, KeyFault};
+use super::key_path::KeyPath;
+use super::mesh_section::MeshSection;
+use super::sections::Case;
+use super::source::Source;
+use crate::mesh_file::{MeshFileError, read_any_mesh};
+
+impl Case {
+    /// Checks the case on a stand-in for its body. Of a case that would fit a body of the other kind the error tells what the mesh is, or
+    /// that it cannot be read.
+    pub(super) fn check_kind(&self, source: &Source) -> Result<(), CaseError> {
+        let is_solid = self.is_solid();
+        let Err(error) = self.check_as(source, is_solid) else {
+            return Ok(());
+        };
+        let Some(mesh) = &self.mesh else {
+            return Err(error);
+        };
+        if source.body.is_some() || self.check_as(source, !is_solid).is_err() {
+            return Err(error);
+        }
+        Err(match (&mesh.unread, read_any_mesh(&mesh.file)) {
+            (Some(reason), _) => {
+                let reason = format!("{reason}; a path is from the folder of the case file");
+                of_mesh(source, "read", mesh, &reason)
+            }
+            (None, Err(MeshFileError::Parse { source: reason, .. })) => {
+                of_mesh(source, "use", mesh, &reason.to_string())
+            }
+            (None, _) => of_other_kind(error, mesh),
+        })
+    }
+
+    /// Checks the case as one of a solid, or as one in the plane.
+    fn check_as(&self, source: &Source, is_solid: bool) -> Result<(), CaseError> {
+        let checked = if is_solid {
+            let setup = self.solid_stand_in().and_then(|body| self.in_space(body));
+            setup.map(|setup| setup.check())
+        } else {
+            let setup = self.stand_in().and_then(|body| self.in_plane(body));
+            setup.map(|setup| setup.check())
+        };
+        let checked = checked.map_err(|fault| source.error(fault))?;
+        checked.map_err(|error| self.located(source, error))
+    }
+}
+
+/// The error of a mesh that is none, and without which nobody knows what the case is of.
+fn of_mesh(source: &Source, what: &str, mesh: &MeshSection, reason: &str) -> CaseError {
+    let file = mesh.file.display();
+    let reason = format!("cannot {what} the mesh {file}: {reason}");
+    let key = KeyPath::default().child("mesh").child("file");
+    source.error(KeyFault::new(key, reason))
+}
+
+/// The error of a case that fits the other kind of body, with what its mesh is.
+fn of_other_kind(error: CaseError, mesh: &MeshSection) -> CaseError {
+    let CaseError::Key {
+        location,
+        key,
+        fault,
+    } = error
+    else {
+        return error;
+    };
+    let file = mesh.file.file_name().unwrap_or(mesh.file.as_os_str());
+    let file = file.to_string_lossy();
+    let advice = match mesh.is_solid {
+        true => format!(
+            "{file} has solid cells, and all else fits a body in the plane: if that is meant, mesh its surface alone (`gmsh -2`)"
+        ),
+        false => format!(
+            "{file} has no solid cells, and all else fits a solid: if that is meant, mesh its volume (`gmsh -3`) and let a physical \
+             volume hold it"
+        ),
+    };
+    CaseError::Key {
+        location,
+        key,
+        fault: Box::new(Fault::Other(format!("{fault}; {advice}"))),
+    }
+}

@@ -1,0 +1,68 @@
+//! Numbers and words as a case has them.
+
+use toml_edit::Value;
+
+use super::body::Body;
+
+/// A TOML string.
+pub(super) fn quoted(text: &str) -> String {
+    Value::from(text).to_string().trim().to_owned()
+}
+
+/// What coordinates are rounded to: a power of ten at most a tenth of the distance of points.
+#[derive(Clone, Copy)]
+pub(super) struct Quantum {
+    pub(super) step: f64,
+    exponent: i32,
+}
+
+pub(super) fn quantum<const D: usize>(body: &Body<D>) -> Quantum {
+    let exponent = body.spacing.log10().floor() as i32 - 1;
+    Quantum {
+        step: 10_f64.powi(exponent),
+        exponent,
+    }
+}
+
+impl Quantum {
+    pub(super) fn round(self, value: f64) -> f64 {
+        let rounded = (value / self.step).round();
+        // Division by a power of ten gives the nearest decimal, multiplication by a rounded 0.0001 does not.
+        let rounded = if self.exponent < 0 {
+            rounded / 10_f64.powi(-self.exponent)
+        } else {
+            rounded * self.step
+        };
+        rounded + 0.0
+    }
+}
+
+/// A number rounded to so many significant digits.
+pub(super) fn digits(value: f64, count: usize) -> f64 {
+    format!("{value:.*e}", count - 1).parse().unwrap_or(value)
+}
+
+/// A number for a sentence.
+pub(super) fn short(value: f64) -> String {
+    exact(digits(value, 4))
+}
+
+/// A number as TOML has it: with a point or an exponent.
+pub(super) fn exact(value: f64) -> String {
+    let size = value.abs();
+    if size != 0.0 && !(1e-3..1e5).contains(&size) {
+        format!("{value:e}")
+    } else {
+        format!("{value:?}")
+    }
+}
+
+/// A list of coordinates, each at the quantum of the body.
+pub(super) fn coordinates<const D: usize>(body: &Body<D>, position: [f64; D]) -> String {
+    let quantum = quantum(body);
+    let rounded: Vec<String> = position
+        .iter()
+        .map(|it| exact(quantum.round(*it)))
+        .collect();
+    format!("[{}]", rounded.join(", "))
+}

@@ -1,0 +1,112 @@
+//! Where the body comes from.
+
+use std::fmt::Write;
+
+use ligament_mesh::Group;
+
+use super::body::{Body, Section, size};
+use super::numbers::{exact, quantum, quoted, short};
+
+/// `[mesh]` or the section of a lattice.
+pub(super) fn section<const D: usize>(body: &Body<D>) -> String {
+    match &body.section {
+        Section::Mesh { file, groups } => mesh(body, file, groups),
+        Section::Lattice { cells, rows } => match cells.as_slice() {
+            [columns, lines] => lattice(body, [*columns, *lines], *rows),
+            cells => solid_lattice(body, cells, *rows),
+        },
+    }
+}
+
+/// What a body in the plane has beside its shape.
+const OF_THE_PLANE: &str = "\
+thickness = 1.0 # m, EXAMPLE
+plane = \"stress\" # thin bodies; \"strain\" for long ones
+";
+
+fn mesh<const D: usize>(body: &Body<D>, file: &str, groups: &[Group]) -> String {
+    let mut text = format!(
+        "[mesh]\nfile = {} # from the folder of this file\n",
+        quoted(file)
+    );
+    let sides: Vec<String> = (0..D).map(|axis| short(size(body, axis))).collect();
+    if let [width, height] = sides.as_slice() {
+        text += OF_THE_PLANE;
+        let _ = writeln!(text, "# {width} m wide, {height} m high.");
+    } else {
+        let _ = writeln!(
+            text,
+            "# A solid of {} m along x, y and z.",
+            sides.join(", ")
+        );
+    }
+    if groups.is_empty() {
+        text += "# It has no physical groups, so that supports and loads are placed by `box` or `at`.\n";
+    } else {
+        text += "# Its physical groups, each of which can stand as `group` below:\n";
+    }
+    for group in groups {
+        let kind = ["points", "curve", "surface", "volume"][usize::from(group.dimension.min(3))];
+        let _ = writeln!(
+            text,
+            "#   {} {kind}, {} nodes",
+            quoted(&group.name),
+            group.nodes.len()
+        );
+    }
+    text
+}
+
+fn lattice<const D: usize>(body: &Body<D>, [columns, rows]: [u32; 2], held: u32) -> String {
+    let spacing = exact(body.spacing);
+    let [width, height] = [0, 1].map(|axis| size(body, axis));
+    format!(
+        "\
+[lattice]
+cells = [{columns}, {rows}] # along x and y, with a point at the centre of each
+spacing = {spacing} # m
+{OF_THE_PLANE}\
+#corner = [0.0, 0.0] # lower left corner, m
+
+# Sets of cells, which stand as `group` below.
+[lattice.set]
+bottom = {{ bottom = {held} }} # rows from below
+top = {{ top = {held} }}
+
+# Cells of a hole are removed, and bonds across it.
+#[[lattice.remove]]
+#circle = {{ centre = [{}, {}], radius = {} }} # m
+",
+        exact(quantum(body).round(0.5 * width)),
+        exact(quantum(body).round(0.5 * height)),
+        exact(quantum(body).round(0.1 * width).max(body.spacing)),
+    )
+}
+
+fn solid_lattice<const D: usize>(body: &Body<D>, cells: &[u32], held: u32) -> String {
+    let spacing = exact(body.spacing);
+    let cells: Vec<String> = cells.iter().map(u32::to_string).collect();
+    let half: Vec<String> = (0..D)
+        .map(|axis| exact(quantum(body).round(0.5 * size(body, axis))))
+        .collect();
+    format!(
+        "\
+[solid_lattice]
+cells = [{}] # along x, y and z, with a point at the centre of each
+spacing = [{spacing}, {spacing}, {spacing}] # m
+#corner = [0.0, 0.0, 0.0] # the lowest corner, m
+
+# Sets of cells, which stand as `group` below.
+[solid_lattice.set]
+bottom = {{ bottom = {held} }} # layers from the lowest z
+top = {{ top = {held} }}
+
+# Cells of a hole are removed, and bonds across it.
+#[[solid_lattice.remove]]
+#sphere = {{ centre = [{}], radius = {} }} # m
+",
+        cells.join(", "),
+        half.join(", "),
+        exact(quantum(body).round(0.1 * size(body, 0)).max(body.spacing)),
+    )
+}

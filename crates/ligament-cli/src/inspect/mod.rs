@@ -1,0 +1,24 @@
+//! `ligament inspect`: what is in a mesh.
+
+mod groups;
+mod plane;
+mod solid;
+mod words;
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use ligament_mesh::AnyMesh;
+
+/// Writes a summary of a mesh; `path` heads it.
+///
+/// # Errors
+///
+/// If `out` cannot be written to.
+pub fn write_summary(out: &mut dyn Write, path: &Path, mesh: &AnyMesh) -> io::Result<()> {
+    writeln!(out, "{}", path.display())?;
+    match mesh {
+        AnyMesh::Plane(mesh) => plane::write(out, mesh),
+        AnyMesh::Solid(mesh) => solid::write(out, mesh),
+    }
+}

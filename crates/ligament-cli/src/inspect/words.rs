@@ -1,0 +1,80 @@
+//! What is said of meshes of both kinds.
+
+use std::io::{self, Write};
+
+use ligament::warning::{SUSPICIOUSLY_LARGE, Warning};
+use ligament_mesh::{NodeField, Remark};
+use ligament_output::quantity::{between, quantity};
+
+/// Letters of the longest name of an entry.
+pub(super) const NAMES: usize = 13;
+
+/// The shortest and the longest edge in words.
+pub(super) fn edges_in_words(lengths: impl Iterator<Item = f64>) -> String {
+    let start = (f64::INFINITY, 0.0);
+    let (shortest, longest) = lengths.fold(start, |(shortest, longest), length| {
+        (f64::min(shortest, length), f64::max(longest, length))
+    });
+    let ratio = longest / shortest;
+    format!(
+        "shortest {}, longest {}, ratio {ratio:.2}",
+        quantity(shortest, "m"),
+        quantity(longest, "m")
+    )
+}
+
+/// Length of an edge, m.
+pub(super) fn edge_length<const D: usize>(positions: &[[f64; D]], [from, to]: [u32; 2]) -> f64 {
+    let [from, to] = [from, to].map(|node| positions[node as usize]);
+    match (from.as_slice(), to.as_slice()) {
+        ([ax, ay], [bx, by]) => (bx - ax).hypot(by - ay),
+        _ => {
+            let squares = from.iter().zip(&to).map(|(a, b)| (b - a).powi(2));
+            squares.sum::<f64>().sqrt()
+        }
+    }
+}
+
+/// The ends of a box along each axis in words.
+pub(super) fn box_in_words<const D: usize>([low, high]: [[f64; D]; 2]) -> String {
+    let along = |axis: usize| {
+        let name = ["x", "y", "z"][axis];
+        format!("{name} {}", between([low[axis], high[axis]], "m"))
+    };
+    (0..D).map(along).collect::<Vec<_>>().join(", ")
+}
+
+/// Writes a line a field.
+pub(super) fn write_fields(out: &mut dyn Write, fields: &[NodeField]) -> io::Result<()> {
+    for field in fields {
+        let values = field.components;
+        let plural = if values == 1 { "" } else { "s" };
+        let (name, step) = (&field.name, field.time_step);
+        writeln!(
+            out,
+            "  field         {name}, time step {step}, {values} value{plural} a node"
+        )?;
+    }
+    Ok(())
+}
+
+/// Writes what the reader remarked.
+pub(super) fn write_remarks(out: &mut dyn Write, remarks: &[Remark]) -> io::Result<()> {
+    for remark in remarks {
+        writeln!(out, "  note: {remark}")?;
+    }
+    Ok(())
+}
+
+/// Writes a note where a body is as large as those are whose millimetres are taken for metres.
+pub(super) fn write_size_note<const D: usize>(
+    out: &mut dyn Write,
+    [low, high]: [[f64; D]; 2],
+) -> io::Result<()> {
+    let sides = (0..D).map(|axis| high[axis] - low[axis]);
+    let length = sides.fold(0.0, f64::max);
+    if length > SUSPICIOUSLY_LARGE {
+        writeln!(out, "  note: {}", Warning::LargeBody { length })?;
+    }
+    Ok(())
+}

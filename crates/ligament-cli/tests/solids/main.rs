@@ -1,0 +1,39 @@
+//! Solids from the command line: what `inspect`, `new` and the other commands say of them, and inputs that are wrong.
+
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod block;
+mod commands;
+mod inspected;
+mod starters;
+mod wrong_inputs;
+
+use block::Block;
+use support::{ligament_in, stderr, stdout};
+
+fn meshes() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../meshes/solids")
+}
+
+/// A folder with a mesh `block.msh`.
+fn folder_with(block: &Block) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("block.msh"), block.text()).unwrap();
+    folder
+}
+
+/// What the program says, and whether it ended well, in a folder with a case.
+fn with_case(folder: &Path, case: &str, arguments: &[&str]) -> (bool, String) {
+    fs::write(folder.join("case.toml"), case).unwrap();
+    let output = ligament_in(folder, arguments);
+    (
+        output.status.success(),
+        stdout(&output) + "\n" + &stderr(&output),
+    )
+}

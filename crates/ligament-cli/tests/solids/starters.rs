@@ -1,0 +1,125 @@
+//! `ligament new` for solids: its cases check and run as they are.
+
+use std::path::Path;
+
+use ligament::setup::Law;
+use ligament_case::case::{CaseFile, schema};
+use ligament_case::starter::{StarterError, of_mesh, of_solid_lattice};
+use ligament_cli::check::{Extent, check};
+
+use super::block::Block;
+use super::{folder_with, meshes};
+use crate::support::{assert_success, ligament_in};
+
+fn case(text: &str, folder: &Path) -> CaseFile {
+    let parsed = CaseFile::parse(&folder.join("case.toml"), text.to_owned(), &[]);
+    parsed.unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+fn checked(case: &CaseFile) -> String {
+    let mut report = Vec::new();
+    check(case, Extent::Model, None, &mut report)
+        .unwrap_or_else(|error| panic!("{error:#}\n{}", case.source.text));
+    String::from_utf8(report).unwrap()
+}
+
+/// The text with all settings that stand as comments taken.
+fn with_all_settings(text: &str) -> String {
+    let lines = text.lines().map(|line| match line.strip_prefix('#') {
+        Some(setting) if setting.starts_with(|it: char| it.is_alphabetic() || it == '[') => setting,
+        _ => line,
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// Groups are found by their names or by where they lie, and the body is moved along the right axis.
+#[test]
+fn meshes_of_the_repository_have_cases_that_check() {
+    let folder = tempfile::tempdir().unwrap();
+    for (mesh, held, loaded, axis, sign) in [
+        ("bar.msh", "left", "right", 0, 1.0),
+        ("thick-disk.msh", "platen-bottom", "platen-top", 1, -1.0),
+        ("cavity.msh", "plane-z", "top", 2, 1.0),
+    ] {
+        let starter = of_mesh(&meshes().join(mesh), folder.path(), Law::Nhpd).unwrap();
+        let case = case(&starter.text, folder.path());
+        assert!(case.case.is_solid());
+        assert_eq!(case.case.supports[0].group.as_deref(), Some(held), "{mesh}");
+        assert_eq!(case.case.loads[0].group.as_deref(), Some(loaded), "{mesh}");
+        let moved = case.case.loads[0].displacement.unwrap();
+        let moved = [moved.x, moved.y, moved.z];
+        assert!(moved[axis].unwrap() * sign > 0.0, "{mesh}: {moved:?}");
+        assert_eq!(moved.iter().flatten().count(), 1, "{mesh}: {moved:?}");
+    }
+    // One of them with everything: the pre-crack cuts bonds, probes and output are known.
+    let starter = of_mesh(
+        &meshes().join("thick-disk.msh"),
+        folder.path(),
+        Law::Pds {
+            calibration: Default::default(),
+        },
+    );
+    let report = checked(&case(
+        &with_all_settings(&starter.unwrap().text),
+        folder.path(),
+    ));
+    assert!(!report.contains("(0 cut by pre-cracks)"), "{report}");
+}
+
+/// A mesh without groups is held and pulled by boxes at its ends, and breaks.
+#[test]
+fn without_groups_boxes_are_taken_and_the_case_runs() {
+    let mut block = Block::new(0.1);
+    (block.group, block.triangles) = (0, Vec::new());
+    let folder = folder_with(&block);
+    assert_success(&ligament_in(folder.path(), &["new", "block.msh"]));
+    let text = std::fs::read_to_string(folder.path().join("case.toml")).unwrap();
+    assert!(
+        text.contains("# two corners, m: the points in this box"),
+        "{text}"
+    );
+    assert!(!text.contains("thickness"), "{text}");
+    let run = [
+        "run",
+        "case.toml",
+        "--out",
+        "results",
+        "--set",
+        "fracture.steps=10",
+    ];
+    assert_success(&ligament_in(folder.path(), &run));
+    let breaks = std::fs::read_to_string(folder.path().join("results/breaks.csv")).unwrap();
+    assert!(breaks.lines().count() > 10, "{breaks}");
+}
+
+/// Lattices of cubes for every law of solids are valid for the program and for editors; laws of the plane are refused.
+#[test]
+fn lattices_take_the_laws_of_solids() {
+    let (mut schemas, mut compiler) = (boon::Schemas::new(), boon::Compiler::new());
+    compiler.add_resource("case.json", schema()).unwrap();
+    let index = compiler.compile("case.json", &mut schemas).unwrap();
+    let mut count = 0;
+    for law in Law::ALL {
+        match of_solid_lattice([6, 6, 12], 0.01, law) {
+            Ok(starter) => {
+                count += 1;
+                checked(&case(&starter.text, Path::new("")));
+                for text in [starter.text.clone(), with_all_settings(&starter.text)] {
+                    let document: serde_json::Value = toml::from_str(&text).unwrap();
+                    let valid = schemas.validate(&document, index);
+                    assert!(valid.is_ok(), "{:#}\n{text}", valid.unwrap_err());
+                    case(&text, Path::new(""));
+                }
+            }
+            Err(StarterError::NeedsPlane(refused)) => assert_eq!(refused, law),
+            Err(other) => panic!("{other}"),
+        }
+    }
+    assert_eq!(count, 5);
+    let folder = tempfile::tempdir().unwrap();
+    let made = ligament_in(
+        folder.path(),
+        &["new", "--lattice", "6,6,12,0.01", "--law", "pds"],
+    );
+    assert_success(&made);
+}
