@@ -35,7 +35,7 @@ pub trait Dimension<const D: usize>: 'static {
     /// What is wrong with a vector of zeros.
     const IDLE_VECTOR: &'static str;
 
-    /// Largest share of its equations that the patch correction leaves, as a root mean square, before the user is told.
+    /// Largest share of its equations that the patch correction leaves without a warning, as a root mean square.
     const LARGEST_LEFT: f64;
 
     /// Horizon factor from which on bodies meet the equations of the patch correction.
