@@ -16,9 +16,6 @@ const SMALLEST_SAFE_FACTOR: f64 = 2.0;
 /// Relative error of a point's energy under uniaxial strain above which a warning names the point.
 const ENERGY_TOLERANCE: f64 = 1e-4;
 
-/// What the patch correction may leave of its equations, as a root mean square: above it uniform strains are off by percents.
-const LARGEST_LEFT: f64 = 5e-3;
-
 /// Horizon over the distance of points that most cases take.
 const USUAL_FACTOR: f64 = 3.0;
 
@@ -97,8 +94,8 @@ pub enum Warning {
     /// A patch correction whose equations the bonds cannot meet.
     #[error(
         "the patch correction cannot make every uniform strain an equilibrium: forces of {:.2} % of the size of their terms are left in \
-         the mean, of {:.0} % at worst ({worst} at {}); more bonds a point help (model.horizon_factor = 3), or take \
-         correction.surface = \"domain\"", 100.0 * left, 100.0 * largest, place(position)
+         the mean, of {:.0} % at worst ({worst} at {}); {}, or take correction.surface = \"domain\"",
+        100.0 * left, 100.0 * largest, place(position), more_bonds(*factor)
     )]
     NotMet {
         /// Root mean square of what is left of the scaled equations.
@@ -109,6 +106,8 @@ pub enum Warning {
         worst: String,
         /// Position of the point, m.
         position: Vec<f64>,
+        /// The horizon factor with which most bodies meet the equations, where that of the body is smaller.
+        factor: Option<f64>,
     },
     /// Bonds that only touch an end of a pre-crack.
     #[error(
@@ -221,8 +220,10 @@ where
         Some(CorrectionReport::Domain(report)) if !report.converged => {
             warnings.push(not_converged(body, report, fixed));
         }
-        Some(CorrectionReport::Patch(report)) if report.left > LARGEST_LEFT => {
-            warnings.push(not_met(body, report));
+        Some(CorrectionReport::Patch(report)) if report.left > Dim::LARGEST_LEFT => {
+            let (factor, _) = smallest_factor(setup, spacing, fixed);
+            let better = (factor < Dim::PATCH_FACTOR).then_some(Dim::PATCH_FACTOR);
+            warnings.push(not_met(body, report, better));
         }
         _ => {}
     }
@@ -259,15 +260,27 @@ fn small_horizon<const D: usize>(
 where
     Dim: Dimension<D>,
 {
-    let (factor, is_given) = match setup.horizon {
+    let (factor, is_given) = smallest_factor(setup, spacing, fixed);
+    (factor < SMALLEST_SAFE_FACTOR).then_some(Warning::SmallHorizon { factor, is_given })
+}
+
+/// The smallest horizon over the nearest distance of a point, and whether the setup gives it.
+fn smallest_factor<const D: usize>(
+    setup: &Setup<D>,
+    spacing: &[f64],
+    fixed: &FixedFields,
+) -> (f64, bool)
+where
+    Dim: Dimension<D>,
+{
+    match setup.horizon {
         Horizon::Factor(factor) => (factor, true),
         Horizon::Length(_) => {
             let factors = fixed.horizon.iter().zip(spacing);
             let factors = factors.map(|(horizon, nearest)| horizon / nearest);
             (factors.fold(f64::INFINITY, f64::min), false)
         }
-    };
-    (factor < SMALLEST_SAFE_FACTOR).then_some(Warning::SmallHorizon { factor, is_given })
+    }
 }
 
 fn scatter_below_spacing<const D: usize>(setup: &Setup<D>, spacing: &[f64]) -> Option<Warning>
@@ -299,7 +312,11 @@ fn large_horizon<const D: usize>(body: &dyn Body<D>, fixed: &FixedFields) -> Opt
     })
 }
 
-fn not_met<const D: usize>(body: &dyn Body<D>, report: &patch::Report) -> Warning {
+fn not_met<const D: usize>(
+    body: &dyn Body<D>,
+    report: &patch::Report,
+    factor: Option<f64>,
+) -> Warning {
     let residual = &report.residual;
     let worst = (0..residual.len())
         .max_by(|&i, &j| residual[i].total_cmp(&residual[j]))
@@ -309,6 +326,15 @@ fn not_met<const D: usize>(body: &dyn Body<D>, report: &patch::Report) -> Warnin
         largest: residual[worst],
         worst: body.label(worst as u32),
         position: body.positions()[worst].to_vec(),
+        factor,
+    }
+}
+
+/// What lets a body meet the equations of the patch correction.
+fn more_bonds(factor: Option<f64>) -> String {
+    match factor {
+        Some(factor) => format!("more bonds a point help (model.horizon_factor = {factor})"),
+        None => "smaller cells help where the body is thin or edges are sharp".to_owned(),
     }
 }
 

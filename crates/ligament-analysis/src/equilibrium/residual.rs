@@ -188,6 +188,7 @@ impl Extents {
 
 impl Scales<'_> {
     /// Size of what may act at a degree of freedom, N or N m.
+    #[inline]
     pub(super) fn at(self, dof: usize) -> f64 {
         let stiffness = self.stiffness.values[dof];
         let kind = usize::from(self.stiffness.layout.component(dof).is_rotation());

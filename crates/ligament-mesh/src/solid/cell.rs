@@ -119,21 +119,26 @@ impl SolidCell {
     #[inline]
     pub fn faces(&self) -> impl Iterator<Item = Cell> + use<> {
         let cell = *self;
+        (0..).map_while(move |place| cell.face(place))
+    }
+
+    /// The face at a place among those of the cell.
+    #[inline]
+    pub(crate) fn face(&self, place: usize) -> Option<Cell> {
         let (triangles, quadrangles) = match self {
             SolidCell::Tetrahedron(_) => FACES_OF_TETRAHEDRON,
             SolidCell::Hexahedron(_) => FACES_OF_HEXAHEDRON,
             SolidCell::Prism(_) => FACES_OF_PRISM,
             SolidCell::Pyramid(_) => FACES_OF_PYRAMID,
         };
-        let triangles = triangles.iter().map(move |places| {
-            let corners = cell.corners();
-            Cell::Triangle(places.map(|place| corners[place]))
-        });
-        let quadrangles = quadrangles.iter().map(move |places| {
-            let corners = cell.corners();
-            Cell::Quadrangle(places.map(|place| corners[place]))
-        });
-        triangles.chain(quadrangles)
+        let corners = self.corners();
+        match triangles.get(place) {
+            Some(places) => Some(Cell::Triangle(places.map(|place| corners[place]))),
+            None => {
+                let places = quadrangles.get(place - triangles.len())?;
+                Some(Cell::Quadrangle(places.map(|place| corners[place])))
+            }
+        }
     }
 
     /// The edges of the cell, each once, from the lower to the higher node.

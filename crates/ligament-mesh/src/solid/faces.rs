@@ -94,7 +94,7 @@ impl<'a> Faces<'a> {
         let range = self.offsets[lowest as usize]..self.offsets[lowest as usize + 1];
         let sides = self.entries[range].iter();
         sides.filter_map(|&(cell, place)| {
-            let face = self.cells[cell as usize].faces().nth(place as usize)?;
+            let face = self.cells[cell as usize].face(usize::from(place))?;
             Some(Side { face, cell })
         })
     }

@@ -191,6 +191,7 @@ impl Remaining {
     };
 
     /// Whether some factor differs from the other's by more than a relative tolerance.
+    #[inline]
     pub fn is_off(&self, other: &Self, tolerance: f64) -> bool {
         let is_off = |one: f64, other: f64| (one - other).abs() > tolerance * one.max(other);
         is_off(self.axial, other.axial)

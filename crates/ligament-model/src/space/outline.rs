@@ -20,14 +20,14 @@ use crate::bonds::BondSet;
 use crate::cloud::{PointCloud, distance, search_tree};
 use crate::horizon::INCLUSION_TOLERANCE;
 use crate::space::cloud::shortest_edges;
-use surface::{Facet, Surface};
+use surface::Facet;
+pub use surface::Surface;
 
 /// Points along the curve that are asked for together whether the outline is near: most of a body is far from it.
 const BLOCK: usize = 64;
 
-/// For each bond between nodes of the mesh of `cells`, whether its straight line leaves them, shape (n_bonds).
-pub fn bonds_outside(cells: &[SolidCell], bonds: &BondSet<3>, cloud: &PointCloud<3>) -> Vec<bool> {
-    let surface = Surface::new(cells, cloud);
+/// For each bond between nodes of a mesh, whether its straight line leaves the surface of the cells, shape (n_bonds).
+pub fn bonds_outside(surface: &Surface, bonds: &BondSet<3>, cloud: &PointCloud<3>) -> Vec<bool> {
     let mut first_bond = vec![0; cloud.len() + 1];
     for ends in &bonds.ends {
         first_bond[ends[0] as usize + 1] += 1;
@@ -66,10 +66,10 @@ pub fn first_crossing(cells: &[SolidCell], cloud: &PointCloud<3>) -> Option<[u32
     Surface::new(cells, cloud).first_crossing()
 }
 
-/// Distance of each node of the mesh of `cells` to the nearest other one that it sees within them, shape (n_points), m.
+/// Distance of each node of the mesh of `cells` to the nearest other one that it sees within their surface, shape (n_points), m.
 ///
 /// Across a thin slot the nearest node of all may be much nearer; a horizon that follows it would reach nothing but the other side.
-pub fn spacing_inside(cells: &[SolidCell], cloud: &PointCloud<3>) -> Vec<f64> {
+pub fn spacing_inside(surface: &Surface, cells: &[SolidCell], cloud: &PointCloud<3>) -> Vec<f64> {
     let shortest = shortest_edges(cloud, cells);
     let mut spacing = cloud.spacing.clone();
     // What is nearer than the ends of all edges of cells may lie behind a void.
@@ -82,7 +82,7 @@ pub fn spacing_inside(cells: &[SolidCell], cloud: &PointCloud<3>) -> Vec<f64> {
     if may_be_parted.is_empty() {
         return spacing;
     }
-    let (surface, tree) = (Surface::new(cells, cloud), search_tree(&cloud.positions));
+    let tree = search_tree(&cloud.positions);
     let inside: Vec<f64> = may_be_parted
         .par_iter()
         .map(|&point| {

@@ -35,6 +35,12 @@ pub trait Dimension<const D: usize>: 'static {
     /// What is wrong with a vector of zeros.
     const IDLE_VECTOR: &'static str;
 
+    /// Largest share of its equations that the patch correction leaves without a warning, as a root mean square.
+    const LARGEST_LEFT: f64;
+
+    /// Horizon factor from which on bodies meet the equations of the patch correction.
+    const PATCH_FACTOR: f64;
+
     /// Poisson's ratio of bonds that only resist stretch.
     fn central_poisson(section: &Self::Section) -> f64;
 
@@ -83,6 +89,11 @@ impl Dimension<2> for Dim {
 
     const IDLE_VECTOR: &'static str =
         "this load does nothing: neither `x` nor `y` is given a value";
+
+    /// Above it uniform strains are off by percents.
+    const LARGEST_LEFT: f64 = 5e-3;
+
+    const PATCH_FACTOR: f64 = 3.0;
 
     fn central_poisson(Section::Plane { state, .. }: &Section) -> f64 {
         Isotropic::central_force_poisson(*state)

@@ -26,6 +26,14 @@ impl Dimension<3> for Dim {
     const IDLE_VECTOR: &'static str =
         "this load does nothing: none of `x`, `y` and `z` is given a value";
 
+    /// Edges and corners of solids leave more than those of the plane, and do less harm: measured on boxes, balls and cases, bodies of
+    /// two cells and more across leave .06 to 2.3 % at factors of 2.5 and 3, with E right to .1 %, nu to .0003 and the strains of bonds
+    /// to .6 %; what is thinner or sharper leaves 2 to 12 %, with strains of bonds off by .8 to 2.5 %.
+    const LARGEST_LEFT: f64 = 2e-2;
+
+    /// At 2 tetrahedra leave 3 %, at 2.5 and at 3 less than 1 %.
+    const PATCH_FACTOR: f64 = 2.5;
+
     fn central_poisson((): &()) -> f64 {
         bbpd::POISSON
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ligament_model::bonds::hole::bonds_across;
 use ligament_model::correction::Correction;
 use ligament_model::space::SolidSystem;
-use ligament_model::space::outline::{bonds_outside, spacing_inside};
+use ligament_model::space::outline::{Surface, bonds_outside, spacing_inside};
 use ligament_model::space::precrack::{SolidPreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::{
     Absence, AbsentBond, BondSet, BondStiffness, EnergyRatio, FixedFields, PointCloud,
@@ -33,10 +33,11 @@ impl Model<3> {
     fn in_space(setup: Setup<3>, watcher: &mut dyn StageWatcher) -> Result<Self, SetupError> {
         setup.check()?;
         let material_of_cell = loading::material_of_cell(&setup)?;
-        let cloud = stage(watcher, "points", || points(&setup, &material_of_cell))?;
+        let (cloud, outline) = stage(watcher, "points", || points(&setup, &material_of_cell))?;
         let horizons = setup.horizon.of_points(&cloud);
         let (bonds, absent) = stage(watcher, "bonds", || {
-            inside_body(&setup, BondSet::search(&cloud, &horizons), &cloud)
+            let all = BondSet::search(&cloud, &horizons);
+            inside_body(&setup, all, &cloud, outline)
         });
         require_connected(&setup, &cloud, &horizons, &bonds)?;
         watcher.found(&Finding::Bonds {
@@ -89,17 +90,21 @@ impl Model<3> {
     }
 }
 
-/// The points of the body, with the index of the material of each cell (n_cells).
-fn points(setup: &Setup<3>, material_of_cell: &[u32]) -> Result<PointCloud<3>, SetupError> {
+/// The points of the body, with the index of the material of each cell (n_cells), and the outline of a mesh that bonds do not leave.
+fn points(
+    setup: &Setup<3>,
+    material_of_cell: &[u32],
+) -> Result<(PointCloud<3>, Option<Surface>), SetupError> {
     let body = &*setup.body;
     let cloud = body.cloud(1.0, material_of_cell, setup.materials.len());
     require_distinct(body, &cloud)?;
     match body.origin() {
-        Origin::SolidMesh(mesh) if !setup.bonds_through_voids => Ok(PointCloud {
-            spacing: spacing_inside(&mesh.cells, &cloud),
-            ..cloud
-        }),
-        _ => Ok(cloud),
+        Origin::SolidMesh(mesh) if !setup.bonds_through_voids => {
+            let outline = Surface::new(&mesh.cells, &cloud);
+            let spacing = spacing_inside(&outline, &mesh.cells, &cloud);
+            Ok((PointCloud { spacing, ..cloud }, Some(outline)))
+        }
+        _ => Ok((cloud, None)),
     }
 }
 
@@ -108,12 +113,11 @@ fn inside_body(
     setup: &Setup<3>,
     bonds: BondSet<3>,
     cloud: &PointCloud<3>,
+    outline: Option<Surface>,
 ) -> (BondSet<3>, Vec<AbsentBond>) {
-    let crosses = match setup.body.origin() {
-        Origin::SolidLattice(lattice) => bonds_across(&lattice.holes, &bonds, cloud),
-        Origin::SolidMesh(mesh) if !setup.bonds_through_voids => {
-            bonds_outside(&mesh.cells, &bonds, cloud)
-        }
+    let crosses = match (setup.body.origin(), outline) {
+        (Origin::SolidLattice(lattice), _) => bonds_across(&lattice.holes, &bonds, cloud),
+        (_, Some(outline)) => bonds_outside(&outline, &bonds, cloud),
         _ => return (bonds, Vec::new()),
     };
     if !crosses.contains(&true) {

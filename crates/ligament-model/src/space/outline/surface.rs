@@ -13,8 +13,9 @@ use crate::space::predicates::{above, side};
 use crate::space::vector::{cross, dot, minus, norm};
 
 /// The outline of a mesh.
-pub(super) struct Surface<'a> {
-    positions: &'a [[f64; 3]],
+#[derive(Debug)]
+pub struct Surface {
+    positions: Vec<[f64; 3]>,
     /// The triangles, counter-clockwise seen from outside, as a tree for searches by place.
     triangles: RTree<GeomWithData<Rectangle<[f64; 3]>, [u32; 3]>>,
     /// Tetrahedra at nodes of the outline, of positive volume.
@@ -34,8 +35,9 @@ pub(super) struct Facet {
     size: f64,
 }
 
-impl<'a> Surface<'a> {
-    pub(super) fn new(cells: &'a [SolidCell], cloud: &'a PointCloud<3>) -> Self {
+impl Surface {
+    /// The outline of some cells between the points of a cloud.
+    pub fn new(cells: &[SolidCell], cloud: &PointCloud<3>) -> Self {
         let positions = cloud.positions.as_slice();
         let outer = Faces::new(cells, positions.len()).outer();
         let triangles = outer.iter().flat_map(|side| side.face.triangles());
@@ -59,7 +61,7 @@ impl<'a> Surface<'a> {
             GeomWithData::new(Rectangle::from_corners(least, most), nodes)
         };
         Self {
-            positions,
+            positions: cloud.positions.clone(),
             triangles: RTree::bulk_load(triangles.iter().map(|&nodes| bounds(nodes)).collect()),
             tetrahedra_at: Incidence::from_pairs(at_outline, positions.len()),
             tetrahedra,
