@@ -175,7 +175,9 @@ pub enum Fault {
     #[error("there is no point of the body in this box")]
     EmptyBox,
     /// A group of a material that has no cells.
-    #[error("`{group}` has no cells: a material needs a physical surface")]
+    #[error(
+        "`{group}` has no cells: a material needs a physical surface, of a solid a physical volume"
+    )]
     NoCells {
         /// The group.
         group: String,

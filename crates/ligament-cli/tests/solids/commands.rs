@@ -102,7 +102,7 @@ fn what_is_of_the_plane_alone_says_so() {
             &[
                 "profile", "results", "--from", "0,0", "--to", "1,0", "--field", "damage",
             ],
-            "the body is a solid",
+            "this one is a solid",
         ),
         (
             &[

@@ -61,11 +61,6 @@ pub fn bonds_outside(surface: &Surface, bonds: &BondSet<3>, cloud: &PointCloud<3
     outside
 }
 
-/// The nodes of an edge of the outline that passes through a triangle of it, the first of them all; none where cells do not overlap.
-pub fn first_crossing(cells: &[SolidCell], cloud: &PointCloud<3>) -> Option<[u32; 2]> {
-    Surface::new(cells, cloud).first_crossing()
-}
-
 /// Distance of each node of the mesh of `cells` to the nearest other one that it sees within their surface, shape (n_points), m.
 ///
 /// Across a thin slot the nearest node of all may be much nearer; a horizon that follows it would reach nothing but the other side.

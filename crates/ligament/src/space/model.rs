@@ -13,7 +13,7 @@ use ligament_model::{
 
 use super::formulation::{self, SolidFormulation};
 use super::precrack::surfaces;
-use super::soundness::{require_connected, require_distinct, require_numbers};
+use super::soundness::{forbid_overlap, require_connected, require_distinct, require_numbers};
 use crate::body::Origin;
 use crate::error::SetupError;
 use crate::loading;
@@ -101,6 +101,7 @@ fn points(
     match body.origin() {
         Origin::SolidMesh(mesh) if !setup.bonds_through_voids => {
             let outline = Surface::new(&mesh.cells, &cloud);
+            forbid_overlap(body, &outline)?;
             let spacing = spacing_inside(&outline, &mesh.cells, &cloud);
             Ok((PointCloud { spacing, ..cloud }, Some(outline)))
         }

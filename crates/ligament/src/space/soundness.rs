@@ -2,12 +2,24 @@
 
 use ligament_model::element::Rigidities;
 use ligament_model::space::SolidSystem;
+use ligament_model::space::outline::Surface;
 use ligament_model::{BondSet, Horizons, PointCloud};
 
 use crate::body::{Body, Origin};
 use crate::error::{Fault, Field, SetupError, Torn};
 use crate::setup::{Horizon, Setup};
 use crate::soundness::{DISTINCT, Parts, require_neighbours, require_rigidities};
+
+/// Refuses cells that lie in others.
+pub(super) fn forbid_overlap(body: &dyn Body<3>, outline: &Surface) -> Result<(), SetupError> {
+    let Some([from, to]) = outline.first_crossing() else {
+        return Ok(());
+    };
+    Err(Field::whole("body").error(Fault::Overlap {
+        from: body.place(from),
+        to: body.place(to),
+    }))
+}
 
 /// Refuses points that nearly coincide, measured by the side of the cube of their volume.
 pub(super) fn require_distinct(
@@ -155,5 +167,34 @@ mod tests {
         // The height is a difference of numbers near 1, the size that of half a brick for each of two cells.
         assert!((distance - 2e-6).abs() < 1e-15 && (size - 0.5).abs() < 1e-5);
         assert_eq!(fault_at(1.01), Ok(()));
+    }
+
+    /// Two bricks without a common node; the second begins at this height, and beside the first in x and y.
+    #[test]
+    fn bricks_in_each_other_are_found() {
+        let fault_at = |z: f64| {
+            let brick = |[x, y, z]: [f64; 3]| {
+                let corner = |right: f64, back: f64, up: f64| [x + right, y + back, z + up];
+                let layer = |up: f64| {
+                    [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(a, b)| corner(a, b, up))
+                };
+                [layer(0.0), layer(1.0)].concat()
+            };
+            let mesh = SolidMesh {
+                node_tags: (1..=16).collect(),
+                positions: [brick([0.0; 3]), brick([0.5, 0.3, z])].concat(),
+                cells: vec![
+                    SolidCell::Hexahedron([0, 1, 2, 3, 4, 5, 6, 7]),
+                    SolidCell::Hexahedron([8, 9, 10, 11, 12, 13, 14, 15]),
+                ],
+                ..SolidMesh::default()
+            };
+            let cloud = PointCloud::from_solid_mesh(&mesh, &[0, 0], 1);
+            let outline = Surface::new(&mesh.cells, &cloud);
+            forbid_overlap(&SolidMeshBody::from(mesh), &outline)
+        };
+        let fault = *fault_at(0.4).unwrap_err().fault;
+        assert!(matches!(fault, Fault::Overlap { .. }), "{fault}");
+        assert_eq!(fault_at(1.1), Ok(()));
     }
 }

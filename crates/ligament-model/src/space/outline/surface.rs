@@ -206,8 +206,8 @@ impl Surface {
         })
     }
 
-    /// The nodes of an edge that passes through a triangle, the first of them all.
-    pub(super) fn first_crossing(&self) -> Option<[u32; 2]> {
+    /// The nodes of an edge that passes through a triangle, the first of them all; none where cells do not overlap.
+    pub fn first_crossing(&self) -> Option<[u32; 2]> {
         let edges =
             |nodes: [u32; 3]| [[0, 1], [1, 2], [2, 0]].map(|it| it.map(|k: usize| nodes[k]));
         let is_crossing = |edge: &[u32; 2]| {

@@ -155,7 +155,7 @@ fn bonds_agree_with_points_along_them() {
             "{count} of {} bonds leave the body",
             bonds.len()
         );
-        assert_eq!(first_crossing(&cells, &cloud), None);
+        assert_eq!(Surface::new(&cells, &cloud).first_crossing(), None);
     }
 }
 
@@ -299,5 +299,5 @@ fn cells_through_each_other_are_noticed() {
         }
     };
     let (cloud, cells, _) = body(cells(Cut::Hexahedra, apart), moved, 1.1);
-    assert!(first_crossing(&cells, &cloud).is_some());
+    assert!(Surface::new(&cells, &cloud).first_crossing().is_some());
 }
