@@ -72,7 +72,11 @@ impl WithSimd for Forward<'_> {
             let solution = &mut self.vector[start - self.first_row..end - self.first_row];
             let additions = forward(simd, self.panels, supernode, solution, &mut column);
             let below = supernodes.rows_below(supernode);
-            let own = below.partition_point(|row| row - self.first_row < self.vector.len());
+            let is_own = |row: &usize| row - self.first_row < self.vector.len();
+            let own = match below.last() {
+                Some(last) if !is_own(last) => below.partition_point(is_own),
+                _ => below.len(),
+            };
             for (&row, value) in below[..own].iter().zip(additions) {
                 self.vector[row - self.first_row] += value;
             }
@@ -93,15 +97,15 @@ struct Known<'a> {
 
 impl<'a> Known<'a> {
     /// Appends the values at some rows, ascending, none of them before these.
-    fn gather(mut self, rows: &[usize], values: &mut Vec<f64>) {
-        for row in rows {
-            while row - self.first_row >= self.solution.len()
-                && let Some(above) = self.above
-            {
-                self = *above;
-            }
-            values.push(self.solution[row - self.first_row]);
+    #[inline(always)]
+    fn gather(mut self, mut rows: &[usize], values: &mut Vec<f64>) {
+        while let Some(above) = self.above {
+            let own = rows.partition_point(|row| row - self.first_row < self.solution.len());
+            let (of_stem, beyond) = rows.split_at(own);
+            values.extend(of_stem.iter().map(|row| self.solution[row - self.first_row]));
+            (self, rows) = (*above, beyond);
         }
+        values.extend(rows.iter().map(|row| self.solution[row - self.first_row]));
     }
 }
 

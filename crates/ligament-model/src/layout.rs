@@ -142,12 +142,11 @@ impl Layout {
         dof.map_or(0.0, |dof| of_all[dof])
     }
 
-    /// The displacements among the values of all degrees of freedom.
+    /// The displacements among the values of all degrees of freedom: the first components of each point.
     pub fn displacements(self, of_all: &[f64]) -> impl Iterator<Item = f64> {
+        let n_displacements = self.components.partition_point(|it| !it.is_rotation());
         let of_points = of_all.chunks(self.components.len());
-        let with_components = of_points.flat_map(move |it| it.iter().zip(self.components));
-        let displacements = with_components.filter(|(_, component)| !component.is_rotation());
-        displacements.map(|(value, _)| *value)
+        of_points.flat_map(move |it| it[..n_displacements].iter().copied())
     }
 
     /// The values of the components that `other` has as well, from those of all components of some points.

@@ -51,15 +51,17 @@ impl Accuracy {
         self.loaded = loaded(loads);
     }
 
-    /// Forces out of balance at the unknowns (n_unknowns) relative to what may act there, and what of them rests on holds.
+    /// Forces out of balance at the unknowns (n_unknowns) relative to what may act there, and what of them rests on holds;
+    /// `displacement` is the [largest](largest_displacement) of the state.
     pub(super) fn residual(
         &self,
         at: Loaded<'_>,
         extents: Extents,
+        displacement: f64,
         out_of_balance: Vec<f64>,
     ) -> Residual {
         let given = self.given(at);
-        let scales = self.scales(at, &given, extents);
+        let scales = self.scales(&given, extents, displacement);
         let dofs = at.unknowns.degrees_of_freedom().iter().copied();
         let of_unknowns = dofs.zip(out_of_balance);
         // No bond resists these: what loads them is carried by nothing.
@@ -83,7 +85,8 @@ impl Accuracy {
             return Left::Share(0.0);
         }
         let given = self.given(at);
-        let scales = self.scales(at, &given, extents);
+        let displacement = largest_displacement(at.unknowns.layout(), at.state);
+        let scales = self.scales(&given, extents, displacement);
         let of_unknown = |dof: &u32| match SURELY * sought * scales.at(*dof as usize) {
             // Nothing is known yet of what acts there: the next residual tells.
             0.0 => f64::INFINITY,
@@ -113,9 +116,8 @@ impl Accuracy {
         self.loaded.iter().copied().zip(forces).collect()
     }
 
-    /// What may act in a body with some extents under given forces.
-    fn scales(&self, at: Loaded<'_>, given: &[(u32, f64)], extents: Extents) -> Scales<'_> {
-        let displacement = largest_displacement(at.unknowns.layout(), at.state);
+    /// What may act in a body with some extents and a largest displacement under given forces.
+    fn scales(&self, given: &[(u32, f64)], extents: Extents, displacement: f64) -> Scales<'_> {
         let given = given.iter().copied();
         (self.local_stiffness).scales(extents, self.largest_extents, given, displacement)
     }

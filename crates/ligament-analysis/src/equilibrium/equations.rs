@@ -301,7 +301,8 @@ impl Equations {
         let extents = self.accuracy.local_stiffness.extents(&sizes);
         let displacement = largest_displacement(self.layout(), state);
         let out_of_balance = self.external_less(state, &internal);
-        let residual = (self.accuracy).residual(self.loaded(state), extents, out_of_balance);
+        let loaded = self.loaded(state);
+        let residual = (self.accuracy).residual(loaded, extents, displacement, out_of_balance);
         self.costs.bonds += start.elapsed();
         let of_expansions = factor.powi(2) * expansion_energy.abs();
         let cancelled = CANCELLED * of_expansions;

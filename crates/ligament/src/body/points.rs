@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use ligament_model::{BodyGrid, Canvas, PointCloud, raised};
+use ligament_model::{BodyGrid, Canvas, PointCloud};
 use thiserror::Error;
 
 use super::interface::{Body, OffOutline, Origin};
@@ -121,12 +121,12 @@ impl<const D: usize> Points<D> {
     }
 }
 
-impl Body for Points {
+impl<const D: usize> Body<D> for Points<D> {
     fn origin(&self) -> Origin<'_> {
         Origin::Points
     }
 
-    fn positions(&self) -> &[[f64; 2]] {
+    fn positions(&self) -> &[[f64; D]] {
         &self.positions
     }
 
@@ -143,10 +143,12 @@ impl Body for Points {
         self.positions.len()
     }
 
-    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud {
-        let volumes: Vec<f64> = self.sizes.iter().map(|area| area * thickness).collect();
+    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D> {
+        // In space the thickness is 1.
+        let volumes: Vec<f64> = self.sizes.iter().map(|size| size * thickness).collect();
+        let positions = &self.positions;
         PointCloud::from_points(
-            &self.positions,
+            positions,
             &volumes,
             thickness,
             material_of_cell,
@@ -174,7 +176,7 @@ impl Body for Points {
         Vec::new()
     }
 
-    fn outline_of(&self, _: &str) -> Result<Vec<(u32, [f64; 2])>, OffOutline> {
+    fn outline_of(&self, _: &str) -> Result<Vec<(u32, [f64; D])>, OffOutline> {
         Ok(Vec::new())
     }
 
@@ -183,91 +185,31 @@ impl Body for Points {
         vec![false; self.positions.len()]
     }
 
-    /// A square of its area around each point.
+    /// A square of its area, in space a cube of its volume, around each point.
     fn grid(&self) -> BodyGrid {
-        let square = |([x, y], area): (&[f64; 2], &f64)| {
-            let half = 0.5 * area.sqrt();
-            [[-half, -half], [half, -half], [half, half], [-half, half]]
-                .map(|[right, up]| [x + right, y + up])
+        let coordinate = |position: &[f64; D], axis: usize| position.get(axis).copied();
+        let raised = |it| std::array::from_fn(|axis| coordinate(it, axis).unwrap_or(0.0));
+        let positions: Vec<[f64; 3]> = self.positions.iter().map(raised).collect();
+        let around = positions.iter().zip(&self.sizes);
+        let canvas = if D == 2 {
+            let square = |([x, y, _], area): (&[f64; 3], &f64)| {
+                let half = 0.5 * area.sqrt();
+                [[-half, -half], [half, -half], [half, half], [-half, half]]
+                    .map(|[right, up]| [x + right, y + up])
+            };
+            Canvas::Around(around.map(square).collect())
+        } else {
+            let cube = |(position, volume): (&[f64; 3], &f64)| {
+                let half = 0.5 * volume.cbrt();
+                [position.map(|it| it - half), position.map(|it| it + half)]
+            };
+            Canvas::Boxes(around.map(cube).collect())
         };
-        let squares = self.positions.iter().zip(&self.sizes).map(square);
         BodyGrid {
-            positions: raised(&self.positions),
-            tags: (0..self.positions.len() as i64).collect(),
+            tags: (0..positions.len() as i64).collect(),
+            positions,
             tagged: self.tagged(),
-            canvas: Canvas::Around(squares.collect()),
-        }
-    }
-}
-
-impl Body<3> for Points<3> {
-    fn origin(&self) -> Origin<'_> {
-        Origin::Points
-    }
-
-    fn positions(&self) -> &[[f64; 3]] {
-        &self.positions
-    }
-
-    fn tagged(&self) -> &'static str {
-        "point"
-    }
-
-    fn tag(&self, point: u32) -> u64 {
-        u64::from(point)
-    }
-
-    /// Number of cells: each point is a cell of its own.
-    fn n_cells(&self) -> usize {
-        self.positions.len()
-    }
-
-    fn cloud(&self, _: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<3> {
-        let (positions, volumes) = (&self.positions, &self.sizes);
-        PointCloud::from_points(positions, volumes, 1.0, material_of_cell, n_materials)
-    }
-
-    fn group_kind(&self) -> &'static str {
-        "group of points"
-    }
-
-    fn group_names(&self) -> Vec<String> {
-        self.groups.keys().cloned().collect()
-    }
-
-    fn points_of(&self, group: &str) -> Option<Vec<u32>> {
-        self.groups.get(group).cloned()
-    }
-
-    fn cells_of(&self, group: &str) -> Option<Vec<u32>> {
-        self.points_of(group)
-    }
-
-    fn lengths_of(&self, _: &str) -> Vec<(u32, f64)> {
-        Vec::new()
-    }
-
-    fn outline_of(&self, _: &str) -> Result<Vec<(u32, [f64; 3])>, OffOutline> {
-        Ok(Vec::new())
-    }
-
-    /// No point: arrays do not say where the body ends.
-    fn rim(&self) -> Vec<bool> {
-        vec![false; self.positions.len()]
-    }
-
-    /// A cube of its volume around each point.
-    fn grid(&self) -> BodyGrid {
-        let cube = |(position, volume): (&[f64; 3], &f64)| {
-            let half = 0.5 * volume.cbrt();
-            [position.map(|it| it - half), position.map(|it| it + half)]
-        };
-        let cubes = self.positions.iter().zip(&self.sizes).map(cube);
-        BodyGrid {
-            positions: self.positions.clone(),
-            tags: (0..self.positions.len() as i64).collect(),
-            tagged: self.tagged(),
-            canvas: Canvas::Boxes(cubes.collect()),
+            canvas,
         }
     }
 }
