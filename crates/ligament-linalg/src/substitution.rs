@@ -102,7 +102,11 @@ impl<'a> Known<'a> {
         while let Some(above) = self.above {
             let own = rows.partition_point(|row| row - self.first_row < self.solution.len());
             let (of_stem, beyond) = rows.split_at(own);
-            values.extend(of_stem.iter().map(|row| self.solution[row - self.first_row]));
+            values.extend(
+                of_stem
+                    .iter()
+                    .map(|row| self.solution[row - self.first_row]),
+            );
             (self, rows) = (*above, beyond);
         }
         values.extend(rows.iter().map(|row| self.solution[row - self.first_row]));
