@@ -332,7 +332,8 @@ fn runs_that_were_cut_short_are_compared_up_to_there() {
         let (code, words) = bench.ligament(&["resume", "out"]);
         assert_eq!(code, Some(0), "{words}");
         assert!(bench.assert_same(&[]).contains("was resumed"));
-        let time = ["--set", "fracture.stop.wall_time=0.2", "--force"];
+        // A fifth of what the run takes on a quick machine.
+        let time = ["--set", "fracture.stop.wall_time=0.05", "--force"];
         bench.run(0, &time);
         assert_eq!(bench.summary()["termination"], "wall-time");
         assert!(bench.assert_same(&[]).contains("cut short"));
