@@ -28,7 +28,7 @@ use verification::trusses::{Rod, Truss};
 /// Rounding times the condition number of the stiffness, in both of two runs.
 const SOLUTION: f64 = 1e-9;
 
-/// The same where a body hangs together by single bonds, or goes on beyond its loss of stability: some 1e-9 is measured.
+/// Bound where a body hangs together by single bonds, or goes on beyond its loss of stability: some 1e-9 is measured.
 const BARELY: f64 = 1e-7;
 
 /// The disk of the reference: 324 points, 3717 bonds.

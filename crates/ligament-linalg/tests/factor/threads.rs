@@ -1,4 +1,4 @@
-//! The same bits on any number of threads, and those of faer on one: factors of awkward trees, made, changed and solved with.
+//! Factors of awkward trees, made, changed and solved with: their bits on any number of threads are those of one, and those of faer.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::perm::Perm;
