@@ -67,18 +67,21 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
     ) -> Deformations {
         assert_eq!(displacement.len(), M * self.system.cloud.len());
         let ends = &self.system.bonds.ends;
-        // Collected, so that each thread writes fresh memory once: zeros before would cost as much.
-        let of_bond = |bond: usize| {
-            let element = self.whole(intact, bond);
-            let deformation = element.deformation(displacement);
-            if expansion.is_none() {
-                return deformation;
-            }
-            let thermal = expansion.of_bond(ends[bond]);
-            deformation.less(&element.deformation_in(thermal))
-        };
-        let bonds = (0..ends.len()).into_par_iter().with_min_len(TASK);
-        let deformations = bonds.map(of_bond).collect();
+        // Zeros first: a closure that gives a deformation to be collected is called bond by bond, which costs more.
+        let mut deformations = vec![BondDeformation::default(); ends.len()];
+        deformations
+            .par_chunks_mut(TASK)
+            .enumerate()
+            .for_each(|(task, deformations)| {
+                for (bond, deformation) in (task * TASK..).zip(deformations) {
+                    let element = self.whole(intact, bond);
+                    *deformation = element.deformation(displacement);
+                    if !expansion.is_none() {
+                        let thermal = expansion.of_bond(ends[bond]);
+                        *deformation = deformation.less(&element.deformation_in(thermal));
+                    }
+                }
+            });
         Deformations::in_plane(deformations)
     }
 

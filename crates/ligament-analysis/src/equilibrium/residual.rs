@@ -215,11 +215,18 @@ impl Scales<'_> {
         };
         let mut most_carried = CARRIED;
         for (dof, force) in out_of_balance {
+            let size = force.abs();
+            let scale = self.at(dof as usize);
+            // A division takes as long as all else here. It is left out where rounding could not make it the largest.
+            let in_question = residual.relative.min(most_carried);
+            if size == 0.0 || size < 0.999 * in_question * scale {
+                continue;
+            }
             // `f64::max` would pass over a NaN, and with it over a failed solve.
-            let relative = match force.abs() {
-                0.0 => continue,
-                size if size.is_finite() => size / self.at(dof as usize),
-                _ => f64::INFINITY,
+            let relative = if size.is_finite() {
+                size / scale
+            } else {
+                f64::INFINITY
             };
             if is_held(dof as usize) {
                 if relative > most_carried {
