@@ -45,6 +45,7 @@ const IN_PLACE: SolverSettings = SolverSettings {
     ordering: None,
     update: Some(Update::Incremental),
     rebuild_every: usize::MAX,
+    ranks: None,
 };
 
 /// Made anew after every breakage.
