@@ -77,7 +77,7 @@ fn follow(bench: &Bench, solver: SolverSettings) -> Run {
 fn factor(outcome: &Outcome) -> DirectChoice {
     match outcome.solver {
         SolverChoice::Direct(choice) => choice,
-        SolverChoice::Iterative(choice) => panic!("{choice:?}"),
+        choice => panic!("{choice:?}"),
     }
 }
 
