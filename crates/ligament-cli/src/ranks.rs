@@ -63,14 +63,27 @@ mod processes {
 
 #[cfg(not(feature = "petsc"))]
 mod processes {
+    use std::env;
+
+    use anyhow::ensure;
     use ligament_analysis::ranks::Together;
 
+    /// The variable by which Open MPI tells how many processes it has started.
+    const LAUNCHED: &str = "OMPI_COMM_WORLD_SIZE";
+
     /// None: this program is one process.
-    #[expect(
-        clippy::unnecessary_wraps,
-        reason = "with the feature petsc it can fail"
-    )]
+    ///
+    /// # Errors
+    ///
+    /// If several were started together: all of them would do the same, into the same folder.
     pub(crate) fn join() -> anyhow::Result<Option<Together>> {
+        let started = env::var(LAUNCHED).ok().and_then(|it| it.parse().ok());
+        let started: usize = started.unwrap_or(1);
+        ensure!(
+            started == 1,
+            "{started} processes were started together, and this program was built to be one: build it with `cargo build --release \
+             --features petsc`, or start it without mpirun"
+        );
         Ok(None)
     }
 

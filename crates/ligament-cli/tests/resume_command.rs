@@ -419,3 +419,18 @@ fn a_run_that_replaces_others_goes_on() {
     assert!(!bench.out("out.new").exists());
     assert_same(&bench.out("whole"), &bench.out("out"));
 }
+
+/// Processes that a launcher started together, and that cannot work together, do not all write into one folder.
+#[cfg(not(feature = "petsc"))]
+#[test]
+fn several_processes_are_refused_where_the_program_is_built_for_one() {
+    let bench = Bench::new(STEPPED, "0");
+    let mut launched = bench.run("launched", &[]);
+    launched.env("OMPI_COMM_WORLD_SIZE", "2");
+    let said = refused(launched);
+    assert!(
+        said.contains("2 processes") && said.contains("--features petsc"),
+        "{said}"
+    );
+    assert!(!bench.out("launched").exists());
+}
