@@ -25,7 +25,7 @@ use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
-use crate::lagging::Division;
+use crate::lagging::Body;
 use crate::problem::Problem;
 use passing::Passed;
 use way::{Goal, Way};
@@ -134,7 +134,7 @@ struct Following<'a> {
     way: Box<dyn Way>,
     tie_tolerance: f64,
     /// Parts of the body that may be left behind; made when events may first be passed over.
-    division: OnceCell<Option<Rc<Division>>>,
+    body: OnceCell<Option<Rc<Body>>>,
 }
 
 /// What the way along a line changes, as it was before.
@@ -174,7 +174,7 @@ impl<'a> Following<'a> {
             path,
             way,
             tie_tolerance,
-            division: OnceCell::new(),
+            body: OnceCell::new(),
         }
     }
 
@@ -191,17 +191,11 @@ impl<'a> Following<'a> {
     /// Follows the path from an equilibrium on the line to an event.
     fn go_on(&mut self, mut step: usize, mut line: Balanced) -> Result<Termination, SetupError> {
         loop {
-            let passed = match self.division(step) {
-                Some(division) => {
+            let passed = match self.body(step) {
+                Some(body) => {
                     let path = &mut self.path;
                     let tie_tolerance = self.tie_tolerance;
-                    Some(passing::pass(
-                        path,
-                        &division,
-                        tie_tolerance,
-                        &mut step,
-                        &line,
-                    )?)
+                    Some(passing::pass(path, &body, tie_tolerance, &mut step, &line)?)
                 }
                 None => None,
             };
@@ -221,7 +215,7 @@ impl<'a> Following<'a> {
                         Err(end) => return Ok(end),
                     }
                 }
-                None => match self.follow_line(&mut step, &mut line)? {
+                Some(Passed::Nothing) | None => match self.follow_line(&mut step, &mut line)? {
                     Ok(broken) => broken,
                     Err(end) => return Ok(end),
                 },
@@ -246,16 +240,16 @@ impl<'a> Following<'a> {
     }
 
     /// Parts of the body that may be left behind in a step; None where the step is to be seen whole.
-    fn division(&self, step: usize) -> Option<Rc<Division>> {
+    fn body(&self, step: usize) -> Option<Rc<Body>> {
         if !passing::may_pass(&self.path, step) {
             return None;
         }
-        let division = self.division.get_or_init(|| {
+        let body = self.body.get_or_init(|| {
             let stiffness = self.path.equilibrium.stiffness()?;
-            Division::new(&self.path.problem, stiffness).map(Rc::new)
+            Body::new(&self.path.problem, stiffness).map(Rc::new)
         });
-        let division = division.clone();
-        division.filter(|division| passing::may_wait(&self.path, division))
+        let body = body.clone();
+        body.filter(|body| passing::may_wait(&self.path, body))
     }
 
     /// Follows the line of an equilibrium to its next event, and breaks the bonds there; gives the critical equilibrium and the breakage, or

@@ -3,8 +3,6 @@
 use ligament_linalg::Part;
 use ligament_model::Bonds;
 
-use super::borders;
-use super::bound::{Bound, Modes};
 use crate::probe::Reading;
 use crate::problem::Problem;
 use crate::solver::{DirectChoice, Ordering, Update};
@@ -14,8 +12,8 @@ use crate::unknowns::Layout;
 /// Share of the values of a factor that a part has which is not divided any further.
 const SMALLEST: usize = 256;
 
-/// A body divided into parts, with what never changes of their bounds.
-pub(crate) struct Division {
+/// A body divided into parts.
+pub(super) struct Division {
     /// Parts of the factor, each after the one above it.
     pub(super) parts: Vec<Part>,
     /// Parts right below each part.
@@ -24,8 +22,6 @@ pub(crate) struct Division {
     pub(super) degree_of_freedom: Vec<u32>,
     /// Whether each part, or one below it, has points whose motions and forces are asked for after each breakage.
     pub(super) is_wanted: Vec<bool>,
-    pub(super) bounds: Vec<Bound>,
-    pub(super) modes: Modes,
     /// Part of each point; the first one for points without unknowns.
     part_of_point: Vec<u32>,
     /// Bonds by the lowest part that one of their ends is in, ascending in each.
@@ -33,14 +29,16 @@ pub(crate) struct Division {
     /// Where the bonds of each part begin.
     starts: Vec<usize>,
     /// Points whose motions and forces are asked for after each breakage, ascending.
-    pub(crate) wanted: Vec<u32>,
+    pub(super) wanted: Vec<u32>,
+    /// Part of each bond.
+    pub(super) part_of_bond: Vec<u32>,
 }
 
 impl Division {
     /// The division of a body. None where parts of it cannot wait: where equations are not linear, a stiffness is negative, something
     /// beside bonds resists motions, limits change with the state of the body, probes ask for more than motions, or the factor
     /// follows no dissection.
-    pub(crate) fn new(problem: &Problem, stiffness: &Stiffness) -> Option<Self> {
+    pub(super) fn new(problem: &Problem, stiffness: &Stiffness) -> Option<Self> {
         if !may_wait(problem, stiffness.choice()) {
             return None;
         }
@@ -58,7 +56,6 @@ impl Division {
         let part_of_bond: Vec<u32> = ends.map(lower).collect::<Option<_>>()?;
         let (bonds, starts) = sorted(&part_of_bond, parts.len());
         let wanted = wanted(problem)?;
-        let modes = Modes::of_body(system);
         let mut below = vec![Vec::new(); parts.len()];
         for (number, part) in parts.iter().enumerate() {
             if let Some(above) = part.above {
@@ -68,18 +65,16 @@ impl Division {
         let mut division = Self {
             below,
             is_wanted: Vec::new(),
-            bounds: Vec::new(),
-            modes,
             parts,
             degree_of_freedom,
             part_of_point,
             bonds,
             starts,
             wanted,
+            part_of_bond,
         };
         let asked_for = with_neighbours(system, &division.wanted);
         division.is_wanted = division.parts_above(asked_for.into_iter());
-        division.bounds = borders::bounds(problem, &division, &part_of_bond)?;
         Some(division)
     }
 

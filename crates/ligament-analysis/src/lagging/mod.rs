@@ -21,15 +21,40 @@ use ligament_model::element::BondDeformation;
 use crate::breaking::{FirstToBreak, Leaders};
 use crate::problem::Problem;
 use crate::state::State;
+use crate::stiffness::Stiffness;
 
-pub(crate) use division::Division;
+use borders::Bounds;
+use division::Division;
 
 /// Relative distance below the bonds that lead at which a bound counts as below them: rounding of a bound is less.
 const SURELY: f64 = 1e-6;
 
+/// A body whose parts can wait, and their bounds.
+pub(crate) struct Body {
+    division: Division,
+    bounds: Bounds,
+}
+
+impl Body {
+    /// A body with the stiffness of its factor; None where parts of it cannot wait: where equations are not linear, a stiffness is negative,
+    /// something beside bonds resists motions, limits change with the state of the body, probes ask for more than motions, or the factor
+    /// follows no dissection.
+    pub(crate) fn new(problem: &Problem, stiffness: &Stiffness) -> Option<Self> {
+        let division = Division::new(problem, stiffness)?;
+        let bounds = Bounds::new(problem, &division)?;
+        Some(Self { division, bounds })
+    }
+
+    /// Points whose motions and forces are known after each breakage, ascending.
+    pub(crate) fn wanted(&self) -> &[u32] {
+        &self.division.wanted
+    }
+}
+
 /// The displacements of a body at a fixed load factor; those of some parts may be earlier ones.
 pub(crate) struct Lagging<'a> {
     division: &'a Division,
+    bounds: &'a Bounds,
     problem: &'a Problem,
     tie_tolerance: f64,
     /// Displacements and rotations, shape (n_degrees_of_freedom), m and rad.
@@ -56,7 +81,7 @@ pub(crate) struct HalfSolved<'a> {
 impl<'a> Lagging<'a> {
     /// Starts from a state in equilibrium and its deformations (n_bonds).
     pub(crate) fn new(
-        division: &'a Division,
+        Body { division, bounds }: &'a Body,
         problem: &'a Problem,
         tie_tolerance: f64,
         state: &State,
@@ -65,6 +90,7 @@ impl<'a> Lagging<'a> {
         let n_parts = division.parts.len();
         let mut lagging = Self {
             division,
+            bounds,
             problem,
             tie_tolerance,
             displacement: state.displacement.clone(),
@@ -138,8 +164,8 @@ impl<'a> Lagging<'a> {
 
     /// What the ratios in a part may have grown by since it was last substituted.
     fn growth(&self, part: usize) -> f64 {
-        let Division { bounds, modes, .. } = self.division;
-        bounds[part].growth(modes, &self.displacement, &self.references[part])
+        let then = &self.references[part];
+        self.bounds.growth(part, &self.displacement, then)
     }
 
     /// Brings the displacements of a part up to date; those above it are.

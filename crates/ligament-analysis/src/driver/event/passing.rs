@@ -15,7 +15,7 @@ use crate::breaking::{FirstToBreak, first_to_break};
 use crate::driver::path::Path;
 use crate::driver::recorder::StepCounters;
 use crate::error::SetupError;
-use crate::lagging::{Division, HalfSolved, Lagging};
+use crate::lagging::{Body, HalfSolved, Lagging};
 use crate::problem::Problem;
 
 /// Events with a number that this divides are seen whole in any case, so that the residual of the whole body is checked and rounding does
@@ -24,6 +24,8 @@ const WHOLE_EVERY: usize = 64;
 
 /// Where passing over events ends.
 pub(super) enum Passed {
+    /// Where it began: the run may end with the next event.
+    Nothing,
     /// In an equilibrium of the whole body, or without one.
     Line(Attempt),
     /// With a breakage that the parts left behind cannot take in; the equilibrium of the whole body before it.
@@ -34,7 +36,7 @@ pub(super) enum Passed {
 pub(super) struct Passing<'a, 'p> {
     path: &'a mut Path<'p>,
     problem: &'a Problem,
-    division: &'a Division,
+    body: &'a Body,
     lagging: Lagging<'a>,
     /// Load factor of the displacements that lag behind.
     load_factor: f64,
@@ -48,12 +50,12 @@ pub(super) fn may_pass(path: &Path<'_>, step: usize) -> bool {
 }
 
 /// Whether parts of a body may wait with what is held of it: parts that came loose alone, which do not move.
-pub(super) fn may_wait(path: &Path<'_>, division: &Division) -> bool {
+pub(super) fn may_wait(path: &Path<'_>, body: &Body) -> bool {
     let fragments = path.equilibrium.fragments();
     let layout = path.problem.system.layout();
     let fragment = |point: u32| fragments.of_point[point as usize] as usize;
     let mut is_asked_for = vec![false; fragments.points.len()];
-    for &point in &division.wanted {
+    for &point in body.wanted() {
         is_asked_for[fragment(point)] = true;
     }
     let mut held = (0..).zip(&path.state.held).filter(|(_, held)| **held);
@@ -63,7 +65,7 @@ pub(super) fn may_wait(path: &Path<'_>, division: &Division) -> bool {
 /// Passes over events from an equilibrium on the line to the first of them, as long as that may be; counts the steps.
 pub(super) fn pass(
     path: &mut Path<'_>,
-    division: &Division,
+    body: &Body,
     tie_tolerance: f64,
     step: &mut usize,
     line: &Balanced,
@@ -79,8 +81,8 @@ pub(super) fn pass(
     );
     let mut passing = Passing {
         problem: &problem,
-        division,
-        lagging: Lagging::new(division, &problem, tie_tolerance, state, deformations),
+        body,
+        lagging: Lagging::new(body, &problem, tie_tolerance, state, deformations),
         load_factor: state.load_factor,
         line: Balanced {
             deformations: Deformations::default(),
@@ -89,8 +91,13 @@ pub(super) fn pass(
         path,
     };
     passing.path.equilibrium.count_bond_work(start);
+    let first_step = *step;
     while may_pass(passing.path, *step) {
         let Some(critical) = passing.go_to(&first) else {
+            if *step == first_step {
+                passing.go_back();
+                return Ok(Passed::Nothing);
+            }
             break;
         };
         let breakage = passing.break_first(&first, critical, *step)?;
@@ -130,6 +137,13 @@ impl Passing<'_, '_> {
             || self.path.end_at_rest(&critical).is_some()
             || self.path.end_by_load_fraction(&critical).is_some();
         (!ends).then_some(critical)
+    }
+
+    /// Moves back to where passing over events began.
+    fn go_back(&mut self) {
+        self.path.state.load_factor = self.load_factor;
+        let motions = &mut self.path.state.displacement;
+        motions.clone_from(&self.lagging.displacement);
     }
 
     /// Records a critical equilibrium and breaks its bonds.
@@ -205,7 +219,7 @@ impl Passing<'_, '_> {
         let system = &self.problem.system;
         let (layout, ends) = (system.layout(), system.ends());
         let ends = bonds.iter().flat_map(|&bond| ends[bond as usize]);
-        for point in self.division.wanted.iter().copied().chain(ends) {
+        for point in self.body.wanted().iter().copied().chain(ends) {
             for dof in layout.range(point) {
                 self.path.state.displacement[dof] = factor * self.lagging.displacement[dof];
             }
@@ -217,7 +231,7 @@ impl Passing<'_, '_> {
         let system = &self.problem.system;
         let (layout, intact) = (system.layout(), &self.path.state.intact);
         let (motions, forces) = (&self.lagging.displacement, &mut self.line.internal.values);
-        for &point in &self.division.wanted {
+        for &point in self.body.wanted() {
             let dofs = layout.range(point);
             forces[dofs.clone()].fill(0.0);
             let bonds = system.incidence().at(point).iter();
