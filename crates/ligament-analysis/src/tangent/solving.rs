@@ -9,7 +9,7 @@ use super::direct::DirectSolver;
 use super::iterative::IterativeSolver;
 use super::unsymmetric::UnsymmetricSolver;
 use crate::error::SetupError;
-use crate::solver::{IterativeChoice, Method, SolverChoice, SolverSettings};
+use crate::solver::{Method, SolverChoice, SolverSettings};
 use crate::stiffness::Stiffness;
 use crate::unknowns::Unknowns;
 
@@ -34,11 +34,11 @@ impl Solving {
     ) -> Result<Self, SetupError> {
         let (method, reason) = settings.chosen_method(&**system)?;
         if method == Method::Iterative {
-            let tolerance = settings.tolerance;
-            let solver = IterativeSolver::new(system.clone(), unknowns.clone(), tolerance);
+            let choice = settings.iterative_choice(&**system, reason);
+            let solver = IterativeSolver::new(system.clone(), unknowns.clone(), choice);
             return Ok(Self {
                 stiffness: None,
-                choice: SolverChoice::Iterative(IterativeChoice { reason, tolerance }),
+                choice: SolverChoice::Iterative(choice),
                 solver: Box::new(solver),
             });
         }

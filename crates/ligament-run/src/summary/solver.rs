@@ -62,6 +62,8 @@ pub struct FactorSummary {
 pub struct IterationSummary {
     /// Force left out of balance after a breakage, relative to the forces that may act at a point.
     pub tolerance: f64,
+    /// Points at most of the aggregates whose rigid motions are its coarse space.
+    pub aggregate: usize,
     /// Iterations of all solves.
     pub iterations: usize,
 }
