@@ -8,6 +8,7 @@ use clap::Args;
 
 use super::case_args::CaseArgs;
 use crate::build::BUILD;
+use crate::ranks;
 use crate::stop_signal::StopSignal;
 use crate::terminal;
 use ligament_plot::picture::{asks_for_pictures, draw_run};
@@ -68,6 +69,11 @@ impl RunArgs {
             (None, Some(_)) => StopSignal::awaited()?,
             _ => StopSignal::default(),
         };
+        // A run of a sweep is one process, whoever started the sweep.
+        let ranks = match &self.leash {
+            None => ranks::join()?,
+            Some(_) => None,
+        };
         let out = self
             .out
             .unwrap_or_else(|| Path::new("results").join(case.name()));
@@ -77,7 +83,12 @@ impl RunArgs {
             force: self.force,
             build: BUILD,
             is_stopped: &|| stop.came(),
+            ranks,
         };
+        if ranks::is_beside_the_first() {
+            request.assist()?;
+            return Ok(ExitCode::SUCCESS);
+        }
         let report = request.run(ProgressMode::detect(self.quiet))?;
         tell(&report, &out, self.plot)
     }

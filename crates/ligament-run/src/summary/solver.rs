@@ -3,14 +3,14 @@
 use ligament_analysis::costs::Costs;
 use ligament_analysis::solver;
 use ligament_analysis::solver::{
-    DirectChoice, FactorKind, IterativeChoice, Ordering, SolverChoice, Update,
+    DirectChoice, FactorKind, Ordering, SolverChoice, Update,
 };
 use serde::{Serialize, Serializer};
 
 /// The solver and its work.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SolverSummary {
-    /// `direct` or `iterative`.
+    /// `direct`, `iterative` or, of several processes, `distributed`.
     pub method: &'static str,
     /// Why it was this one.
     pub reason: Reason,
@@ -20,6 +20,9 @@ pub struct SolverSummary {
     /// What was chosen for conjugate gradients.
     #[serde(flatten)]
     pub iteration: Option<IterationSummary>,
+    /// Processes, where several solve the equations together.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ranks: Option<usize>,
     /// Threads.
     pub threads: usize,
     /// Factorisations; of the coarse space where the method is iterative.
@@ -62,8 +65,9 @@ pub struct FactorSummary {
 pub struct IterationSummary {
     /// Force left out of balance after a breakage, relative to the forces that may act at a point.
     pub tolerance: f64,
-    /// Points at most of the aggregates whose rigid motions are its coarse space.
-    pub aggregate: usize,
+    /// Points at most of the aggregates whose rigid motions are its coarse space, where it has one of its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub aggregate: Option<usize>,
     /// Iterations of all solves.
     pub iterations: usize,
 }
@@ -101,22 +105,33 @@ impl Serialize for Reason {
 impl SolverSummary {
     /// What was chosen, and what it cost.
     pub fn new(costs: &Costs, choice: &SolverChoice) -> Self {
+        let iterations = costs.iterations;
+        let iteration = |tolerance, aggregate| IterationSummary {
+            tolerance,
+            aggregate,
+            iterations,
+        };
         let (method, reason, factor, iteration) = match choice {
             SolverChoice::Direct(it) => ("direct", it.reason, Some(FactorSummary::new(it)), None),
-            &SolverChoice::Iterative(IterativeChoice { reason, tolerance }) => {
-                let iterations = costs.iterations;
-                let iteration = IterationSummary {
-                    tolerance,
-                    iterations,
-                };
-                ("iterative", reason, None, Some(iteration))
+            &SolverChoice::Iterative(it) => {
+                let iteration = iteration(it.tolerance, Some(it.aggregate));
+                ("iterative", it.reason, None, Some(iteration))
             }
+            SolverChoice::Distributed(it) => {
+                let iteration = it.tolerance.map(|it| iteration(it, None));
+                ("distributed", it.reason, None, iteration)
+            }
+        };
+        let ranks = match choice {
+            SolverChoice::Distributed(it) => Some(it.n_ranks),
+            SolverChoice::Direct(_) | SolverChoice::Iterative(_) => None,
         };
         Self {
             method,
             reason: Reason(reason),
             factor,
             iteration,
+            ranks,
             threads: rayon::current_num_threads(),
             factorisations: costs.factorisations,
             changes: costs.changes,
