@@ -14,7 +14,8 @@ use crate::unknowns::Unknowns;
 /// How the equations are solved; what is left open is chosen for the problem.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SolverSettings {
-    /// Method; open: a factor up to [`points_for_iteration`], conjugate gradients beyond where they can.
+    /// Method; open: a factor up to [`points_for_iteration`], conjugate gradients beyond where they can; in the plane, where `memory` is
+    /// known, a factor as long as it fits.
     pub method: Option<Method>,
     /// Force that conjugate gradients leave out of balance after a breakage, relative to the forces that may act at a point. Load steps
     /// without a breakage go to the 1e-10 of a factor.
@@ -30,6 +31,8 @@ pub struct SolverSettings {
     /// A factor that was changed in place depends on all its changes; a run that is resumed replays those since the last
     /// time it was made anew.
     pub rebuild_every: usize,
+    /// Bytes that the matrix and its factor may take; open: not known.
+    pub memory: Option<usize>,
     /// Processes that solve the equations together; none: this one alone.
     pub ranks: Option<Together>,
 }
@@ -54,6 +57,13 @@ pub enum Reason {
     Unfit(Unfit),
     /// There are fewer points than this, or not fewer.
     Points(usize),
+    /// The matrix and its factor would take so many bytes, and there are so many for them.
+    Memory {
+        /// Bytes that they take; at least, where they do not fit.
+        needed: usize,
+        /// Bytes that there are.
+        available: usize,
+    },
     /// The stiffness is definite.
     Definite,
 }
@@ -64,6 +74,18 @@ impl Display for Reason {
             Self::Named => f.write_str("as the case says"),
             Self::NamedForFactor(word) => write!(f, "the case says what solver.{word} is to be"),
             Self::Unfit(unfit) => unfit.fmt(f),
+            &Self::Memory { needed, available } => {
+                let [needed, available] = [needed, available].map(|bytes| bytes as f64 / 1e9);
+                let whether = if needed > available {
+                    "does not fit"
+                } else {
+                    "fits"
+                };
+                write!(
+                    f,
+                    "a factor {whether} into memory: {needed:.2} GB of {available:.2} GB that there are for it"
+                )
+            }
             Self::Definite => f.write_str("no bond has a negative stiffness"),
             Self::Points(limit) => write!(
                 f,
@@ -179,6 +201,7 @@ impl Default for SolverSettings {
             ordering: None,
             update: None,
             rebuild_every: 1000,
+            memory: None,
             ranks: None,
         }
     }
@@ -225,6 +248,13 @@ impl SolverSettings {
             },
             None => Ok(self.suitable_method(system)),
         }
+    }
+
+    /// Bytes that a matrix and its factor may take, where they decide between the methods: in the plane a factor that fits costs
+    /// less than conjugate gradients, whatever the number of points (`docs/solvers.md`).
+    pub(crate) fn bound_of_factor(&self, system: &dyn Bonds) -> Option<usize> {
+        let decides = self.method.is_none() && n_axes(system) == 2 && self.unfit(system).is_none();
+        self.memory.filter(|_| decides)
     }
 
     /// What is taken for conjugate gradients on some bonds.
@@ -301,7 +331,7 @@ impl SolverSettings {
 }
 
 /// Number of axes of the space of a body.
-fn n_axes(system: &dyn Bonds) -> usize {
+pub fn n_axes(system: &dyn Bonds) -> usize {
     let components = system.components().iter();
     components.filter(|it| !it.is_rotation()).count()
 }

@@ -48,6 +48,9 @@ const MOST_IN_PLACE: usize = 100;
 /// Iterations that cost as much as a new coarse space.
 const RENEWAL: f64 = 40.0;
 
+/// Begins what this solver writes into a checkpoint: no other solver begins so.
+const MARK: u64 = 0x6576_6974_6172_6574;
+
 /// A solver that iterates, for symmetric and definite stiffnesses of linear bonds.
 pub(crate) struct IterativeSolver {
     system: Arc<dyn Bonds>,
@@ -148,7 +151,7 @@ impl IterativeSolver {
     fn levels_of(&self, making: &Making) -> Result<Result<TwoLevels, Vec<usize>>, FactorError> {
         let moment = self.moment(making);
         let operator = self.operator(&moment, making.bonds());
-        let (blocks, loose) = PointBlocks::new(&operator);
+        let (blocks, loose) = PointBlocks::new(&operator)?;
         if !loose.is_empty() {
             return Ok(Err(loose));
         }
@@ -157,7 +160,11 @@ impl IterativeSolver {
     }
 
     /// Brings the blocks up to date; gives the degrees of freedom that nothing resists.
-    fn renew_blocks(&mut self, making: Making) -> Vec<usize> {
+    ///
+    /// # Errors
+    ///
+    /// If a block is not definite.
+    fn renew_blocks(&mut self, making: Making) -> Result<Vec<usize>, FactorError> {
         let newly_held = (making.held.iter().zip(&self.blocks_of.held))
             .enumerate()
             .filter(|(_, (now, before))| now != before);
@@ -165,19 +172,19 @@ impl IterativeSolver {
         let of_holds = newly_held.map(|(dof, _)| layout.point(dof));
         self.stale.extend(of_holds);
         if self.stale.is_empty() {
-            return Vec::new();
+            return Ok(Vec::new());
         }
         let stale = std::mem::take(&mut self.stale);
         let Some(mut levels) = self.levels.take() else {
-            return Vec::new();
+            return Ok(Vec::new());
         };
         let moment = self.moment(&making);
         let operator = self.operator(&moment, making.bonds());
         // Of softening bonds the two ends must have been met at the same moment.
         let loose = if making.remaining.is_empty() {
-            levels.blocks.renew(&operator, stale.iter().copied())
+            levels.blocks.renew(&operator, stale.iter().copied())?
         } else {
-            let (blocks, loose) = PointBlocks::new(&operator);
+            let (blocks, loose) = PointBlocks::new(&operator)?;
             levels.blocks = blocks;
             loose
         };
@@ -186,7 +193,7 @@ impl IterativeSolver {
         if !loose.is_empty() {
             self.stale = stale;
         }
-        loose
+        Ok(loose)
     }
 
     /// Learns from a solution whether the coarse space is worn out.
@@ -207,7 +214,10 @@ impl IterativeSolver {
         let Some(levels) = &mut self.levels else {
             return;
         };
-        if levels.coarse.change(&at_degrees_of_freedom(&self.unknowns, &terms)) {
+        if levels
+            .coarse
+            .change(&at_degrees_of_freedom(&self.unknowns, &terms))
+        {
             self.coarse_of.changes.push(terms);
         } else {
             self.is_due = true;
@@ -296,7 +306,7 @@ impl TangentSolver for IterativeSolver {
         let start = Instant::now();
         let making = self.made_of(state);
         if !self.is_due && self.levels.is_some() {
-            let loose = self.renew_blocks(making);
+            let loose = self.renew_blocks(making)?;
             costs.change += start.elapsed();
             return Ok(self.numbers(loose));
         }
@@ -374,6 +384,7 @@ impl TangentSolver for IterativeSolver {
     }
 
     fn write(&self, out: &mut Vec<u8>) {
+        MARK.write(out);
         self.levels.is_some().write(out);
         self.is_due.write(out);
         self.pace.write(out);
@@ -388,6 +399,10 @@ impl TangentSolver for IterativeSolver {
     }
 
     fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError> {
+        if !was_written(from) {
+            return Err(CheckpointError::OtherSolver);
+        }
+        let _ = u64::read(from)?;
         let has_levels = bool::read(from)?;
         self.is_due = Serial::read(from)?;
         self.pace = Serial::read(from)?;
@@ -420,10 +435,16 @@ impl TangentSolver for IterativeSolver {
         }
         let moment = self.moment(&self.blocks_of);
         let operator = self.operator(&moment, self.blocks_of.bonds());
-        levels.blocks = PointBlocks::new(&operator).0;
+        let blocks = PointBlocks::new(&operator);
+        levels.blocks = blocks.map_err(|_| CheckpointError::OtherArithmetic)?.0;
         self.levels = Some(levels);
         Ok(())
     }
+}
+
+/// Whether the bytes go on with what this solver has written.
+pub(super) fn was_written(from: &[u8]) -> bool {
+    from.starts_with(&MARK.to_le_bytes())
 }
 
 /// Terms at unknowns, at their degrees of freedom.
@@ -433,7 +454,9 @@ fn at_degrees_of_freedom(unknowns: &Unknowns, terms: &[RankOne]) -> Vec<RankOne>
         let entries = it.entries.iter();
         RankOne {
             weight: it.weight,
-            entries: entries.map(|(unknown, value)| (dofs[*unknown] as usize, *value)).collect(),
+            entries: entries
+                .map(|(unknown, value)| (dofs[*unknown] as usize, *value))
+                .collect(),
         }
     });
     of_terms.collect()

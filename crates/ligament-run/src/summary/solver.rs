@@ -2,9 +2,7 @@
 
 use ligament_analysis::costs::Costs;
 use ligament_analysis::solver;
-use ligament_analysis::solver::{
-    DirectChoice, FactorKind, Ordering, SolverChoice, Update,
-};
+use ligament_analysis::solver::{DirectChoice, FactorKind, Ordering, SolverChoice, Update};
 use serde::{Serialize, Serializer};
 
 /// The solver and its work.

@@ -1,6 +1,6 @@
 //! The stiffness E = Z^T K Z in a coarse space, and its factor.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use ligament_linalg::{

@@ -83,7 +83,10 @@ impl Resistance {
 
     /// Takes the work W^T y for motions y (n_degrees_of_freedom) away from works (n_aggregates, n_motions).
     pub(super) fn subtract_works(&self, space: &Space, motions: &[f64], works: &mut [f64]) {
-        match (motions.len() / space.aggregates.of_point.len(), space.n_motions) {
+        match (
+            motions.len() / space.aggregates.of_point.len(),
+            space.n_motions,
+        ) {
             (2, 3) => self.subtract_works_of::<2, 3>(motions, works),
             (3, 3) => self.subtract_works_of::<3, 3>(motions, works),
             (3, 6) => self.subtract_works_of::<3, 6>(motions, works),
@@ -94,7 +97,11 @@ impl Resistance {
         }
     }
 
-    fn subtract_works_of<const M: usize, const N: usize>(&self, motions: &[f64], works: &mut [f64]) {
+    fn subtract_works_of<const M: usize, const N: usize>(
+        &self,
+        motions: &[f64],
+        works: &mut [f64],
+    ) {
         let motions = motions.as_chunks::<M>().0;
         (works.as_chunks_mut::<N>().0.par_iter_mut())
             .zip(&self.columns)
@@ -220,7 +227,9 @@ impl Making<'_> {
                 continue;
             };
             columns.points.push(point);
-            columns.blocks.extend(block.iter().map(|value| *value as f32));
+            columns
+                .blocks
+                .extend(block.iter().map(|value| *value as f32));
             let of = self.space.aggregates.of_point[point as usize];
             if of <= aggregate {
                 let sum = works.entry(of).or_insert_with(|| vec![0.0; n * n]);
@@ -252,11 +261,15 @@ impl Making<'_> {
         if self.space.aggregates.of_point[point as usize] == aggregate {
             let rows = self.space.rows_of(point, k).chunks_exact(n);
             let sizes = rows.zip(&self.diagonal[first..]).map(|(row, own)| {
-                own * row.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
+                own * row
+                    .iter()
+                    .fold(0.0, |most: f64, value| most.max(value.abs()))
             });
             rounding = ROUNDING * sizes.fold(0.0, f64::max);
         }
-        sum.iter().any(|value| value.abs() > rounding).then_some(sum)
+        sum.iter()
+            .any(|value| value.abs() > rounding)
+            .then_some(sum)
     }
 }
 
