@@ -9,11 +9,12 @@ use serde_json::Value;
 use verification::repository;
 
 /// Each crate and the crates of this workspace that it depends on.
-const ARROWS: [(&str, &[&str]); 14] = [
+const ARROWS: [(&str, &[&str]); 15] = [
     ("ligament-mesh", &[]),
     ("ligament-linalg", &[]),
     ("ligament-model", &["ligament-mesh"]),
     ("ligament-analysis", &["ligament-linalg", "ligament-model"]),
+    ("ligament-petsc", &["ligament-analysis"]),
     (
         "ligament-output",
         &["ligament-analysis", "ligament-mesh", "ligament-model"],
@@ -88,6 +89,7 @@ const ARROWS: [(&str, &[&str]); 14] = [
             "ligament-mesh",
             "ligament-model",
             "ligament-output",
+            "ligament-petsc",
             "ligament-plot",
             "ligament-report",
             "ligament-run",
@@ -167,6 +169,9 @@ const WITH_FILES: [&str; 8] = [
 
 /// Crates that write to the terminal.
 const TALKING: [&str; 3] = ["ligament-cli", "ligament-run", "ligament-study"];
+
+/// The crate that calls another language.
+const CALLS_C: &str = "ligament-petsc";
 
 /// Parts of which no crate holds more than one, so that no room of the house grows over the others.
 const PARTS: usize = 4;
@@ -346,6 +351,34 @@ fn libraries_neither_print_nor_touch_files() {
             "{name} {touches:#?}"
         );
     }
+}
+
+/// One file calls another language. All crates but its own forbid unsafe code by the lints of the workspace.
+#[test]
+fn unsafe_code_stands_in_one_file() {
+    let mut found = BTreeSet::new();
+    for (name, _) in ARROWS {
+        for (path, lines) in code(name) {
+            let words = |line: &str| line.replace("unsafe_code", "");
+            let is_unsafe = |(_, line): &(usize, String)| words(line).contains("unsafe");
+            if lines.iter().any(is_unsafe) {
+                found.insert(path);
+            }
+        }
+        let manifest = repository().join("crates").join(name).join("Cargo.toml");
+        let manifest = std::fs::read_to_string(manifest).unwrap();
+        let of_workspace = manifest.contains("[lints]\nworkspace = true");
+        assert_eq!(
+            of_workspace,
+            name != CALLS_C,
+            "{name} keeps the lints of the workspace"
+        );
+    }
+    let allowed = repository()
+        .join("crates")
+        .join(CALLS_C)
+        .join("src/native.rs");
+    assert_eq!(found, BTreeSet::from([allowed]));
 }
 
 /// No crate holds more than a quarter of the source lines.

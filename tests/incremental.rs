@@ -45,6 +45,7 @@ const IN_PLACE: SolverSettings = SolverSettings {
     ordering: None,
     update: Some(Update::Incremental),
     rebuild_every: usize::MAX,
+    ranks: None,
 };
 
 /// Made anew after every breakage.
@@ -76,7 +77,7 @@ fn follow(bench: &Bench, solver: SolverSettings) -> Run {
 fn factor(outcome: &Outcome) -> DirectChoice {
     match outcome.solver {
         SolverChoice::Direct(choice) => choice,
-        SolverChoice::Iterative(choice) => panic!("{choice:?}"),
+        choice => panic!("{choice:?}"),
     }
 }
 

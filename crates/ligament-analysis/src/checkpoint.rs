@@ -28,6 +28,11 @@ pub enum CheckpointError {
         /// Load factor of the step as it was done.
         was: f64,
     },
+    /// One process wrote it, and several are to go on.
+    #[error(
+        "one process wrote it: go on with one, or run the case anew with several; what several wrote any number can go on with"
+    )]
+    OtherMethod,
     /// Numbers come out with other bits.
     #[error(
         "this machine, or this version of the program, does not compute the same bits as the one that wrote it; go on there, or run \

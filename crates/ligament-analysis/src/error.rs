@@ -21,6 +21,9 @@ pub enum SetupError {
         "conjugate gradients cannot solve these equations: {0}; let solver.method be \"direct\" or \"auto\""
     )]
     NotIterative(#[from] Unfit),
+    /// Several processes cannot solve the equations.
+    #[error("several processes cannot solve these equations: {0}; run the case with one")]
+    NotDistributed(Unfit),
     /// The exact path was asked for with bonds that soften.
     #[error(
         "the exact path goes in straight lines from breakage to breakage, and softening bonds bend them: take load steps"

@@ -28,6 +28,7 @@ pub mod load_program;
 pub mod modal;
 pub mod probe;
 pub mod problem;
+pub mod ranks;
 pub mod restraints;
 pub mod serial;
 pub mod softening;

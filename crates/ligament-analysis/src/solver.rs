@@ -8,6 +8,7 @@ use ligament_model::Bonds;
 use thiserror::Error;
 
 use crate::dissection;
+use crate::ranks::Together;
 use crate::unknowns::Unknowns;
 
 /// How the equations are solved; what is left open is chosen for the problem.
@@ -29,6 +30,8 @@ pub struct SolverSettings {
     /// A factor that was changed in place depends on all its changes; a run that is resumed replays those since the last
     /// time it was made anew.
     pub rebuild_every: usize,
+    /// Processes that solve the equations together; none: this one alone.
+    pub ranks: Option<Together>,
 }
 
 /// A way to solve the equations.
@@ -51,6 +54,8 @@ pub enum Reason {
     Unfit(Unfit),
     /// There are fewer points than this, or not fewer.
     Points(usize),
+    /// The stiffness is definite.
+    Definite,
 }
 
 impl Display for Reason {
@@ -59,6 +64,7 @@ impl Display for Reason {
             Self::Named => f.write_str("as the case says"),
             Self::NamedForFactor(word) => write!(f, "the case says what solver.{word} is to be"),
             Self::Unfit(unfit) => unfit.fmt(f),
+            Self::Definite => f.write_str("no bond has a negative stiffness"),
             Self::Points(limit) => write!(
                 f,
                 "a factor costs less below {limit} points, and more from there on"
@@ -83,6 +89,9 @@ pub enum Unfit {
     /// The forces are not linear in the displacements.
     #[error("the forces of the bonds are not linear in the displacements")]
     NotLinear,
+    /// Faces of cracks carry pressure where they close.
+    #[error("faces of cracks carry pressure where they close")]
+    ClosingFaces,
     /// The settings name something that only a factor has.
     #[error("solver.{0} is about a factor, of which there is none")]
     NamedForFactor(&'static str),
@@ -116,6 +125,19 @@ pub enum SolverChoice {
     Direct(DirectChoice),
     /// Conjugate gradients, without a matrix.
     Iterative(IterativeChoice),
+    /// A matrix whose rows are shared out among processes.
+    Distributed(DistributedChoice),
+}
+
+/// What was chosen for several processes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DistributedChoice {
+    /// Why it is conjugate gradients or a factor.
+    pub reason: Reason,
+    /// Number of the processes.
+    pub n_ranks: usize,
+    /// Force left out of balance after a breakage by conjugate gradients, see [`SolverSettings::tolerance`]; none: a factor.
+    pub tolerance: Option<f64>,
 }
 
 /// What was chosen for conjugate gradients.
@@ -155,6 +177,7 @@ impl Default for SolverSettings {
             ordering: None,
             update: None,
             rebuild_every: 1000,
+            ranks: None,
         }
     }
 }
@@ -201,6 +224,39 @@ impl SolverSettings {
         }
     }
 
+    /// What several processes take for the equations of some bonds.
+    ///
+    /// # Errors
+    ///
+    /// If they cannot solve these.
+    pub(crate) fn distributed_choice(
+        &self,
+        system: &dyn Bonds,
+        n_ranks: usize,
+    ) -> Result<DistributedChoice, Unfit> {
+        let open = Self {
+            method: None,
+            ..*self
+        };
+        let (is_definite, reason) = match (open.unfit(system), self.method) {
+            (None, Some(Method::Direct)) => (false, Reason::Named),
+            (None, Some(Method::Iterative)) => (true, Reason::Named),
+            (None, None) => (true, Reason::Definite),
+            (Some(Unfit::Indefinite), None | Some(Method::Direct)) => {
+                (false, Reason::Unfit(Unfit::Indefinite))
+            }
+            (Some(unfit), _) => return Err(unfit),
+        };
+        if system.faces_close() {
+            return Err(Unfit::ClosingFaces);
+        }
+        Ok(DistributedChoice {
+            reason,
+            n_ranks,
+            tolerance: is_definite.then_some(self.tolerance),
+        })
+    }
+
     fn unfit(&self, system: &dyn Bonds) -> Option<Unfit> {
         let named = [
             (self.factorisation.is_some(), "factorisation"),
@@ -224,9 +280,21 @@ impl SolverSettings {
 impl SolverChoice {
     /// The tolerance of ties for one that was asked for, see [`TIED`].
     pub fn tie_tolerance(&self, asked: f64) -> f64 {
+        let tolerance = self.tolerance().map(|it| TIED * it);
+        tolerance.map_or(asked, |tied| asked.max(tied))
+    }
+
+    /// Whether the solver iterates.
+    pub fn iterates(&self) -> bool {
+        self.tolerance().is_some()
+    }
+
+    /// Force left out of balance after a breakage, see [`SolverSettings::tolerance`]; none where the solver is exact.
+    fn tolerance(&self) -> Option<f64> {
         match self {
-            Self::Direct(_) => asked,
-            Self::Iterative(choice) => asked.max(TIED * choice.tolerance),
+            Self::Direct(_) => None,
+            Self::Iterative(choice) => Some(choice.tolerance),
+            Self::Distributed(choice) => choice.tolerance,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Solvers of the equations of an equilibrium, kept up while bonds break.
 
 pub(crate) mod direct;
+pub(crate) mod distributed;
 pub(crate) mod iterative;
 mod making;
 pub(crate) mod solving;
@@ -29,9 +30,14 @@ pub(crate) enum Left {
     AtMost(Vec<f64>),
 }
 
-/// A stiffness that is not definite, where a solver needs one that is.
+/// Why a solver that is ready has no solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Indefinite;
+pub(crate) enum Unsolved {
+    /// The stiffness is not definite, and the solver needs one that is.
+    Indefinite,
+    /// Ranks have computed different forces.
+    Disagreement,
+}
 
 /// A solver of K du = f with the tangent stiffness K of a state.
 ///
@@ -66,14 +72,14 @@ pub(crate) trait TangentSolver {
     ///
     /// # Errors
     ///
-    /// If the solver needs a definite stiffness, and met a motion that costs no energy.
+    /// If the solver needs a definite stiffness, and met a motion that costs no energy; or if ranks have computed different forces.
     fn solve(
         &mut self,
         state: &State,
         force: Vec<f64>,
         left: Left,
         costs: &mut Costs,
-    ) -> Result<Vec<f64>, Indefinite>;
+    ) -> Result<Vec<f64>, Unsolved>;
 
     /// Residual, relative to the forces that may act, up to which a solver that iterates goes after a breakage; none of an exact one.
     fn tolerance(&self) -> Option<f64>;

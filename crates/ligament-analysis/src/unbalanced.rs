@@ -6,6 +6,10 @@ use ligament_linalg::FactorError;
 
 use crate::unknowns::Component;
 
+/// What a user is to do about [`Unbalanced::RanksDisagree`].
+const RANKS_DISAGREE: &str = "the processes that solve the equations together have computed different forces: let all of them run the \
+                              same program on processors of one kind";
+
 /// A component of the motion of a point, where something went wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Place {
@@ -78,6 +82,8 @@ pub enum Unbalanced {
     Unmoved,
     /// No bond softens farther under the loads of a stage that dissipated energy controls.
     NothingDissipates,
+    /// Processes that solve the equations together have computed different forces.
+    RanksDisagree,
     /// The matrix could not be factorised.
     NoFactor(FactorError),
 }
@@ -156,6 +162,7 @@ impl Unbalanced {
             Self::NothingDissipates => "no bond softens farther however far the loads of the stage go, so that they dissipate no energy: give \
                                         the stage other loads, or less to dissipate"
                 .to_owned(),
+            Self::RanksDisagree => RANKS_DISAGREE.to_owned(),
             Self::NoFactor(error) => format!("the stiffness has no factor: {error}"),
         }
     }

@@ -10,6 +10,7 @@
 //! | [`terminal`] | where the program speaks to people |
 //! | `build` | the commit and the compiler that the program is from |
 //! | `lines` | lines of reports: names with what they are, aligned columns |
+//! | `ranks` | the processes that a run is one of |
 //! | `stop_signal` | the wish that a run stop |
 #![cfg_attr(
     test,
@@ -23,6 +24,7 @@ pub mod explain;
 pub mod inspect;
 mod lines;
 pub mod program;
+mod ranks;
 mod stop_signal;
 pub mod terminal;
 

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
-use crate::{Cli, terminal};
+use crate::{Cli, ranks, terminal};
 
 /// Does what the arguments ask for, the name of the program first, and gives the exit code; `program` is the command that calls
 /// this program, for runs that it starts as processes of their own.
@@ -26,14 +26,26 @@ fn answer(arguments: &[OsString], program: &[OsString]) -> ExitCode {
             return u8::try_from(told.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from);
         }
     };
-    match cli.execute(program) {
-        Ok(code) => code,
-        Err(error) if is_closed_pipe(&error) => ExitCode::SUCCESS,
-        Err(error) => {
-            print_error(&error);
-            ExitCode::FAILURE
-        }
+    let (code, error) = match cli.execute(program) {
+        Ok(code) => (code, None),
+        Err(error) if is_closed_pipe(&error) => (ExitCode::SUCCESS, None),
+        Err(error) => (ExitCode::FAILURE, Some(error)),
+    };
+    // What all processes meet the first one tells of.
+    if let Some(error) = error.as_ref().filter(|_| !ranks::is_beside_the_first()) {
+        print_error(error);
     }
+    let all_came = ranks::part(error.is_some());
+    if let Some(error) = error
+        .as_ref()
+        .filter(|_| ranks::is_beside_the_first() && !all_came)
+    {
+        print_error(error);
+    }
+    if !all_came {
+        ranks::abort();
+    }
+    code
 }
 
 /// The error and its causes; a reader that has gone away does not want to hear of them.

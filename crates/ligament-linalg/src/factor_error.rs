@@ -17,6 +17,12 @@ pub enum FactorError {
         /// Index of the pivot in the matrix.
         unknown: usize,
     },
+    /// L D L^T met pivots that vanish.
+    #[error("the matrix is singular: {vanishing} pivots vanish")]
+    Singular {
+        /// Number of these pivots.
+        vanishing: usize,
+    },
     /// The factor does not fit into memory.
     #[error("out of memory: the factor needs {bytes} bytes")]
     OutOfMemory {

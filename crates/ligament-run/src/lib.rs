@@ -11,6 +11,7 @@
 //! | [`loading`] | a body under loads, and by which rule its results are written |
 //! | [`summary`] | `summary.json`, and the lines at the end of a run |
 //! | [`watch`], [`progress`] | the observer that writes results, and how far the run is |
+//! | `ranks`, `assist` | what several processes tell each other, and the part of those beside the first |
 //! | [`stages`], [`memory`], [`disk`] | time, memory and room on a disk that a run takes |
 //! | [`gauges`] | rigid motions that nothing holds, in words |
 #![cfg_attr(
@@ -18,6 +19,7 @@
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
 )]
 
+mod assist;
 mod checkpoints;
 mod comparison;
 mod destination;
@@ -30,6 +32,7 @@ pub mod model;
 mod modes;
 pub mod progress;
 pub mod provenance;
+mod ranks;
 pub mod repeat;
 pub mod resume;
 pub mod run;

@@ -161,6 +161,7 @@ impl Request<'_> {
             out,
             force: false,
             build: self.build,
+            ranks: None,
             is_stopped: &|| (self.is_stopped)() || is_at_its_end(),
         };
         let report = request

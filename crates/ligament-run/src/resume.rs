@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use anyhow::{Context, bail, ensure};
+use ligament::Model;
 use ligament::run::{on_threads, restore};
 use ligament::setup::{Analysis, Dim, Dimension};
-use ligament::{Loading, Model};
 use ligament_analysis::driver::Problem;
+use ligament_analysis::ranks::Together;
 use ligament_analysis::serial::Serial;
 use ligament_case::case::CaseFile;
 use ligament_output::checkpoint::Checkpoint;
@@ -23,6 +24,7 @@ use crate::loading::{Kept, LoadedBody, SUMMARY};
 use crate::model::{build_model, build_model_in_space};
 use crate::progress::{Progress, ProgressMode};
 use crate::provenance::Build;
+use crate::ranks::{any_stopped, loading, tell_checkpoint, tell_folder};
 use crate::run::Report;
 use crate::stages::Stages;
 
@@ -38,6 +40,8 @@ pub struct Request<'a> {
     pub build: Build,
     /// Tells whether the user wants it to stop again.
     pub is_stopped: IsStopped<'a>,
+    /// The processes that solve its equations together; none: this one alone. This one is the first of them.
+    pub ranks: Option<Together>,
 }
 
 impl Request<'_> {
@@ -57,6 +61,7 @@ impl Request<'_> {
         let mut case = CaseFile::load(&folder.file(RESOLVED_CASE), self.settings)?;
         let threads = &mut case.case.solver.threads;
         *threads = self.threads.or(*threads);
+        tell_folder(self.ranks, folder.path());
         on_threads(case.threads(), || self.resume_here(&case, folder, mode))?
     }
 
@@ -94,8 +99,11 @@ impl Request<'_> {
     where
         Dim: Dimension<D>,
     {
-        let loading = Loading::new(&model.setup, &model.system).map_err(|it| case.located(it))?;
+        let loading = loading(case, model, self.ranks)?;
         let problem = loading.problem(&model.system, &model.criteria);
+        let solution = found.as_ref().map(|(checkpoint, _)| &checkpoint.solution);
+        tell_checkpoint(self.ranks, solution);
+        let is_stopped = || any_stopped(self.ranks, self.is_stopped);
         let kept = found.map(|(checkpoint, results)| {
             let kept = kept(checkpoint, results, &problem, &model.setup.analysis)?;
             progress.stage(&format!(
@@ -124,7 +132,7 @@ impl Request<'_> {
                     loading: &loading,
                     folder,
                     build: self.build,
-                    is_stopped: self.is_stopped,
+                    is_stopped: &is_stopped,
                 };
                 let summary = body.follow(kept, &mut stages, &mut progress)?;
                 progress.finish(&summary.termination_message);

@@ -3,9 +3,9 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use ligament::Loading;
 use ligament::run::on_threads;
 use ligament::setup::{Analysis, Dim, Dimension};
+use ligament_analysis::ranks::Together;
 use ligament_output::folder::ResultFolder;
 
 use crate::destination::{self, make_results};
@@ -16,6 +16,7 @@ use crate::model::{Model, build_model, build_model_in_space};
 use crate::modes::find_modes;
 use crate::progress::{Progress, ProgressMode};
 use crate::provenance::{Build, Provenance};
+use crate::ranks::{any_stopped, loading};
 use crate::stages::Stages;
 use crate::summary::{ModalSummary, Summary};
 use ligament_case::case::CaseFile;
@@ -82,6 +83,8 @@ pub struct Request<'a> {
     pub build: Build,
     /// Tells whether the user wants it to stop.
     pub is_stopped: IsStopped<'a>,
+    /// The processes that solve its equations together; none: this one alone. This one is the first of them.
+    pub ranks: Option<Together>,
 }
 
 /// Runs a case and writes its results into a new folder; the record of these says nothing of the build.
@@ -92,6 +95,7 @@ pub fn run(case: &CaseFile, out: &Path, force: bool, mode: ProgressMode) -> anyh
         force,
         build: Build::default(),
         is_stopped: &|| false,
+        ranks: None,
     };
     request.run(mode)
 }
@@ -156,11 +160,14 @@ where
     Dim: Dimension<D>,
 {
     let case = request.case;
-    let loading = Loading::new(&model.setup, &model.system).map_err(|it| case.located(it))?;
-    let problem = loading.problem(&model.system, &model.criteria);
-    memory::foresee_equations(case, &*model.system, &problem)?;
+    let loading = loading(case, model, request.ranks)?;
+    if request.ranks.is_none() {
+        let problem = loading.problem(&model.system, &model.criteria);
+        memory::foresee_equations(case, &*model.system, &problem)?;
+    }
+    let is_stopped = || any_stopped(request.ranks, request.is_stopped);
     anyhow::ensure!(
-        !(request.is_stopped)(),
+        !is_stopped(),
         "stopped before the first solution: nothing was written"
     );
     // Nothing is written, and nothing replaced, before all input was found good.
@@ -175,7 +182,7 @@ where
             loading: &loading,
             folder,
             build: request.build,
-            is_stopped: request.is_stopped,
+            is_stopped: &is_stopped,
         };
         let summary = body.follow(None, &mut stages, &mut progress)?;
         progress.finish(&summary.termination_message);

@@ -9,7 +9,6 @@ use crate::breakage::Breakage;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
 use crate::problem::Problem;
-use crate::solver::SolverChoice;
 
 /// Solves the problem at load factor one, or at the end of each part of its programme; no bond breaks. The history has the unloaded
 /// body as step 0.
@@ -23,7 +22,7 @@ pub fn run(
     let mut termination = Termination::StepsDone;
     let ends = ends(problem);
     // An iteration begins at what it has found already; a factor finds it again to the bit.
-    let iterates = matches!(path.equilibrium.choice(), SolverChoice::Iterative(_));
+    let iterates = path.equilibrium.choice().iterates();
     let found = at_one.filter(|_| iterates && problem.loads.course().is_none());
     for (step, &(part, load_factor)) in ends.iter().enumerate() {
         path.begin_part(part);

@@ -4,6 +4,7 @@ use super::path::Path;
 use crate::balanced::Balanced;
 use crate::history::{Notice, ObserverError, Termination};
 use crate::load_program::{ControlKind, LoadCourse};
+use crate::ranks::Together;
 use crate::unbalanced::Unbalanced;
 
 /// Below this fraction of the peak a body carries no load any more: what is left is rounding.
@@ -21,7 +22,12 @@ impl Path<'_> {
 
     /// The rule that ends the run wherever it is, if one does.
     pub(super) fn interruption(&self) -> Option<Termination> {
-        let seconds = self.started.elapsed().as_secs_f64();
+        let mut seconds = [self.started.elapsed().as_secs_f64()];
+        // All processes stop at the same time, or none does.
+        if let (Some(_), Some(Together(ranks))) = (self.stop.wall_time, self.problem.solver.ranks) {
+            ranks.largest(&mut seconds);
+        }
+        let [seconds] = seconds;
         if let Some(bonds) = self.stop.bonds.filter(|&bonds| self.course.broken >= bonds) {
             return Some(Termination::BondsBroken { bonds });
         }

@@ -24,7 +24,7 @@ use crate::solver::SolverChoice;
 use crate::state::State;
 use crate::stiffness::Stiffness;
 use crate::tangent::solving::Solving;
-use crate::tangent::{Indefinite, Left, TangentSolver};
+use crate::tangent::{Left, TangentSolver, Unsolved, distributed};
 use crate::unbalanced::{Place, Unbalanced};
 use crate::unknowns::{Layout, Unknowns};
 
@@ -125,7 +125,13 @@ impl Equations {
     ) -> Result<Balanced, CheckpointError> {
         self.accuracy.largest_extents = Serial::read(from)?;
         let costs = Serial::read(from)?;
-        self.solver.restore(from)?;
+        let is_shared = matches!(self.choice, SolverChoice::Distributed(_));
+        if !is_shared && distributed::was_written(from) {
+            // One process goes on with the state alone.
+            distributed::pass_over(from)?;
+        } else {
+            self.solver.restore(from)?;
+        }
         if self.problem.criteria.soften() {
             self.precedents = Precedents::restored(from, &self.unknowns)?;
         }
@@ -257,7 +263,10 @@ impl Equations {
         left: Left,
     ) -> Result<Vec<f64>, Unbalanced> {
         let solution = self.solver.solve(state, force, left, &mut self.costs);
-        solution.map_err(|Indefinite| Unbalanced::NegativeCurvature)
+        solution.map_err(|reason| match reason {
+            Unsolved::Indefinite => Unbalanced::NegativeCurvature,
+            Unsolved::Disagreement => Unbalanced::RanksDisagree,
+        })
     }
 
     /// Deformations, forces, residual and energy of a state.

@@ -11,7 +11,7 @@ use ligament_model::element::Remaining;
 
 use super::making::Making;
 use super::terms::{Coupled, due_bonds};
-use super::{Indefinite, Left, SOFT_HOLD, TangentSolver};
+use super::{Left, SOFT_HOLD, TangentSolver, Unsolved};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::contact;
@@ -264,7 +264,7 @@ impl TangentSolver for DirectSolver {
         mut force: Vec<f64>,
         _: Left,
         costs: &mut Costs,
-    ) -> Result<Vec<f64>, Indefinite> {
+    ) -> Result<Vec<f64>, Unsolved> {
         let start = Instant::now();
         let dofs = self.stiffness.unknowns().degrees_of_freedom().iter();
         for (value, &dof) in force.iter_mut().zip(dofs) {

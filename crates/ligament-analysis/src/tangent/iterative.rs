@@ -26,7 +26,7 @@ use self::operator::Operator;
 use self::point_blocks::PointBlocks;
 use super::making::Making;
 use super::terms::{Coupled, due_bonds};
-use super::{Indefinite, Left, SOFT_HOLD, TangentSolver};
+use super::{Left, SOFT_HOLD, TangentSolver, Unsolved};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::contact;
@@ -35,6 +35,8 @@ use crate::serial::Serial;
 use crate::state::State;
 use crate::unknowns::Unknowns;
 use crate::vectors::dot_of_chunks;
+
+pub(super) use point_blocks::vanishing_of_block;
 
 /// Points of an aggregate at most.
 const LARGEST_AGGREGATE: usize = 40;
@@ -263,10 +265,10 @@ impl TangentSolver for IterativeSolver {
         force: Vec<f64>,
         left: Left,
         costs: &mut Costs,
-    ) -> Result<Vec<f64>, Indefinite> {
+    ) -> Result<Vec<f64>, Unsolved> {
         let start = Instant::now();
         let Some(mut levels) = self.levels.take() else {
-            return Err(Indefinite);
+            return Err(Unsolved::Indefinite);
         };
         let dofs = self.unknowns.degrees_of_freedom();
         let moment = self.moment(&self.blocks_of);
@@ -296,7 +298,7 @@ impl TangentSolver for IterativeSolver {
         if found.is_definite {
             Ok(solution)
         } else {
-            Err(Indefinite)
+            Err(Unsolved::Indefinite)
         }
     }
 

@@ -6,9 +6,11 @@ use ligament_model::Bonds;
 
 use super::TangentSolver;
 use super::direct::DirectSolver;
+use super::distributed::DistributedSolver;
 use super::iterative::IterativeSolver;
 use super::unsymmetric::UnsymmetricSolver;
 use crate::error::SetupError;
+use crate::ranks::Together;
 use crate::solver::{IterativeChoice, Method, SolverChoice, SolverSettings};
 use crate::stiffness::Stiffness;
 use crate::unknowns::Unknowns;
@@ -32,6 +34,17 @@ impl Solving {
         unknowns: &Arc<Unknowns>,
         settings: SolverSettings,
     ) -> Result<Self, SetupError> {
+        if let Some(Together(ranks)) = settings.ranks {
+            let choice = settings.distributed_choice(&**system, ranks.n_ranks());
+            let choice = choice.map_err(SetupError::NotDistributed)?;
+            let (system, unknowns) = (system.clone(), unknowns.clone());
+            let solver = DistributedSolver::new(system, unknowns, ranks, choice.tolerance);
+            return Ok(Self {
+                stiffness: None,
+                choice: SolverChoice::Distributed(choice),
+                solver: Box::new(solver),
+            });
+        }
         let (method, reason) = settings.chosen_method(&**system)?;
         if method == Method::Iterative {
             let tolerance = settings.tolerance;

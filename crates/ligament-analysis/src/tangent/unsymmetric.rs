@@ -6,7 +6,7 @@ use std::time::Instant;
 use ligament_linalg::{FactorError, GeneralMatrix, Inertia, Lu};
 
 use super::making::Making;
-use super::{Indefinite, Left, TangentSolver};
+use super::{Left, TangentSolver, Unsolved};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
@@ -95,7 +95,7 @@ impl TangentSolver for UnsymmetricSolver {
         mut force: Vec<f64>,
         _: Left,
         costs: &mut Costs,
-    ) -> Result<Vec<f64>, Indefinite> {
+    ) -> Result<Vec<f64>, Unsolved> {
         let start = Instant::now();
         let dofs = self.stiffness.unknowns().degrees_of_freedom().iter();
         for (value, &dof) in force.iter_mut().zip(dofs) {

@@ -33,7 +33,7 @@ where
         (None, SolverChoice::Iterative(choice)) => {
             write_iteration(out, case, model, (equilibrium.unknowns().len(), choice))
         }
-        (None, SolverChoice::Direct(_)) => Ok(()),
+        (None, SolverChoice::Direct(_) | SolverChoice::Distributed(_)) => Ok(()),
     }
 }
 

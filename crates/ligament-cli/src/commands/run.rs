@@ -8,6 +8,7 @@ use clap::Args;
 
 use super::case_args::CaseArgs;
 use crate::build::BUILD;
+use crate::ranks;
 use crate::stop_signal::StopSignal;
 use crate::terminal;
 use ligament_plot::picture::{asks_for_pictures, draw_run};
@@ -62,6 +63,11 @@ impl RunArgs {
         if let Some(lock) = &self.leash {
             take_leash(lock)?;
         }
+        // A run of a sweep is one process, whoever started the sweep.
+        let ranks = match &self.leash {
+            None => ranks::join()?,
+            Some(_) => None,
+        };
         let case = self.case.load()?;
         // Without load steps there is nothing to go on with later, and for a sweep the run starts anew.
         let stop = match (&self.leash, &case.case.fracture) {
@@ -77,7 +83,12 @@ impl RunArgs {
             force: self.force,
             build: BUILD,
             is_stopped: &|| stop.came(),
+            ranks,
         };
+        if ranks::is_beside_the_first() {
+            request.assist()?;
+            return Ok(ExitCode::SUCCESS);
+        }
         let report = request.run(ProgressMode::detect(self.quiet))?;
         tell(&report, &out, self.plot)
     }

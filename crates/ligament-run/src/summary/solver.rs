@@ -10,7 +10,7 @@ use serde::{Serialize, Serializer};
 /// The solver and its work.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SolverSummary {
-    /// `direct` or `iterative`.
+    /// `direct`, `iterative` or, of several processes, `distributed`.
     pub method: &'static str,
     /// Why it was this one.
     pub reason: Reason,
@@ -20,6 +20,9 @@ pub struct SolverSummary {
     /// What was chosen for conjugate gradients.
     #[serde(flatten)]
     pub iteration: Option<IterationSummary>,
+    /// Processes, where several solve the equations together.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ranks: Option<usize>,
     /// Threads.
     pub threads: usize,
     /// Factorisations; of the coarse space where the method is iterative.
@@ -99,22 +102,30 @@ impl Serialize for Reason {
 impl SolverSummary {
     /// What was chosen, and what it cost.
     pub fn new(costs: &Costs, choice: &SolverChoice) -> Self {
+        let iterations = costs.iterations;
+        let iteration = |tolerance| IterationSummary {
+            tolerance,
+            iterations,
+        };
         let (method, reason, factor, iteration) = match choice {
             SolverChoice::Direct(it) => ("direct", it.reason, Some(FactorSummary::new(it)), None),
             &SolverChoice::Iterative(IterativeChoice { reason, tolerance }) => {
-                let iterations = costs.iterations;
-                let iteration = IterationSummary {
-                    tolerance,
-                    iterations,
-                };
-                ("iterative", reason, None, Some(iteration))
+                ("iterative", reason, None, Some(iteration(tolerance)))
             }
+            SolverChoice::Distributed(it) => {
+                ("distributed", it.reason, None, it.tolerance.map(iteration))
+            }
+        };
+        let ranks = match choice {
+            SolverChoice::Distributed(it) => Some(it.n_ranks),
+            SolverChoice::Direct(_) | SolverChoice::Iterative(_) => None,
         };
         Self {
             method,
             reason: Reason(reason),
             factor,
             iteration,
+            ranks,
             threads: rayon::current_num_threads(),
             factorisations: costs.factorisations,
             changes: costs.changes,

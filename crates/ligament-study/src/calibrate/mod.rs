@@ -143,6 +143,7 @@ fn one_run(request: &Request, record: &Record, key: f64) -> anyhow::Result<Run> 
         out: &folder,
         force: true,
         build: request.build,
+        ranks: None,
         is_stopped: &|| false,
     };
     one.run(ProgressMode::Quiet)

@@ -137,6 +137,15 @@ fn invert(
     vanishing.into_iter().map(|it| dofs.start + it).collect()
 }
 
+/// The first of the rows and columns `free` of a symmetric block (n, n) whose pivot vanishes or is negative.
+pub(in crate::tangent) fn vanishing_of_block(
+    free: &[usize],
+    n: usize,
+    block: &[f64],
+) -> Option<usize> {
+    invert_among(free, n, block, &mut vec![0.0; n * n])
+}
+
 /// Inverts the rows and columns `free` of a symmetric block (n, n); gives those whose pivots vanish or are negative, if any, and then
 /// no inverse.
 fn invert_among(free: &[usize], n: usize, block: &[f64], inverse: &mut [f64]) -> Option<usize> {

@@ -1,0 +1,465 @@
+//! Solution by several ranks: a matrix whose rows are shared out, conjugate gradients with multigrid, or a factor.
+//!
+//! Every rank knows the state, has the rows of its own points, and takes the whole correction: all go the same way to the bit. The matrix
+//! is always that of the bonds as they are. The preconditioner is kept while it serves: it is made anew where a part came loose, and where
+//! the iterations beyond what it took when it was new have cost as much as that. A factor is made anew after every breakage.
+
+mod rows;
+mod shares;
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+use std::time::Instant;
+
+use ligament_linalg::{FactorError, Inertia};
+use ligament_model::Bonds;
+use ligament_model::contact::ClosedPair;
+use ligament_model::element::Remaining;
+use ligament_model::thermal::ThermalStrain;
+
+use self::rows::{OwnRows, Taken};
+use self::shares::Shares;
+use super::making::Making;
+use super::terms::due_bonds;
+use super::{Left, TangentSolver, Unsolved};
+use crate::breakage::Breakage;
+use crate::checkpoint::CheckpointError;
+use crate::costs::Costs;
+use crate::ranks::{Pivots, RankMatrix, Ranks, Solved, Tolerated};
+use crate::serial::Serial;
+use crate::state::State;
+use crate::unknowns::Unknowns;
+use crate::vectors::dot_of_chunks;
+
+/// Iterations that cost as much as a new preconditioner.
+const RENEWAL: f64 = 40.0;
+
+/// Begins what this solver writes into a checkpoint: no other solver begins so.
+const MARK: u64 = 0x736b_6e61_7220_669c;
+
+/// A solver that works on several ranks, for symmetric stiffnesses.
+pub(crate) struct DistributedSolver {
+    system: Arc<dyn Bonds>,
+    unknowns: Arc<Unknowns>,
+    ranks: &'static dyn Ranks,
+    /// Force left out of balance by an iteration, relative to what may act; none: a factor.
+    tolerance: Option<f64>,
+    shares: Shares,
+    /// Points whose columns have entries in own rows.
+    columns: Vec<u32>,
+    matrix: Option<Box<dyn RankMatrix>>,
+    kept: Kept,
+    /// Pivots of the factor, where there is one.
+    pivots: Option<Pivots>,
+}
+
+/// What a preconditioner came from and how it serves: the same on all ranks.
+struct Kept {
+    /// What the preconditioner was made of.
+    preconditioner_of: Making,
+    /// What the matrix is of.
+    matrix_of: Making,
+    /// Points whose columns are out of date.
+    stale: BTreeSet<u32>,
+    /// Whether the preconditioner is to be made anew.
+    is_due: bool,
+    /// Iterations a decade with the preconditioner as it was new.
+    pace: Option<f64>,
+    /// Iterations beyond that since.
+    excess: f64,
+}
+
+impl DistributedSolver {
+    /// Shares the points out; without a tolerance a factor is made.
+    pub(crate) fn new(
+        system: Arc<dyn Bonds>,
+        unknowns: Arc<Unknowns>,
+        ranks: &'static dyn Ranks,
+        tolerance: Option<f64>,
+    ) -> Self {
+        let shares = Shares::new(&*system, ranks.n_ranks());
+        let rows = OwnRows {
+            system: &*system,
+            unknowns: &unknowns,
+            shares: &shares,
+            rank: ranks.rank(),
+        };
+        let columns = rows.columns();
+        Self {
+            system,
+            unknowns,
+            ranks,
+            tolerance,
+            shares,
+            columns,
+            matrix: None,
+            kept: Kept {
+                preconditioner_of: Making::default(),
+                matrix_of: Making::default(),
+                stale: BTreeSet::new(),
+                is_due: true,
+                pace: None,
+                excess: 0.0,
+            },
+            pivots: None,
+        }
+    }
+
+    fn rows(&self) -> OwnRows<'_> {
+        OwnRows {
+            system: &*self.system,
+            unknowns: &self.unknowns,
+            shares: &self.shares,
+            rank: self.ranks.rank(),
+        }
+    }
+
+    /// Marks of the degrees of freedom that take part, shape (n_degrees_of_freedom).
+    fn free(&self, held: &[bool]) -> Vec<bool> {
+        let mut free = vec![false; held.len()];
+        for &dof in self.unknowns.degrees_of_freedom() {
+            free[dof as usize] = !held[dof as usize];
+        }
+        free
+    }
+
+    /// Makes the matrix one of the bonds as they are, in some columns or all; gives the degrees of freedom of all ranks that nothing
+    /// resists.
+    fn assemble(&mut self, making: &Making, columns: Option<&[u32]>) -> Vec<usize> {
+        let matrix = self.matrix.take();
+        let rows = self.rows();
+        let mut matrix = matrix.unwrap_or_else(|| {
+            let couplings = rows.couplings(&self.columns);
+            self.ranks.matrix(&rows.rows(&couplings))
+        });
+        let free = self.free(&making.held);
+        let bonds = making.bonds();
+        let taken = Taken { bonds, free: &free };
+        let loose = rows.set(columns.unwrap_or(&self.columns), taken, &mut *matrix);
+        matrix.assemble();
+        self.matrix = Some(matrix);
+        if self.tolerance.is_none() {
+            // Of an indefinite matrix the factor tells.
+            return Vec::new();
+        }
+        self.of_all(&loose)
+    }
+
+    /// Degrees of freedom that some rank has found.
+    fn of_all(&self, found: &[usize]) -> Vec<usize> {
+        let mut some = [found.len() as f64];
+        self.ranks.largest(&mut some);
+        if some == [0.0] {
+            return Vec::new();
+        }
+        let mut marks = vec![0.0; self.unknowns.layout().n_degrees_of_freedom()];
+        for &dof in found {
+            marks[dof] = 1.0;
+        }
+        self.ranks.largest(&mut marks);
+        (0..marks.len()).filter(|&dof| marks[dof] > 0.0).collect()
+    }
+
+    /// The preconditioner anew, with the rigid motions of the body as far as nothing holds them.
+    fn precondition(&mut self, making: &Making) {
+        let layout = self.unknowns.layout();
+        let free = self.free(&making.held);
+        let all: Vec<u32> = (0..self.system.n_points() as u32).collect();
+        let own = self.shares.points(self.ranks.rank());
+        let of_own = |shape: Vec<f64>| -> Vec<f64> {
+            let dofs = own.iter().flat_map(|&point| layout.range(point));
+            dofs.map(|dof| if free[dof] { shape[dof] } else { 0.0 })
+                .collect()
+        };
+        let shapes = self.system.rigid_shapes(&all).into_iter();
+        let motions: Vec<Vec<f64>> = shapes.map(of_own).collect();
+        if let Some(matrix) = &mut self.matrix {
+            matrix.precondition(&motions);
+        }
+    }
+
+    /// The factor anew.
+    fn factorise(&mut self) -> Result<(), FactorError> {
+        let pivots = self.matrix.as_mut().map(|it| it.factorise());
+        self.pivots = pivots;
+        match pivots {
+            Some(Pivots { vanishing, .. }) if vanishing > 0 => {
+                Err(FactorError::Singular { vanishing })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The columns that are out of date, those beside newly held degrees of freedom included.
+    fn stale_columns(&mut self, making: &Making) -> Vec<u32> {
+        let layout = self.unknowns.layout();
+        let held = making.held.iter().zip(&self.kept.matrix_of.held);
+        let newly_held = held.enumerate().filter(|(_, (now, before))| now != before);
+        let points: BTreeSet<u32> = newly_held.map(|(dof, _)| layout.point(dof)).collect();
+        let mut stale = std::mem::take(&mut self.kept.stale);
+        for point in points {
+            stale.insert(point);
+            stale.extend(self.system.coupled_points().at(point));
+        }
+        stale.into_iter().collect()
+    }
+
+    /// Whether all ranks are to solve for the same forces, to the bit: they go the same way if they compute the same.
+    fn agree(&self, force: &[f64]) -> bool {
+        // FNV-1a by numbers, in halves that doubles hold.
+        let mixed = force.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, value| {
+            (hash ^ value.to_bits())
+                .wrapping_mul(0x0100_0000_01b3)
+                .rotate_left(29)
+        });
+        let halves = [(mixed >> 32) as f64, (mixed & 0xffff_ffff) as f64];
+        let mut both = [halves[0], halves[1], -halves[0], -halves[1]];
+        self.ranks.largest(&mut both);
+        both[0] == -both[2] && both[1] == -both[3]
+    }
+
+    /// Values at the unknowns as those at the own degrees of freedom, with another one where nothing is unknown or free.
+    fn at_own(&self, values: &[f64], free: &[bool], other: f64) -> Vec<f64> {
+        let layout = self.unknowns.layout();
+        let own = self.shares.points(self.ranks.rank()).iter();
+        let dofs = own.flat_map(|&point| layout.range(point));
+        let value = |dof: usize| self.unknowns.number(dof).filter(|_| free[dof]);
+        dofs.map(|dof| value(dof).map_or(other, |number| values[number]))
+            .collect()
+    }
+
+    /// Learns from a solution whether the preconditioner is worn out.
+    fn judge(&mut self, found: &Solved) {
+        if found.iterations == 0 || !found.decades.is_finite() || found.decades <= 0.0 {
+            return;
+        }
+        let (kept, iterations) = (&mut self.kept, found.iterations as f64);
+        match kept.pace {
+            None => kept.pace = Some(iterations / found.decades),
+            Some(pace) => kept.excess += (iterations - pace * found.decades).max(0.0),
+        }
+        kept.is_due |= kept.excess > RENEWAL;
+    }
+
+    fn numbers(&self, dofs: Vec<usize>) -> Vec<usize> {
+        let dofs = dofs.into_iter();
+        dofs.filter_map(|dof| self.unknowns.number(dof)).collect()
+    }
+}
+
+impl TangentSolver for DistributedSolver {
+    fn follow(
+        &mut self,
+        breakage: &Breakage,
+        _: &State,
+        _: ThermalStrain<'_>,
+        _: &mut Costs,
+    ) -> Option<Vec<f64>> {
+        let layout = self.unknowns.layout();
+        let terms = breakage.lost_terms().chain(breakage.gained_terms());
+        let entries = terms.flat_map(|(_, entries)| entries);
+        let points = entries.map(|(dof, _)| layout.point(dof));
+        self.kept.stale.extend(points);
+        // The rigid motions of a part that came loose are among the softest of all.
+        self.kept.is_due |= !breakage.holds.is_empty();
+        None
+    }
+
+    fn weaken(&mut self, state: &State, _: &mut Costs) {
+        let n_bonds = state.softening.remaining.len();
+        let mut in_matrix = self.kept.matrix_of.remaining.clone();
+        in_matrix.resize(n_bonds, Remaining::WHOLE);
+        let ends = self.system.ends();
+        let due = due_bonds(&in_matrix, state);
+        let of_due = due.into_iter().flat_map(|bond| ends[bond]);
+        self.kept.stale.extend(of_due);
+    }
+
+    fn close(&mut self, _: &[ClosedPair], _: &mut Costs) {}
+
+    fn prepare(&mut self, state: &State, costs: &mut Costs) -> Result<Vec<usize>, FactorError> {
+        let start = Instant::now();
+        let making = Making::begun(state, state.held.clone(), Vec::new());
+        let is_new = self.kept.is_due || self.matrix.is_none();
+        let stale = self.stale_columns(&making);
+        if !is_new && stale.is_empty() {
+            return Ok(Vec::new());
+        }
+        // Of softening bonds the two ends must have been met at the same moment.
+        let columns = (!is_new && making.remaining.is_empty()).then_some(stale.as_slice());
+        let loose = self.assemble(&making, columns);
+        self.kept.matrix_of = making.clone();
+        costs.assembly += start.elapsed();
+        if !loose.is_empty() {
+            self.kept.stale.extend(stale);
+            return Ok(self.numbers(loose));
+        }
+        let start = Instant::now();
+        if self.tolerance.is_none() {
+            self.factorise()?;
+        } else if is_new {
+            self.precondition(&making);
+        } else {
+            costs.changes += 1;
+            return Ok(Vec::new());
+        }
+        let kept = &mut self.kept;
+        kept.preconditioner_of = making;
+        (kept.is_due, kept.pace, kept.excess) = (false, None, 0.0);
+        costs.factorisations += 1;
+        costs.factorisation += start.elapsed();
+        Ok(Vec::new())
+    }
+
+    fn solve(
+        &mut self,
+        _: &State,
+        force: Vec<f64>,
+        left: Left,
+        costs: &mut Costs,
+    ) -> Result<Vec<f64>, Unsolved> {
+        let start = Instant::now();
+        if !self.agree(&force) {
+            return Err(Unsolved::Disagreement);
+        }
+        let Some(mut matrix) = self.matrix.take() else {
+            return Err(Unsolved::Indefinite);
+        };
+        let free = self.free(&self.kept.matrix_of.held);
+        let own_force = self.at_own(&force, &free, 0.0);
+        let found = match left {
+            Left::Share(share) => {
+                let norm = share * dot_of_chunks(&force, &force).sqrt();
+                matrix.solve(&own_force, Tolerated::Norm(norm))
+            }
+            Left::AtMost(sizes) => {
+                let sizes = self.at_own(&sizes, &free, f64::INFINITY);
+                matrix.solve(&own_force, Tolerated::Sizes(&sizes))
+            }
+        };
+        self.matrix = Some(matrix);
+        let layout = self.unknowns.layout();
+        let n = layout.components.len();
+        let all = self.ranks.gather(&found.motions, &self.shares.counts(n));
+        let dofs = self.unknowns.degrees_of_freedom().iter();
+        let solution = dofs.map(|&dof| {
+            let dof = dof as usize;
+            all[n * self.shares.place(layout.point(dof)) + dof % n]
+        });
+        let solution = solution.collect();
+        if self.tolerance.is_some() {
+            self.judge(&found);
+            costs.iterations += found.iterations;
+        }
+        costs.solves += 1;
+        costs.solve += start.elapsed();
+        if found.is_definite {
+            Ok(solution)
+        } else {
+            Err(Unsolved::Indefinite)
+        }
+    }
+
+    fn tolerance(&self) -> Option<f64> {
+        self.tolerance
+    }
+
+    fn is_changed(&self) -> bool {
+        false
+    }
+
+    fn forget(&mut self) {
+        self.kept.is_due = true;
+    }
+
+    fn inertia(&self) -> Option<Inertia> {
+        self.pivots.map(|pivots| Inertia {
+            negative: pivots.negative,
+            positive: self.unknowns.len() - pivots.negative,
+        })
+    }
+
+    fn write(&self, out: &mut Vec<u8>) {
+        MARK.write(out);
+        self.matrix.is_some().write(out);
+        self.kept.write(out);
+    }
+
+    fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError> {
+        if !was_written(from) {
+            return Err(CheckpointError::OtherMethod);
+        }
+        let _ = u64::read(from)?;
+        let has_matrix = bool::read(from)?;
+        self.kept = Kept::read(from)?;
+        if !has_matrix {
+            return Ok(());
+        }
+        let Kept {
+            preconditioner_of,
+            matrix_of,
+            stale,
+            ..
+        } = &self.kept;
+        let n_points = self.system.n_points();
+        let fits = |making: &Making| making.fits(&*self.system, &self.unknowns);
+        if !fits(preconditioner_of)
+            || !fits(matrix_of)
+            || stale.iter().any(|it| *it as usize >= n_points)
+        {
+            return Err(CheckpointError::OtherModel);
+        }
+        let (before, now) = (preconditioner_of.clone(), matrix_of.clone());
+        self.assemble(&before, None);
+        if self.tolerance.is_some() {
+            self.precondition(&before);
+            self.assemble(&now, None);
+        } else {
+            let factor = self.factorise();
+            factor.map_err(|_| CheckpointError::OtherArithmetic)?;
+        }
+        Ok(())
+    }
+}
+
+impl Serial for Kept {
+    fn write(&self, out: &mut Vec<u8>) {
+        self.preconditioner_of.write(out);
+        self.matrix_of.write(out);
+        self.stale.iter().copied().collect::<Vec<u32>>().write(out);
+        self.is_due.write(out);
+        self.pace.write(out);
+        self.excess.write(out);
+    }
+
+    fn read(from: &mut &[u8]) -> Result<Self, crate::serial::Damaged> {
+        let preconditioner_of = Serial::read(from)?;
+        let matrix_of = Serial::read(from)?;
+        let stale: Vec<u32> = Serial::read(from)?;
+        Ok(Self {
+            preconditioner_of,
+            matrix_of,
+            stale: stale.into_iter().collect(),
+            is_due: Serial::read(from)?,
+            pace: Serial::read(from)?,
+            excess: Serial::read(from)?,
+        })
+    }
+}
+
+/// Whether the bytes go on with what this solver has written.
+pub(crate) fn was_written(from: &[u8]) -> bool {
+    from.starts_with(&MARK.to_le_bytes())
+}
+
+/// Passes over what this solver has written: another one begins anew with the state as it is.
+///
+/// # Errors
+///
+/// If the bytes are damaged.
+pub(crate) fn pass_over(from: &mut &[u8]) -> Result<(), CheckpointError> {
+    let _ = u64::read(from)?;
+    let _ = bool::read(from)?;
+    let _ = Kept::read(from)?;
+    Ok(())
+}

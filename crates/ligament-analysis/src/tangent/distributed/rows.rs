@@ -1,0 +1,184 @@
+//! The rows of the tangent stiffness that a rank has.
+//!
+//! The blocks in the columns of a point come from its bonds at rows of smaller number; what stands above the diagonal is what stands
+//! below it. A rank goes through the columns of its own points and of those of larger number beside them, and keeps its own rows.
+
+use ligament_model::{Bonds, BondsLeft};
+use rayon::prelude::*;
+
+use super::shares::Shares;
+use crate::ranks::{RankMatrix, Rows};
+use crate::tangent::iterative::vanishing_of_block;
+use crate::unknowns::Unknowns;
+
+/// Columns whose blocks are there at the same time.
+const TASK: usize = 1024;
+
+/// The rows of a rank.
+pub(super) struct OwnRows<'a> {
+    pub(super) system: &'a dyn Bonds,
+    pub(super) unknowns: &'a Unknowns,
+    pub(super) shares: &'a Shares,
+    pub(super) rank: usize,
+}
+
+/// Bonds, and which degrees of freedom take part (n_degrees_of_freedom): the others are cut off, with a diagonal entry alone.
+#[derive(Clone, Copy)]
+pub(super) struct Taken<'a> {
+    pub(super) bonds: BondsLeft<'a>,
+    pub(super) free: &'a [bool],
+}
+
+/// Blocks in the columns of a point, at the rows of the `lower` points and of itself.
+struct Column {
+    point: u32,
+    lower: Vec<u32>,
+    blocks: Vec<f64>,
+}
+
+impl OwnRows<'_> {
+    fn n_components(&self) -> usize {
+        self.unknowns.layout().components.len()
+    }
+
+    fn lower(&self, point: u32) -> Vec<u32> {
+        let (restraints, layout) = (self.unknowns.restraints(), self.unknowns.layout());
+        restraints.lower_points(layout, self.system.coupled_points(), point as usize)
+    }
+
+    fn is_own(&self, point: u32) -> bool {
+        self.shares.has(self.rank, point)
+    }
+
+    /// The points whose columns have entries in own rows, ascending.
+    pub(super) fn columns(&self) -> Vec<u32> {
+        let is_seen = |&point: &u32| {
+            self.is_own(point) || self.lower(point).into_iter().any(|it| self.is_own(it))
+        };
+        let points = 0..self.system.n_points() as u32;
+        points.into_par_iter().filter(is_seen).collect()
+    }
+
+    /// Numbers of the blocks in the rows of each own point, in own columns and others.
+    pub(super) fn couplings(&self, columns: &[u32]) -> Vec<[usize; 2]> {
+        let own = self.shares.points(self.rank);
+        let mut couplings = vec![[0, 0]; own.len()];
+        let mut count = |row: u32, column: u32| {
+            if let Ok(place) = own.binary_search(&row) {
+                couplings[place][usize::from(!self.is_own(column))] += 1;
+            }
+        };
+        for &point in columns {
+            count(point, point);
+            for other in self.lower(point) {
+                count(other, point);
+                count(point, other);
+            }
+        }
+        couplings
+    }
+
+    /// A matrix without values.
+    pub(super) fn rows<'a>(&self, couplings: &'a [[usize; 2]]) -> Rows<'a> {
+        Rows {
+            n_components: self.n_components(),
+            n_all: self.system.n_points(),
+            couplings,
+        }
+    }
+
+    /// Sets what stands in own rows and the columns of some points, and above the diagonal in theirs; gives own degrees of freedom that
+    /// nothing resists.
+    pub(super) fn set(
+        &self,
+        columns: &[u32],
+        taken: Taken<'_>,
+        matrix: &mut dyn RankMatrix,
+    ) -> Vec<usize> {
+        let mut loose = Vec::new();
+        for points in columns.chunks(TASK) {
+            let columns: Vec<Column> = points
+                .par_iter()
+                .map(|&point| self.column(point, taken))
+                .collect();
+            for column in columns {
+                self.set_column(&column, matrix);
+                if self.is_own(column.point) {
+                    loose.extend(self.loose(&column, taken));
+                }
+            }
+        }
+        loose
+    }
+
+    fn column(&self, point: u32, taken: Taken<'_>) -> Column {
+        let n = self.n_components();
+        let (restraints, layout) = (self.unknowns.restraints(), self.unknowns.layout());
+        let lower = self.lower(point);
+        let mut blocks = vec![0.0; (lower.len() + 1) * n * n];
+        self.system
+            .add_blocks(taken.bonds, point, &lower, &mut blocks);
+        restraints.add_blocks(layout, point, &lower, &mut blocks);
+        let at = |point: u32| &taken.free[layout.range(point)];
+        let free = at(point);
+        for (place, block) in blocks.chunks_exact_mut(n * n).enumerate() {
+            let is_own = place == lower.len();
+            let rows = lower.get(place).map_or(free, |&other| at(other));
+            for (entry, value) in block.iter_mut().enumerate() {
+                let (r, c) = (entry / n, entry % n);
+                if rows[r] && free[c] {
+                    continue;
+                }
+                // Any positive number does for an equation that stands alone: a held point may have lost all its bonds.
+                *value = match *value {
+                    _ if !is_own || r != c => 0.0,
+                    0.0 => 1.0,
+                    value => value.abs(),
+                };
+            }
+        }
+        Column {
+            point,
+            lower,
+            blocks,
+        }
+    }
+
+    fn set_column(&self, column: &Column, matrix: &mut dyn RankMatrix) {
+        let n = self.n_components();
+        let Column {
+            point,
+            lower,
+            blocks,
+        } = column;
+        let place = self.shares.place(*point);
+        for (&other, block) in lower.iter().zip(blocks.chunks_exact(n * n)) {
+            if self.is_own(other) {
+                matrix.set(self.shares.place(other), &[place], block);
+            }
+        }
+        if !self.is_own(*point) {
+            return;
+        }
+        let all = lower.iter().chain([point]);
+        let places: Vec<usize> = all.map(|&it| self.shares.place(it)).collect();
+        let mut row = vec![0.0; blocks.len()];
+        for (k, block) in blocks.chunks_exact(n * n).enumerate() {
+            for r in 0..n {
+                for c in 0..n {
+                    row[(r * places.len() + k) * n + c] = block[c * n + r];
+                }
+            }
+        }
+        matrix.set(place, &places, &row);
+    }
+
+    /// The degrees of freedom of the point of a column that nothing resists.
+    fn loose(&self, column: &Column, taken: Taken<'_>) -> Option<usize> {
+        let n = self.n_components();
+        let dofs = self.unknowns.layout().range(column.point);
+        let free: Vec<usize> = (0..n).filter(|k| taken.free[dofs.start + k]).collect();
+        let own = &column.blocks[column.lower.len() * n * n..];
+        vanishing_of_block(&free, n, own).map(|it| dofs.start + it)
+    }
+}

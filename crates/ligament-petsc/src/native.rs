@@ -1,0 +1,227 @@
+//! Functions of `petsc.c`, which says what each of them does: the only unsafe code.
+#![allow(
+    unsafe_code,
+    reason = "another language is called here and nowhere else"
+)]
+
+use std::ffi::{c_int, c_uchar, c_void};
+use std::ptr;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+unsafe extern "C" {
+    safe fn ligament_start();
+    safe fn ligament_rank() -> c_int;
+    safe fn ligament_n_ranks() -> c_int;
+    safe fn ligament_n_ranks_here() -> c_int;
+    safe fn ligament_meet(seconds: f64) -> c_int;
+    safe fn ligament_end();
+    safe fn ligament_abort(code: c_int);
+    fn ligament_largest(values: *mut f64, n: i64);
+    fn ligament_gather(own: *const f64, counts: *const i64, all: *mut f64);
+    fn ligament_broadcast(bytes: *mut c_uchar, n: i64);
+    fn ligament_matrix_new(
+        block_size: i64,
+        n_own: i64,
+        n_all: i64,
+        own_blocks: *const i64,
+        other_blocks: *const i64,
+    ) -> *mut c_void;
+    fn ligament_matrix_free(matrix: *mut c_void);
+    fn ligament_matrix_set(
+        matrix: *mut c_void,
+        row: i64,
+        columns: *const i64,
+        n: i64,
+        values: *const f64,
+    );
+    fn ligament_matrix_assemble(matrix: *mut c_void);
+    fn ligament_matrix_precondition(matrix: *mut c_void, motions: *const f64, n: i64);
+    fn ligament_matrix_factorise(matrix: *mut c_void, inertia: *mut i64);
+    fn ligament_matrix_solve(
+        matrix: *mut c_void,
+        force: *const f64,
+        limits: *const f64,
+        norm: f64,
+        motions: *mut f64,
+        iterations: *mut i64,
+        norms: *mut f64,
+    ) -> c_int;
+}
+
+/// Held through each call: MPI was started for calls from several threads, one at a time.
+static CALLS: Mutex<()> = Mutex::new(());
+
+fn alone() -> MutexGuard<'static, ()> {
+    CALLS.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// How an iteration ended, by the numbers of `petsc.c`.
+pub(crate) const INDEFINITE: i32 = 2;
+
+/// Starts MPI and PETSc; to be called once.
+pub(crate) fn start() {
+    let _alone = alone();
+    ligament_start();
+}
+
+pub(crate) fn rank() -> usize {
+    ligament_rank() as usize
+}
+
+pub(crate) fn n_ranks() -> usize {
+    ligament_n_ranks() as usize
+}
+
+pub(crate) fn n_ranks_here() -> usize {
+    let _alone = alone();
+    ligament_n_ranks_here() as usize
+}
+
+pub(crate) fn meet(seconds: f64) -> bool {
+    let _alone = alone();
+    ligament_meet(seconds) != 0
+}
+
+pub(crate) fn end() {
+    let _alone = alone();
+    ligament_end();
+}
+
+pub(crate) fn abort(code: i32) {
+    ligament_abort(code);
+}
+
+pub(crate) fn largest(values: &mut [f64]) {
+    let _alone = alone();
+    // SAFETY: as many values are read and written as there are.
+    unsafe { ligament_largest(values.as_mut_ptr(), values.len() as i64) }
+}
+
+/// The values of all ranks; those of this one are as many as `counts` says of it.
+pub(crate) fn gather(own: &[f64], counts: &[i64]) -> Vec<f64> {
+    assert_eq!(counts.len(), n_ranks(), "a number of values for each rank");
+    assert_eq!(counts[rank()], own.len() as i64, "the values of this rank");
+    let mut all = vec![0.0; counts.iter().sum::<i64>() as usize];
+    let _alone = alone();
+    // SAFETY: a count a rank, as many own values as the count of this rank, and room for all.
+    unsafe { ligament_gather(own.as_ptr(), counts.as_ptr(), all.as_mut_ptr()) }
+    all
+}
+
+pub(crate) fn broadcast(bytes: &mut [u8]) {
+    let _alone = alone();
+    // SAFETY: as many bytes are read or written as there are.
+    unsafe { ligament_broadcast(bytes.as_mut_ptr(), bytes.len() as i64) }
+}
+
+/// A matrix of PETSc, of this rank its rows.
+#[derive(Debug)]
+pub(crate) struct Handle {
+    matrix: *mut c_void,
+    n_own: usize,
+    n_components: usize,
+}
+
+impl Handle {
+    pub(crate) fn new(n_components: usize, n_all: usize, blocks: [&[i64]; 2]) -> Self {
+        let [own, other] = blocks;
+        assert_eq!(own.len(), other.len(), "blocks of each own point");
+        let _alone = alone();
+        // SAFETY: two lists of a number for each own point.
+        let matrix = unsafe {
+            ligament_matrix_new(
+                n_components as i64,
+                own.len() as i64,
+                n_all as i64,
+                own.as_ptr(),
+                other.as_ptr(),
+            )
+        };
+        Self {
+            matrix,
+            n_own: own.len(),
+            n_components,
+        }
+    }
+
+    fn n_own_values(&self) -> usize {
+        self.n_own * self.n_components
+    }
+
+    pub(crate) fn set(&mut self, row: usize, columns: &[i64], values: &[f64]) {
+        let size = self.n_components * self.n_components;
+        assert_eq!(
+            values.len(),
+            columns.len() * size,
+            "a block for each column"
+        );
+        let _alone = alone();
+        // SAFETY: the matrix lives as long as its handle; a block of values for each column.
+        unsafe {
+            ligament_matrix_set(
+                self.matrix,
+                row as i64,
+                columns.as_ptr(),
+                columns.len() as i64,
+                values.as_ptr(),
+            );
+        }
+    }
+
+    pub(crate) fn assemble(&mut self) {
+        let _alone = alone();
+        // SAFETY: the matrix lives as long as its handle.
+        unsafe { ligament_matrix_assemble(self.matrix) }
+    }
+
+    pub(crate) fn precondition(&mut self, motions: &[f64], n: usize) {
+        assert_eq!(motions.len(), n * self.n_own_values(), "whole motions");
+        let _alone = alone();
+        // SAFETY: the matrix lives as long as its handle; as many motions as are named, each at all own degrees of freedom.
+        unsafe { ligament_matrix_precondition(self.matrix, motions.as_ptr(), n as i64) }
+    }
+
+    /// Negative, vanishing and positive pivots.
+    pub(crate) fn factorise(&mut self) -> [i64; 3] {
+        let mut inertia = [0; 3];
+        let _alone = alone();
+        // SAFETY: the matrix lives as long as its handle; room for three numbers.
+        unsafe { ligament_matrix_factorise(self.matrix, inertia.as_mut_ptr()) }
+        inertia
+    }
+
+    /// Motions at the own degrees of freedom, how the iteration ended, its length, and the norms of its first and last residual.
+    pub(crate) fn solve(
+        &mut self,
+        force: &[f64],
+        limits: Option<&[f64]>,
+        norm: f64,
+    ) -> (Vec<f64>, i32, i64, [f64; 2]) {
+        let n = self.n_own_values();
+        assert_eq!(force.len(), n, "a force for each own degree of freedom");
+        assert!(limits.is_none_or(|it| it.len() == n), "as many limits");
+        let (mut motions, mut iterations, mut norms) = (vec![0.0; n], 0, [0.0; 2]);
+        let _alone = alone();
+        // SAFETY: the matrix lives as long as its handle; all arrays are of its own degrees of freedom, or missing where that is said.
+        let end = unsafe {
+            ligament_matrix_solve(
+                self.matrix,
+                force.as_ptr(),
+                limits.map_or(ptr::null(), <[f64]>::as_ptr),
+                norm,
+                motions.as_mut_ptr(),
+                &raw mut iterations,
+                norms.as_mut_ptr(),
+            )
+        };
+        (motions, end, iterations, norms)
+    }
+}
+
+impl Drop for Handle {
+    fn drop(&mut self) {
+        let _alone = alone();
+        // SAFETY: the matrix lives as long as its handle, and is not used after it.
+        unsafe { ligament_matrix_free(self.matrix) }
+    }
+}

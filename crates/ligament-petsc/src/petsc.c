@@ -1,0 +1,363 @@
+/* The equations of a body in PETSc: a fixed interface of numbers and arrays, so that no type of PETSc or MPI crosses it.
+
+   All functions but `rank` and `n_ranks` are collective: every rank calls them in the same order. Points have numbers from 0 on over all
+   ranks, those of a rank without a gap, and the same number of components each. Whatever fails ends all ranks with a message: none of
+   them could go on alone. */
+
+#include <petscksp.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <time.h>
+
+/* What ends an iteration: the entries of `limits` where there are any, a norm otherwise. */
+typedef struct {
+  const double *limits;
+  double norm;
+  double first_norm;
+  double last_norm;
+  Vec work;
+} Limit;
+
+typedef struct {
+  Mat matrix;
+  KSP krylov;
+  Vec right, solution, work;
+  PetscInt block_size, n_own;
+} LigamentMatrix;
+
+/* How an iteration ended; the same numbers stand in solver.rs. */
+enum { CONVERGED = 0, STALLED = 1, INDEFINITE = 2 };
+
+static int world_rank = 0, world_size = 1;
+
+static void fail(const char *what, const char *message)
+{
+  fprintf(stderr, "error: rank %d of %d: %s: %s\n", world_rank, world_size, what, message);
+  fflush(stderr);
+  MPI_Abort(MPI_COMM_WORLD, 1);
+  abort();
+}
+
+static PetscErrorCode on_error(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code, PetscErrorType kind,
+                               const char *message, void *context)
+{
+  (void)comm; (void)line; (void)file; (void)kind; (void)context;
+  const char *text = NULL;
+  PetscErrorMessage(code, &text, NULL);
+  char words[1024];
+  snprintf(words, sizeof words, "%s: %s (in %s)", text ? text : "it failed", message ? message : "", function ? function : "PETSc");
+  fail("PETSc", words);
+  return code;
+}
+
+/* Errors of PETSc come through `on_error`; what is left is a code without words. */
+#define CHECK(call) \
+  do { \
+    if ((call) != 0) fail("PETSc", #call); \
+  } while (0)
+
+static PetscInt index_of(int64_t value)
+{
+  if (value < 0 || value > (int64_t)PETSC_MAX_INT) fail("PETSc", "the body is too large for the integers that this PETSc was built with");
+  return (PetscInt)value;
+}
+
+static int count_of(int64_t value)
+{
+  if (value < 0 || value > INT32_MAX) fail("MPI", "a message is too long");
+  return (int)value;
+}
+
+void ligament_start(void)
+{
+  int level;
+  CHECK(MPI_Init_thread(NULL, NULL, MPI_THREAD_SERIALIZED, &level));
+  CHECK(MPI_Comm_rank(MPI_COMM_WORLD, &world_rank));
+  CHECK(MPI_Comm_size(MPI_COMM_WORLD, &world_size));
+  if (level < MPI_THREAD_SERIALIZED) fail("MPI", "it does not allow calls from several threads, one at a time");
+  /* Signals are the program's own business. */
+  CHECK(PetscOptionsSetValue(NULL, "-no_signal_handler", "true"));
+  CHECK(PetscInitializeNoArguments());
+  CHECK(PetscPushErrorHandler(on_error, NULL));
+}
+
+int ligament_rank(void) { return world_rank; }
+
+int ligament_n_ranks(void) { return world_size; }
+
+/* Ranks on the machine of this one. */
+int ligament_n_ranks_here(void)
+{
+  MPI_Comm here;
+  int count;
+  CHECK(MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here));
+  CHECK(MPI_Comm_size(here, &count));
+  CHECK(MPI_Comm_free(&here));
+  return count;
+}
+
+/* Waits for all ranks to come here, so many seconds at most, or for ever with a negative number; tells whether all came. Without
+   spinning: a rank may write results for long. */
+int ligament_meet(double seconds)
+{
+  MPI_Request request;
+  const struct timespec pause = {0, 2000000};
+  int came = 0;
+  double begun = MPI_Wtime();
+  CHECK(MPI_Ibarrier(MPI_COMM_WORLD, &request));
+  for (;;) {
+    CHECK(MPI_Test(&request, &came, MPI_STATUS_IGNORE));
+    if (came || (seconds >= 0 && MPI_Wtime() - begun > seconds)) return came;
+    nanosleep(&pause, NULL);
+  }
+}
+
+void ligament_end(void)
+{
+  CHECK(PetscPopErrorHandler());
+  CHECK(PetscFinalize());
+  CHECK(MPI_Finalize());
+}
+
+void ligament_abort(int code) { MPI_Abort(MPI_COMM_WORLD, code); }
+
+/* The largest of each value over all ranks, in place. */
+void ligament_largest(double *values, int64_t n)
+{
+  CHECK(MPI_Allreduce(MPI_IN_PLACE, values, count_of(n), MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD));
+}
+
+/* The values of all ranks, `counts` of each, those of rank 0 first. */
+void ligament_gather(const double *own, const int64_t *counts, double *all)
+{
+  int *lengths = malloc(2 * (size_t)world_size * sizeof *lengths);
+  if (!lengths) fail("MPI", "out of memory");
+  int *starts = lengths + world_size;
+  int64_t taken = 0;
+  for (int rank = 0; rank < world_size; rank++) {
+    lengths[rank] = count_of(counts[rank]);
+    starts[rank] = count_of(taken);
+    taken += counts[rank];
+  }
+  CHECK(MPI_Allgatherv(own, lengths[world_rank], MPI_DOUBLE, all, lengths, starts, MPI_DOUBLE, MPI_COMM_WORLD));
+  free(lengths);
+}
+
+/* Bytes of rank 0 to all. */
+void ligament_broadcast(unsigned char *bytes, int64_t n)
+{
+  CHECK(MPI_Bcast(bytes, count_of(n), MPI_BYTE, 0, MPI_COMM_WORLD));
+}
+
+/* A matrix of `n_own` points of this rank and `n_all` of all, in blocks; `own_blocks` and `other_blocks` count the blocks in the rows of
+   each own point by whose columns they are. */
+void *ligament_matrix_new(int64_t block_size, int64_t n_own, int64_t n_all, const int64_t *own_blocks, const int64_t *other_blocks)
+{
+  LigamentMatrix *it = calloc(1, sizeof *it);
+  PetscInt *counts;
+  if (!it) fail("PETSc", "out of memory");
+  it->block_size = index_of(block_size);
+  it->n_own = index_of(n_own);
+  index_of(n_all * block_size);
+  CHECK(PetscMalloc1(2 * n_own + 1, &counts));
+  for (int64_t row = 0; row < n_own; row++) {
+    counts[row] = index_of(own_blocks[row]);
+    counts[n_own + row] = index_of(other_blocks[row]);
+  }
+  CHECK(MatCreate(PETSC_COMM_WORLD, &it->matrix));
+  CHECK(MatSetSizes(it->matrix, it->n_own * it->block_size, it->n_own * it->block_size, PETSC_DETERMINE, PETSC_DETERMINE));
+  CHECK(MatSetBlockSize(it->matrix, it->block_size));
+  CHECK(MatSetType(it->matrix, MATAIJ));
+  CHECK(MatXAIJSetPreallocation(it->matrix, it->block_size, counts, counts + n_own, NULL, NULL));
+  CHECK(PetscFree(counts));
+  CHECK(MatSetOption(it->matrix, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE));
+  CHECK(MatSetOption(it->matrix, MAT_NO_OFF_PROC_ENTRIES, PETSC_TRUE));
+  CHECK(MatSetOption(it->matrix, MAT_SYMMETRIC, PETSC_TRUE));
+  CHECK(MatSetOption(it->matrix, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
+  CHECK(MatCreateVecs(it->matrix, &it->right, &it->solution));
+  CHECK(VecDuplicate(it->right, &it->work));
+  return it;
+}
+
+void ligament_matrix_free(void *matrix)
+{
+  LigamentMatrix *it = matrix;
+  CHECK(KSPDestroy(&it->krylov));
+  CHECK(VecDestroy(&it->right));
+  CHECK(VecDestroy(&it->solution));
+  CHECK(VecDestroy(&it->work));
+  CHECK(MatDestroy(&it->matrix));
+  free(it);
+}
+
+/* The blocks in the rows of a point and the columns of `n` points, shape (components, n, components), in the place of what was there.
+   Not collective. */
+void ligament_matrix_set(void *matrix, int64_t row, const int64_t *columns, int64_t n, const double *values)
+{
+  LigamentMatrix *it = matrix;
+  PetscInt at = index_of(row), few[512], *places = few;
+  if (n > 512) CHECK(PetscMalloc1(n, &places));
+  for (int64_t k = 0; k < n; k++) places[k] = index_of(columns[k]);
+  CHECK(MatSetValuesBlocked(it->matrix, 1, &at, index_of(n), places, values, INSERT_VALUES));
+  if (places != few) CHECK(PetscFree(places));
+}
+
+void ligament_matrix_assemble(void *matrix)
+{
+  LigamentMatrix *it = matrix;
+  CHECK(MatAssemblyBegin(it->matrix, MAT_FINAL_ASSEMBLY));
+  CHECK(MatAssemblyEnd(it->matrix, MAT_FINAL_ASSEMBLY));
+}
+
+static void new_krylov(LigamentMatrix *it, const char *kind)
+{
+  CHECK(KSPDestroy(&it->krylov));
+  CHECK(KSPCreate(PETSC_COMM_WORLD, &it->krylov));
+  CHECK(KSPSetOptionsPrefix(it->krylov, "ligament_"));
+  CHECK(KSPSetOperators(it->krylov, it->matrix, it->matrix));
+  CHECK(KSPSetType(it->krylov, kind));
+}
+
+/* A hierarchy of algebraic multigrid anew from the matrix as it is, with `n` motions that cost next to no energy, shape (n, own degrees of
+   freedom). It is kept while the matrix changes, until the next call. */
+void ligament_matrix_precondition(void *matrix, const double *motions, int64_t n)
+{
+  LigamentMatrix *it = matrix;
+  PC preconditioner;
+  MatNullSpace near;
+  Vec *shapes;
+  PetscInt length = it->n_own * it->block_size, kept = 0;
+  CHECK(VecDuplicateVecs(it->right, index_of(n), &shapes));
+  for (int64_t k = 0; k < n; k++) {
+    double *values, size, rest;
+    CHECK(VecGetArray(shapes[kept], &values));
+    CHECK(PetscArraycpy(values, motions + k * length, length));
+    CHECK(VecRestoreArray(shapes[kept], &values));
+    CHECK(VecNorm(shapes[kept], NORM_2, &size));
+    for (PetscInt other = 0; other < kept; other++) {
+      double product;
+      CHECK(VecDot(shapes[kept], shapes[other], &product));
+      CHECK(VecAXPY(shapes[kept], -product, shapes[other]));
+    }
+    CHECK(VecNormalize(shapes[kept], &rest));
+    /* A motion that the supports leave nothing of, or that is one of those before. */
+    if (rest > 1e-8 * size) kept++;
+  }
+  CHECK(MatNullSpaceCreate(PETSC_COMM_WORLD, PETSC_FALSE, kept, shapes, &near));
+  CHECK(MatSetNearNullSpace(it->matrix, near));
+  CHECK(MatNullSpaceDestroy(&near));
+  CHECK(VecDestroyVecs(index_of(n), &shapes));
+  new_krylov(it, KSPCG);
+  CHECK(KSPSetNormType(it->krylov, KSP_NORM_UNPRECONDITIONED));
+  CHECK(KSPGetPC(it->krylov, &preconditioner));
+  CHECK(PCSetType(preconditioner, PCGAMG));
+  CHECK(PCGAMGSetNSmooths(preconditioner, 0));
+  CHECK(KSPSetFromOptions(it->krylov));
+  CHECK(KSPSetUp(it->krylov));
+  CHECK(KSPSetReusePreconditioner(it->krylov, PETSC_TRUE));
+}
+
+/* What MUMPS is to do: find vanishing pivots, and factorise the root itself, whose signs of pivots count. */
+static void new_factor(LigamentMatrix *it)
+{
+  PC preconditioner;
+  Mat factor;
+  new_krylov(it, KSPPREONLY);
+  CHECK(KSPGetPC(it->krylov, &preconditioner));
+  CHECK(PCSetType(preconditioner, PCCHOLESKY));
+  CHECK(PCFactorSetMatSolverType(preconditioner, MATSOLVERMUMPS));
+  CHECK(KSPSetFromOptions(it->krylov));
+  CHECK(PCFactorSetUpMatSolverType(preconditioner));
+  CHECK(PCFactorGetMatrix(preconditioner, &factor));
+  CHECK(MatMumpsSetIcntl(factor, 24, 1));
+  CHECK(MatMumpsSetIcntl(factor, 13, 1));
+}
+
+/* A factor L D L^T by MUMPS of the matrix as it is, over the symbolic factor of the one before; numbers of its negative, zero and positive
+   pivots. */
+void ligament_matrix_factorise(void *matrix, int64_t *inertia)
+{
+  LigamentMatrix *it = matrix;
+  PC preconditioner;
+  Mat factor;
+  PetscInt negative, zero, positive;
+  if (!it->krylov) new_factor(it);
+  CHECK(KSPSetOperators(it->krylov, it->matrix, it->matrix));
+  CHECK(KSPSetUp(it->krylov));
+  CHECK(KSPGetPC(it->krylov, &preconditioner));
+  CHECK(PCFactorGetMatrix(preconditioner, &factor));
+  CHECK(MatGetInertia(factor, &negative, &zero, &positive));
+  inertia[0] = negative;
+  inertia[1] = zero;
+  inertia[2] = positive;
+}
+
+/* The residual against the limits: the largest ratio over all ranks. */
+static PetscErrorCode is_small(KSP krylov, PetscInt iteration, PetscReal norm, KSPConvergedReason *reason, void *context)
+{
+  Limit *limit = context;
+  double ratio = 0;
+  if (iteration == 0) limit->first_norm = norm;
+  limit->last_norm = norm;
+  *reason = KSP_CONVERGED_ITERATING;
+  if (PetscIsInfOrNanReal(norm)) {
+    *reason = KSP_DIVERGED_NANORINF;
+    return 0;
+  }
+  if (!limit->limits) {
+    if (norm <= limit->norm) *reason = KSP_CONVERGED_ATOL;
+  } else {
+    Vec residual;
+    const double *values;
+    PetscInt length;
+    PetscCall(KSPBuildResidual(krylov, NULL, limit->work, &residual));
+    PetscCall(VecGetLocalSize(residual, &length));
+    PetscCall(VecGetArrayRead(residual, &values));
+    for (PetscInt k = 0; k < length; k++) {
+      double here = values[k] == 0 ? 0 : PetscAbsReal(values[k]) / limit->limits[k];
+      if (here > ratio) ratio = here;
+    }
+    PetscCall(VecRestoreArrayRead(residual, &values));
+    CHECK(MPI_Allreduce(MPI_IN_PLACE, &ratio, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD));
+    if (ratio <= 1) *reason = KSP_CONVERGED_ATOL;
+  }
+  PetscInt most;
+  PetscCall(KSPGetTolerances(krylov, NULL, NULL, NULL, &most));
+  if (!*reason && iteration >= most) *reason = KSP_DIVERGED_ITS;
+  return 0;
+}
+
+/* Solves for the forces at the own degrees of freedom, by the hierarchy or the factor that was made last. `limits` are sizes of the
+   residual, or there are none and `norm` is one of its norm. Gives the iterations and the norms of the first and the last residual. */
+int ligament_matrix_solve(void *matrix, const double *force, const double *limits, double norm, double *motions, int64_t *iterations,
+                          double *norms)
+{
+  LigamentMatrix *it = matrix;
+  Limit limit = {limits, norm, 0, 0, it->work};
+  PetscInt length = it->n_own * it->block_size, count;
+  double *values;
+  const char *kind;
+  KSPConvergedReason reason;
+  PetscBool iterates;
+  CHECK(KSPGetType(it->krylov, &kind));
+  CHECK(PetscStrcmp(kind, KSPPREONLY, &iterates));
+  iterates = !iterates;
+  if (iterates) CHECK(KSPSetConvergenceTest(it->krylov, is_small, &limit, NULL));
+  CHECK(VecGetArray(it->right, &values));
+  CHECK(PetscArraycpy(values, force, length));
+  CHECK(VecRestoreArray(it->right, &values));
+  CHECK(KSPSolve(it->krylov, it->right, it->solution));
+  CHECK(KSPGetConvergedReason(it->krylov, &reason));
+  CHECK(KSPGetIterationNumber(it->krylov, &count));
+  const double *found;
+  CHECK(VecGetArrayRead(it->solution, &found));
+  CHECK(PetscArraycpy(motions, found, length));
+  CHECK(VecRestoreArrayRead(it->solution, &found));
+  /* What the test looks at ends with this function. */
+  if (iterates) CHECK(KSPSetConvergenceTest(it->krylov, KSPConvergedSkip, NULL, NULL));
+  *iterations = count;
+  norms[0] = limit.first_norm;
+  norms[1] = limit.last_norm;
+  if (reason == KSP_DIVERGED_INDEFINITE_MAT || reason == KSP_DIVERGED_INDEFINITE_PC) return INDEFINITE;
+  return reason > 0 ? CONVERGED : STALLED;
+}

@@ -1,0 +1,89 @@
+//! The processes that MPI started together.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use ligament_analysis::ranks::{RankMatrix, Ranks, Rows};
+use thiserror::Error;
+
+use crate::matrix::Matrix;
+use crate::native;
+
+/// Whether MPI was started: it can be started once in the life of a process.
+static STARTED: AtomicBool = AtomicBool::new(false);
+
+/// Why the processes could not be started.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum StartError {
+    /// MPI starts once in the life of a process.
+    #[error("MPI was started before in this process, and can be started once")]
+    Twice,
+}
+
+/// The processes that MPI started together; each runs the same program.
+#[derive(Debug)]
+pub struct Processes(());
+
+impl Processes {
+    /// Starts MPI and PETSc in this process.
+    ///
+    /// # Errors
+    ///
+    /// If they were started before.
+    pub fn start() -> Result<Self, StartError> {
+        if STARTED.swap(true, Ordering::SeqCst) {
+            return Err(StartError::Twice);
+        }
+        native::start();
+        Ok(Self(()))
+    }
+
+    /// Number of processes on the machine of this one.
+    pub fn n_ranks_here(&self) -> usize {
+        native::n_ranks_here()
+    }
+
+    /// Waits for all processes to come here, for so many seconds at most or, without a number, for ever; tells whether all came.
+    pub fn meet(&self, seconds: Option<f64>) -> bool {
+        native::meet(seconds.unwrap_or(-1.0))
+    }
+
+    /// Ends PETSc and MPI in order, after all processes met.
+    pub fn end(&self) {
+        native::end();
+    }
+
+    /// Ends all processes with an exit code, wherever they are.
+    pub fn abort(&self, code: u8) {
+        native::abort(i32::from(code));
+    }
+}
+
+impl Ranks for Processes {
+    fn rank(&self) -> usize {
+        native::rank()
+    }
+
+    fn n_ranks(&self) -> usize {
+        native::n_ranks()
+    }
+
+    fn largest(&self, values: &mut [f64]) {
+        native::largest(values);
+    }
+
+    fn gather(&self, own: &[f64], counts: &[usize]) -> Vec<f64> {
+        let counts: Vec<i64> = counts.iter().map(|&it| it as i64).collect();
+        native::gather(own, &counts)
+    }
+
+    fn broadcast(&self, bytes: &mut Vec<u8>) {
+        let mut length = (bytes.len() as u64).to_le_bytes();
+        native::broadcast(&mut length);
+        bytes.resize(u64::from_le_bytes(length) as usize, 0);
+        native::broadcast(bytes);
+    }
+
+    fn matrix(&self, rows: &Rows<'_>) -> Box<dyn RankMatrix> {
+        Box::new(Matrix::new(rows))
+    }
+}

@@ -1,0 +1,137 @@
+//! The part of the processes beside the first in a run of several: each computes the same, and the first alone reads what was stored, tells
+//! and writes.
+
+use std::path::PathBuf;
+
+use anyhow::{Context, ensure};
+use ligament::Model;
+use ligament::run::{follow, on_threads, restore, resume as resume_run};
+use ligament::setup::{Analysis, Dim, Dimension};
+use ligament_analysis::history::{Moment, Observer, ObserverError, Onward, StepRecord, View};
+use ligament_analysis::ranks::Together;
+use ligament_analysis::serial::Serial;
+use ligament_case::case::CaseFile;
+use ligament_output::folder::RESOLVED_CASE;
+
+use crate::checkpoints::IsStopped;
+use crate::model::{build_model, build_model_in_space};
+use crate::progress::{Progress, ProgressMode};
+use crate::ranks::{any_stopped, loading};
+use crate::stages::Stages;
+use crate::{resume, run};
+
+/// The observer of a process beside the first: it writes nothing, and stops when one was asked to.
+struct Beside<'a> {
+    ranks: Together,
+    is_stopped: IsStopped<'a>,
+}
+
+impl Observer for Beside<'_> {
+    fn step(&mut self, _: &StepRecord, _: &View<'_>) -> Result<(), ObserverError> {
+        Ok(())
+    }
+
+    fn moment(&mut self, moment: &Moment<'_>) -> Result<Onward, ObserverError> {
+        let is_stopped = moment.end.is_none() && any_stopped(Some(self.ranks), self.is_stopped);
+        Ok(if is_stopped { Onward::Stop } else { Onward::Go })
+    }
+}
+
+/// Where a process beside the first begins.
+enum Begin {
+    /// With the unloaded body.
+    Unloaded,
+    /// With what the first process tells it to.
+    AsTold,
+}
+
+impl run::Request<'_> {
+    /// Computes what the first process computes, and writes nothing. Natural modes are the business of the first alone.
+    ///
+    /// # Errors
+    ///
+    /// If something is wrong with the case, or there are no other processes.
+    pub fn assist(&self) -> anyhow::Result<()> {
+        on_threads(self.case.threads(), || {
+            assist(self.case, self.ranks, self.is_stopped, &Begin::Unloaded)
+        })?
+    }
+}
+
+impl resume::Request<'_> {
+    /// Computes what the first process computes when it goes on with a run, and writes nothing.
+    ///
+    /// # Errors
+    ///
+    /// If something is wrong with the case, or there are no other processes.
+    pub fn assist(&self) -> anyhow::Result<()> {
+        let mut folder = Vec::new();
+        if let Some(Together(ranks)) = self.ranks {
+            ranks.broadcast(&mut folder);
+        }
+        let folder = PathBuf::from(String::from_utf8(folder)?);
+        let mut case = CaseFile::load(&folder.join(RESOLVED_CASE), self.settings)?;
+        let threads = &mut case.case.solver.threads;
+        *threads = self.threads.or(*threads);
+        on_threads(case.threads(), || {
+            assist(&case, self.ranks, self.is_stopped, &Begin::AsTold)
+        })?
+    }
+}
+
+fn assist(
+    case: &CaseFile,
+    ranks: Option<Together>,
+    is_stopped: IsStopped<'_>,
+    begin: &Begin,
+) -> anyhow::Result<()> {
+    let ranks = ranks.context("there is no other process to assist")?;
+    let (mut stages, progress) = (Stages::default(), Progress::new(ProgressMode::Quiet));
+    if case.case.is_solid() {
+        let model = build_model_in_space(case, &mut stages, &progress)?;
+        compute(case, &model, (ranks, is_stopped), begin)
+    } else {
+        let model = build_model(case, &mut stages, &progress)?;
+        compute(case, &model, (ranks, is_stopped), begin)
+    }
+}
+
+fn compute<const D: usize>(
+    case: &CaseFile,
+    model: &Model<D>,
+    (ranks, is_stopped): (Together, IsStopped<'_>),
+    begin: &Begin,
+) -> anyhow::Result<()>
+where
+    Dim: Dimension<D>,
+{
+    let analysis = &model.setup.analysis;
+    if matches!(analysis, Analysis::Modal(_)) {
+        return Ok(());
+    }
+    let loading = loading(case, model, Some(ranks))?;
+    let problem = loading.problem(&model.system, &model.criteria);
+    let mut beside = Beside { ranks, is_stopped };
+    let solution: Option<Vec<u8>> = match begin {
+        Begin::Unloaded => {
+            ensure!(
+                !any_stopped(Some(ranks), is_stopped),
+                "stopped before the first solution: nothing was written"
+            );
+            None
+        }
+        Begin::AsTold => {
+            let mut bytes = Vec::new();
+            ranks.0.broadcast(&mut bytes);
+            Serial::read(&mut bytes.as_slice())?
+        }
+    };
+    match solution {
+        None => follow(&problem, analysis, &mut beside)?,
+        Some(solution) => {
+            let restored = restore(&problem, analysis, &solution)?;
+            resume_run(analysis, restored, &mut beside)?
+        }
+    };
+    Ok(())
+}

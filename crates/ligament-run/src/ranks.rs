@@ -1,0 +1,52 @@
+//! What the first of several processes tells the others, and what all of them ask each other.
+
+use std::path::Path;
+
+use ligament::setup::{Dim, Dimension};
+use ligament::{Loading, Model};
+use ligament_analysis::ranks::Together;
+use ligament_analysis::serial::Serial;
+use ligament_case::case::CaseFile;
+
+use crate::checkpoints::IsStopped;
+
+/// The loading of a case, whose equations the processes solve together.
+pub(crate) fn loading<const D: usize>(
+    case: &CaseFile,
+    model: &Model<D>,
+    ranks: Option<Together>,
+) -> anyhow::Result<Loading>
+where
+    Dim: Dimension<D>,
+{
+    let loading = Loading::new(&model.setup, &model.system);
+    let mut loading = loading.map_err(|it| case.located(it))?;
+    loading.solver.ranks = ranks;
+    Ok(loading)
+}
+
+/// Whether some process was asked to stop: all hear of it.
+pub(crate) fn any_stopped(ranks: Option<Together>, is_stopped: IsStopped<'_>) -> bool {
+    let mut asked = [f64::from(u8::from(is_stopped()))];
+    if let Some(Together(ranks)) = ranks {
+        ranks.largest(&mut asked);
+    }
+    asked[0] > 0.0
+}
+
+/// Tells the others the folder of a run that goes on.
+pub(crate) fn tell_folder(ranks: Option<Together>, folder: &Path) {
+    if let Some(Together(ranks)) = ranks {
+        let mut bytes = folder.as_os_str().as_encoded_bytes().to_vec();
+        ranks.broadcast(&mut bytes);
+    }
+}
+
+/// Tells the others from where a run goes on: a checkpoint, or none.
+pub(crate) fn tell_checkpoint(ranks: Option<Together>, solution: Option<&Vec<u8>>) {
+    if let Some(Together(ranks)) = ranks {
+        let mut bytes = Vec::new();
+        solution.cloned().write(&mut bytes);
+        ranks.broadcast(&mut bytes);
+    }
+}
