@@ -13,8 +13,8 @@ const TASK: usize = 1024;
 /// place of each unknown in the order of elimination (n).
 ///
 /// Unknowns that are coupled with each other and with the same others, as those of a point are, and follow each other in the order of
-/// elimination have columns in the factor that differ in nothing but their beginning (indistinguishable nodes: George and Liu, SIAM
-/// Review 31, 1989): the first one hands its rows on to the next. So of all of them the entries of the first are enough.
+/// elimination have columns in the factor that differ in nothing but their beginning (indistinguishable nodes, George and Liu 1989):
+/// the first one hands its rows on to the next. So of all of them the entries of the first are enough.
 pub(crate) fn reduced(pattern: &Pattern, places: &[usize]) -> (Vec<usize>, Vec<usize>) {
     let follows = &followers(pattern, places);
     let kept = |column: usize| {
