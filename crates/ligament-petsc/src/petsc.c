@@ -251,19 +251,19 @@ void ligament_matrix_precondition(void *matrix, const double *motions, int64_t n
   CHECK(KSPSetNormType(it->krylov, KSP_NORM_UNPRECONDITIONED));
   CHECK(KSPGetPC(it->krylov, &preconditioner));
   CHECK(PCSetType(preconditioner, PCGAMG));
+  /* Neither smoothed prolongation nor the squared graph, whose aggregates are larger: both cost more than the iterations they save. */
   CHECK(PCGAMGSetNSmooths(preconditioner, 0));
+  CHECK(PCGAMGSetAggressiveLevels(preconditioner, 0));
   CHECK(KSPSetFromOptions(it->krylov));
   CHECK(KSPSetUp(it->krylov));
   CHECK(KSPSetReusePreconditioner(it->krylov, PETSC_TRUE));
 }
 
-/* A factor L D L^T by MUMPS of the matrix as it is; numbers of its negative, zero and positive pivots. */
-void ligament_matrix_factorise(void *matrix, int64_t *inertia)
+/* What MUMPS is to do: find vanishing pivots, and factorise the root itself, whose signs of pivots count. */
+static void new_factor(LigamentMatrix *it)
 {
-  LigamentMatrix *it = matrix;
   PC preconditioner;
   Mat factor;
-  PetscInt negative, zero, positive;
   new_krylov(it, KSPPREONLY);
   CHECK(KSPGetPC(it->krylov, &preconditioner));
   CHECK(PCSetType(preconditioner, PCCHOLESKY));
@@ -271,10 +271,23 @@ void ligament_matrix_factorise(void *matrix, int64_t *inertia)
   CHECK(KSPSetFromOptions(it->krylov));
   CHECK(PCFactorSetUpMatSolverType(preconditioner));
   CHECK(PCFactorGetMatrix(preconditioner, &factor));
-  /* Vanishing pivots are found, and the root is factorised by MUMPS itself, whose signs of pivots count. */
   CHECK(MatMumpsSetIcntl(factor, 24, 1));
   CHECK(MatMumpsSetIcntl(factor, 13, 1));
+}
+
+/* A factor L D L^T by MUMPS of the matrix as it is, over the symbolic factor of the one before; numbers of its negative, zero and positive
+   pivots. */
+void ligament_matrix_factorise(void *matrix, int64_t *inertia)
+{
+  LigamentMatrix *it = matrix;
+  PC preconditioner;
+  Mat factor;
+  PetscInt negative, zero, positive;
+  if (!it->krylov) new_factor(it);
+  CHECK(KSPSetOperators(it->krylov, it->matrix, it->matrix));
   CHECK(KSPSetUp(it->krylov));
+  CHECK(KSPGetPC(it->krylov, &preconditioner));
+  CHECK(PCFactorGetMatrix(preconditioner, &factor));
   CHECK(MatGetInertia(factor, &negative, &zero, &positive));
   inertia[0] = negative;
   inertia[1] = zero;

@@ -63,16 +63,16 @@ impl RunArgs {
         if let Some(lock) = &self.leash {
             take_leash(lock)?;
         }
+        // A run of a sweep is one process, whoever started the sweep.
+        let ranks = match &self.leash {
+            None => ranks::join()?,
+            Some(_) => None,
+        };
         let case = self.case.load()?;
         // Without load steps there is nothing to go on with later, and for a sweep the run starts anew.
         let stop = match (&self.leash, &case.case.fracture) {
             (None, Some(_)) => StopSignal::awaited()?,
             _ => StopSignal::default(),
-        };
-        // A run of a sweep is one process, whoever started the sweep.
-        let ranks = match &self.leash {
-            None => ranks::join()?,
-            Some(_) => None,
         };
         let out = self
             .out
