@@ -16,6 +16,7 @@ pub mod problems;
 pub mod solid_run;
 pub mod solids;
 pub mod table;
+pub mod threads_as_ranks;
 pub mod trusses;
 
 use std::path::PathBuf;

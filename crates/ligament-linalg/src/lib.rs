@@ -14,6 +14,7 @@ mod factor_error;
 mod factor_kind;
 mod factorisation;
 mod general;
+mod indistinguishable;
 mod left_looking;
 mod lu;
 mod matrix;

@@ -2,6 +2,8 @@
 //!
 //! A sweep over all bonds is one call through the interface; the loop inside knows the element as a type.
 
+use rayon::prelude::*;
+
 use crate::bonds::{BondSet, Incidence};
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
@@ -323,9 +325,8 @@ impl PointStiffness {
             }
             Self { force, moment }
         };
-        (0..bonds.incidence.n_points() as u32)
-            .map(of_point)
-            .collect()
+        let points = (0..bonds.incidence.n_points() as u32).into_par_iter();
+        points.map(of_point).collect()
     }
 }
 

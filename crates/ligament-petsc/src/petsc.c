@@ -251,7 +251,9 @@ void ligament_matrix_precondition(void *matrix, const double *motions, int64_t n
   CHECK(KSPSetNormType(it->krylov, KSP_NORM_UNPRECONDITIONED));
   CHECK(KSPGetPC(it->krylov, &preconditioner));
   CHECK(PCSetType(preconditioner, PCGAMG));
+  /* Neither smoothed prolongation nor the squared graph, whose aggregates are larger: both cost more than the iterations they save. */
   CHECK(PCGAMGSetNSmooths(preconditioner, 0));
+  CHECK(PCGAMGSetAggressiveLevels(preconditioner, 0));
   CHECK(KSPSetFromOptions(it->krylov));
   CHECK(KSPSetUp(it->krylov));
   CHECK(KSPSetReusePreconditioner(it->krylov, PETSC_TRUE));

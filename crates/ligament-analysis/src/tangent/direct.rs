@@ -9,6 +9,7 @@ use ligament_linalg::{
 use ligament_model::contact::ClosedPair;
 use ligament_model::element::Remaining;
 
+use super::iterative;
 use super::making::Making;
 use super::terms::{Coupled, due_bonds};
 use super::{HalfFollowed, Left, SOFT_HOLD, TangentSolver, Unsolved};
@@ -331,6 +332,9 @@ impl TangentSolver for DirectSolver {
     }
 
     fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError> {
+        if iterative::was_written(from) {
+            return Err(CheckpointError::OtherSolver);
+        }
         self.n_changed = Serial::read(from)?;
         let Some(digest) = Option::<u64>::read(from)? else {
             return Ok(());

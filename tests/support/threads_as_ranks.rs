@@ -1,0 +1,195 @@
+//! Threads in the place of processes: ranks that share their rows through memory and solve with a dense factor.
+
+use std::fmt::{self, Debug, Formatter};
+use std::sync::{Arc, Barrier, Mutex};
+
+use ligament_analysis::ranks::{Pivots, RankMatrix, Ranks, Rows, Solved, Together, Tolerated};
+use nalgebra::{DMatrix, DVector};
+
+/// What all threads see.
+struct Table {
+    barrier: Barrier,
+    slots: Mutex<Vec<Vec<f64>>>,
+}
+
+/// One of several threads.
+#[derive(Clone)]
+struct Thread {
+    rank: usize,
+    table: Arc<Table>,
+}
+
+/// A dense matrix of which a thread sets some rows.
+struct Dense {
+    thread: Thread,
+    n_components: usize,
+    n_all: usize,
+    first: usize,
+    own: Vec<f64>,
+    couplings: Vec<[usize; 2]>,
+    whole: DMatrix<f64>,
+}
+
+/// The same work on several ranks at the same time, each a thread; what each of them gives.
+pub fn on_ranks<T: Send>(n_ranks: usize, work: impl Fn(Together) -> T + Sync) -> Vec<T> {
+    let table = Arc::new(Table {
+        barrier: Barrier::new(n_ranks),
+        slots: Mutex::new(vec![Vec::new(); n_ranks]),
+    });
+    std::thread::scope(|scope| {
+        let start = |rank| {
+            let thread = Thread {
+                rank,
+                table: table.clone(),
+            };
+            let work = &work;
+            // A few bytes that stay until the tests end.
+            scope.spawn(move || work(Together(Box::leak(Box::new(thread)))))
+        };
+        let started: Vec<_> = (0..n_ranks).map(start).collect();
+        let ended = started.into_iter().map(|thread| thread.join().unwrap());
+        ended.collect()
+    })
+}
+
+impl Thread {
+    /// The values of all threads.
+    fn exchange(&self, own: &[f64]) -> Vec<Vec<f64>> {
+        self.table.slots.lock().unwrap()[self.rank] = own.to_vec();
+        self.table.barrier.wait();
+        let all = self.table.slots.lock().unwrap().clone();
+        self.table.barrier.wait();
+        all
+    }
+}
+
+impl Debug for Thread {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "rank {}", self.rank)
+    }
+}
+
+impl Debug for Dense {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "rows of {:?}", self.thread)
+    }
+}
+
+impl Ranks for Thread {
+    fn rank(&self) -> usize {
+        self.rank
+    }
+
+    fn n_ranks(&self) -> usize {
+        self.table.slots.lock().unwrap().len()
+    }
+
+    fn largest(&self, values: &mut [f64]) {
+        for of_one in self.exchange(values) {
+            for (value, other) in values.iter_mut().zip(of_one) {
+                *value = value.max(other);
+            }
+        }
+    }
+
+    fn gather(&self, own: &[f64], counts: &[usize]) -> Vec<f64> {
+        let all = self.exchange(own);
+        let lengths: Vec<usize> = all.iter().map(Vec::len).collect();
+        assert_eq!(lengths, counts);
+        all.concat()
+    }
+
+    fn broadcast(&self, bytes: &mut Vec<u8>) {
+        let own: Vec<f64> = bytes.iter().map(|&it| f64::from(it)).collect();
+        *bytes = self.exchange(&own)[0].iter().map(|&it| it as u8).collect();
+    }
+
+    fn matrix(&self, rows: &Rows<'_>) -> Box<dyn RankMatrix> {
+        let counts = self.exchange(&[rows.couplings.len() as f64]);
+        let own = rows.couplings.len() * rows.n_all * rows.n_components.pow(2);
+        Box::new(Dense {
+            thread: self.clone(),
+            n_components: rows.n_components,
+            n_all: rows.n_all,
+            first: counts[..self.rank].concat().iter().sum::<f64>() as usize,
+            own: vec![0.0; own],
+            couplings: rows.couplings.to_vec(),
+            whole: DMatrix::zeros(0, 0),
+        })
+    }
+}
+
+impl Dense {
+    fn size(&self) -> usize {
+        self.n_all * self.n_components
+    }
+
+    /// No more blocks are filled than were announced.
+    fn assert_room(&self) {
+        let (n, size) = (self.n_components, self.size());
+        for (row, couplings) in self.couplings.iter().enumerate() {
+            let blocks = (0..self.n_all).filter(|&column| {
+                let entry = |k: usize| self.own[(row * n + k / n) * size + column * n + k % n];
+                (0..n * n).any(|k| entry(k) != 0.0)
+            });
+            assert!(blocks.count() <= couplings.iter().sum());
+        }
+    }
+}
+
+impl RankMatrix for Dense {
+    fn set(&mut self, row: usize, columns: &[usize], blocks: &[f64]) {
+        let (n, size) = (self.n_components, self.size());
+        let own = row.checked_sub(self.first).unwrap();
+        assert!(own < self.couplings.len(), "a row of another rank");
+        for (r, values) in blocks.chunks_exact(columns.len() * n).enumerate() {
+            for (&column, block) in columns.iter().zip(values.chunks_exact(n)) {
+                let from = (own * n + r) * size + column * n;
+                self.own[from..from + n].copy_from_slice(block);
+            }
+        }
+    }
+
+    fn assemble(&mut self) {
+        self.assert_room();
+        let size = self.size();
+        let rows = self.thread.exchange(&self.own).concat();
+        self.whole = DMatrix::from_row_slice(size, size, &rows);
+        let skew = (&self.whole - self.whole.transpose()).amax();
+        // Blocks beside the diagonal come from the same numbers; those on it are symmetric up to rounding.
+        let scale = self.whole.amax();
+        assert!(
+            skew <= 1e-15 * scale,
+            "the rows of the ranks do not fit together: {skew:e} of {scale:e}"
+        );
+    }
+
+    fn precondition(&mut self, motions: &[Vec<f64>]) {
+        let own = self.couplings.len() * self.n_components;
+        assert!(motions.len() >= 3 && motions.iter().all(|it| it.len() == own));
+    }
+
+    fn factorise(&mut self) -> Pivots {
+        let eigenvalues = self.whole.symmetric_eigenvalues();
+        let small = 1e-12 * eigenvalues.amax();
+        let count = |of: &dyn Fn(f64) -> bool| eigenvalues.iter().filter(|it| of(**it)).count();
+        Pivots {
+            negative: count(&|it| it < -small),
+            vanishing: count(&|it| it.abs() <= small),
+            positive: count(&|it| it > small),
+        }
+    }
+
+    fn solve(&mut self, force: &[f64], _: Tolerated<'_>) -> Solved {
+        let force = DVector::from_vec(self.thread.exchange(force).concat());
+        let motions = self.whole.clone().lu().solve(&force).unwrap();
+        let from = self.first * self.n_components;
+        let own = from..from + self.couplings.len() * self.n_components;
+        Solved {
+            motions: motions.as_slice()[own].to_vec(),
+            iterations: 1,
+            decades: 12.0,
+            is_definite: true,
+        }
+    }
+}
