@@ -14,7 +14,6 @@ mod factor_error;
 mod factor_kind;
 mod factorisation;
 mod general;
-mod indistinguishable;
 mod left_looking;
 mod lu;
 mod matrix;

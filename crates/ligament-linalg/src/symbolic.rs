@@ -12,7 +12,6 @@ use faer::sparse::{FaerError, SymbolicSparseColMatRef};
 
 use crate::branches::Branch;
 use crate::factor_error::FactorError;
-use crate::indistinguishable::reduced;
 use crate::matrix::Pattern;
 use crate::parts::Part;
 use crate::sources::{Reaching, Sources};
@@ -54,20 +53,18 @@ impl Symbolic {
             supernodal_flop_ratio_threshold: ALWAYS_SUPERNODAL,
             ..Default::default()
         };
-        let analyse = |starts: &[usize], rows: &[usize], ordering| {
-            let (n, bytes) = (pattern.dimension(), size_of_val(rows));
-            let entries = SymbolicSparseColMatRef::new_checked(n, n, starts, None, rows);
-            factorize_symbolic_cholesky(entries, Side::Upper, ordering, parameters).map_err(
-                |error| match error {
+        let analyse = |ordering| {
+            factorize_symbolic_cholesky(symbolic_view(&pattern), Side::Upper, ordering, parameters)
+                .map_err(|error| match error {
                     FaerError::IndexOverflow => FactorError::IndexOverflow,
-                    _ => FactorError::OutOfMemory { bytes },
-                },
-            )
+                    _ => FactorError::OutOfMemory {
+                        bytes: size_of::<usize>() * pattern.n_entries(),
+                    },
+                })
         };
         let (cholesky, sources) = match elimination {
             Elimination::MinimumDegree => {
-                let (starts, rows) = (pattern.column_starts(), pattern.rows());
-                let cholesky = analyse(starts, rows, SymmetricOrdering::Amd)?;
+                let cholesky = analyse(SymmetricOrdering::Amd)?;
                 let sources = Sources::new(&pattern, permutation(&cholesky).1)?;
                 (cholesky, sources)
             }
@@ -76,12 +73,8 @@ impl Symbolic {
                 let checked =
                     Perm::new_checked(order.into(), places.clone().into(), pattern.dimension());
                 let ordering = SymmetricOrdering::Custom(checked.as_ref());
-                let structure = || {
-                    let (starts, rows) = reduced(&pattern, &places);
-                    analyse(&starts, &rows, ordering)
-                };
                 let (cholesky, sources) =
-                    rayon::join(structure, || Sources::new(&pattern, &places));
+                    rayon::join(|| analyse(ordering), || Sources::new(&pattern, &places));
                 (cholesky?, sources?)
             }
         };
@@ -185,4 +178,9 @@ fn inverse(order: &[usize]) -> Vec<usize> {
         places[unknown] = place;
     }
     places
+}
+
+fn symbolic_view(pattern: &Pattern) -> SymbolicSparseColMatRef<'_, usize> {
+    let n = pattern.dimension();
+    SymbolicSparseColMatRef::new_checked(n, n, pattern.column_starts(), None, pattern.rows())
 }
