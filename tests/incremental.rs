@@ -45,6 +45,7 @@ const IN_PLACE: SolverSettings = SolverSettings {
     ordering: None,
     update: Some(Update::Incremental),
     rebuild_every: usize::MAX,
+    memory: None,
     ranks: None,
 };
 

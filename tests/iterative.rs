@@ -373,6 +373,32 @@ load = [{ group = "top", displacement = { y = 1e-5 } }]
             Ok(SolverChoice::Direct(_))
         ));
     }
+    let beyond_a_third = [
+        &["model.law=nhpd", "material.poisson=0.34"][..],
+        &[
+            "model.law=nhpd",
+            "lattice.plane=strain",
+            "material.poisson=0.26",
+        ],
+        &["model.law=pds", "material.poisson=0.34"],
+        &[
+            "model.law=pds",
+            "lattice.plane=strain",
+            "material.poisson=0.26",
+        ],
+        &["model.law=mppd", "material.poisson=0.34"],
+        &[
+            "model.law=mppd",
+            "model.rotational_stiffness=quarter",
+            "material.poisson=0.34",
+        ],
+        &["model.law=mppd-beam", "material.poisson=0.34"],
+    ];
+    for settings in beyond_a_third {
+        let refused = chosen(&Bench::new(LATTICE, &[settings, &[CG]].concat()));
+        let is_named = matches!(refused, Err(SetupError::NotIterative(Unfit::Indefinite)));
+        assert!(is_named, "{settings:?}: {refused:?}");
+    }
     let small = chosen(&Bench::new(LATTICE, &[])).unwrap();
     let SolverChoice::Direct(choice) = small else {
         panic!("{small:?}");
@@ -381,4 +407,41 @@ load = [{ group = "top", displacement = { y = 1e-5 } }]
     let named = Bench::new(LATTICE, &[CG]);
     assert_eq!(named.model.setup.solver.method, Some(Method::Iterative));
     assert!(State::fresh(&*named.model.system).broken_bonds() == 0);
+}
+
+/// In the plane the memory that there is decides, where it is known: a factor as long as it fits, of definite stiffnesses alone not.
+#[test]
+fn a_factor_that_does_not_fit_is_not_taken() {
+    let choice = |settings: &[&str], memory: Option<usize>| {
+        let mut problem = Bench::new(DISK, settings).problem();
+        problem.solver.memory = memory;
+        *Equilibrium::new(&problem, 1e-4).unwrap().choice()
+    };
+    let problem = Bench::new(DISK, &[]).problem();
+    let equilibrium = Equilibrium::new(&problem, 1e-4).unwrap();
+    let needed = equilibrium.stiffness().unwrap().bytes();
+    let known = [None, Some(usize::MAX), Some(needed)];
+    for memory in known {
+        assert!(matches!(choice(&[], memory), SolverChoice::Direct(_)));
+    }
+    for available in [0, needed - 1] {
+        let SolverChoice::Iterative(it) = choice(&[], Some(available)) else {
+            panic!("a factor of {needed} bytes in {available}");
+        };
+        let Reason::Memory {
+            needed: told,
+            available: of,
+        } = it.reason
+        else {
+            panic!("{}", it.reason);
+        };
+        assert!(of == available && told > available && told <= needed);
+    }
+    for settings in [
+        &["material.poisson=0.4"][..],
+        &["solver.method=direct"],
+        &["solver.factorisation=ldlt"],
+    ] {
+        assert!(matches!(choice(settings, Some(0)), SolverChoice::Direct(_)));
+    }
 }

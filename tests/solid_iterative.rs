@@ -1,9 +1,15 @@
 //! Conjugate gradients without a matrix in space: cylinders with a crack over half of their section, against the factor of the matrix.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::solver::{Method, SolverChoice};
+use ligament_analysis::solver::{Method, SolverChoice, Unfit, points_of_aggregate};
+use ligament_analysis::{Attempt, Equilibrium, SetupError};
+use ligament_model::law::rotational::RotationalStiffness;
+use ligament_model::material::Isotropic;
+use ligament_model::space::element::SolidElement;
+use ligament_model::space::law::{ShearForm, mppd, nhpd, pds};
+use ligament_model::{BondSet, BondStiffness, PointCloud};
 use rayon::ThreadPoolBuilder;
-use verification::cylinders::{Torn, cylinder, pulled};
+use verification::cylinders::{MATERIAL, Torn, cylinder, cylinder_of, pulled};
 use verification::numbers::deviation;
 
 /// Displacements and rotations after the crack and a few bonds more, those of the factor to 1e-6: a residual of 1e-8 times the condition of
@@ -53,4 +59,91 @@ fn threads_change_no_bit() {
             .zip(&other)
             .all(|(a, b)| a.to_bits() == b.to_bits())
     );
+}
+
+/// Every law with shear has bonds with a negative stiffness above a Poisson's ratio of 1/4, and none below: they are refused by name.
+#[test]
+fn negative_shear_is_refused_by_name() {
+    type Law = fn(&BondSet<3>, &PointCloud<3>, &[Isotropic]) -> BondStiffness;
+    let laws: [(&str, SolidElement, Law); 4] = [
+        (
+            "nhpd, secant",
+            SolidElement::Beam,
+            |bonds, cloud, materials| {
+                nhpd::stiffness(bonds, cloud, materials, ShearForm::default())
+            },
+        ),
+        ("mppd", SolidElement::Beam, |bonds, cloud, materials| {
+            mppd::stiffness(bonds, cloud, materials, RotationalStiffness::Decaying)
+        }),
+        (
+            "mppd without",
+            SolidElement::Beam,
+            |bonds, cloud, materials| {
+                mppd::stiffness(bonds, cloud, materials, RotationalStiffness::Zero)
+            },
+        ),
+        ("pds", SolidElement::Spring, pds::stiffness),
+    ];
+    for (name, element, law) in laws {
+        for (poisson, is_refused) in [(0.24, false), (0.26, true), (0.45, true)] {
+            let material = Isotropic {
+                poisson,
+                ..MATERIAL
+            };
+            let system = cylinder_of(6, element, |bonds, cloud| law(bonds, cloud, &[material]));
+            let made = Equilibrium::new(&pulled(&system, Method::Iterative), 1e-4);
+            match made {
+                Err(SetupError::NotIterative(Unfit::Indefinite)) => {
+                    assert!(is_refused, "{name}, {poisson}");
+                }
+                Ok(_) => assert!(!is_refused, "{name}, {poisson}"),
+                Err(other) => panic!("{name}, {poisson}: {other}"),
+            }
+        }
+    }
+}
+
+/// Bonds that no law gives, which resist rotations by less than nothing: no answer is better than one of another body, in which
+/// rotations were held.
+#[test]
+fn negative_rotational_stiffness_gives_no_answer() {
+    let law = |bonds: &BondSet<3>, cloud: &PointCloud<3>| {
+        let mut stiffness = nhpd::stiffness(bonds, cloud, &[MATERIAL], ShearForm::default());
+        stiffness.rotational.iter_mut().for_each(|it| *it *= -20.0);
+        stiffness
+    };
+    let system = cylinder_of(6, SolidElement::Beam, law);
+    let mut torn = Torn::cracked(&pulled(&system, Method::Iterative), &system, 0.0);
+    let Attempt::Unbalanced(reason) = torn.attempt() else {
+        panic!("an answer");
+    };
+    let words = reason.to_string();
+    println!("{words}");
+    assert!(words.contains("positive definite"), "{words}");
+}
+
+/// Iterations do not creep while bonds break one after the other: the coarse stiffness loses what the bonds gave to it.
+#[test]
+fn iterations_stay_few_while_bonds_break() {
+    let system = cylinder(14);
+    let mut torn = Torn::cracked(&pulled(&system, Method::Iterative), &system, 0.0);
+    let mut balanced = torn.balance();
+    let mut counts = Vec::new();
+    for _ in 0..200 {
+        let before = torn.equilibrium.costs().iterations;
+        torn.break_longest(&balanced);
+        balanced = torn.balance();
+        counts.push(torn.equilibrium.costs().iterations - before);
+    }
+    let mean = |counts: &[usize]| counts.iter().sum::<usize>() as f64 / counts.len() as f64;
+    let [first, last] = [mean(&counts[..50]), mean(&counts[150..])];
+    let costs = torn.equilibrium.costs();
+    println!(
+        "{first} iterations a breakage, later {last}; {} coarse spaces, {} changed in place",
+        costs.factorisations, costs.changes
+    );
+    // Published for a coarse space of the body without its crack: four times as many.
+    assert!(last < 1.5 * first, "{first} {last}");
+    assert!(points_of_aggregate(3, 99_999) < points_of_aggregate(3, 100_000));
 }

@@ -14,11 +14,12 @@ use ligament_model::material::Isotropic;
 use ligament_model::space::element::SolidElement;
 use ligament_model::space::law::{ShearForm, nhpd};
 use ligament_model::space::system::SolidSystem;
-use ligament_model::{BondSet, Horizons, PointCloud};
+use ligament_model::{BondSet, BondStiffness, Horizons, PointCloud};
 
 use crate::numbers::Random;
 
-const MATERIAL: Isotropic = Isotropic {
+/// The material of [`cylinder`].
+pub const MATERIAL: Isotropic = Isotropic {
     young: 30e9,
     poisson: 0.2,
 };
@@ -29,6 +30,18 @@ const LAMBDA: f64 = 2.5;
 /// Points in an upright cylinder of radius one and height two, some `across` a diameter, moved at random by up to a fifth of their spacing, with
 /// NHPD's bonds.
 pub fn cylinder(across: usize) -> Arc<SolidSystem> {
+    let law = |bonds: &BondSet<3>, cloud: &PointCloud<3>| {
+        nhpd::stiffness(bonds, cloud, &[MATERIAL], ShearForm::default())
+    };
+    cylinder_of(across, SolidElement::Beam, law)
+}
+
+/// The points of [`cylinder`] with other bonds.
+pub fn cylinder_of(
+    across: usize,
+    element: SolidElement,
+    law: impl Fn(&BondSet<3>, &PointCloud<3>) -> BondStiffness,
+) -> Arc<SolidSystem> {
     let spacing = 2.0 / across as f64;
     let mut random = Random(3);
     let mut positions = Vec::new();
@@ -48,16 +61,9 @@ pub fn cylinder(across: usize) -> Arc<SolidSystem> {
     let cloud = PointCloud::<3>::from_points(&positions, &volumes, 1.0, &materials, 1);
     let horizons = Horizons::unified(LAMBDA * spacing, cloud.len());
     let bonds = BondSet::<3>::search(&cloud, &horizons);
-    let stiffness = nhpd::stiffness(&bonds, &cloud, &[MATERIAL], ShearForm::default());
+    let stiffness = law(&bonds, &cloud);
     let whole = vec![1.0; bonds.len()];
-    let system = SolidSystem::new(
-        cloud,
-        bonds,
-        SolidElement::Beam,
-        stiffness,
-        whole.clone(),
-        &whole,
-    );
+    let system = SolidSystem::new(cloud, bonds, element, stiffness, whole.clone(), &whole);
     Arc::new(system)
 }
 
@@ -143,10 +149,15 @@ impl Torn {
         }
     }
 
+    /// Equilibrium after what broke last, or why there is none.
+    pub fn attempt(&mut self) -> Attempt {
+        let attempt = (self.equilibrium).balance(&mut self.state, &self.breakage, &mut Unobserved);
+        attempt.unwrap()
+    }
+
     /// Equilibrium after what broke last.
     pub fn balance(&mut self) -> Balanced {
-        let attempt = (self.equilibrium).balance(&mut self.state, &self.breakage, &mut Unobserved);
-        match attempt.unwrap() {
+        match self.attempt() {
             Attempt::Balanced(balanced) => balanced,
             Attempt::Unbalanced(reason) => panic!("{reason}"),
         }

@@ -9,6 +9,7 @@ use ligament_analysis::load_program::{Control, ControlKind, ProportionalLoading}
 use ligament_analysis::unknowns::Component;
 use ligament_analysis::{Layout, SolverSettings};
 use ligament_model::contact::Faces;
+use ligament_model::deformation::Room;
 use ligament_model::element::Rigidities;
 use ligament_model::element::pair::Pairs;
 use ligament_model::failure::{Criteria, Criterion, Measure};
@@ -117,6 +118,7 @@ impl Truss {
                 kinematics: Kinematics::Beam(Pairs::default()),
                 series: Vec::new(),
                 faces: Faces::default(),
+                room: Room::default(),
                 cloud,
                 bonds,
             },

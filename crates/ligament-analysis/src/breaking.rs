@@ -111,11 +111,7 @@ pub fn first_to_break(
     for (bond, ratio) in of_tasks.into_iter().flat_map(|it| it.met) {
         leaders.meet(bond, ratio);
     }
-    let tied = leaders.met.iter().filter(|it| it.1 >= leaders.lowest_tied);
-    FirstToBreak {
-        bonds: tied.map(|it| it.0).collect(),
-        ratio: leaders.ratio,
-    }
+    leaders.first_to_break()
 }
 
 /// What tasks gather from the verdicts on their intact bonds, in the order of the bonds.
@@ -141,16 +137,17 @@ fn judge<T: Send>(
 }
 
 /// The bonds met so far that were tied with the largest ratio of their time or led it: none of the others can be tied at the end.
-struct Leaders {
+pub(crate) struct Leaders {
     tie_tolerance: f64,
     ratio: f64,
-    lowest_tied: f64,
-    /// Bonds with their ratios, in the order of their numbers.
+    /// Bonds with a smaller ratio are not tied with the largest one so far.
+    pub(crate) lowest_tied: f64,
+    /// Bonds with their ratios, in the order in which they were met.
     met: Vec<(u32, f64)>,
 }
 
 impl Leaders {
-    fn new(tie_tolerance: f64) -> Self {
+    pub(crate) fn new(tie_tolerance: f64) -> Self {
         Self {
             tie_tolerance,
             ratio: 0.0,
@@ -160,13 +157,24 @@ impl Leaders {
     }
 
     #[inline]
-    fn meet(&mut self, bond: u32, ratio: f64) {
+    pub(crate) fn meet(&mut self, bond: u32, ratio: f64) {
         if ratio > 0.0 && ratio >= self.lowest_tied {
             if ratio > self.ratio {
                 self.ratio = ratio;
                 self.lowest_tied = ratio - self.tie_tolerance * ratio;
             }
             self.met.push((bond, ratio));
+        }
+    }
+
+    /// The bonds that lead in the end.
+    pub(crate) fn first_to_break(self) -> FirstToBreak {
+        let tied = self.met.iter().filter(|it| it.1 >= self.lowest_tied);
+        let mut bonds: Vec<u32> = tied.map(|it| it.0).collect();
+        bonds.sort_unstable();
+        FirstToBreak {
+            bonds,
+            ratio: self.ratio,
         }
     }
 }

@@ -18,6 +18,8 @@ mod target;
 use std::sync::Arc;
 use std::time::Instant;
 
+use ligament_linalg::{Factorisation, HalfSolved};
+
 use crate::balanced::{Attempt, Balanced, Stability};
 use crate::breakage::Breakage;
 use crate::connectivity::Fragments;
@@ -228,6 +230,39 @@ impl Equilibrium {
         loads: &dyn LoadProgram,
     ) -> Result<Vec<f64>, Unbalanced> {
         self.equations.growth(state, loads)
+    }
+
+    /// Whether a breakage can be taken in as [`Equilibrium::half_follow`] does.
+    pub(crate) fn takes_in(&self, breakage: &Breakage) -> bool {
+        breakage.holds.is_empty() && self.equations.solver.takes_in(breakage.n_elements())
+    }
+
+    /// Takes in a breakage, and leaves the backward substitution of the correction that it asks for to `finish`; None where the factor broke
+    /// on the way.
+    pub(crate) fn half_follow<T>(
+        &mut self,
+        state: &State,
+        breakage: &Breakage,
+        finish: impl FnOnce(&dyn Factorisation, &HalfSolved) -> T,
+    ) -> Option<T> {
+        let Equations {
+            solver,
+            problem,
+            costs,
+            ..
+        } = &mut self.equations;
+        let expansion = problem.loads.thermal_strain(state.load_factor);
+        let half = solver.half_follow(breakage, state, expansion, costs)?;
+        let start = Instant::now();
+        let finished = finish(half.factor, &half.correction);
+        costs.backward += start.elapsed();
+        costs.solves += 1;
+        Some(finished)
+    }
+
+    /// The factor of the stiffness; None where there is none at present.
+    pub(crate) fn factor(&self) -> Option<&dyn Factorisation> {
+        self.equations.solver.factor()
     }
 
     /// Brings the state into equilibrium at its load factor, after the last breakage; an empty one where none came since the

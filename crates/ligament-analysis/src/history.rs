@@ -253,6 +253,9 @@ pub struct View<'a> {
     pub costs: &'a Costs,
     /// Whether the run ends with this state.
     pub is_last: bool,
+    /// Whether all of the body is known: otherwise motions and forces are those of supported and loaded points alone, and there are no
+    /// deformations.
+    pub is_whole: bool,
 }
 
 /// Failure of an observer.
@@ -315,6 +318,13 @@ pub trait Observer {
     /// The run could go on later from here; tells whether it goes on now.
     fn moment(&mut self, _moment: &Moment<'_>) -> Result<Onward, ObserverError> {
         Ok(Onward::Go)
+    }
+
+    /// Whether the observer looks at the body itself after a step, and not at its record alone.
+    ///
+    /// Where it does not, the exact path may leave parts of the body behind, and the view is not [whole](View::is_whole).
+    fn looks(&self, _step: usize) -> bool {
+        true
     }
 
     /// A load step ended.

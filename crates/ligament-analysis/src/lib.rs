@@ -24,6 +24,7 @@ pub mod first_bonds;
 pub mod gauges;
 pub mod history;
 pub mod internal;
+mod lagging;
 pub mod load_program;
 pub mod modal;
 pub mod probe;

@@ -14,7 +14,8 @@ use crate::unknowns::Unknowns;
 /// How the equations are solved; what is left open is chosen for the problem.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SolverSettings {
-    /// Method; open: a factor up to [`points_for_iteration`], conjugate gradients beyond where they can.
+    /// Method; open: a factor up to [`points_for_iteration`], conjugate gradients beyond where they can; in the plane, where `memory` is
+    /// known, a factor as long as it fits.
     pub method: Option<Method>,
     /// Force that conjugate gradients leave out of balance after a breakage, relative to the forces that may act at a point. Load steps
     /// without a breakage go to the 1e-10 of a factor.
@@ -30,6 +31,8 @@ pub struct SolverSettings {
     /// A factor that was changed in place depends on all its changes; a run that is resumed replays those since the last
     /// time it was made anew.
     pub rebuild_every: usize,
+    /// Bytes that the matrix and its factor may take; open: not known.
+    pub memory: Option<usize>,
     /// Processes that solve the equations together; none: this one alone.
     pub ranks: Option<Together>,
 }
@@ -54,6 +57,13 @@ pub enum Reason {
     Unfit(Unfit),
     /// There are fewer points than this, or not fewer.
     Points(usize),
+    /// The matrix and its factor would take so many bytes, and there are so many for them.
+    Memory {
+        /// Bytes that they take; at least, where they do not fit.
+        needed: usize,
+        /// Bytes that there are.
+        available: usize,
+    },
     /// The stiffness is definite.
     Definite,
 }
@@ -64,6 +74,18 @@ impl Display for Reason {
             Self::Named => f.write_str("as the case says"),
             Self::NamedForFactor(word) => write!(f, "the case says what solver.{word} is to be"),
             Self::Unfit(unfit) => unfit.fmt(f),
+            &Self::Memory { needed, available } => {
+                let [needed, available] = [needed, available].map(|bytes| bytes as f64 / 1e9);
+                let whether = if needed > available {
+                    "does not fit"
+                } else {
+                    "fits"
+                };
+                write!(
+                    f,
+                    "a factor {whether} into memory: {needed:.2} GB of {available:.2} GB that there are for it"
+                )
+            }
             Self::Definite => f.write_str("no bond has a negative stiffness"),
             Self::Points(limit) => write!(
                 f,
@@ -147,6 +169,8 @@ pub struct IterativeChoice {
     pub reason: Reason,
     /// Force left out of balance after a breakage, see [`SolverSettings::tolerance`].
     pub tolerance: f64,
+    /// Points of an aggregate at most, see [`points_of_aggregate`].
+    pub aggregate: usize,
 }
 
 /// What was chosen for a factor.
@@ -177,6 +201,7 @@ impl Default for SolverSettings {
             ordering: None,
             update: None,
             rebuild_every: 1000,
+            memory: None,
             ranks: None,
         }
     }
@@ -193,6 +218,19 @@ pub const TIED: f64 = 100.0;
 /// Points from which on conjugate gradients are taken, in a body with so many axes.
 pub fn points_for_iteration(n_axes: usize) -> usize {
     if n_axes > 2 { 5_000 } else { 200_000 }
+}
+
+/// Points of an aggregate at most whose rigid motions are in the coarse space, in a body with so many axes and points.
+///
+/// In the plane halving squares of four times as many points ended at ten costs the least time: with at most 5, 10, 20 and 40 points
+/// of 160,000 a breakage took 12.5, 15, 23 and 26 iterations and 1.3, 1.0, 1.2 and 1.5 times as long. In space from 100,000 points on
+/// larger ones take as long a breakage, .3 times as long to make and .6 times the memory (170,000 points; 13 and 19 iterations).
+pub fn points_of_aggregate(n_axes: usize, n_points: usize) -> usize {
+    match n_axes {
+        ..=2 => 10,
+        _ if n_points < 100_000 => 40,
+        _ => 160,
+    }
 }
 
 impl SolverSettings {
@@ -212,9 +250,24 @@ impl SolverSettings {
         }
     }
 
+    /// Bytes that a matrix and its factor may take, where they decide between the methods: in the plane a factor that fits costs
+    /// less than conjugate gradients, whatever the number of points (`docs/solvers.md`).
+    pub(crate) fn bound_of_factor(&self, system: &dyn Bonds) -> Option<usize> {
+        let decides = self.method.is_none() && n_axes(system) == 2 && self.unfit(system).is_none();
+        self.memory.filter(|_| decides)
+    }
+
+    /// What is taken for conjugate gradients on some bonds.
+    pub(crate) fn iterative_choice(&self, system: &dyn Bonds, reason: Reason) -> IterativeChoice {
+        IterativeChoice {
+            reason,
+            tolerance: self.tolerance,
+            aggregate: points_of_aggregate(n_axes(system), system.n_points()),
+        }
+    }
+
     fn suitable_method(&self, system: &dyn Bonds) -> (Method, Reason) {
-        let displacements = system.components().iter().filter(|it| !it.is_rotation());
-        let limit = points_for_iteration(displacements.count());
+        let limit = points_for_iteration(n_axes(system));
         let is_large = system.n_points() >= limit;
         match self.unfit(system).filter(|_| is_large) {
             Some(Unfit::NamedForFactor(word)) => (Method::Direct, Reason::NamedForFactor(word)),
@@ -275,6 +328,12 @@ impl SolverSettings {
         let named = named.into_iter().find(|(is_named, _)| *is_named);
         named.map(|(_, word)| Unfit::NamedForFactor(word))
     }
+}
+
+/// Number of axes of the space of a body.
+pub fn n_axes(system: &dyn Bonds) -> usize {
+    let components = system.components().iter();
+    components.filter(|it| !it.is_rotation()).count()
 }
 
 impl SolverChoice {

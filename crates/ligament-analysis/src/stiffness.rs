@@ -24,6 +24,15 @@ pub struct Stiffness {
     analysis: Duration,
 }
 
+/// Times the values of a matrix that it takes until there is a factor.
+const MATRICES: usize = 4;
+
+/// Bytes that the matrix of some bonds and its factor take at least: a block for each bond, and as much in the factor.
+pub(crate) fn least_bytes(system: &dyn Bonds) -> usize {
+    let n_components = system.components().len();
+    size_of::<f64>() * (MATRICES + 1) * n_components * n_components * system.ends().len()
+}
+
 impl Stiffness {
     /// Analyses the pattern for some unknowns, with the reason for a factor; nothing is factorised yet.
     ///
@@ -80,6 +89,18 @@ impl Stiffness {
     /// Structure of the factor.
     pub fn symbolic(&self) -> &Arc<Symbolic> {
         &self.symbolic
+    }
+
+    /// Bytes of the matrix and its factor. The matrix is kept with its row numbers, and once more in the order of elimination while it
+    /// is factorised.
+    pub fn bytes(&self) -> usize {
+        let matrix = MATRICES * self.pattern.n_entries();
+        size_of::<f64>() * (matrix + self.symbolic.n_factor_values())
+    }
+
+    /// Says for what reason there is a factor.
+    pub(crate) fn chosen_for(&mut self, reason: Reason) {
+        self.choice.reason = reason;
     }
 
     /// What was chosen for the factor.

@@ -8,7 +8,7 @@ pub(crate) mod solving;
 mod terms;
 pub(crate) mod unsymmetric;
 
-use ligament_linalg::{FactorError, Inertia};
+use ligament_linalg::{FactorError, Factorisation, HalfSolved, Inertia};
 
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
@@ -28,6 +28,12 @@ pub(crate) enum Left {
     Share(f64),
     /// Sizes at the unknowns, shape (n_unknowns), N and N m.
     AtMost(Vec<f64>),
+}
+
+/// A factor that took in a breakage, and the correction that it asks for after the forward substitution.
+pub(crate) struct HalfFollowed<'a> {
+    pub(crate) factor: &'a dyn Factorisation,
+    pub(crate) correction: HalfSolved,
 }
 
 /// Why a solver that is ready has no solution.
@@ -53,6 +59,28 @@ pub(crate) trait TangentSolver {
         expansion: ThermalStrain<'_>,
         costs: &mut Costs,
     ) -> Option<Vec<f64>>;
+
+    /// Whether changes of so many elements can be taken in as they come.
+    fn takes_in(&self, _n_elements: usize) -> bool {
+        false
+    }
+
+    /// What stands for K at present; None where that is no factor.
+    fn factor(&self) -> Option<&dyn Factorisation> {
+        None
+    }
+
+    /// Takes in a breakage as [`TangentSolver::follow`] does, but leaves the backward substitution to the caller; None where the solver
+    /// has no factor, or must make it anew.
+    fn half_follow(
+        &mut self,
+        _breakage: &Breakage,
+        _state: &State,
+        _expansion: ThermalStrain<'_>,
+        _costs: &mut Costs,
+    ) -> Option<HalfFollowed<'_>> {
+        None
+    }
 
     /// Takes in how far bonds have softened.
     fn weaken(&mut self, state: &State, costs: &mut Costs);

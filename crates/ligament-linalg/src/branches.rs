@@ -24,16 +24,20 @@ pub(crate) struct Branch {
 }
 
 impl Branch {
-    /// The whole factor.
+    /// The whole factor, cut into tasks.
     pub(crate) fn of_factor(supernodes: Supernodes<'_>) -> Self {
-        let count = supernodes.len();
-        let total = supernodes.values_before(count);
+        let total = supernodes.values_before(supernodes.len());
+        Self::cut(supernodes, (total / MOST_TASKS).max(SMALLEST_TASK))
+    }
+
+    /// The whole factor, cut where two ranges of supernodes with more than `most` values meet.
+    pub(crate) fn cut(supernodes: Supernodes<'_>, most: usize) -> Self {
         let cutting = Cutting {
             first: first_supernodes(supernodes),
             supernodes,
-            most: (total / MOST_TASKS).max(SMALLEST_TASK),
+            most,
         };
-        cutting.branch(0..count)
+        cutting.branch(0..supernodes.len())
     }
 
     /// All supernodes of the branch.

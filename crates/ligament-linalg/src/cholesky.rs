@@ -8,8 +8,9 @@ use crate::left_looking::LeftLooking;
 use crate::matrix::SymmetricMatrix;
 use crate::modification::{DiagonalEntry, Modification, Target, VanishingPivot};
 use crate::panels::{FactorKind, Panels};
+use crate::parts::Part;
 use crate::rank_one::RankOne;
-use crate::substitution::{solve_backward, solve_forward};
+use crate::substitution::{solve_backward, solve_backward_in, solve_forward};
 use crate::symbolic::Symbolic;
 
 /// Values of a factor.
@@ -145,6 +146,10 @@ impl Factorisation for Cholesky {
         solve_backward(self.panels(), self.symbolic.branch(), &mut vector);
         let rows = self.symbolic.row_of_unknown();
         rows.iter().map(|&row| vector[row]).collect()
+    }
+
+    fn finish_part(&self, part: &Part, vector: &mut [f64]) {
+        solve_backward_in(self.panels(), part.supernodes.clone(), vector);
     }
 }
 

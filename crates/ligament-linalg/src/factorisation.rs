@@ -2,6 +2,7 @@
 
 use crate::factor_error::FactorError;
 use crate::matrix::SymmetricMatrix;
+use crate::parts::Part;
 use crate::rank_one::RankOne;
 
 /// A factorised symmetric matrix.
@@ -35,6 +36,10 @@ pub trait Factorisation: Send + Sync {
     /// The other half, before the factor changes again: the backward substitution; x of shape (n).
     fn finish(&self, half_solved: HalfSolved) -> Vec<f64>;
 
+    /// The backward substitution in a part, in place: `vector` (n), in the order of elimination, holds the half-solved right-hand side in
+    /// the rows of the part, and the solution in those of its border.
+    fn finish_part(&self, part: &Part, vector: &mut [f64]);
+
     /// Pivots in the order of the matrix (the entries of D in L D L^T), shape (n).
     fn pivots(&self) -> Vec<f64>;
 
@@ -48,6 +53,13 @@ pub trait Factorisation: Send + Sync {
 /// A right-hand side after the forward substitution, in the order of elimination.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HalfSolved(pub(crate) Vec<f64>);
+
+impl HalfSolved {
+    /// The values by row, shape (n).
+    pub fn by_row(&self) -> &[f64] {
+        &self.0
+    }
+}
 
 /// Numbers of eigenvalues by sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

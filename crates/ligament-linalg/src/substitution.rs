@@ -21,6 +21,17 @@ pub(crate) fn solve_backward(panels: Panels<'_>, branch: &Branch, vector: &mut [
     backward_branch(panels, branch, vector, None);
 }
 
+/// Solves L^T x = y, or L^T x = D^-1 y, in place for the rows of some consecutive supernodes, where the rows that these need are known.
+pub(crate) fn solve_backward_in(panels: Panels<'_>, supernodes: Range<usize>, vector: &mut [f64]) {
+    Arch::new().dispatch(Backward {
+        panels,
+        first_row: panels.rows(supernodes.clone()).start,
+        vector: &mut vector[panels.rows(supernodes.clone()).start..],
+        stem: supernodes,
+        above: None,
+    });
+}
+
 /// What a supernode adds to a row.
 type Addition = (usize, f64);
 

@@ -13,6 +13,7 @@ use faer::sparse::{FaerError, SymbolicSparseColMatRef};
 use crate::branches::Branch;
 use crate::factor_error::FactorError;
 use crate::matrix::Pattern;
+use crate::parts::Part;
 use crate::sources::{Reaching, Sources};
 use crate::supernodes::Supernodes;
 
@@ -112,6 +113,12 @@ impl Symbolic {
             .sum()
     }
 
+    /// The parts of the factor that can be substituted backward one by one, each after the one above it; all but those below which
+    /// there is none have at least so many values with what is below them.
+    pub fn parts(&self, least: usize) -> Vec<Part> {
+        Part::of_factor(self.supernodes(), least)
+    }
+
     /// The panels of the factor.
     pub(crate) fn supernodes(&self) -> Supernodes<'_> {
         Supernodes::from_analysis(&self.cholesky)
@@ -133,12 +140,12 @@ impl Symbolic {
     }
 
     /// Index in the matrix of each row of the factor, shape (n).
-    pub(crate) fn unknown_of_row(&self) -> &[usize] {
+    pub fn unknown_of_row(&self) -> &[usize] {
         permutation(&self.cholesky).0
     }
 
     /// Row of the factor for each index in the matrix, shape (n).
-    pub(crate) fn row_of_unknown(&self) -> &[usize] {
+    pub fn row_of_unknown(&self) -> &[usize] {
         permutation(&self.cholesky).1
     }
 

@@ -4,6 +4,7 @@
 //! criteria see the lengths: they stand beside the vectors, so that what judges bonds reads the same array in the plane and in space.
 
 use std::ops::Deref;
+use std::sync::{Arc, Mutex};
 
 use rayon::prelude::*;
 
@@ -50,33 +51,102 @@ impl SpaceDeformation {
     }
 }
 
+/// Memory of deformations that nobody needs any more, for those of the next sweep; clones share it.
+///
+/// Fresh memory of a large body comes from the system, which clears it page by page, and goes back there: a quarter of the time of a sweep.
+#[derive(Debug, Clone, Default)]
+pub struct Room(Arc<Mutex<Spare>>);
+
+/// At most so many arrays are kept: a sweep writes one while the one before is in use.
+const SPARE: usize = 2;
+
+#[derive(Debug, Default)]
+struct Spare {
+    measured: Vec<Vec<BondDeformation>>,
+    in_space: Vec<Vec<SpaceDeformation>>,
+}
+
+impl Room {
+    /// Deformations of bonds in the plane, of so many bonds, that a function writes: all of them, and each by its number.
+    pub(crate) fn in_plane(
+        &self,
+        n_bonds: usize,
+        write: impl FnOnce(&mut [BondDeformation]),
+    ) -> Deformations {
+        let mut measured = self.taken(n_bonds, |it| &mut it.measured);
+        write(&mut measured);
+        Deformations {
+            measured,
+            in_space: Vec::new(),
+            room: self.clone(),
+        }
+    }
+
+    /// Deformations of bonds in space, of so many bonds, that a function writes: all of them, and each by its number.
+    pub(crate) fn in_space(
+        &self,
+        n_bonds: usize,
+        write: impl FnOnce(&mut [SpaceDeformation]),
+    ) -> Deformations {
+        let mut in_space = self.taken(n_bonds, |it| &mut it.in_space);
+        write(&mut in_space);
+        let mut measured = self.taken(n_bonds, |it| &mut it.measured);
+        (measured.par_iter_mut().zip(&in_space)).for_each(|(to, from)| *to = from.measured());
+        Deformations {
+            measured,
+            in_space,
+            room: self.clone(),
+        }
+    }
+
+    /// An array of so many deformations, whatever they are.
+    fn taken<T: Clone + Default>(
+        &self,
+        n_bonds: usize,
+        of: impl Fn(&mut Spare) -> &mut Vec<Vec<T>>,
+    ) -> Vec<T> {
+        let spare = self.0.lock().ok().and_then(|mut it| of(&mut it).pop());
+        let mut array = spare.unwrap_or_default();
+        if array.len() != n_bonds {
+            array = vec![T::default(); n_bonds];
+        }
+        array
+    }
+}
+
 /// Deformations of all bonds. It reads as the slice of what criteria measure of them, shape (n_bonds).
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Deformations {
     measured: Vec<BondDeformation>,
     /// Deformations of bonds in space, shape (n_bonds); empty in the plane.
     in_space: Vec<SpaceDeformation>,
+    /// Where the memory goes.
+    room: Room,
+}
+
+impl Drop for Deformations {
+    fn drop(&mut self) {
+        let Ok(mut spare) = self.room.0.lock() else {
+            return;
+        };
+        keep(&mut spare.measured, std::mem::take(&mut self.measured));
+        keep(&mut spare.in_space, std::mem::take(&mut self.in_space));
+    }
+}
+
+fn keep<T>(spare: &mut Vec<Vec<T>>, array: Vec<T>) {
+    if spare.len() < SPARE && !array.is_empty() {
+        spare.push(array);
+    }
+}
+
+impl PartialEq for Deformations {
+    fn eq(&self, other: &Self) -> bool {
+        self.measured == other.measured && self.in_space == other.in_space
+    }
 }
 
 impl Deformations {
-    /// Deformations of bonds in the plane, shape (n_bonds).
-    pub fn in_plane(deformations: Vec<BondDeformation>) -> Self {
-        Self {
-            measured: deformations,
-            in_space: Vec::new(),
-        }
-    }
-
-    /// Deformations of bonds in space, shape (n_bonds).
-    pub fn in_space(deformations: Vec<SpaceDeformation>) -> Self {
-        Self {
-            measured: (deformations.par_iter())
-                .map(SpaceDeformation::measured)
-                .collect(),
-            in_space: deformations,
-        }
-    }
-
     /// Strains that criteria measure, shape (n_bonds).
     #[inline]
     pub fn measured(&self) -> &[BondDeformation] {
@@ -91,26 +161,37 @@ impl Deformations {
 
     /// Multiples of all of them.
     pub fn scaled(&self, factor: f64) -> Self {
-        if self.in_space.is_empty() {
-            let all = self.measured.par_iter();
-            return Self::in_plane(all.map(|it| it.scaled(factor)).collect());
+        let Self {
+            measured,
+            in_space,
+            room,
+        } = self;
+        if in_space.is_empty() {
+            let of_bond = |(to, from): (&mut _, &BondDeformation)| *to = from.scaled(factor);
+            return room.in_plane(measured.len(), |all| {
+                all.par_iter_mut().zip(measured).for_each(of_bond);
+            });
         }
-        let all = self.in_space.par_iter();
-        Self::in_space(all.map(|it| it.scaled(factor)).collect())
+        let of_bond = |(to, from): (&mut _, &SpaceDeformation)| *to = from.scaled(factor);
+        room.in_space(in_space.len(), |all| {
+            all.par_iter_mut().zip(in_space).for_each(of_bond);
+        })
     }
 
     /// Deformations on the line from here along slopes (n_bonds), `by` times the slopes ahead.
     pub fn ahead(&self, slopes: &Self, by: f64) -> Self {
         if self.in_space.is_empty() {
             let both = self.measured.par_iter().zip(&slopes.measured);
-            let ahead = both.map(|(here, slope)| here.less(&slope.scaled(-by)));
-            return Self::in_plane(ahead.collect());
+            return self.room.in_plane(self.measured.len(), |all| {
+                (all.par_iter_mut().zip(both))
+                    .for_each(|(to, (here, slope))| *to = here.less(&slope.scaled(-by)));
+            });
         }
         let both = self.in_space.par_iter().zip(&slopes.in_space);
-        Self::in_space(
-            both.map(|(here, slope)| here.less(&slope.scaled(-by)))
-                .collect(),
-        )
+        self.room.in_space(self.in_space.len(), |all| {
+            (all.par_iter_mut().zip(both))
+                .for_each(|(to, (here, slope))| *to = here.less(&slope.scaled(-by)));
+        })
     }
 }
 
@@ -134,8 +215,9 @@ mod tests {
             shear: [x, y, 0.0],
             rotation: [0.0, y, x],
         };
-        let here = Deformations::in_space(vec![deformation(1.0, 3.0, 0.0)]);
-        let slopes = Deformations::in_space(vec![deformation(-1.0, 0.0, 2.0)]);
+        let room = Room::default();
+        let here = room.in_space(1, |all| all[0] = deformation(1.0, 3.0, 0.0));
+        let slopes = room.in_space(1, |all| all[0] = deformation(-1.0, 0.0, 2.0));
         let ahead = here.ahead(&slopes, 2.0);
         assert_eq!(ahead[0], BondDeformation::new([-1.0, 5.0, 5.0]));
         assert_eq!(
@@ -143,5 +225,25 @@ mod tests {
             BondDeformation::new([2.0, 10.0, 10.0])
         );
         assert_eq!(ahead.vectors()[0], deformation(-1.0, 3.0, 4.0));
+    }
+
+    /// Deformations are written into the memory of those that are gone, and never into that of others of another number.
+    #[test]
+    fn memory_is_used_again() {
+        let room = Room::default();
+        let written = |n_bonds: usize, size: f64| {
+            room.in_plane(n_bonds, |all| {
+                all.fill(BondDeformation::new([size, 0.0, 0.0]));
+            })
+        };
+        let (first, second) = (written(3, 1.0), written(3, 2.0));
+        let place = first.as_ptr();
+        drop(first);
+        let third = second.scaled(2.0);
+        assert_eq!(third.as_ptr(), place);
+        assert_eq!(third[2], BondDeformation::new([4.0, 0.0, 0.0]));
+        drop(third);
+        assert_eq!(written(5, 3.0).len(), 5);
+        assert_eq!(second[0], BondDeformation::new([2.0, 0.0, 0.0]));
     }
 }

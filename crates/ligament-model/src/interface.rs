@@ -2,6 +2,8 @@
 //!
 //! A sweep over all bonds is one call through the interface; the loop inside knows the element as a type.
 
+use rayon::prelude::*;
+
 use crate::bonds::{BondSet, Incidence};
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
@@ -124,6 +126,10 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     /// The rigid motions of the whole body about the centre of its masses (n_points).
     fn motions_about_centre(&self, masses: &[f64]) -> CentralMotions;
 
+    /// Displacements u_i = x_j, u_j = x_i of all points for each pair of axes i <= j, each of shape (n_degrees_of_freedom): the motions of
+    /// uniform strain.
+    fn motions_of_strain(&self) -> Vec<Vec<f64>>;
+
     /// Deformation of every bond without what its temperature gives it, broken or not, shape (n_bonds).
     fn deformations(
         &self,
@@ -131,6 +137,14 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
         displacement: &[f64],
         expansion: ThermalStrain<'_>,
     ) -> Deformations;
+
+    /// What criteria measure of some bonds, in their order, for displacements (n_degrees_of_freedom) at the temperature without strains.
+    fn measured(
+        &self,
+        intact: &[bool],
+        displacement: &[f64],
+        bonds: &[u32],
+    ) -> Vec<BondDeformation>;
 
     /// Forces and energy of bonds with given deformations (n_bonds).
     ///
@@ -311,9 +325,8 @@ impl PointStiffness {
             }
             Self { force, moment }
         };
-        (0..bonds.incidence.n_points() as u32)
-            .map(of_point)
-            .collect()
+        let points = (0..bonds.incidence.n_points() as u32).into_par_iter();
+        points.map(of_point).collect()
     }
 }
 

@@ -67,22 +67,20 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
     ) -> Deformations {
         assert_eq!(displacement.len(), M * self.system.cloud.len());
         let ends = &self.system.bonds.ends;
-        // Zeros first: a closure that gives a deformation to be collected is called bond by bond, which costs more.
-        let mut deformations = vec![BondDeformation::default(); ends.len()];
-        deformations
-            .par_chunks_mut(TASK)
-            .enumerate()
-            .for_each(|(task, deformations)| {
-                for (bond, deformation) in (task * TASK..).zip(deformations) {
-                    let element = self.whole(intact, bond);
-                    *deformation = element.deformation(displacement);
-                    if !expansion.is_none() {
-                        let thermal = expansion.of_bond(ends[bond]);
-                        *deformation = deformation.less(&element.deformation_in(thermal));
-                    }
+        let of_task = |(task, deformations): (usize, &mut [BondDeformation])| {
+            for (bond, deformation) in (task * TASK..).zip(deformations) {
+                let element = self.whole(intact, bond);
+                *deformation = element.deformation(displacement);
+                if !expansion.is_none() {
+                    let thermal = expansion.of_bond(ends[bond]);
+                    *deformation = deformation.less(&element.deformation_in(thermal));
                 }
-            });
-        Deformations::in_plane(deformations)
+            }
+        };
+        // Written in place: a closure that gives a deformation to be collected is called bond by bond, which costs more.
+        self.system.room.in_plane(ends.len(), |all| {
+            all.par_chunks_mut(TASK).enumerate().for_each(of_task);
+        })
     }
 
     /// Forces and energy of bonds with given deformations (n_bonds).

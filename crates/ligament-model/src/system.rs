@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::contact::Faces;
+use crate::deformation::Room;
 use crate::element::beam::BeamBond;
 use crate::element::imaginary::{ImaginaryElements, StrainStiffness};
 use crate::element::pair::Pairs;
@@ -34,6 +35,8 @@ pub struct BondSystem {
     pub series: Vec<f64>,
     /// Faces of the cracks.
     pub faces: Faces,
+    /// Memory of deformations.
+    pub room: Room,
 }
 
 /// The kinematics of the bonds of a body.
@@ -156,6 +159,7 @@ impl BondSystem {
             bonds,
             cloud,
             faces: Faces::default(),
+            room: Room::default(),
         }
     }
 

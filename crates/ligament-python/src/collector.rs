@@ -144,6 +144,10 @@ impl Observer for Collector<'_> {
         Ok(if stops { Onward::Stop } else { Onward::Go })
     }
 
+    fn looks(&self, step: usize) -> bool {
+        self.rule.is_due(step) || self.told.is_some()
+    }
+
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
         let kept = &mut self.kept;
         kept.first.step(record, view)?;

@@ -175,7 +175,8 @@ where
     let model = stages.time("model", || Model::build(setup, &mut ()));
     let model = model.map_err(|it| Failure::setup(case, it))?;
     let loading = Loading::new(&model.setup, &model.system);
-    let loading = loading.map_err(|it| Failure::setup(case, it))?;
+    let mut loading = loading.map_err(|it| Failure::setup(case, it))?;
+    loading.solver.memory = memory::for_factor(case, &*model.system);
     let problem = loading.problem(&model.system, &model.criteria);
     memory::foresee_equations(case, &*model.system, &problem)?;
     if stop.asked(1) {

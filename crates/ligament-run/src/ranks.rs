@@ -9,6 +9,7 @@ use ligament_analysis::serial::Serial;
 use ligament_case::case::CaseFile;
 
 use crate::checkpoints::IsStopped;
+use crate::memory;
 
 /// The loading of a case, whose equations the processes solve together.
 pub(crate) fn loading<const D: usize>(
@@ -22,6 +23,7 @@ where
     let loading = Loading::new(&model.setup, &model.system);
     let mut loading = loading.map_err(|it| case.located(it))?;
     loading.solver.ranks = ranks;
+    loading.solver.memory = memory::for_factor(case, &*model.system);
     Ok(loading)
 }
 

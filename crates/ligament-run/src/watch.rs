@@ -175,6 +175,10 @@ where
         Ok(if is_stopped { Onward::Stop } else { Onward::Go })
     }
 
+    fn looks(&self, step: usize) -> bool {
+        self.writer.looks(step)
+    }
+
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
         self.last = StepLine {
             step: record.step as u64,

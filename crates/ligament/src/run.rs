@@ -160,6 +160,10 @@ pub fn on_threads<T: Send>(
 pub struct Unobserved;
 
 impl Observer for Unobserved {
+    fn looks(&self, _: usize) -> bool {
+        false
+    }
+
     fn step(&mut self, _: &StepRecord, _: &View<'_>) -> Result<(), ObserverError> {
         Ok(())
     }

@@ -7,10 +7,13 @@
 //! there is no step size. A stepped test in displacement follows its envelope, [`super::Outcome::envelope`].
 
 mod affine;
+mod passing;
 mod proportional;
 mod way;
 
+use std::cell::OnceCell;
 use std::mem;
+use std::rc::Rc;
 
 use super::course::{Place, Restored, ToEvent};
 use super::outcome::{Outcome, Rows};
@@ -22,7 +25,9 @@ use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
+use crate::lagging::Body;
 use crate::problem::Problem;
+use passing::Passed;
 use way::{Goal, Way};
 
 /// Settings of the exact path: how it is followed, and when to stop. The path ends at load factor one in any case, or with the last stage.
@@ -127,6 +132,9 @@ pub fn resume(
 struct Following<'a> {
     path: Path<'a>,
     way: Box<dyn Way>,
+    tie_tolerance: f64,
+    /// Parts of the body that may be left behind; made when events may first be passed over.
+    body: OnceCell<Option<Rc<Body>>>,
 }
 
 /// What the way along a line changes, as it was before.
@@ -162,7 +170,12 @@ impl<'a> Following<'a> {
             Some(_) => Box::new(affine::Affine::new(tie_tolerance, growth)),
             None => Box::new(proportional::Proportional::new(tie_tolerance, loads)),
         };
-        Self { path, way }
+        Self {
+            path,
+            way,
+            tie_tolerance,
+            body: OnceCell::new(),
+        }
     }
 
     /// Follows the path from an equilibrium of the whole body to the end of the run.
@@ -178,32 +191,35 @@ impl<'a> Following<'a> {
     /// Follows the path from an equilibrium on the line to an event.
     fn go_on(&mut self, mut step: usize, mut line: Balanced) -> Result<Termination, SetupError> {
         loop {
-            let goal = match self.way.goal(&mut self.path, &line) {
-                Ok(goal) => goal,
-                Err(reason) => {
+            let passed = match self.body(step) {
+                Some(body) => {
+                    let path = &mut self.path;
+                    let tie_tolerance = self.tie_tolerance;
+                    Some(passing::pass(path, &body, tie_tolerance, &mut step, &line)?)
+                }
+                None => None,
+            };
+            let (critical, breakage) = match passed {
+                Some(Passed::Broke(critical, breakage)) => (critical, breakage),
+                Some(Passed::Line(Attempt::Unbalanced(reason))) => {
                     let end = self.path.without_equilibrium(step, reason);
                     return self.end(step, &line, end);
                 }
+                Some(Passed::Line(Attempt::Balanced(balanced))) => {
+                    line = balanced;
+                    if self.path.carries_nothing(&line) {
+                        return self.end(step, &line, Termination::FellApart);
+                    }
+                    match self.follow_line(&mut step, &mut line)? {
+                        Ok(broken) => broken,
+                        Err(end) => return Ok(end),
+                    }
+                }
+                Some(Passed::Nothing) | None => match self.follow_line(&mut step, &mut line)? {
+                    Ok(broken) => broken,
+                    Err(end) => return Ok(end),
+                },
             };
-            let before = Before::new(&self.path);
-            let critical = self.way.follow(&mut self.path, &line, goal.load_factor);
-            self.path.account(step, &Breakage::default(), &critical)?;
-            let end = (goal.end.clone())
-                .or_else(|| self.path.interruption())
-                .or_else(|| self.path.end_at_rest(&critical))
-                .or_else(|| self.path.end_by_load_fraction(&critical));
-            let end = self.offer(before, step, &line, end)?;
-            self.record(step, &goal, &critical, end.is_some())?;
-            if let Some(end) = end {
-                return Ok(end);
-            }
-            if goal.ends_part {
-                self.path.begin_part(self.path.course.part + 1);
-                line = critical;
-                step += 1;
-                continue;
-            }
-            let breakage = self.path.break_bonds(&goal.bonds, &critical, step, 1)?;
             if self.path.collapsed {
                 return self.end(step + 1, &critical, Termination::Collapsed);
             }
@@ -220,6 +236,57 @@ impl<'a> Following<'a> {
             if self.path.carries_nothing(&line) {
                 return self.end(step, &line, Termination::FellApart);
             }
+        }
+    }
+
+    /// Parts of the body that may be left behind in a step; None where the step is to be seen whole.
+    fn body(&self, step: usize) -> Option<Rc<Body>> {
+        if !passing::may_pass(&self.path, step) {
+            return None;
+        }
+        let body = self.body.get_or_init(|| {
+            let stiffness = self.path.equilibrium.stiffness()?;
+            Body::new(&self.path.problem, stiffness).map(Rc::new)
+        });
+        let body = body.clone();
+        body.filter(|body| passing::may_wait(&self.path, body))
+    }
+
+    /// Follows the line of an equilibrium to its next event, and breaks the bonds there; gives the critical equilibrium and the breakage, or
+    /// the end of the run.
+    fn follow_line(
+        &mut self,
+        step: &mut usize,
+        line: &mut Balanced,
+    ) -> Result<Result<(Balanced, Breakage), Termination>, SetupError> {
+        loop {
+            let goal = match self.way.goal(&mut self.path, line) {
+                Ok(goal) => goal,
+                Err(reason) => {
+                    let end = self.path.without_equilibrium(*step, reason);
+                    return self.end(*step, line, end).map(Err);
+                }
+            };
+            let before = Before::new(&self.path);
+            let critical = self.way.follow(&mut self.path, line, goal.load_factor);
+            self.path.account(*step, &Breakage::default(), &critical)?;
+            let end = (goal.end.clone())
+                .or_else(|| self.path.interruption())
+                .or_else(|| self.path.end_at_rest(&critical))
+                .or_else(|| self.path.end_by_load_fraction(&critical));
+            let end = self.offer(before, *step, line, end)?;
+            self.record(*step, &goal, &critical, end.is_some())?;
+            if let Some(end) = end {
+                return Ok(Err(end));
+            }
+            if goal.ends_part {
+                self.path.begin_part(self.path.course.part + 1);
+                *line = critical;
+                *step += 1;
+                continue;
+            }
+            let breakage = self.path.break_bonds(&goal.bonds, &critical, *step, 1)?;
+            return Ok(Ok((critical, breakage)));
         }
     }
 

@@ -6,6 +6,7 @@
 use std::borrow::Cow;
 use std::time::Instant;
 
+use ligament_model::element::BondDeformation;
 use ligament_model::failure::Criteria;
 
 use super::course::{Course, Place, Restored, proof};
@@ -21,7 +22,7 @@ use crate::connectivity::Hold;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::history::{
-    BreakRecord, Moment, Notice, Observer, ObserverError, Onward, Termination, View,
+    BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, Termination, View,
 };
 use crate::load_program::{ControlKind, LoadCourse};
 use crate::problem::Problem;
@@ -220,7 +221,7 @@ impl<'a> Path<'a> {
         Ok(())
     }
 
-    /// Breaks bonds and holds what came loose.
+    /// Breaks bonds of an equilibrium and holds what came loose.
     pub(super) fn break_bonds(
         &mut self,
         bonds: &[u32],
@@ -228,11 +229,24 @@ impl<'a> Path<'a> {
         step: usize,
         round: usize,
     ) -> Result<Breakage, SetupError> {
+        let criteria = self.criteria(balanced).into_owned();
+        let of_bond = |&bond: &u32| (bond, balanced.deformations[bond as usize]);
+        let deformed: Vec<(u32, BondDeformation)> = bonds.iter().map(of_bond).collect();
+        self.break_deformed(&deformed, &criteria, balanced, [step, round])
+    }
+
+    /// Breaks bonds with their deformations by criteria, in an equilibrium of which no more is asked than forces of the control load, in a
+    /// step and a round; and holds what came loose.
+    pub(super) fn break_deformed(
+        &mut self,
+        bonds: &[(u32, BondDeformation)],
+        criteria: &Criteria,
+        balanced: &Balanced,
+        [step, round]: [usize; 2],
+    ) -> Result<Breakage, SetupError> {
         let load_factor = self.state.load_factor;
         let (displacement, reaction) = self.control(balanced);
-        let criteria = self.criteria(balanced);
-        let of_bond = |(place, &bond): (usize, &u32)| {
-            let deformation = balanced.deformations[bond as usize];
+        let of_bond = |(place, &(bond, deformation)): (usize, &(u32, BondDeformation))| {
             let verdict = criteria.breaking(bond as usize, &deformation)?;
             Some(BreakRecord {
                 order: self.course.broken + place + 1,
@@ -248,12 +262,13 @@ impl<'a> Path<'a> {
             })
         };
         let records: Vec<BreakRecord> = bonds.iter().enumerate().filter_map(of_bond).collect();
+        let bonds: Vec<u32> = bonds.iter().map(|it| it.0).collect();
         self.course.broken += bonds.len();
         self.observer.broke(&records)?;
         for record in &records {
             dissipation::break_bond(&self.problem, &mut self.state, record);
         }
-        let breakage = self.equilibrium.break_bonds(&mut self.state, bonds);
+        let breakage = self.equilibrium.break_bonds(&mut self.state, &bonds);
         // Where faces close, a part that came loose may be pressed on, and the equilibrium tells.
         let may_press = self.problem.system.faces_close();
         self.collapsed |= !may_press && self.load_came_loose(&breakage.holds);
@@ -295,6 +310,34 @@ impl<'a> Path<'a> {
         counters: StepCounters,
         is_last: bool,
     ) -> Result<(), SetupError> {
+        let record = self.show(balanced, counters, [is_last, true])?;
+        let fragments = self.equilibrium.fragments();
+        let Course { overlap, .. } = &mut self.course;
+        if let Some(notice) =
+            remarks::overlap(&self.problem, &self.state, fragments, record.step, overlap)
+        {
+            self.observer.notice(&notice)?;
+        }
+        self.keep(record)
+    }
+
+    /// Records an equilibrium that is known at supported and loaded points alone.
+    pub(super) fn record_in_passing(
+        &mut self,
+        balanced: &Balanced,
+        counters: StepCounters,
+    ) -> Result<(), SetupError> {
+        let record = self.show(balanced, counters, [false, false])?;
+        self.keep(record)
+    }
+
+    /// The record of an equilibrium, shown to the observer.
+    fn show(
+        &mut self,
+        balanced: &Balanced,
+        counters: StepCounters,
+        [is_last, is_whole]: [bool; 2],
+    ) -> Result<StepRecord, SetupError> {
         let counters = StepCounters {
             broken: self.course.broken,
             solves: self.course.solves[0] - self.course.solves[1],
@@ -323,19 +366,19 @@ impl<'a> Path<'a> {
             fragments: self.equilibrium.fragments(),
             costs: self.equilibrium.costs(),
             is_last,
+            is_whole,
         };
         self.observer.step(&record, &view)?;
-        let fragments = self.equilibrium.fragments();
-        let Course {
-            history, overlap, ..
-        } = &mut self.course;
-        let of_faces =
-            remarks::overlap(&self.problem, &self.state, fragments, record.step, overlap);
-        let of_energies = remarks::energies(&self.problem, &record, history.last());
-        for notice in of_faces.iter().chain(&of_energies) {
-            self.observer.notice(notice)?;
+        Ok(record)
+    }
+
+    /// Keeps a record, with what its energies give reason to tell.
+    fn keep(&mut self, record: StepRecord) -> Result<(), SetupError> {
+        let history = &mut self.course.history;
+        if let Some(notice) = remarks::energies(&self.problem, &record, history.last()) {
+            self.observer.notice(&notice)?;
         }
-        self.course.history.push(record);
+        history.push(record);
         Ok(())
     }
 

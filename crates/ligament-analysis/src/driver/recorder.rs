@@ -136,6 +136,13 @@ impl Energies {
         self.largest_work = self.largest_work.max(self.external_work.abs());
     }
 
+    /// Half the work of the present forces on the way from the unloaded body, J: what is stored where all is in proportion to the load
+    /// (Clapeyron).
+    pub(super) fn stored_in_proportion(&self) -> f64 {
+        let of_loaded = self.last_loaded.iter();
+        0.5 * of_loaded.map(|it| it.force * it.displacement).sum::<f64>()
+    }
+
     /// Energy below which differences are rounding of what was done before, J: an unloaded body has given its work back.
     fn floor(&self) -> f64 {
         UNLOADED * self.largest_work

@@ -199,6 +199,10 @@ pub(super) fn report_mechanisms(
 struct Unobserved;
 
 impl Observer for Unobserved {
+    fn looks(&self, _: usize) -> bool {
+        false
+    }
+
     fn step(&mut self, _: &StepRecord, _: &View<'_>) -> Result<(), ObserverError> {
         Ok(())
     }

@@ -9,9 +9,10 @@ use ligament_linalg::{
 use ligament_model::contact::ClosedPair;
 use ligament_model::element::Remaining;
 
+use super::iterative;
 use super::making::Making;
 use super::terms::{Coupled, due_bonds};
-use super::{Left, SOFT_HOLD, TangentSolver, Unsolved};
+use super::{HalfFollowed, Left, SOFT_HOLD, TangentSolver, Unsolved};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::contact;
@@ -115,20 +116,23 @@ impl DirectSolver {
 
     /// Forgets the factor where `n_elements` changes are too many for a change in place, or it is time to make it anew.
     fn forget_unless_in_place(&mut self, n_elements: usize) {
+        let in_place = self.is_in_place(n_elements);
+        self.n_changed += n_elements;
+        if !in_place {
+            self.forget();
+        }
+    }
+
+    fn is_in_place(&self, n_elements: usize) -> bool {
         let DirectChoice {
             update,
             rebuild_every,
             most_bonds_in_place,
             ..
         } = *self.stiffness.choice();
-        let period_before = self.n_changed / rebuild_every;
-        self.n_changed += n_elements;
-        let in_place = update == Update::Incremental
-            && self.n_changed / rebuild_every == period_before
-            && n_elements <= most_bonds_in_place;
-        if !in_place {
-            self.forget();
-        }
+        update == Update::Incremental
+            && self.n_changed / rebuild_every == (self.n_changed + n_elements) / rebuild_every
+            && n_elements <= most_bonds_in_place
     }
 
     /// Takes the rounding off a correction where the state is held.
@@ -153,6 +157,30 @@ impl TangentSolver for DirectSolver {
         expansion: ThermalStrain<'_>,
         costs: &mut Costs,
     ) -> Option<Vec<f64>> {
+        let half = self.half_follow(breakage, state, expansion, costs)?;
+        let start = Instant::now();
+        let mut correction = half.factor.finish(half.correction);
+        self.keep_held(state, &mut correction);
+        costs.backward += start.elapsed();
+        costs.solves += 1;
+        Some(correction)
+    }
+
+    fn takes_in(&self, n_elements: usize) -> bool {
+        self.factor.is_some() && self.is_in_place(n_elements)
+    }
+
+    fn factor(&self) -> Option<&dyn Factorisation> {
+        self.factor.as_deref()
+    }
+
+    fn half_follow(
+        &mut self,
+        breakage: &Breakage,
+        state: &State,
+        expansion: ThermalStrain<'_>,
+        costs: &mut Costs,
+    ) -> Option<HalfFollowed<'_>> {
         if self.factor.is_none() || (breakage.bonds.is_empty() && breakage.holds.is_empty()) {
             return None;
         }
@@ -171,18 +199,13 @@ impl TangentSolver for DirectSolver {
         costs.change += start.elapsed();
         costs.changes += 1;
         // After a change that failed the factor is made anew, and that tells what is wrong if anything is.
-        let Ok(half_solved) = half_solved else {
+        let Ok(correction) = half_solved else {
             self.stale = Some(factor);
             return None;
         };
-        let start = Instant::now();
-        let mut correction = factor.finish(half_solved);
-        self.keep_held(state, &mut correction);
-        costs.backward += start.elapsed();
-        costs.solves += 1;
         self.making.changes.push(terms);
-        self.factor = Some(factor);
-        Some(correction)
+        let factor = &**self.factor.insert(factor);
+        Some(HalfFollowed { factor, correction })
     }
 
     fn weaken(&mut self, state: &State, costs: &mut Costs) {
@@ -309,6 +332,9 @@ impl TangentSolver for DirectSolver {
     }
 
     fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError> {
+        if iterative::was_written(from) {
+            return Err(CheckpointError::OtherSolver);
+        }
         self.n_changed = Serial::read(from)?;
         let Some(digest) = Option::<u64>::read(from)? else {
             return Ok(());

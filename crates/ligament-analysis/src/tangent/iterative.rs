@@ -1,20 +1,23 @@
 //! Iterative solution without a matrix: conjugate gradients with block Jacobi and the rigid motions of aggregates.
 //!
 //! The stiffness is always that of the bonds as they are; what is made and kept is the preconditioner. The blocks of points are
-//! made anew where bonds broke. The coarse space is made anew where a part came loose, and where the iterations beyond what it
-//! took when it was new have cost as much as that.
+//! made anew where bonds broke, and what the bonds gave to the stiffness of the coarse space is taken away from it. The coarse space is
+//! made anew where a part came loose, and where the iterations beyond what it took when it was new have cost as much as that.
 
 mod aggregates;
 mod coarse;
+mod coarse_stiffness;
 mod conjugate;
 mod operator;
 mod point_blocks;
+mod resistance;
+mod space;
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Instant;
 
-use ligament_linalg::{FactorError, Inertia};
+use ligament_linalg::{FactorError, Inertia, RankOne};
 use ligament_model::contact::ClosedPair;
 use ligament_model::element::{Remaining, Term};
 use ligament_model::thermal::ThermalStrain;
@@ -32,26 +35,32 @@ use crate::checkpoint::CheckpointError;
 use crate::contact;
 use crate::costs::Costs;
 use crate::serial::Serial;
+use crate::solver::IterativeChoice;
 use crate::state::State;
 use crate::unknowns::Unknowns;
 use crate::vectors::dot_of_chunks;
 
 pub(super) use point_blocks::vanishing_of_block;
 
-/// Points of an aggregate at most.
-const LARGEST_AGGREGATE: usize = 40;
+/// Elements that change at once at most for a change of the coarse stiffness in place: more cost as much as making it anew.
+const MOST_IN_PLACE: usize = 100;
 
 /// Iterations that cost as much as a new coarse space.
 const RENEWAL: f64 = 40.0;
+
+/// Begins what this solver writes into a checkpoint: no other solver begins so.
+const MARK: u64 = 0x6576_6974_6172_6574;
 
 /// A solver that iterates, for symmetric and definite stiffnesses of linear bonds.
 pub(crate) struct IterativeSolver {
     system: Arc<dyn Bonds>,
     unknowns: Arc<Unknowns>,
-    tolerance: f64,
+    choice: IterativeChoice,
     levels: Option<TwoLevels>,
-    /// What the coarse space was made of.
+    /// What the coarse space was made of, and how its stiffness was changed since.
     coarse_of: Making,
+    /// What the coarse stiffness has of softening bonds, shape (n_bonds); empty where none softens.
+    in_coarse: Vec<Remaining>,
     /// What the blocks of the points were made of.
     blocks_of: Making,
     /// Points whose blocks are out of date.
@@ -73,14 +82,19 @@ struct Moment {
 }
 
 impl IterativeSolver {
-    /// A solver without a preconditioner yet, for forces left out of balance relative to those that may act.
-    pub(crate) fn new(system: Arc<dyn Bonds>, unknowns: Arc<Unknowns>, tolerance: f64) -> Self {
+    /// A solver without a preconditioner yet.
+    pub(crate) fn new(
+        system: Arc<dyn Bonds>,
+        unknowns: Arc<Unknowns>,
+        choice: IterativeChoice,
+    ) -> Self {
         Self {
             system,
             unknowns,
-            tolerance,
+            choice,
             levels: None,
             coarse_of: Making::default(),
+            in_coarse: Vec::new(),
             blocks_of: Making::default(),
             stale: BTreeSet::new(),
             is_due: true,
@@ -137,16 +151,20 @@ impl IterativeSolver {
     fn levels_of(&self, making: &Making) -> Result<Result<TwoLevels, Vec<usize>>, FactorError> {
         let moment = self.moment(making);
         let operator = self.operator(&moment, making.bonds());
-        let (blocks, loose) = PointBlocks::new(&operator);
+        let (blocks, loose) = PointBlocks::new(&operator)?;
         if !loose.is_empty() {
             return Ok(Err(loose));
         }
-        let coarse = Coarse::new(&operator, blocks.diagonal(), LARGEST_AGGREGATE)?;
+        let coarse = Coarse::new(&operator, blocks.diagonal(), self.choice.aggregate)?;
         Ok(Ok(TwoLevels { blocks, coarse }))
     }
 
     /// Brings the blocks up to date; gives the degrees of freedom that nothing resists.
-    fn renew_blocks(&mut self, making: Making) -> Vec<usize> {
+    ///
+    /// # Errors
+    ///
+    /// If a block is not definite.
+    fn renew_blocks(&mut self, making: Making) -> Result<Vec<usize>, FactorError> {
         let newly_held = (making.held.iter().zip(&self.blocks_of.held))
             .enumerate()
             .filter(|(_, (now, before))| now != before);
@@ -154,19 +172,19 @@ impl IterativeSolver {
         let of_holds = newly_held.map(|(dof, _)| layout.point(dof));
         self.stale.extend(of_holds);
         if self.stale.is_empty() {
-            return Vec::new();
+            return Ok(Vec::new());
         }
         let stale = std::mem::take(&mut self.stale);
         let Some(mut levels) = self.levels.take() else {
-            return Vec::new();
+            return Ok(Vec::new());
         };
         let moment = self.moment(&making);
         let operator = self.operator(&moment, making.bonds());
         // Of softening bonds the two ends must have been met at the same moment.
         let loose = if making.remaining.is_empty() {
-            levels.blocks.renew(&operator, stale.iter().copied())
+            levels.blocks.renew(&operator, stale.iter().copied())?
         } else {
-            let (blocks, loose) = PointBlocks::new(&operator);
+            let (blocks, loose) = PointBlocks::new(&operator)?;
             levels.blocks = blocks;
             loose
         };
@@ -175,7 +193,7 @@ impl IterativeSolver {
         if !loose.is_empty() {
             self.stale = stale;
         }
-        loose
+        Ok(loose)
     }
 
     /// Learns from a solution whether the coarse space is worn out.
@@ -189,6 +207,37 @@ impl IterativeSolver {
             Some(pace) => self.excess += (iterations - pace * found.decades).max(0.0),
         }
         self.is_due |= self.excess > RENEWAL;
+    }
+
+    /// Takes terms at unknowns into the coarse stiffness; it is to be made anew where that fails.
+    fn change_coarse(&mut self, terms: Vec<RankOne>) {
+        let Some(levels) = &mut self.levels else {
+            return;
+        };
+        if levels
+            .coarse
+            .change(&at_degrees_of_freedom(&self.unknowns, &terms))
+        {
+            self.coarse_of.changes.push(terms);
+        } else {
+            self.is_due = true;
+        }
+    }
+
+    /// Terms of elements that change may be taken into the coarse stiffness; where they are too many it is to be made anew.
+    fn is_changed_in_place(&mut self, n_elements: usize) -> bool {
+        self.is_due |= n_elements > MOST_IN_PLACE;
+        n_elements > 0 && !self.is_due && self.levels.is_some()
+    }
+
+    /// Couples of the unknowns that the coarse space knows.
+    fn coupled(&self) -> Coupled<'_> {
+        Coupled {
+            system: &*self.system,
+            unknowns: &self.unknowns,
+            cut_off: &self.coarse_of.held,
+            hold_share: SOFT_HOLD,
+        }
     }
 
     /// Numbers of the unknowns at degrees of freedom.
@@ -209,18 +258,24 @@ impl TangentSolver for IterativeSolver {
         breakage: &Breakage,
         _: &State,
         _: ThermalStrain<'_>,
-        _: &mut Costs,
+        costs: &mut Costs,
     ) -> Option<Vec<f64>> {
+        let start = Instant::now();
         let terms = breakage.lost_terms().chain(breakage.gained_terms());
         let entries = terms.flat_map(|(_, entries)| entries);
         let dofs: BTreeSet<usize> = entries.map(|(dof, _)| dof).collect();
         self.stale_at(dofs.into_iter());
         // The rigid motions of a part that came loose are among the softest of all.
         self.is_due |= !breakage.holds.is_empty();
+        if self.is_changed_in_place(breakage.n_elements()) {
+            self.change_coarse(self.coupled().of_breakage(breakage));
+        }
+        costs.change += start.elapsed();
         None
     }
 
-    fn weaken(&mut self, state: &State, _: &mut Costs) {
+    fn weaken(&mut self, state: &State, costs: &mut Costs) {
+        let start = Instant::now();
         let n_bonds = state.softening.remaining.len();
         let mut in_blocks = self.blocks_of.remaining.clone();
         in_blocks.resize(n_bonds, Remaining::WHOLE);
@@ -228,6 +283,15 @@ impl TangentSolver for IterativeSolver {
         let ends = self.system.ends();
         let of_due = due.into_iter().flat_map(|bond| ends[bond]);
         self.stale.extend(of_due);
+        self.in_coarse.resize(n_bonds, Remaining::WHOLE);
+        let due = due_bonds(&self.in_coarse, state);
+        if self.is_changed_in_place(due.len()) {
+            let mut in_coarse = std::mem::take(&mut self.in_coarse);
+            let terms = self.coupled().of_softening(&due, &mut in_coarse, state);
+            self.in_coarse = in_coarse;
+            self.change_coarse(terms);
+        }
+        costs.change += start.elapsed();
     }
 
     fn close(&mut self, closed: &[ClosedPair], _: &mut Costs) {
@@ -242,7 +306,7 @@ impl TangentSolver for IterativeSolver {
         let start = Instant::now();
         let making = self.made_of(state);
         if !self.is_due && self.levels.is_some() {
-            let loose = self.renew_blocks(making);
+            let loose = self.renew_blocks(making)?;
             costs.change += start.elapsed();
             return Ok(self.numbers(loose));
         }
@@ -251,6 +315,7 @@ impl TangentSolver for IterativeSolver {
             Ok(levels) => self.levels = Some(levels),
         }
         self.coarse_of = making.clone();
+        self.in_coarse.clone_from(&making.remaining);
         self.blocks_of = making;
         self.stale.clear();
         (self.is_due, self.pace, self.excess) = (false, None, 0.0);
@@ -303,7 +368,7 @@ impl TangentSolver for IterativeSolver {
     }
 
     fn tolerance(&self) -> Option<f64> {
-        Some(self.tolerance)
+        Some(self.choice.tolerance)
     }
 
     fn is_changed(&self) -> bool {
@@ -319,6 +384,7 @@ impl TangentSolver for IterativeSolver {
     }
 
     fn write(&self, out: &mut Vec<u8>) {
+        MARK.write(out);
         self.levels.is_some().write(out);
         self.is_due.write(out);
         self.pace.write(out);
@@ -327,11 +393,16 @@ impl TangentSolver for IterativeSolver {
         self.closed.write(out);
         if self.levels.is_some() {
             self.coarse_of.write(out);
+            self.in_coarse.write(out);
             self.blocks_of.write(out);
         }
     }
 
     fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError> {
+        if !was_written(from) {
+            return Err(CheckpointError::OtherSolver);
+        }
+        let _ = u64::read(from)?;
         let has_levels = bool::read(from)?;
         self.is_due = Serial::read(from)?;
         self.pace = Serial::read(from)?;
@@ -343,6 +414,7 @@ impl TangentSolver for IterativeSolver {
             return Ok(());
         }
         self.coarse_of = Serial::read(from)?;
+        self.in_coarse = Serial::read(from)?;
         self.blocks_of = Serial::read(from)?;
         let fits = |making: &Making| making.fits(&*self.system, &self.unknowns);
         let n_points = self.system.n_points();
@@ -357,10 +429,35 @@ impl TangentSolver for IterativeSolver {
         let Ok(Ok(mut levels)) = levels else {
             return Err(CheckpointError::OtherArithmetic);
         };
+        let mut changes = self.coarse_of.changes.iter();
+        if !changes.all(|it| (levels.coarse).change(&at_degrees_of_freedom(&self.unknowns, it))) {
+            return Err(CheckpointError::OtherArithmetic);
+        }
         let moment = self.moment(&self.blocks_of);
         let operator = self.operator(&moment, self.blocks_of.bonds());
-        levels.blocks = PointBlocks::new(&operator).0;
+        let blocks = PointBlocks::new(&operator);
+        levels.blocks = blocks.map_err(|_| CheckpointError::OtherArithmetic)?.0;
         self.levels = Some(levels);
         Ok(())
     }
+}
+
+/// Whether the bytes go on with what this solver has written.
+pub(super) fn was_written(from: &[u8]) -> bool {
+    from.starts_with(&MARK.to_le_bytes())
+}
+
+/// Terms at unknowns, at their degrees of freedom.
+fn at_degrees_of_freedom(unknowns: &Unknowns, terms: &[RankOne]) -> Vec<RankOne> {
+    let dofs = unknowns.degrees_of_freedom();
+    let of_terms = terms.iter().map(|it| {
+        let entries = it.entries.iter();
+        RankOne {
+            weight: it.weight,
+            entries: entries
+                .map(|(unknown, value)| (dofs[*unknown] as usize, *value))
+                .collect(),
+        }
+    });
+    of_terms.collect()
 }

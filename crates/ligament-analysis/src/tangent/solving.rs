@@ -11,8 +11,8 @@ use super::iterative::IterativeSolver;
 use super::unsymmetric::UnsymmetricSolver;
 use crate::error::SetupError;
 use crate::ranks::Together;
-use crate::solver::{IterativeChoice, Method, SolverChoice, SolverSettings};
-use crate::stiffness::Stiffness;
+use crate::solver::{Method, Reason, SolverChoice, SolverSettings};
+use crate::stiffness::{self, Stiffness};
 use crate::unknowns::Unknowns;
 
 /// A solver with what was chosen for it.
@@ -46,18 +46,59 @@ impl Solving {
             });
         }
         let (method, reason) = settings.chosen_method(&**system)?;
-        if method == Method::Iterative {
-            let tolerance = settings.tolerance;
-            let solver = IterativeSolver::new(system.clone(), unknowns.clone(), tolerance);
-            return Ok(Self {
-                stiffness: None,
-                choice: SolverChoice::Iterative(IterativeChoice { reason, tolerance }),
-                solver: Box::new(solver),
-            });
+        let Some(available) = settings.bound_of_factor(&**system) else {
+            return match method {
+                Method::Iterative => Ok(Self::iterating(system, unknowns, settings, reason)),
+                Method::Direct => {
+                    let stiffness = Stiffness::new(system, unknowns.clone(), settings, reason)?;
+                    Ok(Self::factorising(stiffness))
+                }
+            };
+        };
+        let too_large = |needed| {
+            let reason = Reason::Memory { needed, available };
+            Self::iterating(system, unknowns, settings, reason)
+        };
+        // The analysis of a factor that is far too large takes much memory itself.
+        let least = stiffness::least_bytes(&**system);
+        if least > available {
+            return Ok(too_large(least));
         }
-        let stiffness = Arc::new(Stiffness::new(system, unknowns.clone(), settings, reason)?);
+        let mut stiffness = Stiffness::new(system, unknowns.clone(), settings, reason)?;
+        let needed = stiffness.bytes();
+        if needed > available {
+            return Ok(too_large(needed));
+        }
+        if method == Method::Iterative {
+            stiffness.chosen_for(Reason::Memory { needed, available });
+        }
+        Ok(Self::factorising(stiffness))
+    }
+
+    /// Conjugate gradients, for a reason.
+    fn iterating(
+        system: &Arc<dyn Bonds>,
+        unknowns: &Arc<Unknowns>,
+        settings: SolverSettings,
+        reason: Reason,
+    ) -> Self {
+        let choice = settings.iterative_choice(&**system, reason);
+        Self {
+            stiffness: None,
+            choice: SolverChoice::Iterative(choice),
+            solver: Box::new(IterativeSolver::new(
+                system.clone(),
+                unknowns.clone(),
+                choice,
+            )),
+        }
+    }
+
+    /// A factor.
+    fn factorising(stiffness: Stiffness) -> Self {
+        let stiffness = Arc::new(stiffness);
         let choice = *stiffness.choice();
-        Ok(Self {
+        Self {
             solver: if choice.unsymmetric {
                 Box::new(UnsymmetricSolver::new(stiffness.clone()))
             } else {
@@ -65,6 +106,6 @@ impl Solving {
             },
             stiffness: Some(stiffness),
             choice: SolverChoice::Direct(choice),
-        })
+        }
     }
 }

@@ -37,7 +37,8 @@ pub struct Solver {
     /// Threads; without it one for each processor. Results do not depend on it.
     #[schemars(range(min = 1, max = MOST_THREADS))]
     pub threads: Option<u32>,
-    /// Memory that a run may take, GB; without it what the machine has left. A run that would take more is refused.
+    /// Memory that a run may take, GB; without it what the machine has left. A run that would take more is refused; where the method is
+    /// open, bodies in the plane whose factor does not fit are solved without a matrix.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub memory: Option<f64>,
 }
@@ -53,6 +54,7 @@ impl Solver {
             ordering: self.ordering.0,
             update: self.update.0,
             rebuild_every: rebuild_every.unwrap_or(default.rebuild_every),
+            memory: None,
             ranks: None,
         }
     }

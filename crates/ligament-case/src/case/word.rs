@@ -157,7 +157,7 @@ worded! { BreakingOrder:
 }
 
 worded! { Option<Method>:
-    [None] "auto" "`direct` in the plane up to 200,000 points and in space up to 5,000, and where the iteration cannot; `iterative` beyond.";
+    [None] "auto" "`direct` in the plane as long as the factor fits into memory and in space up to 5,000 points, and where the iteration cannot; `iterative` beyond.";
     [Some(Method::Direct)] "direct" "With a factor of the matrix.";
     [Some(Method::Iterative)] "iterative" "By conjugate gradients without a matrix, for positive definite stiffness.";
 }

@@ -75,12 +75,18 @@ fn write_iteration<const D: usize>(
 where
     Dim: Dimension<D>,
 {
-    let IterativeChoice { reason, tolerance } = choice;
+    let IterativeChoice {
+        reason,
+        tolerance,
+        aggregate,
+    } = choice;
     writeln!(out, "equations")?;
     entry(out, "unknowns", unknowns)?;
     write_memory(out, case, model, None)?;
     let method = format!("conjugate gradients without a matrix: {reason}");
     entry(out, "method", method)?;
+    let aggregates = format!("rigid motions of at most {aggregate} points each");
+    entry(out, "coarse space", aggregates)?;
     let tied = TIED * tolerance;
     let left = format!(
         "{tolerance:e} of the forces after a breakage; bonds within {tied:e} break together"

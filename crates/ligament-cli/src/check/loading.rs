@@ -12,6 +12,7 @@ use ligament_case::case::CaseFile;
 use ligament_output::quantity::quantity;
 use ligament_run::disk::{self, FieldsOnDisk};
 use ligament_run::gauges::words;
+use ligament_run::memory;
 use ligament_run::model::Model;
 use ligament_run::stages::Stages;
 use ligament_run::summary::temperature_change;
@@ -32,7 +33,9 @@ pub(super) fn check<const D: usize>(
 where
     Dim: Dimension<D> + Told<D>,
 {
-    let loading = Loading::new(&model.setup, &model.system).map_err(|it| case.located(it))?;
+    let loading = Loading::new(&model.setup, &model.system);
+    let mut loading = loading.map_err(|it| case.located(it))?;
+    loading.solver.memory = memory::for_factor(case, &*model.system);
     let problem = loading.problem(&model.system, &model.criteria);
     let equilibrium = match extent {
         Extent::Model => None,

@@ -42,6 +42,45 @@ fn memory_is_foreseen() {
     assert_success(&place.ligament(["run", "case.toml", "--set", "solver.memory=1"]));
 }
 
+/// A body in the plane whose factor does not fit into the memory is solved without a matrix, and that is told; by both drivers, with the
+/// bonds that break with a factor.
+#[test]
+fn a_factor_that_does_not_fit_is_not_made() {
+    let place = Place::new();
+    let settings = "--set lattice.cells=[120,60] --set model.horizon_factor=3 --set fracture.stop={bonds=20} \
+                    --set load.0.displacement.x=2e-3";
+    for control in [
+        "stepped --set fracture.steps=4",
+        "event --unset fracture.steps",
+    ] {
+        let run = |out: &str, memory: &str| {
+            let words = format!(
+                "run case.toml --out {out} --force {settings} --set solver.memory={memory} --set fracture.control={control}"
+            );
+            assert_success(&place.ligament(words.split_whitespace().collect::<Vec<_>>()));
+            let summary = fs::read_to_string(place.path(out).join("summary.json")).unwrap();
+            let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+            let solver = &summary["solver"];
+            let text = |key: &str| solver[key].as_str().unwrap().to_owned();
+            let broken = fs::read_to_string(place.path(out).join("breaks.csv")).unwrap();
+            // Order, step and round; cells at the ends.
+            let kept = |line: &str| -> Vec<String> {
+                let columns: Vec<&str> = line.split(',').collect();
+                [0, 1, 2, 6, 7].map(|it| columns[it].to_owned()).to_vec()
+            };
+            let bonds: Vec<Vec<String>> = broken.lines().map(kept).collect();
+            (text("method"), text("reason"), bonds)
+        };
+        let [small, large] = [run("small", "0.12"), run("large", "2")];
+        assert_eq!([small.0.as_str(), &large.0], ["iterative", "direct"]);
+        assert!(small.1.contains("does not fit into memory"), "{}", small.1);
+        assert!(small.2.len() > 20 && small.2 == large.2, "{control}");
+    }
+    let words = format!("check case.toml {settings} --set solver.memory=0.12");
+    let told = place.ligament(words.split_whitespace().collect::<Vec<_>>());
+    assert!(stdout(&told).contains("a factor does not fit into memory"));
+}
+
 /// `check` tells what fields and bonds will take on the disk: not less than they take, and not twice as much.
 #[test]
 fn room_on_the_disk_is_foreseen() {

@@ -161,6 +161,20 @@ impl<const D: usize> PointCloud<D> {
         });
     }
 
+    /// Displacements u_i = x_j, u_j = x_i for each pair of axes i <= j, of points with so many components of motion, each of shape
+    /// (n_points, n_components).
+    pub(crate) fn motions_of_strain(&self, n_components: usize) -> Vec<Vec<f64>> {
+        let mode = |(i, j): (usize, usize)| {
+            let mut motions = vec![0.0; n_components * self.positions.len()];
+            for (motion, x) in motions.chunks_exact_mut(n_components).zip(&self.positions) {
+                (motion[i], motion[j]) = (x[j], x[i]);
+            }
+            motions
+        };
+        let pairs = (0..D).flat_map(|i| (i..D).map(move |j| (i, j)));
+        pairs.map(mode).collect()
+    }
+
     /// Distance that counts as zero in comparisons at a point, m. On a lattice points lie exactly on the rims of boxes and
     /// halfway between others, and rounding must not decide about them.
     fn slack(&self, point: usize) -> f64 {

@@ -102,18 +102,29 @@ impl<'a, const D: usize> Members<'a, D> {
     }
 
     /// The value of each bond from those of the members, which are the same at either end, shape (n_bonds).
-    pub(crate) fn of_bonds<T: Copy + Default>(&self, values: &[T]) -> Vec<T> {
-        let mut of_bonds = vec![T::default(); self.bonds.len()];
-        for (rank, &point) in self.cloud.curve.iter().enumerate() {
-            // The bonds whose first end is the point follow one another, at the end of its family.
-            let family = self.bonds.incidence.at(point);
+    pub(crate) fn of_bonds<T: Copy + Default + Send + Sync>(&self, values: &[T]) -> Vec<T> {
+        // The bonds whose first end is a point follow one another, at the end of its family.
+        let of_others = self.cloud.over_points(|point| {
             let is_second = |&bond: &u32| self.bonds.ends[bond as usize][0] != point;
-            let others = family.partition_point(is_second);
-            if let Some(&bond) = family.get(others) {
-                let own = &values[self.family(rank)][others..];
-                of_bonds[bond as usize..][..own.len()].copy_from_slice(own);
-            }
-        }
+            self.bonds.incidence.at(point).partition_point(is_second)
+        });
+        let mut of_bonds = vec![T::default(); self.bonds.len()];
+        let mut rest = of_bonds.as_mut_slice();
+        let mut own: Vec<&mut [T]> = (0..)
+            .zip(&of_others)
+            .map(|(point, others)| {
+                let count = self.bonds.incidence.at(point).len() - others;
+                rest.split_off_mut(..count).unwrap_or_default()
+            })
+            .collect();
+        let of_rank = |(rank, &point): (usize, &u32)| {
+            let others = of_others[point as usize];
+            let from = &values[self.family(rank)][others..];
+            (std::mem::take(&mut own[point as usize]), from)
+        };
+        let along_curve: Vec<_> = self.cloud.curve.iter().enumerate().map(of_rank).collect();
+        (along_curve.into_par_iter().with_min_len(BLOCK))
+            .for_each(|(own, from)| own.copy_from_slice(from));
         of_bonds
     }
 }

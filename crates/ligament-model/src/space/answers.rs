@@ -154,6 +154,10 @@ impl Bonds for SolidSystem {
         self.central_motions(masses)
     }
 
+    fn motions_of_strain(&self) -> Vec<Vec<f64>> {
+        self.cloud.motions_of_strain(self.components().len())
+    }
+
     fn deformations(
         &self,
         _intact: &[bool],
@@ -161,6 +165,16 @@ impl Bonds for SolidSystem {
         expansion: ThermalStrain<'_>,
     ) -> Deformations {
         typed!(self, it => it.deformations(displacement, expansion))
+    }
+
+    fn measured(
+        &self,
+        _intact: &[bool],
+        displacement: &[f64],
+        bonds: &[u32],
+    ) -> Vec<BondDeformation> {
+        let bonds = bonds.iter().map(|&bond| bond as usize);
+        typed!(self, it => bonds.map(|bond| it.deformation(bond, displacement).measured()).collect())
     }
 
     fn forces(

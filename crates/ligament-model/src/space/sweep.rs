@@ -20,21 +20,19 @@ impl<const M: usize, B: SolidKinematics<M>> Typed<'_, B, M> {
     ) -> Deformations {
         assert_eq!(displacement.len(), M * self.system.cloud.len());
         let ends = &self.system.bonds.ends;
-        let mut deformations = vec![SpaceDeformation::default(); ends.len()];
-        deformations
-            .par_chunks_mut(TASK)
-            .enumerate()
-            .for_each(|(task, deformations)| {
-                for (bond, deformation) in (task * TASK..).zip(deformations) {
-                    *deformation = self.deformation(bond, displacement);
-                    if !expansion.is_none() {
-                        let thermal = expansion.of_bond_in_space(ends[bond]);
-                        let free = self.whole(bond).deformation_in(thermal);
-                        *deformation = deformation.less(&free);
-                    }
+        let of_task = |(task, deformations): (usize, &mut [SpaceDeformation])| {
+            for (bond, deformation) in (task * TASK..).zip(deformations) {
+                *deformation = self.deformation(bond, displacement);
+                if !expansion.is_none() {
+                    let thermal = expansion.of_bond_in_space(ends[bond]);
+                    let free = self.whole(bond).deformation_in(thermal);
+                    *deformation = deformation.less(&free);
                 }
-            });
-        Deformations::in_space(deformations)
+            }
+        };
+        self.system.room.in_space(ends.len(), |all| {
+            all.par_chunks_mut(TASK).enumerate().for_each(of_task);
+        })
     }
 
     /// Forces and energy of bonds with given deformations (n_bonds); they are added up in parts as those in the plane.

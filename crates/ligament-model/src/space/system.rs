@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use super::element::{SolidElement, SolidKinematics};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
+use crate::deformation::Room;
 use crate::element::Rigidities;
 use crate::law::BondStiffness;
 use crate::system::BondsLeft;
@@ -26,6 +27,8 @@ pub struct SolidSystem {
     pub element: SolidElement,
     /// Factors of the rigidities of bonds across an interface ([`BondStiffness::in_series`]), shape (n_bonds); empty where there is none.
     pub series: Vec<f64>,
+    /// Memory of deformations.
+    pub room: Room,
 }
 
 impl SolidSystem {
@@ -71,6 +74,7 @@ impl SolidSystem {
             weight,
             element,
             series,
+            room: Room::default(),
         }
     }
 }

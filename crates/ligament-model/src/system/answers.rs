@@ -191,6 +191,10 @@ impl Bonds for BondSystem {
         }
     }
 
+    fn motions_of_strain(&self) -> Vec<Vec<f64>> {
+        self.cloud.motions_of_strain(self.components().len())
+    }
+
     fn deformations(
         &self,
         intact: &[bool],
@@ -198,6 +202,16 @@ impl Bonds for BondSystem {
         expansion: ThermalStrain<'_>,
     ) -> Deformations {
         typed!(self, it => it.deformations(intact, displacement, expansion))
+    }
+
+    fn measured(
+        &self,
+        intact: &[bool],
+        displacement: &[f64],
+        bonds: &[u32],
+    ) -> Vec<BondDeformation> {
+        let bonds = bonds.iter().map(|&bond| bond as usize);
+        typed!(self, it => bonds.map(|bond| it.whole(intact, bond).deformation(displacement)).collect())
     }
 
     fn forces(

@@ -269,6 +269,10 @@ impl Observer for ResultWriter<'_> {
         failed(self.tables.breaks(records, &self.grid.tags, ends))
     }
 
+    fn looks(&self, step: usize) -> bool {
+        self.rule.is_due(step) || self.softening.is_some()
+    }
+
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
         if self.rule.writes_fields(record, view) {
             failed(self.write_fields(record, view))?;
@@ -280,7 +284,7 @@ impl Observer for ResultWriter<'_> {
         if let Some(table) = &mut self.softening {
             failed(table.step(record, view, &self.grid.tags))?;
         }
-        if let Some(largest) = &mut self.largest {
+        if let Some(largest) = self.largest.as_mut().filter(|_| view.is_whole) {
             largest.see(record.step, view);
             if view.is_last {
                 let (folder, grid, fixed) = (self.folder, self.grid, self.fixed);

@@ -32,11 +32,15 @@ pub enum Time {
 impl WriteRule {
     /// Whether fields are written in the state of a record.
     pub fn writes_fields(&self, record: &StepRecord, view: &View<'_>) -> bool {
-        view.is_last
-            || match self.fields_every {
-                0 => record.step == 0,
-                every => record.step.is_multiple_of(every),
-            }
+        view.is_last || self.is_due(record.step)
+    }
+
+    /// Whether fields are written in a step wherever the run ends.
+    pub fn is_due(&self, step: usize) -> bool {
+        match self.fields_every {
+            0 => step == 0,
+            every => step.is_multiple_of(every),
+        }
     }
 }
 

@@ -2,9 +2,7 @@
 
 use ligament_analysis::costs::Costs;
 use ligament_analysis::solver;
-use ligament_analysis::solver::{
-    DirectChoice, FactorKind, IterativeChoice, Ordering, SolverChoice, Update,
-};
+use ligament_analysis::solver::{DirectChoice, FactorKind, Ordering, SolverChoice, Update};
 use serde::{Serialize, Serializer};
 
 /// The solver and its work.
@@ -65,6 +63,9 @@ pub struct FactorSummary {
 pub struct IterationSummary {
     /// Force left out of balance after a breakage, relative to the forces that may act at a point.
     pub tolerance: f64,
+    /// Points at most of the aggregates whose rigid motions are its coarse space, where it has one of its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub aggregate: Option<usize>,
     /// Iterations of all solves.
     pub iterations: usize,
 }
@@ -103,17 +104,20 @@ impl SolverSummary {
     /// What was chosen, and what it cost.
     pub fn new(costs: &Costs, choice: &SolverChoice) -> Self {
         let iterations = costs.iterations;
-        let iteration = |tolerance| IterationSummary {
+        let iteration = |tolerance, aggregate| IterationSummary {
             tolerance,
+            aggregate,
             iterations,
         };
         let (method, reason, factor, iteration) = match choice {
             SolverChoice::Direct(it) => ("direct", it.reason, Some(FactorSummary::new(it)), None),
-            &SolverChoice::Iterative(IterativeChoice { reason, tolerance }) => {
-                ("iterative", reason, None, Some(iteration(tolerance)))
+            &SolverChoice::Iterative(it) => {
+                let iteration = iteration(it.tolerance, Some(it.aggregate));
+                ("iterative", it.reason, None, Some(iteration))
             }
             SolverChoice::Distributed(it) => {
-                ("distributed", it.reason, None, it.tolerance.map(iteration))
+                let iteration = it.tolerance.map(|it| iteration(it, None));
+                ("distributed", it.reason, None, iteration)
             }
         };
         let ranks = match choice {

@@ -60,8 +60,6 @@ struct Iteration<'a> {
     motions: Vec<f64>,
     /// Force out of balance.
     force: Vec<f64>,
-    /// Room for products.
-    product: Vec<f64>,
 }
 
 /// Solves K u = f for forces f that are zero where nothing is free (n_degrees_of_freedom), until what is left is within a limit.
@@ -127,7 +125,6 @@ impl<'a> Iteration<'a> {
         Self {
             chunk: CHUNK / n_components * n_components,
             motions: vec![0.0; force.len()],
-            product: vec![0.0; force.len()],
             operator,
             levels,
             force,
@@ -139,12 +136,12 @@ impl<'a> Iteration<'a> {
         let amounts = self.levels.coarse.amounts(&self.force);
         let mut motions = std::mem::take(&mut self.motions);
         self.add_coarse(&amounts, &mut motions);
-        let mut product = std::mem::take(&mut self.product);
+        let mut product = vec![0.0; motions.len()];
         self.operator.multiply(&motions, &mut product);
         for (force, product) in self.force.iter_mut().zip(&product) {
             *force -= product;
         }
-        (self.motions, self.product) = (motions, product);
+        self.motions = motions;
     }
 
     fn is_within(&self, limit: &Limit) -> bool {
@@ -177,15 +174,8 @@ impl<'a> Iteration<'a> {
     /// M^-1 r + Q (r - K M^-1 r).
     fn conditioned(&mut self) -> Vec<f64> {
         let mut motions = self.conditioned_by_blocks();
-        self.operator.multiply(&motions, &mut self.product);
-        (self.product.par_chunks_mut(CHUNK))
-            .zip(self.force.par_chunks(CHUNK))
-            .for_each(|(product, force)| {
-                for (product, force) in product.iter_mut().zip(force) {
-                    *product = force - *product;
-                }
-            });
-        let amounts = self.levels.coarse.amounts(&self.product);
+        let coarse = &mut self.levels.coarse;
+        let amounts = coarse.amounts_after(self.operator, &self.force, &motions);
         self.add_coarse(&amounts, &mut motions);
         motions
     }

@@ -2,8 +2,10 @@
 
 use ligament_model::element::Term;
 use ligament_model::{Bonds, BondsLeft};
+use rayon::prelude::*;
 
 use crate::unknowns::Unknowns;
+use crate::vectors::CHUNK;
 
 /// The tangent stiffness between the degrees of freedom that are free.
 pub(super) struct Operator<'a> {
@@ -28,11 +30,15 @@ impl Operator<'_> {
                 forces[*dof] += weight * moved * value;
             }
         }
-        for (force, free) in forces.iter_mut().zip(self.free) {
-            if !free {
-                *force = 0.0;
-            }
-        }
+        (forces.par_chunks_mut(CHUNK))
+            .zip(self.free.par_chunks(CHUNK))
+            .for_each(|(forces, free)| {
+                for (force, free) in forces.iter_mut().zip(free) {
+                    if !free {
+                        *force = 0.0;
+                    }
+                }
+            });
     }
 
     /// The points of smaller number that something couples with a point, ascending.

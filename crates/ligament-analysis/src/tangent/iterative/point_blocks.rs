@@ -1,6 +1,6 @@
 //! Block Jacobi: the inverses of the stiffnesses of the points by themselves.
 
-use ligament_linalg::VANISHING_PIVOT;
+use ligament_linalg::{FactorError, VANISHING_PIVOT};
 use rayon::prelude::*;
 
 use super::operator::Operator;
@@ -19,7 +19,11 @@ pub(super) struct PointBlocks {
 
 impl PointBlocks {
     /// The blocks of all points, and the degrees of freedom that nothing resists.
-    pub(super) fn new(operator: &Operator<'_>) -> (Self, Vec<usize>) {
+    ///
+    /// # Errors
+    ///
+    /// If a block is not definite.
+    pub(super) fn new(operator: &Operator<'_>) -> Result<(Self, Vec<usize>), FactorError> {
         let n_components = operator.n_components();
         let n_points = operator.system.n_points();
         let mut blocks = Self {
@@ -29,7 +33,7 @@ impl PointBlocks {
         };
         let beside = of_points_beside(operator);
         let size = n_components * n_components;
-        let loose: Vec<Vec<usize>> = (blocks.inverses.par_chunks_mut(size))
+        let loose: Result<Vec<Vec<usize>>, FactorError> = (blocks.inverses.par_chunks_mut(size))
             .zip(blocks.diagonal.par_chunks_mut(n_components))
             .enumerate()
             .with_min_len(TASK)
@@ -37,24 +41,28 @@ impl PointBlocks {
                 invert(operator, point as u32, &beside, inverse, diagonal)
             })
             .collect();
-        (blocks, loose.concat())
+        Ok((blocks, loose?.concat()))
     }
 
     /// Makes the blocks of some points anew; gives their degrees of freedom that nothing resists.
+    ///
+    /// # Errors
+    ///
+    /// If a block is not definite.
     pub(super) fn renew(
         &mut self,
         operator: &Operator<'_>,
         points: impl Iterator<Item = u32>,
-    ) -> Vec<usize> {
+    ) -> Result<Vec<usize>, FactorError> {
         let beside = of_points_beside(operator);
         let (n, mut loose) = (self.n_components, Vec::new());
         for point in points {
             let place = point as usize;
             let inverse = &mut self.inverses[n * n * place..n * n * (place + 1)];
             let diagonal = &mut self.diagonal[n * place..n * (place + 1)];
-            loose.extend(invert(operator, point, &beside, inverse, diagonal));
+            loose.extend(invert(operator, point, &beside, inverse, diagonal)?);
         }
-        loose
+        Ok(loose)
     }
 
     /// Stiffness of each degree of freedom by itself, 1 where it is not free or has none, shape (n_degrees_of_freedom).
@@ -101,13 +109,17 @@ fn of_points_beside<'a>(operator: &'a Operator<'_>) -> Vec<Beside<'a>> {
 }
 
 /// Inverts the block of a point; gives its degrees of freedom that nothing resists.
+///
+/// # Errors
+///
+/// If the block is not definite: holding what gives energy back would change the answer.
 fn invert(
     operator: &Operator<'_>,
     point: u32,
     beside: &[Beside<'_>],
     inverse: &mut [f64],
     diagonal: &mut [f64],
-) -> Vec<usize> {
+) -> Result<Vec<usize>, FactorError> {
     let n = operator.n_components();
     let dofs = operator.unknowns.layout().range(point);
     let mut block = vec![0.0; n * n];
@@ -133,8 +145,16 @@ fn invert(
         };
     }
     inverse.fill(0.0);
-    let vanishing = invert_among(&free, n, &block, inverse);
-    vanishing.into_iter().map(|it| dofs.start + it).collect()
+    match invert_among(&free, n, &block, inverse) {
+        Ok(()) => Ok(Vec::new()),
+        Err(NoInverse::Vanishing(place)) => Ok(vec![dofs.start + place]),
+        Err(NoInverse::Negative(place)) => {
+            let unknown = operator.unknowns.number(dofs.start + place);
+            Err(FactorError::NotPositiveDefinite {
+                unknown: unknown.unwrap_or_default(),
+            })
+        }
+    }
 }
 
 /// The first of the rows and columns `free` of a symmetric block (n, n) whose pivot vanishes or is negative.
@@ -143,12 +163,24 @@ pub(in crate::tangent) fn vanishing_of_block(
     n: usize,
     block: &[f64],
 ) -> Option<usize> {
-    invert_among(free, n, block, &mut vec![0.0; n * n])
+    let inverted = invert_among(free, n, block, &mut vec![0.0; n * n]);
+    let (NoInverse::Vanishing(place) | NoInverse::Negative(place)) = inverted.err()?;
+    Some(place)
 }
 
-/// Inverts the rows and columns `free` of a symmetric block (n, n); gives those whose pivots vanish or are negative, if any, and then
-/// no inverse.
-fn invert_among(free: &[usize], n: usize, block: &[f64], inverse: &mut [f64]) -> Option<usize> {
+/// Why a block has no inverse: the pivot of a row.
+enum NoInverse {
+    Vanishing(usize),
+    Negative(usize),
+}
+
+/// Inverts the rows and columns `free` of a symmetric block (n, n).
+fn invert_among(
+    free: &[usize],
+    n: usize,
+    block: &[f64],
+    inverse: &mut [f64],
+) -> Result<(), NoInverse> {
     let size = free.len();
     let at = |row: usize, column: usize| block[free[row] * n + free[column]];
     let mut lower = vec![0.0; size * size];
@@ -162,8 +194,10 @@ fn invert_among(free: &[usize], n: usize, block: &[f64], inverse: &mut [f64]) ->
                 lower[row * size + column] = rest / lower[column * size + column];
             } else if rest > VANISHING_PIVOT * at(row, row).abs() {
                 lower[row * size + row] = rest.sqrt();
+            } else if rest < -VANISHING_PIVOT * at(row, row).abs() {
+                return Err(NoInverse::Negative(free[column]));
             } else {
-                return Some(free[column]);
+                return Err(NoInverse::Vanishing(free[column]));
             }
         }
     }
@@ -181,5 +215,5 @@ fn invert_among(free: &[usize], n: usize, block: &[f64], inverse: &mut [f64]) ->
             inverse[free[row] * n + free[unit]] = value;
         }
     }
-    None
+    Ok(())
 }

@@ -1,0 +1,280 @@
+//! Events between those after which somebody looks at the whole body: parts of it are [left behind](crate::lagging).
+//!
+//! The line through the unloaded state is followed at one load factor, and what is asked for at the critical ones is in proportion. Each
+//! event needs the motions of the parts whose bonds may be next, and of supported and loaded points, whose forces give reactions, work and
+//! the stored energy. After some events all parts catch up, and the residual of the whole body is checked.
+
+use std::time::Instant;
+
+use ligament_model::deformation::Deformations;
+use ligament_model::element::{BondDeformation, Remaining};
+
+use crate::balanced::{Attempt, Balanced};
+use crate::breakage::Breakage;
+use crate::breaking::{FirstToBreak, first_to_break};
+use crate::driver::path::Path;
+use crate::driver::recorder::StepCounters;
+use crate::error::SetupError;
+use crate::lagging::{Body, HalfSolved, Lagging};
+use crate::problem::Problem;
+
+/// Events with a number that this divides are seen whole in any case, so that the residual of the whole body is checked and rounding does
+/// not add up for long.
+const WHOLE_EVERY: usize = 64;
+
+/// Where passing over events ends.
+pub(super) enum Passed {
+    /// Where it began: the run may end with the next event.
+    Nothing,
+    /// In an equilibrium of the whole body, or without one.
+    Line(Attempt),
+    /// With a breakage that the parts left behind cannot take in; the equilibrium of the whole body before it.
+    Broke(Balanced, Breakage),
+}
+
+/// Events that are passed over, on the line of one load factor.
+pub(super) struct Passing<'a, 'p> {
+    path: &'a mut Path<'p>,
+    problem: &'a Problem,
+    body: &'a Body,
+    lagging: Lagging<'a>,
+    /// Load factor of the displacements that lag behind.
+    load_factor: f64,
+    /// The equilibrium there: forces at the points that are asked for, and no deformations.
+    line: Balanced,
+}
+
+/// Whether an event may be passed over.
+pub(super) fn may_pass(path: &Path<'_>, step: usize) -> bool {
+    !step.is_multiple_of(WHOLE_EVERY) && !path.observer.looks(step)
+}
+
+/// Whether parts of a body may wait with what is held of it: parts that came loose alone, which do not move.
+pub(super) fn may_wait(path: &Path<'_>, body: &Body) -> bool {
+    let fragments = path.equilibrium.fragments();
+    let layout = path.problem.system.layout();
+    let fragment = |point: u32| fragments.of_point[point as usize] as usize;
+    let mut is_asked_for = vec![false; fragments.points.len()];
+    for &point in body.wanted() {
+        is_asked_for[fragment(point)] = true;
+    }
+    let mut held = (0..).zip(&path.state.held).filter(|(_, held)| **held);
+    held.all(|(dof, _)| !is_asked_for[fragment(layout.point(dof))])
+}
+
+/// Passes over events from an equilibrium on the line to the first of them, as long as that may be; counts the steps.
+pub(super) fn pass(
+    path: &mut Path<'_>,
+    body: &Body,
+    tie_tolerance: f64,
+    step: &mut usize,
+    line: &Balanced,
+) -> Result<Passed, SetupError> {
+    let start = Instant::now();
+    let problem = path.problem.clone();
+    let (state, deformations) = (&path.state, &line.deformations);
+    let mut first = first_to_break(
+        tie_tolerance,
+        deformations,
+        &problem.criteria,
+        &state.intact,
+    );
+    let mut passing = Passing {
+        problem: &problem,
+        body,
+        lagging: Lagging::new(body, &problem, tie_tolerance, state, deformations),
+        load_factor: state.load_factor,
+        line: Balanced {
+            deformations: Deformations::default(),
+            ..line.clone()
+        },
+        path,
+    };
+    passing.path.equilibrium.count_bond_work(start);
+    let first_step = *step;
+    while may_pass(passing.path, *step) {
+        let Some(critical) = passing.go_to(&first) else {
+            if *step == first_step {
+                passing.go_back();
+                return Ok(Passed::Nothing);
+            }
+            break;
+        };
+        let breakage = passing.break_first(&first, critical, *step)?;
+        if passing.path.collapsed || !passing.path.equilibrium.takes_in(&breakage) {
+            let before = passing.before(&breakage);
+            return Ok(Passed::Broke(before, breakage));
+        }
+        passing.path.enter(*step, 1)?;
+        let Some(next) = passing.follow(&breakage) else {
+            let before = passing.before(&breakage);
+            return Ok(Passed::Broke(before, breakage));
+        };
+        let after = passing.known();
+        passing.path.account(*step, &breakage, &after)?;
+        *step += 1;
+        first = next;
+    }
+    passing.catch_up();
+    let attempt = passing.path.balance(*step, &Breakage::default())?;
+    Ok(Passed::Line(attempt))
+}
+
+impl Passing<'_, '_> {
+    /// Moves to the load factor at which the first bonds break; None where the run may end before.
+    fn go_to(&mut self, first: &FirstToBreak) -> Option<Balanced> {
+        let load_factor = self.load_factor / first.ratio;
+        if !(load_factor > 0.0 && load_factor <= 1.0) {
+            return None;
+        }
+        self.path.state.load_factor = load_factor;
+        self.know(&first.bonds);
+        let critical = self.known();
+        let (displacement, _) = self.path.control(&critical);
+        let wanted = self.path.stop.displacement;
+        let ends = wanted.is_some_and(|wanted| displacement >= wanted)
+            || self.path.interruption().is_some()
+            || self.path.end_at_rest(&critical).is_some()
+            || self.path.end_by_load_fraction(&critical).is_some();
+        (!ends).then_some(critical)
+    }
+
+    /// Moves back to where passing over events began.
+    fn go_back(&mut self) {
+        self.path.state.load_factor = self.load_factor;
+        let motions = &mut self.path.state.displacement;
+        motions.clone_from(&self.lagging.displacement);
+    }
+
+    /// Records a critical equilibrium and breaks its bonds.
+    fn break_first(
+        &mut self,
+        first: &FirstToBreak,
+        mut critical: Balanced,
+        step: usize,
+    ) -> Result<Breakage, SetupError> {
+        let path = &mut *self.path;
+        path.account(step, &Breakage::default(), &critical)?;
+        critical.stored_energy = path.energies.stored_in_proportion();
+        path.enter(step, 0)?;
+        path.course.solves[0] = path.equilibrium.costs().solves;
+        path.course.negative_eigenvalues = path.equilibrium.negative_eigenvalues();
+        let counters = StepCounters {
+            step,
+            broken_in_step: first.bonds.len(),
+            rounds: 1,
+            at_rest: true,
+            largest_ratio: 1.0,
+            ..Default::default()
+        };
+        path.record_in_passing(&critical, counters)?;
+        let factor = self.factor();
+        let path = &mut *self.path;
+        let displacement = &self.lagging.displacement;
+        let deformations =
+            (self.problem.system).measured(&path.state.intact, displacement, &first.bonds);
+        let deformations = deformations.iter().map(|it| it.scaled(factor));
+        let bonds: Vec<(u32, BondDeformation)> =
+            first.bonds.iter().copied().zip(deformations).collect();
+        path.break_deformed(&bonds, &self.problem.criteria, &critical, [step, 1])
+    }
+
+    /// Takes in a breakage; gives the bonds that are the next to break. None where the factor broke on the way.
+    fn follow(&mut self, breakage: &Breakage) -> Option<FirstToBreak> {
+        let scale = self.factor().recip();
+        let Path {
+            equilibrium, state, ..
+        } = &mut *self.path;
+        let ends = self.problem.system.ends();
+        let points = breakage.bonds.iter().flat_map(|&bond| ends[bond as usize]);
+        let lagging = &mut self.lagging;
+        let first = equilibrium.half_follow(state, breakage, |factor, half| {
+            let correction = HalfSolved {
+                factor,
+                by_row: half.by_row(),
+                scale,
+            };
+            lagging.follow(correction, points, state)
+        })?;
+        let start = Instant::now();
+        self.know(&breakage.bonds);
+        self.add_up_forces();
+        self.path.equilibrium.count_bond_work(start);
+        Some(first)
+    }
+
+    /// The equilibrium at the load factor of the state, as far as it is known.
+    fn known(&self) -> Balanced {
+        self.line.scaled(self.factor())
+    }
+
+    /// Factor from the displacements that lag behind to those of the state.
+    fn factor(&self) -> f64 {
+        self.path.state.load_factor / self.load_factor
+    }
+
+    /// Gives the state the motions of the points that are asked for, and of the ends of some bonds.
+    fn know(&mut self, bonds: &[u32]) {
+        let factor = self.factor();
+        let system = &self.problem.system;
+        let (layout, ends) = (system.layout(), system.ends());
+        let ends = bonds.iter().flat_map(|&bond| ends[bond as usize]);
+        for point in self.body.wanted().iter().copied().chain(ends) {
+            for dof in layout.range(point) {
+                self.path.state.displacement[dof] = factor * self.lagging.displacement[dof];
+            }
+        }
+    }
+
+    /// Adds up the forces of the bonds on the points that are asked for.
+    fn add_up_forces(&mut self) {
+        let system = &self.problem.system;
+        let (layout, intact) = (system.layout(), &self.path.state.intact);
+        let (motions, forces) = (&self.lagging.displacement, &mut self.line.internal.values);
+        for &point in self.body.wanted() {
+            let dofs = layout.range(point);
+            forces[dofs.clone()].fill(0.0);
+            let bonds = system.incidence().at(point).iter();
+            for &bond in bonds.filter(|&&bond| intact[bond as usize]) {
+                for (rigidity, entries) in system.terms(intact, bond as usize, &Remaining::WHOLE) {
+                    let strains = entries.iter().map(|(dof, value)| value * motions[*dof]);
+                    let strain: f64 = strains.sum();
+                    for (dof, value) in entries.iter().filter(|it| dofs.contains(&it.0)) {
+                        forces[*dof] += rigidity * strain * value;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Brings the motions of all points to where the state is.
+    fn catch_up(&mut self) {
+        let start = Instant::now();
+        // Without a factor the motions are those that were known last, and an equilibrium is sought from there.
+        if let Some(factor) = self.path.equilibrium.factor() {
+            self.lagging.catch_up(factor, &self.path.state);
+        }
+        let factor = self.factor();
+        let motions = self.path.state.displacement.iter_mut();
+        for (motion, line) in motions.zip(&self.lagging.displacement) {
+            *motion = factor * line;
+        }
+        self.path.equilibrium.count_bond_work(start);
+    }
+
+    /// The equilibrium of the whole body before a breakage that was not taken in.
+    fn before(&mut self, breakage: &Breakage) -> Balanced {
+        self.catch_up();
+        let Path {
+            equilibrium, state, ..
+        } = &mut *self.path;
+        for &bond in &breakage.bonds {
+            state.intact[bond as usize] = true;
+        }
+        let before = equilibrium.measured(state);
+        for &bond in &breakage.bonds {
+            state.intact[bond as usize] = false;
+        }
+        before
+    }
+}

@@ -1,0 +1,183 @@
+//! The borders of parts: what bonds from inside a part resist the motions of the points around it with.
+
+use ligament_model::Bonds;
+use ligament_model::element::{BondDeformation, Remaining};
+use ligament_model::failure::Criterion;
+use ligament_model::thermal::ThermalStrain;
+
+use super::bound::{Bound, Modes, NOT_THERE};
+use super::division::Division;
+use crate::problem::Problem;
+
+/// A bond from a part to a point of its border.
+type Across = (u32, u32, u32);
+
+/// The bounds of all parts of a body.
+pub(super) struct Bounds {
+    of_parts: Vec<Bound>,
+    modes: Modes,
+}
+
+impl Bounds {
+    /// The bounds for a division; None where bonds lead to points whose rows are no border of the factor.
+    pub(super) fn new(problem: &Problem, division: &Division) -> Option<Self> {
+        let system = &*problem.system;
+        let modes = Modes::of_body(system);
+        let mut stiffness = strain_stiffness(system, division, &modes.strain);
+        let mut per_norm = vec![0.0_f64; division.parts.len()];
+        let whole = vec![true; division.part_of_bond.len()];
+        for (bond, &part) in division.part_of_bond.iter().enumerate() {
+            let largest = &mut per_norm[part as usize];
+            *largest = largest.max(ratio_per_norm(problem, &whole, bond));
+        }
+        for part in (1..division.parts.len()).rev() {
+            if let Some(above) = division.parts[part].above {
+                per_norm[above] = per_norm[above].max(per_norm[part]);
+                let of_part = stiffness[part].clone();
+                let sums = stiffness[above].iter_mut().zip(of_part);
+                sums.for_each(|(sum, value)| *sum += value);
+            }
+        }
+        let across = across(system, division);
+        let mut row_of = vec![usize::MAX; system.layout().n_degrees_of_freedom()];
+        for (row, &dof) in division.degree_of_freedom.iter().enumerate() {
+            row_of[dof as usize] = row;
+        }
+        let mut rest = across.as_slice();
+        let bound = |(part, (stiffness, per_norm))| {
+            let count = rest.partition_point(|it| it.0 as usize == part);
+            let (of_part, others) = rest.split_at(count);
+            rest = others;
+            let border = Border::new(system, &whole, of_part);
+            let places = border.places(&division.parts[part].border, &row_of)?;
+            let Border { dofs, blocks } = border;
+            Some(Bound::new(
+                &modes,
+                (dofs, places),
+                blocks,
+                stiffness,
+                per_norm,
+            ))
+        };
+        let numbered = stiffness.into_iter().zip(per_norm).enumerate();
+        Some(Self {
+            of_parts: numbered.map(bound).collect::<Option<_>>()?,
+            modes,
+        })
+    }
+
+    /// What ratios in a part may have grown by since its border had the motions `then`; displacements are by degree of freedom.
+    pub(super) fn growth(&self, part: usize, displacement: &[f64], then: &[f64]) -> f64 {
+        self.of_parts[part].growth(&self.modes, displacement, then)
+    }
+}
+
+/// The points of a border with the stiffness of the bonds into the part.
+struct Border {
+    dofs: Vec<u32>,
+    blocks: Vec<f64>,
+}
+
+impl Border {
+    /// The border with these bonds across, in the order of the points.
+    fn new(system: &dyn Bonds, whole: &[bool], across: &[Across]) -> Self {
+        let layout = system.layout();
+        let n = layout.components.len();
+        let (mut dofs, mut blocks) = (Vec::new(), Vec::new());
+        for of_point in across.chunk_by(|one, other| one.1 == other.1) {
+            let range = layout.range(of_point[0].1);
+            let start = blocks.len();
+            blocks.resize(start + n * n, 0.0);
+            dofs.extend(range.clone().map(|dof| dof as u32));
+            for &(_, _, bond) in of_point {
+                for (rigidity, entries) in system.terms(whole, bond as usize, &Remaining::WHOLE) {
+                    let own = entries.iter().filter(|(dof, _)| range.contains(dof));
+                    let own: Vec<(usize, f64)> = own
+                        .map(|(dof, value)| (dof - range.start, *value))
+                        .collect();
+                    for &(i, of_i) in &own {
+                        for &(j, of_j) in &own {
+                            blocks[start + n * i + j] += rigidity * of_i * of_j;
+                        }
+                    }
+                }
+            }
+        }
+        Self { dofs, blocks }
+    }
+
+    /// Places of the degrees of freedom among the rows of a part's border; None where a row is missing there.
+    fn places(&self, rows: &[usize], row_of: &[usize]) -> Option<Vec<u32>> {
+        let place = |&dof: &u32| match row_of[dof as usize] {
+            usize::MAX => Some(NOT_THERE),
+            row => rows.binary_search(&row).ok().map(|place| place as u32),
+        };
+        self.dofs.iter().map(place).collect()
+    }
+}
+
+/// Bonds from parts to points of their borders: part, point and bond, ascending.
+fn across(system: &dyn Bonds, division: &Division) -> Vec<Across> {
+    let mut across = Vec::new();
+    for (bond, ends) in (0..).zip(system.ends()) {
+        for &end in ends {
+            let own = division.part_of(end);
+            let mut part = division.part_of_bond[bond as usize] as usize;
+            while part != own {
+                across.push((part as u32, end, bond));
+                match division.parts[part].above {
+                    Some(above) => part = above,
+                    None => break,
+                }
+            }
+        }
+    }
+    across.sort_unstable();
+    across
+}
+
+/// Double energy of the modes of strain in the bonds of each part alone, shape (n_parts)(n_strains, n_strains), J.
+fn strain_stiffness(system: &dyn Bonds, division: &Division, modes: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let whole = vec![true; division.part_of_bond.len()];
+    let of_mode = |mode: &Vec<f64>| system.deformations(&whole, mode, ThermalStrain::NONE);
+    let deformations: Vec<_> = modes.iter().map(of_mode).collect();
+    let mut stiffness = vec![vec![0.0; modes.len() * modes.len()]; division.parts.len()];
+    for (bond, &part) in division.part_of_bond.iter().enumerate() {
+        for (i, of_i) in deformations.iter().enumerate() {
+            for (j, of_j) in deformations.iter().enumerate() {
+                let energy = system.mutual_energy(&whole, bond, &Remaining::WHOLE, [of_i, of_j]);
+                stiffness[part as usize][modes.len() * i + j] += 2.0 * energy;
+            }
+        }
+    }
+    stiffness
+}
+
+/// The largest ratio of measure to limit of a bond with an energy of 1/2 J, J^(-1/2).
+///
+/// A measure of stretch, shear and rotation is at most the sum of those of each alone, |s| m_s + ..., and that at most the root of
+/// (m_s^2/k_s + ...) for k_s s^2 + ... = 1 (Cauchy and Schwarz).
+fn ratio_per_norm(problem: &Problem, whole: &[bool], bond: usize) -> f64 {
+    let unit = |place: usize, size: f64| {
+        let mut strains = BondDeformation::default().strains();
+        strains[place] = size;
+        BondDeformation::new(strains)
+    };
+    let of_criterion = |criterion: &Criterion| {
+        let of_strain = |place: usize| {
+            let either = [1.0, -1.0].map(|size| criterion.measure(bond, &unit(place, size)));
+            let measure = either[0].max(either[1]);
+            if measure <= 0.0 {
+                return 0.0;
+            }
+            let (system, remaining) = (&problem.system, &Remaining::WHOLE);
+            measure.powi(2)
+                / (2.0 * system.stored_energy(whole, bond, remaining, &unit(place, 1.0)))
+        };
+        let n_strains = BondDeformation::default().strains().len();
+        let squares: f64 = (0..n_strains).map(of_strain).sum();
+        squares.sqrt() / criterion.break_limit(bond)
+    };
+    let ratios = problem.criteria.list.iter().map(of_criterion);
+    ratios.fold(0.0, f64::max)
+}

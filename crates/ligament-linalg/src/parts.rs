@@ -1,0 +1,54 @@
+//! Parts of a factor that can be substituted backward one by one, each after those above it.
+
+use std::ops::Range;
+
+use crate::branches::Branch;
+use crate::supernodes::Supernodes;
+
+/// Rows of a factor whose backward substitution needs, beside them, only rows of the parts above.
+///
+/// Rows are counted in the order of elimination.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Part {
+    /// The part above, which has a smaller number; None of the last rows.
+    pub above: Option<usize>,
+    /// Rows of the part itself.
+    pub rows: Range<usize>,
+    /// Rows of the part and of all parts below it.
+    pub with_below: Range<usize>,
+    /// Rows of parts above that those `with_below` need, ascending.
+    pub border: Vec<usize>,
+    pub(crate) supernodes: Range<usize>,
+}
+
+impl Part {
+    /// The parts of a factor, each after the one above it; no part below which there is another one has less than `least` values with it.
+    pub(crate) fn of_factor(supernodes: Supernodes<'_>, least: usize) -> Vec<Self> {
+        let mut parts = Vec::new();
+        let mut branches = vec![(None, Branch::cut(supernodes, least))];
+        while let Some((above, branch)) = branches.pop() {
+            let number = parts.len();
+            let all = branch.supernodes();
+            let rows = |range: &Range<usize>| {
+                supernodes.columns_before(range.start)..supernodes.columns_before(range.end)
+            };
+            let with_below = rows(&all);
+            let below = all.flat_map(|supernode| supernodes.rows_below(supernode));
+            let mut border: Vec<usize> = (below.copied())
+                .filter(|&row| row >= with_below.end)
+                .collect();
+            border.sort_unstable();
+            border.dedup();
+            parts.push(Self {
+                above,
+                rows: rows(&branch.stem),
+                with_below,
+                border,
+                supernodes: branch.stem,
+            });
+            let below = branch.parts.into_iter().map(|part| (Some(number), part));
+            branches.extend(below);
+        }
+        parts
+    }
+}
