@@ -3,6 +3,7 @@
 //! A bond in the plane has at most three strains, which are what criteria measure. One in space has a stretch and two vectors, of which
 //! criteria see the lengths: they stand beside the vectors, so that what judges bonds reads the same array in the plane and in space.
 
+use std::fmt;
 use std::ops::Deref;
 use std::sync::{Arc, Mutex};
 
@@ -54,13 +55,20 @@ impl SpaceDeformation {
 /// Memory of deformations that nobody needs any more, for those of the next sweep; clones share it.
 ///
 /// Fresh memory of a large body comes from the system, which clears it page by page, and goes back there: a quarter of the time of a sweep.
-#[derive(Debug, Clone, Default)]
+#[derive(Clone, Default)]
 pub struct Room(Arc<Mutex<Spare>>);
+
+impl fmt::Debug for Room {
+    /// What lies there belongs to no deformations, and to no system.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Room")
+    }
+}
 
 /// At most so many arrays are kept: a sweep writes one while the one before is in use.
 const SPARE: usize = 2;
 
-#[derive(Debug, Default)]
+#[derive(Default)]
 struct Spare {
     measured: Vec<Vec<BondDeformation>>,
     in_space: Vec<Vec<SpaceDeformation>>,
