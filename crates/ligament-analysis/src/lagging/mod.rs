@@ -69,7 +69,7 @@ pub(crate) struct Lagging<'a> {
     changes: Vec<f64>,
 }
 
-/// A correction after the forward substitution, by row, and the points that the breakage is at.
+/// A correction after the forward substitution, by row of the factor.
 #[derive(Clone, Copy)]
 pub(crate) struct HalfSolved<'a> {
     pub(crate) factor: &'a dyn Factorisation,
