@@ -18,7 +18,12 @@ pub(crate) fn solve_forward(panels: Panels<'_>, branch: &Branch, vector: &mut [f
 
 /// Solves L^T x = y, or L^T x = D^-1 y, in place, from the root to the leaves.
 pub(crate) fn solve_backward(panels: Panels<'_>, branch: &Branch, vector: &mut [f64]) {
-    backward_branch(panels, branch, vector, None);
+    if rayon::current_num_threads() == 1 {
+        // The same sums from the last panel to the first, as they lie in memory.
+        solve_backward_in(panels, branch.supernodes(), vector);
+    } else {
+        backward_branch(panels, branch, vector, None);
+    }
 }
 
 /// Solves L^T x = y, or L^T x = D^-1 y, in place for the rows of some consecutive supernodes, where the rows that these need are known.
