@@ -30,7 +30,7 @@ struct Dense {
     whole: DMatrix<f64>,
 }
 
-/// The same work on several ranks at the same time, each a thread; what each of them gives.
+/// Work that several ranks do at the same time, each a thread; gives what each of them makes of it, in their order.
 pub fn on_ranks<T: Send>(n_ranks: usize, work: impl Fn(Together) -> T + Sync) -> Vec<T> {
     let table = Arc::new(Table {
         barrier: Barrier::new(n_ranks),

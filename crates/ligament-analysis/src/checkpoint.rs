@@ -32,13 +32,13 @@ pub enum CheckpointError {
     #[error(
         "one process wrote it: go on with one, or run the case anew with several; what several wrote any number can go on with"
     )]
-    OtherMethod,
+    OfOneProcess,
     /// A factor was taken, and conjugate gradients are now, or the other way round.
     #[error(
         "the equations were solved by the other method when it was written: where solver.method is open the memory that there is \
          decides, so go on where there is as much, or run the case anew"
     )]
-    OtherSolver,
+    OtherMethod,
     /// Numbers come out with other bits.
     #[error(
         "this machine, or this version of the program, does not compute the same bits as the one that wrote it; go on there, or run \

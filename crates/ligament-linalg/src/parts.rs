@@ -14,9 +14,7 @@ pub struct Part {
     pub above: Option<usize>,
     /// Rows of the part itself.
     pub rows: Range<usize>,
-    /// Rows of the part and of all parts below it.
-    pub with_below: Range<usize>,
-    /// Rows of parts above that those `with_below` need, ascending.
+    /// Rows of parts above that the part and all parts below it need, ascending.
     pub border: Vec<usize>,
     pub(crate) supernodes: Range<usize>,
 }
@@ -32,17 +30,14 @@ impl Part {
             let rows = |range: &Range<usize>| {
                 supernodes.columns_before(range.start)..supernodes.columns_before(range.end)
             };
-            let with_below = rows(&all);
+            let end = rows(&all).end;
             let below = all.flat_map(|supernode| supernodes.rows_below(supernode));
-            let mut border: Vec<usize> = (below.copied())
-                .filter(|&row| row >= with_below.end)
-                .collect();
+            let mut border: Vec<usize> = (below.copied()).filter(|&row| row >= end).collect();
             border.sort_unstable();
             border.dedup();
             parts.push(Self {
                 above,
                 rows: rows(&branch.stem),
-                with_below,
                 border,
                 supernodes: branch.stem,
             });

@@ -145,7 +145,7 @@ impl Symbolic {
     }
 
     /// Row of the factor for each index in the matrix, shape (n).
-    pub fn row_of_unknown(&self) -> &[usize] {
+    pub(crate) fn row_of_unknown(&self) -> &[usize] {
         permutation(&self.cholesky).1
     }
 

@@ -199,8 +199,8 @@ impl<'a> Following<'a> {
                 }
                 None => None,
             };
-            let (critical, breakage) = match passed {
-                Some(Passed::Broke(critical, breakage)) => (critical, breakage),
+            let broken = match passed {
+                Some(Passed::Broke(critical, breakage)) => Some((critical, breakage)),
                 Some(Passed::Line(Attempt::Unbalanced(reason))) => {
                     let end = self.path.without_equilibrium(step, reason);
                     return self.end(step, &line, end);
@@ -210,12 +210,13 @@ impl<'a> Following<'a> {
                     if self.path.carries_nothing(&line) {
                         return self.end(step, &line, Termination::FellApart);
                     }
-                    match self.follow_line(&mut step, &mut line)? {
-                        Ok(broken) => broken,
-                        Err(end) => return Ok(end),
-                    }
+                    None
                 }
-                Some(Passed::Nothing) | None => match self.follow_line(&mut step, &mut line)? {
+                Some(Passed::Nothing) | None => None,
+            };
+            let (critical, breakage) = match broken {
+                Some(broken) => broken,
+                None => match self.follow_line(&mut step, &mut line)? {
                     Ok(broken) => broken,
                     Err(end) => return Ok(end),
                 },

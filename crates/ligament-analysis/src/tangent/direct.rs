@@ -333,7 +333,7 @@ impl TangentSolver for DirectSolver {
 
     fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError> {
         if iterative::was_written(from) {
-            return Err(CheckpointError::OtherSolver);
+            return Err(CheckpointError::OtherMethod);
         }
         self.n_changed = Serial::read(from)?;
         let Some(digest) = Option::<u64>::read(from)? else {

@@ -387,7 +387,7 @@ impl TangentSolver for DistributedSolver {
 
     fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError> {
         if !was_written(from) {
-            return Err(CheckpointError::OtherMethod);
+            return Err(CheckpointError::OfOneProcess);
         }
         let _ = u64::read(from)?;
         let has_matrix = bool::read(from)?;

@@ -400,7 +400,7 @@ impl TangentSolver for IterativeSolver {
 
     fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError> {
         if !was_written(from) {
-            return Err(CheckpointError::OtherSolver);
+            return Err(CheckpointError::OtherMethod);
         }
         let _ = u64::read(from)?;
         let has_levels = bool::read(from)?;
