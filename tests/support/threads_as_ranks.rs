@@ -3,7 +3,9 @@
 use std::fmt::{self, Debug, Formatter};
 use std::sync::{Arc, Barrier, Mutex};
 
-use ligament_analysis::ranks::{Pivots, RankMatrix, Ranks, Rows, Solved, Together, Tolerated};
+use ligament_analysis::ranks::{
+    Exchange, Pivots, RankMatrix, Ranks, Rows, Solved, Together, Tolerated,
+};
 use nalgebra::{DMatrix, DVector};
 
 /// What all threads see.
@@ -75,7 +77,7 @@ impl Debug for Dense {
     }
 }
 
-impl Ranks for Thread {
+impl Exchange for Thread {
     fn rank(&self) -> usize {
         self.rank
     }
@@ -103,7 +105,9 @@ impl Ranks for Thread {
         let own: Vec<f64> = bytes.iter().map(|&it| f64::from(it)).collect();
         *bytes = self.exchange(&own)[0].iter().map(|&it| it as u8).collect();
     }
+}
 
+impl Ranks for Thread {
     fn matrix(&self, rows: &Rows<'_>) -> Box<dyn RankMatrix> {
         let counts = self.exchange(&[rows.couplings.len() as f64]);
         let own = rows.couplings.len() * rows.n_all * rows.n_components.pow(2);

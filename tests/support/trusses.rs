@@ -65,6 +65,7 @@ impl Truss {
             n_materials: 1,
             material_shares: vec![1.0; n],
             curve: (0..n as u32).collect(),
+            portion: None,
         };
         let everywhere = Horizons {
             radius: vec![1e3; n],

@@ -5,24 +5,10 @@
 
 use std::fmt::Debug;
 
-/// Processes that solve equations together. Every function but [`rank`](Self::rank) and [`n_ranks`](Self::n_ranks) is called by all of
-/// them in the same order, by one thread of each. What fails on one of them ends all.
-pub trait Ranks: Debug + Send + Sync {
-    /// Number of this process, from 0 on.
-    fn rank(&self) -> usize;
+pub use ligament_model::portion::Exchange;
 
-    /// Number of the processes.
-    fn n_ranks(&self) -> usize;
-
-    /// Puts the largest of each value over all ranks in its place.
-    fn largest(&self, values: &mut [f64]);
-
-    /// The values of all ranks, so many as `counts` says of each, those of rank 0 first.
-    fn gather(&self, own: &[f64], counts: &[usize]) -> Vec<f64>;
-
-    /// Puts the bytes of rank 0 in the place of those of the others.
-    fn broadcast(&self, bytes: &mut Vec<u8>);
-
+/// Processes that solve equations together; what is said of [`Exchange`] holds here as well.
+pub trait Ranks: Exchange {
     /// A matrix without values, whose rows are shared out among the ranks.
     fn matrix(&self, rows: &Rows<'_>) -> Box<dyn RankMatrix>;
 }

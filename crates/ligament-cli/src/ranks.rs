@@ -8,7 +8,7 @@ mod processes {
     use std::sync::OnceLock;
 
     use anyhow::Context;
-    use ligament_analysis::ranks::{Ranks, Together};
+    use ligament_analysis::ranks::{Exchange, Together};
     use ligament_petsc::Processes;
     use rayon::ThreadPoolBuilder;
 

@@ -11,6 +11,7 @@ use crate::deformation::Deformations;
 use crate::element::{BondDeformation, Remaining, Rigidities, Term};
 use crate::failure::{Criteria, Criterion};
 use crate::layout::{Component, Layout};
+use crate::portion::Portion;
 use crate::rigid_motions::FreeMotion;
 use crate::sweep::BondSweep;
 use crate::system::BondsLeft;
@@ -21,6 +22,9 @@ use crate::thermal::ThermalStrain;
 pub trait Bonds: std::fmt::Debug + Send + Sync {
     /// Number of points.
     fn n_points(&self) -> usize;
+
+    /// The part of this process in the body; none where it has the whole body.
+    fn portion(&self) -> Option<&Portion>;
 
     /// Components of the motion of a point, in the order of the arrays over degrees of freedom.
     fn components(&self) -> &'static [Component];

@@ -36,6 +36,7 @@ pub mod layout;
 pub mod mass;
 pub mod material;
 pub mod moduli;
+pub mod portion;
 mod product;
 pub mod rigid_motions;
 pub mod scatter;

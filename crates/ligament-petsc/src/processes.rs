@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use ligament_analysis::ranks::{RankMatrix, Ranks, Rows};
+use ligament_analysis::ranks::{Exchange, RankMatrix, Ranks, Rows};
 use thiserror::Error;
 
 use crate::matrix::Matrix;
@@ -58,7 +58,7 @@ impl Processes {
     }
 }
 
-impl Ranks for Processes {
+impl Exchange for Processes {
     fn rank(&self) -> usize {
         native::rank()
     }
@@ -82,7 +82,9 @@ impl Ranks for Processes {
         bytes.resize(u64::from_le_bytes(length) as usize, 0);
         native::broadcast(bytes);
     }
+}
 
+impl Ranks for Processes {
     fn matrix(&self, rows: &Rows<'_>) -> Box<dyn RankMatrix> {
         Box::new(Matrix::new(rows))
     }

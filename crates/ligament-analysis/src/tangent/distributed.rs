@@ -5,7 +5,6 @@
 //! the iterations beyond what it took when it was new have cost as much as that. A factor is made anew after every breakage.
 
 mod rows;
-mod shares;
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -15,10 +14,10 @@ use ligament_linalg::{FactorError, Inertia};
 use ligament_model::Bonds;
 use ligament_model::contact::ClosedPair;
 use ligament_model::element::Remaining;
+use ligament_model::portion::Partition;
 use ligament_model::thermal::ThermalStrain;
 
 use self::rows::{OwnRows, Taken};
-use self::shares::Shares;
 use super::making::Making;
 use super::terms::due_bonds;
 use super::{Left, TangentSolver, Unsolved};
@@ -44,7 +43,7 @@ pub(crate) struct DistributedSolver {
     ranks: &'static dyn Ranks,
     /// Force left out of balance by an iteration, relative to what may act; none: a factor.
     tolerance: Option<f64>,
-    shares: Shares,
+    partition: Arc<Partition>,
     /// Points whose columns have entries in own rows.
     columns: Vec<u32>,
     matrix: Option<Box<dyn RankMatrix>>,
@@ -77,11 +76,15 @@ impl DistributedSolver {
         ranks: &'static dyn Ranks,
         tolerance: Option<f64>,
     ) -> Self {
-        let shares = Shares::new(&*system, ranks.n_ranks());
+        let evenly = || {
+            let halve = |points: &mut [u32]| system.halve(points);
+            Arc::new(Partition::new(system.n_points(), ranks.n_ranks(), &halve))
+        };
+        let partition = (system.portion()).map_or_else(evenly, |it| it.partition().clone());
         let rows = OwnRows {
             system: &*system,
             unknowns: &unknowns,
-            shares: &shares,
+            partition: &partition,
             rank: ranks.rank(),
         };
         let columns = rows.columns();
@@ -90,7 +93,7 @@ impl DistributedSolver {
             unknowns,
             ranks,
             tolerance,
-            shares,
+            partition,
             columns,
             matrix: None,
             kept: Kept {
@@ -109,7 +112,7 @@ impl DistributedSolver {
         OwnRows {
             system: &*self.system,
             unknowns: &self.unknowns,
-            shares: &self.shares,
+            partition: &self.partition,
             rank: self.ranks.rank(),
         }
     }
@@ -165,7 +168,7 @@ impl DistributedSolver {
         let layout = self.unknowns.layout();
         let free = self.free(&making.held);
         let all: Vec<u32> = (0..self.system.n_points() as u32).collect();
-        let own = self.shares.points(self.ranks.rank());
+        let own = self.partition.points(self.ranks.rank());
         let of_own = |shape: Vec<f64>| -> Vec<f64> {
             let dofs = own.iter().flat_map(|&point| layout.range(point));
             dofs.map(|dof| if free[dof] { shape[dof] } else { 0.0 })
@@ -221,7 +224,7 @@ impl DistributedSolver {
     /// Values at the unknowns as those at the own degrees of freedom, with another one where nothing is unknown or free.
     fn at_own(&self, values: &[f64], free: &[bool], other: f64) -> Vec<f64> {
         let layout = self.unknowns.layout();
-        let own = self.shares.points(self.ranks.rank()).iter();
+        let own = self.partition.points(self.ranks.rank()).iter();
         let dofs = own.flat_map(|&point| layout.range(point));
         let value = |dof: usize| self.unknowns.number(dof).filter(|_| free[dof]);
         dofs.map(|dof| value(dof).map_or(other, |number| values[number]))
@@ -340,11 +343,11 @@ impl TangentSolver for DistributedSolver {
         self.matrix = Some(matrix);
         let layout = self.unknowns.layout();
         let n = layout.components.len();
-        let all = self.ranks.gather(&found.motions, &self.shares.counts(n));
+        let all = self.ranks.gather(&found.motions, &self.partition.counts(n));
         let dofs = self.unknowns.degrees_of_freedom().iter();
         let solution = dofs.map(|&dof| {
             let dof = dof as usize;
-            all[n * self.shares.place(layout.point(dof)) + dof % n]
+            all[n * self.partition.place(layout.point(dof)) + dof % n]
         });
         let solution = solution.collect();
         if self.tolerance.is_some() {

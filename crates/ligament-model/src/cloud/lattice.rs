@@ -243,6 +243,7 @@ impl<const D: usize> PointCloud<D> {
             lattice_cell: Some(lattice.spacing),
             n_materials,
             material_shares,
+            portion: None,
         }
     }
 }

@@ -44,6 +44,7 @@ impl PointCloud {
             .collect();
         let mut cloud = Self {
             curve: along_hilbert_curve(&positions),
+            portion: None,
             positions,
             origin,
             thickness,

@@ -9,6 +9,7 @@ use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
 use crate::horizon::INCLUSION_TOLERANCE;
+use crate::portion::Portion;
 
 /// Material points with their volumes, nearest-neighbour distances and materials.
 ///
@@ -35,6 +36,8 @@ pub struct PointCloud<const D: usize = 2> {
     pub material_shares: Vec<f64>,
     /// All points in the order of a Hilbert curve, shape (n_points): for loops that visit the neighbours of points.
     pub curve: Vec<u32>,
+    /// The part of this process in the points, where it is one of several.
+    pub portion: Option<Portion>,
 }
 
 /// A point of the search tree, with its number.

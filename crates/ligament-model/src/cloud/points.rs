@@ -31,6 +31,7 @@ impl<const D: usize> PointCloud<D> {
             lattice_cell: None,
             n_materials,
             material_shares,
+            portion: None,
         };
         let tree = search_tree(&cloud.positions);
         cloud.spacing = cloud.over_points(|point| {

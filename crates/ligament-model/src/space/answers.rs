@@ -14,6 +14,7 @@ use crate::interface::{
     Bonds, CentralMotions, CoupledPoints, PointStiffness, StressReading, Stresses,
 };
 use crate::layout::Component;
+use crate::portion::Portion;
 use crate::rigid_motions::FreeMotion;
 use crate::sweep::BondSweep;
 use crate::system::BondsLeft;
@@ -39,6 +40,10 @@ macro_rules! typed {
 impl Bonds for SolidSystem {
     fn n_points(&self) -> usize {
         self.cloud.len()
+    }
+
+    fn portion(&self) -> Option<&Portion> {
+        self.cloud.portion.as_ref()
     }
 
     fn components(&self) -> &'static [Component] {

@@ -36,6 +36,7 @@ impl PointCloud<3> {
         let material_shares = shares.map(|(k, volume)| volume / volumes[k / n_materials]);
         let mut cloud = Self {
             curve: along_hilbert_curve(&positions),
+            portion: None,
             material_shares: material_shares.collect(),
             positions,
             origin,

@@ -11,6 +11,7 @@ use crate::interface::{
     Bonds, CentralMotions, CoupledPoints, PointStiffness, StressReading, Stresses,
 };
 use crate::layout::Component;
+use crate::portion::Portion;
 use crate::rigid_motions::{FreeMotion, RigidMotions, Turn};
 use crate::sweep::BondSweep;
 use crate::thermal::ThermalStrain;
@@ -47,6 +48,10 @@ macro_rules! typed {
 impl Bonds for BondSystem {
     fn n_points(&self) -> usize {
         self.cloud.len()
+    }
+
+    fn portion(&self) -> Option<&Portion> {
+        self.cloud.portion.as_ref()
     }
 
     fn components(&self) -> &'static [Component] {

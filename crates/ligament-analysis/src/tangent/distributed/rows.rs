@@ -3,10 +3,10 @@
 //! The blocks in the columns of a point come from its bonds at rows of smaller number; what stands above the diagonal is what stands
 //! below it. A rank goes through the columns of its own points and of those of larger number beside them, and keeps its own rows.
 
+use ligament_model::portion::Partition;
 use ligament_model::{Bonds, BondsLeft};
 use rayon::prelude::*;
 
-use super::shares::Shares;
 use crate::ranks::{RankMatrix, Rows};
 use crate::tangent::iterative::vanishing_of_block;
 use crate::unknowns::Unknowns;
@@ -18,7 +18,7 @@ const TASK: usize = 1024;
 pub(super) struct OwnRows<'a> {
     pub(super) system: &'a dyn Bonds,
     pub(super) unknowns: &'a Unknowns,
-    pub(super) shares: &'a Shares,
+    pub(super) partition: &'a Partition,
     pub(super) rank: usize,
 }
 
@@ -47,7 +47,7 @@ impl OwnRows<'_> {
     }
 
     fn is_own(&self, point: u32) -> bool {
-        self.shares.has(self.rank, point)
+        self.partition.has(self.rank, point)
     }
 
     /// The points whose columns have entries in own rows, ascending.
@@ -61,7 +61,7 @@ impl OwnRows<'_> {
 
     /// Numbers of the blocks in the rows of each own point, in own columns and others.
     pub(super) fn couplings(&self, columns: &[u32]) -> Vec<[usize; 2]> {
-        let own = self.shares.points(self.rank);
+        let own = self.partition.points(self.rank);
         let mut couplings = vec![[0, 0]; own.len()];
         let mut count = |row: u32, column: u32| {
             if let Ok(place) = own.binary_search(&row) {
@@ -151,17 +151,17 @@ impl OwnRows<'_> {
             lower,
             blocks,
         } = column;
-        let place = self.shares.place(*point);
+        let place = self.partition.place(*point);
         for (&other, block) in lower.iter().zip(blocks.chunks_exact(n * n)) {
             if self.is_own(other) {
-                matrix.set(self.shares.place(other), &[place], block);
+                matrix.set(self.partition.place(other), &[place], block);
             }
         }
         if !self.is_own(*point) {
             return;
         }
         let all = lower.iter().chain([point]);
-        let places: Vec<usize> = all.map(|&it| self.shares.place(it)).collect();
+        let places: Vec<usize> = all.map(|&it| self.partition.place(it)).collect();
         let mut row = vec![0.0; blocks.len()];
         for (k, block) in blocks.chunks_exact(n * n).enumerate() {
             for r in 0..n {

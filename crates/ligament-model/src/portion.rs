@@ -1,0 +1,187 @@
+//! The part that one of several processes has in a body: its own points, and the bonds that end at one of them.
+//!
+//! All processes know all points. A bond is known where one of its ends is an own point, so that a process can make every sum over the
+//! bonds of its own points, in their order, and tells it to the others: a value at a point is that of one process, to the bit. What is
+//! counted or added up over bonds is so by the process that has the first end of the bond.
+
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use crate::cloud::PointCloud;
+
+/// How processes tell each other numbers. Every function but [`rank`](Self::rank) and [`n_ranks`](Self::n_ranks) is called by all of
+/// them in the same order, by one thread of each; what comes back is the same to the bit on all of them. What fails on one ends all.
+pub trait Exchange: Debug + Send + Sync {
+    /// Number of this process, from 0 on.
+    fn rank(&self) -> usize;
+
+    /// Number of the processes.
+    fn n_ranks(&self) -> usize;
+
+    /// Puts the largest of each value over all ranks in its place.
+    fn largest(&self, values: &mut [f64]);
+
+    /// The values of all ranks, so many as `counts` says of each, those of rank 0 first.
+    fn gather(&self, own: &[f64], counts: &[usize]) -> Vec<f64>;
+
+    /// Puts the bytes of rank 0 in the place of those of the others.
+    fn broadcast(&self, bytes: &mut Vec<u8>);
+}
+
+/// The points of each rank: parts of the body by recursive bisection.
+#[derive(Debug, Clone)]
+pub struct Partition {
+    /// Points in the order of their ranks, ascending within each.
+    points: Vec<u32>,
+    /// First point of each rank in that order, and the number of all.
+    starts: Vec<usize>,
+    /// Place of each point in that order.
+    places: Vec<u32>,
+}
+
+impl Partition {
+    /// Shares the points out evenly: cuts them at the median of the longest side, by a function that halves some points, until every border
+    /// between ranks is a cut, so that the number of ranks need not be a power of two.
+    pub fn new(n_points: usize, n_ranks: usize, halve: &dyn Fn(&mut [u32])) -> Self {
+        let starts: Vec<usize> = (0..=n_ranks)
+            .map(|rank| rank * n_points / n_ranks)
+            .collect();
+        let mut points: Vec<u32> = (0..n_points as u32).collect();
+        bisect(halve, &mut points, 0, &starts);
+        for ends in starts.windows(2) {
+            points[ends[0]..ends[1]].sort_unstable();
+        }
+        let mut places = vec![0; n_points];
+        for (place, &point) in points.iter().enumerate() {
+            places[point as usize] = place as u32;
+        }
+        Self {
+            points,
+            starts,
+            places,
+        }
+    }
+
+    /// The points of a rank, ascending.
+    pub fn points(&self, rank: usize) -> &[u32] {
+        &self.points[self.starts[rank]..self.starts[rank + 1]]
+    }
+
+    /// Number of a point over all ranks.
+    pub fn place(&self, point: u32) -> usize {
+        self.places[point as usize] as usize
+    }
+
+    /// Whether a rank has a point.
+    pub fn has(&self, rank: usize, point: u32) -> bool {
+        (self.starts[rank]..self.starts[rank + 1]).contains(&self.place(point))
+    }
+
+    /// Number of the points of each rank, times a number.
+    pub fn counts(&self, times: usize) -> Vec<usize> {
+        let ends = self.starts.windows(2);
+        ends.map(|it| times * (it[1] - it[0])).collect()
+    }
+}
+
+/// Orders points, of which the first stands at a place among all, so that those of each rank stand together.
+fn bisect(halve: &dyn Fn(&mut [u32]), points: &mut [u32], first: usize, starts: &[usize]) {
+    let inside = first + 1..first + points.len();
+    if points.len() < 2 || !starts.iter().any(|start| inside.contains(start)) {
+        return;
+    }
+    halve(points);
+    let middle = points.len() / 2;
+    let (lower, upper) = points.split_at_mut(middle);
+    bisect(halve, lower, first, starts);
+    bisect(halve, upper, first + middle, starts);
+}
+
+/// The part of one of several processes in a body. A copy is of the same part.
+#[derive(Debug, Clone)]
+pub struct Portion {
+    partition: Arc<Partition>,
+    exchange: &'static dyn Exchange,
+}
+
+impl Portion {
+    /// The part of this process in a body of some points.
+    pub fn new<const D: usize>(cloud: &PointCloud<D>, exchange: &'static dyn Exchange) -> Self {
+        let halve = |points: &mut [u32]| cloud.halve(points);
+        Self {
+            partition: Arc::new(Partition::new(cloud.len(), exchange.n_ranks(), &halve)),
+            exchange,
+        }
+    }
+
+    /// The points of each rank.
+    pub fn partition(&self) -> &Arc<Partition> {
+        &self.partition
+    }
+
+    /// How the processes tell each other numbers.
+    pub fn exchange(&self) -> &'static dyn Exchange {
+        self.exchange
+    }
+
+    /// The own points, ascending.
+    pub fn own(&self) -> &[u32] {
+        self.partition.points(self.exchange.rank())
+    }
+
+    /// Whether a point is an own one.
+    pub fn is_own(&self, point: u32) -> bool {
+        self.partition.has(self.exchange.rank(), point)
+    }
+
+    /// Whether a bond, of which the ends are given, is known here.
+    pub fn knows(&self, ends: [u32; 2]) -> bool {
+        ends.iter().any(|&end| self.is_own(end))
+    }
+
+    /// Whether a bond, of which the ends A < B are given, is counted here.
+    pub fn counts(&self, [first, _]: [u32; 2]) -> bool {
+        self.is_own(first)
+    }
+
+    /// Puts the values of every point that its own process has in the place of those here; so many values a point, shape
+    /// (n_points, n_values).
+    pub fn complete(&self, values: &mut [f64], n_values: usize) {
+        let rows = |point: u32| n_values * point as usize..n_values * (point as usize + 1);
+        let own = self.own().iter();
+        let own: Vec<f64> = own
+            .flat_map(|&point| values[rows(point)].iter().copied())
+            .collect();
+        let all = self.exchange.gather(&own, &self.partition.counts(n_values));
+        for (&point, told) in self.partition.points.iter().zip(all.chunks_exact(n_values)) {
+            values[rows(point)].copy_from_slice(told);
+        }
+    }
+
+    /// Puts the sums over all ranks, added up in their order, in the place of some values.
+    pub fn sum(&self, values: &mut [f64]) {
+        let counts = vec![values.len(); self.exchange.n_ranks()];
+        let all = self.exchange.gather(values, &counts);
+        values.fill(0.0);
+        for of_rank in all.chunks_exact(values.len().max(1)) {
+            for (sum, value) in values.iter_mut().zip(of_rank) {
+                *sum += value;
+            }
+        }
+    }
+
+    /// Puts the largest of each value over all ranks in its place.
+    pub fn largest(&self, values: &mut [f64]) {
+        self.exchange.largest(values);
+    }
+
+    /// Lists of all ranks, one after the other, from rank 0 on; each entry is some numbers.
+    pub fn concatenated<const N: usize>(&self, own: &[[f64; N]]) -> Vec<[f64; N]> {
+        let mut counts = vec![0.0; self.exchange.n_ranks()];
+        counts[self.exchange.rank()] = own.len() as f64;
+        self.exchange.largest(&mut counts);
+        let counts: Vec<usize> = counts.iter().map(|&it| N * it as usize).collect();
+        let all = self.exchange.gather(own.as_flattened(), &counts);
+        all.as_chunks().0.to_vec()
+    }
+}
