@@ -5,7 +5,6 @@ use std::fs;
 use std::path::Path;
 
 use ligament_model::PointCloud;
-use ligament_model::portion::Portion;
 use ligament_output::FieldLocation::{self, Cell as OnCells, Point as OnPoints};
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::vtu::{Cell, Field, SharedCells, UnstructuredGrid, write_shared, write_vtu};
@@ -96,7 +95,7 @@ fn pieces_read_as_the_whole() {
     body.grid(&body.cells, &body.area, |grid| write_vtu(&single, grid))
         .unwrap();
     on_ranks(3, |ranks| {
-        let portion = Portion::new(&body.cloud, ranks.0);
+        let portion = body.cloud.portion_of(ranks.0);
         let cells = SharedCells {
             portion: &portion,
             points: &Body::points(&body.cells),
@@ -146,7 +145,7 @@ fn lines_that_two_processes_know_are_written_once() {
         .map(|it| [it, it + 2])
         .collect();
     on_ranks(3, |ranks| {
-        let portion = Portion::new(&body.cloud, ranks.0);
+        let portion = body.cloud.portion_of(ranks.0);
         let known: Vec<[u32; 2]> = all
             .iter()
             .copied()
@@ -188,7 +187,7 @@ fn what_is_missing_of_a_grid_in_pieces_is_told() {
     let path = folder.path().join("fields.pvtu");
     let write = |path: &Path| {
         on_ranks(2, |ranks| {
-            let portion = Portion::new(&body.cloud, ranks.0);
+            let portion = body.cloud.portion_of(ranks.0);
             let cells = SharedCells {
                 portion: &portion,
                 points: &Body::points(&body.cells),

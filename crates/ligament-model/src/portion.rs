@@ -7,8 +7,6 @@
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use crate::cloud::PointCloud;
-
 /// How processes tell each other numbers. Every function but [`rank`](Self::rank) and [`n_ranks`](Self::n_ranks) is called by all of
 /// them in the same order, by one thread of each; what comes back is the same to the bit on all of them. What fails on one ends all.
 pub trait Exchange: Debug + Send + Sync {
@@ -105,11 +103,10 @@ pub struct Portion {
 }
 
 impl Portion {
-    /// The part of this process in a body of some points.
-    pub fn new<const D: usize>(cloud: &PointCloud<D>, exchange: &'static dyn Exchange) -> Self {
-        let halve = |points: &mut [u32]| cloud.halve(points);
+    /// The part of this process among points that are shared out.
+    pub fn new(partition: Partition, exchange: &'static dyn Exchange) -> Self {
         Self {
-            partition: Arc::new(Partition::new(cloud.len(), exchange.n_ranks(), &halve)),
+            partition: Arc::new(partition),
             exchange,
         }
     }

@@ -21,7 +21,7 @@ use crate::ranks::{any_stopped, hear_folder, loading};
 use crate::stages::Stages;
 use crate::{resume, run};
 
-/// What a process is told that has no other one to assist.
+/// Message of a process that has no other one to assist.
 const ALONE: &str = "there is no other process to assist";
 
 /// The observer of a process beside the first: it writes its pieces, and stops when one was asked to.

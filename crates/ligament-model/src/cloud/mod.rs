@@ -9,7 +9,7 @@ use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
 use crate::horizon::INCLUSION_TOLERANCE;
-use crate::portion::Portion;
+use crate::portion::{Exchange, Partition, Portion};
 
 /// Material points with their volumes, nearest-neighbour distances and materials.
 ///
@@ -162,6 +162,13 @@ impl<const D: usize> PointCloud<D> {
             let [first, second] = [one, other].map(|point| self.positions[point as usize][axis]);
             first.total_cmp(&second).then(one.cmp(&other))
         });
+    }
+
+    /// The part of this process in the body, where it is shared out among several.
+    pub fn portion_of(&self, exchange: &'static dyn Exchange) -> Portion {
+        let halve = |points: &mut [u32]| self.halve(points);
+        let partition = Partition::new(self.len(), exchange.n_ranks(), &halve);
+        Portion::new(partition, exchange)
     }
 
     /// Displacements u_i = x_j, u_j = x_i for each pair of axes i <= j, of points with so many components of motion, each of shape

@@ -17,6 +17,7 @@
 use std::path::{Path, PathBuf};
 
 use ligament_analysis::driver::Problem;
+use ligament_model::portion::Portion;
 use ligament_model::{BodyGrid, FixedFields};
 
 use super::largest::Largest;
@@ -94,14 +95,22 @@ pub(super) fn write(
         ],
         cell_fields: &cell_fields,
     };
-    let first_ends: Vec<u32> = lines.iter().map(|it| it.points()[0]).collect();
-    let shared = system.portion().map(|portion| SharedCells {
+    write_lines(folder, &grid, system.portion())
+}
+
+/// Writes the grid of the model; each pair of points is written by the process of its first end.
+fn write_lines(
+    folder: &Path,
+    grid: &UnstructuredGrid<'_>,
+    portion: Option<&Portion>,
+) -> Result<(), Error> {
+    let first_ends: Vec<u32> = grid.cells.iter().map(|it| it.points()[0]).collect();
+    let shared = portion.map(|portion| SharedCells {
         portion,
         points: &first_ends,
         are_all: false,
     });
-    let name = vtu::file_name(MODEL, system.portion());
-    vtu::write_shared(folder.join(name), &grid, shared)
+    vtu::write_shared(folder.join(vtu::file_name(MODEL, portion)), grid, shared)
 }
 
 /// The limits and coefficients that each criterion has for each bond, with the names of their fields.

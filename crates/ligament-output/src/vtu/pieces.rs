@@ -56,7 +56,7 @@ fn piece(path: &Path, rank: usize) -> PathBuf {
     path.with_extension(format!("piece_{rank}.vtu"))
 }
 
-/// Which cells of a grid are whose.
+/// Cells of a grid, with what tells whose process they are of.
 #[derive(Clone, Copy)]
 pub struct SharedCells<'a> {
     /// The part of this process in the body.
