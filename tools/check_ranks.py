@@ -32,7 +32,8 @@ BLOCK = ["cases/split-block/case.toml", "--set", "fracture.stop.bonds=40", "--se
 DISK = ["cases/brazilian-disk/case.toml", "--set", "fracture.stop.bonds=25", "--set", "fracture.tie_tolerance=1e-6",
         "--set", "fracture.bonds_per_iteration=1"]
 INDEFINITE = ["cases/split-block/case.toml", "--set", "fracture.stop.bonds=4", "--set", "material.poisson=0.3"]
-LATTICE = ["cases/lattice-plate/case.toml"]
+LATTICE = ["cases/lattice-plate/case.toml", "--set", "fracture.stop.bonds=20", "--set", "fracture.tie_tolerance=1e-6",
+           "--set", "fracture.bonds_per_iteration=1"]
 CLOSING = ["cases/closing-crack/case.toml"]
 
 # Long enough for a checkpoint to come and a process to be killed.
@@ -59,7 +60,8 @@ def broken(folder):
     """Bonds in the order of breaking, with the loads."""
     with open(folder / "breaks.csv", newline="") as file:
         rows = list(csv.DictReader(file))
-    return [(row["step"], row["node_a"], row["node_b"]) for row in rows], [float(row["reaction"]) for row in rows]
+    ends = [column for column in rows[0] if column in ("node_a", "node_b", "cell_a", "cell_b")]
+    return [(row["step"], *(row[end] for end in ends)) for row in rows], [float(row["reaction"]) for row in rows]
 
 
 def compare(name, folder, reference, tolerance):
