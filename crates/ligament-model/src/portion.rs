@@ -7,8 +7,6 @@
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use crate::cloud::PointCloud;
-
 /// How processes tell each other numbers. Every function but [`rank`](Self::rank) and [`n_ranks`](Self::n_ranks) is called by all of
 /// them in the same order, by one thread of each; what comes back is the same to the bit on all of them. What fails on one ends all.
 pub trait Exchange: Debug + Send + Sync {
@@ -105,11 +103,14 @@ pub struct Portion {
 }
 
 impl Portion {
-    /// The part of this process in a body of some points.
-    pub fn new<const D: usize>(cloud: &PointCloud<D>, exchange: &'static dyn Exchange) -> Self {
-        let halve = |points: &mut [u32]| cloud.halve(points);
+    /// The part of this process in a body of so many points, by a function that halves some of them.
+    pub fn new(
+        n_points: usize,
+        halve: &dyn Fn(&mut [u32]),
+        exchange: &'static dyn Exchange,
+    ) -> Self {
         Self {
-            partition: Arc::new(Partition::new(cloud.len(), exchange.n_ranks(), &halve)),
+            partition: Arc::new(Partition::new(n_points, exchange.n_ranks(), halve)),
             exchange,
         }
     }
@@ -175,6 +176,13 @@ impl Portion {
         self.exchange.largest(values);
     }
 
+    /// Whether something is so on some rank.
+    pub fn any(&self, here: bool) -> bool {
+        let mut some = [f64::from(u8::from(here))];
+        self.largest(&mut some);
+        some[0] > 0.0
+    }
+
     /// Lists of all ranks, one after the other, from rank 0 on; each entry is some numbers.
     pub fn concatenated<const N: usize>(&self, own: &[[f64; N]]) -> Vec<[f64; N]> {
         let mut counts = vec![0.0; self.exchange.n_ranks()];
@@ -184,4 +192,15 @@ impl Portion {
         let all = self.exchange.gather(own.as_flattened(), &counts);
         all.as_chunks().0.to_vec()
     }
+}
+
+/// Whether something is so here or, where a body is shared out, on some rank.
+pub fn any(portion: Option<&Portion>, here: bool) -> bool {
+    portion.map_or(here, |it| it.any(here))
+}
+
+/// Whether a bond, of which the ends are given, is counted here: every one where a body is not shared out.
+#[inline]
+pub fn counts(portion: Option<&Portion>, ends: [u32; 2]) -> bool {
+    portion.is_none_or(|it| it.counts(ends))
 }

@@ -7,6 +7,7 @@ use anyhow::{Context, ensure};
 use ligament::Model;
 use ligament::run::{follow, on_threads, restore, resume as resume_run};
 use ligament::setup::{Analysis, Dim, Dimension};
+use ligament_analysis::Termination;
 use ligament_analysis::history::{Moment, Observer, ObserverError, Onward, StepRecord, View};
 use ligament_analysis::ranks::Together;
 use ligament_analysis::serial::Serial;
@@ -14,7 +15,7 @@ use ligament_case::case::CaseFile;
 use ligament_output::folder::RESOLVED_CASE;
 
 use crate::checkpoints::IsStopped;
-use crate::model::{build_model, build_model_in_space};
+use crate::model::{build_model_in_space_on, build_model_on};
 use crate::progress::{Progress, ProgressMode};
 use crate::ranks::{any_stopped, loading};
 use crate::stages::Stages;
@@ -24,6 +25,8 @@ use crate::{resume, run};
 struct Beside<'a> {
     ranks: Together,
     is_stopped: IsStopped<'a>,
+    /// Whether the run stops in the next moment.
+    stops: bool,
 }
 
 impl Observer for Beside<'_> {
@@ -31,9 +34,13 @@ impl Observer for Beside<'_> {
         Ok(())
     }
 
-    fn moment(&mut self, moment: &Moment<'_>) -> Result<Onward, ObserverError> {
-        let is_stopped = moment.end.is_none() && any_stopped(Some(self.ranks), self.is_stopped);
-        Ok(if is_stopped { Onward::Stop } else { Onward::Go })
+    fn asks(&mut self, end: Option<&Termination>) -> Result<bool, ObserverError> {
+        self.stops = end.is_none() && any_stopped(Some(self.ranks), self.is_stopped);
+        Ok(false)
+    }
+
+    fn moment(&mut self, _: &Moment<'_>) -> Result<Onward, ObserverError> {
+        Ok(if self.stops { Onward::Stop } else { Onward::Go })
     }
 }
 
@@ -88,10 +95,10 @@ fn assist(
     let ranks = ranks.context("there is no other process to assist")?;
     let (mut stages, progress) = (Stages::default(), Progress::new(ProgressMode::Quiet));
     if case.case.is_solid() {
-        let model = build_model_in_space(case, &mut stages, &progress)?;
+        let model = build_model_in_space_on(case, Some(ranks), &mut stages, &progress)?;
         compute(case, &model, (ranks, is_stopped), begin)
     } else {
-        let model = build_model(case, &mut stages, &progress)?;
+        let model = build_model_on(case, Some(ranks), &mut stages, &progress)?;
         compute(case, &model, (ranks, is_stopped), begin)
     }
 }
@@ -111,7 +118,11 @@ where
     }
     let loading = loading(case, model, Some(ranks))?;
     let problem = loading.problem(&model.system, &model.criteria);
-    let mut beside = Beside { ranks, is_stopped };
+    let mut beside = Beside {
+        ranks,
+        is_stopped,
+        stops: false,
+    };
     let solution: Option<Vec<u8>> = match begin {
         Begin::Unloaded => {
             ensure!(

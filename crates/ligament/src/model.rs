@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use ligament_analysis::ranks::Together;
 use ligament_model::bonds::hole::bonds_across;
 use ligament_model::bonds::outline::{bonds_outside, spacing_inside};
 use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds};
@@ -10,6 +11,7 @@ use ligament_model::correction::{
     Continuum, Correction, CorrectionReport, StrainMode, energy_ratios,
 };
 use ligament_model::failure::Criteria;
+use ligament_model::portion::Portion;
 use ligament_model::{
     Absence, AbsentBond, BondSet, BondStiffness, BondSystem, EnergyRatio, FixedFields, PointCloud,
 };
@@ -19,7 +21,7 @@ use crate::error::SetupError;
 use crate::faces;
 use crate::formulation::{self, Formulation};
 use crate::loading;
-use crate::setup::{CorrectionDomain, Dim, Dimension, Setup};
+use crate::setup::{Analysis, CorrectionDomain, Dim, Dimension, Law, Setup};
 use crate::soundness::{forbid_overlap, require_connected, require_distinct, require_numbers};
 use crate::stage::{Finding, StageWatcher, stage};
 use crate::warning::{self, Warning};
@@ -112,10 +114,10 @@ impl Model {
             let formulation = Formulation::new(&setup, &cloud, &horizons, &material_of_cell);
             correct(&formulation, bonds, &is_cut)
         });
-        watcher.found(&Finding::Correction(
-            &setup.correction,
-            correction.report.as_ref(),
-        ));
+        let report = correction.report.as_ref();
+        watcher.found(&Finding::Correction(&setup.correction, report));
+        let bonded = (bonds, stiffness, correction);
+        let (cloud, (bonds, stiffness, correction)) = known(&setup, cloud, bonded);
         let fixed = FixedFields {
             horizon: horizons.radius,
             precrack_share,
@@ -237,6 +239,44 @@ fn inside_body(setup: &Setup, bonds: BondSet, cloud: &PointCloud) -> (BondSet, V
     let keep: Vec<bool> = crosses.iter().map(|crosses| !crosses).collect();
     let absent = absent_bonds(&bonds, &crosses, Absence::Void);
     (bonds.retained(&keep), absent)
+}
+
+/// The part of this process in a body that several share out; none where one has all of it. Elements that lean on bonds beside them,
+/// faces that close and natural modes ask for the whole body.
+fn portion_of<const D: usize>(setup: &Setup<D>, cloud: &PointCloud<D>) -> Option<Portion>
+where
+    Dim: Dimension<D>,
+{
+    let Together(ranks) = setup.solver.ranks?;
+    let needs_all = setup.closing
+        || matches!(setup.law, Law::MbbPd { .. })
+        || matches!(setup.analysis, Analysis::Modal(_));
+    (!needs_all).then(|| cloud.share(ranks))
+}
+
+/// Bonds with their stiffness and correction.
+type Bonded<const D: usize> = (BondSet<D>, BondStiffness, Correction);
+
+/// The points, of which this process has its part or all, and the bonds that it knows.
+pub(crate) fn known<const D: usize>(
+    setup: &Setup<D>,
+    cloud: PointCloud<D>,
+    (bonds, stiffness, correction): Bonded<D>,
+) -> (PointCloud<D>, Bonded<D>)
+where
+    Dim: Dimension<D>,
+{
+    let Some(portion) = portion_of(setup, &cloud) else {
+        return (cloud, (bonds, stiffness, correction));
+    };
+    let keep: Vec<bool> = bonds.ends.iter().map(|&it| portion.knows(it)).collect();
+    let bonded = (
+        bonds.retained(&keep),
+        stiffness.retained(&keep),
+        correction.retained(&keep),
+    );
+    let portion = Some(portion);
+    (PointCloud { portion, ..cloud }, bonded)
 }
 
 /// Pairs that are no bonds, and those that pre-cracks cut (n_bonds), in the order of their ends.

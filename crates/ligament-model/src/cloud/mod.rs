@@ -9,7 +9,7 @@ use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
 use crate::horizon::INCLUSION_TOLERANCE;
-use crate::portion::Portion;
+use crate::portion::{Exchange, Portion};
 
 /// Material points with their volumes, nearest-neighbour distances and materials.
 ///
@@ -80,6 +80,12 @@ impl<const D: usize> PointCloud<D> {
             values[point as usize] = value;
         }
         values
+    }
+
+    /// The part that one of several processes has in the body.
+    pub fn share(&self, exchange: &'static dyn Exchange) -> Portion {
+        let halve = |points: &mut [u32]| self.halve(points);
+        Portion::new(self.len(), &halve, exchange)
     }
 
     /// Takes a position of the case to the coordinates of [`PointCloud::positions`].

@@ -137,7 +137,11 @@ pub fn mean_lengths(system: &BondSystem) -> Vec<f64> {
         sum / weights
     };
     let n_points = system.cloud.len() as u32;
-    (0..n_points).into_par_iter().map(of_point).collect()
+    let mut lengths: Vec<f64> = (0..n_points).into_par_iter().map(of_point).collect();
+    if let Some(portion) = &system.cloud.portion {
+        portion.complete(&mut lengths, 1);
+    }
+    lengths
 }
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ use super::soundness::{forbid_overlap, require_connected, require_distinct, requ
 use crate::body::Origin;
 use crate::error::SetupError;
 use crate::loading;
-use crate::model::{Discretises, Model, absent_bonds, precrack_share, with_cut};
+use crate::model::{Discretises, Model, absent_bonds, known, precrack_share, with_cut};
 use crate::setup::{Dim, Setup};
 use crate::stage::{Finding, StageWatcher, stage};
 use crate::warning;
@@ -61,6 +61,8 @@ impl Model<3> {
             &setup.correction,
             correction.report.as_ref(),
         ));
+        let bonded = (bonds, stiffness, correction);
+        let (cloud, (bonds, stiffness, correction)) = known(&setup, cloud, bonded);
         let fixed = FixedFields {
             horizon: horizons.radius,
             precrack_share,

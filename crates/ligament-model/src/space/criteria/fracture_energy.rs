@@ -56,7 +56,11 @@ pub fn mean_lengths(system: &SolidSystem) -> Vec<f64> {
         sum / weights
     };
     let n_points = system.cloud.len() as u32;
-    (0..n_points).into_par_iter().map(of_point).collect()
+    let mut lengths: Vec<f64> = (0..n_points).into_par_iter().map(of_point).collect();
+    if let Some(portion) = &system.cloud.portion {
+        portion.complete(&mut lengths, 1);
+    }
+    lengths
 }
 
 /// Limits of the measure sqrt(max(s, 0)^2 + k_t/k_n |gamma|^2): given ones, or from the fracture energy, or where bonds soften by it from
