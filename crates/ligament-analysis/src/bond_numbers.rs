@@ -156,7 +156,7 @@ impl BondNumbers {
         for row in told.chunks_exact(1 + N) {
             let mut numbers = [0.0; N];
             numbers.copy_from_slice(&row[1..]);
-            all[row[0] as usize] = T::of(numbers);
+            all[row[0] as usize] = T::from_numbers(numbers);
         }
         all
     }
@@ -176,13 +176,13 @@ fn told(portion: &Portion, ends: &[[u32; 2]], numbers: &[Option<u32>]) -> Vec<([
     rest.collect()
 }
 
-/// A value of a bond as numbers that are told to other processes.
+/// A value of a bond as numbers that processes exchange.
 pub(crate) trait Told<const N: usize>: Copy + PartialEq {
     /// The numbers.
     fn numbers(&self) -> [f64; N];
 
     /// The value of some numbers.
-    fn of(numbers: [f64; N]) -> Self;
+    fn from_numbers(numbers: [f64; N]) -> Self;
 }
 
 impl Told<1> for bool {
@@ -190,7 +190,7 @@ impl Told<1> for bool {
         [f64::from(u8::from(*self))]
     }
 
-    fn of([number]: [f64; 1]) -> Self {
+    fn from_numbers([number]: [f64; 1]) -> Self {
         number != 0.0
     }
 }
@@ -200,7 +200,7 @@ impl Told<1> for f64 {
         [*self]
     }
 
-    fn of([number]: [f64; 1]) -> Self {
+    fn from_numbers([number]: [f64; 1]) -> Self {
         number
     }
 }
@@ -210,7 +210,7 @@ impl Told<1> for Option<u8> {
         [self.map_or(-1.0, f64::from)]
     }
 
-    fn of([number]: [f64; 1]) -> Self {
+    fn from_numbers([number]: [f64; 1]) -> Self {
         (number >= 0.0).then_some(number as u8)
     }
 }
@@ -223,7 +223,7 @@ impl Told<OF_REMAINING> for Remaining {
         [self.axial, self.shear, self.rotational]
     }
 
-    fn of([axial, shear, rotational]: [f64; OF_REMAINING]) -> Self {
+    fn from_numbers([axial, shear, rotational]: [f64; OF_REMAINING]) -> Self {
         Self {
             axial,
             shear,

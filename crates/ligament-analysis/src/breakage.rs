@@ -18,7 +18,7 @@ pub struct Breakage {
     pub holds: Vec<Hold>,
     /// Elements that change: those of the bonds, in their order, and then those that lean on them, ascending.
     elements: Option<Box<dyn ChangedElements>>,
-    /// Those of bonds that are counted here, where processes share the body out.
+    /// Elements of the bonds that are counted here, where processes share the body out.
     counted: Option<(Portion, Box<dyn ChangedElements>)>,
 }
 

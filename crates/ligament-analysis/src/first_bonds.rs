@@ -20,7 +20,7 @@ pub struct FirstBonds {
 pub struct FirstBond {
     /// Number of the bond among all bonds of the body.
     pub bond: u32,
-    /// Its ends A < B.
+    /// Ends A < B of the bond.
     pub ends: [u32; 2],
     /// Number of the criterion.
     pub criterion: u32,

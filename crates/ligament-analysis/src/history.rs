@@ -131,7 +131,7 @@ pub struct BreakRecord {
     pub reaction: f64,
     /// Number of the bond among all bonds of the body.
     pub bond: u32,
-    /// Its ends A < B.
+    /// Ends A < B of the bond.
     pub ends: [u32; 2],
     /// Number of the criterion by which the bond broke.
     pub criterion: usize,

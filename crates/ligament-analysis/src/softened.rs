@@ -10,9 +10,9 @@ pub struct FarthestSoftened {
     pub criterion: u32,
     /// Number of the bond among all bonds of the body.
     pub bond: u32,
-    /// Its ends A < B.
+    /// Ends A < B of the bond.
     pub ends: [u32; 2],
-    /// Its e/e_0, beyond 1.
+    /// Largest e/e_0 of the bond, beyond 1.
     largest: f64,
 }
 
@@ -27,7 +27,7 @@ pub struct SoftenedOfAll {
 
 impl SoftenedOfAll {
     /// What softened in a state, with the ends of the bonds that are known here (n_bonds); all processes ask for it.
-    pub(crate) fn of(state: &State, numbers: &BondNumbers, ends: &[[u32; 2]]) -> Self {
+    pub(crate) fn in_state(state: &State, numbers: &BondNumbers, ends: &[[u32; 2]]) -> Self {
         let counted = |bond: usize| numbers.counts(bond);
         let here = farthest(state, ends, counted).map(|it| {
             let [a, b] = it.ends.map(f64::from);

@@ -103,14 +103,10 @@ pub struct Portion {
 }
 
 impl Portion {
-    /// The part of this process in a body of so many points, by a function that halves some of them.
-    pub fn new(
-        n_points: usize,
-        halve: &dyn Fn(&mut [u32]),
-        exchange: &'static dyn Exchange,
-    ) -> Self {
+    /// The part of this process among points that are shared out.
+    pub fn new(partition: Partition, exchange: &'static dyn Exchange) -> Self {
         Self {
-            partition: Arc::new(Partition::new(n_points, exchange.n_ranks(), halve)),
+            partition: Arc::new(partition),
             exchange,
         }
     }

@@ -251,7 +251,7 @@ where
     let needs_all = setup.closing
         || matches!(setup.law, Law::MbbPd { .. })
         || matches!(setup.analysis, Analysis::Modal(_));
-    (!needs_all).then(|| cloud.share(ranks))
+    (!needs_all).then(|| cloud.portion_of(ranks))
 }
 
 /// Bonds with their stiffness and correction.

@@ -70,7 +70,7 @@ impl Connectivity {
     /// Takes bonds out of those that are `intact` (n_bonds), and splits the fragments that they held together.
     ///
     /// The bonds go one by one, and the later ones hold until their turn comes: where two of them split a fragment in three, each
-    /// split is seen. Where processes share the body out all of them are told of every bond that they know.
+    /// split is seen. Where processes share the body out each takes the bonds that it knows.
     pub fn bonds_broke(&mut self, system: &dyn Bonds, intact: &mut [bool], bonds: &[u32]) {
         for &bond in bonds {
             intact[bond as usize] = true;

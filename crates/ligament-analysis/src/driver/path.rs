@@ -399,7 +399,7 @@ impl<'a> Path<'a> {
         let softened = numbers.filter(|_| !self.state.softening.largest.is_empty());
         let view = View {
             softened: softened
-                .map(|it| SoftenedOfAll::of(&self.state, it, self.problem.system.ends())),
+                .map(|it| SoftenedOfAll::in_state(&self.state, it, self.problem.system.ends())),
             system: &*self.problem.system,
             state: &self.state,
             balanced,
@@ -432,7 +432,7 @@ impl<'a> Path<'a> {
             softened_bonds: match numbers {
                 None => self.state.softened_bonds(),
                 Some(numbers) => {
-                    SoftenedOfAll::of(&self.state, numbers, self.problem.system.ends()).bonds
+                    SoftenedOfAll::in_state(&self.state, numbers, self.problem.system.ends()).bonds
                 }
             },
             history: self.course.history,

@@ -9,7 +9,7 @@ use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
 use crate::horizon::INCLUSION_TOLERANCE;
-use crate::portion::{Exchange, Portion};
+use crate::portion::{Exchange, Partition, Portion};
 
 /// Material points with their volumes, nearest-neighbour distances and materials.
 ///
@@ -80,12 +80,6 @@ impl<const D: usize> PointCloud<D> {
             values[point as usize] = value;
         }
         values
-    }
-
-    /// The part that one of several processes has in the body.
-    pub fn share(&self, exchange: &'static dyn Exchange) -> Portion {
-        let halve = |points: &mut [u32]| self.halve(points);
-        Portion::new(self.len(), &halve, exchange)
     }
 
     /// Takes a position of the case to the coordinates of [`PointCloud::positions`].
@@ -168,6 +162,13 @@ impl<const D: usize> PointCloud<D> {
             let [first, second] = [one, other].map(|point| self.positions[point as usize][axis]);
             first.total_cmp(&second).then(one.cmp(&other))
         });
+    }
+
+    /// The part of this process in the body, where it is shared out among several.
+    pub fn portion_of(&self, exchange: &'static dyn Exchange) -> Portion {
+        let halve = |points: &mut [u32]| self.halve(points);
+        let partition = Partition::new(self.len(), exchange.n_ranks(), &halve);
+        Portion::new(partition, exchange)
     }
 
     /// Displacements u_i = x_j, u_j = x_i for each pair of axes i <= j, of points with so many components of motion, each of shape

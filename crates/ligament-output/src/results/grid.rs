@@ -4,10 +4,11 @@ use std::iter::repeat_n;
 use std::path::Path;
 
 use ligament_mesh::{Cell, SolidCell};
+use ligament_model::portion::Portion;
 use ligament_model::{BodyGrid, Canvas, FixedFields, box_corners, raised};
 
 use crate::Error;
-use crate::vtu::{self, Field, UnstructuredGrid};
+use crate::vtu::{self, Field, SharedCells, UnstructuredGrid};
 
 /// Fields of a model that a run does not change, with volumes (n_points) and distances to the nearest point (n_points).
 pub fn fixed_fields<'a>(
@@ -47,20 +48,28 @@ pub fn point_grid(
 pub fn write_points(path: &Path, grid: &BodyGrid, fields: &[Field<'_>]) -> Result<(), Error> {
     let tags = Field::integer(grid.tagged, &grid.tags);
     let all: Vec<Field<'_>> = fields.iter().copied().chain([tags]).collect();
-    write_grid(path, grid, None, &all)
+    write_grid(path, grid, None, &all, None)
 }
 
-/// Writes fields of the points of a body, the displacement first so that readers warp by it.
+/// Writes fields of the points of a body, the displacement first so that readers warp by it; in pieces where processes share the body.
 pub(super) fn write_grid(
     path: &Path,
     body: &BodyGrid,
     displacement: Option<&[[f64; 3]]>,
     fields: &[Field<'_>],
+    portion: Option<&Portion>,
 ) -> Result<(), Error> {
     let vector = |values| Field::vector("displacement", values);
     let mut all: Vec<Field<'_>> = displacement.map(vector).into_iter().collect();
     all.extend(fields);
     let cells = cells(&body.canvas);
+    let points_of_cells = portion.map(|_| points_of_cells(&body.canvas, &cells));
+    let shared = points_of_cells.as_deref().zip(portion);
+    let shared = shared.map(|(points, portion)| SharedCells {
+        portion,
+        points,
+        are_all: true,
+    });
     let (points, n_corners) = match &body.canvas {
         Canvas::Between(_) | Canvas::Solid(_) => {
             let grid = UnstructuredGrid {
@@ -69,7 +78,7 @@ pub(super) fn write_grid(
                 point_fields: &all,
                 cell_fields: &[],
             };
-            return vtu::write_vtu(path, &grid);
+            return vtu::write_shared(path, &grid, shared);
         }
         Canvas::Around(corners) => (raised(corners.as_flattened()), 4),
         Canvas::Boxes(boxes) => (boxes.iter().copied().flat_map(box_corners).collect(), 8),
@@ -86,7 +95,15 @@ pub(super) fn write_grid(
         point_fields: &of_corners,
         cell_fields: &all,
     };
-    vtu::write_vtu(path, &grid)
+    vtu::write_shared(path, &grid, shared)
+}
+
+/// The point of each cell by which its process is known: the first of its corners, or the one that it lies around (n_cells).
+fn points_of_cells(canvas: &Canvas, cells: &[vtu::Cell]) -> Vec<u32> {
+    match canvas {
+        Canvas::Between(_) | Canvas::Solid(_) => cells.iter().map(|it| it.points()[0]).collect(),
+        Canvas::Around(_) | Canvas::Boxes(_) => (0..cells.len() as u32).collect(),
+    }
 }
 
 /// The cells of a canvas; those of one point each have corners of their own, in the order of the points.
@@ -135,7 +152,7 @@ mod tests {
             Field::scalar("damage", &damage),
             Field::integer(grid.tagged, &grid.tags),
         ];
-        write_grid(&path, &grid, Some(&moved), &fields).unwrap();
+        write_grid(&path, &grid, Some(&moved), &fields, None).unwrap();
         let DataSet::UnstructuredGrid { pieces, .. } = Vtk::import(&path).unwrap().data else {
             panic!("not an unstructured grid");
         };

@@ -25,6 +25,7 @@ mod model_file;
 mod modes;
 mod opened_files;
 pub mod outputs;
+mod pieces;
 mod point_fields;
 mod rule;
 mod so_far;
@@ -52,6 +53,7 @@ use largest::Largest;
 pub use level_files::write_level_set;
 pub use modes::write_modes;
 use outputs::remove_others;
+pub use pieces::PieceWriter;
 pub use point_fields::{FieldValues, PointFields, displacements};
 pub use rule::{Time, WriteRule};
 pub use so_far::SoFar;
@@ -95,12 +97,11 @@ impl<'a> ResultWriter<'a> {
         problem: &Problem,
     ) -> Result<Self, Error> {
         if rule.model {
-            model_file::write(folder, grid, fixed, problem, None)?;
+            model_file::write(folder.path(), grid, fixed, problem, None)?;
         }
-        let can_fail = !problem.criteria.list.is_empty();
-        let is_whole = problem.system.portion().is_none();
-        let largest =
-            (rule.model && can_fail && is_whole).then(|| Largest::new(problem.system.ends().len()));
+        // Where processes share the body each would know the largest utilisations of its own bonds alone.
+        let can_fail = !problem.criteria.list.is_empty() && problem.system.portion().is_none();
+        let largest = (rule.model && can_fail).then(|| Largest::new(problem.system.ends().len()));
         Ok(Self {
             folder,
             grid,
@@ -193,7 +194,7 @@ impl<'a> ResultWriter<'a> {
     }
 
     fn write_fields(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
-        let name = format!("fields_{:04}.vtu", record.step);
+        let name = fields_file(record, view);
         point_fields::write(
             &self.folder.file(&name),
             self.grid,
@@ -295,7 +296,7 @@ impl Observer for ResultWriter<'_> {
             if view.is_last {
                 let (folder, grid, fixed) = (self.folder, self.grid, self.fixed);
                 failed(model_file::write(
-                    folder,
+                    folder.path(),
                     grid,
                     fixed,
                     &self.problem,
@@ -315,6 +316,12 @@ fn mark(step_of_breaking: &mut [i64], problem: &Problem, breaks: &[([u32; 2], u3
             step_of_breaking[bond] = i64::from(*step);
         }
     }
+}
+
+/// Name of the file of the fields in a state.
+fn fields_file(record: &StepRecord, view: &View<'_>) -> String {
+    let stem = format!("fields_{:04}", record.step);
+    vtu::file_name(&stem, view.system.portion())
 }
 
 fn failed(result: Result<(), Error>) -> Result<(), ObserverError> {
