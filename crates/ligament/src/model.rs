@@ -17,6 +17,7 @@ use ligament_model::{
 };
 
 use crate::body::Body;
+use crate::counts::{self, BondCounts};
 use crate::error::SetupError;
 use crate::faces;
 use crate::formulation::{self, Formulation};
@@ -42,6 +43,8 @@ where
     pub correction: Option<CorrectionReport>,
     /// Smallest and largest Omega.
     pub correction_range: (f64, f64),
+    /// Numbers of bonds.
+    pub counts: BondCounts,
     /// Failure criteria of the bonds.
     pub criteria: Arc<Criteria>,
     /// What the user should know.
@@ -52,7 +55,7 @@ impl<const D: usize> Model<D>
 where
     Dim: Dimension<D>,
 {
-    /// Builds the model of a setup, on the threads of the caller.
+    /// Builds the model of a setup, on the threads of the caller; where its solver has several processes, they share the bonds out.
     ///
     /// # Errors
     ///
@@ -65,12 +68,25 @@ where
     }
 }
 
+/// The part of this process in the points of a setup that several share out; none where it has all of them. Elements that lean on bonds
+/// beside them, faces that close and natural modes ask for the whole body.
+pub(crate) fn portion_of<const D: usize>(setup: &Setup<D>, cloud: &PointCloud<D>) -> Option<Portion>
+where
+    Dim: Dimension<D>,
+{
+    let Together(ranks) = setup.solver.ranks?;
+    let needs_all = setup.closing
+        || matches!(setup.law, Law::MbbPd { .. })
+        || matches!(setup.analysis, Analysis::Modal(_));
+    (!needs_all).then(|| cloud.portion_of(ranks))
+}
+
 /// What makes models in D dimensions.
 pub trait Discretises<const D: usize>
 where
     Dim: Dimension<D>,
 {
-    /// Builds the model of a setup.
+    /// Builds the model of a setup, of whose points this process has a part or all of them.
     ///
     /// # Errors
     ///
@@ -95,11 +111,7 @@ impl Model {
             inside_body(&setup, BondSet::search(&cloud, &horizons), &cloud)
         });
         require_connected(&setup, &cloud, &horizons, &bonds)?;
-        watcher.found(&Finding::Bonds {
-            points: cloud.len(),
-            bonds: bonds.len(),
-            across_voids: absent.len(),
-        });
+        watcher.found(&counts::finding(&cloud, &bonds, &absent));
         let (is_cut, touched, precrack_share) = stage(watcher, "pre-cracks", || {
             precracked(&setup.precracks, &bonds, &cloud)
         });
@@ -116,8 +128,6 @@ impl Model {
         });
         let report = correction.report.as_ref();
         watcher.found(&Finding::Correction(&setup.correction, report));
-        let bonded = (bonds, stiffness, correction);
-        let (cloud, (bonds, stiffness, correction)) = known(&setup, cloud, bonded);
         let fixed = FixedFields {
             horizon: horizons.radius,
             precrack_share,
@@ -134,10 +144,10 @@ impl Model {
         })?;
         let limits = || formulation::criteria(&setup, &system, &fixed);
         let criteria = stage(watcher, "criteria", limits)?;
-        let report = correction.report.as_ref();
         Ok(Self {
             warnings: warning::of_model(&setup, &system.cloud.spacing, report, &fixed, touched),
-            correction_range: correction.domain_factor_range(),
+            correction_range: correction_range(&correction, &system.cloud),
+            counts: BondCounts::new(&system.cloud, &system.bonds, &fixed.absent),
             correction: correction.report,
             setup,
             system: Arc::new(system),
@@ -153,17 +163,12 @@ where
 {
     /// Number of pairs of points that would be bonded but for a void of the body between them.
     pub fn across_voids(&self) -> usize {
-        self.absent(Absence::Void)
+        self.counts.across_voids
     }
 
     /// Number of bonds that pre-cracks cut.
     pub fn cut_bonds(&self) -> usize {
-        self.absent(Absence::PreCrack)
-    }
-
-    fn absent(&self, absence: Absence) -> usize {
-        let absent = self.fixed.absent.iter();
-        absent.filter(|it| it.absence == absence).count()
+        self.counts.cut
     }
 
     /// Number of points whose bonds never break.
@@ -177,8 +182,15 @@ where
     }
 }
 
-/// The points of the body, with the index of the material of each cell (n_cells).
+/// The points of the body, with the index of the material of each cell (n_cells), and the part of this process in them.
 fn points(setup: &Setup, material_of_cell: &[u32]) -> Result<PointCloud, SetupError> {
+    let cloud = all_points(setup, material_of_cell)?;
+    let portion = portion_of(setup, &cloud);
+    Ok(PointCloud { portion, ..cloud })
+}
+
+/// The points of the body, with the index of the material of each cell (n_cells).
+fn all_points(setup: &Setup, material_of_cell: &[u32]) -> Result<PointCloud, SetupError> {
     let n_materials = setup.materials.len();
     let (body, thickness) = (&setup.body, setup.thickness());
     let cloud = body.cloud(thickness, material_of_cell, n_materials);
@@ -203,7 +215,7 @@ fn precracked(
 ) -> (Vec<bool>, usize, Vec<f64>) {
     let is_cut = cut_bonds(precracks, bonds, cloud);
     let touched = count_touched_bonds(precracks, bonds, cloud, &is_cut);
-    let share = precrack_share(bonds, &is_cut);
+    let share = precrack_share(cloud, bonds, &is_cut);
     (is_cut, touched, share)
 }
 
@@ -239,44 +251,6 @@ fn inside_body(setup: &Setup, bonds: BondSet, cloud: &PointCloud) -> (BondSet, V
     let keep: Vec<bool> = crosses.iter().map(|crosses| !crosses).collect();
     let absent = absent_bonds(&bonds, &crosses, Absence::Void);
     (bonds.retained(&keep), absent)
-}
-
-/// The part of this process in a body that several share out; none where one has all of it. Elements that lean on bonds beside them,
-/// faces that close and natural modes ask for the whole body.
-fn portion_of<const D: usize>(setup: &Setup<D>, cloud: &PointCloud<D>) -> Option<Portion>
-where
-    Dim: Dimension<D>,
-{
-    let Together(ranks) = setup.solver.ranks?;
-    let needs_all = setup.closing
-        || matches!(setup.law, Law::MbbPd { .. })
-        || matches!(setup.analysis, Analysis::Modal(_));
-    (!needs_all).then(|| cloud.portion_of(ranks))
-}
-
-/// Bonds with their stiffness and correction.
-type Bonded<const D: usize> = (BondSet<D>, BondStiffness, Correction);
-
-/// The points, of which this process has its part or all, and the bonds that it knows.
-pub(crate) fn known<const D: usize>(
-    setup: &Setup<D>,
-    cloud: PointCloud<D>,
-    (bonds, stiffness, correction): Bonded<D>,
-) -> (PointCloud<D>, Bonded<D>)
-where
-    Dim: Dimension<D>,
-{
-    let Some(portion) = portion_of(setup, &cloud) else {
-        return (cloud, (bonds, stiffness, correction));
-    };
-    let keep: Vec<bool> = bonds.ends.iter().map(|&it| portion.knows(it)).collect();
-    let bonded = (
-        bonds.retained(&keep),
-        stiffness.retained(&keep),
-        correction.retained(&keep),
-    );
-    let portion = Some(portion);
-    (PointCloud { portion, ..cloud }, bonded)
 }
 
 /// Pairs that are no bonds, and those that pre-cracks cut (n_bonds), in the order of their ends.
@@ -378,16 +352,28 @@ fn of_bonds(formulation: &Formulation<'_>, bonds: BondSet) -> Corrected {
 }
 
 /// Share of the bonds of each point that pre-cracks cut, by number, shape (n_points).
-pub(crate) fn precrack_share<const D: usize>(bonds: &BondSet<D>, is_cut: &[bool]) -> Vec<f64> {
-    let n_points = bonds.incidence.n_points();
-    if !is_cut.contains(&true) {
-        return vec![0.0; n_points];
+pub(crate) fn precrack_share<const D: usize>(
+    cloud: &PointCloud<D>,
+    bonds: &BondSet<D>,
+    is_cut: &[bool],
+) -> Vec<f64> {
+    let n_cut = is_cut.iter().filter(|is_cut| **is_cut).count();
+    if cloud.total(n_cut) == 0 {
+        return vec![0.0; cloud.len()];
     }
-    (0..n_points as u32)
-        .map(|point| {
-            let family = bonds.incidence.at(point);
-            let cut = family.iter().filter(|bond| is_cut[**bond as usize]).count();
-            cut as f64 / family.len().max(1) as f64
-        })
-        .collect()
+    let shares = cloud.over_families(|point| {
+        let family = bonds.incidence.at(point);
+        let cut = family.iter().filter(|bond| is_cut[**bond as usize]).count();
+        [cut as f64 / family.len().max(1) as f64]
+    });
+    shares.into_iter().map(|[share]| share).collect()
+}
+
+/// Smallest and largest Omega of the bonds of a body.
+pub(crate) fn correction_range<const D: usize>(
+    correction: &Correction,
+    cloud: &PointCloud<D>,
+) -> (f64, f64) {
+    let (smallest, largest) = correction.domain_factor_range();
+    (-cloud.largest(-smallest), cloud.largest(largest))
 }

@@ -15,9 +15,12 @@ use super::formulation::{self, SolidFormulation};
 use super::precrack::surfaces;
 use super::soundness::{forbid_overlap, require_connected, require_distinct, require_numbers};
 use crate::body::Origin;
+use crate::counts::{self, BondCounts};
 use crate::error::SetupError;
 use crate::loading;
-use crate::model::{Discretises, Model, absent_bonds, known, precrack_share, with_cut};
+use crate::model::{
+    Discretises, Model, absent_bonds, correction_range, portion_of, precrack_share, with_cut,
+};
 use crate::setup::{Dim, Setup};
 use crate::stage::{Finding, StageWatcher, stage};
 use crate::warning;
@@ -40,11 +43,7 @@ impl Model<3> {
             inside_body(&setup, all, &cloud, outline)
         });
         require_connected(&setup, &cloud, &horizons, &bonds)?;
-        watcher.found(&Finding::Bonds {
-            points: cloud.len(),
-            bonds: bonds.len(),
-            across_voids: absent.len(),
-        });
+        watcher.found(&counts::finding(&cloud, &bonds, &absent));
         let (is_cut, touched, precrack_share) =
             stage(watcher, "pre-cracks", || precracked(&setup, &bonds, &cloud))?;
         let absent = with_cut(absent, &bonds, &is_cut);
@@ -57,12 +56,8 @@ impl Model<3> {
             let formulation = SolidFormulation::new(&setup, &cloud, &horizons, &material_of_cell);
             correct(&formulation, bonds, &is_cut)
         });
-        watcher.found(&Finding::Correction(
-            &setup.correction,
-            correction.report.as_ref(),
-        ));
-        let bonded = (bonds, stiffness, correction);
-        let (cloud, (bonds, stiffness, correction)) = known(&setup, cloud, bonded);
+        let report = correction.report.as_ref();
+        watcher.found(&Finding::Correction(&setup.correction, report));
         let fixed = FixedFields {
             horizon: horizons.radius,
             precrack_share,
@@ -79,10 +74,10 @@ impl Model<3> {
         })?;
         let limits = || formulation::criteria(&setup, &system, &fixed);
         let criteria = stage(watcher, "criteria", limits)?;
-        let report = correction.report.as_ref();
         Ok(Self {
             warnings: warning::of_model(&setup, &system.cloud.spacing, report, &fixed, touched),
-            correction_range: correction.domain_factor_range(),
+            correction_range: correction_range(&correction, &system.cloud),
+            counts: BondCounts::new(&system.cloud, &system.bonds, &fixed.absent),
             correction: correction.report,
             setup,
             system: Arc::new(system),
@@ -92,8 +87,19 @@ impl Model<3> {
     }
 }
 
-/// The points of the body, with the index of the material of each cell (n_cells), and the outline of a mesh that bonds do not leave.
+/// The points of the body, with the index of the material of each cell (n_cells) and the part of this process in them, and the outline of a
+/// mesh that bonds do not leave.
 fn points(
+    setup: &Setup<3>,
+    material_of_cell: &[u32],
+) -> Result<(PointCloud<3>, Option<Surface>), SetupError> {
+    let (cloud, outline) = all_points(setup, material_of_cell)?;
+    let portion = portion_of(setup, &cloud);
+    Ok((PointCloud { portion, ..cloud }, outline))
+}
+
+/// The points of the body, with the index of the material of each cell (n_cells), and the outline of a mesh that bonds do not leave.
+fn all_points(
     setup: &Setup<3>,
     material_of_cell: &[u32],
 ) -> Result<(PointCloud<3>, Option<Surface>), SetupError> {
@@ -141,7 +147,7 @@ fn precracked(
     let surfaces: Vec<SolidPreCrack> = surfaces(setup)?;
     let is_cut = cut_bonds(&surfaces, bonds, cloud);
     let touched = count_touched_bonds(&surfaces, bonds, cloud, &is_cut);
-    let share = precrack_share(bonds, &is_cut);
+    let share = precrack_share(cloud, bonds, &is_cut);
     Ok((is_cut, touched, share))
 }
 
