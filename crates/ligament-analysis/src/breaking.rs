@@ -6,6 +6,8 @@ use ligament_model::element::BondDeformation;
 use ligament_model::failure::{Criteria, Verdict};
 use rayon::prelude::*;
 
+use crate::bond_numbers::BondNumbers;
+
 /// Bonds that make a task worth while.
 const TASK: usize = 4096;
 
@@ -41,6 +43,42 @@ pub fn next_to_break(
     criteria: &Criteria,
     intact: &[bool],
 ) -> Vec<u32> {
+    chosen(rule, near_limit(rule, deformations, criteria, intact))
+}
+
+/// The bonds of a body that processes share out which are to break now, by their numbers among all of its bonds.
+pub(crate) fn next_of_all(
+    numbers: &BondNumbers,
+    rule: &BreakingRule,
+    deformations: &[BondDeformation],
+    criteria: &Criteria,
+    intact: &[bool],
+) -> Vec<u32> {
+    let counted = numbers.counted_of(intact);
+    let here = near_limit(rule, deformations, criteria, &counted).into_iter();
+    let here = here.map(|it| {
+        let number = f64::from(numbers.number(it.bond as usize));
+        let exceeds = f64::from(u8::from(it.exceeds));
+        [number, it.rank, it.tie_scale, exceeds]
+    });
+    let here: Vec<[f64; 4]> = here.collect();
+    let of_ranks = numbers.portion().concatenated(&here).into_iter();
+    let of_ranks = of_ranks.map(|[number, rank, tie_scale, exceeds]| Candidate {
+        bond: number as u32,
+        rank,
+        tie_scale,
+        exceeds: exceeds > 0.0,
+    });
+    chosen(rule, of_ranks.collect())
+}
+
+/// The intact bonds that are beyond their limits, or so near to them that they may be tied with one that is.
+fn near_limit(
+    rule: &BreakingRule,
+    deformations: &[BondDeformation],
+    criteria: &Criteria,
+    intact: &[bool],
+) -> Vec<Candidate> {
     let near = 1.0 + 2.0 * rule.tie_tolerance;
     let of_tasks = judge(
         deformations,
@@ -53,7 +91,10 @@ pub fn next_to_break(
             }
         },
     );
-    let mut ranked = of_tasks.concat();
+    of_tasks.concat()
+}
+
+fn chosen(rule: &BreakingRule, mut ranked: Vec<Candidate>) -> Vec<u32> {
     ranked.sort_unstable_by(|one, other| {
         other
             .rank
@@ -97,6 +138,37 @@ pub fn first_to_break(
     criteria: &Criteria,
     intact: &[bool],
 ) -> FirstToBreak {
+    leaders(tie_tolerance, deformations, criteria, intact).first_to_break()
+}
+
+/// The bonds of a body that processes share out which are nearest to breakage, by their numbers among all of its bonds.
+pub(crate) fn first_of_all(
+    numbers: &BondNumbers,
+    tie_tolerance: f64,
+    deformations: &[BondDeformation],
+    criteria: &Criteria,
+    intact: &[bool],
+) -> FirstToBreak {
+    let counted = numbers.counted_of(intact);
+    let here = leaders(tie_tolerance, deformations, criteria, &counted);
+    let here = here.tied().map(|(bond, ratio)| {
+        let number = f64::from(numbers.number(bond as usize));
+        [number, ratio]
+    });
+    let here: Vec<_> = here.collect();
+    let mut leaders = Leaders::new(tie_tolerance);
+    for [number, ratio] in numbers.portion().concatenated(&here) {
+        leaders.meet(number as u32, ratio);
+    }
+    leaders.first_to_break()
+}
+
+fn leaders(
+    tie_tolerance: f64,
+    deformations: &[BondDeformation],
+    criteria: &Criteria,
+    intact: &[bool],
+) -> Leaders {
     let start = || Leaders::new(tie_tolerance);
     let of_tasks = judge(
         deformations,
@@ -111,7 +183,7 @@ pub fn first_to_break(
     for (bond, ratio) in of_tasks.into_iter().flat_map(|it| it.met) {
         leaders.meet(bond, ratio);
     }
-    leaders.first_to_break()
+    leaders
 }
 
 /// What tasks gather from the verdicts on their intact bonds, in the order of the bonds.
@@ -167,10 +239,15 @@ impl Leaders {
         }
     }
 
+    /// The bonds that are tied with the largest ratio, with theirs, in the order in which they were met.
+    fn tied(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
+        let met = self.met.iter().copied();
+        met.filter(|it| it.1 >= self.lowest_tied)
+    }
+
     /// The bonds that lead in the end.
     pub(crate) fn first_to_break(self) -> FirstToBreak {
-        let tied = self.met.iter().filter(|it| it.1 >= self.lowest_tied);
-        let mut bonds: Vec<u32> = tied.map(|it| it.0).collect();
+        let mut bonds: Vec<u32> = self.tied().map(|it| it.0).collect();
         bonds.sort_unstable();
         FirstToBreak {
             bonds,

@@ -341,7 +341,7 @@ impl<'a> Following<'a> {
         let counters = StepCounters {
             step,
             at_rest: end == Termination::FellApart,
-            largest_ratio: largest_ratio(&self.path.state, last, &self.path.problem.criteria),
+            largest_ratio: largest_ratio(&self.path.problem, &self.path.state, last),
             ..Default::default()
         };
         self.path.record(last, counters, true)?;

@@ -320,14 +320,9 @@ impl Tables {
         ])
     }
 
-    pub(super) fn breaks(
-        &mut self,
-        records: &[BreakRecord],
-        tags: &[i64],
-        ends: &[[u32; 2]],
-    ) -> Result<(), Error> {
+    pub(super) fn breaks(&mut self, records: &[BreakRecord], tags: &[i64]) -> Result<(), Error> {
         for record in records {
-            let ends = ends[record.bond as usize].map(|end| tags[end as usize]);
+            let ends = record.ends.map(|end| tags[end as usize]);
             let row = break_row(record, ends, &self.criteria, self.n_components);
             self.breaks.append(&row)?;
         }

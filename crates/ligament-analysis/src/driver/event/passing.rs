@@ -174,9 +174,14 @@ impl Passing<'_, '_> {
         let deformations =
             (self.problem.system).measured(&path.state.intact, displacement, &first.bonds);
         let deformations = deformations.iter().map(|it| it.scaled(factor));
-        let bonds: Vec<(u32, BondDeformation)> =
-            first.bonds.iter().copied().zip(deformations).collect();
-        path.break_deformed(&bonds, &self.problem.criteria, &critical, [step, 1])
+        let deformations: Vec<BondDeformation> = deformations.collect();
+        let deformation = |place: usize, _| deformations[place];
+        let criteria = &self.problem.criteria;
+        let judged = (
+            &**criteria,
+            &deformation as &dyn Fn(usize, usize) -> BondDeformation,
+        );
+        path.break_deformed(&first.bonds, judged, &critical, [step, 1])
     }
 
     /// Takes in a breakage; gives the bonds that are the next to break. None where the factor broke on the way.
