@@ -33,13 +33,14 @@ pub struct BreakingRule {
 /// The bonds to break now, in order; empty where no intact bond is at its limit.
 ///
 /// The bond that leads the order takes the whole group tied with it along, also members just under their limit, so that
-/// symmetric problems stay symmetric; the group is in the order of the bond numbers and never split. Groups follow until
-/// `bonds_per_iteration` is reached or passed.
+/// symmetric problems stay symmetric; the group is in the order that `sort` gives it, that of the file for instance, and never split.
+/// Groups follow until `bonds_per_iteration` is reached or passed.
 pub fn next_to_break(
     rule: &BreakingRule,
     deformations: &[BondDeformation],
     criteria: &Criteria,
     intact: &[bool],
+    sort: impl Fn(&mut [u32]),
 ) -> Vec<u32> {
     let near = 1.0 + 2.0 * rule.tie_tolerance;
     let of_tasks = judge(
@@ -74,7 +75,7 @@ pub fn next_to_break(
             .position(|candidate| candidate.rank < lowest_tied)
             .unwrap_or(rest.len());
         let mut group: Vec<u32> = rest[..end].iter().map(|candidate| candidate.bond).collect();
-        group.sort_unstable();
+        sort(&mut group);
         chosen.extend(group);
         rest = &rest[end..];
     }
@@ -218,7 +219,13 @@ mod tests {
             .iter()
             .map(|&stretch| BondDeformation::new([stretch, 0.0, 0.0]))
             .collect();
-        next_to_break(rule, &deformations, &stretch_limits(limit), intact)
+        next_to_break(
+            rule,
+            &deformations,
+            &stretch_limits(limit),
+            intact,
+            <[u32]>::sort_unstable,
+        )
     }
 
     fn rule(order: BreakingOrder, bonds_per_iteration: usize) -> BreakingRule {

@@ -2,6 +2,7 @@
 //!
 //! A sweep over all bonds is one call through the interface; the loop inside knows the element as a type.
 
+use ligament_mesh::Numbering;
 use rayon::prelude::*;
 
 use crate::bonds::{BondSet, Incidence};
@@ -23,6 +24,9 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     /// Number of points.
     fn n_points(&self) -> usize;
 
+    /// How the points are numbered: here, and in the file.
+    fn numbering(&self) -> &Numbering;
+
     /// The part of this process in the body; none where it has the whole body.
     fn portion(&self) -> Option<&Portion>;
 
@@ -42,6 +46,12 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
 
     /// Points A < B of each bond, shape (n_bonds).
     fn ends(&self) -> &[[u32; 2]];
+
+    /// Sorts bonds by the numbers of their ends in the file: what is tied goes by them.
+    fn sort_as_in_file(&self, bonds: &mut [u32]) {
+        let (numbering, ends) = (self.numbering(), self.ends());
+        bonds.sort_unstable_by_key(|&bond| numbering.ends_in_file(ends[bond as usize]));
+    }
 
     /// The bonds of each point.
     fn incidence(&self) -> &Incidence;

@@ -286,7 +286,9 @@ impl<'a> Following<'a> {
                 *step += 1;
                 continue;
             }
-            let breakage = self.path.break_bonds(&goal.bonds, &critical, *step, 1)?;
+            let mut bonds = goal.bonds;
+            self.path.problem.system.sort_as_in_file(&mut bonds);
+            let breakage = self.path.break_bonds(&bonds, &critical, *step, 1)?;
             return Ok(Ok((critical, breakage)));
         }
     }

@@ -267,6 +267,7 @@ impl Stepping<'_> {
             &balanced.deformations,
             &self.path.criteria(balanced),
             &self.path.state.intact,
+            |tied| self.path.problem.system.sort_as_in_file(tied),
         );
         self.path.equilibrium.count_bond_work(start);
         next

@@ -4,6 +4,8 @@ use super::change::terms;
 use super::element::{BeamBond, SolidElement, SolidKinematics, SpringBond};
 use super::stress;
 use super::system::{SolidSystem, Typed};
+use ligament_mesh::Numbering;
+
 use crate::bonds::Incidence;
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
@@ -40,6 +42,10 @@ macro_rules! typed {
 impl Bonds for SolidSystem {
     fn n_points(&self) -> usize {
         self.cloud.len()
+    }
+
+    fn numbering(&self) -> &Numbering {
+        &self.cloud.numbering
     }
 
     fn portion(&self) -> Option<&Portion> {

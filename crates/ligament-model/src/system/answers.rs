@@ -1,6 +1,8 @@
 //! What a bond system answers to the equations: one dispatch to the type of its elements a call.
 
 use super::{BondSystem, BondsLeft, Kinematics, Typed};
+use ligament_mesh::Numbering;
+
 use crate::bonds::Incidence;
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
@@ -48,6 +50,10 @@ macro_rules! typed {
 impl Bonds for BondSystem {
     fn n_points(&self) -> usize {
         self.cloud.len()
+    }
+
+    fn numbering(&self) -> &Numbering {
+        &self.cloud.numbering
     }
 
     fn portion(&self) -> Option<&Portion> {

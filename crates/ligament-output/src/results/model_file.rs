@@ -17,11 +17,12 @@
 use ligament_analysis::driver::Problem;
 use ligament_model::{BodyGrid, FixedFields};
 
+use super::grid::Lines;
 use super::largest::Largest;
 use super::tables::criterion_labels;
 use crate::Error;
 use crate::folder::ResultFolder;
-use crate::vtu::{self, Field, UnstructuredGrid};
+use crate::vtu::Field;
 
 /// Name of the file with the model.
 pub(super) const MODEL: &str = "model.vtu";
@@ -40,11 +41,8 @@ pub(super) fn write(
 ) -> Result<(), Error> {
     let (system, absent) = (&problem.system, &fixed.absent);
     let n_absent = absent.len();
-    let lines: Vec<vtu::Cell> = (system.ends().iter())
-        .chain(absent.iter().map(|pair| &pair.ends))
-        .copied()
-        .map(vtu::Cell::Line)
-        .collect();
+    let of_absent: Vec<[u32; 2]> = absent.iter().map(|pair| pair.ends).collect();
+    let lines = Lines::new(grid, system.ends(), &of_absent);
     let no_fail: Vec<i64> = fixed.no_fail.iter().copied().map(i64::from).collect();
     let absence: Vec<i64> = std::iter::repeat_n(0, system.ends().len())
         .chain(absent.iter().map(|pair| pair.absence.number()))
@@ -76,18 +74,13 @@ pub(super) fn write(
             .map(|(name, values)| Field::scalar(name, values)),
     );
     cell_fields.extend(largest.iter().flat_map(|columns| columns.fields()));
-    let grid = UnstructuredGrid {
-        points: &grid.positions,
-        cells: &lines,
-        point_fields: &[
-            Field::scalar("volume", system.volumes()),
-            Field::scalar("horizon", &fixed.horizon),
-            Field::integer("no_fail", &no_fail),
-            Field::integer(grid.tagged, &grid.tags),
-        ],
-        cell_fields: &cell_fields,
-    };
-    vtu::write_vtu(folder.file(MODEL), &grid)
+    let point_fields = [
+        Field::scalar("volume", system.volumes()),
+        Field::scalar("horizon", &fixed.horizon),
+        Field::integer("no_fail", &no_fail),
+        Field::integer(grid.tagged, &grid.tags),
+    ];
+    lines.write(&folder.file(MODEL), grid, &point_fields, &cell_fields)
 }
 
 /// The limits and coefficients that each criterion has for each bond, with the names of their fields.

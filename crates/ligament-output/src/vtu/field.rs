@@ -22,6 +22,8 @@ pub struct Field<'a> {
     /// The name readers show, unique among the point fields and among the cell fields.
     pub(super) name: &'a str,
     numbers: Numbers<'a>,
+    /// The points or cells in the order of the file; none where they are in it.
+    order: Option<&'a [u32]>,
     /// Numbers a point or cell.
     n_components: usize,
     /// Names of the components: all of them or none.
@@ -62,6 +64,11 @@ impl<'a> Field<'a> {
         Self::new(name, Numbers::Double(values), names.len(), names)
     }
 
+    /// The field with its points or cells written in an order, if there is one.
+    pub fn ordered(self, order: Option<&'a [u32]>) -> Self {
+        Self { order, ..self }
+    }
+
     /// A field of small numbers, such as kinds of cells.
     pub(super) fn bytes(name: &'a str, values: &'a [u8]) -> Self {
         Self::new(name, Numbers::Byte(values), 1, &[])
@@ -76,6 +83,7 @@ impl<'a> Field<'a> {
         Self {
             name,
             numbers,
+            order: None,
             n_components,
             component_names,
         }
@@ -119,6 +127,16 @@ impl<'a> Field<'a> {
         values: &[T],
         to_le_bytes: impl Fn(T) -> [u8; SIZE] + Sync,
     ) -> String {
+        let ordered: Vec<T>;
+        let values = match self.order {
+            None => values,
+            Some(order) => {
+                let n = self.n_components;
+                let row = |&row: &u32| &values[n * row as usize..n * (row as usize + 1)];
+                ordered = order.iter().flat_map(row).copied().collect();
+                &ordered
+            }
+        };
         let blocks: Vec<Vec<u8>> = values
             .par_chunks(BLOCK_SIZE / SIZE)
             .map(|values| {

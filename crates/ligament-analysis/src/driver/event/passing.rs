@@ -170,12 +170,12 @@ impl Passing<'_, '_> {
         path.record_in_passing(&critical, counters)?;
         let factor = self.factor();
         let path = &mut *self.path;
-        let displacement = &self.lagging.displacement;
-        let deformations =
-            (self.problem.system).measured(&path.state.intact, displacement, &first.bonds);
+        let (system, displacement) = (&self.problem.system, &self.lagging.displacement);
+        let mut bonds = first.bonds.clone();
+        system.sort_as_in_file(&mut bonds);
+        let deformations = system.measured(&path.state.intact, displacement, &bonds);
         let deformations = deformations.iter().map(|it| it.scaled(factor));
-        let bonds: Vec<(u32, BondDeformation)> =
-            first.bonds.iter().copied().zip(deformations).collect();
+        let bonds: Vec<(u32, BondDeformation)> = bonds.into_iter().zip(deformations).collect();
         path.break_deformed(&bonds, &self.problem.criteria, &critical, [step, 1])
     }
 
