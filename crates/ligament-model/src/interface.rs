@@ -111,7 +111,7 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     fn halve(&self, points: &mut [u32]);
 
     /// Degrees of freedom that hold the rigid motions of some connected points which cost no energy, as far as fixed ones do
-    /// not; those that hold most first. `can_hold` tells what has a stiffness.
+    /// not; those that hold most first, of equals the first in the file. `can_hold` tells what has a stiffness.
     fn holds(
         &self,
         points: &[u32],

@@ -140,7 +140,9 @@ impl Bonds for SolidSystem {
         is_fixed: &dyn Fn(usize) -> bool,
         can_hold: &dyn Fn(usize) -> bool,
     ) -> Vec<usize> {
-        self.rigid_motions(points).holds(points, is_fixed, can_hold)
+        let in_file = self.cloud.numbering.sorted(points);
+        let motions = self.rigid_motions(points);
+        motions.holds(&in_file, is_fixed, can_hold)
     }
 
     fn free_shapes(&self, points: &[u32], is_fixed: &dyn Fn(usize) -> bool) -> Vec<Vec<f64>> {
