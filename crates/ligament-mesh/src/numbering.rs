@@ -219,3 +219,77 @@ impl SolidMesh {
         (mesh, numbering)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Four nodes of two triangles, of which the curve meets the first, third, fourth and second: (0, 0), (0, 1), (1, 1), (1, 0).
+    fn square() -> Mesh {
+        Mesh {
+            node_tags: vec![10, 20, 30, 40],
+            positions: vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]],
+            cells: vec![Cell::Triangle([0, 1, 2]), Cell::Triangle([1, 3, 2])],
+            groups: vec![Group {
+                nodes: vec![1, 2, 3],
+                edges: vec![[1, 3], [2, 3]],
+                ..Group::default()
+            }],
+            fields: vec![NodeField {
+                name: "T".to_owned(),
+                time_step: 0,
+                components: 1,
+                values: vec![(1, 0.5), (2, 1.5)],
+            }],
+            remarks: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn a_mesh_goes_along_the_curve_with_all_that_it_has() {
+        let (mesh, numbering) = square().along_curve();
+        assert_eq!(mesh.node_tags, [10, 30, 40, 20]);
+        assert_eq!(
+            mesh.positions,
+            [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]]
+        );
+        let cells = [Cell::Triangle([0, 3, 1]), Cell::Triangle([3, 2, 1])];
+        assert_eq!(mesh.cells, cells);
+        assert_eq!(mesh.groups[0].nodes, [1, 2, 3]);
+        assert_eq!(mesh.groups[0].edges, [[1, 2], [2, 3]]);
+        assert_eq!(mesh.fields[0].values, [(1, 1.5), (3, 0.5)]);
+        assert_eq!(numbering.to_file(mesh.positions), square().positions);
+        assert_eq!(numbering.cells_in_file(mesh.cells), square().cells);
+    }
+
+    #[test]
+    fn what_is_told_is_in_the_order_of_the_file() {
+        let numbering = Numbering::along_curve(&square().positions);
+        assert_eq!([0, 1, 2, 3].map(|it| numbering.in_file(it)), [0, 2, 3, 1]);
+        assert_eq!([0, 1, 2, 3].map(|it| numbering.point(it)), [0, 3, 1, 2]);
+        // Two values a point.
+        let values = vec![0, 1, 20, 21, 30, 31, 10, 11];
+        let in_file = numbering.to_file(values.clone());
+        assert_eq!(in_file, [0, 1, 10, 11, 20, 21, 30, 31]);
+        assert_eq!(numbering.from_file(in_file), values);
+        assert_eq!(*numbering.sorted(&[1, 2, 3]), [3, 1, 2]);
+        // Nodes 2-3, 1-2 and 0-1 of the file.
+        let ends = [[1, 2], [1, 3], [0, 3]];
+        assert_eq!(
+            ends.map(|it| numbering.ends_in_file(it)),
+            [[2, 3], [1, 2], [0, 1]]
+        );
+        assert_eq!(numbering.bonds_in_file(&ends), Some(vec![2, 1, 0]));
+        // The second node lies in the last part, which is the second that the file meets.
+        assert_eq!(numbering.parts_in_file(&[0, 1, 1, 2]), [0, 2, 2, 1]);
+    }
+
+    #[test]
+    fn points_along_the_curve_keep_their_numbers() {
+        let numbering = Numbering::along_curve(&square().along_curve().0.positions);
+        assert_eq!(numbering, Numbering::default());
+        assert_eq!(numbering.order_of_file(), None);
+        assert_eq!(numbering.bonds_in_file(&[[0, 1]]), None);
+        assert_eq!(numbering.to_file(vec![3, 1]), [3, 1]);
+    }
+}

@@ -141,8 +141,8 @@ impl Bonds for SolidSystem {
         can_hold: &dyn Fn(usize) -> bool,
     ) -> Vec<usize> {
         let in_file = self.cloud.numbering.sorted(points);
-        let motions = self.rigid_motions(points);
-        motions.holds(&in_file, is_fixed, can_hold)
+        self.rigid_motions(&in_file)
+            .holds(&in_file, is_fixed, can_hold)
     }
 
     fn free_shapes(&self, points: &[u32], is_fixed: &dyn Fn(usize) -> bool) -> Vec<Vec<f64>> {
