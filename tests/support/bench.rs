@@ -158,7 +158,12 @@ impl Bench {
         self.model.system.cloud.len()
     }
 
-    /// Positions as in the mesh file, or of the centres of the cells.
+    /// Values of the points, so many a point, in the order of the mesh file.
+    pub fn in_file(&self, values: &[f64]) -> Vec<f64> {
+        self.model.body().numbering().to_file(values.to_vec())
+    }
+
+    /// Positions of the nodes of the mesh, or of the centres of the cells, in the order of the points.
     pub fn positions(&self) -> &[[f64; 2]] {
         self.model.body().positions()
     }

@@ -89,10 +89,17 @@ impl Numbering {
         of_points.iter().map(number).collect()
     }
 
+    /// The ends of a bond, that of the smaller number in the file first.
+    pub fn ordered(&self, [a, b]: [u32; 2]) -> [u32; 2] {
+        match self.in_file(b) < self.in_file(a) {
+            true => [b, a],
+            false => [a, b],
+        }
+    }
+
     /// Numbers in the file of the ends of a bond, ascending.
     pub fn ends_in_file(&self, ends: [u32; 2]) -> [u32; 2] {
-        let [a, b] = ends.map(|end| self.in_file(end));
-        [a.min(b), a.max(b)]
+        self.ordered(ends).map(|end| self.in_file(end))
     }
 
     /// Bonds in the order of their ends in the file, shape (n_bonds); none where that is their own.

@@ -53,9 +53,7 @@ impl BodyGrid {
 
     /// Tags of the ends of a bond, that of the smaller number in the file first.
     pub fn tags_of(&self, ends: [u32; 2]) -> [i64; 2] {
-        let [a, b] = ends;
-        let is_reversed = self.numbering.in_file(b) < self.numbering.in_file(a);
-        let ends = if is_reversed { [b, a] } else { ends };
+        let ends = self.numbering.ordered(ends);
         ends.map(|end| self.tags[end as usize])
     }
 

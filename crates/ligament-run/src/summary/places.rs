@@ -47,7 +47,9 @@ impl BondEvent {
         Dim: Dimension<D>,
     {
         let cloud = Dim::cloud(&model.system);
-        let ends = model.system.ends()[first.bond as usize];
+        let ends = cloud
+            .numbering
+            .ordered(model.system.ends()[first.bond as usize]);
         let [a, b] = ends.map(|end| cloud.positions[end as usize]);
         let criteria = model.criteria.list.iter().map(|it| it.name);
         let mut labels = criterion_labels(criteria);
