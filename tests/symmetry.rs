@@ -72,12 +72,7 @@ load = [{{ group = "platen-top", displacement = {{ x = {:?}, y = {:?} }} }}]
         let turned_back: Vec<f64> = (bench.in_file(run.displacement()).chunks(3))
             .flat_map(|u| [cos * u[0] + sin * u[1], -sin * u[0] + cos * u[1], u[2]])
             .collect();
-        let system = &bench.model.system;
-        let order = system.cloud.numbering.bonds_in_file(&system.bonds.ends);
-        let factors = &bench.model.fixed.domain_factor;
-        let omega: Vec<f64> = (order.unwrap().iter())
-            .map(|&bond| factors[bond as usize])
-            .collect();
+        let omega = bench.of_bonds(&bench.model.fixed.domain_factor);
         (
             turned_back,
             run.last().stored_energy,

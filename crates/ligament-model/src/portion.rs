@@ -7,7 +7,8 @@
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use crate::cloud::PointCloud;
+/// Numbers of all ranks together that are added up at a time.
+const PIECE: usize = 1 << 18;
 
 /// How processes tell each other numbers. Every function but [`rank`](Self::rank) and [`n_ranks`](Self::n_ranks) is called by all of
 /// them in the same order, by one thread of each; what comes back is the same to the bit on all of them. What fails on one ends all.
@@ -105,11 +106,10 @@ pub struct Portion {
 }
 
 impl Portion {
-    /// The part of this process in a body of some points.
-    pub fn new<const D: usize>(cloud: &PointCloud<D>, exchange: &'static dyn Exchange) -> Self {
-        let halve = |points: &mut [u32]| cloud.halve(points);
+    /// The part of this process among points that are shared out.
+    pub fn new(partition: Partition, exchange: &'static dyn Exchange) -> Self {
         Self {
-            partition: Arc::new(Partition::new(cloud.len(), exchange.n_ranks(), &halve)),
+            partition: Arc::new(partition),
             exchange,
         }
     }
@@ -127,6 +127,11 @@ impl Portion {
     /// The own points, ascending.
     pub fn own(&self) -> &[u32] {
         self.partition.points(self.exchange.rank())
+    }
+
+    /// The own points in the order in which some points come.
+    pub fn own_along<'a>(&'a self, points: &'a [u32]) -> impl Iterator<Item = u32> + 'a {
+        points.iter().copied().filter(|&point| self.is_own(point))
     }
 
     /// Whether a point is an own one.
@@ -160,12 +165,15 @@ impl Portion {
 
     /// Puts the sums over all ranks, added up in their order, in the place of some values.
     pub fn sum(&self, values: &mut [f64]) {
-        let counts = vec![values.len(); self.exchange.n_ranks()];
-        let all = self.exchange.gather(values, &counts);
-        values.fill(0.0);
-        for of_rank in all.chunks_exact(values.len().max(1)) {
-            for (sum, value) in values.iter_mut().zip(of_rank) {
-                *sum += value;
+        // A piece at a time: those of all ranks take no more memory than this.
+        for piece in values.chunks_mut((PIECE / self.exchange.n_ranks()).max(1)) {
+            let counts = vec![piece.len(); self.exchange.n_ranks()];
+            let all = self.exchange.gather(piece, &counts);
+            piece.fill(0.0);
+            for of_rank in all.chunks_exact(piece.len()) {
+                for (sum, value) in piece.iter_mut().zip(of_rank) {
+                    *sum += value;
+                }
             }
         }
     }
@@ -173,6 +181,12 @@ impl Portion {
     /// Puts the largest of each value over all ranks in its place.
     pub fn largest(&self, values: &mut [f64]) {
         self.exchange.largest(values);
+    }
+
+    /// Of what each rank may have found the one with the smallest numbers, from the first on; each is some numbers.
+    pub fn least<const N: usize>(&self, own: Option<[f64; N]>) -> Option<[f64; N]> {
+        let all = self.concatenated(own.as_slice()).into_iter();
+        all.reduce(|one, other| if other < one { other } else { one })
     }
 
     /// Lists of all ranks, one after the other, from rank 0 on; each entry is some numbers.

@@ -4,6 +4,7 @@
 //! exactly. The format is that of VTK XML files, version 1.0 (<https://vtk.org/Wiki/VTK_XML_Formats>).
 
 mod field;
+mod pieces;
 pub mod read;
 
 use std::collections::HashSet;
@@ -18,6 +19,7 @@ use crate::xml::escape_attribute;
 use crate::{Error, FieldLocation};
 
 pub use field::Field;
+pub use pieces::{IN_PIECES, SINGLE, SharedCells, file_name, stem, write_shared};
 
 /// A cell given by its points, indices from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,6 +46,23 @@ impl Cell {
             Self::Triangle(points) => points,
             Self::Quad(points) => points,
             Self::Solid(cell) => cell.corners(),
+        }
+    }
+
+    /// The cell with other numbers for its points.
+    fn renumbered(self, number: impl Fn(u32) -> u32) -> Self {
+        use SolidCell::{Hexahedron, Prism, Pyramid, Tetrahedron};
+        match self {
+            Self::Vertex(points) => Self::Vertex(points.map(number)),
+            Self::Line(points) => Self::Line(points.map(number)),
+            Self::Triangle(points) => Self::Triangle(points.map(number)),
+            Self::Quad(points) => Self::Quad(points.map(number)),
+            Self::Solid(cell) => Self::Solid(match cell {
+                Tetrahedron(points) => Tetrahedron(points.map(number)),
+                Hexahedron(points) => Hexahedron(points.map(number)),
+                Prism(points) => Prism(points.map(number)),
+                Pyramid(points) => Pyramid(points.map(number)),
+            }),
         }
     }
 
@@ -143,8 +162,8 @@ impl UnstructuredGrid<'_> {
             self.points.len(),
             self.cells.len()
         );
-        push_fields(&mut xml, "PointData", self.point_fields);
-        push_fields(&mut xml, "CellData", self.cell_fields);
+        push_fields(&mut xml, "PointData", self.point_fields, |it| it.to_xml());
+        push_fields(&mut xml, "CellData", self.cell_fields, |it| it.to_xml());
         xml.push_str("<Points>\n");
         xml.push_str(&Field::vector("Points", self.points).to_xml());
         xml.push_str("</Points>\n<Cells>\n");
@@ -170,9 +189,14 @@ fn cell_arrays(cells: &[Cell]) -> [String; 3] {
     .map(Field::to_xml)
 }
 
-/// The element `PointData` or `CellData`. It names the first scalar and the first vector, which readers show first.
-fn push_fields(xml: &mut String, element: &str, fields: &[Field<'_>]) {
-    let arrays: Vec<String> = fields.par_iter().map(|field| field.to_xml()).collect();
+/// The element `PointData` or `CellData`, or what is said of it for all pieces of a grid. It names the first scalar and the first vector, which readers show first.
+fn push_fields(
+    xml: &mut String,
+    element: &str,
+    fields: &[Field<'_>],
+    array: fn(&Field<'_>) -> String,
+) {
+    let arrays: Vec<String> = fields.par_iter().map(array).collect();
     // Writing to a string cannot fail.
     let _ = write!(xml, "<{element}");
     if let Some(first) = fields.iter().find(|field| field.is_scalar()) {

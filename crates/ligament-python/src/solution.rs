@@ -24,7 +24,6 @@ use pyo3::prelude::*;
 use crate::case::{AnySetup, Case};
 use crate::collector::{Collector, Kept, Progress, Stop};
 use crate::errors::Failure;
-use crate::in_file::in_order_of_file;
 
 /// Time between two looks for a signal.
 const LOOK: Duration = Duration::from_millis(50);
@@ -207,7 +206,7 @@ where
     // The model is nobody else's any more, so that its arrays can be taken.
     let arrays = Arc::into_inner(system).map(IntoArrays::into_arrays);
     let shared = || Failure::Other(anyhow::anyhow!("the points and bonds are still in use"));
-    Ok(in_order_of_file(Solved {
+    Ok(Solved {
         fixed,
         arrays: arrays.ok_or_else(shared)?,
         thickness,
@@ -215,7 +214,7 @@ where
         outcome,
         kept,
         summary,
-    }))
+    })
 }
 
 /// The numbers of a run, as `summary.json` has them.

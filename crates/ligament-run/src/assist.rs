@@ -1,8 +1,6 @@
 //! The part of the processes beside the first in a run of several: each computes the same, and the first alone reads what was stored, tells
 //! and writes.
 
-use std::path::PathBuf;
-
 use anyhow::{Context, ensure};
 use ligament::Model;
 use ligament::run::{follow, on_threads, restore, resume as resume_run};
@@ -11,24 +9,32 @@ use ligament_analysis::history::{Moment, Observer, ObserverError, Onward, StepRe
 use ligament_analysis::ranks::Together;
 use ligament_analysis::serial::Serial;
 use ligament_case::case::CaseFile;
+use ligament_model::Bonds;
 use ligament_output::folder::RESOLVED_CASE;
+use ligament_output::results::PieceWriter;
 
 use crate::checkpoints::IsStopped;
+use crate::loading::write_rule;
 use crate::model::{build_model, build_model_in_space};
 use crate::progress::{Progress, ProgressMode};
-use crate::ranks::{any_stopped, loading};
+use crate::ranks::{any_stopped, hear_folder, loading};
 use crate::stages::Stages;
 use crate::{resume, run};
 
-/// The observer of a process beside the first: it writes nothing, and stops when one was asked to.
+/// Message of a process that has no other one to assist.
+const ALONE: &str = "there is no other process to assist";
+
+/// The observer of a process beside the first: it writes its pieces, and stops when one was asked to.
 struct Beside<'a> {
     ranks: Together,
     is_stopped: IsStopped<'a>,
+    pieces: Option<PieceWriter<'a>>,
 }
 
 impl Observer for Beside<'_> {
-    fn step(&mut self, _: &StepRecord, _: &View<'_>) -> Result<(), ObserverError> {
-        Ok(())
+    fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
+        let pieces = self.pieces.as_mut();
+        pieces.map_or(Ok(()), |it| it.step(record, view))
     }
 
     fn moment(&mut self, moment: &Moment<'_>) -> Result<Onward, ObserverError> {
@@ -65,11 +71,7 @@ impl resume::Request<'_> {
     ///
     /// If something is wrong with the case, or there are no other processes.
     pub fn assist(&self) -> anyhow::Result<()> {
-        let mut folder = Vec::new();
-        if let Some(Together(ranks)) = self.ranks {
-            ranks.broadcast(&mut folder);
-        }
-        let folder = PathBuf::from(String::from_utf8(folder)?);
+        let folder = hear_folder(self.ranks.context(ALONE)?)?;
         let mut case = CaseFile::load(&folder.join(RESOLVED_CASE), self.settings)?;
         let threads = &mut case.case.solver.threads;
         *threads = self.threads.or(*threads);
@@ -85,7 +87,7 @@ fn assist(
     is_stopped: IsStopped<'_>,
     begin: &Begin,
 ) -> anyhow::Result<()> {
-    let ranks = ranks.context("there is no other process to assist")?;
+    let ranks = ranks.context(ALONE)?;
     let (mut stages, progress) = (Stages::default(), Progress::new(ProgressMode::Quiet));
     if case.case.is_solid() {
         let model = build_model_in_space(case, &mut stages, &progress)?;
@@ -111,7 +113,6 @@ where
     }
     let loading = loading(case, model, Some(ranks))?;
     let problem = loading.problem(&model.system, &model.criteria);
-    let mut beside = Beside { ranks, is_stopped };
     let solution: Option<Vec<u8>> = match begin {
         Begin::Unloaded => {
             ensure!(
@@ -125,6 +126,18 @@ where
             ranks.0.broadcast(&mut bytes);
             Serial::read(&mut bytes.as_slice())?
         }
+    };
+    let (grid, fixed) = (model.body().grid(), &model.fixed);
+    let (folder, rule) = (hear_folder(ranks)?, write_rule(case, analysis));
+    let shared = || match solution {
+        None => PieceWriter::new(folder, &grid, fixed, rule, &problem),
+        Some(_) => Ok(PieceWriter::going_on(folder, &grid, fixed, rule)),
+    };
+    let pieces = model.system.portion().map(|_| shared()).transpose()?;
+    let mut beside = Beside {
+        ranks,
+        is_stopped,
+        pieces,
     };
     match solution {
         None => follow(&problem, analysis, &mut beside)?,

@@ -13,6 +13,7 @@ use crate::checkpoints::{Checkpoints, IsStopped};
 use crate::inputs::{Contents, Inputs, unread};
 use crate::progress::Progress;
 use crate::provenance::{Build, Provenance};
+use crate::ranks::tell_folder;
 use crate::stages::Stages;
 use crate::summary::Summary;
 use crate::watch::Watch;
@@ -62,6 +63,7 @@ where
         let problem = loading.problem(&model.system, &model.criteria);
         let analysis = &model.setup.analysis;
         let grid = model.body().grid();
+        tell_folder(loading.solver.ranks, folder.path());
         let (fixed, rule) = (&model.fixed, write_rule(case, analysis));
         let mut contents = Contents::default();
         let inputs = Inputs::of_course(case, &mut contents).map_err(unread)?;

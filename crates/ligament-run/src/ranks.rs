@@ -1,12 +1,14 @@
 //! What the first of several processes tells the others, and what all of them ask each other.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use anyhow::ensure;
 use ligament::setup::{Dim, Dimension};
 use ligament::{Loading, Model};
 use ligament_analysis::ranks::Together;
 use ligament_analysis::serial::Serial;
 use ligament_case::case::CaseFile;
+use ligament_model::Bonds;
 
 use crate::checkpoints::IsStopped;
 use crate::memory;
@@ -20,6 +22,10 @@ pub(crate) fn loading<const D: usize>(
 where
     Dim: Dimension<D>,
 {
+    ensure!(
+        !case.case.output.bonds || model.system.portion().is_none(),
+        "output.bonds: several processes write no file of the bonds as lines; run the case with one process, or leave the key out"
+    );
     let loading = Loading::new(&model.setup, &model.system);
     let mut loading = loading.map_err(|it| case.located(it))?;
     loading.solver.ranks = ranks;
@@ -36,12 +42,19 @@ pub(crate) fn any_stopped(ranks: Option<Together>, is_stopped: IsStopped<'_>) ->
     asked[0] > 0.0
 }
 
-/// Tells the others the folder of a run that goes on.
+/// Tells the others the folder of the results.
 pub(crate) fn tell_folder(ranks: Option<Together>, folder: &Path) {
     if let Some(Together(ranks)) = ranks {
         let mut bytes = folder.as_os_str().as_encoded_bytes().to_vec();
         ranks.broadcast(&mut bytes);
     }
+}
+
+/// Hears from the first process the folder of the results.
+pub(crate) fn hear_folder(Together(ranks): Together) -> anyhow::Result<PathBuf> {
+    let mut folder = Vec::new();
+    ranks.broadcast(&mut folder);
+    Ok(PathBuf::from(String::from_utf8(folder)?))
 }
 
 /// Tells the others from where a run goes on: a checkpoint, or none.

@@ -126,7 +126,7 @@ impl<'a> Formulation<'a> {
         let (setup, cloud) = (self.setup, self.cloud);
         match setup.correction.surface {
             Surface::Domain(iteration) => {
-                let sweeps = iteration.sweeps(bonds.len());
+                let sweeps = iteration.sweeps(bonds.count(cloud));
                 let (materials, plane) = (setup.materials(), setup.plane());
                 let continuum = Continuum {
                     materials: &materials,

@@ -44,6 +44,7 @@
 
 pub mod body;
 mod coordinates;
+pub mod counts;
 pub mod crack_energy;
 pub mod direction;
 pub mod error;

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use ligament_analysis::ranks::Together;
 use ligament_model::bonds::hole::bonds_across;
 use ligament_model::bonds::outline::{bonds_outside, spacing_inside};
 use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds};
@@ -10,16 +11,18 @@ use ligament_model::correction::{
     Continuum, Correction, CorrectionReport, StrainMode, energy_ratios,
 };
 use ligament_model::failure::Criteria;
+use ligament_model::portion::Portion;
 use ligament_model::{
     Absence, AbsentBond, BondSet, BondStiffness, BondSystem, EnergyRatio, FixedFields, PointCloud,
 };
 
 use crate::body::Body;
+use crate::counts::{self, BondCounts};
 use crate::error::SetupError;
 use crate::faces;
 use crate::formulation::{self, Formulation};
 use crate::loading;
-use crate::setup::{CorrectionDomain, Dim, Dimension, Setup};
+use crate::setup::{Analysis, CorrectionDomain, Dim, Dimension, Law, Setup};
 use crate::soundness::{forbid_overlap, require_connected, require_distinct, require_numbers};
 use crate::stage::{Finding, StageWatcher, stage};
 use crate::warning::{self, Warning};
@@ -40,6 +43,8 @@ where
     pub correction: Option<CorrectionReport>,
     /// Smallest and largest Omega.
     pub correction_range: (f64, f64),
+    /// Numbers of bonds.
+    pub counts: BondCounts,
     /// Failure criteria of the bonds.
     pub criteria: Arc<Criteria>,
     /// What the user should know.
@@ -59,8 +64,39 @@ where
     where
         Dim: Discretises<D>,
     {
-        Dim::model(setup, watcher)
+        Dim::model(setup, |_, _| None, watcher)
     }
+
+    /// Builds the model of a setup whose bonds are shared out among the processes of its solver, on the threads of the caller.
+    ///
+    /// # Errors
+    ///
+    /// If a field of the setup is wrong.
+    pub fn build_shared_out(
+        setup: Setup<D>,
+        watcher: &mut dyn StageWatcher,
+    ) -> Result<Self, SetupError>
+    where
+        Dim: Discretises<D>,
+    {
+        Dim::model(setup, portion_of, watcher)
+    }
+}
+
+/// What tells the part of this process in the points of a setup; none where it has all of them.
+pub type PortionOf<const D: usize> = fn(&Setup<D>, &PointCloud<D>) -> Option<Portion>;
+
+/// The part of this process in the points of a setup that several share out; none where it has all of them. Elements that lean on bonds
+/// beside them, faces that close and natural modes ask for the whole body.
+fn portion_of<const D: usize>(setup: &Setup<D>, cloud: &PointCloud<D>) -> Option<Portion>
+where
+    Dim: Dimension<D>,
+{
+    let Together(ranks) = setup.solver.ranks?;
+    let needs_all = setup.closing
+        || matches!(setup.law, Law::MbbPd { .. })
+        || matches!(setup.analysis, Analysis::Modal(_));
+    (!needs_all).then(|| cloud.portion_of(ranks))
 }
 
 /// What makes models in D dimensions.
@@ -68,36 +104,46 @@ pub trait Discretises<const D: usize>
 where
     Dim: Dimension<D>,
 {
-    /// Builds the model of a setup.
+    /// Builds the model of a setup, of whose points this process has a part or all of them.
     ///
     /// # Errors
     ///
     /// If a field of the setup is wrong.
-    fn model(setup: Setup<D>, watcher: &mut dyn StageWatcher) -> Result<Model<D>, SetupError>;
+    fn model(
+        setup: Setup<D>,
+        portion: PortionOf<D>,
+        watcher: &mut dyn StageWatcher,
+    ) -> Result<Model<D>, SetupError>;
 }
 
 impl Discretises<2> for Dim {
-    fn model(setup: Setup, watcher: &mut dyn StageWatcher) -> Result<Model, SetupError> {
-        Model::in_plane(setup, watcher)
+    fn model(
+        setup: Setup,
+        portion: PortionOf<2>,
+        watcher: &mut dyn StageWatcher,
+    ) -> Result<Model, SetupError> {
+        Model::in_plane(setup, portion, watcher)
     }
 }
 
 impl Model {
     /// Builds the model of a setup in the plane.
-    fn in_plane(setup: Setup, watcher: &mut dyn StageWatcher) -> Result<Self, SetupError> {
+    fn in_plane(
+        setup: Setup,
+        portion: PortionOf<2>,
+        watcher: &mut dyn StageWatcher,
+    ) -> Result<Self, SetupError> {
         setup.check()?;
         let material_of_cell = loading::material_of_cell(&setup)?;
-        let cloud = stage(watcher, "points", || points(&setup, &material_of_cell))?;
+        let cloud = stage(watcher, "points", || {
+            points(&setup, &material_of_cell, portion)
+        })?;
         let horizons = setup.horizon.of_points(&cloud);
         let (bonds, absent) = stage(watcher, "bonds", || {
             inside_body(&setup, BondSet::search(&cloud, &horizons), &cloud)
         });
         require_connected(&setup, &cloud, &horizons, &bonds)?;
-        watcher.found(&Finding::Bonds {
-            points: cloud.len(),
-            bonds: bonds.len(),
-            across_voids: absent.len(),
-        });
+        watcher.found(&counts::finding(&cloud, &bonds, &absent));
         let (is_cut, touched, precrack_share) = stage(watcher, "pre-cracks", || {
             precracked(&setup.precracks, &bonds, &cloud)
         });
@@ -112,10 +158,8 @@ impl Model {
             let formulation = Formulation::new(&setup, &cloud, &horizons, &material_of_cell);
             correct(&formulation, bonds, &is_cut)
         });
-        watcher.found(&Finding::Correction(
-            &setup.correction,
-            correction.report.as_ref(),
-        ));
+        let report = correction.report.as_ref();
+        watcher.found(&Finding::Correction(&setup.correction, report));
         let fixed = FixedFields {
             horizon: horizons.radius,
             precrack_share,
@@ -133,10 +177,10 @@ impl Model {
         })?;
         let limits = || formulation::criteria(&setup, &system, &fixed);
         let criteria = stage(watcher, "criteria", limits)?;
-        let report = correction.report.as_ref();
         Ok(Self {
             warnings: warning::of_model(&setup, &system.cloud.spacing, report, &fixed, touched),
-            correction_range: correction.domain_factor_range(),
+            correction_range: correction_range(&correction, &system.cloud),
+            counts: BondCounts::new(&system.cloud, &system.bonds, &fixed.absent),
             correction: correction.report,
             setup,
             system: Arc::new(system),
@@ -152,17 +196,12 @@ where
 {
     /// Number of pairs of points that would be bonded but for a void of the body between them.
     pub fn across_voids(&self) -> usize {
-        self.absent(Absence::Void)
+        self.counts.across_voids
     }
 
     /// Number of bonds that pre-cracks cut.
     pub fn cut_bonds(&self) -> usize {
-        self.absent(Absence::PreCrack)
-    }
-
-    fn absent(&self, absence: Absence) -> usize {
-        let absent = self.fixed.absent.iter();
-        absent.filter(|it| it.absence == absence).count()
+        self.counts.cut
     }
 
     /// Number of points whose bonds never break.
@@ -176,8 +215,19 @@ where
     }
 }
 
+/// The points of the body, with the index of the material of each cell (n_cells), and the part of this process in them.
+fn points(
+    setup: &Setup,
+    material_of_cell: &[u32],
+    portion: PortionOf<2>,
+) -> Result<PointCloud, SetupError> {
+    let cloud = all_points(setup, material_of_cell)?;
+    let portion = portion(setup, &cloud);
+    Ok(PointCloud { portion, ..cloud })
+}
+
 /// The points of the body, with the index of the material of each cell (n_cells).
-fn points(setup: &Setup, material_of_cell: &[u32]) -> Result<PointCloud, SetupError> {
+fn all_points(setup: &Setup, material_of_cell: &[u32]) -> Result<PointCloud, SetupError> {
     let n_materials = setup.materials.len();
     let (body, thickness) = (&setup.body, setup.thickness());
     let cloud = body.cloud(thickness, material_of_cell, n_materials);
@@ -202,7 +252,7 @@ fn precracked(
 ) -> (Vec<bool>, usize, Vec<f64>) {
     let is_cut = cut_bonds(precracks, bonds, cloud);
     let touched = count_touched_bonds(precracks, bonds, cloud, &is_cut);
-    let share = precrack_share(bonds, &is_cut);
+    let share = precrack_share(cloud, bonds, &is_cut);
     (is_cut, touched, share)
 }
 
@@ -339,16 +389,28 @@ fn of_bonds(formulation: &Formulation<'_>, bonds: BondSet) -> Corrected {
 }
 
 /// Share of the bonds of each point that pre-cracks cut, by number, shape (n_points).
-pub(crate) fn precrack_share<const D: usize>(bonds: &BondSet<D>, is_cut: &[bool]) -> Vec<f64> {
-    let n_points = bonds.incidence.n_points();
-    if !is_cut.contains(&true) {
-        return vec![0.0; n_points];
+pub(crate) fn precrack_share<const D: usize>(
+    cloud: &PointCloud<D>,
+    bonds: &BondSet<D>,
+    is_cut: &[bool],
+) -> Vec<f64> {
+    let n_cut = is_cut.iter().filter(|is_cut| **is_cut).count();
+    if cloud.total(n_cut) == 0 {
+        return vec![0.0; cloud.len()];
     }
-    (0..n_points as u32)
-        .map(|point| {
-            let family = bonds.incidence.at(point);
-            let cut = family.iter().filter(|bond| is_cut[**bond as usize]).count();
-            cut as f64 / family.len().max(1) as f64
-        })
-        .collect()
+    let shares = cloud.over_families(|point| {
+        let family = bonds.incidence.at(point);
+        let cut = family.iter().filter(|bond| is_cut[**bond as usize]).count();
+        [cut as f64 / family.len().max(1) as f64]
+    });
+    shares.into_iter().map(|[share]| share).collect()
+}
+
+/// Smallest and largest Omega of the bonds of a body.
+pub(crate) fn correction_range<const D: usize>(
+    correction: &Correction,
+    cloud: &PointCloud<D>,
+) -> (f64, f64) {
+    let (smallest, largest) = correction.domain_factor_range();
+    (-cloud.largest(-smallest), cloud.largest(largest))
 }

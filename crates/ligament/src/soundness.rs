@@ -51,10 +51,11 @@ pub(crate) fn require_distinct(body: &dyn Body, cloud: &PointCloud) -> Result<()
 /// Refuses points that have no neighbour at all: no correction gives them a stiffness.
 pub(crate) fn require_neighbours<const D: usize>(
     body: &dyn Body<D>,
+    cloud: &PointCloud<D>,
     bonds: &BondSet<D>,
 ) -> Result<(), SetupError> {
-    let lone = bonds.lone_points();
-    let Some(&first) = body.numbering().sorted(&lone).first() else {
+    let lone = bonds.lone_points(cloud);
+    let Some(&first) = cloud.numbering.sorted(&lone).first() else {
         return Ok(());
     };
     let fault = Fault::LonePoints {
@@ -72,7 +73,7 @@ pub(crate) fn require_connected(
     horizons: &Horizons,
     bonds: &BondSet,
 ) -> Result<(), SetupError> {
-    require_neighbours(&*setup.body, bonds)?;
+    require_neighbours(&*setup.body, cloud, bonds)?;
     require_whole(setup, cloud, horizons, bonds)
 }
 
@@ -86,7 +87,7 @@ fn require_whole(
     let body = &*setup.body;
     let corners = body.cells().iter().map(|cell| cell.corners());
     let sides = corners.flat_map(|it| (0..it.len()).map(|k| [it[k], it[(k + 1) % it.len()]]));
-    let parts = Parts::new(cloud.len(), bonds.ends.iter().copied());
+    let parts = Parts::of_bonds(cloud, bonds);
     // A side whose ends hang together in the body, but not by its bonds.
     let length = |&[from, to]: &[u32; 2]| {
         let [from, to] = [from, to].map(|it| cloud.positions[it as usize]);
@@ -131,12 +132,13 @@ fn require_whole(
 
 /// Refuses bonds whose stiffness is no number that equations can be made of.
 pub(crate) fn require_numbers(body: &dyn Body, system: &BondSystem) -> Result<(), SetupError> {
-    require_rigidities(body, &system.rigidities, &system.bonds.ends)
+    require_rigidities(body, &system.cloud, &system.rigidities, &system.bonds.ends)
 }
 
 /// Refuses rigidities of bonds between some ends (n_bonds) that are no numbers to make equations of.
 pub(crate) fn require_rigidities<const D: usize>(
     body: &dyn Body<D>,
+    cloud: &PointCloud<D>,
     rigidities: &Rigidities,
     ends: &[[u32; 2]],
 ) -> Result<(), SetupError> {
@@ -149,15 +151,19 @@ pub(crate) fn require_rigidities<const D: usize>(
         let mut all = [axial, shear, rotational].into_iter().map(|it| it[*bond]);
         all.any(|it| !it.is_finite())
     };
-    if let Some(bond) = (0..axial.len()).find(is_wrong) {
+    let wrong = (0..axial.len()).find(is_wrong);
+    let wrong = wrong.map(|bond| ends[bond].map(f64::from));
+    let first = (cloud.portion.as_ref()).map_or(wrong, |portion| portion.least(wrong));
+    if let Some(ends) = first {
         return Err(Field::whole("materials").error(Fault::NoNumber {
-            places: (body.numbering().ordered(ends[bond])).map(|end| body.place(end)),
+            places: (cloud.numbering.ordered(ends.map(|it| it as u32))).map(|end| body.place(end)),
         }));
     }
     // The square of a strain of one in 10^14 counts as well.
     let sizes = axial.iter().map(|it| it.abs());
-    let largest = sizes.fold(0.0, f64::max);
-    if axial.is_empty() || (1e-270..1e270).contains(&largest) {
+    let largest = cloud.largest(sizes.fold(f64::NEG_INFINITY, f64::max));
+    // Without any bond there is no largest one.
+    if largest < 0.0 || (1e-270..1e270).contains(&largest) {
         return Ok(());
     }
     Err(Field::whole("materials").error(Fault::OutOfNumbers { rigidity: largest }))
@@ -187,6 +193,22 @@ impl Parts {
             first[point as usize] = root(&mut first, point);
         }
         Self { first }
+    }
+
+    /// Points of a body that hang together by its bonds.
+    pub(crate) fn of_bonds<const D: usize>(cloud: &PointCloud<D>, bonds: &BondSet<D>) -> Self {
+        let known = Self::new(cloud.len(), bonds.ends.iter().copied());
+        let Some(portion) = &cloud.portion else {
+            return known;
+        };
+        let numbered = (0..)
+            .zip(known.first)
+            .filter(|(point, first)| point != first);
+        let pairs: Vec<[f64; 2]> = numbered
+            .map(|(point, first)| [point, first].map(f64::from))
+            .collect();
+        let all = portion.concatenated(&pairs).into_iter();
+        Self::new(cloud.len(), all.map(|pair| pair.map(|it| it as u32)))
     }
 
     pub(crate) fn part(&self, point: u32) -> u32 {

@@ -121,7 +121,7 @@ where
     let (system, fixed) = (&model.system, &model.fixed);
     let over = |values: &[f64]| Spread::over(values.iter().copied());
     writeln!(out, "bonds")?;
-    let (bonds, cut) = (system.ends().len(), model.cut_bonds());
+    let (bonds, cut) = (model.counts.bonds, model.cut_bonds());
     entry(out, "bonds", format!("{bonds} ({cut} cut by pre-cracks)"))?;
     if !model.body().holes().is_empty() || model.across_voids() > 0 {
         entry(out, "pairs across voids", model.across_voids())?;

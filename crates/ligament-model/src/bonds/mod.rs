@@ -6,6 +6,8 @@ pub mod precrack;
 mod search;
 pub mod star;
 
+use crate::cloud::PointCloud;
+
 /// All bonds of a body, as arrays over the bonds.
 ///
 /// Bonds are in the order of their ends: by the first end, then by the second. They lie in the plane, or for D = 3 in space.
@@ -36,6 +38,14 @@ impl<const D: usize> BondSet<D> {
         self.ends.len()
     }
 
+    /// Number of the bonds of the whole body between the points of a cloud, of which these are known here.
+    pub fn count(&self, cloud: &PointCloud<D>) -> usize {
+        match cloud.portion {
+            None => self.len(),
+            Some(_) => cloud.total(self.ends.iter().filter(|it| cloud.counts(**it)).count()),
+        }
+    }
+
     /// Whether there is no bond.
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()
@@ -47,10 +57,13 @@ impl<const D: usize> BondSet<D> {
         if a == point { b } else { a }
     }
 
-    /// Points without any bond, ascending.
-    pub fn lone_points(&self) -> Vec<u32> {
-        (0..self.incidence.n_points() as u32)
-            .filter(|&point| self.incidence.at(point).is_empty())
+    /// Points of a cloud without any bond, ascending.
+    pub fn lone_points(&self, cloud: &PointCloud<D>) -> Vec<u32> {
+        let sizes = cloud.over_families(|point| [self.incidence.at(point).len() as f64]);
+        (0..)
+            .zip(sizes)
+            .filter(|(_, size)| *size == [0.0])
+            .map(|(point, _)| point)
             .collect()
     }
 

@@ -146,7 +146,8 @@ pub fn count_touched_bonds(
         cracks.iter().any(|crack| crack.ends_on(a, b))
     };
     let whole = bonds.ends.par_iter().zip(is_cut).filter(|(_, cut)| !**cut);
-    whole.filter(|(ends, _)| is_touched(ends)).count()
+    let here = whole.filter(|(ends, _)| cloud.counts(**ends) && is_touched(ends));
+    cloud.total(here.count())
 }
 
 impl PreCrack {

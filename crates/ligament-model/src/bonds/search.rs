@@ -1,5 +1,7 @@
 //! Search of the pairs of points that are bonded.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 
 use super::{BondSet, Incidence};
@@ -16,8 +18,8 @@ impl<const D: usize> BondSet<D> {
     /// only that one holds the other point.
     pub fn search(cloud: &PointCloud<D>, horizons: &Horizons) -> Self {
         let tree = search_tree(&cloud.positions);
-        let found: Vec<Vec<[u32; 2]>> = cloud
-            .curve
+        let known = |pair: &[u32; 2]| cloud.portion.as_ref().is_none_or(|it| it.knows(*pair));
+        let found: Vec<Vec<[u32; 2]>> = reaching(cloud, horizons)
             .par_chunks(BLOCK)
             .map(|points| {
                 let mut pairs = Vec::new();
@@ -29,7 +31,8 @@ impl<const D: usize> BondSet<D> {
                         tree.locate_within_distance(position, reach * reach)
                             .map(|neighbour| neighbour.data)
                             .filter(|&other| is_recorded_by(point, other, cloud, horizons))
-                            .map(|other| [point.min(other), point.max(other)]),
+                            .map(|other| [point.min(other), point.max(other)])
+                            .filter(known),
                     );
                 }
                 pairs
@@ -62,6 +65,29 @@ impl<const D: usize> BondSet<D> {
             incidence,
         }
     }
+}
+
+/// Points along the curve whose horizons may reach own points, with these; all points of one process.
+fn reaching<'a, const D: usize>(cloud: &'a PointCloud<D>, horizons: &Horizons) -> Cow<'a, [u32]> {
+    let Some(portion) = &cloud.portion else {
+        return Cow::Borrowed(&cloud.curve);
+    };
+    let (mut lower, mut upper) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
+    for &point in portion.own() {
+        for (axis, x) in cloud.positions[point as usize].into_iter().enumerate() {
+            lower[axis] = lower[axis].min(x);
+            upper[axis] = upper[axis].max(x);
+        }
+    }
+    let reaches = |point: u32| {
+        let position = cloud.positions[point as usize];
+        let nearest = std::array::from_fn(|axis| position[axis].max(lower[axis]).min(upper[axis]));
+        horizons.contains(point, distance(position, nearest))
+    };
+    let points = cloud.curve.iter().copied();
+    points
+        .filter(|&it| portion.is_own(it) || reaches(it))
+        .collect()
 }
 
 /// The pairs in ascending order of their first, then of their second point.

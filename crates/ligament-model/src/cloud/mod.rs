@@ -10,7 +10,7 @@ use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
 use crate::horizon::INCLUSION_TOLERANCE;
-use crate::portion::Portion;
+use crate::portion::{Exchange, Partition, Portion};
 
 /// Material points with their volumes, nearest-neighbour distances and materials.
 ///
@@ -77,12 +77,62 @@ impl<const D: usize> PointCloud<D> {
         &self,
         value: impl Fn(u32) -> T + Sync,
     ) -> Vec<T> {
-        let along_curve: Vec<T> = self.curve.par_iter().map(|&point| value(point)).collect();
-        let mut values = vec![T::default(); self.len()];
-        for (&point, &value) in self.curve.iter().zip(&along_curve) {
+        self.over_some(&self.curve, T::default(), value)
+    }
+
+    /// Values that each point has from its bonds, shape (n_points, N), computed in parallel along the curve: those of own points, which are
+    /// told to the other processes where there are any.
+    pub fn over_families<const N: usize>(
+        &self,
+        values: impl Fn(u32) -> [f64; N] + Sync,
+    ) -> Vec<[f64; N]> {
+        let zeros = [0.0; N];
+        let Some(portion) = &self.portion else {
+            return self.over_some(&self.curve, zeros, values);
+        };
+        let own: Vec<u32> = portion.own_along(&self.curve).collect();
+        let mut all = self.over_some(&own, zeros, values);
+        portion.complete(all.as_flattened_mut(), N);
+        all
+    }
+
+    /// A value for each of some points and another one for the others, shape (n_points).
+    fn over_some<T: Copy + Send>(
+        &self,
+        points: &[u32],
+        of_others: T,
+        value: impl Fn(u32) -> T + Sync,
+    ) -> Vec<T> {
+        let in_order: Vec<T> = points.par_iter().map(|&point| value(point)).collect();
+        let mut values = vec![of_others; self.len()];
+        for (&point, &value) in points.iter().zip(&in_order) {
             values[point as usize] = value;
         }
         values
+    }
+
+    /// Whether a bond, of which the ends A < B are given, is counted here: by one process alone.
+    pub fn counts(&self, ends: [u32; 2]) -> bool {
+        (self.portion.as_ref()).is_none_or(|portion| portion.counts(ends))
+    }
+
+    /// The largest of a value over all processes.
+    pub fn largest(&self, value: f64) -> f64 {
+        let mut largest = [value];
+        if let Some(portion) = &self.portion {
+            portion.largest(&mut largest);
+        }
+        largest[0]
+    }
+
+    /// The sum of what each process has counted.
+    pub fn total(&self, counted: usize) -> usize {
+        let Some(portion) = &self.portion else {
+            return counted;
+        };
+        let mut sum = [counted as f64];
+        portion.sum(&mut sum);
+        sum[0] as usize
     }
 
     /// Takes a position of the case to the coordinates of [`PointCloud::positions`].
@@ -170,6 +220,13 @@ impl<const D: usize> PointCloud<D> {
             let [first, second] = [one, other].map(|point| self.positions[point as usize][axis]);
             first.total_cmp(&second).then(one.cmp(&other))
         });
+    }
+
+    /// The part of this process in the body, where it is shared out among several.
+    pub fn portion_of(&self, exchange: &'static dyn Exchange) -> Portion {
+        let halve = |points: &mut [u32]| self.halve(points);
+        let partition = Partition::new(self.len(), exchange.n_ranks(), &halve);
+        Portion::new(partition, exchange)
     }
 
     /// Displacements u_i = x_j, u_j = x_i for each pair of axes i <= j, of points with so many components of motion, each of shape

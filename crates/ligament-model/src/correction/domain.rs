@@ -53,7 +53,7 @@ pub fn energy_ratios(
     correction: &Correction,
     continuum: Continuum<'_>,
 ) -> [Vec<f64>; 4] {
-    let energies = cloud.over_points(|point| {
+    let energies = cloud.over_families(|point| {
         let mut energies = [0.0; 4];
         for &bond in bonds.incidence.at(point) {
             let volume = cloud.volumes[bonds.neighbour(bond, point) as usize];

@@ -11,14 +11,14 @@ use crate::cloud::PointCloud;
 /// Members of a family whose factors are computed at once: square roots and divisions go in pairs through the processor.
 const LANES: usize = 4;
 
-/// The families of all points along the curve; `rank` is the place of a point on it.
+/// The families of own points along the curve; `rank` is the place of a point in the order of the sweeps.
 pub(super) struct Families<'a> {
     coefficients: Coefficients<'a>,
     /// Omega of each member.
     domain_factor: Vec<f64>,
-    /// e_A of the continuum along x and y, by rank, J/m^3.
+    /// e_A of the continuum along x and y of own points, by rank, J/m^3.
     target: Vec<[f64; 2]>,
-    /// e_A/etil_A along x and y, by rank.
+    /// e_A/etil_A along x and y of all points, by rank.
     ratios: Vec<[f64; 2]>,
     /// The ratios before the last sweep, by rank.
     before: Vec<[f64; 2]>,
@@ -49,14 +49,15 @@ impl<'a> Families<'a> {
         let coefficients = Coefficients::new(bonds, cloud, density);
         let domain_factor = vec![1.0; coefficients.energy.len()];
         let at = |point: u32| [0, 1].map(|axis| targets[axis][point as usize]);
-        let target: Vec<[f64; 2]> = cloud.curve.iter().map(|&point| at(point)).collect();
-        let ratios: Vec<[f64; 2]> = (0..cloud.len())
-            .into_par_iter()
-            .map(|rank| {
-                let factors = &domain_factor[coefficients.members.family(rank)];
-                coefficients.energy_ratios(rank, factors, target[rank])
-            })
-            .collect();
+        let own = coefficients.members.seats.own().iter();
+        let target: Vec<[f64; 2]> = own.map(|&point| at(point)).collect();
+        let mut ratios = vec![[0.0; 2]; cloud.len()];
+        let own = ratios.par_iter_mut().zip(&target).enumerate();
+        own.for_each(|(rank, (ratios, &target))| {
+            let factors = &domain_factor[coefficients.members.family(rank)];
+            *ratios = coefficients.energy_ratios(rank, factors, target);
+        });
+        coefficients.members.seats.complete(&mut ratios);
         Self {
             coefficients,
             domain_factor,
@@ -73,7 +74,7 @@ impl SweptFamilies for Families<'_> {
         let (coefficients, before, target) = (&self.coefficients, &self.before, &self.target);
         let changes: Vec<f64> = (
             coefficients.members.blocks(&mut self.domain_factor),
-            self.ratios.par_chunks_mut(BLOCK),
+            self.ratios[..target.len()].par_chunks_mut(BLOCK),
         )
             .into_par_iter()
             .enumerate()
@@ -88,8 +89,14 @@ impl SweptFamilies for Families<'_> {
                 change.iter().sum()
             })
             .collect();
+        let seats = &coefficients.members.seats;
+        seats.complete(&mut self.ratios);
         // Every bond was met at either end.
-        0.5 * changes.iter().sum::<f64>()
+        0.5 * seats.total(changes.iter().sum::<f64>())
+    }
+
+    fn n_bonds(&self) -> usize {
+        self.coefficients.members.n_bonds()
     }
 
     fn largest_residual(&self) -> f64 {

@@ -11,15 +11,15 @@ use crate::cloud::PointCloud;
 ///
 /// with the shortest and longest bond of either end. An end whose bonds all have one length contributes exp(0) = 1.
 pub fn length_factors<const D: usize>(bonds: &BondSet<D>, cloud: &PointCloud<D>) -> Vec<f64> {
-    let ranges: Vec<(f64, f64)> = cloud.over_points(|point| {
+    let ranges = cloud.over_families(|point| {
         let family = bonds.incidence.at(point).iter();
         let lengths = family.map(|&bond| bonds.length[bond as usize]);
-        lengths.fold((f64::INFINITY, 0.0), |(shortest, longest), l| {
-            (l.min(shortest), l.max(longest))
+        lengths.fold([f64::INFINITY, 0.0], |[shortest, longest], l: f64| {
+            [l.min(shortest), l.max(longest)]
         })
     });
     let contribution = |point: u32, length: f64| {
-        let (shortest, longest) = ranges[point as usize];
+        let [shortest, longest] = ranges[point as usize];
         if longest > shortest {
             ((shortest - length) / (longest - shortest)).exp()
         } else {

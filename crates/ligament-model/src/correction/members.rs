@@ -6,16 +6,19 @@
 
 use rayon::prelude::*;
 
+use super::seats::Seats;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 
 /// Points whose sums one thread makes; fixed, so that sums are the same for any number of threads.
 pub(crate) const BLOCK: usize = 1024;
 
-/// The bonds seen from their points: each stands in the family of either end. `rank` is the place of a point on the curve.
+/// The bonds seen from their points: each stands in the family of either end that is an own point. `rank` is the place of a point in the
+/// order of the sweeps.
 pub(crate) struct Members<'a, const D: usize = 2> {
     bonds: &'a BondSet<D>,
     cloud: &'a PointCloud<D>,
+    pub(crate) seats: Seats<'a>,
     /// Index of the first member of the family of each rank, and behind the last family the number of all members.
     starts: Vec<usize>,
     /// Rank of the other end of each member.
@@ -23,19 +26,20 @@ pub(crate) struct Members<'a, const D: usize = 2> {
 }
 
 impl<'a, const D: usize> Members<'a, D> {
-    /// The members of the families of all points.
+    /// The members of the families of own points.
     pub(crate) fn new(bonds: &'a BondSet<D>, cloud: &'a PointCloud<D>) -> Self {
-        let mut ranks = vec![0; cloud.len()];
+        let seats = Seats::new(cloud);
+        let ranks = seats.ranks();
         let mut starts = vec![0];
         let mut size = 0;
-        for (rank, &point) in cloud.curve.iter().enumerate() {
-            ranks[point as usize] = rank as u32;
+        for &point in seats.own() {
             size += bonds.incidence.at(point).len();
             starts.push(size);
         }
         let mut members = Self {
             bonds,
             cloud,
+            seats,
             starts,
             neighbour: Vec::new(),
         };
@@ -44,7 +48,12 @@ impl<'a, const D: usize> Members<'a, D> {
         members
     }
 
-    /// Number of points.
+    /// Number of the bonds of the whole body.
+    pub(crate) fn n_bonds(&self) -> usize {
+        self.bonds.count(self.cloud)
+    }
+
+    /// Number of own points.
     pub(crate) fn n_points(&self) -> usize {
         self.starts.len() - 1
     }
@@ -62,7 +71,7 @@ impl<'a, const D: usize> Members<'a, D> {
     ) -> Vec<T> {
         let mut values = vec![T::default(); self.starts[self.n_points()]];
         self.over_blocks(&mut values, |rank, values| {
-            let point = self.cloud.curve[rank];
+            let point = self.seats.own()[rank];
             for (slot, &bond) in values.iter_mut().zip(self.bonds.incidence.at(point)) {
                 *slot = value(point, bond);
             }
@@ -103,6 +112,9 @@ impl<'a, const D: usize> Members<'a, D> {
 
     /// The value of each bond from those of the members, which are the same at either end, shape (n_bonds).
     pub(crate) fn of_bonds<T: Copy + Default + Send + Sync>(&self, values: &[T]) -> Vec<T> {
+        if self.cloud.portion.is_some() {
+            return self.of_known_bonds(values);
+        }
         // The bonds whose first end is a point follow one another, at the end of its family.
         let of_others = self.cloud.over_points(|point| {
             let is_second = |&bond: &u32| self.bonds.ends[bond as usize][0] != point;
@@ -125,6 +137,17 @@ impl<'a, const D: usize> Members<'a, D> {
         let along_curve: Vec<_> = self.cloud.curve.iter().enumerate().map(of_rank).collect();
         (along_curve.into_par_iter().with_min_len(BLOCK))
             .for_each(|(own, from)| own.copy_from_slice(from));
+        of_bonds
+    }
+
+    /// The value of each known bond, of which the first end may be a point of another process.
+    fn of_known_bonds<T: Copy + Default>(&self, values: &[T]) -> Vec<T> {
+        let mut of_bonds = vec![T::default(); self.bonds.len()];
+        let families = self.seats.own().iter();
+        let members = families.flat_map(|&point| self.bonds.incidence.at(point));
+        for (&bond, &value) in members.zip(values) {
+            of_bonds[bond as usize] = value;
+        }
         of_bonds
     }
 }

@@ -14,6 +14,7 @@ pub mod length;
 pub(crate) mod members;
 pub mod partial_volume;
 pub mod patch;
+pub(crate) mod seats;
 mod strain_mode;
 pub mod surface;
 pub(crate) mod sweeps;

@@ -25,6 +25,9 @@ pub(crate) trait SweptFamilies {
     /// One sweep; the sum over the bonds of |change of Omega|.
     fn sweep(&mut self) -> f64;
 
+    /// Number of the bonds of the whole body.
+    fn n_bonds(&self) -> usize;
+
     /// Largest |etil/e - 1| of a point along an axis.
     fn largest_residual(&self) -> f64;
 
@@ -41,7 +44,7 @@ impl Sweeps {
     ) -> Correction {
         let tolerance = match self.stop {
             StopRule::Sum(tolerance) => tolerance,
-            StopRule::Mean(tolerance) => tolerance * length_factor.len() as f64,
+            StopRule::Mean(tolerance) => tolerance * families.n_bonds() as f64,
         };
         let mut last_change = f64::INFINITY;
         let mut done = 0;

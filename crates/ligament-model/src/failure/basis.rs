@@ -3,6 +3,7 @@
 use super::crack_energies::Lattice;
 use crate::cloud::PointCloud;
 use crate::material::{Isotropic, Material, Plane};
+use crate::portion::Portion;
 use crate::scatter::{Factors, Scattered};
 use crate::system::BondSystem;
 
@@ -51,6 +52,7 @@ impl Basis<'_> {
             ends: &self.system.bonds.ends,
             horizons: &self.system.bonds.horizon,
             scatter: self.scatter,
+            portion: self.system.cloud.portion.as_ref(),
         }
     }
 }
@@ -64,6 +66,8 @@ pub(crate) struct LimitEnds<'a> {
     pub(crate) horizons: &'a [f64],
     /// Factors by which a property varies at random, where one does.
     pub(crate) scatter: Option<&'a Factors>,
+    /// The part of this process in the body, where it is one of several.
+    pub(crate) portion: Option<&'a Portion>,
 }
 
 impl LimitEnds<'_> {

@@ -79,17 +79,26 @@ pub(crate) fn after(
                 }
                 let energy = (brittle / limit).powi(2);
                 if energy <= parameter.least_energy {
-                    return Err(NoLimit::NothingLeft {
-                        horizon: bonds.horizons[bond],
-                        limit,
-                        brittle,
-                        least: parameter.least_energy,
-                    });
+                    let [a, b] = bonds.ends[bond].map(f64::from);
+                    return Err([a, b, bonds.horizons[bond], limit, brittle]);
                 }
                 Ok((parameter.for_energy)(energy))
             };
             let of_bonds = limits.iter().zip(&brittle).enumerate();
-            of_bonds.map(of_bond).collect::<Result<_, _>>()?
+            let found: Result<Vec<f64>, _> = of_bonds.map(of_bond).collect();
+            let nothing_left = found.as_ref().err().copied();
+            let first = bonds
+                .portion
+                .map_or(nothing_left, |it| it.least(nothing_left));
+            if let Some([_, _, horizon, limit, brittle]) = first {
+                return Err(NoLimit::NothingLeft {
+                    horizon,
+                    limit,
+                    brittle,
+                    least: parameter.least_energy,
+                });
+            }
+            found.unwrap_or_default()
         }
     };
     Ok(AfterLimit::new(law, parameter))

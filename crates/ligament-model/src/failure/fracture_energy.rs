@@ -1,7 +1,5 @@
 //! Critical stretch from the fracture energy G_c, the energy that separates a body in two halves.
 
-use rayon::prelude::*;
-
 use super::basis::Basis;
 use super::kind::{FRACTURE_ENERGY, Kind, Limits, TENSILE_STRENGTH};
 use super::measure::Measure;
@@ -134,10 +132,10 @@ pub fn mean_lengths(system: &BondSystem) -> Vec<f64> {
             sum += weight * system.bonds.length[bond as usize];
             weights += weight;
         }
-        sum / weights
+        [sum / weights]
     };
-    let n_points = system.cloud.len() as u32;
-    (0..n_points).into_par_iter().map(of_point).collect()
+    let lengths = system.cloud.over_families(of_point);
+    lengths.into_iter().map(|[length]| length).collect()
 }
 
 #[cfg(test)]

@@ -59,7 +59,7 @@ pub(crate) fn scaled_to<const D: usize>(
         mut rotational,
         ..
     } = stiffness;
-    let factors = cloud.over_points(|point| {
+    let factors = cloud.over_families(|point| {
         let mut sums = [0.0; 2];
         for &bond in bonds.incidence.at(point) {
             let volume = cloud.volumes[bonds.neighbour(bond, point) as usize];

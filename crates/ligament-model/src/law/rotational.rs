@@ -150,7 +150,7 @@ pub fn calibrated(
     moduli: &[f64],
 ) -> BondStiffness {
     let rotational = &stiffness.rotational;
-    let factors = cloud.over_points(|point| {
+    let factors = cloud.over_families(|point| {
         let of_bond = |&bond: &u32| {
             let volume = cloud.volumes[bonds.neighbour(bond, point) as usize];
             let bond = bond as usize;
@@ -158,13 +158,13 @@ pub fn calibrated(
         };
         let sum: f64 = bonds.incidence.at(point).iter().map(of_bond).sum();
         if sum == 0.0 {
-            1.0
+            [1.0]
         } else {
-            4.0 * cloud.mean_property(point as usize, moduli) / sum
+            [4.0 * cloud.mean_property(point as usize, moduli) / sum]
         }
     });
     for (rotational, ends) in stiffness.rotational.iter_mut().zip(&bonds.ends) {
-        let [a, b] = ends.map(|end| factors[end as usize]);
+        let [[a], [b]] = ends.map(|end| factors[end as usize]);
         *rotational *= 0.5 * (a + b);
     }
     stiffness

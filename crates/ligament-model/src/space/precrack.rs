@@ -217,9 +217,10 @@ pub fn count_touched_bonds(
     }
     let pieces = Pieces::new(cracks, cloud);
     let whole = bonds.ends.par_iter().zip(is_cut).filter(|(_, cut)| !**cut);
-    whole
-        .filter(|(ends, _)| pieces.any(cloud, **ends, SolidPreCrack::touches))
-        .count()
+    let here = whole.filter(|(ends, _)| {
+        cloud.counts(**ends) && pieces.any(cloud, **ends, SolidPreCrack::touches)
+    });
+    cloud.total(here.count())
 }
 
 /// Unit normals of pre-cracks where they cut some bonds, from the first end to the second, shape (n_cut): of the piece that the bond

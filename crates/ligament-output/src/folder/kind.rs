@@ -1,5 +1,7 @@
 //! Kinds of result folders: the file that shows what a folder holds, and the files that are the program's own.
 
+use crate::vtu;
+
 /// The file that every run writes first; it shows that a folder holds the results of a run.
 pub const RESOLVED_CASE: &str = "case.resolved.toml";
 
@@ -10,7 +12,7 @@ pub(super) const LOCK: &str = ".lock";
 pub(super) const REPLACED: &str = ".replaced";
 
 /// Files of a run whose names do not vary.
-const OF_A_RUN: [&str; 23] = [
+const OF_A_RUN: [&str; 22] = [
     RESOLVED_CASE,
     "breaks.csv",
     "crack.csv",
@@ -24,7 +26,6 @@ const OF_A_RUN: [&str; 23] = [
     "iterations.csv",
     "iso.pvd",
     "iso.vtu",
-    "model.vtu",
     "modes.csv",
     "opened.pvd",
     "opened.vtu",
@@ -35,6 +36,9 @@ const OF_A_RUN: [&str; 23] = [
     "bonds.pvd",
     "modes.pvd",
 ];
+
+/// The grid of a run whose name does not vary, without its ending.
+const MODEL_STEM: &str = "model";
 
 /// Files of a run that have a number, by what stands before it.
 const NUMBERED: [&str; 6] = ["fields_", "bonds_", "mode_", "crack_", "opened_", "iso_"];
@@ -85,9 +89,10 @@ fn unfinished(name: &str) -> Option<&str> {
 }
 
 fn is_of_a_run(name: &str) -> bool {
-    let number = |start: &&str| name.strip_prefix(*start)?.strip_suffix(".vtu");
+    let stem = vtu::stem(name).unwrap_or_default();
+    let number = |start: &&str| stem.strip_prefix(*start);
     let is_numbered = NUMBERED.iter().filter_map(number).any(is_number);
-    OF_A_RUN.contains(&name) || is_numbered || name.starts_with("checkpoint")
+    OF_A_RUN.contains(&name) || stem == MODEL_STEM || is_numbered || name.starts_with("checkpoint")
 }
 
 fn is_number(text: &str) -> bool {
@@ -103,6 +108,9 @@ mod tests {
         let own = [
             "fields_0000.vtu",
             "bonds_12345.vtu",
+            "fields_0001.pvtu",
+            "fields_0001.piece_12.vtu",
+            "model.pvtu",
             ".summary.json.4711.partial",
             ".lock",
         ];
@@ -111,6 +119,7 @@ mod tests {
             "thesis.tex",
             "fields_0000.png",
             "fields_a.vtu",
+            "fields_0001.piece_a.vtu",
             "my-history.csv",
             ".thesis.tex.1.partial",
         ];

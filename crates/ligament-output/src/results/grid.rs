@@ -5,10 +5,11 @@ use std::iter::repeat_n;
 use std::path::Path;
 
 use ligament_mesh::{Cell, SolidCell};
+use ligament_model::portion::Portion;
 use ligament_model::{BodyGrid, Canvas, FixedFields, box_corners, raised};
 
 use crate::Error;
-use crate::vtu::{self, Field, UnstructuredGrid};
+use crate::vtu::{self, Field, SharedCells, UnstructuredGrid};
 
 /// Fields of a model that a run does not change, with volumes (n_points) and distances to the nearest point (n_points).
 pub fn fixed_fields<'a>(
@@ -48,12 +49,14 @@ pub fn point_grid(
 pub fn write_points(path: &Path, grid: &BodyGrid, fields: &[Field<'_>]) -> Result<(), Error> {
     let tags = Field::integer(grid.tagged, &grid.tags);
     let all: Vec<Field<'_>> = fields.iter().copied().chain([tags]).collect();
-    write_grid(path, grid, None, &all)
+    write_grid(path, grid, None, &all, None)
 }
 
 /// Bonds as lines between the points of a body, in the order of the file.
 pub(super) struct Lines {
-    pub(super) cells: Vec<vtu::Cell>,
+    cells: Vec<vtu::Cell>,
+    /// First end of each, by which its process is known.
+    first_ends: Vec<u32>,
     /// The bonds in the order of the file; none where they are in it.
     order: Option<Vec<u32>>,
 }
@@ -68,25 +71,27 @@ impl Lines {
             order.extend(absent.into_iter().map(|pair| n_bonds + pair));
             order
         });
-        let ends = bonds.iter().chain(absent);
-        let ends: Vec<[u32; 2]> = ends.map(|it| numbering.ends_in_file(*it)).collect();
+        let ends: Vec<[u32; 2]> = bonds.iter().chain(absent).copied().collect();
         let ends = match &order {
             None => ends,
             Some(order) => order.iter().map(|&bond| ends[bond as usize]).collect(),
         };
+        let lines = ends.iter().map(|it| numbering.ends_in_file(*it));
         Self {
-            cells: ends.into_iter().map(vtu::Cell::Line).collect(),
+            cells: lines.map(vtu::Cell::Line).collect(),
+            first_ends: ends.iter().map(|it| it[0]).collect(),
             order,
         }
     }
 
-    /// Writes the lines with fields of the points and of the bonds.
+    /// Writes the lines with fields of the points and of the bonds; in pieces where processes share the body.
     pub(super) fn write(
         &self,
         path: &Path,
         body: &BodyGrid,
         point_fields: &[Field<'_>],
         cell_fields: &[Field<'_>],
+        portion: Option<&Portion>,
     ) -> Result<(), Error> {
         let of_points = body.numbering.order_of_file();
         let point_fields: Vec<Field<'_>> = point_fields
@@ -102,25 +107,42 @@ impl Lines {
             point_fields: &point_fields,
             cell_fields: &cell_fields,
         };
-        vtu::write_vtu(path, &grid)
+        let shared = portion.map(|portion| SharedCells {
+            portion,
+            points: &self.first_ends,
+            are_all: false,
+        });
+        vtu::write_shared(path, &grid, shared)
     }
 }
 
-/// Writes fields of the points of a body, the displacement first so that readers warp by it.
+/// Writes fields of the points of a body, the displacement first so that readers warp by it; in pieces where processes share the body.
 pub(super) fn write_grid(
     path: &Path,
     body: &BodyGrid,
     displacement: Option<&[[f64; 3]]>,
     fields: &[Field<'_>],
+    portion: Option<&Portion>,
 ) -> Result<(), Error> {
     let order = body.numbering.order_of_file();
     let displacement = displacement.map(|it| body.numbering.to_file(it.to_vec()));
     let displacement = displacement.as_deref();
+    let numbering = &body.numbering;
     let body = &body.in_order_of_file();
     let vector = |values| Field::vector("displacement", values);
     let mut all: Vec<Field<'_>> = displacement.map(vector).into_iter().collect();
     all.extend(fields.iter().map(|it| it.ordered(order)));
     let cells = cells(&body.canvas);
+    let points_of_cells = portion.map(|_| {
+        let in_file = points_of_cells(&body.canvas, &cells).into_iter();
+        in_file.map(|it| numbering.point(it)).collect::<Vec<u32>>()
+    });
+    let shared = points_of_cells.as_deref().zip(portion);
+    let shared = shared.map(|(points, portion)| SharedCells {
+        portion,
+        points,
+        are_all: true,
+    });
     let (points, n_corners) = match &body.canvas {
         Canvas::Between(_) | Canvas::Solid(_) => {
             let grid = UnstructuredGrid {
@@ -129,7 +151,7 @@ pub(super) fn write_grid(
                 point_fields: &all,
                 cell_fields: &[],
             };
-            return vtu::write_vtu(path, &grid);
+            return vtu::write_shared(path, &grid, shared);
         }
         Canvas::Around(corners) => (raised(corners.as_flattened()), 4),
         Canvas::Boxes(boxes) => (boxes.iter().copied().flat_map(box_corners).collect(), 8),
@@ -146,7 +168,15 @@ pub(super) fn write_grid(
         point_fields: &of_corners,
         cell_fields: &all,
     };
-    vtu::write_vtu(path, &grid)
+    vtu::write_shared(path, &grid, shared)
+}
+
+/// The point of each cell by which its process is known, its number in the file: the first of its corners, or the one that it lies around (n_cells).
+fn points_of_cells(canvas: &Canvas, cells: &[vtu::Cell]) -> Vec<u32> {
+    match canvas {
+        Canvas::Between(_) | Canvas::Solid(_) => cells.iter().map(|it| it.points()[0]).collect(),
+        Canvas::Around(_) | Canvas::Boxes(_) => (0..cells.len() as u32).collect(),
+    }
 }
 
 /// The cells of a canvas; those of one point each have corners of their own, in the order of the points.
@@ -197,7 +227,7 @@ mod tests {
             Field::scalar("damage", &damage),
             Field::integer(grid.tagged, &grid.tags),
         ];
-        write_grid(&path, &grid, Some(&moved), &fields).unwrap();
+        write_grid(&path, &grid, Some(&moved), &fields, None).unwrap();
         let DataSet::UnstructuredGrid { pieces, .. } = Vtk::import(&path).unwrap().data else {
             panic!("not an unstructured grid");
         };

@@ -25,6 +25,7 @@ mod model_file;
 mod modes;
 mod opened_files;
 pub mod outputs;
+mod pieces;
 mod point_fields;
 mod rule;
 mod so_far;
@@ -44,7 +45,7 @@ use ligament_model::{BodyGrid, FixedFields};
 use crate::Error;
 use crate::folder::ResultFolder;
 use crate::pvd::Collection;
-use crate::vtu::Field;
+use crate::vtu::{self, Field};
 
 pub use crack_tables::{CRACK_COLUMNS, CRACK_FILES, write_cracks};
 use grid::Lines;
@@ -53,6 +54,7 @@ use largest::Largest;
 pub use level_files::write_level_set;
 pub use modes::write_modes;
 use outputs::remove_others;
+pub use pieces::PieceWriter;
 pub use point_fields::{FieldValues, PointFields, displacements};
 pub use rule::{Time, WriteRule};
 pub use so_far::SoFar;
@@ -94,9 +96,10 @@ impl<'a> ResultWriter<'a> {
         problem: &Problem,
     ) -> Result<Self, Error> {
         if rule.model {
-            model_file::write(folder, grid, fixed, problem, None)?;
+            model_file::write(folder.path(), grid, fixed, problem, None)?;
         }
-        let can_fail = !problem.criteria.list.is_empty();
+        // Where processes share the body each would know the largest utilisations of its own bonds alone.
+        let can_fail = !problem.criteria.list.is_empty() && problem.system.portion().is_none();
         let largest = (rule.model && can_fail).then(|| Largest::new(problem.system.ends().len()));
         Ok(Self {
             folder,
@@ -189,7 +192,7 @@ impl<'a> ResultWriter<'a> {
     }
 
     fn write_fields(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
-        let name = format!("fields_{:04}.vtu", record.step);
+        let name = fields_file(record, view);
         point_fields::write(
             &self.folder.file(&name),
             self.grid,
@@ -234,6 +237,7 @@ impl<'a> ResultWriter<'a> {
             self.grid,
             &displacement,
             &cell_fields,
+            None,
         )?;
         self.bonds_collection
             .append(self.rule.time.value(record, view), name)
@@ -290,7 +294,7 @@ impl Observer for ResultWriter<'_> {
             if view.is_last {
                 let (folder, grid, fixed) = (self.folder, self.grid, self.fixed);
                 failed(model_file::write(
-                    folder,
+                    folder.path(),
                     grid,
                     fixed,
                     &self.problem,
@@ -300,6 +304,12 @@ impl Observer for ResultWriter<'_> {
         }
         failed(self.tables.step(record, view))
     }
+}
+
+/// Name of the file of the fields in a state.
+fn fields_file(record: &StepRecord, view: &View<'_>) -> String {
+    let stem = format!("fields_{:04}", record.step);
+    vtu::file_name(&stem, view.system.portion())
 }
 
 fn failed(result: Result<(), Error>) -> Result<(), ObserverError> {

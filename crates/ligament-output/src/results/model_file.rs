@@ -1,6 +1,6 @@
 //! The model of a run as a file: points, bonds and their limits, from which a bond can be explained later.
 //!
-//! `model.vtu` has the points with their tags, volumes and horizons, and the bonds as lines between them. Lengths and directions
+//! `model.vtu`, in pieces `model.pvtu`, has the points with their tags, volumes and horizons, and the bonds as lines between them. Lengths and directions
 //! of bonds are those of the lines. Factors and horizons have seven digits: they are for people; the limits have all.
 //!
 //! | cell field | of a bond |
@@ -14,6 +14,8 @@
 //! | `after.NAME` | e_u/e_0 or e_f/e_0 of the law after the limit, where it has one |
 //! | `largest_utilisation`, `step_of_largest`, `criterion_of_largest` | over the run, from its end on |
 
+use std::path::{Path, PathBuf};
+
 use ligament_analysis::driver::Problem;
 use ligament_model::{BodyGrid, FixedFields};
 
@@ -21,11 +23,16 @@ use super::grid::Lines;
 use super::largest::Largest;
 use super::tables::criterion_labels;
 use crate::Error;
-use crate::folder::ResultFolder;
-use crate::vtu::Field;
+use crate::vtu::{self, Field};
 
-/// Name of the file with the model.
-pub(super) const MODEL: &str = "model.vtu";
+/// Name of the file with the model, without what tells whether it is in pieces.
+const MODEL: &str = "model";
+
+/// Path of the file with the model in a folder of results; None where there is none.
+pub(super) fn model_file(folder: &Path) -> Option<PathBuf> {
+    let names = [vtu::SINGLE, vtu::IN_PIECES].map(|it| folder.join(format!("{MODEL}.{it}")));
+    names.into_iter().find(|path| path.is_file())
+}
 
 /// Names of the fields that hold the coefficients of a measure, in their order; most measures have none or one.
 pub(super) const COEFFICIENTS: [&str; 3] =
@@ -33,7 +40,7 @@ pub(super) const COEFFICIENTS: [&str; 3] =
 
 /// Writes the model, and how near its bonds came to their limits once that is known.
 pub(super) fn write(
-    folder: &ResultFolder,
+    folder: &Path,
     grid: &BodyGrid,
     fixed: &FixedFields,
     problem: &Problem,
@@ -80,7 +87,9 @@ pub(super) fn write(
         Field::integer("no_fail", &no_fail),
         Field::integer(grid.tagged, &grid.tags),
     ];
-    lines.write(&folder.file(MODEL), grid, &point_fields, &cell_fields)
+    let portion = system.portion();
+    let path = folder.join(vtu::file_name(MODEL, portion));
+    lines.write(&path, grid, &point_fields, &cell_fields, portion)
 }
 
 /// The limits and coefficients that each criterion has for each bond, with the names of their fields.

@@ -91,7 +91,13 @@ pub fn write_modes(
             Field::integer(grid.tagged, &grid.tags),
         ];
         fields.extend(fixed_fields(fixed, system.volumes(), system.spacing()));
-        write_grid(&folder.file(&name), grid, Some(&displacement), &fields)?;
+        write_grid(
+            &folder.file(&name),
+            grid,
+            Some(&displacement),
+            &fields,
+            None,
+        )?;
         collection.append(f64::from(number), name)?;
     }
     Ok(())

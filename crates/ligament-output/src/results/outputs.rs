@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 
 use ligament_model::Absence;
 
-use super::model_file::MODEL;
+use super::model_file::model_file;
 use crate::atomic::remove_file;
 use crate::folder::{Kind, RESOLVED_CASE, ResultFolder, refuse_links};
+use crate::vtu;
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation};
 
@@ -106,10 +107,9 @@ pub fn require_results(folder: &Path) -> Result<(), Error> {
 ///
 /// If the model cannot be used.
 pub fn cut_pairs(folder: &Path) -> Result<Option<Vec<[i64; 2]>>, Error> {
-    let path = folder.join(MODEL);
-    if !path.is_file() {
+    let Some(path) = model_file(folder) else {
         return Ok(None);
-    }
+    };
     let file = VtuFile::open(path)?;
     let absent = file.required_integers(FieldLocation::Cell, "absent")?;
     let is_cut = |number: &i64| Absence::from_number(*number) == Some(Absence::PreCrack);
@@ -129,10 +129,9 @@ pub fn cut_pairs(folder: &Path) -> Result<Option<Vec<[i64; 2]>>, Error> {
 ///
 /// If the model cannot be used.
 pub fn bonded_pairs(folder: &Path) -> Result<Option<Vec<[i64; 2]>>, Error> {
-    let path = folder.join(MODEL);
-    if !path.is_file() {
+    let Some(path) = model_file(folder) else {
         return Ok(None);
-    }
+    };
     let file = VtuFile::open(path)?;
     let absent = file.required_integers(FieldLocation::Cell, "absent")?;
     let (_, tags) = file.tags(FieldLocation::Point)?;
@@ -155,36 +154,50 @@ pub fn clear(folder: &ResultFolder) -> Result<(), Error> {
     Ok(())
 }
 
-/// Removes the files `STEM_NNNN.vtu` that are none of the outputs.
+/// Removes the files of grids `STEM_NNNN`, pieces included, that are none of the outputs.
 pub(super) fn remove_others(
     folder: &ResultFolder,
     stem: &str,
     outputs: &[(f64, String)],
 ) -> Result<(), Error> {
-    for path in numbered_files(folder.path(), stem)?.values() {
-        let is_output = outputs.iter().any(|(_, name)| folder.file(name) == *path);
-        if !is_output {
-            remove_file(path)?;
+    let kept: Vec<&str> = outputs
+        .iter()
+        .filter_map(|(_, name)| vtu::stem(name))
+        .collect();
+    for (_, path) in grids(folder.path(), stem)? {
+        let name = path.file_name().and_then(|name| name.to_str());
+        if !name
+            .and_then(vtu::stem)
+            .is_some_and(|stem| kept.contains(&stem))
+        {
+            remove_file(&path)?;
         }
     }
     Ok(())
 }
 
-/// The files `STEM_NNNN.vtu` by their numbers.
+/// The files `STEM_NNNN.vtu`, in pieces `STEM_NNNN.pvtu`, by their numbers.
 pub(super) fn numbered_files(folder: &Path, stem: &str) -> Result<BTreeMap<usize, PathBuf>, Error> {
+    let is_piece = |path: &Path| {
+        path.file_stem()
+            .is_some_and(|it| Path::new(it).extension().is_some())
+    };
+    let files = grids(folder, stem)?.into_iter();
+    Ok(files.filter(|(_, path)| !is_piece(path)).collect())
+}
+
+/// The files of grids `STEM_NNNN` with their numbers, pieces included.
+fn grids(folder: &Path, stem: &str) -> Result<Vec<(usize, PathBuf)>, Error> {
     let failed = Error::system("list", folder);
-    let mut files = BTreeMap::new();
+    let mut files = Vec::new();
     for entry in fs::read_dir(folder).map_err(&failed)? {
         let path = entry.map_err(&failed)?.path();
         let name = path.file_name().and_then(|name| name.to_str());
-        let number = name.and_then(|name| {
-            name.strip_prefix(stem)?
-                .strip_prefix('_')?
-                .strip_suffix(".vtu")
+        let number = name.and_then(vtu::stem).and_then(|name| {
+            let number = name.strip_prefix(stem)?.strip_prefix('_')?;
+            number.parse().ok()
         });
-        if let Some(Ok(number)) = number.map(str::parse) {
-            files.insert(number, path);
-        }
+        files.extend(number.map(|number| (number, path)));
     }
     Ok(files)
 }

@@ -6,6 +6,7 @@ use ligament_analysis::fields;
 use ligament_analysis::history::View;
 use ligament_analysis::interface::{StressReading, Stresses};
 use ligament_analysis::{Component, Layout};
+use ligament_model::portion::Portion;
 use ligament_model::{BodyGrid, FixedFields};
 
 use super::grid::{fixed_fields, write_grid};
@@ -39,7 +40,13 @@ pub(super) fn write(
     fields.extend(of_stress.map(|(name, it)| Field::components(name, it.names, &it.values)));
     let system = view.system;
     fields.extend(fixed_fields(fixed, system.volumes(), system.spacing()));
-    write_grid(path, grid, Some(&displacements(view)), &fields)
+    write_grid(
+        path,
+        grid,
+        Some(&displacements(view)),
+        &fields,
+        system.portion(),
+    )
 }
 
 /// Fields on the points in a state of a run, as the files of fields have them.
@@ -60,13 +67,34 @@ pub enum FieldValues {
 }
 
 impl PointFields {
-    /// Reads them from a state, with the stresses that the rule asks for.
+    /// Reads them from a state, with the stresses that the rule asks for; where processes share the body all of them call this.
     pub fn read(rule: WriteRule, view: &View<'_>) -> Self {
-        Self {
+        let mut read = Self {
             motion: Motion::read(view),
             damage: Damage::read(view),
             heat: Heat::read(view),
             stresses: stresses(rule, view),
+        };
+        if let Some(portion) = view.system.portion() {
+            read.complete(portion);
+        }
+        read
+    }
+
+    /// Takes over what other processes know of their points: sums over the bonds of a point are those of its own process.
+    fn complete(&mut self, portion: &Portion) {
+        let Damage {
+            share,
+            by_way,
+            dissipated,
+        } = &mut self.damage;
+        let by_way = by_way.iter_mut().map(|(_, values)| values);
+        let of_points = [&mut self.motion.density, share];
+        for values in of_points.into_iter().chain(by_way).chain(dissipated) {
+            portion.complete(values, 1);
+        }
+        for (_, stresses) in &mut self.stresses {
+            portion.complete(&mut stresses.values, stresses.names.len());
         }
     }
 

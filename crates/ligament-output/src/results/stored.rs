@@ -7,7 +7,7 @@ use ligament_analysis::{BondDeformation, ElementKind};
 use ligament_model::Absence;
 use ligament_model::thermal::FreeStrains;
 
-use super::model_file::{COEFFICIENTS, MODEL};
+use super::model_file::{COEFFICIENTS, model_file};
 use super::outputs::{OutputKind, kind_of, numbered_files, require_results};
 use super::point_fields::THERMAL_STRAIN;
 use super::tables::told;
@@ -210,7 +210,9 @@ impl StoredRun {
             None => Vec::new(),
         };
         if rotation.len() != n_points {
-            return Err(file.strange(format!("it does not have the {n_points} points of {MODEL}")));
+            return Err(file.strange(format!(
+                "it does not have the {n_points} points of the model"
+            )));
         }
         Ok(Some(Motions {
             displacement: displacement.as_chunks().0.to_vec(),
@@ -236,11 +238,11 @@ fn require_run(folder: &Path) -> Result<(), Error> {
             "it has natural modes, in which no bond is loaded or breaks; explain needs a static analysis or one of fracture",
         );
     }
-    if !folder.join(MODEL).is_file() {
-        return no_results(&format!(
-            "it has no {MODEL}: the case has `output.model = false`, or an earlier version ran it; run it again with \
-             --set output.model=true"
-        ));
+    if model_file(folder).is_none() {
+        return no_results(
+            "it has no model.vtu: the case has `output.model = false`, or an earlier version ran it; run it again with \
+             --set output.model=true",
+        );
     }
     if !folder.join("history.csv").is_file() {
         return no_results("it has no history.csv");
@@ -250,7 +252,7 @@ fn require_run(folder: &Path) -> Result<(), Error> {
 
 impl StoredModel {
     fn read(folder: &Path) -> Result<Self, Error> {
-        let file = VtuFile::open(folder.join(MODEL))?;
+        let file = VtuFile::open(model_file(folder).unwrap_or_else(|| folder.join("model.vtu")))?;
         let numbers = |name| file.finite_numbers(FieldLocation::Point, name);
         let (tagged, tags) = file.tags(FieldLocation::Point)?;
         let no_fail = file.required_integers(FieldLocation::Point, "no_fail")?;

@@ -30,6 +30,15 @@ pub struct Field<'a> {
     component_names: &'a [&'a str],
 }
 
+/// Numbers of some of the points or cells of a field.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Chosen {
+    Double(Vec<f64>),
+    Single(Vec<f32>),
+    Integer(Vec<i64>),
+    Byte(Vec<u8>),
+}
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Numbers<'a> {
     Double(&'a [f64]),
@@ -89,6 +98,47 @@ impl<'a> Field<'a> {
         }
     }
 
+    /// The numbers of some points or cells, by their places in the file.
+    pub(super) fn at(&self, rows: &[u32]) -> Chosen {
+        let taken: Vec<u32>;
+        let rows = match self.order {
+            None => rows,
+            Some(order) => {
+                taken = rows.iter().map(|&row| order[row as usize]).collect();
+                &taken
+            }
+        };
+        fn chosen<T: Copy>(values: &[T], n_components: usize, rows: &[u32]) -> Vec<T> {
+            let of_row = |&row: &u32| &values[n_components * row as usize..][..n_components];
+            rows.iter().flat_map(of_row).copied().collect()
+        }
+        let n = self.n_components;
+        match self.numbers {
+            Numbers::Double(values) => Chosen::Double(chosen(values, n, rows)),
+            Numbers::Single(values) => Chosen::Single(chosen(values, n, rows)),
+            Numbers::Integer(values) => Chosen::Integer(chosen(values, n, rows)),
+            Numbers::Byte(values) => Chosen::Byte(chosen(values, n, rows)),
+        }
+    }
+
+    /// The field with other numbers.
+    pub(super) fn with<'b>(&self, chosen: &'b Chosen) -> Field<'b>
+    where
+        'a: 'b,
+    {
+        let numbers = match chosen {
+            Chosen::Double(values) => Numbers::Double(values),
+            Chosen::Single(values) => Numbers::Single(values),
+            Chosen::Integer(values) => Numbers::Integer(values),
+            Chosen::Byte(values) => Numbers::Byte(values),
+        };
+        Field {
+            numbers,
+            order: None,
+            ..*self
+        }
+    }
+
     /// The number of points or cells that have values.
     pub(super) fn len(&self) -> usize {
         let count = match self.numbers {
@@ -114,16 +164,41 @@ impl<'a> Field<'a> {
     /// The element `DataArray`.
     pub(super) fn to_xml(self) -> String {
         match self.numbers {
-            Numbers::Double(values) => self.data_array("Float64", values, f64::to_le_bytes),
-            Numbers::Single(values) => self.data_array("Float32", values, f32::to_le_bytes),
-            Numbers::Integer(values) => self.data_array("Int64", values, i64::to_le_bytes),
-            Numbers::Byte(values) => self.data_array("UInt8", values, u8::to_le_bytes),
+            Numbers::Double(values) => self.data_array(values, f64::to_le_bytes),
+            Numbers::Single(values) => self.data_array(values, f32::to_le_bytes),
+            Numbers::Integer(values) => self.data_array(values, i64::to_le_bytes),
+            Numbers::Byte(values) => self.data_array(values, u8::to_le_bytes),
         }
+    }
+
+    /// The element `PDataArray`, which says what arrays of this field there are in the pieces of a grid.
+    pub(super) fn outline(&self) -> String {
+        format!("<PDataArray{}/>\n", self.attributes())
+    }
+
+    /// Type, name and components.
+    fn attributes(&self) -> String {
+        let vtk_type = match self.numbers {
+            Numbers::Double(_) => "Float64",
+            Numbers::Single(_) => "Float32",
+            Numbers::Integer(_) => "Int64",
+            Numbers::Byte(_) => "UInt8",
+        };
+        let name = escape_attribute(self.name);
+        let mut attributes = format!(" type=\"{vtk_type}\" Name=\"{name}\"");
+        // meshio gives an array with a number of components, even of 1, a second dimension.
+        if self.n_components > 1 {
+            attributes.push_str(&format!(" NumberOfComponents=\"{}\"", self.n_components));
+        }
+        for (number, name) in self.component_names.iter().enumerate() {
+            let name = escape_attribute(name);
+            attributes.push_str(&format!(" ComponentName{number}=\"{name}\""));
+        }
+        attributes
     }
 
     fn data_array<T: Copy + Sync, const SIZE: usize>(
         &self,
-        vtk_type: &str,
         values: &[T],
         to_le_bytes: impl Fn(T) -> [u8; SIZE] + Sync,
     ) -> String {
@@ -147,17 +222,7 @@ impl<'a> Field<'a> {
                 compress_to_vec_zlib(&bytes, COMPRESSION_LEVEL)
             })
             .collect();
-        let name = escape_attribute(self.name);
-        let mut element = format!("<DataArray type=\"{vtk_type}\" Name=\"{name}\"");
-        // meshio gives an array with a number of components, even of 1, a second dimension.
-        if self.n_components > 1 {
-            element.push_str(&format!(" NumberOfComponents=\"{}\"", self.n_components));
-        }
-        for (number, name) in self.component_names.iter().enumerate() {
-            let name = escape_attribute(name);
-            element.push_str(&format!(" ComponentName{number}=\"{name}\""));
-        }
-        element.push_str(" format=\"binary\">");
+        let mut element = format!("<DataArray{} format=\"binary\">", self.attributes());
         let header = header(&blocks, values.len() * SIZE);
         BASE64_STANDARD.encode_string(header, &mut element);
         BASE64_STANDARD.encode_string(blocks.concat(), &mut element);

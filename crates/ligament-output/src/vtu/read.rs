@@ -1,91 +1,99 @@
 //! Reads back the VTU files of this program, array by array.
 //!
-//! Only what [`write_vtu`](super::write_vtu) writes is read: one piece, arrays in blocks compressed by zlib. The text is searched
-//! once for the places of the arrays, and an array is decoded when it is asked for: a file of fields has some twenty.
+//! Only what [`write_vtu`](super::write_vtu) writes is read: one piece, arrays in blocks compressed by zlib; and grids in pieces as
+//! [`write_shared`](super::write_shared) writes them, which read as one process would have written them. The text is searched once for
+//! the places of the arrays, and an array is decoded when it is asked for: a file of fields has some twenty.
 
-use std::ops::Range;
+mod text;
+
 use std::path::{Path, PathBuf};
 
-use base64::Engine as _;
-use base64::prelude::BASE64_STANDARD;
-use miniz_oxide::inflate::decompress_to_vec_zlib_with_limit;
-use rayon::prelude::*;
-
 use super::Cell;
-use crate::atomic::read_bytes;
-use crate::xml::{attribute, unescape};
+use super::pieces::{CELL_NUMBER, POINT_NUMBER};
 use crate::{Error, FieldLocation};
-
-/// Corners of a cell at most.
-const MOST_CORNERS: usize = 8;
-
-/// Numbers that a field has for a point or cell at most.
-const MOST_COMPONENTS: usize = 16;
+use text::{Entry, Section, Text, sources, strange};
 
 /// Size that no number of a result has: squares and quotients of smaller ones are numbers.
 const BEYOND: f64 = 1e100;
 
-/// Bytes of a number in the header of an array.
-const HEADER_ENTRY: usize = 8;
-
-/// A VTU file with the places of its arrays.
+/// A VTU file, or one of a grid in pieces, with the places of the arrays.
 #[derive(Debug)]
 pub struct VtuFile {
     path: PathBuf,
-    text: String,
-    contents: Contents,
-}
-
-/// The arrays of a file, and the number of values that a field has.
-#[derive(Debug)]
-struct Contents {
-    arrays: Vec<Entry>,
+    pieces: Vec<Piece>,
     n_points: usize,
     n_cells: usize,
 }
 
-/// The part of a file that an array belongs to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Section {
-    Fields(FieldLocation),
-    Points,
-    Cells,
+/// A piece of a grid, and where its points and cells stand in the whole one.
+#[derive(Debug)]
+struct Piece {
+    text: Text,
+    points: Places,
+    cells: Places,
 }
 
-/// An array that was found.
+/// Places of the rows of a piece among those of the grid.
 #[derive(Debug)]
-struct Entry {
-    section: Section,
-    name: String,
-    vtk_type: String,
-    /// Numbers a point or cell.
-    n_components: usize,
-    /// Names of the components: all of them or none.
-    components: Vec<String>,
-    /// Range of the base64 text of the array.
-    content: Range<usize>,
+enum Places {
+    /// One after the other from a first one on.
+    From(usize),
+    /// Each by its number.
+    Numbers(Vec<u32>),
 }
 
 impl VtuFile {
-    /// Reads a file and finds its arrays.
+    /// Reads a file, or all pieces of a grid, and finds the arrays.
     ///
     /// # Errors
     ///
-    /// If the file cannot be read, or is no VTU file as this program writes them.
+    /// If a file cannot be read, or is none as this program writes them.
     pub fn open(path: impl Into<PathBuf>) -> Result<Self, Error> {
         let path = path.into();
-        let bytes = read_bytes(&path).map_err(Error::system("read", &path))?;
-        let strange = |reason: &str| Error::Unreadable {
-            path: path.clone(),
-            reason: reason.to_owned(),
-        };
-        let text = String::from_utf8(bytes).map_err(|_| strange("it is no text"))?;
-        let contents = contents(&text).map_err(strange)?;
-        Ok(Self {
-            path,
-            text,
-            contents,
-        })
+        if path.extension().is_none_or(|it| it != "pvtu") {
+            let text = Text::open(&path)?;
+            return Ok(Self {
+                path,
+                n_points: text.n_points(),
+                n_cells: text.n_cells(),
+                pieces: vec![Piece {
+                    text,
+                    points: Places::From(0),
+                    cells: Places::From(0),
+                }],
+            });
+        }
+        Self::of_pieces(path)
+    }
+
+    /// Reads the pieces of a grid.
+    fn of_pieces(path: PathBuf) -> Result<Self, Error> {
+        let mut pieces = Vec::new();
+        let mut before = [0, 0];
+        for source in sources(&path)? {
+            // A piece lies beside the file that names it: nothing leads elsewhere.
+            let name = Path::new(&source).file_name().unwrap_or_default();
+            let text = Text::open(&path.with_file_name(name))?;
+            let points = Places::read(&text, FieldLocation::Point, before[0])?;
+            let cells = Places::read(&text, FieldLocation::Cell, before[1])?;
+            before = [before[0] + text.n_points(), before[1] + text.n_cells()];
+            pieces.push(Piece {
+                text,
+                points,
+                cells,
+            });
+        }
+        let n_points = count(pieces.iter().map(|it| (&it.points, it.text.n_points())));
+        let n_cells = count(pieces.iter().map(|it| (&it.cells, it.text.n_cells())));
+        match n_points.zip(n_cells) {
+            Some((n_points, n_cells)) => Ok(Self {
+                path,
+                pieces,
+                n_points,
+                n_cells,
+            }),
+            None => Err(strange(&path, "its pieces do not make a whole")),
+        }
     }
 
     /// The path of the file.
@@ -96,9 +104,9 @@ impl VtuFile {
     /// Names of the fields on the points or cells, in their order.
     pub fn fields(&self, location: FieldLocation) -> impl Iterator<Item = &str> {
         let section = Section::Fields(location);
-        let arrays = self.contents.arrays.iter();
-        let of_section = arrays.filter(move |array| array.section == section);
-        of_section.map(|array| array.name.as_str())
+        let arrays = self.pieces[0].text.arrays(section);
+        let names = arrays.map(|array| array.name.as_str());
+        names.filter(|name| ![POINT_NUMBER, CELL_NUMBER].contains(name))
     }
 
     /// The number of values that a field has for each point or cell, and the names of these components if they have any;
@@ -114,8 +122,7 @@ impl VtuFile {
     ///
     /// If it is damaged, or does not hold numbers.
     pub fn numbers(&self, location: FieldLocation, name: &str) -> Result<Option<Vec<f64>>, Error> {
-        let entry = self.find(Section::Fields(location), name);
-        entry.map(|entry| self.floats(entry)).transpose()
+        self.joined(Section::Fields(location), name, Text::floats)
     }
 
     /// The integers of a field; None where there is no such field.
@@ -124,8 +131,7 @@ impl VtuFile {
     ///
     /// If it is damaged, or does not hold integers.
     pub fn integers(&self, location: FieldLocation, name: &str) -> Result<Option<Vec<i64>>, Error> {
-        let entry = self.find(Section::Fields(location), name);
-        entry.map(|entry| self.whole(entry)).transpose()
+        self.joined(Section::Fields(location), name, Text::whole)
     }
 
     /// The numbers of a field that the file must have.
@@ -181,7 +187,8 @@ impl VtuFile {
     ///
     /// If they are damaged or missing.
     pub fn points(&self) -> Result<Vec<[f64; 3]>, Error> {
-        let values = self.floats(self.required(Section::Points, "Points")?)?;
+        let values = self.joined(Section::Points, "Points", Text::floats)?;
+        let values = values.ok_or_else(|| self.without("Points"))?;
         let values = self.finite("Points", values)?;
         Ok(values.as_chunks().0.to_vec())
     }
@@ -207,13 +214,31 @@ impl VtuFile {
     ///
     /// If they are damaged or missing, or of another kind than this program writes.
     pub fn cells(&self) -> Result<Vec<Cell>, Error> {
-        let connectivity = self.whole(self.required(Section::Cells, "connectivity")?)?;
-        let offsets = self.whole(self.required(Section::Cells, "offsets")?)?;
-        let types = self.required(Section::Cells, "types")?;
-        let types = self.values(types, u8::from_le_bytes)?;
+        let mut cells = vec![None; self.n_cells];
+        for piece in &self.pieces {
+            for (place, cell) in self.cells_of(piece)?.into_iter().enumerate() {
+                cells[piece.cells.at(place)] = cell;
+            }
+        }
+        let cells: Option<Vec<Cell>> = cells.into_iter().collect();
+        cells
+            .ok_or_else(|| self.strange("its cells are of a kind that this program does not write"))
+    }
+
+    /// The cells of a piece, whose points are points of the whole; None where one is of another kind.
+    fn cells_of(&self, piece: &Piece) -> Result<Vec<Option<Cell>>, Error> {
+        let text = &piece.text;
+        let array = |name| {
+            text.find(Section::Cells, name)
+                .ok_or_else(|| self.without(name))
+        };
+        let connectivity = text.whole(array("connectivity")?)?;
+        let offsets = text.whole(array("offsets")?)?;
+        let types = text.bytes(array("types")?)?;
         let point = |number: &i64| {
-            let number = u32::try_from(*number).ok();
-            number.filter(|point| (*point as usize) < self.contents.n_points)
+            let number = usize::try_from(*number).ok();
+            let number = number.filter(|point| *point < text.n_points());
+            number.map(|place| piece.points.at(place) as u32)
         };
         let mut from = 0;
         let cell = |(vtk_type, to): (u8, i64)| {
@@ -222,10 +247,11 @@ impl VtuFile {
             from = to;
             Cell::from_vtk(vtk_type, &points?)
         };
-        let cells: Option<Vec<Cell>> = types.into_iter().zip(offsets).map(cell).collect();
-        let cells = cells.filter(|cells| cells.len() == self.contents.n_cells);
-        cells
-            .ok_or_else(|| self.strange("its cells are of a kind that this program does not write"))
+        let cells: Vec<Option<Cell>> = types.into_iter().zip(offsets).map(cell).collect();
+        match cells.len() == text.n_cells() {
+            true => Ok(cells),
+            false => Err(self.strange("array types is damaged")),
+        }
     }
 
     /// The cells of a file whose cells are lines between its points, as their ends.
@@ -244,10 +270,7 @@ impl VtuFile {
 
     /// The error of something in the file that is not as it should be.
     pub(crate) fn strange(&self, reason: impl Into<String>) -> Error {
-        Error::Unreadable {
-            path: self.path.clone(),
-            reason: reason.into(),
-        }
+        strange(&self.path, reason)
     }
 
     fn finite(&self, name: &str, values: Vec<f64>) -> Result<Vec<f64>, Error> {
@@ -264,165 +287,92 @@ impl VtuFile {
         self.strange(format!("it has no {location} field {name}"))
     }
 
+    fn without(&self, name: &str) -> Error {
+        self.strange(format!("it has no array {name}"))
+    }
+
     fn find(&self, section: Section, name: &str) -> Option<&Entry> {
-        let is_meant = |it: &&Entry| it.section == section && it.name == name;
-        self.contents.arrays.iter().find(is_meant)
+        self.pieces[0].text.find(section, name)
     }
 
-    fn required(&self, section: Section, name: &str) -> Result<&Entry, Error> {
-        self.find(section, name)
-            .ok_or_else(|| self.strange(format!("it has no array {name}")))
-    }
-
-    fn floats(&self, entry: &Entry) -> Result<Vec<f64>, Error> {
-        match entry.vtk_type.as_str() {
-            "Float64" => self.values(entry, f64::from_le_bytes),
-            "Float32" => self.values(entry, |bytes| f64::from(f32::from_le_bytes(bytes))),
-            "Int64" => self.values(entry, |bytes| i64::from_le_bytes(bytes) as f64),
-            other => Err(self.strange(format!("array {} has {other}, no numbers", entry.name))),
-        }
-    }
-
-    fn whole(&self, entry: &Entry) -> Result<Vec<i64>, Error> {
-        match entry.vtk_type.as_str() {
-            "Int64" => self.values(entry, i64::from_le_bytes),
-            other => Err(self.strange(format!("array {} has {other}, no integers", entry.name))),
-        }
-    }
-
-    fn values<T, const SIZE: usize>(
+    /// The values of an array over all pieces; None where there is no such array.
+    fn joined<T: Copy + Default>(
         &self,
-        entry: &Entry,
-        from_bytes: impl Fn([u8; SIZE]) -> T,
-    ) -> Result<Vec<T>, Error> {
-        let damaged = || self.strange(format!("array {} is damaged", entry.name));
-        let Contents {
-            n_points, n_cells, ..
-        } = self.contents;
-        let (fewest, most) = match entry.section {
-            Section::Fields(FieldLocation::Point) | Section::Points => (n_points, n_points),
-            Section::Fields(FieldLocation::Cell) => (n_cells, n_cells),
-            Section::Cells => (n_cells, MOST_CORNERS * n_cells),
+        section: Section,
+        name: &str,
+        values: impl Fn(&Text, &Entry) -> Result<Vec<T>, Error>,
+    ) -> Result<Option<Vec<T>>, Error> {
+        let Some(first) = self.find(section, name) else {
+            return Ok(None);
         };
-        let [fewest, most] = [fewest, most].map(|it| it * entry.n_components);
-        let bytes = decode(self.text[entry.content.clone()].trim(), most * SIZE);
-        let bytes = bytes.ok_or_else(damaged)?;
-        let (values, rest) = bytes.as_chunks::<SIZE>();
-        if rest.is_empty() && (fewest..=most).contains(&values.len()) {
-            Ok(values.iter().map(|bytes| from_bytes(*bytes)).collect())
+        if let [Piece { text, .. }] = self.pieces.as_slice() {
+            return values(text, first).map(Some);
+        }
+        let (n, is_of_cells) = (
+            first.n_components,
+            section == Section::Fields(FieldLocation::Cell),
+        );
+        let n_rows = if is_of_cells {
+            self.n_cells
         } else {
-            Err(damaged())
+            self.n_points
+        };
+        let mut all = vec![T::default(); n * n_rows];
+        for piece in &self.pieces {
+            let entry = piece
+                .text
+                .find(section, name)
+                .filter(|it| it.n_components == n);
+            let of_piece = values(&piece.text, entry.ok_or_else(|| self.without(name))?)?;
+            let places = if is_of_cells {
+                &piece.cells
+            } else {
+                &piece.points
+            };
+            for (place, row) in of_piece.chunks_exact(n).enumerate() {
+                all[n * places.at(place)..][..n].copy_from_slice(row);
+            }
+        }
+        Ok(Some(all))
+    }
+}
+
+impl Places {
+    /// The places of a piece, behind so many of the pieces before it if it does not tell them.
+    fn read(text: &Text, location: FieldLocation, before: usize) -> Result<Self, Error> {
+        let name = match location {
+            FieldLocation::Point => POINT_NUMBER,
+            FieldLocation::Cell => CELL_NUMBER,
+        };
+        let Some(entry) = text.find(Section::Fields(location), name) else {
+            return Ok(Self::From(before));
+        };
+        let numbers = text.whole(entry)?.into_iter().map(u32::try_from);
+        let numbers: Result<Vec<u32>, _> = numbers.collect();
+        let numbers = numbers.map_err(|_| text.strange(format!("array {name} is damaged")))?;
+        Ok(Self::Numbers(numbers))
+    }
+
+    /// Place in the grid of a row of the piece.
+    fn at(&self, row: usize) -> usize {
+        match self {
+            Self::From(first) => first + row,
+            Self::Numbers(numbers) => numbers[row] as usize,
         }
     }
 }
 
-/// The contents of a text. Base64 has no `<`, so that tags are what lies between the angles.
-fn contents(text: &str) -> Result<Contents, &'static str> {
-    let mut arrays = Vec::new();
-    let mut counts = None;
-    let mut section = None;
-    let mut is_known_format = false;
-    let mut at = 0;
-    while let Some(start) = text[at..].find('<').map(|offset| at + offset + 1) {
-        let end = text[start..].find('>').ok_or("it ends in a tag")? + start;
-        let tag = &text[start..end];
-        at = end + 1;
-        let name_end = tag.find([' ', '\n', '/']).unwrap_or(tag.len());
-        match &tag[..name_end] {
-            "VTKFile" => is_known_format = is_ours(tag),
-            "Piece" => {
-                let count = |key| attribute(tag, key)?.parse().ok();
-                counts = count("NumberOfPoints").zip(count("NumberOfCells"));
-            }
-            "PointData" => section = Some(Section::Fields(FieldLocation::Point)),
-            "CellData" => section = Some(Section::Fields(FieldLocation::Cell)),
-            "Points" => section = Some(Section::Points),
-            "Cells" => section = Some(Section::Cells),
-            "DataArray" => {
-                let of = |key| attribute(tag, key).ok_or("an array has no name or type");
-                let length = text[at..].find('<').ok_or("it ends in an array")?;
-                let count = attribute(tag, "NumberOfComponents").map_or(Ok(1), str::parse);
-                let component = |number| attribute(tag, &format!("ComponentName{number}"));
-                arrays.push(Entry {
-                    section: section.ok_or("an array is out of place")?,
-                    name: unescape(of("Name")?),
-                    vtk_type: of("type")?.to_owned(),
-                    n_components: (count
-                        .ok()
-                        .filter(|count| (1..=MOST_COMPONENTS).contains(count)))
-                    .ok_or("an array has no number of components")?,
-                    components: (0..).map_while(component).map(unescape).collect(),
-                    content: at..at + length,
-                });
-            }
-            _ => {}
+/// Number of the rows of a grid, with the places and the number of rows of each piece; None where a place is missing.
+fn count<'a>(pieces: impl Iterator<Item = (&'a Places, usize)> + Clone) -> Option<usize> {
+    let most = pieces.clone().map(|(_, n)| n).sum();
+    let mut is_there = vec![false; most];
+    for (places, n) in pieces {
+        for row in 0..n {
+            *is_there.get_mut(places.at(row))? = true;
         }
     }
-    if !is_known_format {
-        return Err("it is no VTU file of this program");
-    }
-    if !text.trim_end().ends_with("</VTKFile>") {
-        return Err("its end is missing");
-    }
-    let (n_points, n_cells): (usize, usize) =
-        counts.ok_or("it has no number of points and cells")?;
-    // However well it is compressed, a point or cell takes more than a byte for its position and corners.
-    if n_points.max(n_cells) > text.len() {
-        return Err("it is too short for its number of points and cells");
-    }
-    Ok(Contents {
-        arrays,
-        n_points,
-        n_cells,
-    })
-}
-
-fn is_ours(tag: &str) -> bool {
-    [
-        ("type", "UnstructuredGrid"),
-        ("byte_order", "LittleEndian"),
-        ("header_type", "UInt64"),
-        ("compressor", "vtkZLibDataCompressor"),
-    ]
-    .into_iter()
-    .all(|(key, value)| attribute(tag, key) == Some(value))
-}
-
-/// The bytes of an array, of which there are so many at most: a header in base64, then the compressed blocks in base64 of their
-/// own. None where they are damaged.
-fn decode(text: &str, most: usize) -> Option<Vec<u8>> {
-    // Three bytes take four letters; the first three entries take 24 bytes.
-    let start = BASE64_STANDARD.decode(text.get(..32)?).ok()?;
-    let entry = |bytes: &[u8], place: usize| -> Option<usize> {
-        let bytes = bytes.get(place * HEADER_ENTRY..(place + 1) * HEADER_ENTRY)?;
-        usize::try_from(u64::from_le_bytes(bytes.try_into().ok()?)).ok()
-    };
-    let n_blocks = entry(&start, 0)?;
-    let header_bytes = n_blocks.checked_add(3)?.checked_mul(HEADER_ENTRY)?;
-    let header_letters = header_bytes.div_ceil(3).checked_mul(4)?;
-    let header = BASE64_STANDARD.decode(text.get(..header_letters)?).ok()?;
-    let compressed = BASE64_STANDARD.decode(&text[header_letters..]).ok()?;
-    let (whole, last) = (entry(&header, 1)?, entry(&header, 2)?);
-    let mut blocks = Vec::with_capacity(n_blocks);
-    let (mut from, mut left) = (0_usize, most);
-    for block in 0..n_blocks {
-        let to = from.checked_add(entry(&header, 3 + block)?)?;
-        let size = if block + 1 == n_blocks && last > 0 {
-            last
-        } else {
-            whole
-        };
-        blocks.push((compressed.get(from..to)?, size));
-        from = to;
-        left = left.checked_sub(size)?;
-    }
-    let inflated: Option<Vec<Vec<u8>>> = (blocks.par_iter())
-        .map(|(block, size)| {
-            let bytes = decompress_to_vec_zlib_with_limit(block, *size).ok()?;
-            (bytes.len() == *size).then_some(bytes)
-        })
-        .collect();
-    Some(inflated?.concat())
+    let n_rows = is_there.iter().rposition(|it| *it)? + 1;
+    is_there[..n_rows].iter().all(|it| *it).then_some(n_rows)
 }
 
 #[cfg(test)]

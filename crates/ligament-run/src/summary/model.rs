@@ -113,7 +113,7 @@ impl ModelSummary {
             version: env!("CARGO_PKG_VERSION"),
             formulation: formulation_words(model),
             points: model.system.n_points(),
-            bonds: model.system.ends().len(),
+            bonds: model.counts.bonds,
             cut_bonds: model.cut_bonds(),
             no_fail_points: model.no_fail_points(),
             volume: model.system.volumes().iter().sum(),
@@ -171,8 +171,12 @@ pub fn family<const D: usize>(model: &Model<D>) -> Spread
 where
     Dim: Dimension<D>,
 {
-    let incidence = model.system.incidence();
-    Spread::over((0..incidence.n_points() as u32).map(|point| incidence.at(point).len() as f64))
+    let [min, max] = model.counts.of_points.map(|it| it as f64);
+    Spread {
+        min,
+        mean: (2 * model.counts.bonds) as f64 / model.system.n_points().max(1) as f64,
+        max,
+    }
 }
 
 impl CorrectionSummary {

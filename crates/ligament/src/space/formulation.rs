@@ -123,7 +123,7 @@ impl<'a> SolidFormulation<'a> {
     ) -> Correction {
         match self.setup.correction.surface {
             Surface::Domain(iteration) => {
-                let sweeps = iteration.sweeps(bonds.len());
+                let sweeps = iteration.sweeps(bonds.count(self.cloud));
                 axes::iterate(bonds, self.cloud, stiffness, alpha, &self.constants, sweeps)
             }
             Surface::Volume => {

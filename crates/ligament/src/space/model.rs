@@ -15,36 +15,45 @@ use super::formulation::{self, SolidFormulation};
 use super::precrack::surfaces;
 use super::soundness::{forbid_overlap, require_connected, require_distinct, require_numbers};
 use crate::body::Origin;
+use crate::counts::{self, BondCounts};
 use crate::error::SetupError;
 use crate::loading;
-use crate::model::{Discretises, Model, absent_bonds, precrack_share, with_cut};
+use crate::model::{
+    Discretises, Model, PortionOf, absent_bonds, correction_range, precrack_share, with_cut,
+};
 use crate::setup::{Dim, Setup};
 use crate::stage::{Finding, StageWatcher, stage};
 use crate::warning;
 
 impl Discretises<3> for Dim {
-    fn model(setup: Setup<3>, watcher: &mut dyn StageWatcher) -> Result<Model<3>, SetupError> {
-        Model::in_space(setup, watcher)
+    fn model(
+        setup: Setup<3>,
+        portion: PortionOf<3>,
+        watcher: &mut dyn StageWatcher,
+    ) -> Result<Model<3>, SetupError> {
+        Model::in_space(setup, portion, watcher)
     }
 }
 
 impl Model<3> {
     /// Builds the model of a setup in space.
-    fn in_space(setup: Setup<3>, watcher: &mut dyn StageWatcher) -> Result<Self, SetupError> {
+    fn in_space(
+        setup: Setup<3>,
+        portion: PortionOf<3>,
+        watcher: &mut dyn StageWatcher,
+    ) -> Result<Self, SetupError> {
         setup.check()?;
         let material_of_cell = loading::material_of_cell(&setup)?;
-        let (cloud, outline) = stage(watcher, "points", || points(&setup, &material_of_cell))?;
+        let (cloud, outline) = stage(watcher, "points", || {
+            points(&setup, &material_of_cell, portion)
+        })?;
         let horizons = setup.horizon.of_points(&cloud);
         let (bonds, absent) = stage(watcher, "bonds", || {
             let all = BondSet::search(&cloud, &horizons);
             inside_body(&setup, all, &cloud, outline)
         });
         require_connected(&setup, &cloud, &horizons, &bonds)?;
-        watcher.found(&Finding::Bonds {
-            points: cloud.len(),
-            bonds: bonds.len(),
-            across_voids: absent.len(),
-        });
+        watcher.found(&counts::finding(&cloud, &bonds, &absent));
         let (is_cut, touched, precrack_share) =
             stage(watcher, "pre-cracks", || precracked(&setup, &bonds, &cloud))?;
         let absent = with_cut(absent, &bonds, &is_cut);
@@ -57,10 +66,8 @@ impl Model<3> {
             let formulation = SolidFormulation::new(&setup, &cloud, &horizons, &material_of_cell);
             correct(&formulation, bonds, &is_cut)
         });
-        watcher.found(&Finding::Correction(
-            &setup.correction,
-            correction.report.as_ref(),
-        ));
+        let report = correction.report.as_ref();
+        watcher.found(&Finding::Correction(&setup.correction, report));
         let fixed = FixedFields {
             horizon: horizons.radius,
             precrack_share,
@@ -78,10 +85,10 @@ impl Model<3> {
         })?;
         let limits = || formulation::criteria(&setup, &system, &fixed);
         let criteria = stage(watcher, "criteria", limits)?;
-        let report = correction.report.as_ref();
         Ok(Self {
             warnings: warning::of_model(&setup, &system.cloud.spacing, report, &fixed, touched),
-            correction_range: correction.domain_factor_range(),
+            correction_range: correction_range(&correction, &system.cloud),
+            counts: BondCounts::new(&system.cloud, &system.bonds, &fixed.absent),
             correction: correction.report,
             setup,
             system: Arc::new(system),
@@ -91,8 +98,20 @@ impl Model<3> {
     }
 }
 
-/// The points of the body, with the index of the material of each cell (n_cells), and the outline of a mesh that bonds do not leave.
+/// The points of the body, with the index of the material of each cell (n_cells) and the part of this process in them, and the outline of a
+/// mesh that bonds do not leave.
 fn points(
+    setup: &Setup<3>,
+    material_of_cell: &[u32],
+    portion: PortionOf<3>,
+) -> Result<(PointCloud<3>, Option<Surface>), SetupError> {
+    let (cloud, outline) = all_points(setup, material_of_cell)?;
+    let portion = portion(setup, &cloud);
+    Ok((PointCloud { portion, ..cloud }, outline))
+}
+
+/// The points of the body, with the index of the material of each cell (n_cells), and the outline of a mesh that bonds do not leave.
+fn all_points(
     setup: &Setup<3>,
     material_of_cell: &[u32],
 ) -> Result<(PointCloud<3>, Option<Surface>), SetupError> {
@@ -140,7 +159,7 @@ fn precracked(
     let surfaces: Vec<SolidPreCrack> = surfaces(setup)?;
     let is_cut = cut_bonds(&surfaces, bonds, cloud);
     let touched = count_touched_bonds(&surfaces, bonds, cloud, &is_cut);
-    let share = precrack_share(bonds, &is_cut);
+    let share = precrack_share(cloud, bonds, &is_cut);
     Ok((is_cut, touched, share))
 }
 

@@ -57,11 +57,11 @@ pub(super) fn require_connected(
     bonds: &BondSet<3>,
 ) -> Result<(), SetupError> {
     let body = &*setup.body;
-    require_neighbours(body, bonds)?;
+    require_neighbours(body, cloud, bonds)?;
     let Origin::SolidMesh(mesh) = body.origin() else {
         return Ok(());
     };
-    let parts = Parts::new(cloud.len(), bonds.ends.iter().copied());
+    let parts = Parts::of_bonds(cloud, bonds);
     let of_mesh = || Parts::new(cloud.len(), mesh.cells.iter().flat_map(|it| it.edges()));
     if parts.count() == 1 {
         return Ok(());
@@ -102,7 +102,7 @@ pub(super) fn require_connected(
 /// Refuses bonds whose stiffness is no number that equations can be made of.
 pub(super) fn require_numbers(body: &dyn Body<3>, system: &SolidSystem) -> Result<(), SetupError> {
     let rigidities: &Rigidities = &system.rigidities;
-    require_rigidities(body, rigidities, &system.bonds.ends)
+    require_rigidities(body, &system.cloud, rigidities, &system.bonds.ends)
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use super::equations::{Equations, Multipliers};
 use super::pairs::BLOCK;
 use crate::cloud::PointCloud;
+use crate::correction::seats::Seats;
 
 /// Aggregates at most: the dense matrix of their multipliers is to cost less than a product.
 const MOST: usize = 64;
@@ -28,8 +29,9 @@ const SHARE: f64 = 1e-3;
 
 /// Points that are nearer to one of some points far from each other than to the others.
 ///
-/// Distances and the numbers of the points decide, not the axes: a turned body has the same aggregates.
-pub(crate) struct Aggregates {
+/// Distances and the numbers of the points in the file decide, not the axes: a turned body has the same aggregates.
+pub(crate) struct Aggregates<'a> {
+    seats: Seats<'a>,
     /// Place of the first number of the aggregate of each rank.
     first: Vec<u32>,
     count: usize,
@@ -37,18 +39,20 @@ pub(crate) struct Aggregates {
     width: usize,
 }
 
-impl Aggregates {
+impl<'a> Aggregates<'a> {
     /// Aggregates of the points of a cloud, with some numbers each.
-    pub(crate) fn new<const D: usize>(cloud: &PointCloud<D>, width: usize) -> Self {
+    pub(crate) fn new<const D: usize>(cloud: &'a PointCloud<D>, width: usize) -> Self {
         let count = (cloud.len() / FEWEST_POINTS).clamp(1, MOST);
         let mut distance = vec![f64::INFINITY; cloud.len()];
         let mut aggregate = vec![0; cloud.len()];
-        let mut seed = 0;
+        let first = cloud.numbering.point(0) as usize;
+        let mut seed = first;
         for number in 0..count {
             let centre = cloud.positions[seed];
-            seed = 0;
-            for (point, position) in cloud.positions.iter().enumerate() {
-                let square: f64 = position
+            seed = first;
+            for in_file in 0..cloud.len() as u32 {
+                let point = cloud.numbering.point(in_file) as usize;
+                let square: f64 = cloud.positions[point]
                     .iter()
                     .zip(centre)
                     .map(|(a, b)| (a - b).powi(2))
@@ -62,8 +66,10 @@ impl Aggregates {
             }
         }
         let first = |&point: &u32| (width * aggregate[point as usize]) as u32;
+        let seats = Seats::new(cloud);
         Self {
-            first: cloud.curve.iter().map(first).collect(),
+            first: seats.all().iter().map(first).collect(),
+            seats,
             count,
             width,
         }
@@ -71,11 +77,11 @@ impl Aggregates {
 
     /// The numbers of the aggregate of a point.
     #[inline(always)]
-    pub(super) fn at<'a>(&self, of_aggregates: &'a [f64], rank: usize) -> &'a [f64] {
+    pub(super) fn at<'b>(&self, of_aggregates: &'b [f64], rank: usize) -> &'b [f64] {
         &of_aggregates[self.first[rank] as usize..][..self.width]
     }
 
-    /// Sums over the points of each aggregate.
+    /// Sums over the points of each aggregate, from the values of own points.
     pub(super) fn sums<const N: usize>(
         &self,
         value: impl Fn(usize) -> [f64; N] + Sync,
@@ -92,28 +98,30 @@ impl Aggregates {
             }
             sums
         };
-        let blocks = self.first.par_chunks(BLOCK).enumerate().map(of_block);
+        let own = &self.first[..self.seats.own().len()];
+        let blocks = own.par_chunks(BLOCK).enumerate().map(of_block);
         let mut all = zeros();
         for sums in blocks.collect::<Vec<_>>() {
             for (all, sum) in all.iter_mut().zip(sums) {
                 *all += sum;
             }
         }
+        self.seats.sum(&mut all);
         all
     }
 }
 
 /// What holds the multipliers of each point at a centre: r/d^2 times their distance from it, less what an aggregate has in common.
 pub(super) struct Regularisation<'a, const N: usize> {
-    /// r/d^2, by rank.
+    /// r/d^2 of own points, by rank.
     pub(super) of_points: Multipliers<N>,
-    pub(super) aggregates: &'a Aggregates,
+    pub(super) aggregates: &'a Aggregates<'a>,
     /// Sums of r/d^2 over the aggregates.
     totals: Vec<f64>,
 }
 
 impl<'a, const N: usize> Regularisation<'a, N> {
-    pub(super) fn new(of_points: Multipliers<N>, aggregates: &'a Aggregates) -> Self {
+    pub(super) fn new(of_points: Multipliers<N>, aggregates: &'a Aggregates<'a>) -> Self {
         let totals = aggregates.sums(|rank| of_points[rank]);
         Self {
             of_points,
@@ -122,7 +130,7 @@ impl<'a, const N: usize> Regularisation<'a, N> {
         }
     }
 
-    /// What the aggregates have in common of distances (n_points) from a centre, but for the share that is held.
+    /// What the aggregates have in common of distances (n_own) from a centre, but for the share that is held.
     pub(super) fn common(&self, distance: impl Fn(usize) -> [f64; N] + Sync) -> Vec<f64> {
         let weighted = |rank: usize| {
             let (distance, weight) = (distance(rank), &self.of_points[rank]);
@@ -160,7 +168,10 @@ impl Coarse {
         slopes: &[[f64; 2]],
     ) -> Self {
         let (pairs, aggregates) = (equations.pairs(), regularisation.aggregates);
-        let held = DVector::from_vec(regularisation.totals.clone());
+        let mut held = DVector::from_vec(regularisation.totals.clone());
+        if !pairs.seats.is_first() {
+            held.fill(0.0);
+        }
         let mut matrix = SHARE * DMatrix::from_diagonal(&held);
         for rank in 0..pairs.n_points() {
             let own = aggregates.first[rank] as usize;
@@ -185,6 +196,7 @@ impl Coarse {
                 }
             }
         }
+        pairs.seats.sum(matrix.as_mut_slice());
         Self {
             factor: Cholesky::new(matrix),
         }

@@ -76,11 +76,12 @@ struct Dual<'a, E> {
     span: f64,
     /// z_0.
     offset: f64,
-    aggregates: Aggregates,
+    aggregates: Aggregates<'a>,
 }
 
 /// A place on the way.
 struct Place<const N: usize> {
+    /// Of all points; what has no bonds in it is of own points alone.
     mu: Multipliers<N>,
     /// z of the pairs.
     z: Vec<[f64; 2]>,
@@ -91,9 +92,9 @@ struct Place<const N: usize> {
 }
 
 /// The factors that meet the equations as far as they can, with aggregates that have a number for each equation of forces.
-pub(crate) fn minimise<const N: usize, E: Equations<N>>(
-    equations: &E,
-    aggregates: Aggregates,
+pub(crate) fn minimise<'a, const N: usize, E: Equations<N>>(
+    equations: &'a E,
+    aggregates: Aggregates<'a>,
     settings: &Settings,
 ) -> Factors {
     let dual = Dual {
@@ -229,7 +230,8 @@ impl<E> Dual<'_, E> {
                 .map(|(value, scale)| (value * scale).powi(2))
                 .sum::<f64>()
         });
-        (squares.sum::<f64>() / (values.len() * N) as f64).sqrt()
+        let seats = &self.equations.pairs().seats;
+        (seats.total(squares.sum::<f64>()) / (seats.all().len() * N) as f64).sqrt()
     }
 
     /// The place of the uncorrected factors.
@@ -238,7 +240,7 @@ impl<E> Dual<'_, E> {
         E: Equations<N>,
     {
         let pairs = self.equations.pairs();
-        let zeros = vec![[0.0; N]; pairs.n_points()];
+        let zeros = vec![[0.0; N]; pairs.seats.all().len()];
         let mut place = Place {
             mu: zeros.clone(),
             z: vec![[self.offset; 2]; pairs.len()],
@@ -258,7 +260,9 @@ impl<E> Dual<'_, E> {
         for (mu, direction) in place.mu.as_flattened_mut().iter_mut().zip(directions) {
             *mu += direction;
         }
-        let (mu, pairs) = (&place.mu, self.equations.pairs());
+        let pairs = self.equations.pairs();
+        pairs.seats.complete(&mut place.mu);
+        let mu = &place.mu;
         let (start, stiffness) = (self.equations.start(), self.equations.stiffness());
         let mut sums = self.minus_right();
         let blocks = (
@@ -310,14 +314,16 @@ impl<E> Dual<'_, E> {
                 std::array::from_fn(|k| stiffness[pair][k] * factors[pair][k])
             });
         });
-        let residual: Vec<f64> = (left.iter().enumerate())
+        let mut residual: Vec<[f64; 1]> = (left.iter().enumerate())
             .map(|(rank, left)| {
                 let scaled = left.iter().zip(self.equations.scale(rank));
-                scaled.fold(0.0, |most: f64, (left, scale)| {
+                [scaled.fold(0.0, |most: f64, (left, scale)| {
                     most.max((left * scale).abs())
-                })
+                })]
             })
             .collect();
+        residual.resize(pairs.seats.all().len(), [0.0]);
+        pairs.seats.complete(&mut residual);
         Factors {
             axial: pairs.of_bonds(factors.iter().map(|&[axial, _]| axial)),
             shear: pairs.of_bonds(factors.iter().map(|&[_, shear]| shear)),

@@ -2,7 +2,7 @@
 
 use super::pairs::Pairs;
 
-/// A number for each equation, by rank.
+/// A number for each equation of some points, by rank.
 pub(crate) type Multipliers<const N: usize> = Vec<[f64; N]>;
 
 /// Linear equations G q = f in two factors a bond, N a point. Points go by their ranks, bonds by pairs.
@@ -20,10 +20,10 @@ pub(crate) trait Equations<const N: usize>: Sync {
     /// Uncorrected factors q_0 of the pairs.
     fn start(&self) -> &[f64];
 
-    /// Right-hand sides f, shape (n_points, N).
+    /// Right-hand sides f, shape (n_own, N).
     fn right(&self) -> &[[f64; N]];
 
-    /// Scales d of the equations of a point.
+    /// Scales d of the equations of an own point.
     fn scale(&self, rank: usize) -> [f64; N];
 
     /// Terms of a pair in the equations of its other end, for given products of factors and stiffness.

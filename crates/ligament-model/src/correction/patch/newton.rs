@@ -16,7 +16,7 @@ pub(super) struct Hessian<'a, E, const N: usize> {
     regularisation: &'a Regularisation<'a, N>,
     /// D of the pairs, times the squares of their stiffness.
     slopes: &'a [[f64; 2]],
-    /// Inverses of the blocks of the points, by rank; in single precision they would be rounded along the axes, and factors of a turned
+    /// Inverses of the blocks of own points, by rank; in single precision they would be rounded along the axes, and factors of a turned
     /// body would differ.
     inverses: Vec<[[f64; N]; N]>,
     coarse: Coarse,
@@ -89,7 +89,9 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
             points: zeros.clone(),
             aggregates: Vec::new(),
         };
-        let (mut step, mut direction, mut product) = (zeros.clone(), zeros.clone(), zeros);
+        let n_all = self.equations.pairs().seats.all().len();
+        let mut direction = vec![[0.0; N]; n_all];
+        let (mut step, mut product) = (zeros.clone(), zeros);
         let mut size = self.go(
             0.0,
             [&direction, &product],
@@ -127,9 +129,10 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
                     *direction += common;
                 }
             });
+        self.equations.pairs().seats.complete(direction);
     }
 
-    /// Makes the product with values, and gives the inner product of both.
+    /// Makes the product with values of all points, and gives the inner product of both.
     fn multiply(&self, values: &Multipliers<N>, product: &mut Multipliers<N>) -> f64 {
         let common = self.regularisation.common(|rank| values[rank]);
         let of_block = |(block, product): (usize, &mut [[f64; N]])| {
@@ -144,7 +147,8 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
             dot(values[ranks].as_flattened(), product.as_flattened())
         };
         let blocks = product.par_chunks_mut(BLOCK).enumerate();
-        blocks.map(of_block).collect::<Vec<f64>>().iter().sum()
+        let of_blocks: Vec<f64> = blocks.map(of_block).collect();
+        self.equations.pairs().seats.total(of_blocks.iter().sum())
     }
 
     /// Goes a length in a direction with a known product: changes the step and what is left, solves with the preconditioner, and gives
@@ -179,6 +183,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
             dot(left.as_flattened(), solved.as_flattened())
         });
         let of_points: f64 = sums.collect::<Vec<f64>>().iter().sum();
+        let of_points = self.equations.pairs().seats.total(of_points);
         let of_aggregates = self.regularisation.aggregates.sums(|rank| left[rank]);
         solved.aggregates = self.coarse.solve(&of_aggregates);
         of_points + dot(&of_aggregates, &solved.aggregates)

@@ -7,12 +7,13 @@ use rayon::prelude::*;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 pub(crate) use crate::correction::members::BLOCK;
+use crate::correction::seats::Seats;
 
-/// The bonds seen from their points: once where both ends are in a block, from the one that comes first on the curve, and twice, from
-/// either end, where they are not. `rank` is the place of a point on the curve.
+/// The bonds seen from own points: once where both ends are in a block, from the one that comes first, and from either end, where it is
+/// an own point, where they are not. `rank` is the place of a point in the order of the sweeps.
 pub(crate) struct Pairs<'a> {
-    /// The points in the order of the curve.
-    curve: &'a [u32],
+    /// The points by rank.
+    pub(crate) seats: Seats<'a>,
     n_bonds: usize,
     /// First pair of each rank with its other end in the block and with its other end outside, and behind the last rank the number
     /// of all pairs.
@@ -26,24 +27,23 @@ pub(crate) struct Pairs<'a> {
 impl<'a> Pairs<'a> {
     /// The pairs of all bonds.
     pub(crate) fn new<const D: usize>(bonds: &BondSet<D>, cloud: &'a PointCloud<D>) -> Self {
-        let mut ranks = vec![0; cloud.len()];
-        for (rank, &point) in cloud.curve.iter().enumerate() {
-            ranks[point as usize] = rank as u32;
-        }
+        let seats = Seats::new(cloud);
+        let (ranks, n_own) = (seats.ranks(), seats.own().len());
         let mut pairs = Self {
-            curve: &cloud.curve,
+            seats,
             n_bonds: bonds.len(),
-            starts: Vec::with_capacity(cloud.len() + 1),
+            starts: Vec::with_capacity(n_own + 1),
             other: Vec::with_capacity(bonds.len()),
             bond: Vec::with_capacity(bonds.len()),
         };
-        for (rank, &point) in cloud.curve.iter().enumerate() {
-            let block = rank / BLOCK;
+        for rank in 0..n_own {
+            let (point, block) = (pairs.seats.own()[rank], rank / BLOCK);
             let others = || {
                 let family = bonds.incidence.at(point).iter();
                 family.map(|&bond| (ranks[bonds.neighbour(bond, point) as usize], bond))
             };
-            let is_inner = |other: u32| other as usize / BLOCK == block;
+            let is_own = |other: u32| (other as usize) < n_own;
+            let is_inner = |other: u32| is_own(other) && other as usize / BLOCK == block;
             let inner = others().filter(|&(other, _)| is_inner(other) && other as usize > rank);
             let first_inner = pairs.other.len();
             pairs.push(inner);
@@ -66,7 +66,7 @@ impl<'a> Pairs<'a> {
         self.other.len()
     }
 
-    /// Number of points.
+    /// Number of own points.
     pub(crate) fn n_points(&self) -> usize {
         self.starts.len() - 1
     }
@@ -97,7 +97,7 @@ impl<'a> Pairs<'a> {
     /// A value of each pair, from its point and its bond.
     pub(crate) fn values<T: Send>(&self, value: impl Fn(u32, u32) -> T + Sync) -> Vec<T> {
         let of_rank = |rank: usize| {
-            let (point, value) = (self.curve[rank], &value);
+            let (point, value) = (self.seats.own()[rank], &value);
             let pairs = self.starts[rank][0]..self.starts[rank + 1][0];
             self.bond[pairs].iter().map(move |&bond| value(point, bond))
         };
@@ -130,10 +130,10 @@ impl<'a> Pairs<'a> {
     }
 
     /// The value of each point from those by rank, shape (n_points).
-    pub(crate) fn of_points(&self, values: &[f64]) -> Vec<f64> {
+    pub(crate) fn of_points(&self, values: &[[f64; 1]]) -> Vec<f64> {
         let mut of_points = vec![0.0; values.len()];
-        for (&point, &value) in self.curve.iter().zip(values) {
-            of_points[point as usize] = value;
+        for (&point, [value]) in self.seats.all().iter().zip(values) {
+            of_points[point as usize] = *value;
         }
         of_points
     }

@@ -4,6 +4,7 @@ use super::equations::Equations;
 use super::forces::Points;
 use super::pairs::Pairs;
 use crate::bonds::BondSet;
+use crate::correction::seats::Seats;
 use crate::law::BondStiffness;
 
 /// The equations of all points: 6 of forces, and with those of moments N = 8 a point.
@@ -35,9 +36,9 @@ pub(super) struct PlaneEquations<'a, const N: usize> {
     stiffness: Vec<[f64; 2]>,
     /// Uncorrected factors alpha c_0 of the pairs.
     start: Vec<f64>,
-    /// Scales of the forces and the moments, by rank: one over the norm of their rows with the weights q_0.
+    /// Scales of the forces and the moments of own points, by rank: one over the norm of their rows with the weights q_0.
     scale: Vec<[f64; 2]>,
-    /// f, by rank.
+    /// f of own points, by rank.
     right: Vec<[f64; N]>,
 }
 
@@ -72,7 +73,7 @@ impl<'a, const N: usize> PlaneEquations<'a, N> {
     ) -> Self {
         let Points { cloud, forces, .. } = points;
         let pairs = Pairs::new(bonds, cloud);
-        let body_factor = body_factor(bonds, points, stiffness, alpha);
+        let body_factor = body_factor(bonds, points, stiffness, alpha, &pairs.seats);
         let of_bond = |bond: usize| {
             let [a, b] = bonds.ends[bond].map(|end| cloud.volumes[end as usize]);
             [stiffness.axial[bond], stiffness.shear[bond]].map(|density| a * b * density)
@@ -109,8 +110,8 @@ impl<'a, const N: usize> PlaneEquations<'a, N> {
             places: pairs.values(place),
             stiffness: pairs.values(|_, bond| of_bond(bond as usize)),
             start: pairs.values(|_, bond| body_factor * alpha[bond as usize]),
-            scale: cloud.curve.iter().map(scale).collect(),
-            right: cloud.curve.iter().map(right).collect(),
+            scale: pairs.seats.own().iter().map(scale).collect(),
+            right: pairs.seats.own().iter().map(right).collect(),
             pairs,
         }
     }
@@ -141,6 +142,7 @@ fn body_factor(
     points: &Points<'_>,
     stiffness: &BondStiffness,
     alpha: &[f64],
+    seats: &Seats<'_>,
 ) -> f64 {
     let Points { cloud, forces, .. } = points;
     let work = |(forces, [x, y]): (&[[f64; 2]; 3], &[f64; 2])| {
@@ -153,7 +155,8 @@ fn body_factor(
         let densities = stiffness.axial[bond] + 0.5 * stiffness.shear[bond];
         alpha[bond] * a * b * bonds.length[bond] * densities
     };
-    of_cells / (0..bonds.len()).map(of_bond).sum::<f64>()
+    let counted = (0..bonds.len()).filter(|&bond| cloud.counts(bonds.ends[bond]));
+    of_cells / seats.total(counted.map(of_bond).sum::<f64>())
 }
 
 impl<const N: usize> Equations<N> for PlaneEquations<'_, N> {

@@ -48,7 +48,7 @@ pub fn energy_ratios(
     correction: &Correction,
     materials: &[Isotropic],
 ) -> [Vec<f64>; 7] {
-    let energies = cloud.over_points(|point| {
+    let energies = cloud.over_families(|point| {
         let mut energies = [0.0; 7];
         for &bond in bonds.incidence.at(point) {
             let volume = cloud.volumes[bonds.neighbour(bond, point) as usize];

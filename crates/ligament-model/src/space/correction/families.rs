@@ -7,14 +7,14 @@ use crate::cloud::PointCloud;
 use crate::correction::members::{BLOCK, Members};
 use crate::correction::sweeps::SweptFamilies;
 
-/// The families of all points along the curve; `rank` is the place of a point on it.
+/// The families of own points along the curve; `rank` is the place of a point in the order of the sweeps.
 pub(super) struct Families<'a> {
     coefficients: Coefficients<'a>,
     /// Omega of each member.
     domain_factor: Vec<f64>,
-    /// e_A of the continuum for a uniaxial strain, by rank, J/m^3.
+    /// e_A of the continuum for a uniaxial strain of own points, by rank, J/m^3.
     target: Vec<f64>,
-    /// e_A/etil_A along x, y and z, by rank.
+    /// e_A/etil_A along x, y and z of all points, by rank.
     ratios: Vec<[f64; 3]>,
     /// The ratios before the last sweep, by rank.
     before: Vec<[f64; 3]>,
@@ -53,18 +53,15 @@ impl<'a> Families<'a> {
             energy,
         };
         let domain_factor = vec![1.0; coefficients.energy.len()];
-        let target: Vec<f64> = cloud
-            .curve
-            .iter()
-            .map(|&point| targets[point as usize])
-            .collect();
-        let ratios: Vec<[f64; 3]> = (0..cloud.len())
-            .into_par_iter()
-            .map(|rank| {
-                let factors = &domain_factor[coefficients.members.family(rank)];
-                coefficients.energy_ratios(rank, factors, target[rank])
-            })
-            .collect();
+        let own = coefficients.members.seats.own().iter();
+        let target: Vec<f64> = own.map(|&point| targets[point as usize]).collect();
+        let mut ratios = vec![[0.0; 3]; cloud.len()];
+        let own = ratios.par_iter_mut().zip(&target).enumerate();
+        own.for_each(|(rank, (ratios, &target))| {
+            let factors = &domain_factor[coefficients.members.family(rank)];
+            *ratios = coefficients.energy_ratios(rank, factors, target);
+        });
+        coefficients.members.seats.complete(&mut ratios);
         Self {
             coefficients,
             domain_factor,
@@ -81,7 +78,7 @@ impl SweptFamilies for Families<'_> {
         let (coefficients, before, target) = (&self.coefficients, &self.before, &self.target);
         let changes: Vec<f64> = (
             coefficients.members.blocks(&mut self.domain_factor),
-            self.ratios.par_chunks_mut(BLOCK),
+            self.ratios[..target.len()].par_chunks_mut(BLOCK),
         )
             .into_par_iter()
             .enumerate()
@@ -96,8 +93,14 @@ impl SweptFamilies for Families<'_> {
                 change
             })
             .collect();
+        let seats = &coefficients.members.seats;
+        seats.complete(&mut self.ratios);
         // Every bond was met at either end.
-        0.5 * changes.iter().sum::<f64>()
+        0.5 * seats.total(changes.iter().sum::<f64>())
+    }
+
+    fn n_bonds(&self) -> usize {
+        self.coefficients.members.n_bonds()
     }
 
     fn largest_residual(&self) -> f64 {

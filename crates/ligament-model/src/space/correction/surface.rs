@@ -19,7 +19,7 @@ pub fn surface_factors(
     horizons: &Horizons,
     length_factor: &[f64],
 ) -> Vec<f64> {
-    let volumes: Vec<[f64; 2]> = cloud.over_points(|point| {
+    let volumes: Vec<[f64; 2]> = cloud.over_families(|point| {
         let family = bonds.incidence.at(point).iter();
         let present = family.map(|&bond| {
             length_factor[bond as usize] * cloud.volumes[bonds.neighbour(bond, point) as usize]

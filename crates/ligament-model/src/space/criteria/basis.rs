@@ -42,6 +42,7 @@ impl SolidBasis<'_> {
             ends: &self.system.bonds.ends,
             horizons: &self.system.bonds.horizon,
             scatter: self.scatter,
+            portion: self.system.cloud.portion.as_ref(),
         }
     }
 }

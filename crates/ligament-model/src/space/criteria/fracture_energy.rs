@@ -1,7 +1,5 @@
 //! Critical stretch in space from the fracture energy G_c, the energy that separates a body in two halves.
 
-use rayon::prelude::*;
-
 use super::basis::SolidBasis;
 use crate::failure::{Choice, Limits};
 use crate::material::Isotropic;
@@ -53,10 +51,10 @@ pub fn mean_lengths(system: &SolidSystem) -> Vec<f64> {
             sum += weight * system.bonds.length[bond as usize];
             weights += weight;
         }
-        sum / weights
+        [sum / weights]
     };
-    let n_points = system.cloud.len() as u32;
-    (0..n_points).into_par_iter().map(of_point).collect()
+    let lengths = system.cloud.over_families(of_point);
+    lengths.into_iter().map(|[length]| length).collect()
 }
 
 /// Limits of the measure sqrt(max(s, 0)^2 + k_t/k_n |gamma|^2): given ones, or from the fracture energy, or where bonds soften by it from

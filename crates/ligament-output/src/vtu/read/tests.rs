@@ -2,6 +2,9 @@
 
 use std::fs;
 
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
+
 use super::*;
 use crate::vtu::{Cell, Field, UnstructuredGrid, write_vtu};
 use ligament_mesh::SolidCell;

@@ -41,9 +41,9 @@ pub(super) struct SolidEquations<'a, const N: usize> {
     stiffness: Vec<[f64; 2]>,
     /// Uncorrected factors alpha c_0 of the pairs.
     start: Vec<f64>,
-    /// Scales of the forces and the moments, by rank: one over the norm of their rows with the weights q_0.
+    /// Scales of the forces and the moments of own points, by rank: one over the norm of their rows with the weights q_0.
     scale: Vec<[f64; 2]>,
-    /// f, by rank.
+    /// f of own points, by rank.
     right: Vec<[f64; N]>,
 }
 
@@ -66,11 +66,12 @@ impl<'a, const N: usize> SolidEquations<'a, N> {
             let [a, b] = bonds.ends[bond].map(|end| cloud.volumes[end as usize]);
             [stiffness.axial[bond], stiffness.shear[bond]].map(|density| a * b * density)
         };
-        let of_bonds = (0..bonds.len()).map(|bond| {
+        let counted = (0..bonds.len()).filter(|&bond| cloud.counts(bonds.ends[bond]));
+        let of_bonds = counted.map(|bond| {
             let [axial, shear] = of_bond(bond);
             alpha[bond] * bonds.length[bond] * (axial + shear)
         });
-        let body_factor = energy(cloud, forces) / of_bonds.sum::<f64>();
+        let body_factor = energy(cloud, forces) / pairs.seats.total(of_bonds.sum::<f64>());
         let place = |point: u32, bond: u32| {
             let bond = bond as usize;
             let sign = if bonds.ends[bond][0] == point {
@@ -102,8 +103,8 @@ impl<'a, const N: usize> SolidEquations<'a, N> {
             places: pairs.values(place),
             stiffness: pairs.values(|_, bond| of_bond(bond as usize)),
             start: pairs.values(|_, bond| body_factor * alpha[bond as usize]),
-            scale: cloud.curve.iter().map(scale).collect(),
-            right: cloud.curve.iter().map(right).collect(),
+            scale: pairs.seats.own().iter().map(scale).collect(),
+            right: pairs.seats.own().iter().map(right).collect(),
             pairs,
         }
     }

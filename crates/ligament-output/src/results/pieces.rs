@@ -1,0 +1,67 @@
+//! Pieces of the result files by the processes beside the first.
+
+use std::path::PathBuf;
+
+use ligament_analysis::driver::Problem;
+use ligament_analysis::history::{Observer, ObserverError, StepRecord, View};
+use ligament_model::{BodyGrid, FixedFields};
+
+use super::rule::WriteRule;
+use super::{failed, fields_file, model_file, point_fields};
+use crate::Error;
+
+/// Observer that writes the pieces of a process beside the first, into the folder of the first, whenever [`super::ResultWriter`] of that
+/// process writes a grid: the model and the fields.
+pub struct PieceWriter<'a> {
+    folder: PathBuf,
+    grid: &'a BodyGrid,
+    fixed: &'a FixedFields,
+    rule: WriteRule,
+}
+
+impl<'a> PieceWriter<'a> {
+    /// Begins with a run.
+    ///
+    /// # Errors
+    ///
+    /// If the piece of the model cannot be written, by this process or another one.
+    pub fn new(
+        folder: PathBuf,
+        grid: &'a BodyGrid,
+        fixed: &'a FixedFields,
+        rule: WriteRule,
+        problem: &Problem,
+    ) -> Result<Self, Error> {
+        if rule.model {
+            model_file::write(&folder, grid, fixed, problem, None)?;
+        }
+        Ok(Self::going_on(folder, grid, fixed, rule))
+    }
+
+    /// Goes on with a run.
+    pub fn going_on(
+        folder: PathBuf,
+        grid: &'a BodyGrid,
+        fixed: &'a FixedFields,
+        rule: WriteRule,
+    ) -> Self {
+        Self {
+            folder,
+            grid,
+            fixed,
+            rule,
+        }
+    }
+}
+
+impl Observer for PieceWriter<'_> {
+    fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
+        if !self.rule.writes_fields(record, view) {
+            return Ok(());
+        }
+        let path = self.folder.join(fields_file(record, view));
+        failed(point_fields::write(
+            &path, self.grid, self.fixed, self.rule, view,
+        ))
+    }
+}

@@ -1,0 +1,186 @@
+//! Grids in pieces, one for each of several processes: a PVTU file and the VTU files that it names.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `NAME.pvtu` | names and kinds of the fields, and the pieces |
+//! | `NAME.piece_R.vtu` | the cells of rank R with their points, and the fields there |
+//!
+//! Points that cells of several pieces have are in all of them. The fields [`POINT_NUMBER`] and [`CELL_NUMBER`] tell where points and
+//! cells stand in the whole grid, counted from 0, so that a reader gets it as one process would have written it.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use ligament_model::portion::Portion;
+
+use super::field::Chosen;
+use super::{Cell, Field, UnstructuredGrid, push_fields, write_vtu};
+use crate::Error;
+use crate::atomic::replace_file;
+use crate::xml::escape_attribute;
+
+/// Field of the places of the points in the whole grid.
+pub(super) const POINT_NUMBER: &str = "point_number";
+
+/// Field of the places of the cells in the whole grid.
+pub(super) const CELL_NUMBER: &str = "cell_number";
+
+/// Ending of the name of a grid in one file.
+pub const SINGLE: &str = "vtu";
+
+/// Ending of the name of a grid in pieces.
+pub const IN_PIECES: &str = "pvtu";
+
+/// Name of the file of a grid: with pieces where processes share the body.
+pub fn file_name(stem: &str, portion: Option<&Portion>) -> String {
+    let ending = portion.map_or(SINGLE, |_| IN_PIECES);
+    format!("{stem}.{ending}")
+}
+
+/// The stem `NAME` of the name of a grid's file, `NAME.vtu`, `NAME.pvtu` or a piece `NAME.piece_R.vtu`; None for other files.
+pub fn stem(name: &str) -> Option<&str> {
+    let (rest, ending) = name.rsplit_once('.')?;
+    let of_piece = || {
+        let (stem, rank) = rest.rsplit_once(".piece_")?;
+        rank.parse::<usize>().is_ok().then_some(stem)
+    };
+    match ending {
+        SINGLE => Some(of_piece().unwrap_or(rest)),
+        IN_PIECES => Some(rest),
+        _ => None,
+    }
+}
+
+/// Path of a piece of a file.
+fn piece(path: &Path, rank: usize) -> PathBuf {
+    path.with_extension(format!("piece_{rank}.vtu"))
+}
+
+/// Cells of a grid, with what tells whose process they are of.
+#[derive(Clone, Copy)]
+pub struct SharedCells<'a> {
+    /// The part of this process in the body.
+    pub portion: &'a Portion,
+    /// For each cell, the point of the body by which its rank is known (n_cells).
+    pub points: &'a [u32],
+    /// Whether all ranks have all cells of the grid, or each those of its own.
+    pub are_all: bool,
+}
+
+/// Writes a grid to `path`, in pieces if processes share it: then all of them call this, the fields of each are right where its cells are,
+/// and it returns when all have written theirs.
+///
+/// # Errors
+///
+/// If the grid is none, or a file cannot be written, by this process or another one.
+pub fn write_shared(
+    path: impl AsRef<Path>,
+    grid: &UnstructuredGrid<'_>,
+    shared: Option<SharedCells<'_>>,
+) -> Result<(), Error> {
+    let path = path.as_ref();
+    let Some(shared) = shared else {
+        return write_vtu(path, grid);
+    };
+    let exchange = shared.portion.exchange();
+    let own: Vec<u32> = (0..)
+        .zip(shared.points)
+        .filter(|(_, point)| shared.portion.is_own(**point))
+        .map(|(cell, _)| cell)
+        .collect();
+    let written = if own.is_empty() {
+        Ok(())
+    } else {
+        write_piece(&piece(path, exchange.rank()), grid, &own, shared.are_all)
+    };
+    let counts = shared
+        .portion
+        .concatenated(&[[own.len() as f64, f64::from(u8::from(written.is_err()))]]);
+    written?;
+    if let Some(rank) = counts.iter().position(|[_, failed]| *failed > 0.0) {
+        return Err(Error::Refused {
+            path: piece(path, rank),
+            reason: format!("process {rank} could not write it"),
+        });
+    }
+    if exchange.rank() > 0 {
+        return Ok(());
+    }
+    let ranks = counts.iter().enumerate();
+    let with_cells = ranks.filter(|(_, [count, _])| *count > 0.0);
+    let pieces: Vec<PathBuf> = with_cells.map(|(rank, _)| piece(path, rank)).collect();
+    replace_file(path, outline(grid, &pieces, shared.are_all).as_bytes())
+}
+
+/// Writes some cells of a grid with their points.
+fn write_piece(
+    path: &Path,
+    grid: &UnstructuredGrid<'_>,
+    own: &[u32],
+    are_all: bool,
+) -> Result<(), Error> {
+    grid.check(path)?;
+    let corners = |&cell: &u32| grid.cells[cell as usize].points();
+    let mut points: Vec<u32> = own.iter().flat_map(corners).copied().collect();
+    points.sort_unstable();
+    points.dedup();
+    let place = |point: u32| points.partition_point(|it| *it < point) as u32;
+    let cells = own
+        .iter()
+        .map(|&cell| grid.cells[cell as usize].renumbered(place));
+    let cells: Vec<Cell> = cells.collect();
+    let positions: Vec<[f64; 3]> = points
+        .iter()
+        .map(|&point| grid.points[point as usize])
+        .collect();
+    let numbers = [&points[..], own].map(|it| it.iter().map(|&n| i64::from(n)).collect());
+    let [point_numbers, cell_numbers]: [Vec<i64>; 2] = numbers;
+    let [of_points, of_cells] = [(grid.point_fields, &points[..]), (grid.cell_fields, own)]
+        .map(|(fields, rows)| fields.iter().map(|it| it.at(rows)).collect());
+    let of_points: Vec<Chosen> = of_points;
+    let of_cells: Vec<Chosen> = of_cells;
+    let mut point_fields: Vec<Field<'_>> = chosen(grid.point_fields, &of_points);
+    point_fields.push(Field::integer(POINT_NUMBER, &point_numbers));
+    let mut cell_fields: Vec<Field<'_>> = chosen(grid.cell_fields, &of_cells);
+    if are_all {
+        cell_fields.push(Field::integer(CELL_NUMBER, &cell_numbers));
+    }
+    let piece = UnstructuredGrid {
+        points: &positions,
+        cells: &cells,
+        point_fields: &point_fields,
+        cell_fields: &cell_fields,
+    };
+    write_vtu(path, &piece)
+}
+
+fn chosen<'a>(fields: &'a [Field<'a>], numbers: &'a [Chosen]) -> Vec<Field<'a>> {
+    let pairs = fields.iter().zip(numbers);
+    pairs.map(|(field, numbers)| field.with(numbers)).collect()
+}
+
+/// The document that names the pieces.
+fn outline(grid: &UnstructuredGrid<'_>, pieces: &[PathBuf], are_all: bool) -> String {
+    let mut xml = String::from(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
+         <VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
+         compressor=\"vtkZLibDataCompressor\">\n<PUnstructuredGrid GhostLevel=\"0\">\n",
+    );
+    let mut point_fields = grid.point_fields.to_vec();
+    point_fields.push(Field::integer(POINT_NUMBER, &[]));
+    let mut cell_fields = grid.cell_fields.to_vec();
+    if are_all {
+        cell_fields.push(Field::integer(CELL_NUMBER, &[]));
+    }
+    push_fields(&mut xml, "PPointData", &point_fields, |it| it.outline());
+    push_fields(&mut xml, "PCellData", &cell_fields, |it| it.outline());
+    let points = Field::vector("Points", &[]).outline();
+    // Writing to a string cannot fail.
+    let _ = write!(xml, "<PPoints>\n{points}</PPoints>\n");
+    for piece in pieces {
+        let name = piece.file_name().unwrap_or_default().to_string_lossy();
+        let _ = writeln!(xml, "<Piece Source=\"{}\"/>", escape_attribute(&name));
+    }
+    xml.push_str("</PUnstructuredGrid>\n</VTKFile>\n");
+    xml
+}

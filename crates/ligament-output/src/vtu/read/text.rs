@@ -1,0 +1,277 @@
+//! The text of a VTU file, and its arrays.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
+use miniz_oxide::inflate::decompress_to_vec_zlib_with_limit;
+use rayon::prelude::*;
+
+use crate::atomic::read_bytes;
+use crate::xml::{attribute, unescape};
+use crate::{Error, FieldLocation};
+
+/// Corners of a cell at most.
+const MOST_CORNERS: usize = 8;
+
+/// Numbers that a field has for a point or cell at most.
+const MOST_COMPONENTS: usize = 16;
+
+/// Bytes of a number in the header of an array.
+const HEADER_ENTRY: usize = 8;
+
+/// The text of a file with the places of its arrays.
+#[derive(Debug)]
+pub(super) struct Text {
+    path: PathBuf,
+    text: String,
+    contents: Contents,
+}
+
+/// The arrays of a file, and the number of values that a field has.
+#[derive(Debug)]
+struct Contents {
+    arrays: Vec<Entry>,
+    n_points: usize,
+    n_cells: usize,
+}
+
+/// The part of a file that an array belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Section {
+    Fields(FieldLocation),
+    Points,
+    Cells,
+}
+
+/// An array that was found.
+#[derive(Debug)]
+pub(super) struct Entry {
+    section: Section,
+    pub(super) name: String,
+    vtk_type: String,
+    /// Numbers a point or cell.
+    pub(super) n_components: usize,
+    /// Names of the components: all of them or none.
+    pub(super) components: Vec<String>,
+    /// Range of the base64 text of the array.
+    content: Range<usize>,
+}
+
+impl Text {
+    /// Reads a file and finds its arrays.
+    pub(super) fn open(path: &Path) -> Result<Self, Error> {
+        let text = read(path)?;
+        let contents = contents(&text).map_err(|reason| strange(path, reason))?;
+        let path = path.to_path_buf();
+        Ok(Self {
+            path,
+            text,
+            contents,
+        })
+    }
+
+    pub(super) fn n_points(&self) -> usize {
+        self.contents.n_points
+    }
+
+    pub(super) fn n_cells(&self) -> usize {
+        self.contents.n_cells
+    }
+
+    /// The arrays of a part of the file, in their order.
+    pub(super) fn arrays(&self, section: Section) -> impl Iterator<Item = &Entry> {
+        let arrays = self.contents.arrays.iter();
+        arrays.filter(move |array| array.section == section)
+    }
+
+    pub(super) fn find(&self, section: Section, name: &str) -> Option<&Entry> {
+        self.arrays(section).find(|it| it.name == name)
+    }
+
+    /// Numbers of any kind.
+    pub(super) fn floats(&self, entry: &Entry) -> Result<Vec<f64>, Error> {
+        match entry.vtk_type.as_str() {
+            "Float64" => self.values(entry, f64::from_le_bytes),
+            "Float32" => self.values(entry, |bytes| f64::from(f32::from_le_bytes(bytes))),
+            "Int64" => self.values(entry, |bytes| i64::from_le_bytes(bytes) as f64),
+            other => Err(self.strange(format!("array {} has {other}, no numbers", entry.name))),
+        }
+    }
+
+    pub(super) fn whole(&self, entry: &Entry) -> Result<Vec<i64>, Error> {
+        match entry.vtk_type.as_str() {
+            "Int64" => self.values(entry, i64::from_le_bytes),
+            other => Err(self.strange(format!("array {} has {other}, no integers", entry.name))),
+        }
+    }
+
+    pub(super) fn bytes(&self, entry: &Entry) -> Result<Vec<u8>, Error> {
+        self.values(entry, u8::from_le_bytes)
+    }
+
+    pub(super) fn strange(&self, reason: impl Into<String>) -> Error {
+        strange(&self.path, reason)
+    }
+
+    fn values<T, const SIZE: usize>(
+        &self,
+        entry: &Entry,
+        from_bytes: impl Fn([u8; SIZE]) -> T,
+    ) -> Result<Vec<T>, Error> {
+        let damaged = || self.strange(format!("array {} is damaged", entry.name));
+        let Contents {
+            n_points, n_cells, ..
+        } = self.contents;
+        let (fewest, most) = match entry.section {
+            Section::Fields(FieldLocation::Point) | Section::Points => (n_points, n_points),
+            Section::Fields(FieldLocation::Cell) => (n_cells, n_cells),
+            Section::Cells => (n_cells, MOST_CORNERS * n_cells),
+        };
+        let [fewest, most] = [fewest, most].map(|it| it * entry.n_components);
+        let bytes = decode(self.text[entry.content.clone()].trim(), most * SIZE);
+        let bytes = bytes.ok_or_else(damaged)?;
+        let (values, rest) = bytes.as_chunks::<SIZE>();
+        if rest.is_empty() && (fewest..=most).contains(&values.len()) {
+            Ok(values.iter().map(|bytes| from_bytes(*bytes)).collect())
+        } else {
+            Err(damaged())
+        }
+    }
+}
+
+/// Names of the pieces that a grid in pieces names; none where the file is something else.
+pub(super) fn sources(path: &Path) -> Result<Vec<String>, Error> {
+    let text = read(path)?;
+    let is_whole =
+        text.contains("type=\"PUnstructuredGrid\"") && text.trim_end().ends_with("</VTKFile>");
+    let pieces = text.split('<').filter(|tag| tag.starts_with("Piece "));
+    let names: Option<Vec<String>> = pieces
+        .map(|tag| attribute(tag, "Source").map(unescape))
+        .collect();
+    let names = names.filter(|names| is_whole && !names.is_empty());
+    names.ok_or_else(|| strange(path, "it is no PVTU file of this program"))
+}
+
+fn read(path: &Path) -> Result<String, Error> {
+    let bytes = read_bytes(path).map_err(Error::system("read", path))?;
+    String::from_utf8(bytes).map_err(|_| strange(path, "it is no text"))
+}
+
+/// The error of something in a file that is not as it should be.
+pub(super) fn strange(path: &Path, reason: impl Into<String>) -> Error {
+    Error::Unreadable {
+        path: path.to_path_buf(),
+        reason: reason.into(),
+    }
+}
+
+/// The contents of a text. Base64 has no `<`, so that tags are what lies between the angles.
+fn contents(text: &str) -> Result<Contents, &'static str> {
+    let mut arrays = Vec::new();
+    let mut counts = None;
+    let mut section = None;
+    let mut is_known_format = false;
+    let mut at = 0;
+    while let Some(start) = text[at..].find('<').map(|offset| at + offset + 1) {
+        let end = text[start..].find('>').ok_or("it ends in a tag")? + start;
+        let tag = &text[start..end];
+        at = end + 1;
+        let name_end = tag.find([' ', '\n', '/']).unwrap_or(tag.len());
+        match &tag[..name_end] {
+            "VTKFile" => is_known_format = is_ours(tag),
+            "Piece" => {
+                let count = |key| attribute(tag, key)?.parse().ok();
+                counts = count("NumberOfPoints").zip(count("NumberOfCells"));
+            }
+            "PointData" => section = Some(Section::Fields(FieldLocation::Point)),
+            "CellData" => section = Some(Section::Fields(FieldLocation::Cell)),
+            "Points" => section = Some(Section::Points),
+            "Cells" => section = Some(Section::Cells),
+            "DataArray" => {
+                let of = |key| attribute(tag, key).ok_or("an array has no name or type");
+                let length = text[at..].find('<').ok_or("it ends in an array")?;
+                let count = attribute(tag, "NumberOfComponents").map_or(Ok(1), str::parse);
+                let component = |number| attribute(tag, &format!("ComponentName{number}"));
+                arrays.push(Entry {
+                    section: section.ok_or("an array is out of place")?,
+                    name: unescape(of("Name")?),
+                    vtk_type: of("type")?.to_owned(),
+                    n_components: (count
+                        .ok()
+                        .filter(|count| (1..=MOST_COMPONENTS).contains(count)))
+                    .ok_or("an array has no number of components")?,
+                    components: (0..).map_while(component).map(unescape).collect(),
+                    content: at..at + length,
+                });
+            }
+            _ => {}
+        }
+    }
+    if !is_known_format {
+        return Err("it is no VTU file of this program");
+    }
+    if !text.trim_end().ends_with("</VTKFile>") {
+        return Err("its end is missing");
+    }
+    let (n_points, n_cells): (usize, usize) =
+        counts.ok_or("it has no number of points and cells")?;
+    // However well it is compressed, a point or cell takes more than a byte for its position and corners.
+    if n_points.max(n_cells) > text.len() {
+        return Err("it is too short for its number of points and cells");
+    }
+    Ok(Contents {
+        arrays,
+        n_points,
+        n_cells,
+    })
+}
+
+fn is_ours(tag: &str) -> bool {
+    [
+        ("type", "UnstructuredGrid"),
+        ("byte_order", "LittleEndian"),
+        ("header_type", "UInt64"),
+        ("compressor", "vtkZLibDataCompressor"),
+    ]
+    .into_iter()
+    .all(|(key, value)| attribute(tag, key) == Some(value))
+}
+
+/// The bytes of an array, of which there are so many at most: a header in base64, then the compressed blocks in base64 of their
+/// own. None where they are damaged.
+fn decode(text: &str, most: usize) -> Option<Vec<u8>> {
+    // Three bytes take four letters; the first three entries take 24 bytes.
+    let start = BASE64_STANDARD.decode(text.get(..32)?).ok()?;
+    let entry = |bytes: &[u8], place: usize| -> Option<usize> {
+        let bytes = bytes.get(place * HEADER_ENTRY..(place + 1) * HEADER_ENTRY)?;
+        usize::try_from(u64::from_le_bytes(bytes.try_into().ok()?)).ok()
+    };
+    let n_blocks = entry(&start, 0)?;
+    let header_bytes = n_blocks.checked_add(3)?.checked_mul(HEADER_ENTRY)?;
+    let header_letters = header_bytes.div_ceil(3).checked_mul(4)?;
+    let header = BASE64_STANDARD.decode(text.get(..header_letters)?).ok()?;
+    let compressed = BASE64_STANDARD.decode(&text[header_letters..]).ok()?;
+    let (whole, last) = (entry(&header, 1)?, entry(&header, 2)?);
+    let mut blocks = Vec::with_capacity(n_blocks);
+    let (mut from, mut left) = (0_usize, most);
+    for block in 0..n_blocks {
+        let to = from.checked_add(entry(&header, 3 + block)?)?;
+        let size = if block + 1 == n_blocks && last > 0 {
+            last
+        } else {
+            whole
+        };
+        blocks.push((compressed.get(from..to)?, size));
+        from = to;
+        left = left.checked_sub(size)?;
+    }
+    let inflated: Option<Vec<Vec<u8>>> = (blocks.par_iter())
+        .map(|(block, size)| {
+            let bytes = decompress_to_vec_zlib_with_limit(block, *size).ok()?;
+            (bytes.len() == *size).then_some(bytes)
+        })
+        .collect();
+    Some(inflated?.concat())
+}

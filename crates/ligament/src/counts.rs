@@ -1,0 +1,55 @@
+//! Numbers of the bonds of a whole body, whichever of several processes knows them.
+
+use ligament_model::{Absence, AbsentBond, BondSet, PointCloud};
+
+use crate::stage::Finding;
+
+/// Numbers of bonds, each counted once.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BondCounts {
+    /// Bonds without those that pre-cracks cut.
+    pub bonds: usize,
+    /// Bonds that pre-cracks cut.
+    pub cut: usize,
+    /// Pairs of points that would be bonded but for a void of the body between them.
+    pub across_voids: usize,
+    /// Fewest and most bonds of a point.
+    pub of_points: [usize; 2],
+}
+
+impl BondCounts {
+    /// The numbers of bonds between the points of a cloud and of pairs that are none.
+    pub fn new<const D: usize>(
+        cloud: &PointCloud<D>,
+        bonds: &BondSet<D>,
+        absent: &[AbsentBond],
+    ) -> Self {
+        let sizes = cloud.over_families(|point| [bonds.incidence.at(point).len() as f64]);
+        let sizes = || sizes.iter().map(|[size]| *size as usize);
+        Self {
+            bonds: bonds.count(cloud),
+            cut: count(cloud, absent, Absence::PreCrack),
+            across_voids: count(cloud, absent, Absence::Void),
+            of_points: [sizes().min(), sizes().max()].map(Option::unwrap_or_default),
+        }
+    }
+}
+
+/// What the search of bonds has found.
+pub(crate) fn finding<const D: usize>(
+    cloud: &PointCloud<D>,
+    bonds: &BondSet<D>,
+    absent: &[AbsentBond],
+) -> Finding<'static> {
+    Finding::Bonds {
+        points: cloud.len(),
+        bonds: bonds.count(cloud),
+        across_voids: count(cloud, absent, Absence::Void),
+    }
+}
+
+/// Number of pairs that are no bonds for a reason.
+fn count<const D: usize>(cloud: &PointCloud<D>, absent: &[AbsentBond], absence: Absence) -> usize {
+    let counted = |it: &&AbsentBond| it.absence == absence && cloud.counts(it.ends);
+    cloud.total(absent.iter().filter(counted).count())
+}

@@ -1,0 +1,225 @@
+//! Grids that several processes write in pieces read as one process would have written them. The processes are threads here.
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+use std::path::Path;
+
+use ligament_model::PointCloud;
+use ligament_output::FieldLocation::{self, Cell as OnCells, Point as OnPoints};
+use ligament_output::vtu::read::VtuFile;
+use ligament_output::vtu::{Cell, Field, SharedCells, UnstructuredGrid, write_shared, write_vtu};
+use verification::threads_as_ranks::on_ranks;
+
+const COLUMNS: usize = 7;
+const ROWS: usize = 5;
+
+/// A body of rows and columns of points.
+struct Body {
+    cloud: PointCloud,
+    positions: Vec<[f64; 3]>,
+    cells: Vec<Cell>,
+    stress: Vec<f64>,
+    damage: Vec<f64>,
+    area: Vec<f64>,
+    tags: Vec<i64>,
+}
+
+impl Body {
+    fn new() -> Self {
+        let n = COLUMNS * ROWS;
+        let places = (0..n).map(|it| [(it % COLUMNS) as f64, (it / COLUMNS) as f64]);
+        let places: Vec<[f64; 2]> = places.collect();
+        let corner = |it: usize| (it % (COLUMNS - 1) + it / (COLUMNS - 1) * COLUMNS) as u32;
+        let right = COLUMNS as u32;
+        let quads = (0..(COLUMNS - 1) * (ROWS - 1)).map(|it| {
+            let first = corner(it);
+            Cell::Quad([first, first + 1, first + right + 1, first + right])
+        });
+        Self {
+            positions: places.iter().map(|&[x, y]| [x, y, 0.0]).collect(),
+            cells: quads.collect(),
+            stress: (0..3 * n).map(|it| it as f64 - 7.5).collect(),
+            damage: (0..n).map(|it| 1.0 / (1.0 + it as f64)).collect(),
+            area: (0..(COLUMNS - 1) * (ROWS - 1))
+                .map(|it| it as f64)
+                .collect(),
+            tags: (0..n as i64).map(|it| 100 - it).collect(),
+            cloud: PointCloud {
+                positions: places,
+                origin: [0.0; 2],
+                thickness: 1.0,
+                volumes: vec![1.0; n],
+                spacing: vec![1.0; n],
+                lattice_cell: None,
+                n_materials: 1,
+                material_shares: vec![1.0; n],
+                curve: (0..n as u32).collect(),
+                numbering: Default::default(),
+                portion: None,
+            },
+        }
+    }
+
+    /// Does something with the grid of some cells, a field of numbers a cell and the fields of the points.
+    fn grid<T>(
+        &self,
+        cells: &[Cell],
+        area: &[f64],
+        then: impl Fn(&UnstructuredGrid<'_>) -> T,
+    ) -> T {
+        then(&UnstructuredGrid {
+            points: &self.positions,
+            cells,
+            point_fields: &[
+                Field::scalar("damage", &self.damage),
+                Field::components("stress", &["xx", "yy", "xy"], &self.stress),
+                Field::integer("node", &self.tags),
+            ],
+            cell_fields: &[Field::scalar("area", area)],
+        })
+    }
+
+    /// The first point of each cell.
+    fn points(cells: &[Cell]) -> Vec<u32> {
+        cells.iter().map(|it| it.points()[0]).collect()
+    }
+}
+
+fn numbers(file: &VtuFile, location: FieldLocation, name: &str) -> Vec<f64> {
+    file.required_numbers(location, name).unwrap()
+}
+
+#[test]
+fn pieces_read_as_the_whole() {
+    let (body, folder) = (Body::new(), tempfile::tempdir().unwrap());
+    let [single, shared] = ["fields.vtu", "fields.pvtu"].map(|it| folder.path().join(it));
+    body.grid(&body.cells, &body.area, |grid| write_vtu(&single, grid))
+        .unwrap();
+    on_ranks(3, |ranks| {
+        let portion = body.cloud.portion_of(ranks.0);
+        let cells = SharedCells {
+            portion: &portion,
+            points: &Body::points(&body.cells),
+            are_all: true,
+        };
+        let write = |grid: &UnstructuredGrid<'_>| write_shared(&shared, grid, Some(cells));
+        body.grid(&body.cells, &body.area, write).unwrap();
+    });
+    let [whole, joined] = [single, shared].map(|it| VtuFile::open(it).unwrap());
+    assert_eq!(joined.points().unwrap(), whole.points().unwrap());
+    assert_eq!(joined.cells().unwrap(), whole.cells().unwrap());
+    let fields =
+        |file: &VtuFile, location| file.fields(location).map(str::to_owned).collect::<Vec<_>>();
+    for location in [OnPoints, OnCells] {
+        assert_eq!(fields(&joined, location), fields(&whole, location));
+        for name in fields(&whole, location) {
+            assert_eq!(
+                joined.components(location, &name),
+                whole.components(location, &name)
+            );
+            let [found, expected] = [&joined, &whole].map(|it| numbers(it, location, &name));
+            assert_eq!(found, expected, "{name}");
+        }
+    }
+    assert_eq!(
+        joined.tags(OnPoints).unwrap(),
+        whole.tags(OnPoints).unwrap()
+    );
+    // Each process wrote some of the cells, and a point where their parts meet is in several pieces.
+    let piece = |rank: usize| {
+        VtuFile::open(folder.path().join(format!("fields.piece_{rank}.vtu"))).unwrap()
+    };
+    let pieces: Vec<VtuFile> = (0..3).map(piece).collect();
+    let n_cells: Vec<usize> = pieces.iter().map(|it| it.cells().unwrap().len()).collect();
+    assert_eq!(n_cells.iter().sum::<usize>(), body.cells.len());
+    assert!(n_cells.iter().all(|it| *it > 0 && *it < body.cells.len()));
+    let n_points: usize = pieces.iter().map(|it| it.points().unwrap().len()).sum();
+    assert!(n_points > COLUMNS * ROWS);
+}
+
+/// Lines between points of two processes are known to both, each with a number of its own, and written by the process of the first end.
+#[test]
+fn lines_that_two_processes_know_are_written_once() {
+    let (body, folder) = (Body::new(), tempfile::tempdir().unwrap());
+    let path = folder.path().join("model.pvtu");
+    let all: Vec<[u32; 2]> = (0..(COLUMNS * ROWS - 2) as u32)
+        .map(|it| [it, it + 2])
+        .collect();
+    on_ranks(3, |ranks| {
+        let portion = body.cloud.portion_of(ranks.0);
+        let known: Vec<[u32; 2]> = all
+            .iter()
+            .copied()
+            .filter(|it| portion.knows(*it))
+            .collect();
+        let lines: Vec<Cell> = known.iter().copied().map(Cell::Line).collect();
+        let first: Vec<f64> = known.iter().map(|it| f64::from(it[0])).collect();
+        let cells = SharedCells {
+            portion: &portion,
+            points: &Body::points(&lines),
+            are_all: false,
+        };
+        body.grid(&lines, &first, |grid| {
+            write_shared(&path, grid, Some(cells))
+        })
+        .unwrap();
+    });
+    let read = VtuFile::open(&path).unwrap();
+    let (lines, first) = (read.lines().unwrap(), numbers(&read, OnCells, "area"));
+    assert!(
+        lines
+            .iter()
+            .zip(&first)
+            .all(|(ends, first)| f64::from(ends[0]) == *first)
+    );
+    let mut sorted = lines.clone();
+    sorted.sort_unstable();
+    assert_eq!(sorted, all);
+    assert_eq!(numbers(&read, OnPoints, "damage"), body.damage);
+}
+
+fn error(path: &Path) -> String {
+    VtuFile::open(path).unwrap_err().to_string()
+}
+
+#[test]
+fn what_is_missing_of_a_grid_in_pieces_is_told() {
+    let (body, folder) = (Body::new(), tempfile::tempdir().unwrap());
+    let path = folder.path().join("fields.pvtu");
+    let write = |path: &Path| {
+        on_ranks(2, |ranks| {
+            let portion = body.cloud.portion_of(ranks.0);
+            let cells = SharedCells {
+                portion: &portion,
+                points: &Body::points(&body.cells),
+                are_all: true,
+            };
+            let write = |grid: &UnstructuredGrid<'_>| write_shared(path, grid, Some(cells));
+            body.grid(&body.cells, &body.area, write)
+                .map_err(|it| it.to_string())
+        })
+    };
+    assert!(write(&path).iter().all(Result::is_ok));
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(
+        &path,
+        text.replace("<Piece Source=\"fields.piece_1.vtu\"/>", ""),
+    )
+    .unwrap();
+    assert!(error(&path).ends_with("its pieces do not make a whole"));
+    fs::write(&path, &text[..text.len() / 2]).unwrap();
+    assert!(error(&path).ends_with("it is no PVTU file of this program"));
+    fs::write(&path, text).unwrap();
+    fs::remove_file(folder.path().join("fields.piece_1.vtu")).unwrap();
+    assert!(error(&path).contains("fields.piece_1.vtu"));
+    // A process that cannot write ends all of them.
+    fs::create_dir(folder.path().join("other.piece_1.vtu")).unwrap();
+    let ended = write(&folder.path().join("other.pvtu"));
+    assert!(
+        ended[0]
+            .as_ref()
+            .unwrap_err()
+            .ends_with("process 1 could not write it")
+    );
+    assert!(ended[1].is_err());
+}

@@ -1,0 +1,276 @@
+//! Bodies whose bonds are shared out among several ranks, against the same body in one process: who knows which bonds, with what stiffness
+//! and limits, and what is counted of them. The ranks are threads.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+use ligament::Model;
+use ligament::SetupError;
+use ligament::body::SolidMeshBody;
+use ligament::model::Discretises;
+use ligament::prelude::*;
+use ligament::setup::{Dim, Dimension};
+use ligament_case::case::CaseFile;
+use ligament_mesh::{SolidCell, SolidMesh};
+use ligament_model::correction::CorrectionReport;
+use ligament_model::element::Rigidities;
+use ligament_model::{Bonds, FixedFields};
+use verification::bench::case;
+use verification::problems::{BAR, TWO};
+use verification::repository;
+use verification::threads_as_ranks::on_ranks;
+
+/// What numbers of bonds may differ by, relative to those of one process.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Accuracy {
+    /// Sums at a point are made in the order of its bonds wherever they are made.
+    Bits,
+    /// Sums over all points are made by each rank and added up, and a Newton step is solved to a tenth: rounding grows in its directions.
+    Newton,
+}
+
+impl Accuracy {
+    fn holds(self, one: &[f64], other: &[f64]) -> bool {
+        match self {
+            Self::Bits => one == other,
+            Self::Newton => one.len() == other.len() && farthest(one, other) < 1e-9,
+        }
+    }
+}
+
+/// Largest relative difference of two lists.
+fn farthest(one: &[f64], other: &[f64]) -> f64 {
+    let pairs = one.iter().zip(other).filter(|(one, other)| one != other);
+    let off = pairs.map(|(one, other)| (one - other).abs() / one.abs().max(other.abs()));
+    off.fold(0.0, f64::max)
+}
+
+/// The entries of a list of numbers at some places.
+fn at(places: &[usize], values: &[f64]) -> Vec<f64> {
+    if values.is_empty() {
+        return Vec::new();
+    }
+    places.iter().map(|&place| values[place]).collect()
+}
+
+/// Lists of numbers of the bonds, each with a name.
+fn of_bonds<const D: usize>(
+    model: &Model<D>,
+    rigidities: &Rigidities,
+) -> Vec<(&'static str, Vec<f64>)>
+where
+    Dim: Dimension<D>,
+{
+    let system = &*model.system;
+    let mut lists = vec![
+        ("axial", rigidities.axial.clone()),
+        ("shear", rigidities.shear.clone()),
+        ("rotational", rigidities.rotational.clone()),
+        ("horizon", system.horizons().to_vec()),
+        ("weight", system.weights().to_vec()),
+        ("Omega", model.fixed.domain_factor.clone()),
+        ("shear ratio", model.fixed.shear_ratio.clone()),
+    ];
+    for criterion in &model.criteria.list {
+        lists.push(("limit", criterion.limit.clone()));
+        lists.push(("coefficient", criterion.coefficient.clone()));
+    }
+    lists
+}
+
+/// What the first process of several tells in the end, and what all must agree about.
+fn of_points(fixed: &FixedFields) -> Vec<(&'static str, Vec<f64>)> {
+    let ratios = fixed.energy_ratios.iter();
+    let ratios = ratios.map(|it| (it.field, it.at_points.clone()));
+    let others = [
+        ("precrack share", fixed.precrack_share.clone()),
+        ("patch residual", fixed.patch_residual.clone()),
+    ];
+    others.into_iter().chain(ratios).collect()
+}
+
+/// Shares a body out among 1, 2 and 3 ranks and compares with one process.
+fn shared<const D: usize>(
+    name: &str,
+    setup: &Setup<D>,
+    accuracy: Accuracy,
+    rigidities: impl Fn(&Model<D>) -> &Rigidities + Sync,
+) -> Model<D>
+where
+    Dim: Dimension<D> + Discretises<D>,
+    Setup<D>: Sync,
+{
+    let whole = Model::build(setup.clone(), &mut ()).unwrap();
+    let (ends, lists) = (whole.system.ends(), of_bonds(&whole, rigidities(&whole)));
+    for n_ranks in 1..=3 {
+        let known = on_ranks(n_ranks, |together| {
+            let mut setup = setup.clone();
+            setup.solver.ranks = Some(together);
+            let model = Model::build_shared_out(setup, &mut ()).unwrap();
+            let portion = model.system.portion().unwrap();
+            // Bonds, and pairs that are none, are known to the ranks of their ends and to no others, in the same order.
+            let is_known = |ends: &[u32; 2]| ends.iter().any(|&end| portion.is_own(end));
+            let places: Vec<usize> = (0..ends.len()).filter(|&it| is_known(&ends[it])).collect();
+            let expected: Vec<[u32; 2]> = places.iter().map(|&it| ends[it]).collect();
+            assert_eq!(model.system.ends(), expected);
+            let absent = whole.fixed.absent.iter().copied();
+            let absent: Vec<_> = absent.filter(|it| is_known(&it.ends)).collect();
+            assert_eq!(model.fixed.absent, absent);
+            let own = of_bonds(&model, rigidities(&model));
+            let mut most: f64 = 0.0;
+            for ((what, expected), (_, found)) in lists.iter().zip(&own) {
+                let expected = at(&places, expected);
+                most = most.max(farthest(&expected, found));
+                assert!(accuracy.holds(&expected, found), "{name}, {what}: {most:e}");
+            }
+            for ((what, expected), (_, found)) in
+                of_points(&whole.fixed).iter().zip(&of_points(&model.fixed))
+            {
+                let off = farthest(expected, found);
+                // What is left of equations that are met is a difference of near numbers.
+                let is_left = accuracy == Accuracy::Newton && *what == "patch residual";
+                let least = 1e-9 * expected.iter().copied().fold(0.0, f64::max);
+                let is_near = |(one, other): (&f64, &f64)| (one - other).abs() <= least;
+                let is_right = match is_left {
+                    true => expected.iter().zip(found).all(is_near),
+                    false => accuracy.holds(expected, found),
+                };
+                assert!(is_right, "{name}, {what}: {off:e}");
+            }
+            assert_eq!(model.counts, whole.counts);
+            assert_eq!(model.warnings.len(), whole.warnings.len());
+            let reports = [&whole, &model].map(|it| it.correction.as_ref().map(steps));
+            assert_eq!(reports[0], reports[1], "{name}");
+            println!("{name}, {n_ranks} ranks: {most:.1e}");
+            places.len()
+        });
+        let least = known.iter().min().unwrap();
+        assert!(n_ranks == 1 || *least < ends.len());
+    }
+    whole
+}
+
+/// Sweeps, or Newton steps and products.
+fn steps(report: &CorrectionReport) -> [usize; 2] {
+    match report {
+        CorrectionReport::Domain(it) => [it.sweeps, 0],
+        CorrectionReport::Patch(it) => [it.steps, it.products],
+    }
+}
+
+fn named(name: &str, settings: &[&str]) -> CaseFile {
+    let path = repository().join("cases").join(name).join("case.toml");
+    let settings: Vec<String> = settings.iter().map(|&it| it.to_owned()).collect();
+    CaseFile::load(&path, &settings).unwrap()
+}
+
+fn in_plane(name: &str, case: &CaseFile, accuracy: Accuracy) -> Model {
+    let setup = case.setup(&mut ()).unwrap();
+    shared(name, &setup, accuracy, |model| &model.system.rigidities)
+}
+
+fn in_space(name: &str, case: &CaseFile, accuracy: Accuracy) -> Model<3> {
+    let setup = case.setup_in_space(&mut ()).unwrap();
+    shared(name, &setup, accuracy, |model| &model.system.rigidities)
+}
+
+const PATCH: &str = "correction.surface=patch";
+
+/// Pre-cracks, holes and voids, and the laws and corrections that need sums over families. In `known` are the bonds of a whole body.
+#[test]
+fn bodies_in_the_plane_are_shared_out_to_the_bit() {
+    let model = in_plane("crack", &named("central-crack", &[]), Accuracy::Bits);
+    assert!(model.counts.cut > 100 && model.correction.is_some());
+    let cracked = [
+        "correction.domain=cracked",
+        "model.law=mppd",
+        "correction.surface=domain",
+    ];
+    in_plane("cracked", &named("central-crack", &cracked), Accuracy::Bits);
+    let model = in_plane(
+        "void",
+        &named("l-panel", &["correction.surface=domain"]),
+        Accuracy::Bits,
+    );
+    assert!(model.counts.across_voids > 10);
+    let lattice = [
+        "model.law=mppd",
+        "model.calibration=discrete",
+        "model.cosserat_length=1e-3",
+    ];
+    in_plane("lattice", &named("lattice-plate", &lattice), Accuracy::Bits);
+    in_plane("softening", &named("softening-bar", &[]), Accuracy::Bits);
+    in_plane(
+        "two materials",
+        &case(&[BAR, TWO].concat(), &[]),
+        Accuracy::Bits,
+    );
+}
+
+/// The sweeps along three axes, volumes of families and sums over families on a lattice with holes and on tetrahedra with a pre-crack.
+#[test]
+fn bodies_in_space_are_shared_out_to_the_bit() {
+    let cells = [
+        "solid_lattice.cells=[16, 16, 16]",
+        "solid_lattice.spacing=[0.25, 0.25, 0.25]",
+        "model.horizon_factor=3.5",
+    ];
+    let model = in_space("sphere", &named("lattice-sphere", &cells), Accuracy::Bits);
+    assert!(model.counts.across_voids > 100);
+    for (name, settings) in [
+        (
+            "volume",
+            &["model.law=mppd", "correction.surface=volume"][..],
+        ),
+        ("discrete", &["model.law=mppd-beam"]),
+    ] {
+        let settings = [&cells[..], settings].concat();
+        in_space(name, &named("lattice-sphere", &settings), Accuracy::Bits);
+    }
+    let model = in_space("block", &named("split-block", &[]), Accuracy::Bits);
+    assert!(model.counts.cut > 100 && !model.criteria.list.is_empty());
+}
+
+/// Several blocks of points a rank, points that turn and that do not, and factors of two materials.
+#[test]
+fn the_patch_correction_is_shared_out() {
+    in_plane("disk", &named("brazilian-disk", &[PATCH]), Accuracy::Newton);
+    let springs = [PATCH, "model.law=pds"];
+    in_plane("springs", &named("l-panel", &springs), Accuracy::Newton);
+    in_plane("bar", &named("bimaterial-bar", &[]), Accuracy::Newton);
+    in_space("block", &named("split-block", &[PATCH]), Accuracy::Newton);
+}
+
+/// What no rank sees by itself is refused by all of them with the words of one process.
+#[test]
+fn faults_are_those_of_the_whole_body() {
+    // Two bricks on each other, the upper one higher than horizons reach.
+    let layer = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
+    let mesh = SolidMesh {
+        node_tags: (1..=12).collect(),
+        positions: [0.0, 1.0, 4.0].map(layer).concat(),
+        cells: vec![
+            SolidCell::Hexahedron([0, 1, 2, 3, 4, 5, 6, 7]),
+            SolidCell::Hexahedron([4, 5, 6, 7, 8, 9, 10, 11]),
+        ],
+        ..SolidMesh::default()
+    };
+    let material = Material::isotropic(1e9, 0.2);
+    let mut torn = Setup::new(SolidMeshBody::from(mesh), material, Law::Nhpd);
+    torn.horizon = Horizon::Factor(1.5);
+    let soft = named("softening-bar", &["material.fracture_energy=1e-3"]);
+    let soft = soft.setup(&mut ()).unwrap();
+    let words = |refused: Result<(), SetupError>| refused.unwrap_err().to_string();
+    let alone = [
+        words(Model::build(torn.clone(), &mut ()).map(|_| ())),
+        words(Model::build(soft.clone(), &mut ()).map(|_| ())),
+    ];
+    let told = on_ranks(3, |together| {
+        let (mut torn, mut soft) = (torn.clone(), soft.clone());
+        (torn.solver.ranks, soft.solver.ranks) = (Some(together), Some(together));
+        [
+            words(Model::build_shared_out(torn, &mut ()).map(|_| ())),
+            words(Model::build_shared_out(soft, &mut ()).map(|_| ())),
+        ]
+    });
+    println!("{alone:?}");
+    assert!(told.iter().all(|it| *it == alone));
+}
