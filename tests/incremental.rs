@@ -16,7 +16,7 @@ use ligament_analysis::{
     ControlKind, Equilibrium, SolverSettings, State, Termination, Unknowns, assembly, dissection,
 };
 use ligament_linalg::{Elimination, Symbolic};
-use ligament_model::BondSystem;
+use ligament_model::{BondSystem, Bonds};
 use tempfile::TempDir;
 use verification::bench::{self, Bench, Watch};
 use verification::meshes;
