@@ -50,9 +50,7 @@ fn seen(run: &Run) -> Seen {
 }
 
 fn bench(text: &str, settings: &[&str], together: Together) -> Bench {
-    let mut bench = Bench::new(text, settings);
-    bench.model.setup.solver.ranks = Some(together);
-    bench
+    Bench::on_ranks(text, settings, together)
 }
 
 /// One process and several ranks, which must have seen the same to the bit.

@@ -104,7 +104,7 @@ where
         let known = on_ranks(n_ranks, |together| {
             let mut setup = setup.clone();
             setup.solver.ranks = Some(together);
-            let model = Model::build_shared_out(setup, &mut ()).unwrap();
+            let model = Model::build(setup, &mut ()).unwrap();
             let portion = model.system.portion().unwrap();
             // Bonds, and pairs that are none, are known to the ranks of their ends and to no others, in the same order.
             let is_known = |ends: &[u32; 2]| ends.iter().any(|&end| portion.is_own(end));
@@ -267,8 +267,8 @@ fn faults_are_those_of_the_whole_body() {
         let (mut torn, mut soft) = (torn.clone(), soft.clone());
         (torn.solver.ranks, soft.solver.ranks) = (Some(together), Some(together));
         [
-            words(Model::build_shared_out(torn, &mut ()).map(|_| ())),
-            words(Model::build_shared_out(soft, &mut ()).map(|_| ())),
+            words(Model::build(torn, &mut ()).map(|_| ())),
+            words(Model::build(soft, &mut ()).map(|_| ())),
         ]
     });
     println!("{alone:?}");

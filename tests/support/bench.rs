@@ -9,11 +9,12 @@ use ligament::setup::ELASTIC_ENERGY_TOLERANCE;
 use ligament_analysis::driver::{self, Outcome, Problem};
 use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::probe::Probe;
+use ligament_analysis::ranks::Together;
 use ligament_analysis::{Bonds, Component, ProportionalLoading, State};
 use ligament_case::case::CaseFile;
 use ligament_mesh::Mesh;
 use ligament_model::correction::{CorrectionReport, DomainReport};
-use ligament_run::model::{Model, build_model};
+use ligament_run::model::{Model, build_model_on};
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::run::{self, Report};
 use ligament_run::stages::Stages;
@@ -84,7 +85,12 @@ pub fn domain(model: &Model) -> &DomainReport {
 impl Bench {
     /// A bench for a case on a mesh of the repository (named relative to `tests/`).
     pub fn new(text: &str, settings: &[&str]) -> Self {
-        Self::from_case(case(text, settings), None)
+        Self::from_case(case(text, settings), None, None)
+    }
+
+    /// A bench of one of several ranks, which share the body out.
+    pub fn on_ranks(text: &str, settings: &[&str], ranks: Together) -> Self {
+        Self::from_case(case(text, settings), None, Some(ranks))
     }
 
     /// A bench for a case on another mesh than its own.
@@ -92,12 +98,12 @@ impl Bench {
         let folder = TempDir::new().unwrap();
         let file = mesh_setting(mesh, folder.path());
         let settings: Vec<&str> = settings.iter().copied().chain([file.as_str()]).collect();
-        Self::from_case(case(text, &settings), Some(folder))
+        Self::from_case(case(text, &settings), Some(folder), None)
     }
 
-    fn from_case(case: CaseFile, folder: Option<TempDir>) -> Self {
+    fn from_case(case: CaseFile, folder: Option<TempDir>, ranks: Option<Together>) -> Self {
         let progress = Progress::new(ProgressMode::Quiet);
-        let model = build_model(&case, &mut Stages::default(), &progress).unwrap();
+        let model = build_model_on(&case, ranks, &mut Stages::default(), &progress).unwrap();
         let Loading {
             boundary, probes, ..
         } = Loading::new(&model.setup, &model.system).unwrap();

@@ -3,6 +3,7 @@
 use ligament_model::Bonds;
 use ligament_model::change::ChangedElements;
 use ligament_model::element::Term;
+use ligament_model::portion::Portion;
 use ligament_model::thermal::ThermalStrain;
 
 use crate::connectivity::Hold;
@@ -11,16 +12,18 @@ use crate::state::State;
 /// Bonds that break together, and what that changes.
 #[derive(Debug, Default)]
 pub struct Breakage {
-    /// Bonds that break, in their order.
+    /// Bonds that break, in their order, by their numbers among all bonds of the body.
     pub bonds: Vec<u32>,
     /// Rigid motions of parts that came loose, which are held from now on.
     pub holds: Vec<Hold>,
     /// Elements that change: those of the bonds, in their order, and then those that lean on them, ascending.
     elements: Option<Box<dyn ChangedElements>>,
+    /// Elements of the bonds that are counted here, where processes share the body out.
+    counted: Option<(Portion, Box<dyn ChangedElements>)>,
 }
 
 impl Breakage {
-    /// The breakage of bonds of a state, which still has them; nothing is held yet.
+    /// The breakage of bonds of a state that are known here, and which it still has; nothing is held yet.
     pub fn new(
         system: &dyn Bonds,
         expansion: ThermalStrain<'_>,
@@ -31,6 +34,14 @@ impl Breakage {
         Self {
             bonds: bonds.to_vec(),
             holds: Vec::new(),
+            counted: system.portion().map(|portion| {
+                let ends = system.ends();
+                let counted = bonds.iter().copied();
+                let counted = counted.filter(|&bond| portion.counts(ends[bond as usize]));
+                let counted: Vec<u32> = counted.collect();
+                let elements = system.changed(left, displacement, expansion, &counted);
+                (portion.clone(), elements)
+            }),
             elements: Some(system.changed(left, displacement, expansion, bonds)),
         }
     }
@@ -66,6 +77,11 @@ impl Breakage {
     /// Energy released at a fixed load, with the displacements after it (n_degrees_of_freedom), J:
     /// 1/2 u^T (K_before - K_after) u'.
     pub fn released(&self, displacement: &[f64], expansion: ThermalStrain<'_>) -> f64 {
+        if let Some((portion, counted)) = &self.counted {
+            let mut released = [counted.released(displacement, expansion)];
+            portion.sum(&mut released);
+            return released[0];
+        }
         self.elements
             .as_ref()
             .map_or(0.0, |it| it.released(displacement, expansion))

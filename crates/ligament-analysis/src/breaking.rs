@@ -2,9 +2,13 @@
 //!
 //! A bond is judged by the criterion that brings it nearest to its breakage: measure over limit, s/s_0 for most.
 
+use std::collections::BTreeMap;
+
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::{Criteria, Verdict};
 use rayon::prelude::*;
+
+use crate::bond_numbers::BondNumbers;
 
 /// Bonds that make a task worth while.
 const TASK: usize = 4096;
@@ -33,15 +37,56 @@ pub struct BreakingRule {
 /// The bonds to break now, in order; empty where no intact bond is at its limit.
 ///
 /// The bond that leads the order takes the whole group tied with it along, also members just under their limit, so that
-/// symmetric problems stay symmetric; the group is in the order that `sort` gives it, that of the file for instance, and never split.
-/// Groups follow until `bonds_per_iteration` is reached or passed.
+/// symmetric problems stay symmetric; the group is in the order of the numbers that `in_file` gives the ends of a bond, and never
+/// split. Groups follow until `bonds_per_iteration` is reached or passed.
 pub fn next_to_break(
     rule: &BreakingRule,
     deformations: &[BondDeformation],
     criteria: &Criteria,
     intact: &[bool],
-    sort: impl Fn(&mut [u32]),
+    in_file: impl Fn(u32) -> [u32; 2],
 ) -> Vec<u32> {
+    let mut near = near_limit(rule, deformations, criteria, intact);
+    near.iter_mut().for_each(|it| it.in_file = in_file(it.bond));
+    chosen(rule, near)
+}
+
+/// The bonds of a body that processes share out which are to break now, by their numbers among all of its bonds.
+pub(crate) fn next_of_all(
+    numbers: &BondNumbers,
+    rule: &BreakingRule,
+    deformations: &[BondDeformation],
+    criteria: &Criteria,
+    intact: &[bool],
+    in_file: impl Fn(u32) -> [u32; 2],
+) -> Vec<u32> {
+    let counted = numbers.counted_of(intact);
+    let here = near_limit(rule, deformations, criteria, &counted).into_iter();
+    let here = here.map(|it| {
+        let number = f64::from(numbers.number(it.bond as usize));
+        let exceeds = f64::from(u8::from(it.exceeds));
+        let [a, b] = in_file(it.bond).map(f64::from);
+        [number, it.rank, it.tie_scale, exceeds, a, b]
+    });
+    let here: Vec<[f64; 6]> = here.collect();
+    let of_ranks = numbers.portion().concatenated(&here).into_iter();
+    let of_ranks = of_ranks.map(|[number, rank, tie_scale, exceeds, a, b]| Candidate {
+        bond: number as u32,
+        in_file: [a as u32, b as u32],
+        rank,
+        tie_scale,
+        exceeds: exceeds > 0.0,
+    });
+    chosen(rule, of_ranks.collect())
+}
+
+/// The intact bonds that are beyond their limits, or so near to them that they may be tied with one that is.
+fn near_limit(
+    rule: &BreakingRule,
+    deformations: &[BondDeformation],
+    criteria: &Criteria,
+    intact: &[bool],
+) -> Vec<Candidate> {
     let near = 1.0 + 2.0 * rule.tie_tolerance;
     let of_tasks = judge(
         deformations,
@@ -54,12 +99,15 @@ pub fn next_to_break(
             }
         },
     );
-    let mut ranked = of_tasks.concat();
+    of_tasks.concat()
+}
+
+fn chosen(rule: &BreakingRule, mut ranked: Vec<Candidate>) -> Vec<u32> {
     ranked.sort_unstable_by(|one, other| {
         other
             .rank
             .total_cmp(&one.rank)
-            .then(one.bond.cmp(&other.bond))
+            .then(one.in_file.cmp(&other.in_file))
     });
     let mut chosen = Vec::new();
     let mut rest = ranked.as_slice();
@@ -74,9 +122,9 @@ pub fn next_to_break(
             .iter()
             .position(|candidate| candidate.rank < lowest_tied)
             .unwrap_or(rest.len());
-        let mut group: Vec<u32> = rest[..end].iter().map(|candidate| candidate.bond).collect();
-        sort(&mut group);
-        chosen.extend(group);
+        let mut group = rest[..end].to_vec();
+        group.sort_unstable_by_key(|candidate| candidate.in_file);
+        chosen.extend(group.iter().map(|candidate| candidate.bond));
         rest = &rest[end..];
     }
     chosen
@@ -91,6 +139,14 @@ pub struct FirstToBreak {
     pub bonds: Vec<u32>,
 }
 
+impl FirstToBreak {
+    /// With the bonds in the order of the numbers of their ends in the file.
+    pub(crate) fn sorted(mut self, in_file: impl Fn(u32) -> [u32; 2]) -> Self {
+        self.bonds.sort_unstable_by_key(|bond| in_file(*bond));
+        self
+    }
+}
+
 /// The intact bonds nearest to breakage, with those within the relative `tie_tolerance` below the largest ratio.
 pub fn first_to_break(
     tie_tolerance: f64,
@@ -98,6 +154,41 @@ pub fn first_to_break(
     criteria: &Criteria,
     intact: &[bool],
 ) -> FirstToBreak {
+    leaders(tie_tolerance, deformations, criteria, intact).first_to_break()
+}
+
+/// The bonds of a body that processes share out which are nearest to breakage, by their numbers among all of its bonds.
+pub(crate) fn first_of_all(
+    numbers: &BondNumbers,
+    tie_tolerance: f64,
+    deformations: &[BondDeformation],
+    criteria: &Criteria,
+    intact: &[bool],
+    in_file: impl Fn(u32) -> [u32; 2],
+) -> FirstToBreak {
+    let counted = numbers.counted_of(intact);
+    let here = leaders(tie_tolerance, deformations, criteria, &counted);
+    let here = here.tied().map(|(bond, ratio)| {
+        let number = f64::from(numbers.number(bond as usize));
+        let [a, b] = in_file(bond).map(f64::from);
+        [number, ratio, a, b]
+    });
+    let here: Vec<_> = here.collect();
+    let mut leaders = Leaders::new(tie_tolerance);
+    let mut ends = BTreeMap::new();
+    for [number, ratio, a, b] in numbers.portion().concatenated(&here) {
+        leaders.meet(number as u32, ratio);
+        ends.insert(number as u32, [a as u32, b as u32]);
+    }
+    leaders.first_to_break().sorted(|bond| ends[&bond])
+}
+
+fn leaders(
+    tie_tolerance: f64,
+    deformations: &[BondDeformation],
+    criteria: &Criteria,
+    intact: &[bool],
+) -> Leaders {
     let start = || Leaders::new(tie_tolerance);
     let of_tasks = judge(
         deformations,
@@ -112,7 +203,7 @@ pub fn first_to_break(
     for (bond, ratio) in of_tasks.into_iter().flat_map(|it| it.met) {
         leaders.meet(bond, ratio);
     }
-    leaders.first_to_break()
+    leaders
 }
 
 /// What tasks gather from the verdicts on their intact bonds, in the order of the bonds.
@@ -168,10 +259,15 @@ impl Leaders {
         }
     }
 
+    /// The bonds that are tied with the largest ratio, with theirs, in the order in which they were met.
+    fn tied(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
+        let met = self.met.iter().copied();
+        met.filter(|it| it.1 >= self.lowest_tied)
+    }
+
     /// The bonds that lead in the end.
     pub(crate) fn first_to_break(self) -> FirstToBreak {
-        let tied = self.met.iter().filter(|it| it.1 >= self.lowest_tied);
-        let mut bonds: Vec<u32> = tied.map(|it| it.0).collect();
+        let mut bonds: Vec<u32> = self.tied().map(|it| it.0).collect();
         bonds.sort_unstable();
         FirstToBreak {
             bonds,
@@ -183,6 +279,8 @@ impl Leaders {
 #[derive(Clone)]
 struct Candidate {
     bond: u32,
+    /// Numbers of its ends in the file.
+    in_file: [u32; 2],
     rank: f64,
     tie_scale: f64,
     exceeds: bool,
@@ -196,6 +294,7 @@ impl Candidate {
         };
         Self {
             bond,
+            in_file: [0; 2],
             rank,
             tie_scale,
             exceeds: verdict.measure >= verdict.limit,
@@ -224,7 +323,7 @@ mod tests {
             &deformations,
             &stretch_limits(limit),
             intact,
-            <[u32]>::sort_unstable,
+            |bond| [bond, 0],
         )
     }
 

@@ -5,6 +5,7 @@
 //! the rank of its held degrees of freedom on the rigid motions that cost no energy decides, and just the missing motions
 //! are held.
 
+mod across_ranks;
 pub mod decremental;
 
 use ligament_model::Bonds;
@@ -30,8 +31,11 @@ pub struct Hold {
 }
 
 impl Fragments {
-    /// Parts connected by intact bonds.
+    /// Parts connected by intact bonds; where processes share the body out all of them ask for it.
     pub fn find(system: &dyn Bonds, intact: &[bool]) -> Self {
+        if let Some(portion) = system.portion() {
+            return Self::of_first_points(&across_ranks::first_points(system, portion, intact));
+        }
         let n_points = system.n_points();
         let topology = system.topology();
         let mut of_point = vec![u32::MAX; n_points];
@@ -57,6 +61,24 @@ impl Fragments {
             }
             reached.sort_unstable();
             points.push(reached);
+        }
+        Self { of_point, points }
+    }
+
+    /// Fragments by the first point of that of each point.
+    fn of_first_points(firsts: &[f64]) -> Self {
+        let mut of_point: Vec<u32> = Vec::with_capacity(firsts.len());
+        let mut points: Vec<Vec<u32>> = Vec::new();
+        for (point, &first) in firsts.iter().enumerate() {
+            let fragment = match first as usize {
+                first if first == point => {
+                    points.push(Vec::new());
+                    points.len() as u32 - 1
+                }
+                first => of_point[first],
+            };
+            of_point.push(fragment);
+            points[fragment as usize].push(point as u32);
         }
         Self { of_point, points }
     }

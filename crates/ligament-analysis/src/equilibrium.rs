@@ -21,7 +21,9 @@ use std::time::Instant;
 use ligament_linalg::{Factorisation, HalfSolved};
 
 use crate::balanced::{Attempt, Balanced, Stability};
+use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
+use crate::checkpoint::CheckpointError;
 use crate::connectivity::Fragments;
 use crate::connectivity::decremental::Connectivity;
 use crate::contact::Contact;
@@ -65,6 +67,8 @@ pub(crate) enum Held {
 pub struct Equilibrium {
     equations: Equations,
     connectivity: Connectivity,
+    /// Where processes share the body out.
+    numbers: Option<Arc<BondNumbers>>,
     iteration: Iteration,
     held: Option<Held>,
 }
@@ -77,9 +81,11 @@ impl Equilibrium {
     ///
     /// If the factor is too large.
     pub fn new(problem: &Problem, energy_tolerance: f64) -> Result<Self, SetupError> {
+        let numbers = BondNumbers::new(&*problem.system)?.map(Arc::new);
         Ok(Self {
             held: None,
-            equations: Equations::new(problem, energy_tolerance)?,
+            equations: Equations::new(problem, numbers.as_ref(), energy_tolerance)?,
+            numbers,
             connectivity: Connectivity::new(&*problem.system),
             iteration: if problem.system.faces_close() {
                 Iteration::ActiveSet
@@ -94,7 +100,8 @@ impl Equilibrium {
         self.equations.write(out);
     }
 
-    /// The equilibrium of a state as it was when the bytes were written, with what it was measured to be.
+    /// The equilibrium of a state of all bonds as it was when the bytes were written, with the state of the bonds that are known here, and
+    /// with what it was measured to be.
     ///
     /// # Errors
     ///
@@ -102,16 +109,31 @@ impl Equilibrium {
     pub(crate) fn restored(
         problem: &Problem,
         energy_tolerance: f64,
-        state: &State,
+        mut state: State,
         from: &mut &[u8],
-    ) -> Result<(Self, Balanced), SetupError> {
+    ) -> Result<(Self, State, Balanced), SetupError> {
         let mut equilibrium = Self::new(problem, energy_tolerance)?;
+        let numbers = equilibrium.numbers();
+        let n_bonds = numbers.map_or(problem.system.ends().len(), BondNumbers::n_all);
+        if !state.fits(&*problem.system, n_bonds, &problem.criteria) {
+            return Err(CheckpointError::OtherModel.into());
+        }
+        if let Some(numbers) = numbers {
+            state = state.of_known(numbers)?;
+        }
         equilibrium.connectivity = Connectivity::held(&*problem.system, &state.intact);
-        let balanced = equilibrium.equations.restore(state, from)?;
+        let balanced = equilibrium.equations.restore(&state, from)?;
         if !state.softening.remaining.is_empty() {
             equilibrium.soften();
         }
-        Ok((equilibrium, balanced))
+        Ok((equilibrium, state, balanced))
+    }
+
+    /// Number of the broken bonds of a state, over all processes.
+    pub(crate) fn broken_bonds(&self, state: &State) -> usize {
+        let broken = state.intact.iter().map(|intact| !intact);
+        self.numbers()
+            .map_or_else(|| state.broken_bonds(), |it| it.count(broken))
     }
 
     /// Goes on with bonds that soften, if those of the criteria do.
@@ -180,7 +202,12 @@ impl Equilibrium {
         self.equations.costs.bonds += start.elapsed();
     }
 
-    /// Breaks bonds: takes them out of the state and holds what came loose.
+    /// Numbers of the bonds among all of the body, where processes share it out.
+    pub(crate) fn numbers(&self) -> Option<&BondNumbers> {
+        self.numbers.as_deref()
+    }
+
+    /// Breaks bonds, by their numbers among all of the body: takes them out of the state and holds what came loose.
     ///
     /// To be called before the first solution, with whatever bonds the state lacks, and then with every bond that breaks; the
     /// next equilibrium is that after the breakage.
@@ -194,10 +221,13 @@ impl Equilibrium {
         } = &mut self.equations;
         let (system, loads) = (&*problem.system, &problem.loads);
         let expansion = loads.thermal_strain(state.load_factor);
-        let mut breakage = Breakage::new(system, expansion, state, bonds);
+        let known = self.numbers.as_ref().map(|it| it.all_known(bonds));
+        let known = known.as_deref().unwrap_or(bonds);
+        let mut breakage = Breakage::new(system, expansion, state, known);
+        breakage.bonds = bonds.to_vec();
         let start = Instant::now();
         self.connectivity
-            .bonds_broke(system, &mut state.intact, bonds);
+            .bonds_broke(system, &mut state.intact, known);
         let held = &state.held;
         breakage.holds = self.connectivity.missing_holds(
             system,

@@ -3,6 +3,7 @@
 use ligament_linalg::{FactorError, PatternError};
 use thiserror::Error;
 
+use crate::bond_numbers::WithoutBonds;
 use crate::checkpoint::CheckpointError;
 use crate::history::ObserverError;
 use crate::solver::Unfit;
@@ -24,6 +25,9 @@ pub enum SetupError {
     /// Several processes cannot solve the equations.
     #[error("several processes cannot solve these equations: {0}; run the case with one")]
     NotDistributed(Unfit),
+    /// A body has no bonds for one of the processes that share it out.
+    #[error(transparent)]
+    RankWithoutBonds(#[from] WithoutBonds),
     /// The exact path was asked for with bonds that soften.
     #[error(
         "the exact path goes in straight lines from breakage to breakage, and softening bonds bend them: take load steps"

@@ -18,8 +18,10 @@ pub struct FirstBonds {
 /// A bond to which something happened first.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FirstBond {
-    /// The bond.
+    /// Number of the bond among all bonds of the body.
     pub bond: u32,
+    /// Ends A < B of the bond.
+    pub ends: [u32; 2],
     /// Number of the criterion.
     pub criterion: u32,
     /// Load step or event.
@@ -34,6 +36,7 @@ pub struct FirstBond {
 
 serial!(FirstBond {
     bond,
+    ends,
     criterion,
     step,
     load_factor,
@@ -47,6 +50,7 @@ impl Observer for FirstBonds {
         if let (None, Some(first)) = (self.broken, records.first()) {
             self.broken = Some(FirstBond {
                 bond: first.bond,
+                ends: first.ends,
                 criterion: first.criterion as u32,
                 step: first.step,
                 load_factor: first.load_factor,
@@ -59,9 +63,10 @@ impl Observer for FirstBonds {
 
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
         if self.softened.is_none() {
-            self.softened = farthest_softened(view).map(|(criterion, bond)| FirstBond {
-                bond,
-                criterion,
+            self.softened = view.farthest_softened().map(|farthest| FirstBond {
+                bond: farthest.bond,
+                ends: farthest.ends,
+                criterion: farthest.criterion,
                 step: record.step,
                 load_factor: record.load_factor,
                 displacement: record.displacement,
@@ -70,20 +75,4 @@ impl Observer for FirstBonds {
         }
         Ok(())
     }
-}
-
-/// The criterion and the bond with the largest e/e_0 beyond 1 under a law that softens, the first of several.
-fn farthest_softened(view: &View<'_>) -> Option<(u32, u32)> {
-    let of_criteria = (0..).zip(&view.state.softening.largest);
-    let all = of_criteria.flat_map(|(criterion, largest)| {
-        let of_bonds = (0..).zip(largest);
-        of_bonds.map(move |(bond, &largest)| (largest, criterion, bond))
-    });
-    let mut best: Option<(f64, u32, u32)> = None;
-    for (largest, criterion, bond) in all {
-        if largest > best.map_or(1.0, |it| it.0) {
-            best = Some((largest, criterion, bond));
-        }
-    }
-    best.map(|(_, criterion, bond)| (criterion, bond))
 }

@@ -11,6 +11,7 @@ use crate::costs::Costs;
 use crate::gauges::FreeBody;
 use crate::load_program::LoadProgram;
 use crate::serial;
+use crate::softened::{self, FarthestSoftened, SoftenedOfAll};
 use crate::state::State;
 use crate::unbalanced::{Place, Unbalanced};
 
@@ -128,8 +129,10 @@ pub struct BreakRecord {
     pub displacement: f64,
     /// Force of the control load just before, N.
     pub reaction: f64,
-    /// Bond.
+    /// Number of the bond among all bonds of the body.
     pub bond: u32,
+    /// Ends A < B of the bond.
+    pub ends: [u32; 2],
     /// Number of the criterion by which the bond broke.
     pub criterion: usize,
     /// Measure of the criterion over the limit when the bond broke, s/s_0 for most criteria.
@@ -236,6 +239,9 @@ pub enum Notice {
 }
 
 /// A state in equilibrium, for observers that want fields.
+///
+/// Where processes share the body out ([`Bonds::portion`]), motions and forces are those of all points, bonds are those that this process
+/// knows, and what follows from the bonds of a point is right at own points alone; each observer may ask for it by itself.
 pub struct View<'a> {
     /// The system.
     pub system: &'a dyn Bonds,
@@ -251,11 +257,27 @@ pub struct View<'a> {
     pub fragments: &'a Fragments,
     /// What the equations have cost so far.
     pub costs: &'a Costs,
+    /// What softened over all processes that share the body out; none where one has all of it, or nothing softens.
+    pub softened: Option<SoftenedOfAll>,
     /// Whether the run ends with this state.
     pub is_last: bool,
     /// Whether all of the body is known: otherwise motions and forces are those of supported and loaded points alone, and there are no
     /// deformations.
     pub is_whole: bool,
+}
+
+impl View<'_> {
+    /// Number of the unbroken bonds whose force has begun to fall beyond a limit.
+    pub fn softened_bonds(&self) -> usize {
+        (self.softened).map_or_else(|| self.state.softened_bonds(), |it| it.bonds)
+    }
+
+    /// The bond farthest beyond its limit under a law that softens.
+    pub fn farthest_softened(&self) -> Option<FarthestSoftened> {
+        let ends = self.system.ends();
+        let alone = || softened::farthest(self.state, ends, |_| true);
+        self.softened.map_or_else(alone, |it| it.farthest)
+    }
 }
 
 /// Failure of an observer.
@@ -313,6 +335,13 @@ pub trait Observer {
     /// Something happened that a user should know.
     fn notice(&mut self, _notice: &Notice) -> Result<(), ObserverError> {
         Ok(())
+    }
+
+    /// A moment comes next from which the run could go on, or in which it ends for a reason; tells whether its checkpoint is asked for.
+    ///
+    /// Where processes share the body out all of them make it if one asks, and one that did not may find it empty.
+    fn asks(&mut self, _end: Option<&Termination>) -> Result<bool, ObserverError> {
+        Ok(true)
     }
 
     /// The run could go on later from here; tells whether it goes on now.

@@ -8,6 +8,7 @@
 
 pub mod assembly;
 pub mod balanced;
+mod bond_numbers;
 pub mod breakage;
 pub mod breaking;
 pub mod checkpoint;
@@ -32,6 +33,7 @@ pub mod problem;
 pub mod ranks;
 pub mod restraints;
 pub mod serial;
+pub mod softened;
 pub mod softening;
 pub mod solver;
 pub mod state;

@@ -79,6 +79,42 @@ pub enum StressComponent {
     Yz,
 }
 
+/// The values of probes in a state of equilibrium.
+pub(crate) fn values(
+    probes: &[Probe],
+    system: &dyn Bonds,
+    criteria: &Criteria,
+    state: &State,
+    balanced: &Balanced,
+) -> Vec<f64> {
+    let readings = probes.iter().map(|it| &it.reading);
+    let Some(portion) = system.portion() else {
+        let values = readings.map(|it| it.value(system, criteria, state, balanced));
+        return values.collect();
+    };
+    let parts = readings.map(|reading| match reading {
+        // The motions of all points are known.
+        Reading::RelativeDisplacement { points, .. } if !portion.is_own(points[0]) => 0.0,
+        Reading::Field { point, .. } if !portion.is_own(*point) => 0.0,
+        Reading::SectionForce { bonds, component } => {
+            let ends = system.ends();
+            let counted = bonds.iter().filter(|(bond, _)| {
+                let ends = ends.get(*bond as usize);
+                ends.is_some_and(|ends| portion.counts(*ends))
+            });
+            let counted = Reading::SectionForce {
+                bonds: counted.copied().collect(),
+                component: *component,
+            };
+            counted.value(system, criteria, state, balanced)
+        }
+        reading => reading.value(system, criteria, state, balanced),
+    });
+    let mut values: Vec<f64> = parts.collect();
+    portion.sum(&mut values);
+    values
+}
+
 impl Reading {
     /// Degrees of freedom whose motions, times their weights, add up to the reading; None where it is no motion.
     pub fn weights(&self, layout: Layout) -> Option<Vec<(u32, f64)>> {
@@ -100,8 +136,8 @@ impl Reading {
         Some(motions.into_iter().filter_map(weight).collect())
     }
 
-    /// The value in a state of equilibrium.
-    pub fn value(
+    /// The value in a state of equilibrium; where processes share the body out, this one's part of it.
+    fn value(
         &self,
         system: &dyn Bonds,
         criteria: &Criteria,

@@ -9,6 +9,8 @@ use ligament_model::element::{BondDeformation, Remaining};
 use ligament_model::failure::{Criteria, Criterion, Softened, Weakened};
 use rayon::prelude::*;
 
+use crate::bond_numbers::BondNumbers;
+use crate::checkpoint::CheckpointError;
 use crate::serial;
 
 /// Relative difference below which a bond is as far as it ever was.
@@ -39,6 +41,48 @@ impl Softening {
             (of(&it.largest), of(&it.trial), it.remaining.len())
         };
         lengths(self) == lengths(&Self::of_sound_bonds(criteria, n_bonds))
+    }
+
+    /// The softening of the bonds of all processes on rank 0, see [`State::of_all`](crate::state::State).
+    pub(crate) fn of_all(&self, numbers: &BondNumbers) -> Self {
+        let of = |lists: &[Vec<f64>]| {
+            let told = |list: &Vec<f64>| match list.is_empty() {
+                true => Vec::new(),
+                false => numbers.of_all(list, 0.0),
+            };
+            lists.iter().map(told).collect()
+        };
+        Self {
+            largest: of(&self.largest),
+            trial: of(&self.trial),
+            remaining: match self.remaining.is_empty() {
+                true => Vec::new(),
+                false => numbers.of_all(&self.remaining, Remaining::WHOLE),
+            },
+        }
+    }
+
+    /// The softening of the bonds that are known here, from that of all.
+    ///
+    /// # Errors
+    ///
+    /// If it is of another body.
+    pub(crate) fn of_known(&self, numbers: &BondNumbers) -> Result<Self, CheckpointError> {
+        let of = |lists: &[Vec<f64>]| -> Result<Vec<Vec<f64>>, CheckpointError> {
+            let taken = |list: &Vec<f64>| match list.is_empty() {
+                true => Ok(Vec::new()),
+                false => numbers.of_known(list),
+            };
+            lists.iter().map(taken).collect()
+        };
+        Ok(Self {
+            largest: of(&self.largest)?,
+            trial: of(&self.trial)?,
+            remaining: match self.remaining.is_empty() {
+                true => Vec::new(),
+                false => numbers.of_known(&self.remaining)?,
+            },
+        })
     }
 
     /// The state of sound bonds.

@@ -4,6 +4,8 @@ use ligament_model::Bonds;
 pub use ligament_model::BondsLeft;
 use ligament_model::failure::Criteria;
 
+use crate::bond_numbers::BondNumbers;
+use crate::checkpoint::CheckpointError;
 use crate::serial;
 use crate::softening::Softening;
 
@@ -37,9 +39,9 @@ serial!(State {
 });
 
 impl State {
-    /// Whether all arrays are those of a body with these bonds and criteria.
-    pub(crate) fn fits(&self, system: &dyn Bonds, criteria: &Criteria) -> bool {
-        let (n, n_bonds) = (system.layout().n_degrees_of_freedom(), system.ends().len());
+    /// Whether all arrays are those of a body with so many bonds and these criteria.
+    pub(crate) fn fits(&self, system: &dyn Bonds, n_bonds: usize, criteria: &Criteria) -> bool {
+        let n = system.layout().n_degrees_of_freedom();
         let of_degrees_of_freedom = [self.displacement.len(), self.held.len()];
         let of_bonds = [
             self.intact.len(),
@@ -68,6 +70,34 @@ impl State {
         }
     }
 
+    /// The state with the bonds of all processes on rank 0, and without any elsewhere.
+    pub(crate) fn of_all(&self, numbers: &BondNumbers) -> Self {
+        Self {
+            load_factor: self.load_factor,
+            displacement: self.displacement.clone(),
+            held: self.held.clone(),
+            intact: numbers.of_all(&self.intact, true),
+            broken_by: numbers.of_all(&self.broken_by, None),
+            softening: self.softening.of_all(numbers),
+            dissipated: numbers.of_all(&self.dissipated, 0.0),
+        }
+    }
+
+    /// A state of all bonds with those that are known here alone.
+    ///
+    /// # Errors
+    ///
+    /// If it is of another body.
+    pub(crate) fn of_known(self, numbers: &BondNumbers) -> Result<Self, CheckpointError> {
+        Ok(Self {
+            intact: numbers.of_known(&self.intact)?,
+            broken_by: numbers.of_known(&self.broken_by)?,
+            softening: self.softening.of_known(numbers)?,
+            dissipated: numbers.of_known(&self.dissipated)?,
+            ..self
+        })
+    }
+
     /// Number of broken bonds.
     pub fn broken_bonds(&self) -> usize {
         self.intact.iter().filter(|intact| !**intact).count()
@@ -75,11 +105,14 @@ impl State {
 
     /// Number of unbroken bonds whose force has begun to fall beyond a limit.
     pub fn softened_bonds(&self) -> usize {
-        let beyond = |&bond: &usize| {
-            let mut largest = self.softening.largest.iter();
-            self.intact[bond] && largest.any(|it| it.get(bond).is_some_and(|it| *it > 1.0))
-        };
-        (0..self.intact.len()).filter(beyond).count()
+        let bonds = 0..self.intact.len();
+        bonds.filter(|&bond| self.has_softened(bond)).count()
+    }
+
+    /// Whether a bond is unbroken and its force has begun to fall beyond a limit.
+    pub(crate) fn has_softened(&self, bond: usize) -> bool {
+        let mut largest = self.softening.largest.iter();
+        self.intact[bond] && largest.any(|it| it.get(bond).is_some_and(|it| *it > 1.0))
     }
 
     /// The bonds that are left, with their remaining stiffness.

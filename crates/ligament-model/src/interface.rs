@@ -20,6 +20,11 @@ use crate::thermal::ThermalStrain;
 
 /// The bonds of a body as equations see them. Points, bonds and degrees of freedom are numbers; where the points lie, and in
 /// how many dimensions, is known behind this interface alone.
+///
+/// Where processes share a body out, each has the bonds at its own points, and arrays of shape (n_bonds) are over those. What is said of
+/// the whole body, or of forces at points, is the same on all of them, and all of them ask for it at the same time: stiffnesses by sign,
+/// what is resisted, point stiffnesses, rigid motions, forces and energies of a sweep, overlaps. Energy densities and stresses of points
+/// are right at own points, and each process asks for them by itself.
 pub trait Bonds: std::fmt::Debug + Send + Sync {
     /// Number of points.
     fn n_points(&self) -> usize;
@@ -47,10 +52,9 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     /// Points A < B of each bond, shape (n_bonds).
     fn ends(&self) -> &[[u32; 2]];
 
-    /// Sorts bonds by the numbers of their ends in the file: what is tied goes by them.
-    fn sort_as_in_file(&self, bonds: &mut [u32]) {
-        let (numbering, ends) = (self.numbering(), self.ends());
-        bonds.sort_unstable_by_key(|&bond| numbering.ends_in_file(ends[bond as usize]));
+    /// Numbers in the file of the ends of a bond, ascending: what is tied goes by them.
+    fn ends_in_file(&self, bond: u32) -> [u32; 2] {
+        self.numbering().ends_in_file(self.ends()[bond as usize])
     }
 
     /// The bonds of each point.
@@ -328,6 +332,7 @@ impl PointStiffness {
     pub(crate) fn of_bonds<const D: usize>(
         rigidities: &Rigidities,
         bonds: &BondSet<D>,
+        portion: Option<&Portion>,
     ) -> Vec<Self> {
         let of_point = |point: u32| {
             let (mut force, mut moment) = (0.0, 0.0);
@@ -340,7 +345,16 @@ impl PointStiffness {
             Self { force, moment }
         };
         let points = (0..bonds.incidence.n_points() as u32).into_par_iter();
-        points.map(of_point).collect()
+        let mut of_points: Vec<Self> = points.map(of_point).collect();
+        if let Some(portion) = portion {
+            let both = of_points.iter().flat_map(|it| [it.force, it.moment]);
+            let mut both: Vec<f64> = both.collect();
+            portion.complete(&mut both, 2);
+            for (it, told) in of_points.iter_mut().zip(both.chunks_exact(2)) {
+                (it.force, it.moment) = (told[0], told[1]);
+            }
+        }
+        of_points
     }
 }
 

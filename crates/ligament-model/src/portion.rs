@@ -183,6 +183,13 @@ impl Portion {
         self.exchange.largest(values);
     }
 
+    /// Whether something is so on some rank.
+    pub fn any(&self, here: bool) -> bool {
+        let mut some = [f64::from(u8::from(here))];
+        self.largest(&mut some);
+        some[0] > 0.0
+    }
+
     /// Of what each rank may have found the one with the smallest numbers, from the first on; each is some numbers.
     pub fn least<const N: usize>(&self, own: Option<[f64; N]>) -> Option<[f64; N]> {
         let all = self.concatenated(own.as_slice()).into_iter();
@@ -198,4 +205,15 @@ impl Portion {
         let all = self.exchange.gather(own.as_flattened(), &counts);
         all.as_chunks().0.to_vec()
     }
+}
+
+/// Whether something is so here or, where a body is shared out, on some rank.
+pub fn any(portion: Option<&Portion>, here: bool) -> bool {
+    portion.map_or(here, |it| it.any(here))
+}
+
+/// Whether a bond, of which the ends are given, is counted here: every one where a body is not shared out.
+#[inline]
+pub fn counts(portion: Option<&Portion>, ends: [u32; 2]) -> bool {
+    portion.is_none_or(|it| it.counts(ends))
 }

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use crate::deformation::Deformations;
 use crate::element::{BondDeformation, Element, Elements};
 use crate::layout::Component;
+use crate::portion::{Portion, counts};
 use crate::system::{BondsLeft, Typed};
 use crate::thermal::ThermalStrain;
 
@@ -101,16 +102,18 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
                 Part::of_bonds(self, bonds, &deformations, expansion, of_part)
             })
             .collect();
-        BondSweep::of_parts(&parts, &E::COMPONENTS, deformations)
+        let portion = self.system.cloud.portion.as_ref();
+        BondSweep::of_parts(&parts, &E::COMPONENTS, deformations, portion)
     }
 }
 
 impl BondSweep {
-    /// The sweep over the bonds of some parts, between points with these components.
+    /// The sweep over the bonds of some parts, between points with these components; of all ranks, where they share the body out.
     pub(crate) fn of_parts<const M: usize>(
         parts: &[Part<M>],
         components: &[Component; M],
         deformations: Deformations,
+        portion: Option<&Portion>,
     ) -> Self {
         let sums: Vec<PointForces<M>> = (0..parts[0].forces.len())
             .into_par_iter()
@@ -120,25 +123,43 @@ impl BondSweep {
                 of_parts.fold(PointForces::NONE, PointForces::plus)
             })
             .collect();
-        let largest = |of_rotations: bool| {
-            let places = (0..M).filter(|&place| components[place].is_rotation() == of_rotations);
-            let sizes = places.flat_map(|place| sums.iter().map(move |forces| forces.size[place]));
-            sizes.fold(0.0, f64::max)
-        };
         let collected = |of_point: fn(&PointForces<M>) -> [f64; M]| {
             let of_points: Vec<[f64; M]> = sums.iter().map(of_point).collect();
-            of_points.into_flattened()
+            let mut of_points = of_points.into_flattened();
+            if let Some(portion) = portion {
+                portion.complete(&mut of_points, M);
+            }
+            of_points
         };
+        let (values, sizes) = (
+            collected(|forces| forces.sum),
+            collected(|forces| forces.size),
+        );
+        let largest = |of_rotations: bool| {
+            let places = (0..M).filter(|&place| components[place].is_rotation() == of_rotations);
+            let sizes = places.flat_map(|place| sizes.iter().skip(place).step_by(M).copied());
+            sizes.fold(0.0, f64::max)
+        };
+        let of_parts = |of: fn(&Part<M>) -> f64| parts.iter().map(of).sum();
+        let mut over_bonds: [f64; 3] = [
+            of_parts(|part| part.thermal),
+            of_parts(|part| part.energy),
+            of_parts(|part| part.expansion_energy),
+        ];
+        if let Some(portion) = portion {
+            portion.sum(&mut over_bonds);
+        }
+        let [thermal, stored_energy, expansion_energy] = over_bonds;
         Self {
             internal: InternalForces {
                 force_scale: largest(false),
                 moment_scale: largest(true),
-                values: collected(|forces| forces.sum),
-                thermal: parts.iter().map(|part| part.thermal).sum(),
+                values,
+                thermal,
             },
-            sizes: collected(|forces| forces.size),
-            stored_energy: parts.iter().map(|part| part.energy).sum(),
-            expansion_energy: parts.iter().map(|part| part.expansion_energy).sum(),
+            sizes,
+            stored_energy,
+            expansion_energy,
             deformations,
         }
     }
@@ -205,12 +226,15 @@ impl<const M: usize> Part<M> {
             mut energy,
             ..
         } = Self::new(typed.system.cloud.len());
+        let portion = typed.system.cloud.portion.as_ref();
         for bond in of_part.clone() {
             let Some(element) = typed.left(bonds, bond) else {
                 continue;
             };
             let deformation = &deformations[bond];
-            energy += element.mutual_energy(deformation, deformation);
+            if counts(portion, typed.system.bonds.ends[bond]) {
+                energy += element.mutual_energy(deformation, deformation);
+            }
             element.forces(deformation, |point, force| {
                 forces[point as usize].add(force);
             });
@@ -237,12 +261,14 @@ impl<const M: usize> Part<M> {
         of_part: Range<usize>,
     ) {
         let at_full_load = expansion.at_full_load();
+        let portion = typed.system.cloud.portion.as_ref();
         for bond in of_part {
-            let Some(element) = typed.left(bonds, bond) else {
+            let ends = typed.system.bonds.ends[bond];
+            let element = typed.left(bonds, bond).filter(|_| counts(portion, ends));
+            let Some(element) = element else {
                 continue;
             };
-            let thermal =
-                element.deformation_in(at_full_load.of_bond(typed.system.bonds.ends[bond]));
+            let thermal = element.deformation_in(at_full_load.of_bond(ends));
             self.thermal -= 2.0 * element.mutual_energy(&deformations[bond], &thermal);
             self.expansion_energy += element.mutual_energy(&thermal, &thermal);
         }

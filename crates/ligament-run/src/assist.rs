@@ -5,6 +5,7 @@ use anyhow::{Context, ensure};
 use ligament::Model;
 use ligament::run::{follow, on_threads, restore, resume as resume_run};
 use ligament::setup::{Analysis, Dim, Dimension};
+use ligament_analysis::Termination;
 use ligament_analysis::history::{Moment, Observer, ObserverError, Onward, StepRecord, View};
 use ligament_analysis::ranks::Together;
 use ligament_analysis::serial::Serial;
@@ -15,7 +16,7 @@ use ligament_output::results::PieceWriter;
 
 use crate::checkpoints::IsStopped;
 use crate::loading::write_rule;
-use crate::model::{build_model, build_model_in_space};
+use crate::model::{build_model_in_space_on, build_model_on};
 use crate::progress::{Progress, ProgressMode};
 use crate::ranks::{any_stopped, hear_folder, loading};
 use crate::stages::Stages;
@@ -28,6 +29,8 @@ const ALONE: &str = "there is no other process to assist";
 struct Beside<'a> {
     ranks: Together,
     is_stopped: IsStopped<'a>,
+    /// Whether the run stops in the next moment.
+    stops: bool,
     pieces: Option<PieceWriter<'a>>,
 }
 
@@ -37,9 +40,13 @@ impl Observer for Beside<'_> {
         pieces.map_or(Ok(()), |it| it.step(record, view))
     }
 
-    fn moment(&mut self, moment: &Moment<'_>) -> Result<Onward, ObserverError> {
-        let is_stopped = moment.end.is_none() && any_stopped(Some(self.ranks), self.is_stopped);
-        Ok(if is_stopped { Onward::Stop } else { Onward::Go })
+    fn asks(&mut self, end: Option<&Termination>) -> Result<bool, ObserverError> {
+        self.stops = end.is_none() && any_stopped(Some(self.ranks), self.is_stopped);
+        Ok(false)
+    }
+
+    fn moment(&mut self, _: &Moment<'_>) -> Result<Onward, ObserverError> {
+        Ok(if self.stops { Onward::Stop } else { Onward::Go })
     }
 }
 
@@ -90,10 +97,10 @@ fn assist(
     let ranks = ranks.context(ALONE)?;
     let (mut stages, progress) = (Stages::default(), Progress::new(ProgressMode::Quiet));
     if case.case.is_solid() {
-        let model = build_model_in_space(case, &mut stages, &progress)?;
+        let model = build_model_in_space_on(case, Some(ranks), &mut stages, &progress)?;
         compute(case, &model, (ranks, is_stopped), begin)
     } else {
-        let model = build_model(case, &mut stages, &progress)?;
+        let model = build_model_on(case, Some(ranks), &mut stages, &progress)?;
         compute(case, &model, (ranks, is_stopped), begin)
     }
 }
@@ -137,6 +144,7 @@ where
     let mut beside = Beside {
         ranks,
         is_stopped,
+        stops: false,
         pieces,
     };
     match solution {

@@ -28,6 +28,7 @@ pub(crate) struct Checkpoints<'a> {
     every: Option<f64>,
     last: Instant,
     cost: Duration,
+    is_due: bool,
 }
 
 impl<'a> Checkpoints<'a> {
@@ -39,18 +40,24 @@ impl<'a> Checkpoints<'a> {
             every,
             last: Instant::now(),
             cost: Duration::ZERO,
+            is_due: false,
         }
     }
 
-    /// Whether one is due in a moment in which the run ends, perhaps, for a reason.
-    pub(crate) fn is_due(&self, end: Option<&Termination>) -> bool {
+    /// Finds out whether one is due in the next moment, in which the run ends, perhaps, for a reason.
+    pub(crate) fn ask(&mut self, end: Option<&Termination>) {
         let passed = self.last.elapsed();
-        match (end, self.every) {
+        self.is_due = match (end, self.every) {
             (Some(end), every) => is_kept(end, every),
             (None, Some(0.0)) => false,
             (None, Some(every)) => passed.as_secs_f64() >= every,
             (None, None) => passed >= EVERY.max(TIMES_ITS_COST * self.cost),
-        }
+        };
+    }
+
+    /// Whether one is due.
+    pub(crate) fn is_due(&self) -> bool {
+        self.is_due
     }
 
     /// Writes one, the work on which began at an instant.

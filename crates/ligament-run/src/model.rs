@@ -5,6 +5,7 @@ use ligament::Setup;
 use ligament::model::Discretises;
 use ligament::setup::{Dim, Dimension};
 use ligament::stage::{Finding, StageWatcher};
+use ligament_analysis::ranks::Together;
 
 use crate::memory;
 use crate::progress::Progress;
@@ -60,10 +61,24 @@ pub fn build_model(
     stages: &mut Stages,
     progress: &Progress,
 ) -> anyhow::Result<Model> {
+    build_model_on(case, None, stages, progress)
+}
+
+/// Reads the body of a case in the plane and builds its model, with bonds that processes share out.
+///
+/// # Errors
+///
+/// As of [`build_model`].
+pub fn build_model_on(
+    case: &CaseFile,
+    ranks: Option<Together>,
+    stages: &mut Stages,
+    progress: &Progress,
+) -> anyhow::Result<Model> {
     if let Some(lattice) = &case.case.lattice {
         memory::foresee_lattice(case, lattice)?;
     }
-    build(case, stages, progress, CaseFile::setup)
+    build(case, ranks, (stages, progress), CaseFile::setup)
 }
 
 /// Reads the solid body of a case and builds its model.
@@ -76,20 +91,35 @@ pub fn build_model_in_space(
     stages: &mut Stages,
     progress: &Progress,
 ) -> anyhow::Result<Model<3>> {
-    build(case, stages, progress, CaseFile::setup_in_space)
+    build_model_in_space_on(case, None, stages, progress)
+}
+
+/// Reads the solid body of a case and builds its model, with bonds that processes share out.
+///
+/// # Errors
+///
+/// As of [`build_model_in_space`].
+pub fn build_model_in_space_on(
+    case: &CaseFile,
+    ranks: Option<Together>,
+    stages: &mut Stages,
+    progress: &Progress,
+) -> anyhow::Result<Model<3>> {
+    build(case, ranks, (stages, progress), CaseFile::setup_in_space)
 }
 
 fn build<const D: usize>(
     case: &CaseFile,
-    stages: &mut Stages,
-    progress: &Progress,
+    ranks: Option<Together>,
+    (stages, progress): (&mut Stages, &Progress),
     read: fn(&CaseFile, &mut dyn StageWatcher) -> anyhow::Result<Setup<D>>,
 ) -> anyhow::Result<Model<D>>
 where
     Dim: Dimension<D> + Discretises<D>,
 {
     let mut preparation = Preparation { stages, progress };
-    let setup = read(case, &mut preparation)?;
+    let mut setup = read(case, &mut preparation)?;
+    setup.solver.ranks = ranks;
     memory::foresee_model(case, &setup)?;
     Ok(Model::build(setup, &mut preparation).map_err(|error| case.located(error))?)
 }

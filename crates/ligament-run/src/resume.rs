@@ -21,7 +21,7 @@ use crate::checkpoints::{IsStopped, VERSION};
 use crate::destination::make_results;
 use crate::inputs::{Contents, Inputs, MAY_CHANGE, unread};
 use crate::loading::{Kept, LoadedBody, SUMMARY};
-use crate::model::{build_model, build_model_in_space};
+use crate::model::{build_model_in_space_on, build_model_on};
 use crate::progress::{Progress, ProgressMode};
 use crate::provenance::Build;
 use crate::ranks::{any_stopped, loading, tell_checkpoint, tell_folder};
@@ -80,10 +80,10 @@ impl Request<'_> {
         }
         let mut stages = Stages::default();
         if case.case.is_solid() {
-            let model = build_model_in_space(case, &mut stages, &progress)?;
+            let model = build_model_in_space_on(case, self.ranks, &mut stages, &progress)?;
             self.go_on(&model, found, (folder, stages, progress), case)
         } else {
-            let model = build_model(case, &mut stages, &progress)?;
+            let model = build_model_on(case, self.ranks, &mut stages, &progress)?;
             self.go_on(&model, found, (folder, stages, progress), case)
         }
     }

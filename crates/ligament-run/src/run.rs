@@ -12,7 +12,7 @@ use crate::destination::{self, make_results};
 use crate::inputs::{Contents, unread};
 use crate::loading::LoadedBody;
 use crate::memory;
-use crate::model::{Model, build_model, build_model_in_space};
+use crate::model::{Model, build_model_in_space_on, build_model_on};
 use crate::modes::find_modes;
 use crate::progress::{Progress, ProgressMode};
 use crate::provenance::{Build, Provenance};
@@ -116,10 +116,10 @@ impl Request<'_> {
         let mut stages = Stages::default();
         let progress = Progress::new(mode);
         if self.case.case.is_solid() {
-            let model = build_model_in_space(self.case, &mut stages, &progress)?;
+            let model = build_model_in_space_on(self.case, self.ranks, &mut stages, &progress)?;
             self.solve(&model, stages, progress)
         } else {
-            let model = build_model(self.case, &mut stages, &progress)?;
+            let model = build_model_on(self.case, self.ranks, &mut stages, &progress)?;
             self.solve(&model, stages, progress)
         }
     }

@@ -23,6 +23,8 @@ pub(crate) struct Watch<'a, const D: usize> {
     writer: ResultWriter<'a>,
     checkpoints: Checkpoints<'a>,
     is_stopped: IsStopped<'a>,
+    /// Whether the run stops in the next moment.
+    stops: bool,
     progress: &'a mut Progress,
     notices: Vec<String>,
     last: StepLine,
@@ -58,6 +60,7 @@ where
             writer,
             checkpoints,
             is_stopped,
+            stops: false,
             progress,
             notices,
             last,
@@ -160,21 +163,22 @@ where
         Ok(())
     }
 
+    fn asks(&mut self, end: Option<&Termination>) -> Result<bool, ObserverError> {
+        self.stops = end.is_none() && (self.is_stopped)();
+        let stops = self.stops.then_some(&Termination::Stopped);
+        self.checkpoints.ask(stops.or(end));
+        Ok(self.checkpoints.is_due())
+    }
+
     fn moment(&mut self, moment: &Moment<'_>) -> Result<Onward, ObserverError> {
-        let is_stopped = moment.end.is_none() && (self.is_stopped)();
-        let end = if is_stopped {
-            Some(&Termination::Stopped)
-        } else {
-            moment.end
-        };
-        if self.checkpoints.is_due(end) {
+        if self.checkpoints.is_due() {
             let begun = Instant::now();
             let solution = (moment.checkpoint)();
             let results = self.writer.so_far().map_err(failed)?;
             let written = (self.checkpoints).write(begun, solution, &results, &self.notices);
             written.map_err(failed)?;
         }
-        Ok(if is_stopped { Onward::Stop } else { Onward::Go })
+        Ok(if self.stops { Onward::Stop } else { Onward::Go })
     }
 
     fn looks(&self, step: usize) -> bool {
@@ -189,7 +193,7 @@ where
             load: Some(record.reaction),
             units: self.last.units,
             broken_bonds: record.broken_bonds as u64,
-            softened_bonds: (view.criteria.soften()).then(|| view.state.softened_bonds() as u64),
+            softened_bonds: (view.criteria.soften()).then(|| view.softened_bonds() as u64),
             stage: (view.loads.course()).map(|it| it.programme.stage_name(record.part).to_owned()),
         };
         if record.step > 0 {

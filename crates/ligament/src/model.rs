@@ -55,7 +55,7 @@ impl<const D: usize> Model<D>
 where
     Dim: Dimension<D>,
 {
-    /// Builds the model of a setup, on the threads of the caller.
+    /// Builds the model of a setup, on the threads of the caller; where its solver has several processes, they share the bonds out.
     ///
     /// # Errors
     ///
@@ -64,31 +64,13 @@ where
     where
         Dim: Discretises<D>,
     {
-        Dim::model(setup, |_, _| None, watcher)
-    }
-
-    /// Builds the model of a setup whose bonds are shared out among the processes of its solver, on the threads of the caller.
-    ///
-    /// # Errors
-    ///
-    /// If a field of the setup is wrong.
-    pub fn build_shared_out(
-        setup: Setup<D>,
-        watcher: &mut dyn StageWatcher,
-    ) -> Result<Self, SetupError>
-    where
-        Dim: Discretises<D>,
-    {
-        Dim::model(setup, portion_of, watcher)
+        Dim::model(setup, watcher)
     }
 }
 
-/// What tells the part of this process in the points of a setup; none where it has all of them.
-pub type PortionOf<const D: usize> = fn(&Setup<D>, &PointCloud<D>) -> Option<Portion>;
-
 /// The part of this process in the points of a setup that several share out; none where it has all of them. Elements that lean on bonds
 /// beside them, faces that close and natural modes ask for the whole body.
-fn portion_of<const D: usize>(setup: &Setup<D>, cloud: &PointCloud<D>) -> Option<Portion>
+pub(crate) fn portion_of<const D: usize>(setup: &Setup<D>, cloud: &PointCloud<D>) -> Option<Portion>
 where
     Dim: Dimension<D>,
 {
@@ -109,35 +91,21 @@ where
     /// # Errors
     ///
     /// If a field of the setup is wrong.
-    fn model(
-        setup: Setup<D>,
-        portion: PortionOf<D>,
-        watcher: &mut dyn StageWatcher,
-    ) -> Result<Model<D>, SetupError>;
+    fn model(setup: Setup<D>, watcher: &mut dyn StageWatcher) -> Result<Model<D>, SetupError>;
 }
 
 impl Discretises<2> for Dim {
-    fn model(
-        setup: Setup,
-        portion: PortionOf<2>,
-        watcher: &mut dyn StageWatcher,
-    ) -> Result<Model, SetupError> {
-        Model::in_plane(setup, portion, watcher)
+    fn model(setup: Setup, watcher: &mut dyn StageWatcher) -> Result<Model, SetupError> {
+        Model::in_plane(setup, watcher)
     }
 }
 
 impl Model {
     /// Builds the model of a setup in the plane.
-    fn in_plane(
-        setup: Setup,
-        portion: PortionOf<2>,
-        watcher: &mut dyn StageWatcher,
-    ) -> Result<Self, SetupError> {
+    fn in_plane(setup: Setup, watcher: &mut dyn StageWatcher) -> Result<Self, SetupError> {
         setup.check()?;
         let material_of_cell = loading::material_of_cell(&setup)?;
-        let cloud = stage(watcher, "points", || {
-            points(&setup, &material_of_cell, portion)
-        })?;
+        let cloud = stage(watcher, "points", || points(&setup, &material_of_cell))?;
         let horizons = setup.horizon.of_points(&cloud);
         let (bonds, absent) = stage(watcher, "bonds", || {
             inside_body(&setup, BondSet::search(&cloud, &horizons), &cloud)
@@ -216,13 +184,9 @@ where
 }
 
 /// The points of the body, with the index of the material of each cell (n_cells), and the part of this process in them.
-fn points(
-    setup: &Setup,
-    material_of_cell: &[u32],
-    portion: PortionOf<2>,
-) -> Result<PointCloud, SetupError> {
+fn points(setup: &Setup, material_of_cell: &[u32]) -> Result<PointCloud, SetupError> {
     let cloud = all_points(setup, material_of_cell)?;
-    let portion = portion(setup, &cloud);
+    let portion = portion_of(setup, &cloud);
     Ok(PointCloud { portion, ..cloud })
 }
 

@@ -70,12 +70,25 @@ impl Connectivity {
     /// Takes bonds out of those that are `intact` (n_bonds), and splits the fragments that they held together.
     ///
     /// The bonds go one by one, and the later ones hold until their turn comes: where two of them split a fragment in three, each
-    /// split is seen.
+    /// split is seen. Where processes share the body out each takes the bonds that it knows.
     pub fn bonds_broke(&mut self, system: &dyn Bonds, intact: &mut [bool], bonds: &[u32]) {
         for &bond in bonds {
             intact[bond as usize] = true;
         }
         let topology = system.topology();
+        if let Some(portion) = system.portion() {
+            let mut may_part = false;
+            for &bond in bonds {
+                intact[bond as usize] = false;
+                let ends = topology.ends[bond as usize];
+                may_part |= self.search.part_apart(topology, intact, ends).is_some();
+            }
+            // What holds together by the bonds of one process does so whatever the others have.
+            if portion.any(may_part) {
+                self.find_again(system, intact);
+            }
+            return;
+        }
         for &bond in bonds {
             if !std::mem::replace(&mut intact[bond as usize], false) {
                 continue;
@@ -86,6 +99,18 @@ impl Connectivity {
                 self.changed.extend(ends);
             }
         }
+    }
+
+    /// Finds the fragments anew, and which of them are parts of earlier ones.
+    fn find_again(&mut self, system: &dyn Bonds, intact: &[bool]) {
+        let found = Fragments::find(system, intact);
+        let before = std::mem::replace(&mut self.fragments, found);
+        let is_part = |points: &&Vec<u32>| {
+            let of = before.of_point[points[0] as usize];
+            before.points[of as usize].len() != points.len()
+        };
+        let parts = self.fragments.points.iter().filter(is_part);
+        self.changed.extend(parts.map(|points| points[0]));
     }
 
     /// The degrees of freedom to hold so that no fragment can move rigidly, with the arguments of

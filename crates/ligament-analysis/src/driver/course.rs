@@ -151,13 +151,10 @@ impl Restored {
         let damaged = CheckpointError::Damaged;
         let place = Serial::read(from).map_err(damaged)?;
         let state = State::read(from).map_err(damaged)?;
-        if !state.fits(&*problem.system, &problem.criteria) {
-            return Err(CheckpointError::OtherModel.into());
-        }
         let course: Course = Serial::read(from).map_err(damaged)?;
         let problem = course.problem(problem).ok_or(CheckpointError::OtherModel)?;
-        let (equilibrium, balanced) =
-            Equilibrium::restored(&problem, energy_tolerance, &state, from)?;
+        let (equilibrium, state, balanced) =
+            Equilibrium::restored(&problem, energy_tolerance, state, from)?;
         let energies = Energies::read(&problem, &state, &balanced, from)?;
         let proof_then = <[u64; 2]>::read(from).map_err(damaged)?;
         let restored = Self {
@@ -195,7 +192,7 @@ impl Restored {
         } = self.course;
         is_in_steps
             && self.course.history.len() == step
-            && broken == self.state.broken_bonds()
+            && broken == self.equilibrium.broken_bonds(&self.state)
             && recorded <= last
             && last <= self.equilibrium.costs().solves
     }

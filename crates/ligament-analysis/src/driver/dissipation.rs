@@ -22,8 +22,8 @@ pub(super) fn soften(problem: &Problem, state: &mut State) {
 ///
 /// A brittle bond takes what it stored when it reached its limit: its energy now over the square of its utilisation. One that
 /// softened takes the whole area under its law.
-pub(super) fn break_bond(problem: &Problem, state: &mut State, record: &BreakRecord) {
-    let (bond, criterion) = (record.bond as usize, record.criterion);
+pub(super) fn break_bond(problem: &Problem, state: &mut State, bond: usize, record: &BreakRecord) {
+    let criterion = record.criterion;
     let after = &problem.criteria.list[criterion].after;
     state.dissipated[bond] = if after.is_brittle() {
         let left = state.softening.remaining.get(bond);

@@ -286,9 +286,7 @@ impl<'a> Following<'a> {
                 *step += 1;
                 continue;
             }
-            let mut bonds = goal.bonds;
-            self.path.problem.system.sort_as_in_file(&mut bonds);
-            let breakage = self.path.break_bonds(&bonds, &critical, *step, 1)?;
+            let breakage = self.path.break_bonds(&goal.bonds, &critical, *step, 1)?;
             return Ok(Ok((critical, breakage)));
         }
     }
@@ -343,7 +341,7 @@ impl<'a> Following<'a> {
         let counters = StepCounters {
             step,
             at_rest: end == Termination::FellApart,
-            largest_ratio: largest_ratio(&self.path.state, last, &self.path.problem.criteria),
+            largest_ratio: largest_ratio(&self.path.problem, &self.path.state, last),
             ..Default::default()
         };
         self.path.record(last, counters, true)?;

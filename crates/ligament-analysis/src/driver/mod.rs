@@ -1,5 +1,6 @@
 //! Drivers: one file for each way to follow a loading.
 
+mod breaks;
 mod course;
 mod dissipation;
 pub mod elastic;

@@ -14,8 +14,12 @@ pub struct Outcome {
     pub history: Vec<StepRecord>,
     /// What the records are.
     pub rows: Rows,
-    /// The last state.
+    /// The last state; where processes share the body out, with the bonds that this one knows.
     pub state: State,
+    /// Broken bonds.
+    pub broken_bonds: usize,
+    /// Unbroken bonds whose force has begun to fall beyond a limit.
+    pub softened_bonds: usize,
     /// The reason why the run ended.
     pub termination: Termination,
     /// Force over displacement of the control load before the first breakage, N/m.

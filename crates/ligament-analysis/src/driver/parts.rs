@@ -1,6 +1,7 @@
 //! A run on its way through the parts of a programme.
 
 use super::path::Path;
+use crate::bond_numbers::sum_over_bonds;
 use crate::equilibrium::{Dissipation, Held, Target};
 use crate::history::StepRecord;
 use crate::load_program::{LoadCourse, PartControl};
@@ -59,7 +60,8 @@ impl Path<'_> {
 
     /// Energy that the bonds have taken for good, J.
     pub(super) fn dissipated_energy(&self) -> f64 {
-        self.state.dissipated.iter().sum()
+        let dissipated = self.state.dissipated.iter().copied();
+        sum_over_bonds(&*self.problem.system, dissipated)
     }
 
     /// Whether something else than the load factor controls the present part.

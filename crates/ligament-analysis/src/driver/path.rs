@@ -9,6 +9,7 @@ use std::time::Instant;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::Criteria;
 
+use super::breaks::Breaking;
 use super::course::{Course, Place, Restored, proof};
 use super::dissipation;
 use super::outcome::{Outcome, Rows};
@@ -18,6 +19,7 @@ use super::start::{Start, begin, report_loose, report_mechanisms};
 use super::stop::StopRules;
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
+use crate::breaking::{FirstToBreak, first_of_all, first_to_break};
 use crate::connectivity::Hold;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
@@ -27,6 +29,7 @@ use crate::history::{
 use crate::load_program::{ControlKind, LoadCourse};
 use crate::problem::Problem;
 use crate::serial::Serial;
+use crate::softened::SoftenedOfAll;
 use crate::softening::Softening;
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
@@ -187,19 +190,32 @@ impl<'a> Path<'a> {
             course,
             ..
         } = self;
+        let asked = observer.asks(end.as_ref())?;
+        let numbers = equilibrium.numbers();
         let checkpoint = || {
             let mut out = Vec::new();
             place().write(&mut out);
-            state.write(&mut out);
+            numbers
+                .map_or_else(|| state.clone(), |it| state.of_all(it))
+                .write(&mut out);
             course.write(&mut out);
             equilibrium.write(&mut out);
             energies.write(&mut out);
             proof(balanced).write(&mut out);
             out
         };
+        // Where processes share the body out all of them make it, and the one that asked has it.
+        let made = numbers
+            .filter(|it| it.portion().any(asked))
+            .map(|_| checkpoint());
+        let made = || made.clone().unwrap_or_default();
         let moment = Moment {
             end: end.as_ref(),
-            checkpoint: &checkpoint,
+            checkpoint: if numbers.is_some() {
+                &made
+            } else {
+                &checkpoint
+            },
         };
         let onward = observer.moment(&moment)?;
         Ok(end.or_else(|| (onward == Onward::Stop).then_some(Termination::Stopped)))
@@ -221,6 +237,28 @@ impl<'a> Path<'a> {
         Ok(())
     }
 
+    /// The bonds that proportional loading breaks first at deformations (n_bonds).
+    pub(super) fn first_to_break(
+        &self,
+        tie_tolerance: f64,
+        deformations: &[BondDeformation],
+        criteria: &Criteria,
+    ) -> FirstToBreak {
+        let (intact, system) = (&self.state.intact, &self.problem.system);
+        let in_file = |bond| system.ends_in_file(bond);
+        match self.equilibrium.numbers() {
+            None => first_to_break(tie_tolerance, deformations, criteria, intact).sorted(in_file),
+            Some(numbers) => first_of_all(
+                numbers,
+                tie_tolerance,
+                deformations,
+                criteria,
+                intact,
+                in_file,
+            ),
+        }
+    }
+
     /// Breaks bonds of an equilibrium and holds what came loose.
     pub(super) fn break_bonds(
         &mut self,
@@ -230,45 +268,53 @@ impl<'a> Path<'a> {
         round: usize,
     ) -> Result<Breakage, SetupError> {
         let criteria = self.criteria(balanced).into_owned();
-        let of_bond = |&bond: &u32| (bond, balanced.deformations[bond as usize]);
-        let deformed: Vec<(u32, BondDeformation)> = bonds.iter().map(of_bond).collect();
-        self.break_deformed(&deformed, &criteria, balanced, [step, round])
+        let deformation = |_, bond: usize| balanced.deformations[bond];
+        self.break_deformed(bonds, (&criteria, &deformation), balanced, [step, round])
     }
 
-    /// Breaks bonds with their deformations by criteria, in an equilibrium of which no more is asked than forces of the control load, in a
-    /// step and a round; and holds what came loose.
+    /// Breaks bonds by criteria, with their deformations by place and bond, in an equilibrium of which no more is asked than forces of the
+    /// control load, in a step and a round; and holds what came loose.
     pub(super) fn break_deformed(
         &mut self,
-        bonds: &[(u32, BondDeformation)],
-        criteria: &Criteria,
+        bonds: &[u32],
+        (criteria, deformation): (&Criteria, &dyn Fn(usize, usize) -> BondDeformation),
         balanced: &Balanced,
         [step, round]: [usize; 2],
     ) -> Result<Breakage, SetupError> {
-        let load_factor = self.state.load_factor;
         let (displacement, reaction) = self.control(balanced);
-        let of_bond = |(place, &(bond, deformation)): (usize, &(u32, BondDeformation))| {
-            let verdict = criteria.breaking(bond as usize, &deformation)?;
-            Some(BreakRecord {
-                order: self.course.broken + place + 1,
-                step,
-                round,
-                load_factor,
-                displacement,
-                reaction,
-                bond,
-                criterion: verdict.criterion,
-                ratio: verdict.ratio(),
-                deformation,
-            })
+        let moment = BreakRecord {
+            order: self.course.broken,
+            step,
+            round,
+            load_factor: self.state.load_factor,
+            displacement,
+            reaction,
+            bond: 0,
+            ends: [0; 2],
+            criterion: 0,
+            ratio: 0.0,
+            deformation: BondDeformation::default(),
         };
-        let records: Vec<BreakRecord> = bonds.iter().enumerate().filter_map(of_bond).collect();
-        let bonds: Vec<u32> = bonds.iter().map(|it| it.0).collect();
+        let numbers = self.equilibrium.numbers();
+        let breaking = Breaking {
+            ends: self.problem.system.ends(),
+            criteria,
+            deformation,
+            moment,
+        };
+        let records = match numbers {
+            None => breaking.records(bonds),
+            Some(numbers) => breaking.records_of_all(numbers, bonds),
+        };
         self.course.broken += bonds.len();
         self.observer.broke(&records)?;
         for record in &records {
-            dissipation::break_bond(&self.problem, &mut self.state, record);
+            let bond = numbers.map_or(Some(record.bond as usize), |it| it.known(record.bond));
+            if let Some(bond) = bond {
+                dissipation::break_bond(&self.problem, &mut self.state, bond, record);
+            }
         }
-        let breakage = self.equilibrium.break_bonds(&mut self.state, &bonds);
+        let breakage = self.equilibrium.break_bonds(&mut self.state, bonds);
         // Where faces close, a part that came loose may be pressed on, and the equilibrium tells.
         let may_press = self.problem.system.faces_close();
         self.collapsed |= !may_press && self.load_came_loose(&breakage.holds);
@@ -357,7 +403,11 @@ impl<'a> Path<'a> {
         let force = balanced.internal.force_scale;
         self.course.largest_force = self.course.largest_force.max(force);
         let criteria = (self.problem.criteria).in_state(&self.state.intact, &balanced.deformations);
+        let numbers = self.equilibrium.numbers();
+        let softened = numbers.filter(|_| !self.state.softening.largest.is_empty());
         let view = View {
+            softened: softened
+                .map(|it| SoftenedOfAll::in_state(&self.state, it, self.problem.system.ends())),
             system: &*self.problem.system,
             state: &self.state,
             balanced,
@@ -384,7 +434,15 @@ impl<'a> Path<'a> {
 
     /// What the run was.
     pub(super) fn into_outcome(self, termination: Termination, rows: Rows) -> Outcome {
+        let numbers = self.equilibrium.numbers();
         Outcome {
+            broken_bonds: self.equilibrium.broken_bonds(&self.state),
+            softened_bonds: match numbers {
+                None => self.state.softened_bonds(),
+                Some(numbers) => {
+                    SoftenedOfAll::in_state(&self.state, numbers, self.problem.system.ends()).bonds
+                }
+            },
             history: self.course.history,
             rows,
             termination,

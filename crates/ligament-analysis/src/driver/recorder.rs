@@ -2,15 +2,16 @@
 
 use ligament_model::deformation::Deformations;
 use ligament_model::element::Remaining;
-use ligament_model::failure::Criteria;
 use rayon::prelude::*;
 
 use crate::balanced::Balanced;
+use crate::bond_numbers::sum_over_bonds;
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::connectivity::Fragments;
 use crate::contact::ContactEnergy;
 use crate::history::StepRecord;
+use crate::probe;
 use crate::problem::Problem;
 use crate::serial;
 use crate::serial::Serial;
@@ -160,12 +161,19 @@ impl Energies {
         let remaining = &state.softening.remaining;
         self.released += breakage.released(&state.displacement, expansion);
         let (before, left) = &self.last;
-        for (bond, left_before) in left.iter().enumerate() {
+        let released = |(bond, left_before): (usize, &Remaining)| {
             let lost = left_before.lost(&remaining[bond]);
-            if state.intact[bond] && lost != Remaining::NOTHING {
-                let both = [before, &balanced.deformations];
-                self.released += (problem.system).mutual_energy(&state.intact, bond, &lost, both);
+            let both = [before, &balanced.deformations];
+            match state.intact[bond] && lost != Remaining::NOTHING {
+                true => (problem.system).mutual_energy(&state.intact, bond, &lost, both),
+                false => 0.0,
             }
+        };
+        let by_bond = left.iter().enumerate().map(released);
+        if problem.system.portion().is_none() {
+            by_bond.for_each(|released| self.released += released);
+        } else if !left.is_empty() {
+            self.released += sum_over_bonds(&*problem.system, by_bond);
         }
         self.keep(state, balanced);
     }
@@ -250,7 +258,7 @@ pub(super) fn step_record(
         released_energy: energies.released,
         external_work: energies.external_work,
         energy_floor: balanced.energy_floor.max(energies.floor()),
-        dissipated_energy: state.dissipated.iter().sum(),
+        dissipated_energy: sum_over_bonds(&*problem.system, state.dissipated.iter().copied()),
         broken_bonds: counters.broken,
         broken_in_step: counters.broken_in_step,
         largest_ratio: counters.largest_ratio,
@@ -261,13 +269,13 @@ pub(super) fn step_record(
         negative_eigenvalues: counters.negative_eigenvalues,
         closed_pairs: balanced.closed.len(),
         group_forces: group_forces(problem, state.load_factor, &reactions),
-        probes: problem
-            .probes
-            .iter()
-            .map(|probe| {
-                (probe.reading).value(&*problem.system, &problem.criteria, state, balanced)
-            })
-            .collect(),
+        probes: probe::values(
+            &problem.probes,
+            &*problem.system,
+            &problem.criteria,
+            state,
+            balanced,
+        ),
     }
 }
 
@@ -289,12 +297,17 @@ fn group_forces(problem: &Problem, load_factor: f64, reactions: &[f64]) -> Vec<V
 }
 
 /// Largest utilisation of the intact bonds; 0 without criteria.
-pub(super) fn largest_ratio(state: &State, balanced: &Balanced, criteria: &Criteria) -> f64 {
-    let criteria = criteria.in_state(&state.intact, &balanced.deformations);
-    (&state.intact, balanced.deformations.measured())
+pub(super) fn largest_ratio(problem: &Problem, state: &State, balanced: &Balanced) -> f64 {
+    let criteria = (problem.criteria).in_state(&state.intact, &balanced.deformations);
+    let ratio = (&state.intact, balanced.deformations.measured())
         .into_par_iter()
         .enumerate()
         .filter(|(_, (intact, _))| **intact)
         .map(|(bond, (_, deformation))| criteria.utilisation(bond, deformation))
-        .reduce(|| 0.0, f64::max)
+        .reduce(|| 0.0, f64::max);
+    let mut largest = [ratio];
+    if let Some(portion) = problem.system.portion() {
+        portion.largest(&mut largest);
+    }
+    largest[0]
 }

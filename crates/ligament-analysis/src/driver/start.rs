@@ -132,7 +132,7 @@ impl Start {
             StepCounters::default(),
         );
         self.elastic.stiffness = record.reaction / record.displacement;
-        let ratio = largest_ratio(at_one, balanced, &problem.criteria);
+        let ratio = largest_ratio(problem, at_one, balanced);
         let is_foretold = ratio > 0.0 && problem.system.is_linear();
         self.elastic.first_break = is_foretold.then(|| LoadPoint {
             load_factor: 1.0 / ratio,

@@ -13,7 +13,7 @@ use super::start::ElasticAnswer;
 use super::stop::StopRules;
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
-use crate::breaking::{BreakingRule, next_to_break};
+use crate::breaking::{BreakingRule, next_of_all, next_to_break};
 use crate::checkpoint::CheckpointError;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
@@ -262,13 +262,13 @@ impl Stepping<'_> {
             tie_tolerance: self.path.equilibrium.choice().tie_tolerance(tie_tolerance),
             ..self.settings.rule
         };
-        let next = next_to_break(
-            &rule,
-            &balanced.deformations,
-            &self.path.criteria(balanced),
-            &self.path.state.intact,
-            |tied| self.path.problem.system.sort_as_in_file(tied),
-        );
+        let (deformations, criteria) = (&balanced.deformations, self.path.criteria(balanced));
+        let (intact, system) = (&self.path.state.intact, &self.path.problem.system);
+        let in_file = |bond| system.ends_in_file(bond);
+        let next = match self.path.equilibrium.numbers() {
+            None => next_to_break(&rule, deformations, &criteria, intact, in_file),
+            Some(numbers) => next_of_all(numbers, &rule, deformations, &criteria, intact, in_file),
+        };
         self.path.equilibrium.count_bond_work(start);
         next
     }
@@ -336,8 +336,7 @@ impl Stepping<'_> {
         mut counters: StepCounters,
         end: Option<Termination>,
     ) -> Result<Option<Termination>, SetupError> {
-        counters.largest_ratio =
-            largest_ratio(&self.path.state, balanced, &self.path.problem.criteria);
+        counters.largest_ratio = largest_ratio(&self.path.problem, &self.path.state, balanced);
         self.path.record(balanced, counters, end.is_some())?;
         Ok(end)
     }

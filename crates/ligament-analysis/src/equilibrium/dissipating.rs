@@ -26,6 +26,7 @@ use super::equations::Equations;
 use super::secant;
 use super::target::Target;
 use crate::balanced::Attempt;
+use crate::bond_numbers::sum_over_bonds;
 use crate::breakage::Breakage;
 use crate::history::{Observer, ObserverError};
 use crate::load_program::LoadProgram;
@@ -121,7 +122,7 @@ fn dissipated(problem: &Problem, state: &State, deformations: &[BondDeformation]
         false => state.dissipated[bond],
     };
     let of_bonds: Vec<f64> = (deformations.par_iter().enumerate()).map(of_bond).collect();
-    of_bonds.iter().sum()
+    sum_over_bonds(system, of_bonds.into_iter())
 }
 
 /// Where the line of the present bonds would dissipate enough.
@@ -149,9 +150,13 @@ fn ahead(
         .filter(|(bond, _)| state.intact[*bond])
         .map(|(bond, slope)| problem.criteria.utilisation(bond, slope))
         .reduce(|| 0.0, f64::max);
+    let mut largest = [largest];
+    if let Some(portion) = problem.system.portion() {
+        portion.largest(&mut largest);
+    }
     let at = |by: f64| here.ahead(&slopes, by);
     let excess = |by: f64| dissipated(problem, state, &at(by)) - goal.energy;
-    let (mut low, mut high) = (0.0, 1.0 / largest);
+    let (mut low, mut high) = (0.0, 1.0 / largest[0]);
     let mut above = excess(high);
     for _ in 0..HALVINGS {
         if above >= 0.0 {

@@ -11,6 +11,7 @@ use super::iterate::Iterate;
 use super::precedents::Precedents;
 use super::residual::{Extents, LocalStiffness, ROUNDING, Residual};
 use crate::balanced::{Attempt, Balanced};
+use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::contact::{self, Contact};
@@ -54,7 +55,11 @@ pub(super) struct Equations {
 
 impl Equations {
     /// Numbers the unknowns, analyses the pattern and chooses the solver; nothing is factorised yet.
-    pub(super) fn new(problem: &Problem, energy_tolerance: f64) -> Result<Self, SetupError> {
+    pub(super) fn new(
+        problem: &Problem,
+        numbers: Option<&Arc<BondNumbers>>,
+        energy_tolerance: f64,
+    ) -> Result<Self, SetupError> {
         let (system, loads) = (&problem.system, &problem.loads);
         let unknowns = Unknowns::all_but(&**system, |dof| loads.is_prescribed(dof));
         let unknowns = Arc::new(unknowns.restrained_by(loads.restraints()));
@@ -62,7 +67,7 @@ impl Equations {
             stiffness,
             choice,
             solver,
-        } = Solving::new(system, &unknowns, problem.solver)?;
+        } = Solving::new(system, &unknowns, problem.solver, numbers)?;
         let analysis = stiffness.as_ref().map(|it| it.analysis_time());
         let accuracy = Accuracy::new(&**system, &**loads, solver.tolerance());
         Ok(Self {

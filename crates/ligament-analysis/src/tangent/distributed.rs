@@ -4,6 +4,7 @@
 //! is always that of the bonds as they are. The preconditioner is kept while it serves: it is made anew where a part came loose, and where
 //! the iterations beyond what it took when it was new have cost as much as that. A factor is made anew after every breakage.
 
+mod kept;
 mod rows;
 
 use std::collections::BTreeSet;
@@ -17,10 +18,12 @@ use ligament_model::element::Remaining;
 use ligament_model::portion::Partition;
 use ligament_model::thermal::ThermalStrain;
 
+use self::kept::Kept;
 use self::rows::{OwnRows, Taken};
 use super::making::Making;
 use super::terms::due_bonds;
 use super::{Left, TangentSolver, Unsolved};
+use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
@@ -44,6 +47,8 @@ pub(crate) struct DistributedSolver {
     /// Force left out of balance by an iteration, relative to what may act; none: a factor.
     tolerance: Option<f64>,
     partition: Arc<Partition>,
+    /// Where the processes share the bonds out as well.
+    numbers: Option<Arc<BondNumbers>>,
     /// Points whose columns have entries in own rows.
     columns: Vec<u32>,
     matrix: Option<Box<dyn RankMatrix>>,
@@ -52,28 +57,12 @@ pub(crate) struct DistributedSolver {
     pivots: Option<Pivots>,
 }
 
-/// What a preconditioner came from and how it serves: the same on all ranks.
-struct Kept {
-    /// What the preconditioner was made of.
-    preconditioner_of: Making,
-    /// What the matrix is of.
-    matrix_of: Making,
-    /// Points whose columns are out of date.
-    stale: BTreeSet<u32>,
-    /// Whether the preconditioner is to be made anew.
-    is_due: bool,
-    /// Iterations a decade with the preconditioner as it was new.
-    pace: Option<f64>,
-    /// Iterations beyond that since.
-    excess: f64,
-}
-
 impl DistributedSolver {
     /// Shares the points out; without a tolerance a factor is made.
     pub(crate) fn new(
         system: Arc<dyn Bonds>,
         unknowns: Arc<Unknowns>,
-        ranks: &'static dyn Ranks,
+        (ranks, numbers): (&'static dyn Ranks, Option<Arc<BondNumbers>>),
         tolerance: Option<f64>,
     ) -> Self {
         let evenly = || {
@@ -94,16 +83,10 @@ impl DistributedSolver {
             ranks,
             tolerance,
             partition,
+            numbers,
             columns,
             matrix: None,
-            kept: Kept {
-                preconditioner_of: Making::default(),
-                matrix_of: Making::default(),
-                stale: BTreeSet::new(),
-                is_due: true,
-                pace: None,
-                excess: 0.0,
-            },
+            kept: Kept::new(),
             pivots: None,
         }
     }
@@ -285,7 +268,9 @@ impl TangentSolver for DistributedSolver {
         let making = Making::begun(state, state.held.clone(), Vec::new());
         let is_new = self.kept.is_due || self.matrix.is_none();
         let stale = self.stale_columns(&making);
-        if !is_new && stale.is_empty() {
+        let mut some_stale = [f64::from(u8::from(!stale.is_empty()))];
+        self.ranks.largest(&mut some_stale);
+        if !is_new && some_stale == [0.0] {
             return Ok(Vec::new());
         }
         // Of softening bonds the two ends must have been met at the same moment.
@@ -385,7 +370,10 @@ impl TangentSolver for DistributedSolver {
     fn write(&self, out: &mut Vec<u8>) {
         MARK.write(out);
         self.matrix.is_some().write(out);
-        self.kept.write(out);
+        match &self.numbers {
+            None => self.kept.write(out),
+            Some(numbers) => self.kept.of_all(numbers, self.system.n_points()).write(out),
+        }
     }
 
     fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError> {
@@ -395,6 +383,9 @@ impl TangentSolver for DistributedSolver {
         let _ = u64::read(from)?;
         let has_matrix = bool::read(from)?;
         self.kept = Kept::read(from)?;
+        if let Some(numbers) = &self.numbers {
+            self.kept.take_known(numbers)?;
+        }
         if !has_matrix {
             return Ok(());
         }
@@ -422,31 +413,6 @@ impl TangentSolver for DistributedSolver {
             factor.map_err(|_| CheckpointError::OtherArithmetic)?;
         }
         Ok(())
-    }
-}
-
-impl Serial for Kept {
-    fn write(&self, out: &mut Vec<u8>) {
-        self.preconditioner_of.write(out);
-        self.matrix_of.write(out);
-        self.stale.iter().copied().collect::<Vec<u32>>().write(out);
-        self.is_due.write(out);
-        self.pace.write(out);
-        self.excess.write(out);
-    }
-
-    fn read(from: &mut &[u8]) -> Result<Self, crate::serial::Damaged> {
-        let preconditioner_of = Serial::read(from)?;
-        let matrix_of = Serial::read(from)?;
-        let stale: Vec<u32> = Serial::read(from)?;
-        Ok(Self {
-            preconditioner_of,
-            matrix_of,
-            stale: stale.into_iter().collect(),
-            is_due: Serial::read(from)?,
-            pace: Serial::read(from)?,
-            excess: Serial::read(from)?,
-        })
     }
 }
 

@@ -10,6 +10,8 @@ use ligament_linalg::{Factorisation, RankOne, SymmetricMatrix};
 use ligament_model::element::Remaining;
 use ligament_model::{Bonds, BondsLeft};
 
+use crate::bond_numbers::BondNumbers;
+use crate::checkpoint::CheckpointError;
 use crate::serial;
 use crate::serial::{Damaged, Serial};
 use crate::state::State;
@@ -57,6 +59,41 @@ impl Making {
             intact: &self.intact,
             remaining: &self.remaining,
         }
+    }
+
+    /// The making with the bonds of all processes on rank 0, and without any elsewhere; without changes.
+    pub(super) fn of_all(&self, numbers: &BondNumbers) -> Self {
+        Self {
+            intact: match self.intact.is_empty() {
+                true => Vec::new(),
+                false => numbers.of_all(&self.intact, true),
+            },
+            remaining: match self.remaining.is_empty() {
+                true => Vec::new(),
+                false => numbers.of_all(&self.remaining, Remaining::WHOLE),
+            },
+            held: self.held.clone(),
+            ..Self::default()
+        }
+    }
+
+    /// A making of all bonds with those that are known here alone.
+    ///
+    /// # Errors
+    ///
+    /// If it is of another body.
+    pub(super) fn of_known(self, numbers: &BondNumbers) -> Result<Self, CheckpointError> {
+        Ok(Self {
+            intact: match self.intact.is_empty() {
+                true => Vec::new(),
+                false => numbers.of_known(&self.intact)?,
+            },
+            remaining: match self.remaining.is_empty() {
+                true => Vec::new(),
+                false => numbers.of_known(&self.remaining)?,
+            },
+            ..self
+        })
     }
 
     /// Whether all is of a body with these unknowns.

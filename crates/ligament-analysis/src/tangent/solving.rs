@@ -9,6 +9,7 @@ use super::direct::DirectSolver;
 use super::distributed::DistributedSolver;
 use super::iterative::IterativeSolver;
 use super::unsymmetric::UnsymmetricSolver;
+use crate::bond_numbers::BondNumbers;
 use crate::error::SetupError;
 use crate::ranks::Together;
 use crate::solver::{Method, Reason, SolverChoice, SolverSettings};
@@ -24,7 +25,7 @@ pub(crate) struct Solving {
 }
 
 impl Solving {
-    /// Chooses a solver for some unknowns; nothing is factorised yet.
+    /// Chooses a solver for some unknowns, with the numbers of bonds that processes share out; nothing is factorised yet.
     ///
     /// # Errors
     ///
@@ -33,12 +34,14 @@ impl Solving {
         system: &Arc<dyn Bonds>,
         unknowns: &Arc<Unknowns>,
         settings: SolverSettings,
+        numbers: Option<&Arc<BondNumbers>>,
     ) -> Result<Self, SetupError> {
         if let Some(Together(ranks)) = settings.ranks {
             let choice = settings.distributed_choice(&**system, ranks.n_ranks());
             let choice = choice.map_err(SetupError::NotDistributed)?;
             let (system, unknowns) = (system.clone(), unknowns.clone());
-            let solver = DistributedSolver::new(system, unknowns, ranks, choice.tolerance);
+            let shared = (ranks, numbers.cloned());
+            let solver = DistributedSolver::new(system, unknowns, shared, choice.tolerance);
             return Ok(Self {
                 stiffness: None,
                 choice: SolverChoice::Distributed(choice),

@@ -18,7 +18,7 @@ pub(super) struct Families<'a> {
     domain_factor: Vec<f64>,
     /// e_A of the continuum along x and y of own points, by rank, J/m^3.
     target: Vec<[f64; 2]>,
-    /// e_A/etil_A along x and y of all points, by rank.
+    /// e_A/etil_A along x and y of the points, by rank.
     ratios: Vec<[f64; 2]>,
     /// The ratios before the last sweep, by rank.
     before: Vec<[f64; 2]>,
@@ -51,7 +51,7 @@ impl<'a> Families<'a> {
         let at = |point: u32| [0, 1].map(|axis| targets[axis][point as usize]);
         let own = coefficients.members.seats.own().iter();
         let target: Vec<[f64; 2]> = own.map(|&point| at(point)).collect();
-        let mut ratios = vec![[0.0; 2]; cloud.len()];
+        let mut ratios = vec![[0.0; 2]; coefficients.members.seats.all().len()];
         let own = ratios.par_iter_mut().zip(&target).enumerate();
         own.for_each(|(rank, (ratios, &target))| {
             let factors = &domain_factor[coefficients.members.family(rank)];
@@ -101,7 +101,10 @@ impl SweptFamilies for Families<'_> {
 
     fn largest_residual(&self) -> f64 {
         let ratios = self.ratios.as_flattened().iter();
-        ratios.map(|r| (1.0 / r - 1.0).abs()).fold(0.0, f64::max)
+        let residuals = ratios.map(|r| (1.0 / r - 1.0).abs());
+        self.coefficients
+            .members
+            .largest(residuals.fold(0.0, f64::max))
     }
 
     fn into_domain_factors(self) -> Vec<f64> {

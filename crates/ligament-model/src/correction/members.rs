@@ -28,8 +28,8 @@ pub(crate) struct Members<'a, const D: usize = 2> {
 impl<'a, const D: usize> Members<'a, D> {
     /// The members of the families of own points.
     pub(crate) fn new(bonds: &'a BondSet<D>, cloud: &'a PointCloud<D>) -> Self {
-        let seats = Seats::new(cloud);
-        let ranks = seats.ranks();
+        let seats = Seats::new(bonds, cloud);
+        let ranks = seats.ranks(cloud.len());
         let mut starts = vec![0];
         let mut size = 0;
         for &point in seats.own() {
@@ -51,6 +51,11 @@ impl<'a, const D: usize> Members<'a, D> {
     /// Number of the bonds of the whole body.
     pub(crate) fn n_bonds(&self) -> usize {
         self.bonds.count(self.cloud)
+    }
+
+    /// The largest of a value over all processes.
+    pub(crate) fn largest(&self, value: f64) -> f64 {
+        self.cloud.largest(value)
     }
 
     /// Number of own points.

@@ -1,9 +1,14 @@
-//! The order in which sweeps of corrections go through the points: own ones along the curve, then those of other processes.
+//! The order in which sweeps of corrections go through the points: own ones along the curve, then those of other processes that are bonded to
+//! them. What a sweep gives to points near the parts of others is told to these, and nothing else is.
 
 use std::borrow::Cow;
 
+use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
-use crate::portion::Portion;
+use crate::portion::{Exchange, Portion};
+
+/// Rank of a point that is neither an own one nor bonded to one.
+const NONE: u32 = u32::MAX;
 
 /// The points in the order of sweeps; `rank` is the place of a point in it. In one process it is that of the curve.
 pub(crate) struct Seats<'a> {
@@ -11,31 +16,46 @@ pub(crate) struct Seats<'a> {
     points: Cow<'a, [u32]>,
     n_own: usize,
     portion: Option<&'a Portion>,
+    told: Option<Told>,
+}
+
+/// The points that processes tell each other of: those with bonds between two parts.
+struct Told {
+    exchange: &'static dyn Exchange,
+    /// Ranks of own ones.
+    own: Vec<u32>,
+    /// Number of those of each process.
+    counts: Vec<usize>,
+    /// Ranks of those of all processes.
+    all: Vec<u32>,
 }
 
 impl<'a> Seats<'a> {
-    /// The order of the points of a cloud.
-    pub(crate) fn new<const D: usize>(cloud: &'a PointCloud<D>) -> Self {
-        let Some(portion) = &cloud.portion else {
-            return Self {
-                points: Cow::Borrowed(&cloud.curve),
-                n_own: cloud.len(),
-                portion: None,
-            };
+    /// The order of the points of a cloud with some bonds.
+    pub(crate) fn new<const D: usize>(bonds: &BondSet<D>, cloud: &'a PointCloud<D>) -> Self {
+        let mut seats = Self {
+            points: Cow::Borrowed(&cloud.curve),
+            n_own: cloud.len(),
+            portion: cloud.portion.as_ref(),
+            told: None,
         };
-        let others = cloud
-            .curve
-            .iter()
-            .copied()
-            .filter(|it| !portion.is_own(*it));
-        Self {
-            points: portion.own_along(&cloud.curve).chain(others).collect(),
-            n_own: portion.own().len(),
-            portion: Some(portion),
+        if let Some(portion) = seats.portion {
+            let mut is_between = vec![false; cloud.len()];
+            for ends in &bonds.ends {
+                if ends.iter().any(|&end| !portion.is_own(end)) {
+                    ends.iter().for_each(|&end| is_between[end as usize] = true);
+                }
+            }
+            let between = cloud.curve.iter().copied();
+            let others = between.filter(|&it| is_between[it as usize] && !portion.is_own(it));
+            seats.points = portion.own_along(&cloud.curve).chain(others).collect();
+            seats.n_own = portion.own().len();
+            seats.told = Some(Told::new(portion, &is_between, &seats.ranks(cloud.len())));
         }
+        seats
     }
 
-    /// All points, own ones first.
+    /// The points by rank, own ones first.
     pub(crate) fn all(&self) -> &[u32] {
         &self.points
     }
@@ -45,9 +65,9 @@ impl<'a> Seats<'a> {
         &self.points[..self.n_own]
     }
 
-    /// Rank of each point, shape (n_points).
-    pub(crate) fn ranks(&self) -> Vec<u32> {
-        let mut ranks = vec![0; self.points.len()];
+    /// Rank of each of so many points.
+    pub(crate) fn ranks(&self, n_points: usize) -> Vec<u32> {
+        let mut ranks = vec![NONE; n_points];
         for (rank, &point) in (0..).zip(&*self.points) {
             ranks[point as usize] = rank;
         }
@@ -56,17 +76,21 @@ impl<'a> Seats<'a> {
 
     /// Puts the values of points of other processes, by rank, in the place of those here.
     pub(crate) fn complete<const N: usize>(&self, values: &mut [[f64; N]]) {
-        let Some(portion) = self.portion else {
-            return;
-        };
-        let mut of_points = vec![[0.0; N]; self.points.len()];
-        for (&point, value) in self.own().iter().zip(&*values) {
-            of_points[point as usize] = *value;
+        if let Some(told) = &self.told {
+            told.complete(values);
         }
-        portion.complete(of_points.as_flattened_mut(), N);
-        for (&point, value) in self.points.iter().zip(values) {
-            *value = of_points[point as usize];
+    }
+
+    /// The value of each of so many points from those of own points, by rank.
+    pub(crate) fn of_points(&self, values: &[f64], n_points: usize) -> Vec<f64> {
+        let mut of_points = vec![0.0; n_points];
+        for (&point, &value) in self.own().iter().zip(values) {
+            of_points[point as usize] = value;
         }
+        if let Some(portion) = self.portion {
+            portion.complete(&mut of_points, 1);
+        }
+        of_points
     }
 
     /// Puts the sums over all processes in the place of some values.
@@ -86,5 +110,35 @@ impl<'a> Seats<'a> {
     /// Whether this process is the first, or the only one.
     pub(crate) fn is_first(&self) -> bool {
         self.portion.is_none_or(|it| it.exchange().rank() == 0)
+    }
+}
+
+impl Told {
+    /// The points that are marked, with the ranks of all points.
+    fn new(portion: &Portion, is_between: &[bool], ranks: &[u32]) -> Self {
+        let exchange = portion.exchange();
+        let own = portion.own().iter().filter(|it| is_between[**it as usize]);
+        let points: Vec<[f64; 1]> = own.clone().map(|&it| [f64::from(it)]).collect();
+        let mut counts = vec![0.0; exchange.n_ranks()];
+        counts[exchange.rank()] = points.len() as f64;
+        exchange.largest(&mut counts);
+        let all = portion.concatenated(&points).into_iter();
+        Self {
+            exchange,
+            own: own.map(|&it| ranks[it as usize]).collect(),
+            counts: counts.iter().map(|&it| it as usize).collect(),
+            all: all.map(|[it]| ranks[it as usize]).collect(),
+        }
+    }
+
+    fn complete<const N: usize>(&self, values: &mut [[f64; N]]) {
+        let own: Vec<[f64; N]> = self.own.iter().map(|&it| values[it as usize]).collect();
+        let counts: Vec<usize> = self.counts.iter().map(|count| N * count).collect();
+        let all = self.exchange.gather(own.as_flattened(), &counts);
+        for (&rank, value) in self.all.iter().zip(all.as_chunks().0) {
+            if rank != NONE {
+                values[rank as usize] = *value;
+            }
+        }
     }
 }

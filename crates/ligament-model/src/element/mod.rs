@@ -20,6 +20,7 @@ pub mod true_strain;
 
 use crate::bonds::{BondSet, Incidence};
 use crate::layout::{Component, Layout};
+use crate::portion::Portion;
 
 /// Kinematics of the bonds of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -149,7 +150,12 @@ impl Rigidities {
     }
 
     /// Degrees of freedom that bonds may resist: all displacements, and rotations where a bond does, shape (n_degrees_of_freedom).
-    pub(crate) fn resisted(&self, ends: &[[u32; 2]], layout: Layout) -> Vec<bool> {
+    pub(crate) fn resisted(
+        &self,
+        ends: &[[u32; 2]],
+        layout: Layout,
+        portion: Option<&Portion>,
+    ) -> Vec<bool> {
         let all = 0..layout.n_degrees_of_freedom();
         let mut resisted: Vec<bool> = all
             .map(|dof| !layout.component(dof).is_rotation())
@@ -159,6 +165,12 @@ impl Rigidities {
             .filter(|(bond, _)| self.resist_rotations(*bond));
         for end in resisting.flat_map(|(_, ends)| ends) {
             resisted[layout.range(*end)].fill(true);
+        }
+        if let Some(portion) = portion {
+            let mut marks: Vec<f64> =
+                (resisted.iter().map(|&it| f64::from(u8::from(it)))).collect();
+            portion.largest(&mut marks);
+            return marks.into_iter().map(|it| it > 0.0).collect();
         }
         resisted
     }

@@ -16,7 +16,7 @@ use crate::interface::{
     Bonds, CentralMotions, CoupledPoints, PointStiffness, StressReading, Stresses,
 };
 use crate::layout::Component;
-use crate::portion::Portion;
+use crate::portion::{Portion, any};
 use crate::rigid_motions::FreeMotion;
 use crate::sweep::BondSweep;
 use crate::system::BondsLeft;
@@ -111,23 +111,27 @@ impl Bonds for SolidSystem {
     }
 
     fn all_positive(&self) -> bool {
-        self.rigidities.of_springs().all(|&rigidity| rigidity > 0.0)
+        let mut of_springs = self.rigidities.of_springs();
+        !any(self.portion(), !of_springs.all(|&rigidity| rigidity > 0.0))
     }
 
     fn some_negative(&self) -> bool {
-        self.rigidities.of_springs().any(|&rigidity| rigidity < 0.0)
+        let mut of_springs = self.rigidities.of_springs();
+        any(self.portion(), of_springs.any(|&rigidity| rigidity < 0.0))
     }
 
     fn some_negative_shear(&self) -> bool {
-        self.rigidities.shear.iter().any(|&rigidity| rigidity < 0.0)
+        let mut shear = self.rigidities.shear.iter();
+        any(self.portion(), shear.any(|&rigidity| rigidity < 0.0))
     }
 
     fn resisted(&self) -> Vec<bool> {
-        self.rigidities.resisted(&self.bonds.ends, self.layout())
+        let (layout, portion) = (self.layout(), self.portion());
+        self.rigidities.resisted(&self.bonds.ends, layout, portion)
     }
 
     fn point_stiffness(&self) -> Vec<PointStiffness> {
-        PointStiffness::of_bonds(&self.rigidities, &self.bonds)
+        PointStiffness::of_bonds(&self.rigidities, &self.bonds, self.portion())
     }
 
     fn halve(&self, points: &mut [u32]) {

@@ -5,6 +5,7 @@ use super::system::SolidSystem;
 use super::vector::dot;
 use crate::interface::{Bonds, CentralMotions};
 use crate::layout::Component;
+use crate::portion::any;
 use crate::rigid_motions::{RigidMotions, Turn};
 
 impl SolidSystem {
@@ -14,6 +15,7 @@ impl SolidSystem {
             .iter()
             .flat_map(|&point| self.bonds.incidence.at(point));
         let resist = bonds.any(|&bond| self.rigidities.resist_rotations(bond as usize));
+        let resist = any(self.portion(), resist);
         let turn = match (resist, self.element) {
             (true, SolidElement::Beam) => Turn::OfPointsAlong,
             (true, SolidElement::Spring) => Turn::Costly,

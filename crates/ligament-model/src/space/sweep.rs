@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use super::element::SolidKinematics;
 use super::system::Typed;
 use crate::deformation::{Deformations, SpaceDeformation};
+use crate::portion::counts;
 use crate::sweep::{BondSweep, PARTS, Part, TASK};
 use crate::system::BondsLeft;
 use crate::thermal::ThermalStrain;
@@ -50,7 +51,8 @@ impl<const M: usize, B: SolidKinematics<M>> Typed<'_, B, M> {
                 self.part(bonds, deformations.vectors(), expansion, of_part)
             })
             .collect();
-        BondSweep::of_parts(&parts, &B::COMPONENTS, deformations)
+        let portion = self.system.cloud.portion.as_ref();
+        BondSweep::of_parts(&parts, &B::COMPONENTS, deformations, portion)
     }
 
     fn part(
@@ -61,13 +63,16 @@ impl<const M: usize, B: SolidKinematics<M>> Typed<'_, B, M> {
         of_part: Range<usize>,
     ) -> Part<M> {
         let mut part = Part::new(self.system.cloud.len());
+        let portion = self.system.cloud.portion.as_ref();
         for bond in of_part.clone() {
             let Some(element) = self.left(bonds, bond) else {
                 continue;
             };
             let deformation = &deformations[bond];
-            part.energy += element.mutual_energy(deformation, deformation);
             let ends = self.system.bonds.ends[bond];
+            if counts(portion, ends) {
+                part.energy += element.mutual_energy(deformation, deformation);
+            }
             for (point, force) in ends.into_iter().zip(element.end_forces(deformation)) {
                 part.forces[point as usize].add(force);
             }
@@ -77,10 +82,11 @@ impl<const M: usize, B: SolidKinematics<M>> Typed<'_, B, M> {
         }
         let at_full_load = expansion.at_full_load();
         for bond in of_part {
-            let Some(element) = self.left(bonds, bond) else {
+            let ends = self.system.bonds.ends[bond];
+            let element = self.left(bonds, bond).filter(|_| counts(portion, ends));
+            let Some(element) = element else {
                 continue;
             };
-            let ends = self.system.bonds.ends[bond];
             let thermal = element.deformation_in(at_full_load.of_bond_in_space(ends));
             part.thermal -= 2.0 * element.mutual_energy(&deformations[bond], &thermal);
             part.expansion_energy += element.mutual_energy(&thermal, &thermal);

@@ -13,7 +13,7 @@ use crate::interface::{
     Bonds, CentralMotions, CoupledPoints, PointStiffness, StressReading, Stresses,
 };
 use crate::layout::Component;
-use crate::portion::Portion;
+use crate::portion::{Portion, any};
 use crate::rigid_motions::{FreeMotion, RigidMotions, Turn};
 use crate::sweep::BondSweep;
 use crate::thermal::ThermalStrain;
@@ -124,23 +124,27 @@ impl Bonds for BondSystem {
     }
 
     fn all_positive(&self) -> bool {
-        self.rigidities.of_springs().all(|&rigidity| rigidity > 0.0)
+        let mut of_springs = self.rigidities.of_springs();
+        !any(self.portion(), !of_springs.all(|&rigidity| rigidity > 0.0))
     }
 
     fn some_negative(&self) -> bool {
-        typed!(self, it => it.elements.some_negative(&self.rigidities))
+        let here = typed!(self, it => it.elements.some_negative(&self.rigidities));
+        any(self.portion(), here)
     }
 
     fn some_negative_shear(&self) -> bool {
-        self.rigidities.shear.iter().any(|&rigidity| rigidity < 0.0)
+        let mut shear = self.rigidities.shear.iter();
+        any(self.portion(), shear.any(|&rigidity| rigidity < 0.0))
     }
 
     fn resisted(&self) -> Vec<bool> {
-        self.rigidities.resisted(&self.bonds.ends, self.layout())
+        let (layout, portion) = (self.layout(), self.portion());
+        self.rigidities.resisted(&self.bonds.ends, layout, portion)
     }
 
     fn point_stiffness(&self) -> Vec<PointStiffness> {
-        PointStiffness::of_bonds(&self.rigidities, &self.bonds)
+        PointStiffness::of_bonds(&self.rigidities, &self.bonds, self.portion())
     }
 
     fn halve(&self, points: &mut [u32]) {
@@ -369,6 +373,7 @@ impl BondSystem {
             .iter()
             .flat_map(|&point| self.bonds.incidence.at(point));
         let resist = bonds.any(|&bond| self.rigidities.resist_rotations(bond as usize));
+        let resist = any(self.portion(), resist);
         let turn_points = self.components().contains(&Component::Rotation);
         let turn = match (resist, typed!(self, it => it.elements.turns_freely())) {
             (true, true) if turn_points => Turn::OfPointsAlong,

@@ -4,6 +4,7 @@ use super::BondSystem;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
 use crate::interface::{Bonds, StressReading};
 use crate::layout::Component;
+use crate::portion::{any, counts};
 use crate::thermal::ThermalStrain;
 
 /// Cosine of the angle between a broken bond and the normal of the crack below which the bond is no pair: it lies along the
@@ -53,6 +54,12 @@ impl BondSystem {
                 *sum = [sum[0] + x * x - y * y, sum[1] + 2.0 * x * y];
             }
         }
+        let complete = |sums: &mut Vec<[f64; 2]>| {
+            if let Some(portion) = self.portion() {
+                portion.complete(sums.as_flattened_mut(), 2);
+            }
+        };
+        complete(&mut own);
         let mut around = own.clone();
         for ([a, b], _) in parted() {
             for (at, of) in [(a, b), (b, a)] {
@@ -61,6 +68,7 @@ impl BondSystem {
                 *sum = [sum[0] + of[0], sum[1] + of[1]];
             }
         }
+        complete(&mut around);
         around
     }
 
@@ -132,7 +140,7 @@ impl BondSystem {
         let has_cut = !self.faces.cut().is_empty();
         let broken = || (0..intact.len()).filter(|&bond| !intact[bond]);
         // Normals of cracks that grew are not worth while where nothing comes nearer.
-        if !has_cut && !broken().any(approaches) {
+        if !any(self.portion(), has_cut || broken().any(approaches)) {
             return None;
         }
         let pairs = self.contact_pairs(intact).into_iter();
@@ -143,7 +151,21 @@ impl BondSystem {
                 ends: pair.ends,
             });
         let beyond = overlaps.filter(|it| it.depth > beyond);
-        beyond.reduce(|most, it| if it.depth > most.depth { it } else { most })
+        let larger = |most: Overlap, it: Overlap| if it.depth > most.depth { it } else { most };
+        let Some(portion) = self.portion() else {
+            return beyond.reduce(larger);
+        };
+        let counted = beyond.filter(|it| counts(Some(portion), it.ends));
+        let here = counted.reduce(larger).map(|it| {
+            let [a, b] = it.ends.map(f64::from);
+            [it.depth, a, b]
+        });
+        let of_ranks = portion.concatenated(here.as_slice()).into_iter();
+        let of_ranks = of_ranks.map(|[depth, a, b]| Overlap {
+            depth,
+            ends: [a as u32, b as u32],
+        });
+        of_ranks.reduce(larger)
     }
 
     /// Adds the stresses of the forces of closed pairs to those of the bonds in a reading, shape (n_points, n_components), Pa.

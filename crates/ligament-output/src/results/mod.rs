@@ -80,6 +80,8 @@ pub struct ResultWriter<'a> {
     first: FirstBonds,
     fields_collection: Collection,
     bonds_collection: Collection,
+    /// Ends of the bonds that broke, with the steps.
+    breaks: Vec<([u32; 2], u32)>,
     /// Step of breaking of each bond, -1 while it is intact, shape (n_bonds).
     step_of_breaking: Vec<i64>,
     /// Largest utilisation of each bond so far, where the model is written.
@@ -113,6 +115,7 @@ impl<'a> ResultWriter<'a> {
             first: FirstBonds::default(),
             fields_collection: Collection::new(folder.file("fields.pvd")),
             bonds_collection: Collection::new(folder.file("bonds.pvd")),
+            breaks: Vec::new(),
             step_of_breaking: vec![-1; fixed.domain_factor.len()],
         })
     }
@@ -139,12 +142,13 @@ impl<'a> ResultWriter<'a> {
             breaks,
             largest,
         } = so_far;
+        // Where processes share the body out this one does not follow all bonds.
+        let is_whole = problem.system.portion().is_none();
+        let (softening, largest) = (softening.filter(|_| is_whole), largest.filter(|_| is_whole));
         remove_others(folder, "fields", &fields)?;
         remove_others(folder, "bonds", &bonds)?;
         let mut step_of_breaking = vec![-1; fixed.domain_factor.len()];
-        for (bond, step) in breaks {
-            step_of_breaking[bond as usize] = i64::from(step);
-        }
+        mark(&mut step_of_breaking, problem, &breaks);
         Ok(Self {
             folder,
             grid,
@@ -159,6 +163,7 @@ impl<'a> ResultWriter<'a> {
             first,
             fields_collection: Collection::with_outputs(folder.file("fields.pvd"), fields)?,
             bonds_collection: Collection::with_outputs(folder.file("bonds.pvd"), bonds)?,
+            breaks,
             step_of_breaking,
         })
     }
@@ -169,8 +174,6 @@ impl<'a> ResultWriter<'a> {
     ///
     /// If the system cannot get it there.
     pub fn so_far(&self) -> Result<SoFar, Error> {
-        let steps = (0..).zip(&self.step_of_breaking);
-        let broken = steps.filter(|(_, step)| **step >= 0);
         Ok(SoFar {
             tables: self.tables.written()?,
             softening: self
@@ -181,7 +184,7 @@ impl<'a> ResultWriter<'a> {
             first: self.first,
             fields: self.fields_collection.outputs().to_vec(),
             bonds: self.bonds_collection.outputs().to_vec(),
-            breaks: broken.map(|(bond, step)| (bond, *step as u32)).collect(),
+            breaks: self.breaks.clone(),
             largest: self.largest.clone(),
         })
     }
@@ -268,10 +271,11 @@ impl Observer for ResultWriter<'_> {
     fn broke(&mut self, records: &[BreakRecord]) -> Result<(), ObserverError> {
         self.first.broke(records)?;
         for record in records {
-            self.step_of_breaking[record.bond as usize] = record.step as i64;
+            self.breaks.push((record.ends, record.step as u32));
         }
-        let ends = self.problem.system.ends();
-        failed(self.tables.breaks(records, self.grid, ends))
+        let new = &self.breaks[self.breaks.len() - records.len()..];
+        mark(&mut self.step_of_breaking, &self.problem, new);
+        failed(self.tables.breaks(records, self.grid))
     }
 
     fn looks(&self, step: usize) -> bool {
@@ -303,6 +307,16 @@ impl Observer for ResultWriter<'_> {
             }
         }
         failed(self.tables.step(record, view))
+    }
+}
+
+/// Marks bonds that broke, of those that are known here, with their steps.
+fn mark(step_of_breaking: &mut [i64], problem: &Problem, breaks: &[([u32; 2], u32)]) {
+    let ends = problem.system.ends();
+    for (of_bond, step) in breaks {
+        if let Ok(bond) = ends.binary_search(of_bond) {
+            step_of_breaking[bond] = i64::from(*step);
+        }
     }
 }
 

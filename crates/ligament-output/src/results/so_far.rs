@@ -21,8 +21,8 @@ pub struct SoFar {
     pub(super) fields: Vec<(f64, String)>,
     /// Times and names of the files of bonds.
     pub(super) bonds: Vec<(f64, String)>,
-    /// Broken bonds with their steps.
-    pub(super) breaks: Vec<(u32, u32)>,
+    /// Ends of the broken bonds, with the steps.
+    pub(super) breaks: Vec<([u32; 2], u32)>,
     pub(super) largest: Option<Largest>,
 }
 
@@ -40,18 +40,22 @@ impl SoFar {
     /// Whether it is of a run of this problem.
     pub fn fits(&self, problem: &Problem) -> bool {
         let (n_bonds, n_criteria) = (problem.system.ends().len(), problem.criteria.list.len());
-        let mut bonds = self.breaks.iter().map(|(bond, _)| *bond as usize);
+        let n_points = problem.system.n_points() as u32;
+        let is_bond = |ends: &[u32; 2]| ends.iter().all(|&end| end < n_points);
+        let mut bonds = self.breaks.iter();
+        // One process goes on with what several have written of bonds, and several with what one has.
+        let n_bonds = problem.system.portion().is_none().then_some(n_bonds);
         let mut largest = self.largest.iter();
         let mut first = [self.first.broken, self.first.softened]
             .into_iter()
             .flatten();
         let softening = self.softening.as_ref();
-        bonds.all(|bond| bond < n_bonds)
-            && largest.all(|it| it.fits(n_bonds, n_criteria))
-            && first.all(|it| (it.bond as usize) < n_bonds && (it.criterion as usize) < n_criteria)
-            && softening.is_some() == problem.criteria.soften()
+        bonds.all(|(ends, _)| is_bond(ends))
+            && largest.all(|it| n_bonds.is_none_or(|n_bonds| it.fits(n_bonds, n_criteria)))
+            && first.all(|it| is_bond(&it.ends) && (it.criterion as usize) < n_criteria)
             && softening.is_none_or(|told| {
-                told.of_bonds.len() == n_bonds && told.of_bonds.iter().all(|rows| *rows <= 2)
+                n_bonds.is_none_or(|it| told.of_bonds.len() == it)
+                    && told.of_bonds.iter().all(|rows| *rows <= 2)
             })
     }
 

@@ -59,13 +59,13 @@ pub(super) struct Told {
 serial!(Told { length, of_bonds });
 
 impl SofteningTable {
-    /// Creates the table; none where no bond softens.
+    /// Creates the table; none where no bond softens, or processes share the body out.
     pub(super) fn create(
         folder: &ResultFolder,
         problem: &Problem,
         tagged: &str,
     ) -> Result<Option<Self>, Error> {
-        if !problem.criteria.soften() {
+        if !problem.criteria.soften() || problem.system.portion().is_some() {
             return Ok(None);
         }
         let ends = ["a", "b"].map(|end| format!("{tagged}_{end}"));

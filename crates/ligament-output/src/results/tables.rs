@@ -321,14 +321,9 @@ impl Tables {
         ])
     }
 
-    pub(super) fn breaks(
-        &mut self,
-        records: &[BreakRecord],
-        grid: &BodyGrid,
-        ends: &[[u32; 2]],
-    ) -> Result<(), Error> {
+    pub(super) fn breaks(&mut self, records: &[BreakRecord], grid: &BodyGrid) -> Result<(), Error> {
         for record in records {
-            let ends = grid.tags_of(ends[record.bond as usize]);
+            let ends = grid.tags_of(record.ends);
             let row = break_row(record, ends, &self.criteria, self.n_components);
             self.breaks.append(&row)?;
         }

@@ -9,7 +9,6 @@ use ligament_analysis::driver::Outcome;
 use ligament_analysis::first_bonds::FirstBond;
 use ligament_analysis::history::StepRecord;
 use ligament_analysis::{Layout, LoadProgram};
-use ligament_model::Bonds;
 use ligament_output::quantity::place;
 use ligament_output::results::criterion_labels;
 use serde::Serialize;
@@ -47,9 +46,7 @@ impl BondEvent {
         Dim: Dimension<D>,
     {
         let cloud = Dim::cloud(&model.system);
-        let ends = cloud
-            .numbering
-            .ordered(model.system.ends()[first.bond as usize]);
+        let ends = cloud.numbering.ordered(first.ends);
         let [a, b] = ends.map(|end| cloud.positions[end as usize]);
         let criteria = model.criteria.list.iter().map(|it| it.name);
         let mut labels = criterion_labels(criteria);

@@ -19,34 +19,24 @@ use crate::counts::{self, BondCounts};
 use crate::error::SetupError;
 use crate::loading;
 use crate::model::{
-    Discretises, Model, PortionOf, absent_bonds, correction_range, precrack_share, with_cut,
+    Discretises, Model, absent_bonds, correction_range, portion_of, precrack_share, with_cut,
 };
 use crate::setup::{Dim, Setup};
 use crate::stage::{Finding, StageWatcher, stage};
 use crate::warning;
 
 impl Discretises<3> for Dim {
-    fn model(
-        setup: Setup<3>,
-        portion: PortionOf<3>,
-        watcher: &mut dyn StageWatcher,
-    ) -> Result<Model<3>, SetupError> {
-        Model::in_space(setup, portion, watcher)
+    fn model(setup: Setup<3>, watcher: &mut dyn StageWatcher) -> Result<Model<3>, SetupError> {
+        Model::in_space(setup, watcher)
     }
 }
 
 impl Model<3> {
     /// Builds the model of a setup in space.
-    fn in_space(
-        setup: Setup<3>,
-        portion: PortionOf<3>,
-        watcher: &mut dyn StageWatcher,
-    ) -> Result<Self, SetupError> {
+    fn in_space(setup: Setup<3>, watcher: &mut dyn StageWatcher) -> Result<Self, SetupError> {
         setup.check()?;
         let material_of_cell = loading::material_of_cell(&setup)?;
-        let (cloud, outline) = stage(watcher, "points", || {
-            points(&setup, &material_of_cell, portion)
-        })?;
+        let (cloud, outline) = stage(watcher, "points", || points(&setup, &material_of_cell))?;
         let horizons = setup.horizon.of_points(&cloud);
         let (bonds, absent) = stage(watcher, "bonds", || {
             let all = BondSet::search(&cloud, &horizons);
@@ -103,10 +93,9 @@ impl Model<3> {
 fn points(
     setup: &Setup<3>,
     material_of_cell: &[u32],
-    portion: PortionOf<3>,
 ) -> Result<(PointCloud<3>, Option<Surface>), SetupError> {
     let (cloud, outline) = all_points(setup, material_of_cell)?;
-    let portion = portion(setup, &cloud);
+    let portion = portion_of(setup, &cloud);
     Ok((PointCloud { portion, ..cloud }, outline))
 }
 

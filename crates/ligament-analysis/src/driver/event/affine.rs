@@ -15,7 +15,7 @@ use std::time::Instant;
 
 use super::way::{Goal, Way};
 use crate::balanced::Balanced;
-use crate::breaking::{FirstToBreak, first_to_break};
+use crate::breaking::FirstToBreak;
 use crate::driver::path::Path;
 use crate::driver::recorder::largest_ratio;
 use crate::history::Termination;
@@ -23,7 +23,8 @@ use crate::load_program::{LoadProgram, PartControl};
 use crate::unbalanced::Unbalanced;
 use ligament_model::deformation::Deformations;
 use ligament_model::failure::Criteria;
-use ligament_model::failure::along_line::EVERYWHERE;
+use ligament_model::failure::along_line::{EVERYWHERE, Interval};
+use ligament_model::portion::Portion;
 
 /// Lines of the parts of a programme.
 pub(super) struct Affine {
@@ -82,11 +83,12 @@ impl Way for Affine {
             Some(_) => EVERYWHERE,
             None => [begins - now, ends - now],
         };
-        let goal = match criteria.admissible(intact, [&line.deformations, &slopes], reach) {
+        let admissible = criteria.admissible(intact, [&line.deformations, &slopes], reach);
+        let goal = match on_all_ranks(path.problem.system.portion(), admissible) {
             None => held(self.tie_tolerance, line, &criteria, path),
             Some([_, upper]) if upper.is_infinite() => Goal {
                 load_factor: now,
-                ratio: largest_ratio(&path.state, line, &path.problem.criteria),
+                ratio: largest_ratio(&path.problem, &path.state, line),
                 bonds: Vec::new(),
                 is_held: false,
                 ends_part: false,
@@ -95,7 +97,7 @@ impl Way for Affine {
             Some([_, upper]) => {
                 let at = line.deformations.ahead(&slopes, upper);
                 let tie = self.tie_tolerance;
-                let FirstToBreak { ratio, bonds } = first_to_break(tie, &at, &criteria, intact);
+                let FirstToBreak { ratio, bonds } = path.first_to_break(tie, &at, &criteria);
                 let is_at_end = upper == reach[1];
                 let is_gone = dissipates.filter(|it| path.dissipated_energy() >= *it);
                 let ends_part = is_at_end || is_gone.is_some();
@@ -131,10 +133,21 @@ impl Way for Affine {
     }
 }
 
+/// What the bonds of all processes admit, where they share the body out.
+fn on_all_ranks(portion: Option<&Portion>, here: Option<Interval>) -> Option<Interval> {
+    let Some(portion) = portion else {
+        return here;
+    };
+    let [lower, upper] = here.unwrap_or(EVERYWHERE);
+    let mut most = [f64::from(u8::from(here.is_none())), lower, -upper];
+    portion.largest(&mut most);
+    let [is_none, lower, upper] = [most[0], most[1], -most[2]];
+    (is_none == 0.0 && lower <= upper).then_some([lower, upper])
+}
+
 /// The goal where no load is admissible: the load stays.
 fn held(tie: f64, line: &Balanced, criteria: &Criteria, path: &Path<'_>) -> Goal {
-    let intact = &path.state.intact;
-    let FirstToBreak { ratio, bonds } = first_to_break(tie, &line.deformations, criteria, intact);
+    let FirstToBreak { ratio, bonds } = path.first_to_break(tie, &line.deformations, criteria);
     Goal {
         load_factor: path.state.load_factor,
         ratio,

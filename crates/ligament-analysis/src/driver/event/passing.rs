@@ -171,12 +171,17 @@ impl Passing<'_, '_> {
         let factor = self.factor();
         let path = &mut *self.path;
         let (system, displacement) = (&self.problem.system, &self.lagging.displacement);
-        let mut bonds = first.bonds.clone();
-        system.sort_as_in_file(&mut bonds);
+        let FirstToBreak { bonds, .. } = first.clone().sorted(|it| system.ends_in_file(it));
         let deformations = system.measured(&path.state.intact, displacement, &bonds);
         let deformations = deformations.iter().map(|it| it.scaled(factor));
-        let bonds: Vec<(u32, BondDeformation)> = bonds.into_iter().zip(deformations).collect();
-        path.break_deformed(&bonds, &self.problem.criteria, &critical, [step, 1])
+        let deformations: Vec<BondDeformation> = deformations.collect();
+        let deformation = |place: usize, _| deformations[place];
+        let criteria = &self.problem.criteria;
+        let judged = (
+            &**criteria,
+            &deformation as &dyn Fn(usize, usize) -> BondDeformation,
+        );
+        path.break_deformed(&bonds, judged, &critical, [step, 1])
     }
 
     /// Takes in a breakage; gives the bonds that are the next to break. None where the factor broke on the way.

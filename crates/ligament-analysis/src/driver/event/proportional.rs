@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use super::way::{Goal, Way};
 use crate::balanced::Balanced;
-use crate::breaking::{FirstToBreak, first_to_break};
+use crate::breaking::FirstToBreak;
 use crate::driver::ends::NO_LOAD;
 use crate::driver::path::Path;
 use crate::history::Termination;
@@ -34,12 +34,8 @@ impl Way for Proportional {
     /// The end of the way along the line of an equilibrium: the critical load, or what ends the run before it.
     fn goal(&mut self, path: &mut Path<'_>, line: &Balanced) -> Result<Goal, Unbalanced> {
         let start = Instant::now();
-        let FirstToBreak { ratio, bonds } = first_to_break(
-            self.tie_tolerance,
-            &line.deformations,
-            &path.criteria(line),
-            &path.state.intact,
-        );
+        let FirstToBreak { ratio, bonds } =
+            path.first_to_break(self.tie_tolerance, &line.deformations, &path.criteria(line));
         path.equilibrium.count_bond_work(start);
         let now = path.state.load_factor;
         let mut goal = Goal {

@@ -31,7 +31,7 @@ const SHARE: f64 = 1e-3;
 ///
 /// Distances and the numbers of the points in the file decide, not the axes: a turned body has the same aggregates.
 pub(crate) struct Aggregates<'a> {
-    seats: Seats<'a>,
+    seats: &'a Seats<'a>,
     /// Place of the first number of the aggregate of each rank.
     first: Vec<u32>,
     count: usize,
@@ -40,8 +40,12 @@ pub(crate) struct Aggregates<'a> {
 }
 
 impl<'a> Aggregates<'a> {
-    /// Aggregates of the points of a cloud, with some numbers each.
-    pub(crate) fn new<const D: usize>(cloud: &'a PointCloud<D>, width: usize) -> Self {
+    /// Aggregates of the points of a cloud in the order of sweeps, with some numbers each.
+    pub(crate) fn new<const D: usize>(
+        cloud: &PointCloud<D>,
+        seats: &'a Seats<'a>,
+        width: usize,
+    ) -> Self {
         let count = (cloud.len() / FEWEST_POINTS).clamp(1, MOST);
         let mut distance = vec![f64::INFINITY; cloud.len()];
         let mut aggregate = vec![0; cloud.len()];
@@ -66,7 +70,6 @@ impl<'a> Aggregates<'a> {
             }
         }
         let first = |&point: &u32| (width * aggregate[point as usize]) as u32;
-        let seats = Seats::new(cloud);
         Self {
             first: seats.all().iter().map(first).collect(),
             seats,

@@ -22,7 +22,7 @@ use rayon::prelude::*;
 use super::aggregates::{Aggregates, Regularisation};
 use super::equations::{Equations, Multipliers};
 use super::newton::Hessian;
-use super::pairs::BLOCK;
+use super::pairs::{BLOCK, Pairs};
 use super::settings::Settings;
 
 /// Regularisation of the first outer step.
@@ -81,7 +81,7 @@ struct Dual<'a, E> {
 
 /// A place on the way.
 struct Place<const N: usize> {
-    /// Of all points; what has no bonds in it is of own points alone.
+    /// Of the points by rank; what has no bonds in it is of own points alone.
     mu: Multipliers<N>,
     /// z of the pairs.
     z: Vec<[f64; 2]>,
@@ -230,8 +230,8 @@ impl<E> Dual<'_, E> {
                 .map(|(value, scale)| (value * scale).powi(2))
                 .sum::<f64>()
         });
-        let seats = &self.equations.pairs().seats;
-        (seats.total(squares.sum::<f64>()) / (seats.all().len() * N) as f64).sqrt()
+        let Pairs { seats, n_all, .. } = self.equations.pairs();
+        (seats.total(squares.sum::<f64>()) / (n_all * N) as f64).sqrt()
     }
 
     /// The place of the uncorrected factors.
@@ -314,16 +314,14 @@ impl<E> Dual<'_, E> {
                 std::array::from_fn(|k| stiffness[pair][k] * factors[pair][k])
             });
         });
-        let mut residual: Vec<[f64; 1]> = (left.iter().enumerate())
+        let residual: Vec<f64> = (left.iter().enumerate())
             .map(|(rank, left)| {
                 let scaled = left.iter().zip(self.equations.scale(rank));
-                [scaled.fold(0.0, |most: f64, (left, scale)| {
+                scaled.fold(0.0, |most: f64, (left, scale)| {
                     most.max((left * scale).abs())
-                })]
+                })
             })
             .collect();
-        residual.resize(pairs.seats.all().len(), [0.0]);
-        pairs.seats.complete(&mut residual);
         Factors {
             axial: pairs.of_bonds(factors.iter().map(|&[axial, _]| axial)),
             shear: pairs.of_bonds(factors.iter().map(|&[_, shear]| shear)),
@@ -331,7 +329,7 @@ impl<E> Dual<'_, E> {
                 steps,
                 products,
                 left: self.root_mean_square(&left),
-                residual: pairs.of_points(&residual),
+                residual: pairs.seats.of_points(&residual, pairs.n_all),
             },
         }
     }

@@ -75,7 +75,8 @@ fn minimise<const N: usize>(
     cloud: &PointCloud,
     settings: &Settings,
 ) -> Factors {
-    let aggregates = Aggregates::new(cloud, PlaneEquations::<N>::FORCES);
+    let seats = &equations.pairs().seats;
+    let aggregates = Aggregates::new(cloud, seats, PlaneEquations::<N>::FORCES);
     dual::minimise(equations, aggregates, settings)
 }
 

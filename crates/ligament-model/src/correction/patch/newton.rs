@@ -89,8 +89,8 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
             points: zeros.clone(),
             aggregates: Vec::new(),
         };
-        let n_all = self.equations.pairs().seats.all().len();
-        let mut direction = vec![[0.0; N]; n_all];
+        let n_seats = self.equations.pairs().seats.all().len();
+        let mut direction = vec![[0.0; N]; n_seats];
         let (mut step, mut product) = (zeros.clone(), zeros);
         let mut size = self.go(
             0.0,
@@ -132,7 +132,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         self.equations.pairs().seats.complete(direction);
     }
 
-    /// Makes the product with values of all points, and gives the inner product of both.
+    /// Makes the product with values by rank, and gives the inner product of both.
     fn multiply(&self, values: &Multipliers<N>, product: &mut Multipliers<N>) -> f64 {
         let common = self.regularisation.common(|rank| values[rank]);
         let of_block = |(block, product): (usize, &mut [[f64; N]])| {

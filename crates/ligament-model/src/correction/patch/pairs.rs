@@ -14,6 +14,8 @@ use crate::correction::seats::Seats;
 pub(crate) struct Pairs<'a> {
     /// The points by rank.
     pub(crate) seats: Seats<'a>,
+    /// Number of points of the whole body.
+    pub(crate) n_all: usize,
     n_bonds: usize,
     /// First pair of each rank with its other end in the block and with its other end outside, and behind the last rank the number
     /// of all pairs.
@@ -27,10 +29,11 @@ pub(crate) struct Pairs<'a> {
 impl<'a> Pairs<'a> {
     /// The pairs of all bonds.
     pub(crate) fn new<const D: usize>(bonds: &BondSet<D>, cloud: &'a PointCloud<D>) -> Self {
-        let seats = Seats::new(cloud);
-        let (ranks, n_own) = (seats.ranks(), seats.own().len());
+        let seats = Seats::new(bonds, cloud);
+        let (ranks, n_own) = (seats.ranks(cloud.len()), seats.own().len());
         let mut pairs = Self {
             seats,
+            n_all: cloud.len(),
             n_bonds: bonds.len(),
             starts: Vec::with_capacity(n_own + 1),
             other: Vec::with_capacity(bonds.len()),
@@ -127,14 +130,5 @@ impl<'a> Pairs<'a> {
             of_bonds[bond as usize] = value;
         }
         of_bonds
-    }
-
-    /// The value of each point from those by rank, shape (n_points).
-    pub(crate) fn of_points(&self, values: &[[f64; 1]]) -> Vec<f64> {
-        let mut of_points = vec![0.0; values.len()];
-        for (&point, [value]) in self.seats.all().iter().zip(values) {
-            of_points[point as usize] = *value;
-        }
-        of_points
     }
 }

@@ -14,7 +14,7 @@ pub(super) struct Families<'a> {
     domain_factor: Vec<f64>,
     /// e_A of the continuum for a uniaxial strain of own points, by rank, J/m^3.
     target: Vec<f64>,
-    /// e_A/etil_A along x, y and z of all points, by rank.
+    /// e_A/etil_A along x, y and z of the points, by rank.
     ratios: Vec<[f64; 3]>,
     /// The ratios before the last sweep, by rank.
     before: Vec<[f64; 3]>,
@@ -55,7 +55,7 @@ impl<'a> Families<'a> {
         let domain_factor = vec![1.0; coefficients.energy.len()];
         let own = coefficients.members.seats.own().iter();
         let target: Vec<f64> = own.map(|&point| targets[point as usize]).collect();
-        let mut ratios = vec![[0.0; 3]; cloud.len()];
+        let mut ratios = vec![[0.0; 3]; coefficients.members.seats.all().len()];
         let own = ratios.par_iter_mut().zip(&target).enumerate();
         own.for_each(|(rank, (ratios, &target))| {
             let factors = &domain_factor[coefficients.members.family(rank)];
@@ -105,7 +105,10 @@ impl SweptFamilies for Families<'_> {
 
     fn largest_residual(&self) -> f64 {
         let ratios = self.ratios.as_flattened().iter();
-        ratios.map(|r| (1.0 / r - 1.0).abs()).fold(0.0, f64::max)
+        let residuals = ratios.map(|r| (1.0 / r - 1.0).abs());
+        self.coefficients
+            .members
+            .largest(residuals.fold(0.0, f64::max))
     }
 
     fn into_domain_factors(self) -> Vec<f64> {

@@ -53,7 +53,8 @@ fn minimise<const N: usize>(
     cloud: &PointCloud<3>,
     settings: &Settings,
 ) -> Factors {
-    let aggregates = Aggregates::new(cloud, SolidEquations::<N>::FORCES);
+    let seats = &equations.pairs().seats;
+    let aggregates = Aggregates::new(cloud, seats, SolidEquations::<N>::FORCES);
     dual::minimise(equations, aggregates, settings)
 }
 
