@@ -13,6 +13,7 @@ use ligament_mesh::{SolidCell, SolidMesh};
 use ligament_model::correction::CorrectionReport;
 use ligament_model::element::Rigidities;
 use ligament_model::{Bonds, FixedFields};
+use ligament_run::memory::foresee_model;
 use verification::bench::case;
 use verification::problems::{BAR, TWO};
 use verification::repository;
@@ -273,4 +274,18 @@ fn faults_are_those_of_the_whole_body() {
     });
     println!("{alone:?}");
     assert!(told.iter().all(|it| *it == alone));
+}
+
+/// What one process has of a body is what must fit into its memory: half of 22 MB of bonds.
+#[test]
+fn memory_is_foreseen_for_the_bonds_of_a_process() {
+    let case = named("lattice-plate", &["solver.memory=0.016"]);
+    let setup = case.setup(&mut ()).unwrap();
+    assert!(foresee_model(&case, &setup).is_err());
+    let fits = on_ranks(2, |together| {
+        let mut setup = setup.clone();
+        setup.solver.ranks = Some(together);
+        foresee_model(&case, &setup).is_ok()
+    });
+    assert_eq!(fits, [true, true]);
 }

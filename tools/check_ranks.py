@@ -3,7 +3,7 @@
 
     tools/check_ranks.py target/ranks/ligament
 
-The program must be built with the feature petsc. Needs `mpirun` beside it; without any of them it says so and fails.
+The program must be built with the feature petsc. Needs `mpirun` beside it; without any of them it says so and fails. Needs NumPy and PyVista.
 """
 import csv
 import json
@@ -15,17 +15,24 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
+import pyvista
+
 ROOT = Path(__file__).resolve().parent.parent
 SCRATCH = ROOT / "target" / "check-ranks"
 
 # What an iteration to 1e-8 may change in a load after up to 100 breakages; it is measured to be 3e-9. A factor leaves rounding: 1e-14.
 ITERATED, FACTORISED = 1e-7, 1e-10
 
+# Fields at a point beside a crack follow the last breakage: their iteration leaves some ten times more of them than of the load.
+FIELDS = 1e-6
+
 # The 3-D body from a crack on, the disk in load steps with one bond after another, and a body whose stiffness is indefinite.
 BLOCK = ["cases/split-block/case.toml", "--set", "fracture.stop.bonds=40", "--set", "fracture.tie_tolerance=1e-6"]
 DISK = ["cases/brazilian-disk/case.toml", "--set", "fracture.stop.bonds=25", "--set", "fracture.tie_tolerance=1e-6",
         "--set", "fracture.bonds_per_iteration=1"]
 INDEFINITE = ["cases/split-block/case.toml", "--set", "fracture.stop.bonds=4", "--set", "material.poisson=0.3"]
+LATTICE = ["cases/lattice-plate/case.toml", "--set", "fracture.stop.bonds=20", "--set", "fracture.tie_tolerance=1e-6"]
 CLOSING = ["cases/closing-crack/case.toml"]
 
 # Long enough for a checkpoint to come and a process to be killed.
@@ -52,7 +59,8 @@ def broken(folder):
     """Bonds in the order of breaking, with the loads."""
     with open(folder / "breaks.csv", newline="") as file:
         rows = list(csv.DictReader(file))
-    return [(row["step"], row["node_a"], row["node_b"]) for row in rows], [float(row["reaction"]) for row in rows]
+    ends = [column for column in rows[0] if column in ("node_a", "node_b", "cell_a", "cell_b")]
+    return [(row["step"], *(row[end] for end in ends)) for row in rows], [float(row["reaction"]) for row in rows]
 
 
 def compare(name, folder, reference, tolerance):
@@ -80,6 +88,39 @@ def check_case(program, name, case, tolerance):
         assert (solver(out)["method"], solver(out)["ranks"]) == ("distributed", ranks)
         assert ("iterations" in solver(out)) == (tolerance == ITERATED)
         compare(f"{name}, {ranks} processes", out, alone, tolerance)
+
+
+def last_fields(folder):
+    """The fields of the last step by PyVista, in the order of the body: in pieces, points on borders come several times."""
+    path = sorted(it for it in folder.glob("fields_*.*vtu") if ".piece_" not in it.name)[-1]
+    grid = pyvista.read(path)
+    of_points, of_cells = ({name: np.asarray(data[name]) for name in data.keys()} for data in (grid.point_data, grid.cell_data))
+    for fields in (of_points, of_cells):
+        place = fields.pop("point_number" if fields is of_points else "cell_number", None)
+        if place is None:
+            continue
+        for name, values in fields.items():
+            whole = np.full((place.max() + 1, *values.shape[1:]), np.iinfo(values.dtype).max if values.dtype.kind == "i" else np.nan,
+                            values.dtype)
+            whole[place] = values
+            assert np.array_equal(whole[place], values), f"{path}: {name} differs between pieces"
+            fields[name] = whole
+    return path, {**of_cells, **of_points}
+
+
+def check_pieces(program, name, tolerance):
+    """What two processes wrote in pieces reads like what one wrote, also for the commands that look at results."""
+    (path, pieces), (_, whole) = (last_fields(SCRATCH / f"{name}-{it}") for it in (2, "alone"))
+    assert path.suffix == ".pvtu" and len(list(path.parent.glob(f"{path.stem}.piece_*.vtu"))) == 2, path
+    assert pieces.keys() == whole.keys(), pieces.keys() ^ whole.keys()
+    for field, values in whole.items():
+        assert pieces[field].shape == values.shape, field
+        off = np.abs(pieces[field] - values).max()
+        # Displacements of all bodies are far below a metre, and other fields are judged by their own size.
+        assert off <= tolerance * max(np.abs(values).max(), 1e-6), f"{name}: {field} is off by {off:.1e}"
+    for arguments in (["plot"], ["crack"], ["report"]):
+        call(program, None, [arguments[0], str(path.parent), *arguments[1:]])
+    print(f"  {name}: {len(whole)} fields in two pieces are those of one process")
 
 
 def processes_of(parent):
@@ -143,6 +184,9 @@ def main():
     check_case(program, "block", BLOCK, ITERATED)
     check_case(program, "disk", DISK, ITERATED)
     check_case(program, "indefinite", INDEFINITE, FACTORISED)
+    check_case(program, "lattice", LATTICE, ITERATED)
+    for name in ("block", "disk", "lattice"):
+        check_pieces(program, name, FIELDS)
     check_killed(program)
     print("several processes: all is as with one")
 

@@ -4,9 +4,11 @@ use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
 
+use ligament::model::sharing;
 use ligament::setup::{Dim, Dimension, ELASTIC_ENERGY_TOLERANCE, Horizon, Setup};
 use ligament_analysis::Equilibrium;
 use ligament_analysis::driver::Problem;
+use ligament_analysis::ranks::Together;
 use ligament_analysis::solver::n_axes;
 use ligament_analysis::stiffness::Stiffness;
 use ligament_case::case::{CaseFile, LatticeSection};
@@ -95,12 +97,16 @@ pub fn of_run(equations: usize) -> u64 {
     (MARGIN * (equations as u64 + PROGRAM) as f64) as u64
 }
 
-/// Fails where the points and bonds of a lattice, not yet made, would take more memory than there is.
+/// Fails where the points and bonds of a lattice, not yet made, would take more memory than there is in one of some processes.
 ///
 /// # Errors
 ///
 /// With both numbers.
-pub fn foresee_lattice(case: &CaseFile, lattice: &LatticeSection) -> Result<(), TooLarge> {
+pub fn foresee_lattice(
+    case: &CaseFile,
+    lattice: &LatticeSection,
+    ranks: Option<Together>,
+) -> Result<(), TooLarge> {
     let points = lattice.cells.iter().map(|&it| f64::from(it)).product();
     let [dx, dy] = lattice.spacing.0;
     let model = &case.case.model;
@@ -109,10 +115,11 @@ pub fn foresee_lattice(case: &CaseFile, lattice: &LatticeSection) -> Result<(), 
         .map(|length| PI * (length / dx) * (length / dy));
     let of_factor = |factor: f64| PI * factor * factor;
     let family = spacings.or(model.horizon_factor.map(of_factor));
-    foresee_bonds(case, points, family.unwrap_or_default())
+    let processes = ranks.map_or(1, |Together(ranks)| ranks.n_ranks());
+    foresee_bonds(case, points, family.unwrap_or_default(), processes)
 }
 
-/// Fails where the bonds of a body, not yet searched, would take more memory than there is.
+/// Fails where the bonds of a body that one process has of it, not yet searched, would take more memory than there is.
 ///
 /// # Errors
 ///
@@ -137,12 +144,19 @@ where
             ball * length.powi(D as i32) * points / box_of_body
         }
     };
-    foresee_bonds(case, points, family)
+    let processes = sharing(setup).map_or(1, |it| it.n_ranks());
+    foresee_bonds(case, points, family, processes)
 }
 
-/// Each bond is one of two families; no point has more neighbours than there are others.
-fn foresee_bonds(case: &CaseFile, points: f64, family: f64) -> Result<(), TooLarge> {
-    let bonds = 0.5 * points * family.min(points);
+/// Each bond is one of two families; no point has more neighbours than there are others. Of several processes each has all points and its
+/// part of the bonds, or a little more.
+fn foresee_bonds(
+    case: &CaseFile,
+    points: f64,
+    family: f64,
+    processes: usize,
+) -> Result<(), TooLarge> {
+    let bonds = 0.5 * points * family.min(points) / processes as f64;
     let needed = (POINT as f64 * points + BOND as f64 * bonds) as u64;
     compare(case, needed, true)
 }

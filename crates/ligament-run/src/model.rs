@@ -76,7 +76,7 @@ pub fn build_model_on(
     progress: &Progress,
 ) -> anyhow::Result<Model> {
     if let Some(lattice) = &case.case.lattice {
-        memory::foresee_lattice(case, lattice)?;
+        memory::foresee_lattice(case, lattice, ranks)?;
     }
     build(case, ranks, (stages, progress), CaseFile::setup)
 }

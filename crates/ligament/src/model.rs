@@ -11,7 +11,7 @@ use ligament_model::correction::{
     Continuum, Correction, CorrectionReport, StrainMode, energy_ratios,
 };
 use ligament_model::failure::Criteria;
-use ligament_model::portion::Portion;
+use ligament_model::portion::{Exchange, Portion};
 use ligament_model::{
     Absence, AbsentBond, BondSet, BondStiffness, BondSystem, EnergyRatio, FixedFields, PointCloud,
 };
@@ -68,9 +68,9 @@ where
     }
 }
 
-/// The part of this process in the points of a setup that several share out; none where it has all of them. Elements that lean on bonds
-/// beside them, faces that close and natural modes ask for the whole body.
-pub(crate) fn portion_of<const D: usize>(setup: &Setup<D>, cloud: &PointCloud<D>) -> Option<Portion>
+/// The processes that share the bonds of a setup out; none where each has all of them. Elements that lean on bonds beside them, faces that
+/// close and natural modes ask for the whole body.
+pub fn sharing<const D: usize>(setup: &Setup<D>) -> Option<&'static dyn Exchange>
 where
     Dim: Dimension<D>,
 {
@@ -78,7 +78,15 @@ where
     let needs_all = setup.closing
         || matches!(setup.law, Law::MbbPd { .. })
         || matches!(setup.analysis, Analysis::Modal(_));
-    (!needs_all).then(|| cloud.portion_of(ranks))
+    (!needs_all).then_some(ranks)
+}
+
+/// The part of this process in the points of a setup that several share out; none where it has all of them.
+pub(crate) fn portion_of<const D: usize>(setup: &Setup<D>, cloud: &PointCloud<D>) -> Option<Portion>
+where
+    Dim: Dimension<D>,
+{
+    sharing(setup).map(|exchange| cloud.portion_of(exchange))
 }
 
 /// What makes models in D dimensions.

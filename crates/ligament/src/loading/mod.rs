@@ -15,6 +15,7 @@ use ligament_analysis::solver::SolverSettings;
 use ligament_analysis::{LoadProgram, ProportionalLoading, StagedLoading};
 use ligament_model::Bonds;
 use ligament_model::failure::Criteria;
+use ligament_model::portion::{self, Portion};
 
 use places::Places;
 pub use places::{material_of_cell, no_fail};
@@ -59,7 +60,7 @@ impl Loading {
         let places = Places { setup, cloud };
         places.require_probes_on_body()?;
         let probes: Arc<[Probe]> = setup.probes.iter().map(|it| it.on(system)).collect();
-        sections_are_crossed(&probes)?;
+        sections_are_crossed(&probes, system.portion())?;
         let staged = staged(setup, system, &probes)?;
         let boundary = restrained(setup, system, boundary, Acting::All)?;
         Ok(Self {
@@ -87,9 +88,9 @@ impl Loading {
 }
 
 /// Refuses probes of a force through a line that no bond crosses.
-fn sections_are_crossed(probes: &[Probe]) -> Result<(), SetupError> {
+fn sections_are_crossed(probes: &[Probe], portion: Option<&Portion>) -> Result<(), SetupError> {
     let crossed = |probe: &Probe| match &probe.reading {
-        Reading::SectionForce { bonds, .. } => !bonds.is_empty(),
+        Reading::SectionForce { bonds, .. } => portion::any(portion, !bonds.is_empty()),
         _ => true,
     };
     match probes.iter().position(|probe| !crossed(probe)) {
