@@ -175,7 +175,7 @@ fn in_space(name: &str, case: &CaseFile, accuracy: Accuracy) -> Model<3> {
 
 const PATCH: &str = "correction.surface=patch";
 
-/// Pre-cracks, holes and voids, and the laws and corrections that need sums over families. In `known` are the bonds of a whole body.
+/// Pre-cracks, holes and voids, and the laws and corrections that need sums over families.
 #[test]
 fn bodies_in_the_plane_are_shared_out_to_the_bit() {
     let model = in_plane("crack", &named("central-crack", &[]), Accuracy::Bits);

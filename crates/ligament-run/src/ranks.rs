@@ -7,7 +7,7 @@ use ligament::setup::{Dim, Dimension};
 use ligament::{Loading, Model};
 use ligament_analysis::ranks::Together;
 use ligament_analysis::serial::Serial;
-use ligament_case::case::CaseFile;
+use ligament_case::case::{CaseFile, StressField};
 use ligament_model::Bonds;
 
 use crate::checkpoints::IsStopped;
@@ -25,6 +25,12 @@ where
     ensure!(
         !case.case.output.bonds || model.system.portion().is_none(),
         "output.bonds: several processes write no file of the bonds as lines; run the case with one process, or leave the key out"
+    );
+    ensure!(
+        !case.case.output.stress.contains(&StressField::Traction)
+            || model.system.portion().is_none(),
+        "output.stress: of \"traction\" several processes do not know all bonds that cross a plane; run the case with one process, or take \
+         \"virial\" alone"
     );
     let loading = Loading::new(&model.setup, &model.system);
     let mut loading = loading.map_err(|it| case.located(it))?;

@@ -10,7 +10,7 @@ use ligament_model::element::BondDeformation;
 use ligament_model::failure::Criteria;
 
 use super::breaks::Breaking;
-use super::course::{Course, Place, Restored, proof};
+use super::course::{Course, Place, Proof, Restored};
 use super::dissipation;
 use super::outcome::{Outcome, Rows};
 use super::recorder::{Energies, StepCounters, step_record};
@@ -188,6 +188,7 @@ impl<'a> Path<'a> {
             state,
             energies,
             course,
+            problem,
             ..
         } = self;
         let asked = observer.asks(end.as_ref())?;
@@ -201,7 +202,7 @@ impl<'a> Path<'a> {
             course.write(&mut out);
             equilibrium.write(&mut out);
             energies.write(&mut out);
-            proof(balanced).write(&mut out);
+            Proof::new(problem, balanced).write(&mut out);
             out
         };
         // Where processes share the body out all of them make it, and the one that asked has it.
