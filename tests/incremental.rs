@@ -16,7 +16,7 @@ use ligament_analysis::{
     ControlKind, Equilibrium, SolverSettings, State, Termination, Unknowns, assembly, dissection,
 };
 use ligament_linalg::{Elimination, Symbolic};
-use ligament_model::BondSystem;
+use ligament_model::{BondSystem, Bonds};
 use tempfile::TempDir;
 use verification::bench::{self, Bench, Watch};
 use verification::meshes;
@@ -753,7 +753,7 @@ fn whatever_the_order_and_the_factorisation() {
 }
 
 /// Nested dissection is an order of all unknowns, the same every time, and leaves far less fill than the order of the
-/// mesh; on a disk of 3,000 points no more than a quarter more multiplications than minimum degree.
+/// mesh file; on a disk of 3,000 points no more than a quarter more multiplications than minimum degree.
 #[test]
 fn nested_dissection_leaves_little_fill() {
     let bench = Bench::new(DISK, &["mesh.file=../meshes/disk-2mm.msh"]);
@@ -761,7 +761,9 @@ fn nested_dissection_leaves_little_fill() {
     let unknowns = Unknowns::all_but(system, |dof| bench.boundary.prescribed[dof].is_some());
     let order = assert_permutation(system, &unknowns);
     let pattern = Arc::new(assembly::pattern(system, &unknowns).unwrap());
-    let natural = (0..unknowns.len()).collect();
+    let points = (0..bench.points() as u32).map(|it| system.cloud.numbering.point(it));
+    let of_file = points.flat_map(|it| system.layout().range(it));
+    let natural = of_file.filter_map(|it| unknowns.number(it)).collect();
     let [dissection, natural, degree] = [
         Elimination::Given(order),
         Elimination::Given(natural),

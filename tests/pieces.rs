@@ -54,6 +54,7 @@ impl Body {
                 n_materials: 1,
                 material_shares: vec![1.0; n],
                 curve: (0..n as u32).collect(),
+                numbering: Default::default(),
                 portion: None,
             },
         }

@@ -81,8 +81,9 @@ load = [{ group = "top", pressure = 8.0, profile = { along = "x", zero = 1.0, on
 "#;
     let bench = Bench::on(&mesh, text, &[]);
     // Of p t h = 1 N a node has what the profile leaves at it; both ends of the side stand for half an edge.
+    let forces = bench.in_file(&bench.boundary.force);
     for (node, expected) in [(20, 0.0), (21, -0.25), (22, -0.5), (23, -0.75), (24, -0.5)] {
-        let force = &bench.boundary.force[3 * node..3 * node + 3];
+        let force = &forces[3 * node..3 * node + 3];
         assert_eq!(force, [0.0, expected, 0.0], "node {node}");
     }
     assert_eq!(bench.boundary.control.magnitude, 8.0);
@@ -219,10 +220,12 @@ fn displacement_is_the_volume_swept() {
         let load = format!("load = [{{ group = \"inside\", pressure = {pressure:?} }}]\n");
         let bench = Bench::new(&format!("{RING}{load}"), &[]);
         let run = bench.solve();
-        let u = |node: u32| [0, 1].map(|axis| run.displacement()[3 * node as usize + axis]);
+        let displacement = bench.in_file(run.displacement());
+        let u = |node: u32| [0, 1].map(|axis| displacement[3 * node as usize + axis]);
         let cross = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];
         let is_inner = |node: u32| {
-            bench.positions()[node as usize][0].hypot(bench.positions()[node as usize][1]) < 0.15
+            let [x, y] = mesh.positions[node as usize];
+            x.hypot(y) < 0.15
         };
         let inner = meshes::rim(&mesh)
             .into_iter()

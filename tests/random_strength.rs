@@ -3,6 +3,7 @@
 //! The distributions, the correlation and the random numbers are tested beside their code (`crates/ligament-model/src/scatter`).
 #![allow(clippy::unwrap_used)]
 
+use ligament_model::Numbering;
 use ligament_model::failure::Criterion;
 use ligament_model::scatter::{Distribution, Scatter, Scattered};
 use verification::bench::Bench;
@@ -120,7 +121,9 @@ fn a_specimen_within_one_correlation_length_has_one_strength() {
             seed,
             correlation_length: 100.0,
         };
-        let factor = scatter.factors(&[[0.012, 0.004]]).at_points[0];
+        let factor = scatter
+            .factors(&[[0.012, 0.004]], &Numbering::default())
+            .at_points[0];
         let words =
             format!("of = \"strength\", modulus = 10.0, seed = {seed}, correlation_length = 100.0");
         let found = strength(&words) / sound;
@@ -143,7 +146,7 @@ fn points_each_for_themselves_have_the_distribution() {
         seed: 42,
         correlation_length: 0.0,
     };
-    let factors = scatter.factors(&positions).at_points;
+    let factors = scatter.factors(&positions, &Numbering::default()).at_points;
     let (n, deviation) = (factors.len() as f64, distribution.deviation());
     let mean = factors.iter().sum::<f64>() / n;
     assert!((mean - 1.0).abs() < 4.0 * deviation / n.sqrt(), "{mean}");
@@ -177,7 +180,7 @@ fn factors_are_the_same_everywhere() {
     let weibull = Distribution::Weibull { modulus: 12.0 };
     let normal = Distribution::Normal { deviation: 0.1 };
     let found = [of(0.0, weibull), of(0.01, weibull), of(0.01, normal)].map(|it| {
-        it.factors(&places)
+        it.factors(&places, &Numbering::default())
             .at_points
             .iter()
             .map(|it| it.to_bits())

@@ -67,7 +67,13 @@ fn parts(group: &mut BenchmarkGroup<'_, WallTime>, bench: &Bench) {
         internal::sweep(system, left, displacement, ThermalStrain::NONE).deformations;
     let next = |count: usize| {
         let limits = &bench.model.criteria;
-        next_to_break(&rule(count), black_box(&deformations), limits, intact)
+        next_to_break(
+            &rule(count),
+            black_box(&deformations),
+            limits,
+            intact,
+            |bond| [bond, 0],
+        )
     };
     group.bench_function("choice of the next bond", |bencher| {
         bencher.iter(|| next(1));
@@ -151,7 +157,7 @@ impl Body {
         criteria: &ligament_model::failure::Criteria,
     ) -> Duration {
         let (deformations, intact) = (&self.balanced.deformations, &self.state.intact);
-        let bonds = next_to_break(rule, deformations, criteria, intact);
+        let bonds = next_to_break(rule, deformations, criteria, intact, |bond| [bond, 0]);
         let start = Instant::now();
         let breakage = self.equilibrium.break_bonds(&mut self.state, &bonds);
         let (state, watch) = (&mut self.state, &mut self.watch);

@@ -74,7 +74,12 @@ impl Case {
         let (model, canvas) = self.model();
         let loading = Loading::new(&model.setup, &model.system).unwrap();
         let problem = loading.problem(&model.system, &model.criteria);
-        let mut recorder = Recorder::new(&self.file.case, &model, &canvas, problem.clone());
+        let mut recorder = Recorder::new(
+            &self.file.case,
+            (&model, self.mesh.as_deref()),
+            &canvas,
+            problem.clone(),
+        );
         follow(&problem, &model.setup.analysis, &mut recorder).unwrap();
         recorder.finish().write(&self.folder);
     }
@@ -84,7 +89,7 @@ impl Case {
         run::run(&self.file, &self.results(), false, ProgressMode::Quiet).unwrap();
         let (model, canvas) = self.model();
         let outcome = self.file.setup(&mut ()).unwrap().modes().unwrap();
-        let mut expected = Expected::default();
+        let mut expected = Expected::new(self.mesh.as_deref(), &model);
         let mut table = Rows::new([
             "mode",
             "kind",
@@ -134,7 +139,7 @@ impl Case {
         let mut said = Vec::new();
         check::check(&self.file, Extent::Model, Some(&self.results()), &mut said).unwrap();
         let (model, canvas) = self.model();
-        let mut expected = Expected::default();
+        let mut expected = Expected::new(self.mesh.as_deref(), &model);
         canvas.grid("points.vtu", &mut expected);
         canvas.on("points.vtu", &mut expected).fixed(&model);
         expected.write(&self.folder);
@@ -165,7 +170,7 @@ impl Case {
             ("compression", alone(2)),
             ("first_of_all", Criteria::clone(&model.criteria)),
         ];
-        let mut expected = Expected::default();
+        let mut expected = Expected::new(self.mesh.as_deref(), &model);
         canvas.grid("points.vtu", &mut expected);
         let mut fields = canvas.on("points.vtu", &mut expected);
         for (criterion, criteria) in of {

@@ -1,6 +1,8 @@
 //! An observer that keeps what a run has in memory, apart from the writer of the results.
 
 use ligament::setup::Analysis;
+use std::path::Path;
+
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::{Component, ControlKind, fields};
@@ -79,7 +81,7 @@ fn component(name: &str, deformation: &ligament_analysis::BondDeformation) -> f6
 impl<'a> Recorder<'a> {
     pub(crate) fn new(
         case: &ligament_case::case::Case,
-        model: &'a Model,
+        (model, mesh): (&'a Model, Option<&Path>),
         canvas: &'a Canvas,
         problem: Problem,
     ) -> Self {
@@ -129,7 +131,7 @@ impl<'a> Recorder<'a> {
         ];
         let n_bonds = problem.system.ends().len();
         Self {
-            expected: Expected::default(),
+            expected: Expected::new(mesh, model),
             model,
             canvas,
             fields_every: case.output.fields_every.unwrap() as usize,
@@ -205,6 +207,7 @@ impl<'a> Recorder<'a> {
             .loads
             .reactions(state.load_factor, &balanced.internal.values);
         let reactions = by_point(layout, &reactions);
+        let fragments = self.expected.parts(&view.fragments.of_point);
         let mut fields_of = self.canvas.on(file, &mut self.expected);
         fields_of.reals("rotation", motions.iter().map(|it| it[2]));
         fields_of.reals("damage", fields::damage(system, &state.intact));
@@ -222,8 +225,7 @@ impl<'a> Recorder<'a> {
             ["", "", ""],
             reactions.iter().map(|it| [it[0], it[1], 0.0]),
         );
-        let fragments = view.fragments.of_point.iter();
-        fields_of.integers("fragment", fragments.map(|&it| i64::from(it)));
+        fields_of.integers("fragment", fragments);
         let held = points
             .clone()
             .map(|it| i64::from(state.held[layout.range(it as u32)].contains(&true)));
@@ -258,9 +260,8 @@ impl<'a> Recorder<'a> {
 
     fn write_bonds(&mut self, file: &str, view: &View<'_>) {
         let (system, deformations) = (&*self.model.system, &view.balanced.deformations);
-        let ends = system.bonds.ends.iter().map(|it| it.as_slice());
-        let positions = self.model.body().positions().iter().copied();
-        self.expected.grid(file, positions, ends);
+        let positions = self.model.body().positions();
+        self.expected.lines(file, positions, system.bonds.len());
         let point = Place {
             file,
             part: "point",
@@ -301,11 +302,9 @@ impl<'a> Recorder<'a> {
     fn model_file(&mut self) {
         let (file, system, fixed) = ("model.vtu", &*self.model.system, &self.model.fixed);
         let absent = &fixed.absent;
-        let ends = system.bonds.ends.iter().map(|it| it.as_slice());
-        let absent_ends = absent.iter().map(|it| it.ends.as_slice());
-        let positions = self.model.body().positions().iter().copied();
+        let n_lines = system.bonds.len() + absent.len();
         let expected = &mut self.expected;
-        expected.grid(file, positions, ends.chain(absent_ends));
+        expected.lines(file, self.model.body().positions(), n_lines);
         let point = |name| Place {
             file,
             part: "point",
@@ -397,7 +396,9 @@ impl Observer for Recorder<'_> {
     fn broke(&mut self, records: &[BreakRecord]) -> Result<(), ObserverError> {
         for record in records {
             self.step_of_breaking[record.bond as usize] = record.step as i64;
-            let ends = self.problem.system.ends()[record.bond as usize];
+            let ends = self
+                .expected
+                .in_file(self.problem.system.ends()[record.bond as usize]);
             let [a, b] = ends.map(|end| self.model.body().tag(end) as usize);
             let row: [Entry; 10] = [
                 record.order.into(),
@@ -441,7 +442,8 @@ impl Observer for Recorder<'_> {
         self.see_largest(record.step, view);
         if let Some(softened) = &mut self.softened {
             let body = self.model.body();
-            let tags = |bond: usize| view.system.ends()[bond].map(|end| body.tag(end) as usize);
+            let in_file = |bond: usize| self.expected.in_file(view.system.ends()[bond]);
+            let tags = |bond: usize| in_file(bond).map(|end| body.tag(end) as usize);
             softened.step(record, view, tags, &self.labels);
         }
         let missing = record.external_work - record.stored_energy - record.released_energy;

@@ -164,7 +164,31 @@ impl Bench {
         self.model.system.cloud.len()
     }
 
-    /// Positions as in the mesh file, or of the centres of the cells.
+    /// Values of the points, so many a point, in the order of the mesh file.
+    pub fn in_file(&self, values: &[f64]) -> Vec<f64> {
+        self.model.body().numbering().to_file(values.to_vec())
+    }
+
+    /// Bonds in the order of their ends in the mesh file.
+    pub fn bonds_in_file(&self) -> Vec<u32> {
+        let ends = &self.model.system.bonds.ends;
+        let order = self.model.body().numbering().bonds_in_file(ends);
+        order.unwrap_or_else(|| (0..ends.len() as u32).collect())
+    }
+
+    /// Values of the bonds in that order.
+    pub fn of_bonds(&self, values: &[f64]) -> Vec<f64> {
+        let bonds = self.bonds_in_file().into_iter();
+        bonds.map(|bond| values[bond as usize]).collect()
+    }
+
+    /// Nodes of the ends of a bond in the mesh file, ascending.
+    pub fn nodes_of_bond(&self, bond: u32) -> [u32; 2] {
+        let ends = self.model.system.bonds.ends[bond as usize];
+        self.model.body().numbering().ends_in_file(ends)
+    }
+
+    /// Positions of the nodes of the mesh, or of the centres of the cells, in the order of the points.
     pub fn positions(&self) -> &[[f64; 2]] {
         self.model.body().positions()
     }

@@ -1,7 +1,7 @@
 //! Solids made by hand: blocks of cells, and lattices of boxes.
 
 use ligament_mesh::SolidCell;
-use ligament_model::{BodyGrid, Canvas};
+use ligament_model::{BodyGrid, Canvas, Numbering};
 
 /// A block of cells of side 1 with its nodes moved at random by up to a share of it, but for those on the outside, which stay there.
 pub fn block(cells: [usize; 3], moved: f64) -> BodyGrid {
@@ -51,6 +51,7 @@ pub fn drawn(state: &mut u64) -> f64 {
 
 fn grid(positions: Vec<[f64; 3]>, canvas: Canvas) -> BodyGrid {
     BodyGrid {
+        numbering: Numbering::default(),
         tags: (0..positions.len() as i64).collect(),
         positions,
         tagged: "node",

@@ -56,6 +56,7 @@ impl Truss {
     pub fn new(places: &[f64], rods: &[Rod], kind: ControlKind, controlled: u32) -> Self {
         let n = places.len();
         let cloud = PointCloud {
+            numbering: Default::default(),
             positions: places.iter().map(|&x| [x, 0.0]).collect(),
             origin: [0.0; 2],
             thickness: 1.0,

@@ -2,6 +2,8 @@
 //!
 //! A bond is judged by the criterion that brings it nearest to its breakage: measure over limit, s/s_0 for most.
 
+use std::collections::BTreeMap;
+
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::{Criteria, Verdict};
 use rayon::prelude::*;
@@ -35,15 +37,18 @@ pub struct BreakingRule {
 /// The bonds to break now, in order; empty where no intact bond is at its limit.
 ///
 /// The bond that leads the order takes the whole group tied with it along, also members just under their limit, so that
-/// symmetric problems stay symmetric; the group is in the order of the bond numbers and never split. Groups follow until
-/// `bonds_per_iteration` is reached or passed.
+/// symmetric problems stay symmetric; the group is in the order of the numbers that `in_file` gives the ends of a bond, and never
+/// split. Groups follow until `bonds_per_iteration` is reached or passed.
 pub fn next_to_break(
     rule: &BreakingRule,
     deformations: &[BondDeformation],
     criteria: &Criteria,
     intact: &[bool],
+    in_file: impl Fn(u32) -> [u32; 2],
 ) -> Vec<u32> {
-    chosen(rule, near_limit(rule, deformations, criteria, intact))
+    let mut near = near_limit(rule, deformations, criteria, intact);
+    near.iter_mut().for_each(|it| it.in_file = in_file(it.bond));
+    chosen(rule, near)
 }
 
 /// The bonds of a body that processes share out which are to break now, by their numbers among all of its bonds.
@@ -53,18 +58,21 @@ pub(crate) fn next_of_all(
     deformations: &[BondDeformation],
     criteria: &Criteria,
     intact: &[bool],
+    in_file: impl Fn(u32) -> [u32; 2],
 ) -> Vec<u32> {
     let counted = numbers.counted_of(intact);
     let here = near_limit(rule, deformations, criteria, &counted).into_iter();
     let here = here.map(|it| {
         let number = f64::from(numbers.number(it.bond as usize));
         let exceeds = f64::from(u8::from(it.exceeds));
-        [number, it.rank, it.tie_scale, exceeds]
+        let [a, b] = in_file(it.bond).map(f64::from);
+        [number, it.rank, it.tie_scale, exceeds, a, b]
     });
-    let here: Vec<[f64; 4]> = here.collect();
+    let here: Vec<[f64; 6]> = here.collect();
     let of_ranks = numbers.portion().concatenated(&here).into_iter();
-    let of_ranks = of_ranks.map(|[number, rank, tie_scale, exceeds]| Candidate {
+    let of_ranks = of_ranks.map(|[number, rank, tie_scale, exceeds, a, b]| Candidate {
         bond: number as u32,
+        in_file: [a as u32, b as u32],
         rank,
         tie_scale,
         exceeds: exceeds > 0.0,
@@ -99,7 +107,7 @@ fn chosen(rule: &BreakingRule, mut ranked: Vec<Candidate>) -> Vec<u32> {
         other
             .rank
             .total_cmp(&one.rank)
-            .then(one.bond.cmp(&other.bond))
+            .then(one.in_file.cmp(&other.in_file))
     });
     let mut chosen = Vec::new();
     let mut rest = ranked.as_slice();
@@ -114,9 +122,9 @@ fn chosen(rule: &BreakingRule, mut ranked: Vec<Candidate>) -> Vec<u32> {
             .iter()
             .position(|candidate| candidate.rank < lowest_tied)
             .unwrap_or(rest.len());
-        let mut group: Vec<u32> = rest[..end].iter().map(|candidate| candidate.bond).collect();
-        group.sort_unstable();
-        chosen.extend(group);
+        let mut group = rest[..end].to_vec();
+        group.sort_unstable_by_key(|candidate| candidate.in_file);
+        chosen.extend(group.iter().map(|candidate| candidate.bond));
         rest = &rest[end..];
     }
     chosen
@@ -129,6 +137,14 @@ pub struct FirstToBreak {
     pub ratio: f64,
     /// The bond with this ratio and those tied with it, in the order of their numbers.
     pub bonds: Vec<u32>,
+}
+
+impl FirstToBreak {
+    /// With the bonds in the order of the numbers of their ends in the file.
+    pub(crate) fn sorted(mut self, in_file: impl Fn(u32) -> [u32; 2]) -> Self {
+        self.bonds.sort_unstable_by_key(|bond| in_file(*bond));
+        self
+    }
 }
 
 /// The intact bonds nearest to breakage, with those within the relative `tie_tolerance` below the largest ratio.
@@ -148,19 +164,23 @@ pub(crate) fn first_of_all(
     deformations: &[BondDeformation],
     criteria: &Criteria,
     intact: &[bool],
+    in_file: impl Fn(u32) -> [u32; 2],
 ) -> FirstToBreak {
     let counted = numbers.counted_of(intact);
     let here = leaders(tie_tolerance, deformations, criteria, &counted);
     let here = here.tied().map(|(bond, ratio)| {
         let number = f64::from(numbers.number(bond as usize));
-        [number, ratio]
+        let [a, b] = in_file(bond).map(f64::from);
+        [number, ratio, a, b]
     });
     let here: Vec<_> = here.collect();
     let mut leaders = Leaders::new(tie_tolerance);
-    for [number, ratio] in numbers.portion().concatenated(&here) {
+    let mut ends = BTreeMap::new();
+    for [number, ratio, a, b] in numbers.portion().concatenated(&here) {
         leaders.meet(number as u32, ratio);
+        ends.insert(number as u32, [a as u32, b as u32]);
     }
-    leaders.first_to_break()
+    leaders.first_to_break().sorted(|bond| ends[&bond])
 }
 
 fn leaders(
@@ -259,6 +279,8 @@ impl Leaders {
 #[derive(Clone)]
 struct Candidate {
     bond: u32,
+    /// Numbers of its ends in the file.
+    in_file: [u32; 2],
     rank: f64,
     tie_scale: f64,
     exceeds: bool,
@@ -272,6 +294,7 @@ impl Candidate {
         };
         Self {
             bond,
+            in_file: [0; 2],
             rank,
             tie_scale,
             exceeds: verdict.measure >= verdict.limit,
@@ -295,7 +318,13 @@ mod tests {
             .iter()
             .map(|&stretch| BondDeformation::new([stretch, 0.0, 0.0]))
             .collect();
-        next_to_break(rule, &deformations, &stretch_limits(limit), intact)
+        next_to_break(
+            rule,
+            &deformations,
+            &stretch_limits(limit),
+            intact,
+            |bond| [bond, 0],
+        )
     }
 
     fn rule(order: BreakingOrder, bonds_per_iteration: usize) -> BreakingRule {

@@ -19,6 +19,14 @@ impl Cell {
         }
     }
 
+    /// The corner nodes of the cell, ascending, and the largest number behind those of a triangle.
+    pub(crate) fn sorted_corners(&self) -> [u32; 4] {
+        let mut sorted = [u32::MAX; 4];
+        sorted[..self.corners().len()].copy_from_slice(self.corners());
+        sorted.sort_unstable();
+        sorted
+    }
+
     /// The corner nodes of the cell, to be renumbered or turned around.
     pub(crate) fn corners_mut(&mut self) -> &mut [u32] {
         match self {

@@ -18,17 +18,21 @@
 
 mod any_mesh;
 mod cell;
+mod curve;
 mod field;
 pub mod gmsh;
 mod group;
 mod mesh;
+mod numbering;
 mod remark;
 mod solid;
 
 pub use any_mesh::AnyMesh;
 pub use cell::Cell;
+pub use curve::along_hilbert_curve;
 pub use field::NodeField;
 pub use group::Group;
 pub use mesh::Mesh;
+pub use numbering::Numbering;
 pub use remark::Remark;
 pub use solid::{Faces, OffSurface, Side, SolidCell, SolidMesh};

@@ -1,12 +1,14 @@
 //! The body as fields of its points are drawn on it.
 
-use ligament_mesh::{Cell, SolidCell};
+use ligament_mesh::{Cell, Numbering, SolidCell};
 
 /// A body with its points, their tags and what their fields are drawn on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyGrid {
     /// Positions of the points, shape (n_points), m; in the plane z = 0.
     pub positions: Vec<[f64; 3]>,
+    /// How the points are numbered: here, and in the file.
+    pub numbering: Numbering,
     /// Tags that points go by: of the nodes in a mesh file, of the cells of a lattice, shape (n_points).
     pub tags: Vec<i64>,
     /// What a tag is one of: `node`, `cell` or `point`.
@@ -31,6 +33,30 @@ pub enum Canvas {
 }
 
 impl BodyGrid {
+    /// The body with its points in the order of the file.
+    pub fn in_order_of_file(&self) -> Self {
+        let numbering = &self.numbering;
+        let canvas = match self.canvas.clone() {
+            Canvas::Between(cells) => Canvas::Between(numbering.cells_in_file(cells)),
+            Canvas::Around(corners) => Canvas::Around(numbering.to_file(corners)),
+            Canvas::Solid(cells) => Canvas::Solid(numbering.solid_cells_in_file(cells)),
+            Canvas::Boxes(boxes) => Canvas::Boxes(numbering.to_file(boxes)),
+        };
+        Self {
+            positions: numbering.to_file(self.positions.clone()),
+            numbering: Numbering::default(),
+            tags: numbering.to_file(self.tags.clone()),
+            tagged: self.tagged,
+            canvas,
+        }
+    }
+
+    /// Tags of the ends of a bond, that of the smaller number in the file first.
+    pub fn tags_of(&self, ends: [u32; 2]) -> [i64; 2] {
+        let ends = self.numbering.ordered(ends);
+        ends.map(|end| self.tags[end as usize])
+    }
+
     /// Positions of the points along x and y, shape (n_points), m.
     pub fn positions_in_plane(&self) -> Vec<[f64; 2]> {
         self.positions.iter().map(|&[x, y, _]| [x, y]).collect()

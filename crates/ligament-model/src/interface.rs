@@ -2,6 +2,7 @@
 //!
 //! A sweep over all bonds is one call through the interface; the loop inside knows the element as a type.
 
+use ligament_mesh::Numbering;
 use rayon::prelude::*;
 
 use crate::bonds::{BondSet, Incidence};
@@ -28,6 +29,9 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     /// Number of points.
     fn n_points(&self) -> usize;
 
+    /// How the points are numbered: here, and in the file.
+    fn numbering(&self) -> &Numbering;
+
     /// The part of this process in the body; none where it has the whole body.
     fn portion(&self) -> Option<&Portion>;
 
@@ -47,6 +51,11 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
 
     /// Points A < B of each bond, shape (n_bonds).
     fn ends(&self) -> &[[u32; 2]];
+
+    /// Numbers in the file of the ends of a bond, ascending: what is tied goes by them.
+    fn ends_in_file(&self, bond: u32) -> [u32; 2] {
+        self.numbering().ends_in_file(self.ends()[bond as usize])
+    }
 
     /// The bonds of each point.
     fn incidence(&self) -> &Incidence;
@@ -106,7 +115,7 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     fn halve(&self, points: &mut [u32]);
 
     /// Degrees of freedom that hold the rigid motions of some connected points which cost no energy, as far as fixed ones do
-    /// not; those that hold most first. `can_hold` tells what has a stiffness.
+    /// not; those that hold most first, of equals the first in the file. `can_hold` tells what has a stiffness.
     fn holds(
         &self,
         points: &[u32],

@@ -125,8 +125,12 @@ impl Observer for Collector<'_> {
         self.kept.first.broke(records)?;
         for record in records {
             let ends = self.ends[record.bond as usize];
-            let tags = ends.map(|end| self.grid.tags[end as usize]);
-            let row = break_row(record, tags, &self.criteria, self.n_components);
+            let row = break_row(
+                record,
+                self.grid.tags_of(ends),
+                &self.criteria,
+                self.n_components,
+            );
             self.kept.breaks.append(&row);
             self.kept.broken.push(ends);
             self.kept.step_of_breaking[record.bond as usize] = record.step as i64;

@@ -26,6 +26,7 @@ mod collector;
 mod document;
 mod drawing;
 mod errors;
+mod in_file;
 mod modes;
 mod program;
 mod run;

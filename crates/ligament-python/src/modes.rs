@@ -40,15 +40,16 @@ pub(crate) fn modes<'py>(py: Python<'py>, case: &Bound<'py, Case>) -> PyResult<B
     named.set_item("complete", outcome.complete)?;
     let notices: Vec<String> = outcome.notices.iter().map(ToString::to_string).collect();
     named.set_item("warnings", notices)?;
-    named.set_item("position", positions(py, &grid)?)?;
+    named.set_item("position", positions(py, &grid.in_order_of_file())?)?;
+    let numbering = &grid.numbering;
     let mut shapes = Vec::new();
     for mode in outcome.modes {
         let of_mode = PyDict::new(py);
-        let displacement = in_space(layout, &mode.shape);
+        let displacement = numbering.to_file(in_space(layout, &mode.shape));
         of_mode.set_item("displacement", rows(py, displacement, 3)?)?;
         of_mode.set_item(
             "strain_energy_density",
-            array(py, mode.strain_energy_density),
+            array(py, numbering.to_file(mode.strain_energy_density)),
         )?;
         shapes.push(of_mode);
     }

@@ -15,6 +15,7 @@ use crate::case::Case;
 use crate::collector::{Fields, Kept};
 use crate::drawing::{self, Picture};
 use crate::errors;
+use crate::in_file::in_order_of_file;
 use crate::solution::{Solved, solve, watched};
 
 /// What a run gave.
@@ -63,7 +64,7 @@ pub(crate) fn run(
     let case = case.get();
     let (solved, stopped) = watched(py, report, |sender, stop| solve(case, sender, stop))?;
     let solved = solved.map_err(|failure| failure.exception(py))?;
-    Ok((Run::new(py, solved)?, stopped))
+    Ok((Run::new(py, in_order_of_file(solved))?, stopped))
 }
 
 #[pymethods]

@@ -233,7 +233,8 @@ impl Summary {
             overlap: outcome.overlap.map(|it| OverlapSummary {
                 depth: it.depth,
                 step: it.step,
-                between: it.ends.map(|end| model.body().place(end)),
+                between: (model.body().numbering().ordered(it.ends))
+                    .map(|end| model.body().place(end)),
             }),
             stability: outcome.stability.map(StabilitySummary::from),
             solver: SolverSummary::new(&outcome.costs, &outcome.solver),

@@ -89,7 +89,8 @@ where
                 self.body.label(*first)
             ),
             Notice::Mechanisms { step, points } => {
-                let shown = points.iter().take(SHOWN);
+                let in_file = self.body.numbering().sorted(points).into_owned();
+                let shown = in_file.iter().take(SHOWN);
                 let tags: Vec<String> = shown
                     .map(|&point| self.body.tag(point).to_string())
                     .collect();
@@ -101,6 +102,7 @@ where
                 )
             }
             Notice::Overlap(LargestOverlap { depth, ends, step }) => {
+                let ends = self.body.numbering().ordered(*ends);
                 let [a, b] = ends.map(|end| self.body.label(end));
                 format!(
                     "step {step}: the faces of a crack pass through each other, by {depth:.2e} m between {a} and {b}, and nothing \

@@ -1,9 +1,9 @@
 //! Stress concentration at a round hole in a plate under tension.
 
 use anyhow::Context;
+use ligament::body::Origin;
 use ligament::run::Solution;
 use ligament_analysis::Bonds;
-use ligament_mesh::{Mesh, gmsh};
 use ligament_model::BondsLeft;
 use ligament_model::thermal::ThermalStrain;
 
@@ -55,9 +55,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
             .on_mesh(stored)
             .set("model.horizon_factor", labels.number("lambda")?)
             .set("correction.surface", labels.text("correction")?);
-        let reading = memory.reading(&trial, |solution| {
-            read(solution, &gmsh::parse(stored.bytes)?)
-        })?;
+        let reading = memory.reading(&trial, read)?;
         let from = labels.text("from")?;
         let from = FROM.iter().position(|it| *it == from);
         Ok(reading[from.context("no such stress")?][usize::from(labels.text("of")? == "scatter")])
@@ -69,7 +67,10 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     })
 }
 
-fn read(solution: &Solution, mesh: &Mesh) -> anyhow::Result<Reading> {
+fn read(solution: &Solution) -> anyhow::Result<Reading> {
+    let Origin::Mesh(mesh) = solution.model.body().origin() else {
+        anyhow::bail!("the body is no mesh");
+    };
     let rim = mesh.group("hole").context("the mesh has no hole")?;
     let moved: Vec<[f64; 2]> = displacements(solution).collect();
     let strains = rim.edges.iter().map(|edge| {

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use anyhow::Context;
+use ligament::Model;
 use ligament::body::MeshBody;
 use ligament::patch_test::{PatchTest, patch_test};
 use ligament_mesh::gmsh;
@@ -135,6 +136,19 @@ fn further_from_one(one: f64, other: f64) -> f64 {
     }
 }
 
+/// The factors of the bonds and their ratios, in the order of the mesh file.
+fn factors(model: Model) -> Vec<f64> {
+    let (numbering, ends) = (model.body().numbering(), &model.system.bonds.ends);
+    let mut bonds: Vec<usize> = (0..ends.len()).collect();
+    bonds.sort_by_key(|&bond| numbering.ends_in_file(ends[bond]));
+    let fixed = &model.fixed;
+    let both = [&fixed.domain_factor, &fixed.shear_ratio].into_iter();
+    let found = both.filter(|it| !it.is_empty());
+    found
+        .flat_map(|values| bonds.iter().map(|&bond| values[bond]))
+        .collect()
+}
+
 /// Root mean square of the change of the factors of the bonds when the mesh is turned.
 fn turned(labels: Labels<'_>) -> anyhow::Result<f64> {
     let (sin, cos) = labels.number("angle")?.to_radians().sin_cos();
@@ -146,11 +160,8 @@ fn turned(labels: Labels<'_>) -> anyhow::Result<f64> {
     }
     let straight = trial.model()?;
     let turned = trial.model_with(|setup| setup.body = Arc::new(MeshBody::from(mesh)))?;
-    let pairs = |one: Vec<f64>, other: Vec<f64>| one.into_iter().zip(other);
-    let factors = pairs(turned.fixed.domain_factor, straight.fixed.domain_factor);
-    let ratios = pairs(turned.fixed.shear_ratio, straight.fixed.shear_ratio);
     let (mut sum, mut count) = (0.0, 0.0);
-    for (turned, straight) in factors.chain(ratios) {
+    for (turned, straight) in factors(turned).into_iter().zip(factors(straight)) {
         sum += (turned / straight - 1.0_f64).powi(2);
         count += 1.0;
     }

@@ -144,7 +144,8 @@ impl Model {
             shear_ratio: correction.shear_ratio.clone(),
             patch_residual: correction.patch_residual().to_vec(),
             no_fail: loading::no_fail(&setup, &cloud)?,
-            scatter: (setup.scatter).map(|it| it.factors(setup.body.positions())),
+            scatter: (setup.scatter)
+                .map(|it| it.factors(setup.body.positions(), &setup.body.numbering())),
             absent,
         };
         let system = stage(watcher, "rigidities", || {

@@ -29,7 +29,8 @@ pub(crate) fn forbid_overlap(body: &dyn Body, cloud: &PointCloud) -> Result<(), 
 pub(crate) fn require_distinct(body: &dyn Body, cloud: &PointCloud) -> Result<(), SetupError> {
     let size = |point: usize| (cloud.volumes[point] / cloud.thickness).sqrt();
     let is_near = |&point: &usize| cloud.spacing[point] < DISTINCT * size(point);
-    let Some(point) = (0..cloud.len()).find(is_near) else {
+    let mut in_file = (0..cloud.len() as u32).map(|it| cloud.numbering.point(it) as usize);
+    let Some(point) = in_file.find(is_near) else {
         return Ok(());
     };
     let from = cloud.positions[point];
@@ -54,7 +55,7 @@ pub(crate) fn require_neighbours<const D: usize>(
     bonds: &BondSet<D>,
 ) -> Result<(), SetupError> {
     let lone = bonds.lone_points(cloud);
-    let Some(&first) = lone.first() else {
+    let Some(&first) = cloud.numbering.sorted(&lone).first() else {
         return Ok(());
     };
     let fault = Fault::LonePoints {
@@ -155,7 +156,7 @@ pub(crate) fn require_rigidities<const D: usize>(
     let first = (cloud.portion.as_ref()).map_or(wrong, |portion| portion.least(wrong));
     if let Some(ends) = first {
         return Err(Field::whole("materials").error(Fault::NoNumber {
-            places: ends.map(|end| body.place(end as u32)),
+            places: (cloud.numbering.ordered(ends.map(|it| it as u32))).map(|end| body.place(end)),
         }));
     }
     // The square of a strain of one in 10^14 counts as well.

@@ -245,10 +245,18 @@ impl<'a> Path<'a> {
         deformations: &[BondDeformation],
         criteria: &Criteria,
     ) -> FirstToBreak {
-        let intact = &self.state.intact;
+        let (intact, system) = (&self.state.intact, &self.problem.system);
+        let in_file = |bond| system.ends_in_file(bond);
         match self.equilibrium.numbers() {
-            None => first_to_break(tie_tolerance, deformations, criteria, intact),
-            Some(numbers) => first_of_all(numbers, tie_tolerance, deformations, criteria, intact),
+            None => first_to_break(tie_tolerance, deformations, criteria, intact).sorted(in_file),
+            Some(numbers) => first_of_all(
+                numbers,
+                tie_tolerance,
+                deformations,
+                criteria,
+                intact,
+                in_file,
+            ),
         }
     }
 

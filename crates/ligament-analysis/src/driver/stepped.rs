@@ -263,10 +263,11 @@ impl Stepping<'_> {
             ..self.settings.rule
         };
         let (deformations, criteria) = (&balanced.deformations, self.path.criteria(balanced));
-        let intact = &self.path.state.intact;
+        let (intact, system) = (&self.path.state.intact, &self.path.problem.system);
+        let in_file = |bond| system.ends_in_file(bond);
         let next = match self.path.equilibrium.numbers() {
-            None => next_to_break(&rule, deformations, &criteria, intact),
-            Some(numbers) => next_of_all(numbers, &rule, deformations, &criteria, intact),
+            None => next_to_break(&rule, deformations, &criteria, intact, in_file),
+            Some(numbers) => next_of_all(numbers, &rule, deformations, &criteria, intact, in_file),
         };
         self.path.equilibrium.count_bond_work(start);
         next

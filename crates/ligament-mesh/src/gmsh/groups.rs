@@ -104,8 +104,8 @@ fn finished(
         let key = |edge: &[u32; 2]| (edge[0].min(edge[1]), edge[0].max(edge[1]));
         group.edges.sort_by_key(key);
         group.edges.dedup_by_key(|edge| key(edge));
-        group.faces.sort_by_key(sorted_corners);
-        group.faces.dedup_by_key(|face| sorted_corners(face));
+        group.faces.sort_by_key(Cell::sorted_corners);
+        group.faces.dedup_by_key(|face| face.sorted_corners());
     }
     remarks.extend(empty.into_iter().map(
         |Group {
@@ -129,11 +129,4 @@ fn ascending(mut nodes: Vec<u32>, n_nodes: usize) -> Vec<u32> {
     }
     let all = 0..n_nodes as u32;
     all.filter(|node| is_in[*node as usize]).collect()
-}
-
-fn sorted_corners(face: &Cell) -> [u32; 4] {
-    let mut key = [u32::MAX; 4];
-    key[..face.corners().len()].copy_from_slice(face.corners());
-    key.sort_unstable();
-    key
 }

@@ -95,8 +95,7 @@ impl SolidCell {
     }
 
     /// The corner nodes of the cell, to be renumbered or turned round.
-    #[cfg(test)]
-    fn corners_mut(&mut self) -> &mut [u32] {
+    pub(crate) fn corners_mut(&mut self) -> &mut [u32] {
         match self {
             SolidCell::Tetrahedron(corners) => corners,
             SolidCell::Hexahedron(corners) => corners,

@@ -118,15 +118,9 @@ impl SolidMesh {
 
 /// The faces, each once.
 fn once(faces: &[Cell]) -> Vec<Cell> {
-    let key = |face: &Cell| {
-        let mut key = [u32::MAX; 4];
-        key[..face.corners().len()].copy_from_slice(face.corners());
-        key.sort_unstable();
-        key
-    };
     let mut faces = faces.to_vec();
-    faces.sort_by_key(key);
-    faces.dedup_by_key(|face| key(face));
+    faces.sort_by_key(Cell::sorted_corners);
+    faces.dedup_by_key(|face| face.sorted_corners());
     faces
 }
 

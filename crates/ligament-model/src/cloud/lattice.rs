@@ -1,7 +1,8 @@
 //! A regular lattice: points at the centres of the cells of a rectangle or a box, some of which may be removed.
 
+use ligament_mesh::{Numbering, along_hilbert_curve};
+
 use super::PointCloud;
-use crate::curve::along_hilbert_curve;
 use crate::horizon::INCLUSION_TOLERANCE;
 use crate::shape::{Region, Shape};
 
@@ -243,6 +244,7 @@ impl<const D: usize> PointCloud<D> {
             lattice_cell: Some(lattice.spacing),
             n_materials,
             material_shares,
+            numbering: Numbering::default(),
             portion: None,
         }
     }

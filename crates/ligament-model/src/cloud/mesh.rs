@@ -1,9 +1,8 @@
 //! Lumping: the nodes of a mesh become material points that carry the volume of its cells.
 
-use ligament_mesh::{Cell, Mesh};
+use ligament_mesh::{Cell, Mesh, Numbering, along_hilbert_curve};
 
 use super::{PointCloud, distance, middle_of_bounding_box, search_tree};
-use crate::curve::along_hilbert_curve;
 use crate::horizon::INCLUSION_TOLERANCE;
 
 impl PointCloud {
@@ -44,6 +43,7 @@ impl PointCloud {
             .collect();
         let mut cloud = Self {
             curve: along_hilbert_curve(&positions),
+            numbering: Numbering::default(),
             portion: None,
             positions,
             origin,

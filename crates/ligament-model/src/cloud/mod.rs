@@ -4,6 +4,7 @@ pub mod lattice;
 pub(crate) mod mesh;
 mod points;
 
+use ligament_mesh::Numbering;
 use rayon::prelude::*;
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
@@ -36,6 +37,8 @@ pub struct PointCloud<const D: usize = 2> {
     pub material_shares: Vec<f64>,
     /// All points in the order of a Hilbert curve, shape (n_points): for loops that visit the neighbours of points.
     pub curve: Vec<u32>,
+    /// How the points are numbered: in what follows, and in the file.
+    pub numbering: Numbering,
     /// The part of this process in the points, where it is one of several.
     pub portion: Option<Portion>,
 }
@@ -151,7 +154,7 @@ impl<const D: usize> PointCloud<D> {
             .sum()
     }
 
-    /// The point nearest to a position of the case (the one with the smallest number where several are, up to rounding).
+    /// The point nearest to a position of the case (the one with the smallest number in the file where several are, up to rounding).
     ///
     /// # Panics
     ///
@@ -161,9 +164,14 @@ impl<const D: usize> PointCloud<D> {
         let nearest = (self.positions.iter())
             .map(|&p| distance(p, target))
             .fold(f64::INFINITY, f64::min);
-        (0..self.len())
-            .find(|&point| distance(self.positions[point], target) <= nearest + self.slack(point))
-            .expect("a cloud has points") as u32
+        let is_nearest = |&point: &u32| {
+            let point = point as usize;
+            distance(self.positions[point], target) <= nearest + self.slack(point)
+        };
+        (0..self.len() as u32)
+            .map(|in_file| self.numbering.point(in_file))
+            .find(is_nearest)
+            .expect("a cloud has points")
     }
 
     /// The points nearest to many positions of the case, by a search tree; of several at one distance it may be any.

@@ -1,7 +1,8 @@
 //! Points that are given one by one, with their volumes.
 
+use ligament_mesh::{Numbering, along_hilbert_curve};
+
 use super::{PointCloud, search_tree};
-use crate::curve::along_hilbert_curve;
 
 impl<const D: usize> PointCloud<D> {
     /// The cloud of points at `positions` (n_points, m) with their volumes (n_points, m^3) and the index of the material of each
@@ -31,6 +32,7 @@ impl<const D: usize> PointCloud<D> {
             lattice_cell: None,
             n_materials,
             material_shares,
+            numbering: Numbering::default(),
             portion: None,
         };
         let tree = search_tree(&cloud.positions);

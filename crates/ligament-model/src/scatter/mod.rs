@@ -1,7 +1,7 @@
 //! Strength or fracture energy that varies over the body at random.
 //!
 //! A [`Scatter`] gives each point a factor with the mean 1. With a correlation length it is a function of the position alone, so that a
-//! finer mesh of the same body has the same weak places; without one each point has a number of its own, by its number. The factor
+//! finer mesh of the same body has the same weak places; without one each point has a number of its own, by its number in the file. The factor
 //! of a bond is the mean of those at its ends. Nothing depends on threads or on the machine: random numbers are those of SplitMix64
 //! (`random.rs`), and all functions but the four operations and the square root are those of the crate `libm`.
 
@@ -10,6 +10,7 @@ mod gaussian;
 mod gaussian_in_space;
 mod random;
 
+use ligament_mesh::Numbering;
 use rayon::prelude::*;
 
 pub use distribution::Distribution;
@@ -59,22 +60,22 @@ pub struct Factors {
 }
 
 impl Scatter {
-    /// Factors at positions (n_points, 2), m.
-    pub fn factors(&self, positions: &[[f64; 2]]) -> Factors {
+    /// Factors at positions (n_points, 2), m, of points that are numbered so.
+    pub fn factors(&self, positions: &[[f64; 2]], numbering: &Numbering) -> Factors {
         if self.correlation_length > 0.0 {
             let waves = RandomWaves::new(self.seed, self.correlation_length);
             return self.of_places(positions, |it| waves.at(it));
         }
-        self.of_numbers(positions.len())
+        self.of_numbers(positions.len(), numbering)
     }
 
-    /// Factors at positions in space (n_points, 3), m.
-    pub fn factors_in_space(&self, positions: &[[f64; 3]]) -> Factors {
+    /// Factors at positions in space (n_points, 3), m, of points that are numbered so.
+    pub fn factors_in_space(&self, positions: &[[f64; 3]], numbering: &Numbering) -> Factors {
         if self.correlation_length > 0.0 {
             let waves = RandomWavesInSpace::new(self.seed, self.correlation_length);
             return self.of_places(positions, |it| waves.at(it));
         }
-        self.of_numbers(positions.len())
+        self.of_numbers(positions.len(), numbering)
     }
 
     /// Factors from the normal value of each place.
@@ -92,9 +93,9 @@ impl Scatter {
         }
     }
 
-    /// Factors from a normal value for each number of a point.
-    fn of_numbers(&self, n_points: usize) -> Factors {
-        let points = 0..n_points as u64;
+    /// Factors from a normal value for each number of a point in the file.
+    fn of_numbers(&self, n_points: usize, numbering: &Numbering) -> Factors {
+        let points = (0..n_points as u32).map(|point| u64::from(numbering.in_file(point)));
         let factors =
             points.map(|point| self.distribution.factor(random::normal(self.seed, point)));
         Factors {

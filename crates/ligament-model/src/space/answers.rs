@@ -4,6 +4,8 @@ use super::change::terms;
 use super::element::{BeamBond, SolidElement, SolidKinematics, SpringBond};
 use super::stress;
 use super::system::{SolidSystem, Typed};
+use ligament_mesh::Numbering;
+
 use crate::bonds::Incidence;
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
@@ -40,6 +42,10 @@ macro_rules! typed {
 impl Bonds for SolidSystem {
     fn n_points(&self) -> usize {
         self.cloud.len()
+    }
+
+    fn numbering(&self) -> &Numbering {
+        &self.cloud.numbering
     }
 
     fn portion(&self) -> Option<&Portion> {
@@ -138,7 +144,9 @@ impl Bonds for SolidSystem {
         is_fixed: &dyn Fn(usize) -> bool,
         can_hold: &dyn Fn(usize) -> bool,
     ) -> Vec<usize> {
-        self.rigid_motions(points).holds(points, is_fixed, can_hold)
+        let in_file = self.cloud.numbering.sorted(points);
+        self.rigid_motions(&in_file)
+            .holds(&in_file, is_fixed, can_hold)
     }
 
     fn free_shapes(&self, points: &[u32], is_fixed: &dyn Fn(usize) -> bool) -> Vec<Vec<f64>> {

@@ -1,9 +1,8 @@
 //! Lumping: the nodes of a solid mesh become material points that carry the volume of its cells.
 
-use ligament_mesh::{SolidCell, SolidMesh};
+use ligament_mesh::{Numbering, SolidCell, SolidMesh, along_hilbert_curve};
 
 use crate::cloud::{PointCloud, distance, middle_of_bounding_box, search_tree};
-use crate::curve::along_hilbert_curve;
 use crate::horizon::INCLUSION_TOLERANCE;
 
 impl PointCloud<3> {
@@ -36,6 +35,7 @@ impl PointCloud<3> {
         let material_shares = shares.map(|(k, volume)| volume / volumes[k / n_materials]);
         let mut cloud = Self {
             curve: along_hilbert_curve(&positions),
+            numbering: Numbering::default(),
             portion: None,
             material_shares: material_shares.collect(),
             positions,

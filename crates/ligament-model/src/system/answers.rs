@@ -1,6 +1,8 @@
 //! What a bond system answers to the equations: one dispatch to the type of its elements a call.
 
 use super::{BondSystem, BondsLeft, Kinematics, Typed};
+use ligament_mesh::Numbering;
+
 use crate::bonds::Incidence;
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
@@ -48,6 +50,10 @@ macro_rules! typed {
 impl Bonds for BondSystem {
     fn n_points(&self) -> usize {
         self.cloud.len()
+    }
+
+    fn numbering(&self) -> &Numbering {
+        &self.cloud.numbering
     }
 
     fn portion(&self) -> Option<&Portion> {
@@ -151,7 +157,9 @@ impl Bonds for BondSystem {
         is_fixed: &dyn Fn(usize) -> bool,
         can_hold: &dyn Fn(usize) -> bool,
     ) -> Vec<usize> {
-        self.rigid_motions(points).holds(points, is_fixed, can_hold)
+        let in_file = self.cloud.numbering.sorted(points);
+        self.rigid_motions(&in_file)
+            .holds(&in_file, is_fixed, can_hold)
     }
 
     fn free_shapes(&self, points: &[u32], is_fixed: &dyn Fn(usize) -> bool) -> Vec<Vec<f64>> {

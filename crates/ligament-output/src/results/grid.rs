@@ -1,4 +1,5 @@
-//! The body on which fields are drawn, and the fields that do not change.
+//! The body on which fields are drawn, and the fields that do not change. Points and bonds are written in the order of the file that the
+//! body comes from.
 
 use std::iter::repeat_n;
 use std::path::Path;
@@ -51,6 +52,70 @@ pub fn write_points(path: &Path, grid: &BodyGrid, fields: &[Field<'_>]) -> Resul
     write_grid(path, grid, None, &all, None)
 }
 
+/// Bonds as lines between the points of a body, in the order of the file.
+pub(super) struct Lines {
+    cells: Vec<vtu::Cell>,
+    /// First end of each, by which its process is known.
+    first_ends: Vec<u32>,
+    /// The bonds in the order of the file; none where they are in it.
+    order: Option<Vec<u32>>,
+}
+
+impl Lines {
+    /// The lines of bonds by their ends (n_bonds), then those of pairs that are none.
+    pub(super) fn new(body: &BodyGrid, bonds: &[[u32; 2]], absent: &[[u32; 2]]) -> Self {
+        let numbering = &body.numbering;
+        let n_bonds = bonds.len() as u32;
+        let order = numbering.bonds_in_file(bonds).map(|mut order| {
+            let absent = numbering.bonds_in_file(absent).unwrap_or_default();
+            order.extend(absent.into_iter().map(|pair| n_bonds + pair));
+            order
+        });
+        let ends: Vec<[u32; 2]> = bonds.iter().chain(absent).copied().collect();
+        let ends = match &order {
+            None => ends,
+            Some(order) => order.iter().map(|&bond| ends[bond as usize]).collect(),
+        };
+        let lines = ends.iter().map(|it| numbering.ends_in_file(*it));
+        Self {
+            cells: lines.map(vtu::Cell::Line).collect(),
+            first_ends: ends.iter().map(|it| it[0]).collect(),
+            order,
+        }
+    }
+
+    /// Writes the lines with fields of the points and of the bonds; in pieces where processes share the body.
+    pub(super) fn write(
+        &self,
+        path: &Path,
+        body: &BodyGrid,
+        point_fields: &[Field<'_>],
+        cell_fields: &[Field<'_>],
+        portion: Option<&Portion>,
+    ) -> Result<(), Error> {
+        let of_points = body.numbering.order_of_file();
+        let point_fields: Vec<Field<'_>> = point_fields
+            .iter()
+            .map(|it| it.ordered(of_points))
+            .collect();
+        let of_bonds = self.order.as_deref();
+        let cell_fields: Vec<Field<'_>> =
+            cell_fields.iter().map(|it| it.ordered(of_bonds)).collect();
+        let grid = UnstructuredGrid {
+            points: &body.numbering.to_file(body.positions.clone()),
+            cells: &self.cells,
+            point_fields: &point_fields,
+            cell_fields: &cell_fields,
+        };
+        let shared = portion.map(|portion| SharedCells {
+            portion,
+            points: &self.first_ends,
+            are_all: false,
+        });
+        vtu::write_shared(path, &grid, shared)
+    }
+}
+
 /// Writes fields of the points of a body, the displacement first so that readers warp by it; in pieces where processes share the body.
 pub(super) fn write_grid(
     path: &Path,
@@ -59,11 +124,19 @@ pub(super) fn write_grid(
     fields: &[Field<'_>],
     portion: Option<&Portion>,
 ) -> Result<(), Error> {
+    let order = body.numbering.order_of_file();
+    let displacement = displacement.map(|it| body.numbering.to_file(it.to_vec()));
+    let displacement = displacement.as_deref();
+    let numbering = &body.numbering;
+    let body = &body.in_order_of_file();
     let vector = |values| Field::vector("displacement", values);
     let mut all: Vec<Field<'_>> = displacement.map(vector).into_iter().collect();
-    all.extend(fields);
+    all.extend(fields.iter().map(|it| it.ordered(order)));
     let cells = cells(&body.canvas);
-    let points_of_cells = portion.map(|_| points_of_cells(&body.canvas, &cells));
+    let points_of_cells = portion.map(|_| {
+        let in_file = points_of_cells(&body.canvas, &cells).into_iter();
+        in_file.map(|it| numbering.point(it)).collect::<Vec<u32>>()
+    });
     let shared = points_of_cells.as_deref().zip(portion);
     let shared = shared.map(|(points, portion)| SharedCells {
         portion,
@@ -98,7 +171,7 @@ pub(super) fn write_grid(
     vtu::write_shared(path, &grid, shared)
 }
 
-/// The point of each cell by which its process is known: the first of its corners, or the one that it lies around (n_cells).
+/// The point of each cell by which its process is known, its number in the file: the first of its corners, or the one that it lies around (n_cells).
 fn points_of_cells(canvas: &Canvas, cells: &[vtu::Cell]) -> Vec<u32> {
     match canvas {
         Canvas::Between(_) | Canvas::Solid(_) => cells.iter().map(|it| it.points()[0]).collect(),
@@ -129,6 +202,7 @@ fn cells(canvas: &Canvas) -> Vec<vtu::Cell> {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use ligament_model::Numbering;
     use vtkio::model::{Attribute, DataSet, Piece, Vtk};
 
     fn names(attributes: &[Attribute]) -> Vec<&str> {
@@ -141,6 +215,7 @@ mod tests {
         let square = |x: f64| [[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]];
         let grid = BodyGrid {
             positions: vec![[0.5, 0.5, 0.0], [1.5, 0.5, 0.0]],
+            numbering: Numbering::default(),
             tags: vec![1, 2],
             tagged: "cell",
             canvas: Canvas::Around(vec![square(0.0), square(1.0)]),

@@ -45,9 +45,10 @@ use ligament_model::{BodyGrid, FixedFields};
 use crate::Error;
 use crate::folder::ResultFolder;
 use crate::pvd::Collection;
-use crate::vtu::{self, Field, UnstructuredGrid};
+use crate::vtu::{self, Field};
 
 pub use crack_tables::{CRACK_COLUMNS, CRACK_FILES, write_cracks};
+use grid::Lines;
 pub use grid::{fixed_fields, point_grid, write_points};
 use largest::Largest;
 pub use level_files::write_level_set;
@@ -220,7 +221,7 @@ impl<'a> ResultWriter<'a> {
         let intact = view.state.intact.iter();
         let state: Vec<i64> = intact.map(|&intact| i64::from(intact)).collect();
         let displacement = point_fields::displacements(view);
-        let lines: Vec<vtu::Cell> = system.ends().iter().copied().map(vtu::Cell::Line).collect();
+        let lines = Lines::new(self.grid, system.ends(), &[]);
         let mut cell_fields = vec![
             Field::integer("intact", &state),
             Field::scalar("utilisation", &utilisation),
@@ -232,14 +233,15 @@ impl<'a> ResultWriter<'a> {
         }
         let named = names.iter().zip(&deformations);
         cell_fields.extend(named.map(|(name, values)| Field::scalar(name, values)));
-        let grid = UnstructuredGrid {
-            points: &self.grid.positions,
-            cells: &lines,
-            point_fields: &[Field::vector("displacement", &displacement)],
-            cell_fields: &cell_fields,
-        };
         let name = format!("bonds_{:04}.vtu", record.step);
-        vtu::write_vtu(self.folder.file(&name), &grid)?;
+        let displacement = [Field::vector("displacement", &displacement)];
+        lines.write(
+            &self.folder.file(&name),
+            self.grid,
+            &displacement,
+            &cell_fields,
+            None,
+        )?;
         self.bonds_collection
             .append(self.rule.time.value(record, view), name)
     }
@@ -273,7 +275,7 @@ impl Observer for ResultWriter<'_> {
         }
         let new = &self.breaks[self.breaks.len() - records.len()..];
         mark(&mut self.step_of_breaking, &self.problem, new);
-        failed(self.tables.breaks(records, &self.grid.tags))
+        failed(self.tables.breaks(records, self.grid))
     }
 
     fn looks(&self, step: usize) -> bool {
@@ -289,7 +291,7 @@ impl Observer for ResultWriter<'_> {
         }
         self.first.step(record, view)?;
         if let Some(table) = &mut self.softening {
-            failed(table.step(record, view, &self.grid.tags))?;
+            failed(table.step(record, view, self.grid))?;
         }
         if let Some(largest) = self.largest.as_mut().filter(|_| view.is_whole) {
             largest.see(record.step, view);

@@ -17,13 +17,13 @@
 use std::path::{Path, PathBuf};
 
 use ligament_analysis::driver::Problem;
-use ligament_model::portion::Portion;
 use ligament_model::{BodyGrid, FixedFields};
 
+use super::grid::Lines;
 use super::largest::Largest;
 use super::tables::criterion_labels;
 use crate::Error;
-use crate::vtu::{self, Field, SharedCells, UnstructuredGrid};
+use crate::vtu::{self, Field};
 
 /// Name of the file with the model, without what tells whether it is in pieces.
 const MODEL: &str = "model";
@@ -48,11 +48,8 @@ pub(super) fn write(
 ) -> Result<(), Error> {
     let (system, absent) = (&problem.system, &fixed.absent);
     let n_absent = absent.len();
-    let lines: Vec<vtu::Cell> = (system.ends().iter())
-        .chain(absent.iter().map(|pair| &pair.ends))
-        .copied()
-        .map(vtu::Cell::Line)
-        .collect();
+    let of_absent: Vec<[u32; 2]> = absent.iter().map(|pair| pair.ends).collect();
+    let lines = Lines::new(grid, system.ends(), &of_absent);
     let no_fail: Vec<i64> = fixed.no_fail.iter().copied().map(i64::from).collect();
     let absence: Vec<i64> = std::iter::repeat_n(0, system.ends().len())
         .chain(absent.iter().map(|pair| pair.absence.number()))
@@ -84,33 +81,15 @@ pub(super) fn write(
             .map(|(name, values)| Field::scalar(name, values)),
     );
     cell_fields.extend(largest.iter().flat_map(|columns| columns.fields()));
-    let grid = UnstructuredGrid {
-        points: &grid.positions,
-        cells: &lines,
-        point_fields: &[
-            Field::scalar("volume", system.volumes()),
-            Field::scalar("horizon", &fixed.horizon),
-            Field::integer("no_fail", &no_fail),
-            Field::integer(grid.tagged, &grid.tags),
-        ],
-        cell_fields: &cell_fields,
-    };
-    write_lines(folder, &grid, system.portion())
-}
-
-/// Writes the grid of the model; each pair of points is written by the process of its first end.
-fn write_lines(
-    folder: &Path,
-    grid: &UnstructuredGrid<'_>,
-    portion: Option<&Portion>,
-) -> Result<(), Error> {
-    let first_ends: Vec<u32> = grid.cells.iter().map(|it| it.points()[0]).collect();
-    let shared = portion.map(|portion| SharedCells {
-        portion,
-        points: &first_ends,
-        are_all: false,
-    });
-    vtu::write_shared(folder.join(vtu::file_name(MODEL, portion)), grid, shared)
+    let point_fields = [
+        Field::scalar("volume", system.volumes()),
+        Field::scalar("horizon", &fixed.horizon),
+        Field::integer("no_fail", &no_fail),
+        Field::integer(grid.tagged, &grid.tags),
+    ];
+    let portion = system.portion();
+    let path = folder.join(vtu::file_name(MODEL, portion));
+    lines.write(&path, grid, &point_fields, &cell_fields, portion)
 }
 
 /// The limits and coefficients that each criterion has for each bond, with the names of their fields.

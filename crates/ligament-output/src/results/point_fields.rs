@@ -143,6 +143,7 @@ impl Motion {
         let (state, balanced) = (view.state, view.balanced);
         let reactions = (view.loads).reactions(state.load_factor, &balanced.internal.values);
         let layout = view.system.layout();
+        let numbering = view.system.numbering();
         let held = state.held.chunks(layout.components.len());
         Self {
             rotation: Rotations::read(layout, &state.displacement),
@@ -153,9 +154,11 @@ impl Motion {
                 &balanced.closed,
             ),
             reaction: vectors(layout, &reactions),
-            fragment: (view.fragments.of_point.iter())
-                .map(|&fragment| i64::from(fragment))
-                .collect(),
+            fragment: (numbering
+                .parts_in_file(&view.fragments.of_point)
+                .into_iter())
+            .map(i64::from)
+            .collect(),
             held: held.map(|held| i64::from(held.contains(&true))).collect(),
         }
     }

@@ -3,6 +3,7 @@
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{StepRecord, View};
 use ligament_analysis::serial;
+use ligament_model::BodyGrid;
 use ligament_model::failure::Weakened;
 
 use super::tables::labels_of;
@@ -108,10 +109,10 @@ impl SofteningTable {
         &mut self,
         record: &StepRecord,
         view: &View<'_>,
-        tags: &[i64],
+        grid: &BodyGrid,
     ) -> Result<(), Error> {
         for it in self.softened.step(view) {
-            let ends = view.system.ends()[it.bond].map(|end| tags[end as usize]);
+            let ends = grid.tags_of(view.system.ends()[it.bond]);
             for event in &EVENTS[usize::from(it.before)..usize::from(it.now)] {
                 self.table.append(&[
                     record.step.into(),
@@ -166,7 +167,12 @@ impl SoftenedBonds {
                 }
             }
         }
-        changed.sort_by(|one, other| other.0.total_cmp(&one.0).then(one.1.cmp(&other.1)));
+        let (numbering, ends) = (view.system.numbering(), view.system.ends());
+        let in_file = |bond: usize| numbering.ends_in_file(ends[bond]);
+        changed.sort_by(|one, other| {
+            let tied = || in_file(one.1).cmp(&in_file(other.1));
+            other.0.total_cmp(&one.0).then_with(tied)
+        });
         // Of a bond that two criteria weaken, what the first says.
         let mut said = vec![false; self.told.len()];
         changed.retain(|it| !std::mem::replace(&mut said[it.1], true));

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use ligament_mesh::SolidCell;
-use ligament_model::{BodyGrid, Canvas};
+use ligament_model::{BodyGrid, Canvas, Numbering};
 
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation, vtu};
@@ -64,6 +64,7 @@ impl SolidBody {
             places: tags.iter().copied().zip(0..).collect(),
             grid: BodyGrid {
                 positions,
+                numbering: Numbering::default(),
                 tags,
                 tagged,
                 canvas,

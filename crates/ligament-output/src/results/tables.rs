@@ -6,6 +6,7 @@ use ligament_analysis::costs::Costs;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, StepRecord, View};
 use ligament_analysis::{Bonds, serial};
+use ligament_model::BodyGrid;
 
 use crate::Error;
 use crate::csv::{Table, Value};
@@ -320,9 +321,9 @@ impl Tables {
         ])
     }
 
-    pub(super) fn breaks(&mut self, records: &[BreakRecord], tags: &[i64]) -> Result<(), Error> {
+    pub(super) fn breaks(&mut self, records: &[BreakRecord], grid: &BodyGrid) -> Result<(), Error> {
         for record in records {
-            let ends = record.ends.map(|end| tags[end as usize]);
+            let ends = grid.tags_of(record.ends);
             let row = break_row(record, ends, &self.criteria, self.n_components);
             self.breaks.append(&row)?;
         }

@@ -22,6 +22,8 @@ pub struct Field<'a> {
     /// The name readers show, unique among the point fields and among the cell fields.
     pub(super) name: &'a str,
     numbers: Numbers<'a>,
+    /// The points or cells in the order of the file; none where they are in it.
+    order: Option<&'a [u32]>,
     /// Numbers a point or cell.
     n_components: usize,
     /// Names of the components: all of them or none.
@@ -71,6 +73,11 @@ impl<'a> Field<'a> {
         Self::new(name, Numbers::Double(values), names.len(), names)
     }
 
+    /// The field with its points or cells written in an order, if there is one.
+    pub fn ordered(self, order: Option<&'a [u32]>) -> Self {
+        Self { order, ..self }
+    }
+
     /// A field of small numbers, such as kinds of cells.
     pub(super) fn bytes(name: &'a str, values: &'a [u8]) -> Self {
         Self::new(name, Numbers::Byte(values), 1, &[])
@@ -85,13 +92,22 @@ impl<'a> Field<'a> {
         Self {
             name,
             numbers,
+            order: None,
             n_components,
             component_names,
         }
     }
 
-    /// The numbers of some points or cells.
+    /// The numbers of some points or cells, by their places in the file.
     pub(super) fn at(&self, rows: &[u32]) -> Chosen {
+        let taken: Vec<u32>;
+        let rows = match self.order {
+            None => rows,
+            Some(order) => {
+                taken = rows.iter().map(|&row| order[row as usize]).collect();
+                &taken
+            }
+        };
         fn chosen<T: Copy>(values: &[T], n_components: usize, rows: &[u32]) -> Vec<T> {
             let of_row = |&row: &u32| &values[n_components * row as usize..][..n_components];
             rows.iter().flat_map(of_row).copied().collect()
@@ -116,7 +132,11 @@ impl<'a> Field<'a> {
             Chosen::Integer(values) => Numbers::Integer(values),
             Chosen::Byte(values) => Numbers::Byte(values),
         };
-        Field { numbers, ..*self }
+        Field {
+            numbers,
+            order: None,
+            ..*self
+        }
     }
 
     /// The number of points or cells that have values.
@@ -182,6 +202,16 @@ impl<'a> Field<'a> {
         values: &[T],
         to_le_bytes: impl Fn(T) -> [u8; SIZE] + Sync,
     ) -> String {
+        let ordered: Vec<T>;
+        let values = match self.order {
+            None => values,
+            Some(order) => {
+                let n = self.n_components;
+                let row = |&row: &u32| &values[n * row as usize..n * (row as usize + 1)];
+                ordered = order.iter().flat_map(row).copied().collect();
+                &ordered
+            }
+        };
         let blocks: Vec<Vec<u8>> = values
             .par_chunks(BLOCK_SIZE / SIZE)
             .map(|values| {

@@ -46,7 +46,7 @@ impl BondEvent {
         Dim: Dimension<D>,
     {
         let cloud = Dim::cloud(&model.system);
-        let ends = first.ends;
+        let ends = cloud.numbering.ordered(first.ends);
         let [a, b] = ends.map(|end| cloud.positions[end as usize]);
         let criteria = model.criteria.list.iter().map(|it| it.name);
         let mut labels = criterion_labels(criteria);

@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use ligament_mesh::{Cell, Mesh, NodeField, SolidMesh};
+use ligament_mesh::{Cell, Mesh, NodeField, Numbering, SolidMesh};
 use ligament_model::space::lattice::SolidLattice;
 use ligament_model::{BodyGrid, Lattice, PointCloud, Shape};
 use thiserror::Error;
@@ -54,6 +54,11 @@ pub trait Body<const D: usize = 2>: Debug + Send + Sync {
 
     /// Positions of the points, shape (n_points), m.
     fn positions(&self) -> &[[f64; D]];
+
+    /// How the points are numbered: here, and in the file or the arrays that they come from.
+    fn numbering(&self) -> Numbering {
+        Numbering::default()
+    }
 
     /// The noun that tags belong to: `node`, `cell` or `point`.
     fn tagged(&self) -> &'static str;

@@ -133,6 +133,7 @@ impl Body for LatticeBody {
                 .map(|[right, up]| [x + right * half[0], y + up * half[1]])
         };
         BodyGrid {
+            numbering: self.numbering(),
             positions: raised(&self.positions),
             tags: (1..=self.positions.len() as i64).collect(),
             tagged: self.tagged(),

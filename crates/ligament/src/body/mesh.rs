@@ -2,18 +2,23 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use ligament_mesh::{Cell, Group, Mesh, NodeField};
+use ligament_mesh::{Cell, Group, Mesh, NodeField, Numbering};
 use ligament_model::{BodyGrid, Canvas, PointCloud, raised};
 
 use super::interface::{Body, OffOutline, Origin};
 
 /// A body with a point at each node of a mesh, by the names of its physical groups.
 #[derive(Debug)]
-pub struct MeshBody(Mesh);
+pub struct MeshBody {
+    /// The mesh, its nodes numbered along a curve.
+    mesh: Mesh,
+    numbering: Numbering,
+}
 
 impl From<Mesh> for MeshBody {
     fn from(mesh: Mesh) -> Self {
-        Self(mesh)
+        let (mesh, numbering) = mesh.along_curve();
+        Self { mesh, numbering }
     }
 }
 
@@ -22,7 +27,7 @@ impl MeshBody {
     /// last of these cells, on their left, goes along it.
     fn edges_of_cells(&self) -> BTreeMap<[u32; 2], (usize, [u32; 2])> {
         let mut edges = BTreeMap::new();
-        for cell in &self.0.cells {
+        for cell in &self.mesh.cells {
             let corners = cell.corners();
             let next = corners.iter().cycle().skip(1);
             for (&from, &to) in corners.iter().zip(next) {
@@ -35,7 +40,7 @@ impl MeshBody {
 
     /// Union of what the groups of a name hold, whatever their dimension, ascending; `None` where there is no such group.
     fn union<T: Copy + Ord>(&self, name: &str, held: fn(&Group) -> &[T]) -> Option<Vec<T>> {
-        let mut groups = self.0.groups_named(name).peekable();
+        let mut groups = self.mesh.groups_named(name).peekable();
         groups.peek()?;
         let mut all: Vec<T> = groups.flat_map(held).copied().collect();
         all.sort_unstable();
@@ -46,11 +51,15 @@ impl MeshBody {
 
 impl Body for MeshBody {
     fn origin(&self) -> Origin<'_> {
-        Origin::Mesh(&self.0)
+        Origin::Mesh(&self.mesh)
     }
 
     fn positions(&self) -> &[[f64; 2]] {
-        &self.0.positions
+        &self.mesh.positions
+    }
+
+    fn numbering(&self) -> Numbering {
+        self.numbering.clone()
     }
 
     fn tagged(&self) -> &'static str {
@@ -58,15 +67,18 @@ impl Body for MeshBody {
     }
 
     fn tag(&self, point: u32) -> u64 {
-        self.0.node_tags[point as usize]
+        self.mesh.node_tags[point as usize]
     }
 
     fn n_cells(&self) -> usize {
-        self.0.cells.len()
+        self.mesh.cells.len()
     }
 
     fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud {
-        PointCloud::from_mesh(&self.0, thickness, material_of_cell, n_materials)
+        PointCloud {
+            numbering: self.numbering(),
+            ..PointCloud::from_mesh(&self.mesh, thickness, material_of_cell, n_materials)
+        }
     }
 
     fn group_kind(&self) -> &'static str {
@@ -74,7 +86,7 @@ impl Body for MeshBody {
     }
 
     fn group_names(&self) -> Vec<String> {
-        let groups = self.0.groups.iter();
+        let groups = self.mesh.groups.iter();
         groups.map(|group| group.name.clone()).collect()
     }
 
@@ -89,8 +101,8 @@ impl Body for MeshBody {
     /// Half of the edges of a curve group at each of its nodes.
     fn lengths_of(&self, group: &str) -> Vec<(u32, f64)> {
         let mut lengths = BTreeMap::new();
-        for edge in self.0.groups_named(group).flat_map(|group| &group.edges) {
-            let [p, q] = edge.map(|node| self.0.positions[node as usize]);
+        for edge in self.mesh.groups_named(group).flat_map(|group| &group.edges) {
+            let [p, q] = edge.map(|node| self.mesh.positions[node as usize]);
             for &node in edge {
                 *lengths.entry(node).or_insert(0.0) += 0.5 * (q[0] - p[0]).hypot(q[1] - p[1]);
             }
@@ -99,22 +111,22 @@ impl Body for MeshBody {
     }
 
     fn around(&self, point: u32) -> Vec<u32> {
-        let corners = self.0.cells.iter().map(Cell::corners);
+        let corners = self.mesh.cells.iter().map(Cell::corners);
         let around = corners.filter(|it| it.contains(&point));
         around.flatten().copied().collect()
     }
 
     fn cells(&self) -> &[Cell] {
-        &self.0.cells
+        &self.mesh.cells
     }
 
     fn fields(&self) -> &[NodeField] {
-        &self.0.fields
+        &self.mesh.fields
     }
 
     /// Half of the normal of each edge, away from its one cell, at each of its nodes.
     fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; 2])>, OffOutline> {
-        let groups = self.0.groups_named(group);
+        let groups = self.mesh.groups_named(group);
         let edges: BTreeSet<[u32; 2]> = groups
             .flat_map(|group| &group.edges)
             .map(|&edge| ascending(edge))
@@ -126,7 +138,7 @@ impl Body for MeshBody {
         let mut normals = BTreeMap::new();
         for edge in edges {
             let (cells, along) = of_cells.get(&edge).copied().unwrap_or((0, edge));
-            let [p, q] = along.map(|node| self.0.positions[node as usize]);
+            let [p, q] = along.map(|node| self.mesh.positions[node as usize]);
             if cells != 1 {
                 return Err(OffOutline {
                     side: "edge",
@@ -147,7 +159,7 @@ impl Body for MeshBody {
 
     /// The nodes of edges that one cell has alone.
     fn rim(&self) -> Vec<bool> {
-        let mut marked = vec![false; self.0.positions.len()];
+        let mut marked = vec![false; self.mesh.positions.len()];
         let edges = self.edges_of_cells();
         let outer = edges.iter().filter(|(_, (cells, _))| *cells == 1);
         for node in outer.flat_map(|(edge, _)| edge) {
@@ -157,16 +169,17 @@ impl Body for MeshBody {
     }
 
     fn remarks(&self) -> Vec<String> {
-        let remarks = self.0.remarks.iter();
+        let remarks = self.mesh.remarks.iter();
         remarks.map(|remark| format!("mesh: {remark}")).collect()
     }
 
     fn grid(&self) -> BodyGrid {
         BodyGrid {
-            positions: raised(&self.0.positions),
-            tags: self.0.node_tags.iter().map(|&tag| tag as i64).collect(),
+            numbering: self.numbering(),
+            positions: raised(&self.mesh.positions),
+            tags: self.mesh.node_tags.iter().map(|&tag| tag as i64).collect(),
             tagged: self.tagged(),
-            canvas: Canvas::Between(self.0.cells.clone()),
+            canvas: Canvas::Between(self.mesh.cells.clone()),
         }
     }
 }

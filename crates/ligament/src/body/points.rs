@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use ligament_model::{BodyGrid, Canvas, PointCloud};
+use ligament_model::{BodyGrid, Canvas, Numbering, PointCloud};
 use thiserror::Error;
 
 use super::interface::{Body, OffOutline, Origin};
@@ -11,6 +11,8 @@ use super::interface::{Body, OffOutline, Origin};
 /// points; they have no length and no outline, so that forces are spread over their points by volume.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Points<const D: usize = 2> {
+    /// How they are numbered in what follows, which is along a curve, and in the arrays.
+    numbering: Numbering,
     positions: Vec<[f64; D]>,
     sizes: Vec<f64>,
     groups: BTreeMap<String, Vec<u32>>,
@@ -86,11 +88,15 @@ impl<const D: usize> Points<D> {
                 size: sizes[point],
                 what,
             }),
-            None => Ok(Self {
-                positions,
-                sizes,
-                groups: BTreeMap::new(),
-            }),
+            None => {
+                let numbering = Numbering::along_curve(&positions);
+                Ok(Self {
+                    positions: numbering.from_file(positions),
+                    sizes: numbering.from_file(sizes),
+                    numbering,
+                    groups: BTreeMap::new(),
+                })
+            }
         }
     }
 
@@ -116,6 +122,8 @@ impl<const D: usize> Points<D> {
                 n_points,
             });
         }
+        let mut points: Vec<u32> = points.iter().map(|it| self.numbering.point(*it)).collect();
+        points.sort_unstable();
         self.groups.insert(name.to_owned(), points);
         Ok(self)
     }
@@ -130,12 +138,16 @@ impl<const D: usize> Body<D> for Points<D> {
         &self.positions
     }
 
+    fn numbering(&self) -> Numbering {
+        self.numbering.clone()
+    }
+
     fn tagged(&self) -> &'static str {
         "point"
     }
 
     fn tag(&self, point: u32) -> u64 {
-        u64::from(point)
+        u64::from(self.numbering.in_file(point))
     }
 
     /// Number of cells: each point is a cell of its own.
@@ -147,13 +159,16 @@ impl<const D: usize> Body<D> for Points<D> {
         // In space the thickness is 1.
         let volumes: Vec<f64> = self.sizes.iter().map(|size| size * thickness).collect();
         let positions = &self.positions;
-        PointCloud::from_points(
-            positions,
-            &volumes,
-            thickness,
-            material_of_cell,
-            n_materials,
-        )
+        PointCloud {
+            numbering: self.numbering(),
+            ..PointCloud::from_points(
+                positions,
+                &volumes,
+                thickness,
+                material_of_cell,
+                n_materials,
+            )
+        }
     }
 
     fn group_kind(&self) -> &'static str {
@@ -206,7 +221,10 @@ impl<const D: usize> Body<D> for Points<D> {
             Canvas::Boxes(around.map(cube).collect())
         };
         BodyGrid {
-            tags: (0..positions.len() as i64).collect(),
+            numbering: self.numbering(),
+            tags: (0..positions.len() as u32)
+                .map(|point| i64::from(self.numbering.in_file(point)))
+                .collect(),
             positions,
             tagged: self.tagged(),
             canvas,

@@ -113,6 +113,7 @@ impl Body<3> for SolidLatticeBody {
             [-1.0, 1.0].map(|sign| [0, 1, 2].map(|axis| p[axis] + sign * half[axis]))
         };
         BodyGrid {
+            numbering: self.numbering(),
             positions: self.positions.clone(),
             tags: (1..=self.positions.len() as i64).collect(),
             tagged: self.tagged(),

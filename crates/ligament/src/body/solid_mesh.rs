@@ -1,24 +1,29 @@
 //! A body meshed with solid cells: points at the nodes, physical groups.
 
-use ligament_mesh::{Cell, Group, NodeField, SolidMesh};
+use ligament_mesh::{Cell, Group, NodeField, Numbering, SolidMesh};
 use ligament_model::{BodyGrid, Canvas, PointCloud};
 
 use super::interface::{Body, OffOutline, Origin};
 
 /// A body with a point at each node of a mesh of solid cells, by the names of its physical groups.
 #[derive(Debug)]
-pub struct SolidMeshBody(SolidMesh);
+pub struct SolidMeshBody {
+    /// The mesh, its nodes numbered along a curve.
+    mesh: SolidMesh,
+    numbering: Numbering,
+}
 
 impl From<SolidMesh> for SolidMeshBody {
     fn from(mesh: SolidMesh) -> Self {
-        Self(mesh)
+        let (mesh, numbering) = mesh.along_curve();
+        Self { mesh, numbering }
     }
 }
 
 impl SolidMeshBody {
     /// Union of what the groups of a name hold, whatever their dimension, ascending; `None` where there is no such group.
     fn union<T: Copy + Ord>(&self, name: &str, held: fn(&Group) -> &[T]) -> Option<Vec<T>> {
-        let mut groups = self.0.groups_named(name).peekable();
+        let mut groups = self.mesh.groups_named(name).peekable();
         groups.peek()?;
         let mut all: Vec<T> = groups.flat_map(held).copied().collect();
         all.sort_unstable();
@@ -28,18 +33,22 @@ impl SolidMeshBody {
 
     /// Faces of the surface groups of a name.
     fn faces_of(&self, group: &str) -> Vec<Cell> {
-        let groups = self.0.groups_named(group);
+        let groups = self.mesh.groups_named(group);
         groups.flat_map(|it| &it.faces).copied().collect()
     }
 }
 
 impl Body<3> for SolidMeshBody {
     fn origin(&self) -> Origin<'_> {
-        Origin::SolidMesh(&self.0)
+        Origin::SolidMesh(&self.mesh)
     }
 
     fn positions(&self) -> &[[f64; 3]] {
-        &self.0.positions
+        &self.mesh.positions
+    }
+
+    fn numbering(&self) -> Numbering {
+        self.numbering.clone()
     }
 
     fn tagged(&self) -> &'static str {
@@ -47,15 +56,18 @@ impl Body<3> for SolidMeshBody {
     }
 
     fn tag(&self, point: u32) -> u64 {
-        self.0.node_tags[point as usize]
+        self.mesh.node_tags[point as usize]
     }
 
     fn n_cells(&self) -> usize {
-        self.0.cells.len()
+        self.mesh.cells.len()
     }
 
     fn cloud(&self, _: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<3> {
-        PointCloud::from_solid_mesh(&self.0, material_of_cell, n_materials)
+        PointCloud {
+            numbering: self.numbering(),
+            ..PointCloud::from_solid_mesh(&self.mesh, material_of_cell, n_materials)
+        }
     }
 
     fn group_kind(&self) -> &'static str {
@@ -63,7 +75,7 @@ impl Body<3> for SolidMeshBody {
     }
 
     fn group_names(&self) -> Vec<String> {
-        let groups = self.0.groups.iter();
+        let groups = self.mesh.groups.iter();
         groups.map(|group| group.name.clone()).collect()
     }
 
@@ -77,25 +89,25 @@ impl Body<3> for SolidMeshBody {
 
     /// Half of the edges of a curve group at each of its nodes.
     fn lengths_of(&self, group: &str) -> Vec<(u32, f64)> {
-        let groups = self.0.groups_named(group);
+        let groups = self.mesh.groups_named(group);
         let edges: Vec<[u32; 2]> = groups.flat_map(|it| &it.edges).copied().collect();
-        self.0.lengths_at_nodes(&edges)
+        self.mesh.lengths_at_nodes(&edges)
     }
 
     /// Parts of the faces of a surface group at each of their nodes.
     fn areas_of(&self, group: &str) -> Vec<(u32, f64)> {
-        self.0.areas_at_nodes(&self.faces_of(group))
+        self.mesh.areas_at_nodes(&self.faces_of(group))
     }
 
     fn around(&self, point: u32) -> Vec<u32> {
-        let corners = self.0.cells.iter().map(|cell| cell.corners());
+        let corners = self.mesh.cells.iter().map(|cell| cell.corners());
         let around = corners.filter(|it| it.contains(&point));
         around.flatten().copied().collect()
     }
 
     /// Parts of the area vector of each face, away from its one cell, at each of its nodes.
     fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; 3])>, OffOutline> {
-        let areas = self.0.outward_areas(&self.faces_of(group));
+        let areas = self.mesh.outward_areas(&self.faces_of(group));
         areas.map_err(|it| OffOutline {
             side: "face",
             nodes: it.nodes,
@@ -105,25 +117,26 @@ impl Body<3> for SolidMeshBody {
     }
 
     fn fields(&self) -> &[NodeField] {
-        &self.0.fields
+        &self.mesh.fields
     }
 
     /// The nodes of faces that one cell has alone.
     fn rim(&self) -> Vec<bool> {
-        self.0.is_on_outline()
+        self.mesh.is_on_outline()
     }
 
     fn remarks(&self) -> Vec<String> {
-        let remarks = self.0.remarks.iter();
+        let remarks = self.mesh.remarks.iter();
         remarks.map(|remark| format!("mesh: {remark}")).collect()
     }
 
     fn grid(&self) -> BodyGrid {
         BodyGrid {
-            positions: self.0.positions.clone(),
-            tags: self.0.node_tags.iter().map(|&tag| tag as i64).collect(),
+            numbering: self.numbering(),
+            positions: self.mesh.positions.clone(),
+            tags: self.mesh.node_tags.iter().map(|&tag| tag as i64).collect(),
             tagged: self.tagged(),
-            canvas: Canvas::Solid(self.0.cells.clone()),
+            canvas: Canvas::Solid(self.mesh.cells.clone()),
         }
     }
 }

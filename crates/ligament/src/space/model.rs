@@ -66,7 +66,8 @@ impl Model<3> {
             shear_ratio: correction.shear_ratio.clone(),
             patch_residual: correction.patch_residual().to_vec(),
             no_fail: loading::no_fail(&setup, &cloud)?,
-            scatter: (setup.scatter).map(|it| it.factors_in_space(setup.body.positions())),
+            scatter: (setup.scatter)
+                .map(|it| it.factors_in_space(setup.body.positions(), &setup.body.numbering())),
             absent,
         };
         let system = stage(watcher, "rigidities", || {

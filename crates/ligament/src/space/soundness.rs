@@ -28,7 +28,8 @@ pub(super) fn require_distinct(
 ) -> Result<(), SetupError> {
     let size = |point: usize| cloud.volumes[point].cbrt();
     let is_near = |&point: &usize| cloud.spacing[point] < DISTINCT * size(point);
-    let Some(point) = (0..cloud.len()).find(is_near) else {
+    let mut in_file = (0..cloud.len() as u32).map(|it| cloud.numbering.point(it) as usize);
+    let Some(point) = in_file.find(is_near) else {
         return Ok(());
     };
     let from = cloud.positions[point];

@@ -170,9 +170,9 @@ impl Passing<'_, '_> {
         path.record_in_passing(&critical, counters)?;
         let factor = self.factor();
         let path = &mut *self.path;
-        let displacement = &self.lagging.displacement;
-        let deformations =
-            (self.problem.system).measured(&path.state.intact, displacement, &first.bonds);
+        let (system, displacement) = (&self.problem.system, &self.lagging.displacement);
+        let FirstToBreak { bonds, .. } = first.clone().sorted(|it| system.ends_in_file(it));
+        let deformations = system.measured(&path.state.intact, displacement, &bonds);
         let deformations = deformations.iter().map(|it| it.scaled(factor));
         let deformations: Vec<BondDeformation> = deformations.collect();
         let deformation = |place: usize, _| deformations[place];
@@ -181,7 +181,7 @@ impl Passing<'_, '_> {
             &**criteria,
             &deformation as &dyn Fn(usize, usize) -> BondDeformation,
         );
-        path.break_deformed(&first.bonds, judged, &critical, [step, 1])
+        path.break_deformed(&bonds, judged, &critical, [step, 1])
     }
 
     /// Takes in a breakage; gives the bonds that are the next to break. None where the factor broke on the way.

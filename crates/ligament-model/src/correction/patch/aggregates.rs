@@ -29,7 +29,7 @@ const SHARE: f64 = 1e-3;
 
 /// Points that are nearer to one of some points far from each other than to the others.
 ///
-/// Distances and the numbers of the points decide, not the axes: a turned body has the same aggregates.
+/// Distances and the numbers of the points in the file decide, not the axes: a turned body has the same aggregates.
 pub(crate) struct Aggregates<'a> {
     seats: &'a Seats<'a>,
     /// Place of the first number of the aggregate of each rank.
@@ -49,12 +49,14 @@ impl<'a> Aggregates<'a> {
         let count = (cloud.len() / FEWEST_POINTS).clamp(1, MOST);
         let mut distance = vec![f64::INFINITY; cloud.len()];
         let mut aggregate = vec![0; cloud.len()];
-        let mut seed = 0;
+        let first = cloud.numbering.point(0) as usize;
+        let mut seed = first;
         for number in 0..count {
             let centre = cloud.positions[seed];
-            seed = 0;
-            for (point, position) in cloud.positions.iter().enumerate() {
-                let square: f64 = position
+            seed = first;
+            for in_file in 0..cloud.len() as u32 {
+                let point = cloud.numbering.point(in_file) as usize;
+                let square: f64 = cloud.positions[point]
                     .iter()
                     .zip(centre)
                     .map(|(a, b)| (a - b).powi(2))

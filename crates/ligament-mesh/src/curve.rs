@@ -15,7 +15,7 @@ const fn steps<const D: usize>() -> u32 {
 
 /// All points, each once, in the order in which a Hilbert curve through the square or cube around them meets them, shape
 /// (n_points). Points at one place of the curve keep their order.
-pub(crate) fn along_hilbert_curve<const D: usize>(positions: &[[f64; D]]) -> Vec<u32> {
+pub fn along_hilbert_curve<const D: usize>(positions: &[[f64; D]]) -> Vec<u32> {
     let corner = |pick: fn(f64, f64) -> f64, start: f64| {
         let fold = |c: [f64; D], p: &[f64; D]| std::array::from_fn(|axis| pick(c[axis], p[axis]));
         positions.iter().fold([start; D], fold)

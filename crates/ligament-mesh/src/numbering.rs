@@ -1,0 +1,302 @@
+//! Numbers of points: those of the file, and those along a space-filling curve.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use crate::cell::Cell;
+use crate::curve::along_hilbert_curve;
+use crate::field::NodeField;
+use crate::group::Group;
+use crate::mesh::Mesh;
+use crate::solid::{SolidCell, SolidMesh};
+
+/// How the points of a body are numbered: as in its file, which is the default, or along a space-filling curve. A copy shares its lists.
+///
+/// A point that lies near another one on the curve stands near it in memory, and so do rows of matrices and bonds.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Numbering(Option<Arc<Orders>>);
+
+#[derive(Debug, PartialEq, Eq)]
+struct Orders {
+    /// Number in the file of each point, shape (n_points).
+    in_file: Vec<u32>,
+    /// The point of each number of the file, shape (n_points).
+    points: Vec<u32>,
+}
+
+impl Numbering {
+    /// Numbers along the Hilbert curve through positions in the order of a file (n_points).
+    pub fn along_curve<const D: usize>(positions: &[[f64; D]]) -> Self {
+        let in_file = along_hilbert_curve(positions);
+        if in_file.is_sorted() {
+            return Self::default();
+        }
+        let mut points = vec![0; in_file.len()];
+        for (point, &number) in (0..).zip(&in_file) {
+            points[number as usize] = point;
+        }
+        Self(Some(Arc::new(Orders { in_file, points })))
+    }
+
+    /// Number of a point in the file.
+    pub fn in_file(&self, point: u32) -> u32 {
+        match &self.0 {
+            None => point,
+            Some(orders) => orders.in_file[point as usize],
+        }
+    }
+
+    /// The point of a number of the file.
+    pub fn point(&self, in_file: u32) -> u32 {
+        match &self.0 {
+            None => in_file,
+            Some(orders) => orders.points[in_file as usize],
+        }
+    }
+
+    /// The points in the order of the file, shape (n_points); none where that is their own.
+    pub fn order_of_file(&self) -> Option<&[u32]> {
+        self.0.as_ref().map(|orders| orders.points.as_slice())
+    }
+
+    /// Some points in the order of the file.
+    pub fn sorted<'a>(&self, points: &'a [u32]) -> Cow<'a, [u32]> {
+        if self.0.is_none() {
+            return Cow::Borrowed(points);
+        }
+        let mut sorted = points.to_vec();
+        sorted.sort_unstable_by_key(|&point| self.in_file(point));
+        Cow::Owned(sorted)
+    }
+
+    /// Parts of a body by their numbers at the points (n_points), numbered in the order of their first points in the file; shape
+    /// (n_points) in the order of the points.
+    pub fn parts_in_file(&self, of_points: &[u32]) -> Vec<u32> {
+        if self.0.is_none() {
+            return of_points.to_vec();
+        }
+        let n_parts = of_points.iter().max().map_or(0, |last| *last as usize + 1);
+        let mut numbers = vec![None; n_parts];
+        let mut next = 0;
+        for in_file in 0..of_points.len() as u32 {
+            let part = of_points[self.point(in_file) as usize];
+            numbers[part as usize].get_or_insert_with(|| {
+                next += 1;
+                next - 1
+            });
+        }
+        let number = |&part: &u32| numbers[part as usize].unwrap_or_default();
+        of_points.iter().map(number).collect()
+    }
+
+    /// The ends of a bond, that of the smaller number in the file first.
+    pub fn ordered(&self, [a, b]: [u32; 2]) -> [u32; 2] {
+        match self.in_file(b) < self.in_file(a) {
+            true => [b, a],
+            false => [a, b],
+        }
+    }
+
+    /// Numbers in the file of the ends of a bond, ascending.
+    pub fn ends_in_file(&self, ends: [u32; 2]) -> [u32; 2] {
+        self.ordered(ends).map(|end| self.in_file(end))
+    }
+
+    /// Bonds in the order of their ends in the file, shape (n_bonds); none where that is their own.
+    pub fn bonds_in_file(&self, ends: &[[u32; 2]]) -> Option<Vec<u32>> {
+        self.0.as_ref()?;
+        let mut bonds: Vec<u32> = (0..ends.len() as u32).collect();
+        bonds.sort_by_cached_key(|&bond| self.ends_in_file(ends[bond as usize]));
+        Some(bonds)
+    }
+
+    /// Values in the order of the points, so many a point, taken to the order of the file.
+    pub fn to_file<T: Copy>(&self, values: Vec<T>) -> Vec<T> {
+        taken(self.order_of_file(), values)
+    }
+
+    /// Values in the order of the file, so many a point, taken to the order of the points.
+    pub fn from_file<T: Copy>(&self, values: Vec<T>) -> Vec<T> {
+        let order = self.0.as_ref().map(|orders| orders.in_file.as_slice());
+        taken(order, values)
+    }
+
+    /// Cells between the points as cells between the numbers of the file.
+    pub fn cells_in_file(&self, mut cells: Vec<Cell>) -> Vec<Cell> {
+        let corners = cells.iter_mut().map(Cell::corners_mut);
+        corners.for_each(|it| corners_in_file(self, it));
+        cells
+    }
+
+    /// Solid cells between the points as cells between the numbers of the file.
+    pub fn solid_cells_in_file(&self, mut cells: Vec<SolidCell>) -> Vec<SolidCell> {
+        let corners = cells.iter_mut().map(SolidCell::corners_mut);
+        corners.for_each(|it| corners_in_file(self, it));
+        cells
+    }
+
+    fn renumber(&self, in_file: &mut [u32]) {
+        for number in in_file {
+            *number = self.point(*number);
+        }
+    }
+
+    /// Groups of a mesh whose nodes are numbered so.
+    fn groups(&self, groups: Vec<Group>) -> Vec<Group> {
+        let group = |mut group: Group| {
+            self.renumber(&mut group.nodes);
+            group.nodes.sort_unstable();
+            self.renumber(group.edges.as_flattened_mut());
+            group.edges.iter_mut().for_each(|ends| ends.sort_unstable());
+            group.edges.sort_unstable();
+            self.renumber_cells(&mut group.faces);
+            group.faces.sort_by_key(Cell::sorted_corners);
+            group
+        };
+        groups.into_iter().map(group).collect()
+    }
+
+    fn renumber_cells(&self, cells: &mut [Cell]) {
+        cells
+            .iter_mut()
+            .for_each(|it| self.renumber(it.corners_mut()));
+    }
+
+    /// Fields of a mesh whose nodes are numbered so.
+    fn fields(&self, fields: Vec<NodeField>) -> Vec<NodeField> {
+        let field = |mut field: NodeField| {
+            let values = field.values.iter();
+            field.values = values.map(|&(node, it)| (self.point(node), it)).collect();
+            field.values.sort_unstable_by_key(|(node, _)| *node);
+            field
+        };
+        fields.into_iter().map(field).collect()
+    }
+}
+
+fn corners_in_file(numbering: &Numbering, corners: &mut [u32]) {
+    for corner in corners {
+        *corner = numbering.in_file(*corner);
+    }
+}
+
+/// Values, so many a row, in an order of the rows (n_rows).
+fn taken<T: Copy>(order: Option<&[u32]>, values: Vec<T>) -> Vec<T> {
+    let Some(order) = order else {
+        return values;
+    };
+    let n = values.len() / order.len().max(1);
+    let row = |&row: &u32| &values[n * row as usize..n * (row as usize + 1)];
+    order.iter().flat_map(row).copied().collect()
+}
+
+impl Mesh {
+    /// The mesh with its nodes numbered along a curve; cells stay in the order of the file.
+    pub fn along_curve(self) -> (Self, Numbering) {
+        let numbering = Numbering::along_curve(&self.positions);
+        let mut cells = self.cells;
+        numbering.renumber_cells(&mut cells);
+        let mesh = Self {
+            node_tags: numbering.from_file(self.node_tags),
+            positions: numbering.from_file(self.positions),
+            cells,
+            groups: numbering.groups(self.groups),
+            fields: numbering.fields(self.fields),
+            remarks: self.remarks,
+        };
+        (mesh, numbering)
+    }
+}
+
+impl SolidMesh {
+    /// The mesh with its nodes numbered along a curve; cells stay in the order of the file.
+    pub fn along_curve(self) -> (Self, Numbering) {
+        let numbering = Numbering::along_curve(&self.positions);
+        let mut cells = self.cells;
+        let corners = cells.iter_mut().map(SolidCell::corners_mut);
+        corners.for_each(|it| numbering.renumber(it));
+        let mesh = Self {
+            node_tags: numbering.from_file(self.node_tags),
+            positions: numbering.from_file(self.positions),
+            cells,
+            groups: numbering.groups(self.groups),
+            fields: numbering.fields(self.fields),
+            remarks: self.remarks,
+        };
+        (mesh, numbering)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Four nodes of two triangles, of which the curve meets the first, third, fourth and second: (0, 0), (0, 1), (1, 1), (1, 0).
+    fn square() -> Mesh {
+        Mesh {
+            node_tags: vec![10, 20, 30, 40],
+            positions: vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]],
+            cells: vec![Cell::Triangle([0, 1, 2]), Cell::Triangle([1, 3, 2])],
+            groups: vec![Group {
+                nodes: vec![1, 2, 3],
+                edges: vec![[1, 3], [2, 3]],
+                ..Group::default()
+            }],
+            fields: vec![NodeField {
+                name: "T".to_owned(),
+                time_step: 0,
+                components: 1,
+                values: vec![(1, 0.5), (2, 1.5)],
+            }],
+            remarks: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn a_mesh_goes_along_the_curve_with_all_that_it_has() {
+        let (mesh, numbering) = square().along_curve();
+        assert_eq!(mesh.node_tags, [10, 30, 40, 20]);
+        assert_eq!(
+            mesh.positions,
+            [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]]
+        );
+        let cells = [Cell::Triangle([0, 3, 1]), Cell::Triangle([3, 2, 1])];
+        assert_eq!(mesh.cells, cells);
+        assert_eq!(mesh.groups[0].nodes, [1, 2, 3]);
+        assert_eq!(mesh.groups[0].edges, [[1, 2], [2, 3]]);
+        assert_eq!(mesh.fields[0].values, [(1, 1.5), (3, 0.5)]);
+        assert_eq!(numbering.to_file(mesh.positions), square().positions);
+        assert_eq!(numbering.cells_in_file(mesh.cells), square().cells);
+    }
+
+    #[test]
+    fn what_is_told_is_in_the_order_of_the_file() {
+        let numbering = Numbering::along_curve(&square().positions);
+        assert_eq!([0, 1, 2, 3].map(|it| numbering.in_file(it)), [0, 2, 3, 1]);
+        assert_eq!([0, 1, 2, 3].map(|it| numbering.point(it)), [0, 3, 1, 2]);
+        // Two values a point.
+        let values = vec![0, 1, 20, 21, 30, 31, 10, 11];
+        let in_file = numbering.to_file(values.clone());
+        assert_eq!(in_file, [0, 1, 10, 11, 20, 21, 30, 31]);
+        assert_eq!(numbering.from_file(in_file), values);
+        assert_eq!(*numbering.sorted(&[1, 2, 3]), [3, 1, 2]);
+        // Nodes 2-3, 1-2 and 0-1 of the file.
+        let ends = [[1, 2], [1, 3], [0, 3]];
+        assert_eq!(
+            ends.map(|it| numbering.ends_in_file(it)),
+            [[2, 3], [1, 2], [0, 1]]
+        );
+        assert_eq!(numbering.bonds_in_file(&ends), Some(vec![2, 1, 0]));
+        // The second node lies in the last part, which is the second that the file meets.
+        assert_eq!(numbering.parts_in_file(&[0, 1, 1, 2]), [0, 2, 2, 1]);
+    }
+
+    #[test]
+    fn points_along_the_curve_keep_their_numbers() {
+        let numbering = Numbering::along_curve(&square().along_curve().0.positions);
+        assert_eq!(numbering, Numbering::default());
+        assert_eq!(numbering.order_of_file(), None);
+        assert_eq!(numbering.bonds_in_file(&[[0, 1]]), None);
+        assert_eq!(numbering.to_file(vec![3, 1]), [3, 1]);
+    }
+}
