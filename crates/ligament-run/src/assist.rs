@@ -134,9 +134,11 @@ where
             Serial::read(&mut bytes.as_slice())?
         }
     };
+    let restored = solution.map(|it| restore(&problem, analysis, &it));
+    let restored = restored.transpose()?;
     let (grid, fixed) = (model.body().grid(), &model.fixed);
     let (folder, rule) = (hear_folder(ranks)?, write_rule(case, analysis));
-    let shared = || match solution {
+    let shared = || match restored {
         None => PieceWriter::new(folder, &grid, fixed, rule, &problem),
         Some(_) => Ok(PieceWriter::going_on(folder, &grid, fixed, rule)),
     };
@@ -147,12 +149,9 @@ where
         stops: false,
         pieces,
     };
-    match solution {
+    match restored {
         None => follow(&problem, analysis, &mut beside)?,
-        Some(solution) => {
-            let restored = restore(&problem, analysis, &solution)?;
-            resume_run(analysis, restored, &mut beside)?
-        }
+        Some(restored) => resume_run(analysis, restored, &mut beside)?,
     };
     Ok(())
 }
