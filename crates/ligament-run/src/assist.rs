@@ -134,7 +134,6 @@ where
             Serial::read(&mut bytes.as_slice())?
         }
     };
-    // As in the first process: where the run goes on, then the folder.
     let restored = solution.map(|it| restore(&problem, analysis, &it));
     let restored = restored.transpose()?;
     let (grid, fixed) = (model.body().grid(), &model.fixed);

@@ -126,9 +126,10 @@ mod tests {
             ],
             ..SolidMesh::default()
         };
-        let cloud = PointCloud::from_solid_mesh(&mesh, &[0, 0], 1);
+        let body = SolidMeshBody::from(mesh);
+        let cloud = body.cloud(1.0, &[0, 0], 1);
         let material = Material::isotropic(1e9, 0.2);
-        let mut setup = Setup::new(SolidMeshBody::from(mesh), material, Law::Nhpd);
+        let mut setup = Setup::new(body, material, Law::Nhpd);
         setup.horizon = Horizon::Factor(factor);
         (setup, cloud)
     }
