@@ -127,11 +127,13 @@ fn loading(case: &CaseFile) -> anyhow::Result<Loading> {
     Ok(Loading::new(&model.setup, &model.system).map_err(|it| case.located(it))?)
 }
 
-/// Changes of the points of a case in a folder, K.
+/// Changes of the points of a case in a folder, in the order of its mesh file, K.
 fn changes_in(folder: &Path, text: &str) -> Result<Vec<f64>, String> {
     let case = parse_in(folder, text)?;
     let loading = loading(&case).map_err(|error| error.to_string())?;
-    Ok(loading.boundary.temperature_change.clone())
+    let setup = case.setup(&mut ()).map_err(|error| error.to_string())?;
+    let changes = loading.boundary.temperature_change.clone();
+    Ok(setup.body.numbering().to_file(changes))
 }
 
 fn changes(text: &str) -> Result<Vec<f64>, String> {
