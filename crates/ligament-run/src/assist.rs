@@ -1,5 +1,5 @@
-//! The part of the processes beside the first in a run of several: each computes the same, and the first alone reads what was stored, tells
-//! and writes.
+//! The part of the processes beside the first in a run of several: each computes with its own part of the body and writes its pieces of
+//! fields and model. The first alone reads what was stored, tells, and writes all else.
 
 use anyhow::{Context, ensure};
 use ligament::Model;

@@ -196,9 +196,10 @@ impl<'a> Path<'a> {
         let checkpoint = || {
             let mut out = Vec::new();
             place().write(&mut out);
-            numbers
-                .map_or_else(|| state.clone(), |it| state.of_all(it))
-                .write(&mut out);
+            match numbers {
+                None => state.write(&mut out),
+                Some(numbers) => state.of_all(numbers).write(&mut out),
+            }
             course.write(&mut out);
             equilibrium.write(&mut out);
             energies.write(&mut out);

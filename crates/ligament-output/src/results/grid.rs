@@ -171,7 +171,8 @@ pub(super) fn write_grid(
     vtu::write_shared(path, &grid, shared)
 }
 
-/// The point of each cell by which its process is known, its number in the file: the first of its corners, or the one that it lies around (n_cells).
+/// The point of each cell by which its process is known, by its number in the file (n_cells): the first of its corners, or the one that it
+/// lies around.
 fn points_of_cells(canvas: &Canvas, cells: &[vtu::Cell]) -> Vec<u32> {
     match canvas {
         Canvas::Between(_) | Canvas::Solid(_) => cells.iter().map(|it| it.points()[0]).collect(),
