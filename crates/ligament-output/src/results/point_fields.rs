@@ -89,7 +89,13 @@ impl PointFields {
             dissipated,
         } = &mut self.damage;
         let by_way = by_way.iter_mut().map(|(_, values)| values);
-        let of_points = [&mut self.motion.density, share];
+        let motion = &mut self.motion;
+        match &mut motion.rotation {
+            Rotations::InPlane(values) => portion.complete(values, 1),
+            Rotations::InSpace(values) => portion.complete(values.as_flattened_mut(), 3),
+        }
+        portion.complete(motion.reaction.as_flattened_mut(), 3);
+        let of_points = [&mut motion.density, share];
         for values in of_points.into_iter().chain(by_way).chain(dissipated) {
             portion.complete(values, 1);
         }
@@ -288,9 +294,14 @@ fn stresses(rule: WriteRule, view: &View<'_>) -> Vec<(&'static str, Stresses)> {
         .collect()
 }
 
-/// Displacements of the points, with a third component of zero in the plane, shape (n_points), m.
+/// Displacements of the points, with a third component of zero in the plane, shape (n_points), m; where processes share the body all of
+/// them call this.
 pub fn displacements(view: &View<'_>) -> Vec<[f64; 3]> {
-    vectors(view.system.layout(), &view.state.displacement)
+    let mut of_points = vectors(view.system.layout(), &view.state.displacement);
+    if let Some(portion) = view.system.portion() {
+        portion.complete(of_points.as_flattened_mut(), 3);
+    }
+    of_points
 }
 
 /// The x, y and z components, of which those that points do not have are zero, shape (n_points).
