@@ -1,136 +1,272 @@
-//! The dense kernel of a change: terms through the panel of one supernode.
+//! Terms through the panel of one supernode, and a right-hand side after them while what they changed is in the cache.
+//!
+//! Large panels are taken in tiles of columns. The rows below the square of a tile do not wait for each other: once the square is changed
+//! and its rotations are known, they are tasks. Tiles and tasks begin at multiples of what vectors and blocks of columns
+//! hold, so that a row takes the instructions that it takes in a panel that is not divided: the bits are the same.
 
 use std::ops::Range;
 
-use pulp::Simd;
+use pulp::{Arch, Simd, WithSimd};
+use rayon::prelude::*;
 
 use super::diagonal::{DiagonalEntry, VANISHING_PIVOT};
+use super::rotation::{BLOCK, Rotation, rotate, rotate_root, rotate_rows};
 use crate::panels::FactorKind;
+use crate::substitution::{self, forward_block, subtract_block};
 
-/// Terms that go through the factor at once: their part of a panel stays in the cache.
-pub(super) const TERMS_AT_ONCE: usize = 32;
+/// Columns of a tile.
+const TILE: usize = 128;
 
-/// Columns of a panel that are changed together.
-const BLOCK: usize = 4;
+/// Values to change, times the terms and two more, that make a task worth while: some 50 microseconds.
+const TASK: usize = 200_000;
 
-/// The terms c w w^T on their way, with what of w lies in the panel at hand.
+/// A panel with terms that go through it.
+pub(super) struct Panel<'a> {
+    pub(super) kind: FactorKind,
+    /// Diagonal entries of the matrix, shape (n_columns).
+    pub(super) diagonal: &'a [DiagonalEntry],
+    /// What is left of the weights of the terms, shape (n_terms).
+    pub(super) weights: &'a mut [f64],
+    pub(super) rows: Rows<'a>,
+}
+
+/// Some rows of a panel.
 #[derive(Default)]
-pub(super) struct Terms {
-    /// What is left of the weight c of each term.
-    weights: Vec<f64>,
-    /// The terms that are not zero in the columns of the panel.
-    active: Vec<usize>,
-    /// Rows of the panel of the active terms, one term after another, shape (active, height).
-    rows: Vec<f64>,
-    height: usize,
-    /// For each active term, its action on the columns of a block.
+pub(super) struct Rows<'a> {
+    /// Columns of the factor, shape (n_columns, n_rows).
+    pub(super) columns: Vec<&'a mut [f64]>,
+    /// Terms, shape (n_terms, n_rows).
+    pub(super) terms: Vec<&'a mut [f64]>,
+    /// A right-hand side that the forward substitution takes along, shape (n_rows).
+    pub(super) right_hand_side: Option<&'a mut [f64]>,
+}
+
+impl Panel<'_> {
+    /// Changes the panel; gives the change of the number of negative pivots, or the column whose pivot vanished.
+    pub(super) fn change(self) -> Result<isize, usize> {
+        let Self {
+            kind,
+            diagonal,
+            weights,
+            mut rows,
+        } = self;
+        let mut more_negative = 0;
+        let mut first = 0;
+        while first < diagonal.len() {
+            let tile = rows.tile(first);
+            let end = tile.columns.end;
+            let mut pieces = rows.divided(&tile).into_iter();
+            let mut square = Square {
+                kind,
+                diagonal: &diagonal[first..end],
+                weights,
+                rows: pieces.next().unwrap_or_default(),
+                rotations: Vec::new(),
+            };
+            let changed = Arch::new().dispatch(&mut square);
+            more_negative += changed.map_err(|column| first + column)?;
+            square.change_below(pieces.collect());
+            first = end;
+        }
+        Ok(more_negative)
+    }
+}
+
+/// Columns that are changed before others, and how the rows from their first pivot on are divided.
+struct Tile {
+    columns: Range<usize>,
+    /// Rows that are changed along with the pivots.
+    n_rows: usize,
+    /// Rows of each task after that.
+    rows_of_task: usize,
+}
+
+impl Tile {
+    /// Rows that are changed along with the pivots, and then those of each task, of something with all rows of the panel.
+    fn divide<'a>(&self, rows: &'a mut [f64]) -> impl Iterator<Item = &'a mut [f64]> + use<'a> {
+        let (top, below) = rows[self.columns.start..].split_at_mut(self.n_rows);
+        std::iter::once(top).chain(below.chunks_mut(self.rows_of_task))
+    }
+}
+
+impl Rows<'_> {
+    /// The tile that begins with a column; the whole rest where its rows are not worth several tasks.
+    fn tile(&self, first: usize) -> Tile {
+        let n_columns = self.columns.len();
+        let height = self.columns.first().map_or(0, |column| column.len());
+        let width = TILE.min((n_columns - first) / substitution::BLOCK * substitution::BLOCK);
+        let below = height - first - width;
+        let n_tasks = width * below * (self.terms.len() + 2) / TASK;
+        if n_tasks < 2 {
+            return Tile {
+                columns: first..n_columns,
+                n_rows: height - first,
+                rows_of_task: 1,
+            };
+        }
+        Tile {
+            columns: first..first + width,
+            n_rows: width,
+            rows_of_task: below
+                .div_ceil(n_tasks)
+                .next_multiple_of(substitution::BLOCK),
+        }
+    }
+
+    /// The rows that are changed along with the pivots of a tile, and then those of each task.
+    fn divided(&mut self, tile: &Tile) -> Vec<Rows<'_>> {
+        let mut pieces = Vec::new();
+        for column in &mut self.columns[tile.columns.clone()] {
+            for (place, rows) in tile.divide(column).enumerate() {
+                if place == pieces.len() {
+                    pieces.push(Rows::default());
+                }
+                pieces[place].columns.push(rows);
+            }
+        }
+        for term in &mut self.terms {
+            let pieces = pieces.iter_mut().zip(tile.divide(term));
+            pieces.for_each(|(piece, rows)| piece.terms.push(rows));
+        }
+        if let Some(right_hand_side) = &mut self.right_hand_side {
+            let pieces = pieces.iter_mut().zip(tile.divide(right_hand_side));
+            pieces.for_each(|(piece, rows)| piece.right_hand_side = Some(rows));
+        }
+        pieces
+    }
+}
+
+/// Columns from the row of their first pivot on, down to that of their last one or further.
+struct Square<'a, 'b> {
+    kind: FactorKind,
+    diagonal: &'a [DiagonalEntry],
+    weights: &'a mut [f64],
+    rows: Rows<'b>,
+    /// For each block of columns and each term, its action on the columns, shape (n_blocks, n_terms).
     rotations: Vec<[Rotation; BLOCK]>,
 }
 
-/// The action of a term on a column l of the factor, below the diagonal: w <- w - c l, then l <- p l + q w.
-#[derive(Debug, Clone, Copy, Default)]
-struct Rotation {
-    c: f64,
-    p: f64,
-    q: f64,
-}
+impl WithSimd for &mut Square<'_, '_> {
+    type Output = Result<isize, usize>;
 
-impl Terms {
-    /// Starts with the weights of new terms.
-    pub(super) fn start(&mut self, weights: impl Iterator<Item = f64>) {
-        self.weights.clear();
-        self.weights.extend(weights);
-    }
-
-    /// Takes over what terms have in a panel; false if they are all zero in its columns.
-    pub(super) fn gather(
-        &mut self,
-        columns: Range<usize>,
-        below: &[usize],
-        on_the_way: &mut [f64],
-    ) -> bool {
-        let n_terms = self.weights.len();
-        self.active.clear();
-        let in_columns = &on_the_way[TERMS_AT_ONCE * columns.start..TERMS_AT_ONCE * columns.end];
-        self.active.extend((0..n_terms).filter(|&term| {
-            in_columns
-                .chunks_exact(TERMS_AT_ONCE)
-                .any(|row| row[term] != 0.0)
-        }));
-        self.height = columns.len() + below.len();
-        self.rows.clear();
-        self.rows.resize(self.active.len() * self.height, 0.0);
-        for (local, row) in columns.clone().chain(below.iter().copied()).enumerate() {
-            let values = &on_the_way[TERMS_AT_ONCE * row..][..n_terms];
-            for (place, &term) in self.active.iter().enumerate() {
-                self.rows[place * self.height + local] = values[term];
-            }
-        }
-        on_the_way[TERMS_AT_ONCE * columns.start..TERMS_AT_ONCE * columns.end].fill(0.0);
-        !self.active.is_empty()
-    }
-
-    /// Hands the terms on to the rows below the panel.
-    pub(super) fn scatter(&self, columns: Range<usize>, below: &[usize], on_the_way: &mut [f64]) {
-        for (local, &row) in below.iter().enumerate() {
-            let values = &mut on_the_way[TERMS_AT_ONCE * row..][..TERMS_AT_ONCE];
-            for (place, &term) in self.active.iter().enumerate() {
-                values[term] = self.rows[place * self.height + columns.len() + local];
-            }
-        }
-    }
-
-    /// Changes a panel; gives the change of the number of negative pivots, or the column whose pivot vanished.
     #[inline(always)]
-    pub(super) fn change<S: Simd>(
-        &mut self,
-        simd: S,
-        kind: FactorKind,
-        panel: &mut [f64],
-        diagonal: &[DiagonalEntry],
-    ) -> Result<isize, usize> {
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let Square {
+            kind,
+            diagonal,
+            weights,
+            rows,
+            rotations,
+        } = self;
+        let Rows {
+            columns,
+            terms,
+            right_hand_side,
+        } = rows;
         let mut more_negative = 0;
-        for (index, block) in panel.chunks_mut(BLOCK * self.height).enumerate() {
-            let first = BLOCK * index;
-            let width = block.len() / self.height;
-            more_negative += self.change_pivots(kind, block, first, width, diagonal)?;
-            match width {
-                4 => self.change_below::<S, 4>(simd, block, first + 4),
-                3 => self.change_below::<S, 3>(simd, block, first + 3),
-                2 => self.change_below::<S, 2>(simd, block, first + 2),
-                _ => self.change_below::<S, 1>(simd, block, first + 1),
+        let mut first = 0;
+        for columns in columns.chunks_mut(substitution::BLOCK) {
+            let start = first;
+            for block in columns.chunks_mut(BLOCK) {
+                let pivots = Pivots {
+                    kind: *kind,
+                    diagonal,
+                    first,
+                };
+                let before = rotations.len();
+                more_negative += pivots.change(block, weights, terms, rotations)?;
+                first += block.len();
+                rotate_rows(simd, block, first, terms, &rotations[before..]);
+            }
+            if let Some(right_hand_side) = right_hand_side {
+                forward_block(simd, *kind, columns, start, right_hand_side);
             }
         }
         Ok(more_negative)
     }
+}
 
-    /// Changes the pivots of a block of columns and the triangle between them, and notes the rotations.
+impl Square<'_, '_> {
+    /// Changes rows further below, which are tasks.
+    fn change_below(&self, tasks: Vec<Rows<'_>>) {
+        let solved = self.rows.right_hand_side.as_deref().unwrap_or_default();
+        tasks.into_par_iter().with_max_len(1).for_each(|rows| {
+            Arch::new().dispatch(Below {
+                rows,
+                rotations: &self.rotations,
+                solved,
+            });
+        });
+    }
+}
+
+/// Rows below the pivots of some columns.
+struct Below<'a, 'b> {
+    rows: Rows<'b>,
+    rotations: &'a [[Rotation; BLOCK]],
+    /// What the right-hand side became at the pivots, shape (n_columns).
+    solved: &'a [f64],
+}
+
+impl WithSimd for Below<'_, '_> {
+    type Output = ();
+
     #[inline(always)]
-    fn change_pivots(
-        &mut self,
-        kind: FactorKind,
-        block: &mut [f64],
-        first: usize,
-        width: usize,
-        diagonal: &[DiagonalEntry],
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Rows {
+            mut columns,
+            mut terms,
+            mut right_hand_side,
+        } = self.rows;
+        let mut rotations = self.rotations.chunks_exact(terms.len());
+        let mut solved = self.solved.chunks(substitution::BLOCK);
+        for columns in columns.chunks_mut(substitution::BLOCK) {
+            for block in columns.chunks_mut(BLOCK) {
+                let rotations = rotations.next().unwrap_or_default();
+                rotate_rows(simd, block, 0, &mut terms, rotations);
+            }
+            if let (Some(rest), Some(solved)) = (&mut right_hand_side, solved.next()) {
+                subtract_block(simd, columns, solved, rest);
+            }
+        }
+    }
+}
+
+/// The pivots of a block of columns, from the row of the first of them on.
+struct Pivots<'a> {
+    kind: FactorKind,
+    /// Diagonal entries by row.
+    diagonal: &'a [DiagonalEntry],
+    first: usize,
+}
+
+impl Pivots<'_> {
+    /// Changes the pivots and the triangle between them, and notes the rotations.
+    #[inline(always)]
+    fn change(
+        self,
+        block: &mut [&mut [f64]],
+        weights: &mut [f64],
+        terms: &mut [&mut [f64]],
+        rotations: &mut Vec<[Rotation; BLOCK]>,
     ) -> Result<isize, usize> {
-        let height = self.height;
-        self.rotations.clear();
-        self.rotations
-            .resize(self.active.len(), [Rotation::default(); BLOCK]);
+        let before = rotations.len();
+        rotations.resize(before + terms.len(), [Rotation::default(); BLOCK]);
+        let rotations = &mut rotations[before..];
+        let end = self.first + block.len();
         let mut more_negative = 0;
-        for (k, column) in block.chunks_exact_mut(height).enumerate() {
-            let row = first + k;
+        for (k, column) in block.iter_mut().enumerate() {
+            let row = self.first + k;
             let was_negative = column[row] < 0.0;
-            let vanishing = VANISHING_PIVOT * diagonal[row].largest;
-            for (place, &term) in self.active.iter().enumerate() {
-                let w = &mut self.rows[place * height..][..height];
-                let weight = &mut self.weights[term];
-                let (rotation, pivot) = match kind {
+            let vanishing = VANISHING_PIVOT * self.diagonal[row].largest;
+            for ((w, weight), rotations) in
+                (terms.iter_mut().zip(&mut *weights)).zip(&mut *rotations)
+            {
+                let (rotation, pivot) = match self.kind {
                     FactorKind::Llt => rotate_root(&mut column[row], weight, w[row]),
                     FactorKind::Ldlt => rotate(&mut column[row], weight, w[row]),
                 };
-                let size = match kind {
+                let size = match self.kind {
                     FactorKind::Llt => pivot,
                     FactorKind::Ldlt => pivot.abs(),
                 };
@@ -138,119 +274,14 @@ impl Terms {
                 if size.is_nan() || size <= vanishing {
                     return Err(row);
                 }
-                for r in row + 1..first + width {
+                for r in row + 1..end {
                     w[r] -= rotation.c * column[r];
                     column[r] = rotation.p * column[r] + rotation.q * w[r];
                 }
-                self.rotations[place][k] = rotation;
+                rotations[k] = rotation;
             }
             more_negative += isize::from(column[row] < 0.0) - isize::from(was_negative);
         }
         Ok(more_negative)
     }
-
-    /// Applies the rotations to the rows below a block of columns, for two terms at a time: the columns are then read and
-    /// written half as often.
-    #[inline(always)]
-    fn change_below<S: Simd, const WIDTH: usize>(
-        &mut self,
-        simd: S,
-        block: &mut [f64],
-        first_row: usize,
-    ) {
-        let height = self.height;
-        let mut pairs = self.rows.chunks_exact_mut(2 * height);
-        let mut rotations = self.rotations.chunks_exact(2);
-        for (w, rotations) in (&mut pairs).zip(&mut rotations) {
-            let (one, other) = w.split_at_mut(height);
-            let w = [&mut one[first_row..], &mut other[first_row..]];
-            let rotations = [rotations[0], rotations[1]];
-            apply::<S, WIDTH, 2>(simd, block, w, &rotations);
-        }
-        if let ([rotations], w) = (rotations.remainder(), pairs.into_remainder()) {
-            apply::<S, WIDTH, 1>(simd, block, [&mut w[first_row..]], &[*rotations]);
-        }
-    }
-}
-
-/// Applies the rotations of some terms, one after the other, to the last rows of a block of columns.
-#[inline(always)]
-fn apply<S: Simd, const WIDTH: usize, const TERMS: usize>(
-    simd: S,
-    block: &mut [f64],
-    terms: [&mut [f64]; TERMS],
-    rotations: &[[Rotation; BLOCK]; TERMS],
-) {
-    let height = block.len() / WIDTH;
-    let n_rows = terms[0].len();
-    let mut terms = terms.map(|w| S::as_mut_simd_f64s(w));
-    let mut columns = block.chunks_exact_mut(height);
-    let mut columns: [_; WIDTH] = std::array::from_fn(|_| {
-        let column = columns.next().unwrap_or_default();
-        S::as_mut_simd_f64s(&mut column[height - n_rows..])
-    });
-    let splat = |part: fn(&Rotation) -> f64| -> [[_; WIDTH]; TERMS] {
-        std::array::from_fn(|t| std::array::from_fn(|k| simd.splat_f64s(part(&rotations[t][k]))))
-    };
-    let (c, p, q) = (splat(|r| r.c), splat(|r| r.p), splat(|r| r.q));
-    let n_vectors = terms[0].0.len();
-    for w in &terms {
-        assert_eq!(w.0.len(), n_vectors);
-    }
-    for column in &columns {
-        assert_eq!(column.0.len(), n_vectors);
-    }
-    for r in 0..n_vectors {
-        let mut values: [_; TERMS] = std::array::from_fn(|t| terms[t].0[r]);
-        for k in 0..WIDTH {
-            let mut l = columns[k].0[r];
-            for t in 0..TERMS {
-                values[t] = simd.negate_mul_add_e_f64s(c[t][k], l, values[t]);
-                l = simd.mul_add_e_f64s(q[t][k], values[t], simd.mul_f64s(p[t][k], l));
-            }
-            columns[k].0[r] = l;
-        }
-        for t in 0..TERMS {
-            terms[t].0[r] = values[t];
-        }
-    }
-    for (w, rotations) in terms.iter_mut().zip(rotations) {
-        for (r, w) in w.1.iter_mut().enumerate() {
-            for (column, rotation) in columns.iter_mut().zip(rotations) {
-                let l = &mut column.1[r];
-                *w -= rotation.c * *l;
-                *l = rotation.p * *l + rotation.q * *w;
-            }
-        }
-    }
-}
-
-/// One step of L D L^T + c w w^T at a pivot d: d' = d + c w^2, c' = c d/d' (Gill 1974, method C1). Gives the action on the
-/// column, and d'; the result is worthless where d' vanishes.
-#[inline(always)]
-fn rotate(pivot: &mut f64, weight: &mut f64, w: f64) -> (Rotation, f64) {
-    let old = *pivot;
-    let new = old + *weight * w * w;
-    let q = *weight * w / new;
-    *weight *= old / new;
-    *pivot = new;
-    (Rotation { c: w, p: 1.0, q }, new)
-}
-
-/// One step as [`rotate`] does it where the diagonal holds the square root of the pivot, and each column is that root times
-/// the column of a unit L. The result is worthless where the new pivot is not positive.
-#[inline(always)]
-fn rotate_root(root: &mut f64, weight: &mut f64, w: f64) -> (Rotation, f64) {
-    let old = *root;
-    let new = old * old + *weight * w * w;
-    let new_root = new.sqrt();
-    let q = *weight * w / new_root;
-    *weight *= old * old / new;
-    *root = new_root;
-    let rotation = Rotation {
-        c: w / old,
-        p: new_root / old,
-        q,
-    };
-    (rotation, new)
 }
