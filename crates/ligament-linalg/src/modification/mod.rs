@@ -9,6 +9,7 @@
 mod diagonal;
 mod panel;
 mod rotation;
+mod square;
 mod terms;
 
 use std::cmp::Reverse;
@@ -18,7 +19,8 @@ use crate::panels::{FactorKind, Panels};
 use crate::rank_one::RankOne;
 use crate::substitution;
 use crate::supernodes::Supernodes;
-use panel::{Panel, Rows};
+use panel::Panel;
+use square::Rows;
 use terms::{TERMS_AT_ONCE, Terms};
 
 pub(crate) use diagonal::DiagonalEntry;

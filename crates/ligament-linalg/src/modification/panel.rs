@@ -1,23 +1,24 @@
-//! Terms through the panel of one supernode, and a right-hand side after them while what they changed is in the cache.
+//! Terms through the panel of one supernode.
 //!
 //! Large panels are taken in tiles of columns. The rows below the square of a tile do not wait for each other: once the square is changed
-//! and its rotations are known, they are tasks. Tiles and tasks begin at multiples of what vectors and blocks of columns
-//! hold, so that a row takes the instructions that it takes in a panel that is not divided: the bits are the same.
+//! and its rotations are known, they are tasks, and the first of these goes on to the next square. Tiles and tasks begin at
+//! multiples of what vectors and blocks of columns hold, so that a row takes the instructions that it takes in a panel that
+//! is not divided: the bits are the same.
 
 use std::ops::Range;
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::Arch;
 use rayon::prelude::*;
 
-use super::diagonal::{DiagonalEntry, VANISHING_PIVOT};
-use super::rotation::{BLOCK, Rotation, rotate, rotate_root, rotate_rows};
+use super::diagonal::DiagonalEntry;
+use super::square::{Below, Rows, Square, Turned};
 use crate::panels::FactorKind;
-use crate::substitution::{self, forward_block, subtract_block};
+use crate::substitution::BLOCK;
 
 /// Columns of a tile.
-const TILE: usize = 128;
+const TILE: usize = 192;
 
-/// Values to change, times the terms and two more, that make a task worth while: some 50 microseconds.
+/// Values to change, times the terms and two more, that make a task worth while: some 25 microseconds.
 const TASK: usize = 200_000;
 
 /// A panel with terms that go through it.
@@ -27,261 +28,177 @@ pub(super) struct Panel<'a> {
     pub(super) diagonal: &'a [DiagonalEntry],
     /// What is left of the weights of the terms, shape (n_terms).
     pub(super) weights: &'a mut [f64],
+    /// All of its rows.
     pub(super) rows: Rows<'a>,
 }
 
-/// Some rows of a panel.
-#[derive(Default)]
-pub(super) struct Rows<'a> {
-    /// Columns of the factor, shape (n_columns, n_rows).
-    pub(super) columns: Vec<&'a mut [f64]>,
-    /// Terms, shape (n_terms, n_rows).
-    pub(super) terms: Vec<&'a mut [f64]>,
-    /// A right-hand side that the forward substitution takes along, shape (n_rows).
-    pub(super) right_hand_side: Option<&'a mut [f64]>,
+/// Columns that are changed before others.
+struct Tile {
+    columns: Range<usize>,
+    /// Rows of each task below the square of the columns; None where all rows are changed along with the pivots.
+    rows_of_task: Option<usize>,
 }
 
 impl Panel<'_> {
     /// Changes the panel; gives the change of the number of negative pivots, or the column whose pivot vanished.
-    pub(super) fn change(self) -> Result<isize, usize> {
-        let Self {
-            kind,
-            diagonal,
-            weights,
-            mut rows,
-        } = self;
+    pub(super) fn change(mut self) -> Result<isize, usize> {
         let mut more_negative = 0;
-        let mut first = 0;
-        while first < diagonal.len() {
-            let tile = rows.tile(first);
-            let end = tile.columns.end;
-            let mut pieces = rows.divided(&tile).into_iter();
-            let mut square = Square {
-                kind,
-                diagonal: &diagonal[first..end],
-                weights,
-                rows: pieces.next().unwrap_or_default(),
-                rotations: Vec::new(),
+        let mut before: Option<(Tile, Turned)> = None;
+        for tile in self.tiles() {
+            let turned = match (&before, tile.rows_of_task) {
+                (Some(before), Some(_)) => self.turn_along(before, &tile),
+                (Some(before), None) => {
+                    self.turn_below(before);
+                    self.turn(&tile)
+                }
+                (None, _) => self.turn(&tile),
             };
-            let changed = Arch::new().dispatch(&mut square);
-            more_negative += changed.map_err(|column| first + column)?;
-            square.change_below(pieces.collect());
-            first = end;
+            let turned = turned.map_err(|column| tile.columns.start + column)?;
+            more_negative += turned.more_negative;
+            before = Some((tile, turned));
+        }
+        if let Some(last) = &before {
+            self.turn_below(last);
         }
         Ok(more_negative)
     }
-}
 
-/// Columns that are changed before others, and how the rows from their first pivot on are divided.
-struct Tile {
-    columns: Range<usize>,
-    /// Rows that are changed along with the pivots.
-    n_rows: usize,
-    /// Rows of each task after that.
-    rows_of_task: usize,
-}
-
-impl Tile {
-    /// Rows that are changed along with the pivots, and then those of each task, of something with all rows of the panel.
-    fn divide<'a>(&self, rows: &'a mut [f64]) -> impl Iterator<Item = &'a mut [f64]> + use<'a> {
-        let (top, below) = rows[self.columns.start..].split_at_mut(self.n_rows);
-        std::iter::once(top).chain(below.chunks_mut(self.rows_of_task))
-    }
-}
-
-impl Rows<'_> {
-    /// The tile that begins with a column; the whole rest where its rows are not worth several tasks.
-    fn tile(&self, first: usize) -> Tile {
-        let n_columns = self.columns.len();
-        let height = self.columns.first().map_or(0, |column| column.len());
-        let width = TILE.min((n_columns - first) / substitution::BLOCK * substitution::BLOCK);
-        let below = height - first - width;
-        let n_tasks = width * below * (self.terms.len() + 2) / TASK;
-        if n_tasks < 2 {
-            return Tile {
-                columns: first..n_columns,
-                n_rows: height - first,
-                rows_of_task: 1,
+    /// The tiles: the last one takes all columns that are left where the rows below are not worth several tasks.
+    fn tiles(&self) -> Vec<Tile> {
+        let n_columns = self.rows.columns.len();
+        let height = self.rows.columns.first().map_or(0, |column| column.len());
+        let mut tiles = Vec::new();
+        let mut first = 0;
+        while first < n_columns {
+            let width = TILE.min((n_columns - first) / BLOCK * BLOCK);
+            let below = height - first - width;
+            let n_tasks = width * below * (self.rows.terms.len() + 2) / TASK;
+            let (end, rows_of_task) = if n_tasks < 2 {
+                (n_columns, None)
+            } else {
+                let rows = below.div_ceil(n_tasks).next_multiple_of(BLOCK);
+                (first + width, Some(rows))
             };
+            tiles.push(Tile {
+                columns: first..end,
+                rows_of_task,
+            });
+            first = end;
         }
-        Tile {
-            columns: first..first + width,
-            n_rows: width,
-            rows_of_task: below
-                .div_ceil(n_tasks)
-                .next_multiple_of(substitution::BLOCK),
-        }
+        tiles
     }
 
-    /// The rows that are changed along with the pivots of a tile, and then those of each task.
-    fn divided(&mut self, tile: &Tile) -> Vec<Rows<'_>> {
-        let mut pieces = Vec::new();
-        for column in &mut self.columns[tile.columns.clone()] {
-            for (place, rows) in tile.divide(column).enumerate() {
+    /// Changes the square of a tile, or all of its rows where they are not divided.
+    fn turn(&mut self, tile: &Tile) -> Result<Turned, usize> {
+        let Range { start, end } = tile.columns;
+        let n_rows = match tile.rows_of_task {
+            Some(_) => end - start,
+            None => self.rows.columns[start].len() - start,
+        };
+        let cut = Cut {
+            from: start,
+            n_first: n_rows,
+            n_each: usize::MAX,
+        };
+        let pieces = cut.pieces(&mut self.rows, tile.columns.clone());
+        Arch::new().dispatch(Square {
+            kind: self.kind,
+            diagonal: &self.diagonal[tile.columns.clone()],
+            weights: self.weights,
+            rows: pieces.into_iter().next().unwrap_or_default(),
+        })
+    }
+
+    /// Changes the rows below the square of a tile.
+    fn turn_below(&mut self, (tile, turned): &(Tile, Turned)) {
+        let Some(n_each) = tile.rows_of_task else {
+            return;
+        };
+        let cut = Cut {
+            from: tile.columns.end,
+            n_first: 0,
+            n_each,
+        };
+        let pieces = cut.pieces(&mut self.rows, tile.columns.clone());
+        side_by_side(pieces.into_iter().skip(1).collect(), turned);
+    }
+
+    /// Changes the rows below the square of a tile, and along with them the square of the next one.
+    fn turn_along(
+        &mut self,
+        (before, turned): &(Tile, Turned),
+        tile: &Tile,
+    ) -> Result<Turned, usize> {
+        let Range { start, end } = tile.columns;
+        let cut = Cut {
+            from: start,
+            n_first: end - start,
+            n_each: before.rows_of_task.unwrap_or(usize::MAX),
+        };
+        let mut later = self.rows.columns.split_off(start);
+        let of_square = later[..end - start].iter_mut();
+        let columns = of_square.map(|column| &mut column[start..end]).collect();
+        let pieces = cut.pieces(&mut self.rows, before.columns.clone());
+        let mut pieces = pieces.into_iter();
+        let mut first = pieces.next().unwrap_or_default();
+        let square = || {
+            let rows = &mut first;
+            Arch::new().dispatch(Below { rows, turned });
+            Arch::new().dispatch(Square {
+                kind: self.kind,
+                diagonal: &self.diagonal[start..end],
+                weights: self.weights,
+                rows: Rows { columns, ..first },
+            })
+        };
+        let (turned, ()) = rayon::join(square, || side_by_side(pieces.collect(), turned));
+        self.rows.columns.append(&mut later);
+        turned
+    }
+}
+
+/// Changes rows below the pivots of columns, which are tasks.
+fn side_by_side(pieces: Vec<Rows<'_>>, turned: &Turned) {
+    let tasks = pieces.into_par_iter().with_max_len(1);
+    tasks.for_each(|mut rows| {
+        let rows = &mut rows;
+        Arch::new().dispatch(Below { rows, turned });
+    });
+}
+
+/// Where the rows of a panel are cut: so many from one on, and then each so many.
+#[derive(Clone, Copy)]
+struct Cut {
+    from: usize,
+    n_first: usize,
+    n_each: usize,
+}
+
+impl Cut {
+    fn divide(self, rows: &mut [f64]) -> impl Iterator<Item = &mut [f64]> {
+        let (first, rest) = rows[self.from..].split_at_mut(self.n_first);
+        std::iter::once(first).chain(rest.chunks_mut(self.n_each))
+    }
+
+    /// The pieces of some columns, with the terms and the right-hand side.
+    fn pieces<'a>(self, rows: &'a mut Rows<'_>, columns: Range<usize>) -> Vec<Rows<'a>> {
+        let mut pieces: Vec<Rows<'a>> = Vec::new();
+        for column in &mut rows.columns[columns] {
+            for (place, rows) in self.divide(column).enumerate() {
                 if place == pieces.len() {
                     pieces.push(Rows::default());
                 }
                 pieces[place].columns.push(rows);
             }
         }
-        for term in &mut self.terms {
-            let pieces = pieces.iter_mut().zip(tile.divide(term));
+        for term in &mut rows.terms {
+            let pieces = pieces.iter_mut().zip(self.divide(term));
             pieces.for_each(|(piece, rows)| piece.terms.push(rows));
         }
-        if let Some(right_hand_side) = &mut self.right_hand_side {
-            let pieces = pieces.iter_mut().zip(tile.divide(right_hand_side));
+        if let Some(right_hand_side) = &mut rows.right_hand_side {
+            let pieces = pieces.iter_mut().zip(self.divide(right_hand_side));
             pieces.for_each(|(piece, rows)| piece.right_hand_side = Some(rows));
         }
         pieces
-    }
-}
-
-/// Columns from the row of their first pivot on, down to that of their last one or further.
-struct Square<'a, 'b> {
-    kind: FactorKind,
-    diagonal: &'a [DiagonalEntry],
-    weights: &'a mut [f64],
-    rows: Rows<'b>,
-    /// For each block of columns and each term, its action on the columns, shape (n_blocks, n_terms).
-    rotations: Vec<[Rotation; BLOCK]>,
-}
-
-impl WithSimd for &mut Square<'_, '_> {
-    type Output = Result<isize, usize>;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        let Square {
-            kind,
-            diagonal,
-            weights,
-            rows,
-            rotations,
-        } = self;
-        let Rows {
-            columns,
-            terms,
-            right_hand_side,
-        } = rows;
-        let mut more_negative = 0;
-        let mut first = 0;
-        for columns in columns.chunks_mut(substitution::BLOCK) {
-            let start = first;
-            for block in columns.chunks_mut(BLOCK) {
-                let pivots = Pivots {
-                    kind: *kind,
-                    diagonal,
-                    first,
-                };
-                let before = rotations.len();
-                more_negative += pivots.change(block, weights, terms, rotations)?;
-                first += block.len();
-                rotate_rows(simd, block, first, terms, &rotations[before..]);
-            }
-            if let Some(right_hand_side) = right_hand_side {
-                forward_block(simd, *kind, columns, start, right_hand_side);
-            }
-        }
-        Ok(more_negative)
-    }
-}
-
-impl Square<'_, '_> {
-    /// Changes rows further below, which are tasks.
-    fn change_below(&self, tasks: Vec<Rows<'_>>) {
-        let solved = self.rows.right_hand_side.as_deref().unwrap_or_default();
-        tasks.into_par_iter().with_max_len(1).for_each(|rows| {
-            Arch::new().dispatch(Below {
-                rows,
-                rotations: &self.rotations,
-                solved,
-            });
-        });
-    }
-}
-
-/// Rows below the pivots of some columns.
-struct Below<'a, 'b> {
-    rows: Rows<'b>,
-    rotations: &'a [[Rotation; BLOCK]],
-    /// What the right-hand side became at the pivots, shape (n_columns).
-    solved: &'a [f64],
-}
-
-impl WithSimd for Below<'_, '_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let Rows {
-            mut columns,
-            mut terms,
-            mut right_hand_side,
-        } = self.rows;
-        let mut rotations = self.rotations.chunks_exact(terms.len());
-        let mut solved = self.solved.chunks(substitution::BLOCK);
-        for columns in columns.chunks_mut(substitution::BLOCK) {
-            for block in columns.chunks_mut(BLOCK) {
-                let rotations = rotations.next().unwrap_or_default();
-                rotate_rows(simd, block, 0, &mut terms, rotations);
-            }
-            if let (Some(rest), Some(solved)) = (&mut right_hand_side, solved.next()) {
-                subtract_block(simd, columns, solved, rest);
-            }
-        }
-    }
-}
-
-/// The pivots of a block of columns, from the row of the first of them on.
-struct Pivots<'a> {
-    kind: FactorKind,
-    /// Diagonal entries by row.
-    diagonal: &'a [DiagonalEntry],
-    first: usize,
-}
-
-impl Pivots<'_> {
-    /// Changes the pivots and the triangle between them, and notes the rotations.
-    #[inline(always)]
-    fn change(
-        self,
-        block: &mut [&mut [f64]],
-        weights: &mut [f64],
-        terms: &mut [&mut [f64]],
-        rotations: &mut Vec<[Rotation; BLOCK]>,
-    ) -> Result<isize, usize> {
-        let before = rotations.len();
-        rotations.resize(before + terms.len(), [Rotation::default(); BLOCK]);
-        let rotations = &mut rotations[before..];
-        let end = self.first + block.len();
-        let mut more_negative = 0;
-        for (k, column) in block.iter_mut().enumerate() {
-            let row = self.first + k;
-            let was_negative = column[row] < 0.0;
-            let vanishing = VANISHING_PIVOT * self.diagonal[row].largest;
-            for ((w, weight), rotations) in
-                (terms.iter_mut().zip(&mut *weights)).zip(&mut *rotations)
-            {
-                let (rotation, pivot) = match self.kind {
-                    FactorKind::Llt => rotate_root(&mut column[row], weight, w[row]),
-                    FactorKind::Ldlt => rotate(&mut column[row], weight, w[row]),
-                };
-                let size = match self.kind {
-                    FactorKind::Llt => pivot,
-                    FactorKind::Ldlt => pivot.abs(),
-                };
-                // After each term: what is lost with one does not come back with the next.
-                if size.is_nan() || size <= vanishing {
-                    return Err(row);
-                }
-                for r in row + 1..end {
-                    w[r] -= rotation.c * column[r];
-                    column[r] = rotation.p * column[r] + rotation.q * w[r];
-                }
-                rotations[k] = rotation;
-            }
-            more_negative += isize::from(column[row] < 0.0) - isize::from(was_negative);
-        }
-        Ok(more_negative)
     }
 }
