@@ -202,3 +202,112 @@ impl Cut {
         pieces
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::modification::diagonal::VANISHING_PIVOT;
+
+    /// Columns that fill no last block, and rows that fill no last vector.
+    const N_COLUMNS: usize = 437;
+    const HEIGHT: usize = 1_103;
+
+    /// A panel with terms and a right-hand side.
+    #[derive(Clone, PartialEq, Debug)]
+    struct Case {
+        values: Vec<f64>,
+        weights: Vec<f64>,
+        terms: Vec<f64>,
+        right_hand_side: Vec<f64>,
+    }
+
+    impl Case {
+        /// A factor with small entries below its diagonal: terms stay as large as they are. Every fifth pivot of L D L^T is negative.
+        fn new(kind: FactorKind, n_terms: usize) -> Self {
+            let number = |k: usize| ((k * 7_919 % 10_007) as f64 / 5_003.5 - 1.0) / 30.0;
+            let mut values: Vec<f64> = (0..N_COLUMNS * HEIGHT).map(number).collect();
+            for column in 0..N_COLUMNS {
+                let is_negative = kind == FactorKind::Ldlt && column % 5 == 0;
+                values[column * HEIGHT + column] = if is_negative { -1.5 } else { 1.5 };
+            }
+            Self {
+                values,
+                weights: (0..n_terms).map(|k| [0.3, -0.2, 0.1][k % 3]).collect(),
+                terms: (0..n_terms * HEIGHT).map(|k| number(k + 31)).collect(),
+                right_hand_side: (0..HEIGHT).map(|k| number(k + 77)).collect(),
+            }
+        }
+
+        fn panel<'a>(&'a mut self, kind: FactorKind, diagonal: &'a [DiagonalEntry]) -> Panel<'a> {
+            Panel {
+                kind,
+                diagonal,
+                weights: &mut self.weights,
+                rows: Rows {
+                    columns: self.values.chunks_exact_mut(HEIGHT).collect(),
+                    terms: self.terms.chunks_exact_mut(HEIGHT).collect(),
+                    right_hand_side: Some(&mut self.right_hand_side),
+                },
+            }
+        }
+    }
+
+    /// Changes a panel in tiles, and another one like it as a whole.
+    fn both(kind: FactorKind, start: &Case) -> [(Case, Result<isize, usize>); 2] {
+        let diagonal = [DiagonalEntry::new(1.0); N_COLUMNS];
+        let (mut divided, mut whole) = (start.clone(), start.clone());
+        let panel = divided.panel(kind, &diagonal);
+        let n_tasks = |tile: &Tile| (HEIGHT - tile.columns.end).checked_div(tile.rows_of_task?);
+        let n_tasks: Vec<_> = panel.tiles().iter().map(n_tasks).collect();
+        assert!(
+            matches!(n_tasks[..], [Some(2..), Some(1..), None]),
+            "{n_tasks:?}"
+        );
+        let of_divided = panel.change();
+        let Panel {
+            kind,
+            diagonal,
+            weights,
+            rows,
+        } = whole.panel(kind, &diagonal);
+        let of_whole = Arch::new().dispatch(Square {
+            kind,
+            diagonal,
+            weights,
+            rows,
+        });
+        let of_whole = of_whole.map(|turned| turned.more_negative);
+        [(divided, of_divided), (whole, of_whole)]
+    }
+
+    #[test]
+    fn tiles_have_the_bits_of_a_panel_that_is_not_divided() {
+        for kind in [FactorKind::Llt, FactorKind::Ldlt] {
+            for n_terms in [3, 8] {
+                let start = Case::new(kind, n_terms);
+                let [divided, whole] = both(kind, &start);
+                assert!(whole.1.is_ok() && whole.0 != start, "{kind:?}");
+                assert!(divided == whole, "{kind:?}, {n_terms} terms");
+            }
+        }
+    }
+
+    /// A term takes a pivot away where no other is: in the first tile, in the one that follows along with others, and in what is left.
+    #[test]
+    fn a_pivot_that_vanishes_has_the_same_column() {
+        for kind in [FactorKind::Llt, FactorKind::Ldlt] {
+            for column in [100, 251, 390, 436] {
+                let mut start = Case::new(kind, 4);
+                let pivot = start.values[column * HEIGHT + column];
+                start.terms.fill(0.0);
+                start.terms[3 * HEIGHT + column] = pivot;
+                start.weights[3] = match kind {
+                    FactorKind::Llt => -1.0,
+                    FactorKind::Ldlt => -(1.0 - VANISHING_PIVOT / 10.0) / pivot,
+                };
+                let [divided, whole] = both(kind, &start);
+                assert_eq!([divided.1, whole.1], [Err(column); 2], "{kind:?}");
+            }
+        }
+    }
+}
