@@ -5,10 +5,10 @@
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
+use ligament_linalg::Factorisation;
 use rayon::prelude::*;
 
 use super::division::Division;
-use super::{HalfSolved, Lagging};
 
 /// Values of the factor that make a task worth while: a substitution takes some 50 microseconds for them.
 const TASK: usize = 150_000;
@@ -29,10 +29,24 @@ impl Rooms {
     }
 }
 
+/// A correction after the forward substitution, by row of the factor.
+#[derive(Clone, Copy)]
+pub(crate) struct HalfSolved<'a> {
+    pub(crate) factor: &'a dyn Factorisation,
+    pub(crate) by_row: &'a [f64],
+    /// Factor from the load factor of the correction to that of the displacements.
+    pub(crate) scale: f64,
+}
+
 /// What a breakage asks of parts.
 #[derive(Clone, Copy)]
 pub(super) struct Descent<'a> {
-    pub(super) lagging: &'a Lagging<'a>,
+    pub(super) division: &'a Division,
+    /// Displacements and rotations before, shape (n_degrees_of_freedom), m and rad.
+    pub(super) displacement: &'a [f64],
+    /// Motions of the border of each part when it was last substituted.
+    pub(super) references: &'a [Vec<f64>],
+    pub(super) rooms: &'a Rooms,
     pub(super) correction: HalfSolved<'a>,
     /// Whether the breakage was in each part or below it.
     pub(super) broken_in: &'a [bool],
@@ -67,7 +81,7 @@ impl Descent<'_> {
         is_asked_for: &[bool],
         above: Option<&Above<'_>>,
     ) -> Vec<Changed> {
-        let Division { parts, below, .. } = self.lagging.division;
+        let Division { parts, below, .. } = self.division;
         let changes = self.part(part, above);
         let here = Above {
             rows: parts[part].rows.clone(),
@@ -90,13 +104,13 @@ impl Descent<'_> {
 
     /// The changes of one part from those of the parts above it, which the displacements do not have yet.
     fn part(self, part: usize, above: Option<&Above<'_>>) -> Vec<f64> {
-        let Lagging {
+        let Self {
             division,
             displacement,
             references,
             rooms,
             ..
-        } = self.lagging;
+        } = self;
         let it = &division.parts[part];
         rooms.with(division.degree_of_freedom.len(), |room| {
             let mut above = above;

@@ -27,6 +27,8 @@ use crate::stiffness::Stiffness;
 
 use borders::Bounds;
 use descent::{Descent, Rooms};
+
+pub(crate) use descent::HalfSolved;
 use division::Division;
 
 /// Relative distance below the bonds that lead at which a bound counts as below them: rounding of a bound is less.
@@ -69,15 +71,6 @@ pub(crate) struct Lagging<'a> {
     /// What no such ratio exceeds now.
     now: Vec<f64>,
     rooms: Rooms,
-}
-
-/// A correction after the forward substitution, by row of the factor.
-#[derive(Clone, Copy)]
-pub(crate) struct HalfSolved<'a> {
-    pub(crate) factor: &'a dyn Factorisation,
-    pub(crate) by_row: &'a [f64],
-    /// Factor from the load factor of the correction to that of the displacements.
-    pub(crate) scale: f64,
 }
 
 impl<'a> Lagging<'a> {
@@ -131,12 +124,7 @@ impl<'a> Lagging<'a> {
             if at_most * (1.0 + SURELY) < leaders.lowest_tied {
                 break;
             }
-            let descent = Descent {
-                lagging: self,
-                correction,
-                broken_in: &broken_in,
-                held: &state.held,
-            };
+            let descent = self.descent(correction, &broken_in, &state.held);
             let changes = descent.one(part);
             self.take_in(part, &changes, &state.held);
             self.judge_all(&[part], state, &mut leaders);
@@ -160,6 +148,23 @@ impl<'a> Lagging<'a> {
         self.substitute_all(nothing, &vec![false; n_parts], &vec![true; n_parts], state);
     }
 
+    fn descent<'b>(
+        &'b self,
+        correction: HalfSolved<'b>,
+        broken_in: &'b [bool],
+        held: &'b [bool],
+    ) -> Descent<'b> {
+        Descent {
+            division: self.division,
+            displacement: &self.displacement,
+            references: &self.references,
+            rooms: &self.rooms,
+            correction,
+            broken_in,
+            held,
+        }
+    }
+
     /// Brings the displacements of parts that are asked for up to date; gives them, each after the one above it.
     fn substitute_all(
         &mut self,
@@ -168,12 +173,7 @@ impl<'a> Lagging<'a> {
         is_asked_for: &[bool],
         state: &State,
     ) -> Vec<usize> {
-        let descent = Descent {
-            lagging: self,
-            correction,
-            broken_in,
-            held: &state.held,
-        };
+        let descent = self.descent(correction, broken_in, &state.held);
         let changed = descent.all(is_asked_for);
         for (part, changes) in &changed {
             self.take_in(*part, changes, &state.held);
