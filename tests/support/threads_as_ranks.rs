@@ -101,6 +101,25 @@ impl Exchange for Thread {
         all.concat()
     }
 
+    fn swap(&self, own: &[f64], to: &[usize], from: &[usize]) -> Vec<f64> {
+        assert_eq!([to.len(), from.len()], [self.n_ranks(); 2]);
+        assert_eq!(to.iter().sum::<usize>(), own.len());
+        let counts = to.iter().map(|&count| count as f64);
+        let told: Vec<f64> = counts.chain(own.iter().copied()).collect();
+        let all = self.exchange(&told).into_iter().zip(from);
+        let to_here = all.map(|(told, &count)| {
+            let (counts, values) = told.split_at(from.len());
+            let start = counts[..self.rank].iter().sum::<f64>() as usize;
+            assert_eq!(counts[self.rank], count as f64);
+            values[start..start + count].to_vec()
+        });
+        to_here.collect::<Vec<_>>().concat()
+    }
+
+    fn stranger(&self) -> f64 {
+        f64::NAN
+    }
+
     fn broadcast(&self, bytes: &mut Vec<u8>) {
         let own: Vec<f64> = bytes.iter().map(|&it| f64::from(it)).collect();
         *bytes = self.exchange(&own)[0].iter().map(|&it| it as u8).collect();

@@ -9,6 +9,7 @@ use ligament_model::portion::{Portion, counts};
 use thiserror::Error;
 
 use crate::checkpoint::CheckpointError;
+use crate::serial::Serial;
 
 /// A body has no bonds for one of the processes that share it out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
@@ -81,11 +82,6 @@ impl BondNumbers {
         &self.portion
     }
 
-    /// Number of the bonds of the body.
-    pub(crate) fn n_all(&self) -> usize {
-        self.n_all
-    }
-
     /// Number of a bond that is known here.
     pub(crate) fn number(&self, bond: usize) -> u32 {
         self.numbers[bond]
@@ -113,16 +109,29 @@ impl BondNumbers {
         both.map(|(marked, counted)| *marked && *counted).collect()
     }
 
-    /// The values of the bonds that are known here, from those of all bonds of the body.
+    /// Reads the values of the bonds that are known here from those of all bonds of the body, without keeping these; none of none.
     ///
     /// # Errors
     ///
-    /// If they are those of a body with fewer bonds.
-    pub(crate) fn of_known<T: Clone>(&self, all: &[T]) -> Result<Vec<T>, CheckpointError> {
-        let numbers = self.numbers.iter();
-        let values = numbers.map(|&number| all.get(number as usize).cloned());
-        let values: Option<Vec<T>> = values.collect();
-        values.ok_or(CheckpointError::OtherModel)
+    /// If the bytes are damaged, or of a body with another number of bonds.
+    pub(crate) fn read<T: Serial>(&self, from: &mut &[u8]) -> Result<Vec<T>, CheckpointError> {
+        let count = usize::read(from)?;
+        if count == 0 {
+            return Ok(Vec::new());
+        }
+        if count != self.n_all {
+            return Err(CheckpointError::OtherModel);
+        }
+        let mut known = Vec::with_capacity(self.numbers.len());
+        let mut next = self.numbers.iter().peekable();
+        let mut number = 0;
+        T::read_each(count, from, |value| {
+            if next.next_if_eq(&&number).is_some() {
+                known.push(value);
+            }
+            number += 1;
+        })?;
+        Ok(known)
     }
 
     /// Number of marked bonds over all processes, of marks (n_bonds).

@@ -9,6 +9,7 @@ mod across_ranks;
 pub mod decremental;
 
 use ligament_model::Bonds;
+use ligament_model::portion::Portion;
 
 use crate::restraints::{self, Restraints};
 
@@ -34,7 +35,8 @@ impl Fragments {
     /// Parts connected by intact bonds; where processes share the body out all of them ask for it.
     pub fn find(system: &dyn Bonds, intact: &[bool]) -> Self {
         if let Some(portion) = system.portion() {
-            return Self::of_first_points(&across_ranks::first_points(system, portion, intact));
+            let whole = Self::of_first_points(&vec![0; system.n_points()]);
+            return whole.parted(system, portion, intact);
         }
         let n_points = system.n_points();
         let topology = system.topology();
@@ -65,8 +67,14 @@ impl Fragments {
         Self { of_point, points }
     }
 
+    /// The parts that intact bonds leave of these, where processes share the body out.
+    fn parted(&self, system: &dyn Bonds, portion: &Portion, intact: &[bool]) -> Self {
+        let before = (&*self.of_point, &*self.points);
+        Self::of_first_points(&across_ranks::parted(system, portion, intact, before))
+    }
+
     /// Fragments by the first point of that of each point.
-    fn of_first_points(firsts: &[f64]) -> Self {
+    fn of_first_points(firsts: &[u32]) -> Self {
         let mut of_point: Vec<u32> = Vec::with_capacity(firsts.len());
         let mut points: Vec<Vec<u32>> = Vec::new();
         for (point, &first) in firsts.iter().enumerate() {

@@ -19,6 +19,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use ligament_linalg::{Factorisation, HalfSolved};
+use ligament_model::portion::any;
 
 use crate::balanced::{Attempt, Balanced, Stability};
 use crate::bond_numbers::BondNumbers;
@@ -81,7 +82,17 @@ impl Equilibrium {
     ///
     /// If the factor is too large.
     pub fn new(problem: &Problem, energy_tolerance: f64) -> Result<Self, SetupError> {
-        let numbers = BondNumbers::new(&*problem.system)?.map(Arc::new);
+        let numbers = BondNumbers::new(&*problem.system)?;
+        Self::numbered(problem, numbers, energy_tolerance)
+    }
+
+    /// The equilibrium of bonds with their numbers, where processes share the body out.
+    fn numbered(
+        problem: &Problem,
+        numbers: Option<BondNumbers>,
+        energy_tolerance: f64,
+    ) -> Result<Self, SetupError> {
+        let numbers = numbers.map(Arc::new);
         Ok(Self {
             held: None,
             equations: Equations::new(problem, numbers.as_ref(), energy_tolerance)?,
@@ -100,8 +111,8 @@ impl Equilibrium {
         self.equations.write(out);
     }
 
-    /// The equilibrium of a state of all bonds as it was when the bytes were written, with the state of the bonds that are known here, and
-    /// with what it was measured to be.
+    /// The equilibrium of a state as it was when the bytes were written, with what it was measured to be; `numbers` are those of the bonds
+    /// that are known here, where processes share the body out.
     ///
     /// # Errors
     ///
@@ -109,18 +120,16 @@ impl Equilibrium {
     pub(crate) fn restored(
         problem: &Problem,
         energy_tolerance: f64,
-        mut state: State,
+        (numbers, mut state): (Option<BondNumbers>, State),
         from: &mut &[u8],
     ) -> Result<(Self, State, Balanced), SetupError> {
-        let mut equilibrium = Self::new(problem, energy_tolerance)?;
-        let numbers = equilibrium.numbers();
-        let n_bonds = numbers.map_or(problem.system.ends().len(), BondNumbers::n_all);
-        if !state.fits(&*problem.system, n_bonds, &problem.criteria) {
+        let n_bonds = problem.system.ends().len();
+        let fits = state.fits(&*problem.system, n_bonds, &problem.criteria);
+        if any(problem.system.portion(), !fits) {
             return Err(CheckpointError::OtherModel.into());
         }
-        if let Some(numbers) = numbers {
-            state = state.of_known(numbers)?;
-        }
+        let mut equilibrium = Self::numbered(problem, numbers, energy_tolerance)?;
+        state = equilibrium.known(state);
         equilibrium.connectivity = Connectivity::held(&*problem.system, &state.intact);
         let balanced = equilibrium.equations.restore(&state, from)?;
         if !state.softening.remaining.is_empty() {
@@ -233,7 +242,7 @@ impl Equilibrium {
             system,
             loads.restraints(),
             |dof| loads.is_prescribed(dof) || held[dof],
-            |dof| unknowns.number(dof).is_some(),
+            |dof| unknowns.is_unknown(dof),
         );
         for hold in &breakage.holds {
             state.held[hold.degree_of_freedom] = true;
@@ -293,6 +302,14 @@ impl Equilibrium {
     /// The factor of the stiffness; None where there is none at present.
     pub(crate) fn factor(&self) -> Option<&dyn Factorisation> {
         self.equations.solver.factor()
+    }
+
+    /// A state with motions that are known here alone.
+    pub(crate) fn known(&self, mut state: State) -> State {
+        if let Some(neighbours) = &self.equations.neighbours {
+            neighbours.hide(&mut state.displacement);
+        }
+        state
     }
 
     /// Brings the state into equilibrium at its load factor, after the last breakage; an empty one where none came since the

@@ -28,6 +28,7 @@ pub mod internal;
 mod lagging;
 pub mod load_program;
 pub mod modal;
+mod neighbours;
 pub mod probe;
 pub mod problem;
 pub mod ranks;

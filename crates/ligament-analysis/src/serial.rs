@@ -38,10 +38,24 @@ pub trait Serial: Sized {
     fn read_list(count: usize, from: &mut &[u8]) -> Result<Vec<Self>, Damaged> {
         // Room is made as values come: the number itself may be damaged.
         let mut list = Vec::new();
-        for _ in 0..count {
-            list.push(Self::read(from)?);
-        }
+        Self::read_each(count, from, |value| list.push(value))?;
         Ok(list)
+    }
+
+    /// Takes so many values from the front of the bytes, one after the other.
+    ///
+    /// # Errors
+    ///
+    /// If they are not those of so many values.
+    fn read_each(
+        count: usize,
+        from: &mut &[u8],
+        mut each: impl FnMut(Self),
+    ) -> Result<(), Damaged> {
+        for _ in 0..count {
+            each(Self::read(from)?);
+        }
+        Ok(())
     }
 }
 
@@ -50,6 +64,11 @@ fn take<'a>(count: usize, from: &mut &'a [u8]) -> Result<&'a [u8], Damaged> {
     let (taken, rest) = from.split_at_checked(count).ok_or(Damaged)?;
     *from = rest;
     Ok(taken)
+}
+
+/// A bit of some bytes.
+fn bit(bytes: &[u8], place: usize) -> bool {
+    bytes[place / 8] >> (place % 8) & 1 == 1
 }
 
 /// Implements [`Serial`] for structures, field by field in the given order; none of their fields may be missing.
@@ -138,9 +157,24 @@ impl Serial for f64 {
     }
 
     fn read_list(count: usize, from: &mut &[u8]) -> Result<Vec<Self>, Damaged> {
-        let kept = bool::read_list(count, from)?.into_iter();
-        kept.map(|kept| if kept { Self::read(from) } else { Ok(0.0) })
-            .collect()
+        let mut list = Vec::with_capacity(count.min(8 * from.len()));
+        Self::read_each(count, from, |value| list.push(value))?;
+        Ok(list)
+    }
+
+    fn read_each(
+        count: usize,
+        from: &mut &[u8],
+        mut each: impl FnMut(Self),
+    ) -> Result<(), Damaged> {
+        let kept = take(count.div_ceil(8), from)?;
+        for place in 0..count {
+            each(match bit(kept, place) {
+                true => Self::read(from)?,
+                false => 0.0,
+            });
+        }
+        Ok(())
     }
 }
 
@@ -167,8 +201,13 @@ impl Serial for bool {
 
     fn read_list(count: usize, from: &mut &[u8]) -> Result<Vec<Self>, Damaged> {
         let bytes = take(count.div_ceil(8), from)?;
-        let bit = |place: usize| bytes[place / 8] >> (place % 8) & 1 == 1;
-        Ok((0..count).map(bit).collect())
+        Ok((0..count).map(|place| bit(bytes, place)).collect())
+    }
+
+    fn read_each(count: usize, from: &mut &[u8], each: impl FnMut(Self)) -> Result<(), Damaged> {
+        let bytes = take(count.div_ceil(8), from)?;
+        (0..count).map(|place| bit(bytes, place)).for_each(each);
+        Ok(())
     }
 }
 

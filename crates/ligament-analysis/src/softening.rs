@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
 use crate::serial;
+use crate::serial::Serial;
 
 /// Relative difference below which a bond is as far as it ever was.
 const SAME: f64 = 1e-9;
@@ -62,26 +63,23 @@ impl Softening {
         }
     }
 
-    /// The softening of the bonds that are known here, from that of all.
+    /// Reads the softening of the bonds that are known here, from that of all.
     ///
     /// # Errors
     ///
-    /// If it is of another body.
-    pub(crate) fn of_known(&self, numbers: &BondNumbers) -> Result<Self, CheckpointError> {
-        let of = |lists: &[Vec<f64>]| -> Result<Vec<Vec<f64>>, CheckpointError> {
-            let taken = |list: &Vec<f64>| match list.is_empty() {
-                true => Ok(Vec::new()),
-                false => numbers.of_known(list),
-            };
-            lists.iter().map(taken).collect()
+    /// If the bytes are damaged or of another body.
+    pub(crate) fn read_known(
+        numbers: &BondNumbers,
+        from: &mut &[u8],
+    ) -> Result<Self, CheckpointError> {
+        let lists = |from: &mut &[u8]| -> Result<Vec<Vec<f64>>, CheckpointError> {
+            let count = usize::read(from)?;
+            (0..count).map(|_| numbers.read(from)).collect()
         };
         Ok(Self {
-            largest: of(&self.largest)?,
-            trial: of(&self.trial)?,
-            remaining: match self.remaining.is_empty() {
-                true => Vec::new(),
-                false => numbers.of_known(&self.remaining)?,
-            },
+            largest: lists(from)?,
+            trial: lists(from)?,
+            remaining: numbers.read(from)?,
         })
     }
 

@@ -7,6 +7,7 @@ use ligament_model::failure::Criteria;
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
 use crate::serial;
+use crate::serial::Serial;
 use crate::softening::Softening;
 
 /// Motion of the points and what is left of the bonds.
@@ -72,9 +73,12 @@ impl State {
 
     /// The state with the bonds of all processes on rank 0, and without any elsewhere.
     pub(crate) fn of_all(&self, numbers: &BondNumbers) -> Self {
+        let mut displacement = self.displacement.clone();
+        let n_components = displacement.len() / numbers.portion().partition().len();
+        numbers.portion().complete(&mut displacement, n_components);
         Self {
             load_factor: self.load_factor,
-            displacement: self.displacement.clone(),
+            displacement,
             held: self.held.clone(),
             intact: numbers.of_all(&self.intact, true),
             broken_by: numbers.of_all(&self.broken_by, None),
@@ -83,18 +87,23 @@ impl State {
         }
     }
 
-    /// A state of all bonds with those that are known here alone.
+    /// Reads a state with the bonds that are known here alone, from that of all bonds.
     ///
     /// # Errors
     ///
-    /// If it is of another body.
-    pub(crate) fn of_known(self, numbers: &BondNumbers) -> Result<Self, CheckpointError> {
+    /// If the bytes are damaged or of another body.
+    pub(crate) fn read_known(
+        numbers: &BondNumbers,
+        from: &mut &[u8],
+    ) -> Result<Self, CheckpointError> {
         Ok(Self {
-            intact: numbers.of_known(&self.intact)?,
-            broken_by: numbers.of_known(&self.broken_by)?,
-            softening: self.softening.of_known(numbers)?,
-            dissipated: numbers.of_known(&self.dissipated)?,
-            ..self
+            load_factor: Serial::read(from)?,
+            displacement: Serial::read(from)?,
+            intact: numbers.read(from)?,
+            broken_by: numbers.read(from)?,
+            softening: Softening::read_known(numbers, from)?,
+            dissipated: numbers.read(from)?,
+            held: Serial::read(from)?,
         })
     }
 

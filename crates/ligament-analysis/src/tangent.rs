@@ -41,7 +41,7 @@ pub(crate) struct HalfFollowed<'a> {
 pub(crate) enum Unsolved {
     /// The stiffness is not definite, and the solver needs one that is.
     Indefinite,
-    /// Ranks have computed different forces.
+    /// Ranks have other bonds left or another load.
     Disagreement,
 }
 
@@ -88,7 +88,7 @@ pub(crate) trait TangentSolver {
     /// Takes in which pairs across cracks are closed; none are where faces do not close.
     fn close(&mut self, closed: &[ClosedPair], costs: &mut Costs);
 
-    /// Gets ready to solve for a state; gives the unknowns that nothing holds, by their vanishing pivots. Those must be held in
+    /// Gets ready to solve for a state; gives the degrees of freedom that nothing holds, by their vanishing pivots. Those must be held in
     /// the state, and the solver made ready again.
     ///
     /// # Errors
@@ -100,7 +100,7 @@ pub(crate) trait TangentSolver {
     ///
     /// # Errors
     ///
-    /// If the solver needs a definite stiffness, and met a motion that costs no energy; or if ranks have computed different forces.
+    /// If the solver needs a definite stiffness, and met a motion that costs no energy; or if ranks have other bonds left.
     fn solve(
         &mut self,
         state: &State,

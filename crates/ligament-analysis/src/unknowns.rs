@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use ligament_model::Bonds;
 pub use ligament_model::layout::{Component, Layout};
+use ligament_model::portion::Portion;
 
 use crate::restraints::Restraints;
 
@@ -17,6 +18,9 @@ pub struct Unknowns {
 }
 
 const KNOWN: u32 = u32::MAX;
+
+/// Number of what is unknown at a point of another process.
+const ELSEWHERE: u32 = u32::MAX - 1;
 
 impl Unknowns {
     /// Everything that is not fixed and has a stiffness at all.
@@ -53,6 +57,21 @@ impl Unknowns {
         }
     }
 
+    /// The unknowns of this process alone, numbered; those of the others are without numbers.
+    pub(crate) fn of_own(mut self, portion: Option<&Portion>) -> Self {
+        let Some(portion) = portion else {
+            return self;
+        };
+        let layout = self.layout;
+        (self.degrees_of_freedom).retain(|&dof| portion.is_own(layout.point(dof as usize)));
+        let unknown = self.number.iter_mut().filter(|it| **it != KNOWN);
+        unknown.for_each(|it| *it = ELSEWHERE);
+        for (number, &dof) in (0..).zip(&self.degrees_of_freedom) {
+            self.number[dof as usize] = number;
+        }
+        self
+    }
+
     /// Unknowns with restraints between them and the ground.
     pub fn restrained_by(self, restraints: &Arc<Restraints>) -> Self {
         Self {
@@ -81,10 +100,27 @@ impl Unknowns {
         self.degrees_of_freedom.is_empty()
     }
 
-    /// Number of the unknown at a degree of freedom.
+    /// Number of the unknown at a degree of freedom; none where nothing is unknown, or another process numbers it.
     pub fn number(&self, degree_of_freedom: usize) -> Option<usize> {
         let number = self.number[degree_of_freedom];
-        (number != KNOWN).then_some(number as usize)
+        (number < ELSEWHERE).then_some(number as usize)
+    }
+
+    /// Degrees of freedom that are unknown, to whichever process.
+    pub(crate) fn of_all(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.number.len()).filter(|&dof| self.is_unknown(dof))
+    }
+
+    /// The values of the own unknowns among those of all processes; those that are there.
+    pub(crate) fn own_of(&self, all: &[f64]) -> Vec<f64> {
+        let numbered = self.of_all().zip(all);
+        let own = numbered.filter(|(dof, _)| self.number(*dof).is_some());
+        own.map(|(_, value)| *value).collect()
+    }
+
+    /// Whether a degree of freedom is unknown, to whichever process.
+    pub(crate) fn is_unknown(&self, degree_of_freedom: usize) -> bool {
+        self.number[degree_of_freedom] != KNOWN
     }
 
     /// Degree of freedom of each unknown, ascending.

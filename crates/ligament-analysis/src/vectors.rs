@@ -1,5 +1,6 @@
 //! Arithmetic on long arrays whose bits depend on nothing but the arrays: sums go in a fixed order, whatever the number of threads.
 
+use ligament_model::portion::Portion;
 use rayon::prelude::*;
 
 /// Entries that are added up by one thread in one go.
@@ -17,6 +18,15 @@ pub(crate) fn dot(one: &[f64], other: &[f64]) -> f64 {
     }
     let rest = rest.iter().zip(of_rest).map(|(a, b)| a * b);
     sums.into_iter().chain(rest).sum()
+}
+
+/// The scalar product of two arrays of the same shape, of which each process that shares a body out has a part.
+pub(crate) fn dot_of_all(portion: Option<&Portion>, one: &[f64], other: &[f64]) -> f64 {
+    let mut sum = [dot(one, other)];
+    if let Some(portion) = portion {
+        portion.sum(&mut sum);
+    }
+    sum[0]
 }
 
 /// The scalar product of two arrays of the same shape, of chunks on all threads.

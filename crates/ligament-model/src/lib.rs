@@ -27,6 +27,7 @@ pub mod deformation;
 pub mod element;
 pub mod failure;
 pub mod fixed;
+pub mod ghosts;
 pub mod grid;
 pub mod horizon;
 pub mod interface;

@@ -25,8 +25,17 @@ pub trait Exchange: Debug + Send + Sync {
     /// The values of all ranks, so many as `counts` says of each, those of rank 0 first.
     fn gather(&self, own: &[f64], counts: &[usize]) -> Vec<f64>;
 
+    /// Tells each rank values of its own, so many as `to` says, those for rank 0 first; gives what all of them tell this one, so many as
+    /// `from` says of each. Ranks without values are not spoken to.
+    fn swap(&self, own: &[f64], to: &[usize], from: &[usize]) -> Vec<f64>;
+
     /// Puts the bytes of rank 0 in the place of those of the others.
     fn broadcast(&self, bytes: &mut Vec<u8>);
+
+    /// What stands at points that a rank knows nothing of: in tests something that is no number, so that it is not read unseen.
+    fn stranger(&self) -> f64 {
+        0.0
+    }
 }
 
 /// The points of each rank: parts of the body by recursive bisection.
@@ -63,14 +72,36 @@ impl Partition {
         }
     }
 
+    /// Number of all points.
+    pub fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Whether there is no point.
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty()
+    }
+
     /// The points of a rank, ascending.
     pub fn points(&self, rank: usize) -> &[u32] {
         &self.points[self.starts[rank]..self.starts[rank + 1]]
     }
 
+    /// Number over all ranks of the first point of a rank; of the one after the last the number of all.
+    pub fn first(&self, rank: usize) -> usize {
+        self.starts[rank]
+    }
+
     /// Number of a point over all ranks.
     pub fn place(&self, point: u32) -> usize {
         self.places[point as usize] as usize
+    }
+
+    /// The rank that has a point.
+    pub fn rank(&self, point: u32) -> usize {
+        self.starts
+            .partition_point(|&start| start <= self.place(point))
+            - 1
     }
 
     /// Whether a rank has a point.
@@ -139,6 +170,17 @@ impl Portion {
         self.partition.has(self.exchange.rank(), point)
     }
 
+    /// Place of a point among the own ones.
+    #[inline]
+    pub fn own_place(&self, point: u32) -> Option<usize> {
+        let rank = self.exchange.rank();
+        let place = self.partition.place(point);
+        let starts = &self.partition.starts;
+        (starts[rank]..starts[rank + 1])
+            .contains(&place)
+            .then(|| place - starts[rank])
+    }
+
     /// Whether a bond, of which the ends are given, is known here.
     pub fn knows(&self, ends: [u32; 2]) -> bool {
         ends.iter().any(|&end| self.is_own(end))
@@ -150,7 +192,7 @@ impl Portion {
     }
 
     /// Puts the values of every point that its own process has in the place of those here; so many values a point, shape
-    /// (n_points, n_values).
+    /// (n_points, n_values). That sends the whole body to every process: [`Ghosts`](crate::ghosts::Ghosts) tell what is needed near cuts.
     pub fn complete(&self, values: &mut [f64], n_values: usize) {
         let rows = |point: u32| n_values * point as usize..n_values * (point as usize + 1);
         let own = self.own().iter();
@@ -161,6 +203,15 @@ impl Portion {
         for (&point, told) in self.partition.points.iter().zip(all.chunks_exact(n_values)) {
             values[rows(point)].copy_from_slice(told);
         }
+    }
+
+    /// Values of own points among those of all points, shape (n_points, M).
+    pub fn spread<const M: usize>(&self, of_own: &[[f64; M]]) -> Vec<f64> {
+        let mut all = vec![self.exchange.stranger(); M * self.partition.points.len()];
+        for (&point, values) in self.own().iter().zip(of_own) {
+            all[M * point as usize..][..M].copy_from_slice(values);
+        }
+        all
     }
 
     /// Puts the sums over all ranks, added up in their order, in the place of some values.
@@ -176,6 +227,13 @@ impl Portion {
                 }
             }
         }
+    }
+
+    /// The sum of a value over all ranks.
+    pub fn total(&self, value: f64) -> f64 {
+        let mut sum = [value];
+        self.sum(&mut sum);
+        sum[0]
     }
 
     /// Puts the largest of each value over all ranks in its place.
@@ -198,12 +256,7 @@ impl Portion {
 
     /// Lists of all ranks, one after the other, from rank 0 on; each entry is some numbers.
     pub fn concatenated<const N: usize>(&self, own: &[[f64; N]]) -> Vec<[f64; N]> {
-        let mut counts = vec![0.0; self.exchange.n_ranks()];
-        counts[self.exchange.rank()] = own.len() as f64;
-        self.exchange.largest(&mut counts);
-        let counts: Vec<usize> = counts.iter().map(|&it| N * it as usize).collect();
-        let all = self.exchange.gather(own.as_flattened(), &counts);
-        all.as_chunks().0.to_vec()
+        concatenated(self.exchange, own)
     }
 }
 
@@ -212,8 +265,36 @@ pub fn any(portion: Option<&Portion>, here: bool) -> bool {
     portion.map_or(here, |it| it.any(here))
 }
 
+/// The largest of a value over all processes.
+pub fn largest(portion: Option<&Portion>, here: f64) -> f64 {
+    let mut largest = [here];
+    if let Some(portion) = portion {
+        portion.largest(&mut largest);
+    }
+    largest[0]
+}
+
 /// Whether a bond, of which the ends are given, is counted here: every one where a body is not shared out.
 #[inline]
 pub fn counts(portion: Option<&Portion>, ends: [u32; 2]) -> bool {
     portion.is_none_or(|it| it.counts(ends))
+}
+
+/// Place of a point in an array over own points, or over all where a body is not shared out.
+#[inline]
+pub fn row(portion: Option<&Portion>, point: u32) -> Option<usize> {
+    portion.map_or(Some(point as usize), |it| it.own_place(point))
+}
+
+/// Lists of all ranks, one after the other, from rank 0 on; each entry is some numbers.
+pub fn concatenated<const N: usize>(
+    exchange: &(impl Exchange + ?Sized),
+    own: &[[f64; N]],
+) -> Vec<[f64; N]> {
+    let mut counts = vec![0.0; exchange.n_ranks()];
+    counts[exchange.rank()] = own.len() as f64;
+    exchange.largest(&mut counts);
+    let counts: Vec<usize> = counts.iter().map(|&it| N * it as usize).collect();
+    let all = exchange.gather(own.as_flattened(), &counts);
+    all.as_chunks().0.to_vec()
 }

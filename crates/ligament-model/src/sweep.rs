@@ -4,10 +4,11 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use crate::cloud::PointCloud;
 use crate::deformation::Deformations;
 use crate::element::{BondDeformation, Element, Elements};
 use crate::layout::Component;
-use crate::portion::{Portion, counts};
+use crate::portion::{Portion, counts, row};
 use crate::system::{BondsLeft, Typed};
 use crate::thermal::ThermalStrain;
 
@@ -25,7 +26,7 @@ pub struct BondSweep {
     pub deformations: Deformations,
     /// Internal forces of the intact bonds.
     pub internal: InternalForces,
-    /// Sum of the sizes of the end forces that meet at each degree of freedom, shape (n_degrees_of_freedom), N and N m.
+    /// Sum of the sizes of the end forces that meet at each degree of freedom, shape (n_degrees_of_freedom), N and N m; of own points.
     pub sizes: Vec<f64>,
     /// Energy stored in the intact bonds, J (the E of NHPD's convergence rule, eq. 21).
     pub stored_energy: f64,
@@ -48,7 +49,8 @@ impl BondSweep {
 /// Internal forces and the sizes that their residual is compared with.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InternalForces {
-    /// Sum of the bonds' end forces K u at each degree of freedom, shape (n_degrees_of_freedom), N and N m.
+    /// Sum of the bonds' end forces K u at each degree of freedom, shape (n_degrees_of_freedom), N and N m; where processes share the body
+    /// out, at own points.
     pub values: Vec<f64>,
     /// Largest sum of |end forces| that meet at a point along one axis, N.
     pub force_scale: f64,
@@ -125,11 +127,10 @@ impl BondSweep {
             .collect();
         let collected = |of_point: fn(&PointForces<M>) -> [f64; M]| {
             let of_points: Vec<[f64; M]> = sums.iter().map(of_point).collect();
-            let mut of_points = of_points.into_flattened();
-            if let Some(portion) = portion {
-                portion.complete(&mut of_points, M);
+            match portion {
+                None => of_points.into_flattened(),
+                Some(portion) => portion.spread(&of_points),
             }
-            of_points
         };
         let (values, sizes) = (
             collected(|forces| forces.sum),
@@ -141,6 +142,7 @@ impl BondSweep {
             sizes.fold(0.0, f64::max)
         };
         let of_parts = |of: fn(&Part<M>) -> f64| parts.iter().map(of).sum();
+        let mut scales = [largest(false), largest(true)];
         let mut over_bonds: [f64; 3] = [
             of_parts(|part| part.thermal),
             of_parts(|part| part.energy),
@@ -148,12 +150,14 @@ impl BondSweep {
         ];
         if let Some(portion) = portion {
             portion.sum(&mut over_bonds);
+            portion.largest(&mut scales);
         }
+        let [force_scale, moment_scale] = scales;
         let [thermal, stored_energy, expansion_energy] = over_bonds;
         Self {
             internal: InternalForces {
-                force_scale: largest(false),
-                moment_scale: largest(true),
+                force_scale,
+                moment_scale,
                 values,
                 thermal,
             },
@@ -167,6 +171,7 @@ impl BondSweep {
 
 /// What the bonds of one part give.
 pub(crate) struct Part<const M: usize> {
+    /// Of all points, or of the own ones.
     pub(crate) forces: Vec<PointForces<M>>,
     pub(crate) energy: f64,
     pub(crate) thermal: f64,
@@ -204,10 +209,11 @@ impl<const M: usize> PointForces<M> {
 }
 
 impl<const M: usize> Part<M> {
-    /// A part without bonds, for so many points.
-    pub(crate) fn new(n_points: usize) -> Self {
+    /// A part without bonds, for the points of a cloud, or the own ones of it.
+    pub(crate) fn new<const D: usize>(cloud: &PointCloud<D>) -> Self {
+        let own = cloud.portion.as_ref().map(|it| it.own().len());
         Self {
-            forces: vec![PointForces::NONE; n_points],
+            forces: vec![PointForces::NONE; own.unwrap_or(cloud.len())],
             energy: 0.0,
             thermal: 0.0,
             expansion_energy: 0.0,
@@ -225,7 +231,7 @@ impl<const M: usize> Part<M> {
             mut forces,
             mut energy,
             ..
-        } = Self::new(typed.system.cloud.len());
+        } = Self::new(&typed.system.cloud);
         let portion = typed.system.cloud.portion.as_ref();
         for bond in of_part.clone() {
             let Some(element) = typed.left(bonds, bond) else {
@@ -236,7 +242,9 @@ impl<const M: usize> Part<M> {
                 energy += element.mutual_energy(deformation, deformation);
             }
             element.forces(deformation, |point, force| {
-                forces[point as usize].add(force);
+                if let Some(row) = row(portion, point) {
+                    forces[row].add(force);
+                }
             });
         }
         let mut part = Self {

@@ -18,6 +18,7 @@ unsafe extern "C" {
     safe fn ligament_abort(code: c_int);
     fn ligament_largest(values: *mut f64, n: i64);
     fn ligament_gather(own: *const f64, counts: *const i64, all: *mut f64);
+    fn ligament_swap(own: *const f64, to: *const i64, from: *const i64, told: *mut f64);
     fn ligament_broadcast(bytes: *mut c_uchar, n: i64);
     fn ligament_matrix_new(
         block_size: i64,
@@ -106,6 +107,17 @@ pub(crate) fn gather(own: &[f64], counts: &[i64]) -> Vec<f64> {
     // SAFETY: a count a rank, as many own values as the count of this rank, and room for all.
     unsafe { ligament_gather(own.as_ptr(), counts.as_ptr(), all.as_mut_ptr()) }
     all
+}
+
+/// What other ranks tell this one, `from` values of each; of its own it tells them `to`.
+pub(crate) fn swap(own: &[f64], to: &[i64], from: &[i64]) -> Vec<f64> {
+    assert_eq!([to.len(), from.len()], [n_ranks(); 2], "a number a rank");
+    assert_eq!(to.iter().sum::<i64>(), own.len() as i64, "values to tell");
+    let mut told = vec![0.0; from.iter().sum::<i64>() as usize];
+    let _alone = alone();
+    // SAFETY: two counts a rank, as many own values as the first of them say, and room for as many as the others do.
+    unsafe { ligament_swap(own.as_ptr(), to.as_ptr(), from.as_ptr(), told.as_mut_ptr()) }
+    told
 }
 
 pub(crate) fn broadcast(bytes: &mut [u8]) {

@@ -143,6 +143,22 @@ void ligament_gather(const double *own, const int64_t *counts, double *all)
   free(lengths);
 }
 
+/* Tells each rank `to` values of the own ones, those for rank 0 first, and takes `from` values of each. */
+void ligament_swap(const double *own, const int64_t *to, const int64_t *from, double *told)
+{
+  MPI_Request *requests = malloc(2 * (size_t)world_size * sizeof *requests);
+  if (!requests) fail("MPI", "out of memory");
+  int n = 0;
+  for (int rank = 0; rank < world_size; told += from[rank++]) {
+    if (from[rank]) CHECK(MPI_Irecv(told, count_of(from[rank]), MPI_DOUBLE, rank, 0, MPI_COMM_WORLD, &requests[n++]));
+  }
+  for (int rank = 0; rank < world_size; own += to[rank++]) {
+    if (to[rank]) CHECK(MPI_Isend(own, count_of(to[rank]), MPI_DOUBLE, rank, 0, MPI_COMM_WORLD, &requests[n++]));
+  }
+  CHECK(MPI_Waitall(n, requests, MPI_STATUSES_IGNORE));
+  free(requests);
+}
+
 /* Bytes of rank 0 to all. */
 void ligament_broadcast(unsigned char *bytes, int64_t n)
 {

@@ -76,6 +76,12 @@ impl Exchange for Processes {
         native::gather(own, &counts)
     }
 
+    fn swap(&self, own: &[f64], to: &[usize], from: &[usize]) -> Vec<f64> {
+        let [to, from] = [to, from].map(|it| it.iter().map(|&count| count as i64).collect());
+        let (to, from): (Vec<i64>, Vec<i64>) = (to, from);
+        native::swap(own, &to, &from)
+    }
+
     fn broadcast(&self, bytes: &mut Vec<u8>) {
         let mut length = (bytes.len() as u64).to_le_bytes();
         native::broadcast(&mut length);

@@ -13,6 +13,7 @@
 //! | [`watch`], [`progress`] | the observer that writes results, and how far the run is |
 //! | `ranks`, `assist` | what several processes tell each other, and the part of those beside the first |
 //! | [`stages`], [`memory`], [`disk`] | time, memory and room on a disk that a run takes |
+//! | `processors` | threads that other programs leave a processor to |
 //! | [`gauges`] | rigid motions that nothing holds, in words |
 #![cfg_attr(
     test,
@@ -30,6 +31,7 @@ pub mod loading;
 pub mod memory;
 pub mod model;
 mod modes;
+mod processors;
 pub mod progress;
 pub mod provenance;
 mod ranks;

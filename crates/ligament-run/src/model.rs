@@ -3,11 +3,14 @@
 pub use ligament::Model;
 use ligament::Setup;
 use ligament::model::Discretises;
+use ligament::run::on_threads;
 use ligament::setup::{Dim, Dimension};
 use ligament::stage::{Finding, StageWatcher};
 use ligament_analysis::ranks::Together;
+use rayon::ThreadPoolBuildError;
 
 use crate::memory;
+use crate::processors::{tasks_of_others, threads_beside};
 use crate::progress::Progress;
 use crate::stages::Stages;
 use crate::summary;
@@ -118,8 +121,24 @@ where
     Dim: Dimension<D> + Discretises<D>,
 {
     let mut preparation = Preparation { stages, progress };
+    let tasks_before = tasks_of_others();
     let mut setup = read(case, &mut preparation)?;
     setup.solver.ranks = ranks;
     memory::foresee_model(case, &setup)?;
-    Ok(Model::build(setup, &mut preparation).map_err(|error| case.located(error))?)
+    let tasks = tasks_before.min(tasks_of_others());
+    let model = on_free_processors(tasks, || Model::build(setup, &mut preparation))?;
+    Ok(model.map_err(|error| case.located(error))?)
+}
+
+/// Does short loops, one after the other, on as many threads as have a processor beside the tasks of others.
+///
+/// At the end of each loop all threads wait for the last one. One that shares its processor loses it for longer than a loop takes, so
+/// that several such threads take longer than one.
+fn on_free_processors<T: Send>(
+    tasks: usize,
+    work: impl FnOnce() -> T + Send,
+) -> Result<T, ThreadPoolBuildError> {
+    let threads = rayon::current_num_threads();
+    let free = threads_beside(tasks, threads);
+    on_threads((free < threads).then_some(free), work)
 }

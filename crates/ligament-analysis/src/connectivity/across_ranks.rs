@@ -1,37 +1,113 @@
 //! Which points hang together in a body that processes share out.
 //!
-//! Each process knows which points its bonds hold together. It tells the others of the ends of bonds to points of other processes, so that
-//! all join what hangs together across, and each point takes what its own process found.
+//! Each process knows which points its bonds hold together, and what hangs together so is named by its first point. Neighbours tell each
+//! other these names at ghosts, until none finds an earlier one. All know the parts as they were; they tell each other the points of
+//! what came off, and not of the largest part that is left.
+
+use std::collections::BTreeMap;
 
 use ligament_model::Bonds;
+use ligament_model::ghosts::Ghosts;
 use ligament_model::portion::Portion;
 
-/// The first of the points that hang together with each point by intact bonds of all processes, shape (n_points).
-pub(super) fn first_points(system: &dyn Bonds, portion: &Portion, intact: &[bool]) -> Vec<f64> {
-    let mut here = Parts::new(system.n_points());
-    let left = || {
-        let bonds = system.ends().iter().zip(intact);
-        bonds.filter(|(_, intact)| **intact).map(|(ends, _)| *ends)
+/// The first point of the part of each point by intact bonds of all processes, shape (n_points); these are parts of earlier ones, given by
+/// that of each point and by the points of each.
+pub(super) fn parted(
+    system: &dyn Bonds,
+    portion: &Portion,
+    intact: &[bool],
+    (of_point, points): (&[u32], &[Vec<u32>]),
+) -> Vec<u32> {
+    let firsts = first_points(system, portion, intact);
+    let named = || portion.own().iter().copied().zip(firsts.iter().copied());
+    let of = |point: u32| of_point[point as usize];
+    let first_before = |fragment: u32| points[fragment as usize][0];
+    let mut here: BTreeMap<[u32; 2], usize> = BTreeMap::new();
+    for (point, first) in named().filter(|&(point, first)| first_before(of(point)) != first) {
+        *here.entry([of(point), first]).or_default() += 1;
+    }
+    let rows = here.into_iter();
+    let rows: Vec<_> = rows
+        .map(|([of, first], count)| [f64::from(of), f64::from(first), count as f64])
+        .collect();
+    let mut sizes: BTreeMap<[u32; 2], usize> = BTreeMap::new();
+    for [of, first, count] in portion.concatenated(&rows) {
+        *sizes.entry([of as u32, first as u32]).or_default() += count as usize;
+    }
+    // The largest part of each of those before: it is what the others leave.
+    let mut largest: BTreeMap<u32, (u32, usize)> = BTreeMap::new();
+    for (&[of, _], size) in &sizes {
+        let whole = (first_before(of), points[of as usize].len());
+        largest.entry(of).or_insert(whole).1 -= size;
+    }
+    for (&[of, first], &size) in &sizes {
+        if let Some(most) = largest.get_mut(&of).filter(|most| most.1 < size) {
+            *most = (first, size);
+        }
+    }
+    let leaves = |&(point, first): &(u32, u32)| {
+        let rest = largest.get(&of(point));
+        rest.is_some_and(|rest| rest.0 != first)
     };
-    for ends in left() {
-        here.join(ends);
+    let told: Vec<_> = named()
+        .filter(leaves)
+        .map(|(point, first)| [point, first].map(f64::from))
+        .collect();
+    let first_of = |&fragment: &u32| {
+        let rest = largest.get(&fragment);
+        rest.map_or_else(|| first_before(fragment), |rest| rest.0)
+    };
+    let mut first_of_each: Vec<u32> = of_point.iter().map(first_of).collect();
+    for [point, first] in portion.concatenated(&told) {
+        first_of_each[point as usize] = first as u32;
     }
-    let across = left().filter(|ends| !ends.iter().all(|&end| portion.is_own(end)));
-    let mut border: Vec<u32> = across.flatten().collect();
-    border.sort_unstable();
-    border.dedup();
-    let joined = border.into_iter().map(|point| [point, here.first(point)]);
-    let joined: Vec<_> = joined.map(|it| it.map(f64::from)).collect();
-    let mut all = Parts::new(system.n_points());
-    for pair in portion.concatenated(&joined) {
-        all.join(pair.map(|it| it as u32));
+    first_of_each
+}
+
+/// Whether a body may come apart, of which this process does not hold the ends of some bonds together any more: what any process holds
+/// together does so whatever the others have.
+pub(super) fn may_part(portion: &Portion, apart: &[[u32; 2]]) -> bool {
+    let apart: Vec<_> = apart.iter().map(|ends| ends.map(f64::from)).collect();
+    let mut of_all: Vec<[u32; 2]> = (portion.concatenated(&apart).into_iter())
+        .map(|ends| ends.map(|end| end as u32))
+        .collect();
+    of_all.sort_unstable();
+    let mut of_bonds = of_all.chunk_by(|one, other| one == other);
+    of_bonds.any(|same| {
+        let [one, other] = same[0].map(|end| portion.partition().rank(end));
+        same.len() == if one == other { 1 } else { 2 }
+    })
+}
+
+/// The first of the points that hang together with each own point by intact bonds of all processes.
+fn first_points(system: &dyn Bonds, portion: &Portion, intact: &[bool]) -> Vec<u32> {
+    let n_points = system.n_points();
+    let mut here = Parts::new(n_points);
+    let bonds = system.ends().iter().zip(intact);
+    for (ends, _) in bonds.filter(|(_, intact)| **intact) {
+        here.join(*ends);
     }
-    let mut firsts = vec![0.0; system.n_points()];
-    for &point in portion.own() {
-        firsts[point as usize] = f64::from(all.first(here.first(point)));
+    let ghosts = Ghosts::new(portion, system.ends().iter().flatten().copied());
+    let mut names: Vec<f64> = (0..n_points).map(|point| point as f64).collect();
+    let mut told = vec![0.0; n_points];
+    loop {
+        for &point in portion.own() {
+            told[point as usize] = names[here.first(point) as usize];
+        }
+        ghosts.tell(&mut told, 1);
+        let mut is_earlier = false;
+        for &ghost in ghosts.seen() {
+            let name = &mut names[here.first(ghost) as usize];
+            is_earlier |= told[ghost as usize] < *name;
+            *name = name.min(told[ghost as usize]);
+        }
+        if !portion.any(is_earlier) {
+            break;
+        }
     }
-    portion.complete(&mut firsts, 1);
-    firsts
+    let own = portion.own().iter();
+    own.map(|&point| names[here.first(point) as usize] as u32)
+        .collect()
 }
 
 /// Points that hang together, each set of them led by its first point.

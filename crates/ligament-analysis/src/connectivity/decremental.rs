@@ -6,8 +6,9 @@
 
 use ligament_model::Bonds;
 use ligament_model::interface::Topology;
+use ligament_model::portion::Portion;
 
-use super::{Fragments, Hold};
+use super::{Fragments, Hold, across_ranks};
 use crate::restraints::Restraints;
 
 /// The fragments of a body whose bonds break, numbered as [`Fragments::find`] numbers them.
@@ -77,15 +78,16 @@ impl Connectivity {
         }
         let topology = system.topology();
         if let Some(portion) = system.portion() {
-            let mut may_part = false;
+            let mut apart = Vec::new();
             for &bond in bonds {
                 intact[bond as usize] = false;
                 let ends = topology.ends[bond as usize];
-                may_part |= self.search.part_apart(topology, intact, ends).is_some();
+                if self.search.part_apart(topology, intact, ends).is_some() {
+                    apart.push(ends);
+                }
             }
-            // What holds together by the bonds of one process does so whatever the others have.
-            if portion.any(may_part) {
-                self.find_again(system, intact);
+            if across_ranks::may_part(portion, &apart) {
+                self.find_again(system, portion, intact);
             }
             return;
         }
@@ -102,8 +104,8 @@ impl Connectivity {
     }
 
     /// Finds the fragments anew, and which of them are parts of earlier ones.
-    fn find_again(&mut self, system: &dyn Bonds, intact: &[bool]) {
-        let found = Fragments::find(system, intact);
+    fn find_again(&mut self, system: &dyn Bonds, portion: &Portion, intact: &[bool]) {
+        let found = self.fragments.parted(system, portion, intact);
         let before = std::mem::replace(&mut self.fragments, found);
         let is_part = |points: &&Vec<u32>| {
             let of = before.of_point[points[0] as usize];

@@ -3,6 +3,7 @@
 use super::recorder::{Energies, StepCounters};
 use super::start::ElasticAnswer;
 use crate::balanced::Balanced;
+use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
@@ -150,11 +151,15 @@ impl Restored {
         let from = &mut checkpoint;
         let damaged = CheckpointError::Damaged;
         let place = Serial::read(from).map_err(damaged)?;
-        let state = State::read(from).map_err(damaged)?;
+        let numbers = BondNumbers::new(&*problem.system)?;
+        let state = match &numbers {
+            None => State::read(from).map_err(damaged)?,
+            Some(numbers) => State::read_known(numbers, from)?,
+        };
         let course: Course = Serial::read(from).map_err(damaged)?;
         let problem = course.problem(problem).ok_or(CheckpointError::OtherModel)?;
         let (equilibrium, state, balanced) =
-            Equilibrium::restored(&problem, energy_tolerance, state, from)?;
+            Equilibrium::restored(&problem, energy_tolerance, (numbers, state), from)?;
         let energies = Energies::read(&problem, &state, &balanced, from)?;
         let proof_then = Proof::read(from).map_err(damaged)?;
         let restored = Self {

@@ -435,8 +435,13 @@ impl<'a> Path<'a> {
     }
 
     /// What the run was.
-    pub(super) fn into_outcome(self, termination: Termination, rows: Rows) -> Outcome {
+    pub(super) fn into_outcome(mut self, termination: Termination, rows: Rows) -> Outcome {
         let numbers = self.equilibrium.numbers();
+        if let Some(numbers) = numbers {
+            let n_components = self.problem.system.layout().components.len();
+            let motions = &mut self.state.displacement;
+            numbers.portion().complete(motions, n_components);
+        }
         Outcome {
             broken_bonds: self.equilibrium.broken_bonds(&self.state),
             softened_bonds: match numbers {

@@ -2,6 +2,7 @@
 
 use ligament_model::deformation::Deformations;
 use ligament_model::element::Remaining;
+use ligament_model::portion::largest;
 use rayon::prelude::*;
 
 use crate::balanced::Balanced;
@@ -305,9 +306,5 @@ pub(super) fn largest_ratio(problem: &Problem, state: &State, balanced: &Balance
         .filter(|(_, (intact, _))| **intact)
         .map(|(bond, (_, deformation))| criteria.utilisation(bond, deformation))
         .reduce(|| 0.0, f64::max);
-    let mut largest = [ratio];
-    if let Some(portion) = problem.system.portion() {
-        portion.largest(&mut largest);
-    }
-    largest[0]
+    largest(problem.system.portion(), ratio)
 }

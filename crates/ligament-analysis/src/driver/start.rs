@@ -64,7 +64,7 @@ fn begin_proportional(
     equilibrium: &mut Equilibrium,
     observer: &mut dyn Observer,
 ) -> Result<Start, SetupError> {
-    let mut unloaded = State::fresh(&*problem.system);
+    let mut unloaded = equilibrium.known(State::fresh(&*problem.system));
     let breakage = equilibrium.break_bonds(&mut unloaded, &[]);
     let free = gauges::free_bodies(
         &*problem.system,

@@ -1,6 +1,7 @@
 //! How near to equilibrium a state is, and how near it is to come.
 
 use ligament_model::Bonds;
+use ligament_model::portion::{Portion, largest};
 
 use super::residual::{Extents, LocalStiffness, RESIDUAL_TOLERANCE, Residual, Scales};
 use crate::breakage::Breakage;
@@ -24,6 +25,8 @@ pub(super) struct Accuracy {
     pub(super) largest_extents: Extents,
     /// Tolerance of a solver that iterates.
     tolerance: Option<f64>,
+    /// Where processes share the body out.
+    portion: Option<Portion>,
 }
 
 /// A state with its loads and unknowns.
@@ -43,7 +46,20 @@ impl Accuracy {
             loaded: loaded(loads),
             largest_extents: Extents::default(),
             tolerance,
+            portion: system.portion().cloned(),
         }
+    }
+
+    /// Extents of the sizes of the forces at the points of the body (n_degrees_of_freedom), N and N m.
+    pub(super) fn extents(&self, sizes: &[f64]) -> Extents {
+        let here = self.local_stiffness.extents(sizes);
+        (self.portion.as_ref()).map_or(here, |it| here.of_all(it))
+    }
+
+    /// The largest displacement of a point of a state along an axis, m.
+    pub(super) fn largest_displacement(&self, layout: Layout, state: &State) -> f64 {
+        let here = largest_displacement(layout, state);
+        largest(self.portion.as_ref(), here)
     }
 
     /// Takes other loads.
@@ -65,12 +81,14 @@ impl Accuracy {
         let dofs = at.unknowns.degrees_of_freedom().iter().copied();
         let of_unknowns = dofs.zip(out_of_balance);
         // No bond resists these: what loads them is carried by nothing.
-        let is_known = |dof: usize| at.unknowns.number(dof).is_none();
+        let is_known = |dof: usize| !at.unknowns.is_unknown(dof);
         let of_others = given.iter().filter(|(dof, _)| is_known(*dof as usize));
         let of_others = of_others.copied();
-        scales.residual(of_unknowns.chain(of_others), |dof| {
+        let residual = scales.residual(of_unknowns.chain(of_others), |dof| {
             at.state.held[dof] || is_known(dof)
-        })
+        });
+        let portion = self.portion.as_ref();
+        portion.map_or(residual, |it| scales.residual_of_all(residual, it))
     }
 
     /// Relative residual that is sought after a breakage, or without one.
@@ -85,7 +103,7 @@ impl Accuracy {
             return Left::Share(0.0);
         }
         let given = self.given(at);
-        let displacement = largest_displacement(at.unknowns.layout(), at.state);
+        let displacement = self.largest_displacement(at.unknowns.layout(), at.state);
         let scales = self.scales(&given, extents, displacement);
         let of_unknown = |dof: &u32| match SURELY * sought * scales.at(*dof as usize) {
             // Nothing is known yet of what acts there: the next residual tells.
@@ -106,7 +124,7 @@ impl Accuracy {
     pub(super) fn rounding(&self, layout: Layout, state: &State) -> Vec<f64> {
         let tolerance = self.tolerance.unwrap_or_default();
         let times = (tolerance / RESIDUAL_TOLERANCE).max(1.0);
-        let displacement = largest_displacement(layout, state);
+        let displacement = self.largest_displacement(layout, state);
         self.local_stiffness.rounding(times * displacement)
     }
 
@@ -123,8 +141,8 @@ impl Accuracy {
     }
 }
 
-/// The largest displacement of a point of a state along an axis, m.
-pub(super) fn largest_displacement(layout: Layout, state: &State) -> f64 {
+/// The largest displacement of a point that is known here, m.
+fn largest_displacement(layout: Layout, state: &State) -> f64 {
     let displacements = layout.displacements(&state.displacement);
     displacements.fold(0.0, |largest, value| largest.max(value.abs()))
 }

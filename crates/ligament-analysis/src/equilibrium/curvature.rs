@@ -3,7 +3,6 @@
 
 use crate::serial;
 use crate::unbalanced::Unbalanced;
-use crate::vectors::dot;
 
 /// Steps that are kept.
 const DEPTH: usize = 20;
@@ -28,11 +27,12 @@ serial!(Curvature { pairs });
 impl Curvature {
     /// The correction H r of a force r out of balance (n_unknowns), shape (n_unknowns).
     ///
-    /// `solve` multiplies by the inverse of a stiffness that is near the tangent; H is that inverse after the updates by all steps
+    /// `dot` is the scalar product over all unknowns, and `solve` multiplies by the inverse of a stiffness that is near the tangent; H is that inverse after the updates by all steps
     /// that are kept. It is positive definite if the stiffness is, and gives the newest step for its change.
     pub(super) fn correction(
         &self,
         force: &[f64],
+        dot: &dyn Fn(&[f64], &[f64]) -> f64,
         solve: impl FnOnce(Vec<f64>) -> Result<Vec<f64>, Unbalanced>,
     ) -> Result<Vec<f64>, Unbalanced> {
         let mut force = force.to_vec();
@@ -50,10 +50,9 @@ impl Curvature {
         Ok(correction)
     }
 
-    /// Takes in a step and what it changed of the force out of balance (n_unknowns). A step along which the body gave way is left
+    /// Takes in a step, what it changed of the force out of balance (n_unknowns), and their scalar product. A step along which the body gave way is left
     /// out: no positive definite stiffness has it.
-    pub(super) fn learn(&mut self, step: Vec<f64>, change: Vec<f64>) {
-        let work = dot(&step, &change);
+    pub(super) fn learn(&mut self, step: Vec<f64>, change: Vec<f64>, work: f64) {
         if work > 0.0 {
             self.pairs.truncate(DEPTH - 1);
             self.pairs.insert(0, Pair { step, change, work });
@@ -64,6 +63,18 @@ impl Curvature {
     pub(super) fn fits(&self, n_unknowns: usize) -> bool {
         let mut pairs = self.pairs.iter();
         pairs.all(|it| [it.step.len(), it.change.len()] == [n_unknowns; 2])
+    }
+
+    /// The steps with other arrays of unknowns in the place of theirs.
+    pub(super) fn mapped(&self, map: impl Fn(&[f64]) -> Vec<f64>) -> Self {
+        let pair = |it: &Pair| Pair {
+            step: map(&it.step),
+            change: map(&it.change),
+            work: it.work,
+        };
+        Self {
+            pairs: self.pairs.iter().map(pair).collect(),
+        }
     }
 
     /// Forgets all steps.
@@ -81,6 +92,7 @@ fn add(to: &mut [f64], factor: f64, values: &[f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::vectors::dot;
 
     /// A symmetric positive definite stiffness.
     const STIFFNESS: [[f64; 3]; 3] = [[4.0, 1.0, 0.5], [1.0, 3.0, -1.0], [0.5, -1.0, 2.0]];
@@ -98,14 +110,17 @@ mod tests {
         for step in 0..3 {
             assert!(dot(&force, &force) > 1e-4, "too early: {step}");
             let near = |it: Vec<f64>| Ok(vec![it[0], 0.3 * it[1], 2.0 * it[2]]);
-            let correction = curvature.correction(&force, near).expect("a solution");
+            let correction = curvature
+                .correction(&force, &dot, near)
+                .expect("a solution");
             let change = times_stiffness(&correction);
             let part = dot(&force, &correction) / dot(&correction, &change);
             let scaled = |values: Vec<f64>| values.into_iter().map(|it| part * it).collect();
             let (step, change): (Vec<f64>, Vec<f64>) = (scaled(correction), scaled(change));
             add(&mut u, 1.0, &step);
             add(&mut force, -1.0, &change);
-            curvature.learn(step, change);
+            let work = dot(&step, &change);
+            curvature.learn(step, change, work);
         }
         assert!(force.iter().all(|it| it.abs() < 1e-12), "{force:?}");
         let expected = [1.0, -2.0, 0.7];
@@ -119,11 +134,20 @@ mod tests {
     #[test]
     fn a_step_along_which_the_body_gave_way_is_left_out() {
         let mut curvature = Curvature::default();
-        curvature.learn(vec![1.0, 0.0], vec![-1.0, 0.5]);
-        assert_eq!(curvature.correction(&[3.0, 4.0], Ok), Ok(vec![3.0, 4.0]));
-        curvature.learn(vec![1.0, 0.0], vec![2.0, 0.0]);
-        assert_eq!(curvature.correction(&[3.0, 4.0], Ok), Ok(vec![1.5, 4.0]));
+        curvature.learn(vec![1.0, 0.0], vec![-1.0, 0.5], -1.0);
+        assert_eq!(
+            curvature.correction(&[3.0, 4.0], &dot, Ok),
+            Ok(vec![3.0, 4.0])
+        );
+        curvature.learn(vec![1.0, 0.0], vec![2.0, 0.0], 2.0);
+        assert_eq!(
+            curvature.correction(&[3.0, 4.0], &dot, Ok),
+            Ok(vec![1.5, 4.0])
+        );
         curvature.forget();
-        assert_eq!(curvature.correction(&[3.0, 4.0], Ok), Ok(vec![3.0, 4.0]));
+        assert_eq!(
+            curvature.correction(&[3.0, 4.0], &dot, Ok),
+            Ok(vec![3.0, 4.0])
+        );
     }
 }

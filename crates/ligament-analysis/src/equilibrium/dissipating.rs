@@ -20,6 +20,7 @@ use rayon::prelude::*;
 use ligament_model::BondsLeft;
 use ligament_model::deformation::Deformations;
 use ligament_model::element::{BondDeformation, Remaining};
+use ligament_model::portion::{self, any};
 use ligament_model::thermal::ThermalStrain;
 
 use super::equations::Equations;
@@ -150,13 +151,10 @@ fn ahead(
         .filter(|(bond, _)| state.intact[*bond])
         .map(|(bond, slope)| problem.criteria.utilisation(bond, slope))
         .reduce(|| 0.0, f64::max);
-    let mut largest = [largest];
-    if let Some(portion) = problem.system.portion() {
-        portion.largest(&mut largest);
-    }
+    let largest = portion::largest(problem.system.portion(), largest);
     let at = |by: f64| here.ahead(&slopes, by);
     let excess = |by: f64| dissipated(problem, state, &at(by)) - goal.energy;
-    let (mut low, mut high) = (0.0, 1.0 / largest[0]);
+    let (mut low, mut high) = (0.0, 1.0 / largest);
     let mut above = excess(high);
     for _ in 0..HALVINGS {
         if above >= 0.0 {
@@ -209,12 +207,13 @@ fn opening(
         intact,
     };
     let forces = system.forces(bonds, deformations.clone(), ThermalStrain::NONE);
-    let values = forces.internal.values.into_iter().enumerate();
-    let weights: Vec<(u32, f64)> = values
-        .filter(|(_, weight)| *weight != 0.0)
-        .map(|(dof, weight)| (dof as u32, weight))
-        .collect();
+    let values = (0..).zip(forces.internal.values);
+    let portion = system.portion();
+    let weights = values.filter(|(_, weight)| *weight != 0.0);
+    let weights = Target::own_weights(portion, system.layout(), weights);
+    let opens = any(portion, !weights.is_empty());
     let mut target = Target {
+        portion: portion.cloned(),
         rate: goal.rate.clone(),
         weights,
         value: 0.0,
@@ -222,7 +221,7 @@ fn opening(
     };
     target.value = target.motion(&state.displacement);
     target.way = target.value;
-    (!target.weights.is_empty()).then_some(target)
+    opens.then_some(target)
 }
 
 /// A way of the motion that was tried.

@@ -5,8 +5,9 @@ use std::time::Instant;
 
 use ligament_linalg::FactorKind;
 use ligament_model::deformation::Deformations;
+use ligament_model::portion::Portion;
 
-use super::accuracy::{Accuracy, Loaded, largest_displacement};
+use super::accuracy::{Accuracy, Loaded};
 use super::iterate::Iterate;
 use super::precedents::Precedents;
 use super::residual::{Extents, LocalStiffness, ROUNDING, Residual};
@@ -19,6 +20,7 @@ use crate::costs::Costs;
 use crate::error::SetupError;
 use crate::internal::{BondSweep, InternalForces};
 use crate::load_program::LoadProgram;
+use crate::neighbours::Neighbours;
 use crate::problem::Problem;
 use crate::serial::Serial;
 use crate::solver::SolverChoice;
@@ -28,6 +30,7 @@ use crate::tangent::solving::Solving;
 use crate::tangent::{Left, TangentSolver, Unsolved, distributed};
 use crate::unbalanced::{Place, Unbalanced};
 use crate::unknowns::{Layout, Unknowns};
+use crate::vectors::dot_of_all;
 
 /// Part of the energy of the expansions that counts as nothing in the energy of motion of a heated body: that of a body that
 /// is held everywhere is the difference of sums over all bonds, of up to 10^7 terms.
@@ -37,6 +40,8 @@ const CANCELLED: f64 = 1e-10;
 pub(super) struct Equations {
     pub(super) problem: Problem,
     pub(super) unknowns: Arc<Unknowns>,
+    /// Where processes share the body out.
+    pub(super) neighbours: Option<Neighbours>,
     /// None where the solver has no matrix.
     pub(super) stiffness: Option<Arc<Stiffness>>,
     pub(super) choice: SolverChoice,
@@ -62,6 +67,7 @@ impl Equations {
     ) -> Result<Self, SetupError> {
         let (system, loads) = (&problem.system, &problem.loads);
         let unknowns = Unknowns::all_but(&**system, |dof| loads.is_prescribed(dof));
+        let unknowns = unknowns.of_own(system.portion());
         let unknowns = Arc::new(unknowns.restrained_by(loads.restraints()));
         let Solving {
             stiffness,
@@ -85,6 +91,7 @@ impl Equations {
                 analysis: analysis.unwrap_or_default(),
                 ..Costs::default()
             },
+            neighbours: Neighbours::new(problem),
             problem: problem.clone(),
             unknowns,
             stiffness,
@@ -106,7 +113,8 @@ impl Equations {
             costs,
             solver,
             problem,
-            unknowns: _,
+            unknowns,
+            neighbours: _,
             stiffness: _,
             choice: _,
             energy_tolerance: _,
@@ -118,7 +126,10 @@ impl Equations {
         costs.write(out);
         solver.write(out);
         if problem.criteria.soften() {
-            precedents.write(out);
+            match &self.neighbours {
+                None => precedents.write(out),
+                Some(it) => precedents.of_all(it.portion(), unknowns).write(out),
+            }
         }
     }
 
@@ -205,6 +216,24 @@ impl Equations {
         for (&dof, value) in self.degrees_of_freedom().iter().zip(correction) {
             state.displacement[dof as usize] += part * value;
         }
+        self.tell_motions(&mut state.displacement);
+    }
+
+    /// Takes over motions (n_degrees_of_freedom) from the processes that have their points.
+    fn tell_motions(&self, motions: &mut [f64]) {
+        if let Some(neighbours) = &self.neighbours {
+            neighbours.tell_motions(motions);
+        }
+    }
+
+    /// The part of this process in the body, where several share it out.
+    pub(super) fn portion(&self) -> Option<&Portion> {
+        self.neighbours.as_ref().map(Neighbours::portion)
+    }
+
+    /// The scalar product of two arrays over the unknowns of all processes.
+    pub(super) fn dot(&self, one: &[f64], other: &[f64]) -> f64 {
+        dot_of_all(self.portion(), one, other)
     }
 
     /// Takes a breakage to the solver, and its correction to the state; tells whether there was one.
@@ -305,6 +334,9 @@ impl Equations {
         contact::add_to(&mut swept, &closed, self.layout(), expansion);
         let factor = self.problem.loads.temperature_factor(state.load_factor);
         let energy_of_motion = swept.energy_of_motion(factor);
+        if let Some(neighbours) = &self.neighbours {
+            neighbours.tell_forces(&mut swept.internal.values);
+        }
         let BondSweep {
             deformations,
             internal,
@@ -312,8 +344,8 @@ impl Equations {
             stored_energy,
             expansion_energy,
         } = swept;
-        let extents = self.accuracy.local_stiffness.extents(&sizes);
-        let displacement = largest_displacement(self.layout(), state);
+        let extents = self.accuracy.extents(&sizes);
+        let displacement = self.accuracy.largest_displacement(self.layout(), state);
         let out_of_balance = self.external_less(state, &internal);
         let loaded = self.loaded(state);
         let residual = (self.accuracy).residual(loaded, extents, displacement, out_of_balance);
@@ -357,6 +389,7 @@ impl Equations {
         for (&dof, value) in self.degrees_of_freedom().iter().zip(solution) {
             growth[dof as usize] = value;
         }
+        self.tell_motions(&mut growth);
         Ok(growth)
     }
 
@@ -380,6 +413,7 @@ impl Equations {
         for (&dof, value) in self.degrees_of_freedom().iter().zip(values) {
             all[dof as usize] = *value;
         }
+        self.tell_motions(&mut all);
         all
     }
 
@@ -439,18 +473,16 @@ impl Equations {
             if self.problem.system.some_negative() {
                 return Err(self.vanishing_pivot(first));
             }
-            for unknown in vanishing {
-                let dof = self.degrees_of_freedom()[unknown] as usize;
+            for dof in vanishing {
                 if std::mem::replace(&mut state.held[dof], true) {
-                    return Err(self.vanishing_pivot(unknown));
+                    return Err(self.vanishing_pivot(dof));
                 }
                 held_now.push(self.layout().point(dof));
             }
         }
     }
 
-    fn vanishing_pivot(&self, unknown: usize) -> Unbalanced {
-        let dof = self.degrees_of_freedom()[unknown] as usize;
+    fn vanishing_pivot(&self, dof: usize) -> Unbalanced {
         let place = self.place(dof);
         let stiffness = self.stiffness.as_ref();
         let is_llt = stiffness.is_some_and(|it| it.choice().factorisation == FactorKind::Llt);

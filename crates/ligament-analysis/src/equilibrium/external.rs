@@ -11,14 +11,11 @@ use crate::unbalanced::Unbalanced;
 /// they do not balance: loads count as in equilibrium with themselves to the same measure, and solutions are nearer by far.
 const BALANCED: f64 = 1e-6;
 
-/// Sums along one axis, N.
-#[derive(Debug, Clone, Copy, Default)]
-struct Sum {
-    resultant: f64,
-    size: f64,
-    /// What rounding may leave of the forces.
-    rounding: f64,
-}
+/// Numbers that are added up along one axis.
+const SUMS: usize = 3;
+
+/// Resultant along one axis, sum of the sizes, and what rounding may leave of the forces, N.
+type Sum = [f64; SUMS];
 
 /// The first part of the body on which the external forces of a state do not balance along some axis.
 ///
@@ -50,27 +47,34 @@ pub(super) fn imbalance(
     let of_points = external
         .chunks(n_components)
         .zip(rounding.chunks(n_components));
-    for ((forces, rounding), &fragment) in of_points.zip(&fragments.of_point) {
+    let portion = equations.portion();
+    let counted = (0..).zip(of_points.zip(&fragments.of_point));
+    let counted = counted.filter(|(point, _)| portion.is_none_or(|it| it.is_own(*point)));
+    for (_, ((forces, rounding), &fragment)) in counted {
         let of_part = &mut sums[n_components * fragment as usize..];
         for ((sum, force), rounding) in of_part.iter_mut().zip(forces).zip(rounding) {
-            sum.resultant += force;
-            sum.size += force.abs();
-            sum.rounding += rounding;
+            let of_point = [*force, force.abs(), *rounding];
+            sum.iter_mut()
+                .zip(of_point)
+                .for_each(|(it, part)| *it += part);
         }
     }
+    if let Some(portion) = portion {
+        portion.sum(sums.as_flattened_mut());
+    }
     let of_body = equations.largest_force(balanced.internal.force_scale);
-    let is_off = |(place, sum): &(usize, &Sum)| {
+    let is_off = |(place, [resultant, size, rounding]): &(usize, &Sum)| {
         let is_force = !layout.components[place % n_components].is_rotation();
         // A resultant that is not a number is no balance either.
-        let is_balanced = sum.resultant.abs() <= BALANCED * (sum.size + of_body) + sum.rounding;
+        let is_balanced = resultant.abs() <= BALANCED * (size + of_body) + rounding;
         is_force && !is_balanced
     };
-    let (place, sum) = sums.iter().enumerate().find(is_off)?;
+    let (place, &[resultant, size, _]) = sums.iter().enumerate().find(is_off)?;
     let points = &fragments.points[place / n_components];
     Some(Unbalanced::NoForceBalance {
         component: layout.components[place % n_components],
-        resultant: sum.resultant,
-        size: sum.size,
+        resultant,
+        size,
         points: points.len(),
         first: points[0],
     })

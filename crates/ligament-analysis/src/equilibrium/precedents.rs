@@ -7,6 +7,7 @@ use crate::serial;
 use crate::serial::Serial;
 use crate::state::State;
 use crate::unknowns::Unknowns;
+use ligament_model::portion::Portion;
 
 /// Largest growth of a load step over the one before with which the body is taken to go on as it did.
 const GROWTH: f64 = 2.0;
@@ -43,13 +44,41 @@ impl Precedents {
     ///
     /// If the bytes are damaged or of another model.
     pub(super) fn restored(from: &mut &[u8], unknowns: &Unknowns) -> Result<Self, CheckpointError> {
-        let precedents: Self = Serial::read(from)?;
+        let mut precedents: Self = Serial::read(from)?;
+        if unknowns.len() < unknowns.of_all().count() {
+            precedents.curvature = precedents.curvature.mapped(|all| unknowns.own_of(all));
+        }
         let n = unknowns.layout().n_degrees_of_freedom();
         let mut equilibria = precedents.equilibria.iter();
         let is_whole = equilibria.all(|it| it.displacement.len() == n);
         match is_whole && precedents.curvature.fits(unknowns.len()) {
             true => Ok(precedents),
             false => Err(CheckpointError::OtherModel),
+        }
+    }
+
+    /// The precedents at the unknowns and points of all processes, of which each has those of its own.
+    pub(super) fn of_all(&self, portion: &Portion, unknowns: &Unknowns) -> Self {
+        let n_components = unknowns.layout().components.len();
+        let curvature = self.curvature.mapped(|own| {
+            let mut all = vec![0.0; unknowns.layout().n_degrees_of_freedom()];
+            for (&dof, value) in unknowns.degrees_of_freedom().iter().zip(own) {
+                all[dof as usize] = *value;
+            }
+            portion.complete(&mut all, n_components);
+            unknowns.of_all().map(|dof| all[dof]).collect()
+        });
+        let equilibria = self.equilibria.iter().map(|it| {
+            let mut displacement = it.displacement.clone();
+            portion.complete(&mut displacement, n_components);
+            Precedent {
+                displacement,
+                ..*it
+            }
+        });
+        Self {
+            equilibria: equilibria.collect(),
+            curvature,
         }
     }
 

@@ -6,6 +6,7 @@
 
 use ligament_model::Bonds;
 use ligament_model::interface::PointStiffness;
+use ligament_model::portion::Portion;
 
 use crate::restraints::Restraints;
 use crate::serial;
@@ -173,6 +174,18 @@ impl Extents {
         }))
     }
 
+    /// The largest over all processes.
+    pub(super) fn of_all(self, portion: &Portion) -> Self {
+        let mut all = [0.0; 4];
+        for (both, it) in all.as_chunks_mut().0.iter_mut().zip(self.0) {
+            *both = [it.force, it.deformation];
+        }
+        portion.largest(&mut all);
+        let [force, deformation, moment, turn] = all;
+        let extent = |force, deformation| Extent { force, deformation };
+        Self([extent(force, deformation), extent(moment, turn)])
+    }
+
     /// Largest force that is rounding of these in a body that is unloaded, N.
     pub(super) fn unloaded_force(self) -> f64 {
         UNLOADED * self.0[0].force
@@ -199,6 +212,23 @@ impl Scales<'_> {
                 .max(stiffness * self.rounding)
         } else {
             force
+        }
+    }
+
+    /// The residual of all processes, of which each has that of its part; of equal ones the first.
+    pub(super) fn residual_of_all(self, here: Residual, portion: &Portion) -> Residual {
+        let (dof, force) = here.carried.unwrap_or_default();
+        let carried = here
+            .carried
+            .map_or(0.0, |_| force.abs() / self.at(dof as usize));
+        let largest = [-here.relative, f64::from(here.degree_of_freedom)];
+        let held = [-carried, f64::from(dof), force];
+        let [relative, at] = portion.least(Some(largest)).unwrap_or(largest);
+        let [most, dof, force] = portion.least(Some(held)).unwrap_or(held);
+        Residual {
+            relative: -relative,
+            degree_of_freedom: at as u32,
+            carried: (most < 0.0).then_some((dof as u32, force)),
         }
     }
 

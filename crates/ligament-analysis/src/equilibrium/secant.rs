@@ -13,7 +13,7 @@ use crate::history::{Observer, ObserverError};
 use crate::state::State;
 use crate::tangent::Left;
 use crate::unbalanced::Unbalanced;
-use crate::vectors::dot;
+use crate::vectors::dot_of_all;
 
 /// A residual above this is no equilibrium whatever the energies say: what is left at thousands of points adds up in the balance of
 /// the external forces, and the falling stiffness of softening bonds magnifies it.
@@ -194,14 +194,16 @@ fn correction(
     curvature: &Curvature,
     target: Option<&Target>,
 ) -> Result<Correction, Unbalanced> {
+    let portion = equations.portion().cloned();
+    let dot = |one: &[f64], other: &[f64]| dot_of_all(portion.as_ref(), one, other);
     let mut solve = |it| equations.solve(state, it, Left::Share(SOLVED));
-    let mut step = curvature.correction(force, &mut solve)?;
+    let mut step = curvature.correction(force, &dot, &mut solve)?;
     let mut force = force.to_vec();
     let mut load_change = 0.0;
     if let Some(target) = target {
         let (mut growth, rate) = equations.rate(state, &*target.rate);
         let solve = |it| equations.solve(state, it, Left::Share(SOLVED));
-        let grown = curvature.correction(&rate, solve)?;
+        let grown = curvature.correction(&rate, &dot, solve)?;
         for (&dof, value) in equations.degrees_of_freedom().iter().zip(&grown) {
             growth[dof as usize] = *value;
         }
@@ -233,13 +235,14 @@ fn next(
         curvature.forget();
     }
     let mut found = correction(equations, state, &force, curvature, target)?;
-    if dot(&found.force, &found.step) <= 0.0 {
+    if equations.dot(&found.force, &found.step) <= 0.0 {
         curvature.forget();
         found = correction(equations, state, &force, curvature, target)?;
     }
     let Correction { force, step, .. } = &found;
     state.load_factor += found.load_change;
     let start = state.displacement.clone();
+    let portion = equations.portion().cloned();
     let mut go = |part: f64| {
         state.displacement.clone_from(&start);
         equations.add_correction(state, part, step);
@@ -251,13 +254,16 @@ fn next(
     let (mut iterate, mut left) = go(1.0);
     let mut part = 1.0;
     if is_searched {
-        part = line_search::part(dot(force, step), dot(&left, step), |part| {
+        let works = [force, &left].map(|it| dot_of_all(portion.as_ref(), it, step));
+        part = line_search::part(works[0], works[1], |part| {
             (iterate, left) = go(part);
-            dot(&left, step)
+            dot_of_all(portion.as_ref(), &left, step)
         });
     }
-    let change = force.iter().zip(&left).map(|(was, is)| was - is).collect();
-    curvature.learn(step.iter().map(|it| part * it).collect(), change);
+    let change: Vec<f64> = force.iter().zip(&left).map(|(was, is)| was - is).collect();
+    let taken: Vec<f64> = step.iter().map(|it| part * it).collect();
+    let work = equations.dot(&taken, &change);
+    curvature.learn(taken, change, work);
     Ok(iterate)
 }
 

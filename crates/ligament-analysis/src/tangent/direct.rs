@@ -278,7 +278,8 @@ impl TangentSolver for DirectSolver {
             self.making = making;
             self.remaining.clone_from(&state.softening.remaining);
         }
-        Ok(vanishing)
+        let dofs = self.stiffness.unknowns().degrees_of_freedom();
+        Ok(vanishing.into_iter().map(|it| dofs[it] as usize).collect())
     }
 
     fn solve(

@@ -1,7 +1,7 @@
 //! Solution by several ranks: a matrix whose rows are shared out, conjugate gradients with multigrid, or a factor.
 //!
-//! Every rank knows the state, has the rows of its own points, and takes the whole correction: all go the same way to the bit. The matrix
-//! is always that of the bonds as they are. The preconditioner is kept while it serves: it is made anew where a part came loose, and where
+//! A rank has the rows of its own points and the correction there: the unknowns are shared out as they are; where each rank knows all bonds it
+//! takes the whole correction. The matrix is always that of the bonds as they are. The preconditioner is kept while it serves: it is made anew where a part came loose, and where
 //! the iterations beyond what it took when it was new have cost as much as that. A factor is made anew after every breakage.
 
 mod kept;
@@ -15,7 +15,7 @@ use ligament_linalg::{FactorError, Inertia};
 use ligament_model::Bonds;
 use ligament_model::contact::ClosedPair;
 use ligament_model::element::Remaining;
-use ligament_model::portion::Partition;
+use ligament_model::portion::{Partition, concatenated};
 use ligament_model::thermal::ThermalStrain;
 
 use self::kept::Kept;
@@ -49,6 +49,8 @@ pub(crate) struct DistributedSolver {
     partition: Arc<Partition>,
     /// Where the processes share the bonds out as well.
     numbers: Option<Arc<BondNumbers>>,
+    /// Bonds between own points and others.
+    between: Vec<u32>,
     /// Points whose columns have entries in own rows.
     columns: Vec<u32>,
     matrix: Option<Box<dyn RankMatrix>>,
@@ -77,7 +79,13 @@ impl DistributedSolver {
             rank: ranks.rank(),
         };
         let columns = rows.columns();
+        let between = (0..).zip(system.ends()).filter(|(_, ends)| {
+            let own = ends.iter().filter(|&&end| rows.is_own(end));
+            own.count() == 1
+        });
+        let between = between.map(|(bond, _)| bond).collect();
         Self {
+            between,
             system,
             unknowns,
             ranks,
@@ -103,8 +111,8 @@ impl DistributedSolver {
     /// Marks of the degrees of freedom that take part, shape (n_degrees_of_freedom).
     fn free(&self, held: &[bool]) -> Vec<bool> {
         let mut free = vec![false; held.len()];
-        for &dof in self.unknowns.degrees_of_freedom() {
-            free[dof as usize] = !held[dof as usize];
+        for dof in self.unknowns.of_all() {
+            free[dof] = !held[dof];
         }
         free
     }
@@ -133,17 +141,11 @@ impl DistributedSolver {
 
     /// Degrees of freedom that some rank has found.
     fn of_all(&self, found: &[usize]) -> Vec<usize> {
-        let mut some = [found.len() as f64];
-        self.ranks.largest(&mut some);
-        if some == [0.0] {
-            return Vec::new();
-        }
-        let mut marks = vec![0.0; self.unknowns.layout().n_degrees_of_freedom()];
-        for &dof in found {
-            marks[dof] = 1.0;
-        }
-        self.ranks.largest(&mut marks);
-        (0..marks.len()).filter(|&dof| marks[dof] > 0.0).collect()
+        let found: Vec<[f64; 1]> = found.iter().map(|&dof| [dof as f64]).collect();
+        let all = concatenated(self.ranks, &found).into_iter();
+        let mut all: Vec<usize> = all.map(|[dof]| dof as usize).collect();
+        all.sort_unstable();
+        all
     }
 
     /// The preconditioner anew, with the rigid motions of the body as far as nothing holds them.
@@ -190,14 +192,32 @@ impl DistributedSolver {
         stale.into_iter().collect()
     }
 
-    /// Whether all ranks are to solve for the same forces, to the bit: they go the same way if they compute the same.
-    fn agree(&self, force: &[f64]) -> bool {
-        // FNV-1a by numbers, in halves that doubles hold.
-        let mixed = force.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, value| {
-            (hash ^ value.to_bits())
-                .wrapping_mul(0x0100_0000_01b3)
-                .rotate_left(29)
-        });
+    /// Whether all ranks are to solve for the same forces, to the bit: they go the same way if they compute the same. Where the forces are
+    /// shared out, the load factor and what is left of the bonds between two ranks must be the same.
+    fn agree(&self, state: &State, force: &[f64]) -> bool {
+        let Some(numbers) = &self.numbers else {
+            return self.are_equal(force.iter().map(|value| value.to_bits()));
+        };
+        let remaining = &state.softening.remaining;
+        let left = |&bond: &u32| {
+            let (number, bond) = (numbers.number(bond as usize), bond as usize);
+            let left = remaining.get(bond).copied().unwrap_or(Remaining::WHOLE);
+            let bits = [left.axial, left.shear, left.rotational].map(f64::to_bits);
+            let is_left = u64::from(state.intact[bond]);
+            let mixed = mixed([u64::from(number), is_left].into_iter().chain(bits));
+            // Sums of as many as there are bonds are exact.
+            let part = (mixed >> 44) as f64;
+            if numbers.counts(bond) { part } else { -part }
+        };
+        let mut of_both = [self.between.iter().map(left).sum::<f64>()];
+        numbers.portion().sum(&mut of_both);
+        self.are_equal([state.load_factor.to_bits()].into_iter()) && of_both == [0.0]
+    }
+
+    /// Whether numbers are the same on all ranks.
+    fn are_equal(&self, values: impl Iterator<Item = u64>) -> bool {
+        let mixed = mixed(values);
+        // Halves are numbers that doubles hold.
         let halves = [(mixed >> 32) as f64, (mixed & 0xffff_ffff) as f64];
         let mut both = [halves[0], halves[1], -halves[0], -halves[1]];
         self.ranks.largest(&mut both);
@@ -227,9 +247,21 @@ impl DistributedSolver {
         kept.is_due |= kept.excess > RENEWAL;
     }
 
-    fn numbers(&self, dofs: Vec<usize>) -> Vec<usize> {
-        let dofs = dofs.into_iter();
-        dofs.filter_map(|dof| self.unknowns.number(dof)).collect()
+    /// The solution at the unknowns, from the motions at the own degrees of freedom.
+    fn at_unknowns(&self, motions: Vec<f64>) -> Vec<f64> {
+        let layout = self.unknowns.layout();
+        let n = layout.components.len();
+        let dofs = self.unknowns.degrees_of_freedom().iter();
+        let dofs = dofs.map(|&dof| dof as usize);
+        let place = |dof: usize| self.partition.place(layout.point(dof));
+        if self.numbers.is_some() {
+            let first = self.partition.first(self.ranks.rank());
+            return dofs
+                .map(|dof| motions[n * (place(dof) - first) + dof % n])
+                .collect();
+        }
+        let all = self.ranks.gather(&motions, &self.partition.counts(n));
+        dofs.map(|dof| all[n * place(dof) + dof % n]).collect()
     }
 }
 
@@ -280,7 +312,10 @@ impl TangentSolver for DistributedSolver {
         costs.assembly += start.elapsed();
         if !loose.is_empty() {
             self.kept.stale.extend(stale);
-            return Ok(self.numbers(loose));
+            return Ok(loose
+                .into_iter()
+                .filter(|&it| self.unknowns.is_unknown(it))
+                .collect());
         }
         let start = Instant::now();
         if self.tolerance.is_none() {
@@ -301,13 +336,13 @@ impl TangentSolver for DistributedSolver {
 
     fn solve(
         &mut self,
-        _: &State,
+        state: &State,
         force: Vec<f64>,
         left: Left,
         costs: &mut Costs,
     ) -> Result<Vec<f64>, Unsolved> {
         let start = Instant::now();
-        if !self.agree(&force) {
+        if !self.agree(state, &force) {
             return Err(Unsolved::Disagreement);
         }
         let Some(mut matrix) = self.matrix.take() else {
@@ -317,7 +352,10 @@ impl TangentSolver for DistributedSolver {
         let own_force = self.at_own(&force, &free, 0.0);
         let found = match left {
             Left::Share(share) => {
-                let norm = share * dot_of_chunks(&force, &force).sqrt();
+                let numbers = self.numbers.as_ref();
+                let square = dot_of_chunks(&force, &force);
+                let square = numbers.map_or(square, |it| it.portion().total(square));
+                let norm = share * square.sqrt();
                 matrix.solve(&own_force, Tolerated::Norm(norm))
             }
             Left::AtMost(sizes) => {
@@ -326,19 +364,11 @@ impl TangentSolver for DistributedSolver {
             }
         };
         self.matrix = Some(matrix);
-        let layout = self.unknowns.layout();
-        let n = layout.components.len();
-        let all = self.ranks.gather(&found.motions, &self.partition.counts(n));
-        let dofs = self.unknowns.degrees_of_freedom().iter();
-        let solution = dofs.map(|&dof| {
-            let dof = dof as usize;
-            all[n * self.partition.place(layout.point(dof)) + dof % n]
-        });
-        let solution = solution.collect();
         if self.tolerance.is_some() {
             self.judge(&found);
             costs.iterations += found.iterations;
         }
+        let solution = self.at_unknowns(found.motions);
         costs.solves += 1;
         costs.solve += start.elapsed();
         if found.is_definite {
@@ -363,7 +393,7 @@ impl TangentSolver for DistributedSolver {
     fn inertia(&self) -> Option<Inertia> {
         self.pivots.map(|pivots| Inertia {
             negative: pivots.negative,
-            positive: self.unknowns.len() - pivots.negative,
+            positive: self.unknowns.of_all().count() - pivots.negative,
         })
     }
 
@@ -372,7 +402,7 @@ impl TangentSolver for DistributedSolver {
         self.matrix.is_some().write(out);
         match &self.numbers {
             None => self.kept.write(out),
-            Some(numbers) => self.kept.of_all(numbers, self.system.n_points()).write(out),
+            Some(numbers) => self.kept.of_all(numbers).write(out),
         }
     }
 
@@ -382,10 +412,7 @@ impl TangentSolver for DistributedSolver {
         }
         let _ = u64::read(from)?;
         let has_matrix = bool::read(from)?;
-        self.kept = Kept::read(from)?;
-        if let Some(numbers) = &self.numbers {
-            self.kept.take_known(numbers)?;
-        }
+        self.kept = Kept::read_known(self.numbers.as_deref(), from)?;
         if !has_matrix {
             return Ok(());
         }
@@ -416,6 +443,15 @@ impl TangentSolver for DistributedSolver {
     }
 }
 
+/// Some numbers as one, by FNV-1a.
+fn mixed(values: impl Iterator<Item = u64>) -> u64 {
+    values.fold(0xcbf2_9ce4_8422_2325_u64, |hash, value| {
+        (hash ^ value)
+            .wrapping_mul(0x0100_0000_01b3)
+            .rotate_left(29)
+    })
+}
+
 /// Whether the bytes go on with what this solver has written.
 pub(crate) fn was_written(from: &[u8]) -> bool {
     from.starts_with(&MARK.to_le_bytes())
@@ -429,6 +465,6 @@ pub(crate) fn was_written(from: &[u8]) -> bool {
 pub(crate) fn pass_over(from: &mut &[u8]) -> Result<(), CheckpointError> {
     let _ = u64::read(from)?;
     let _ = bool::read(from)?;
-    let _ = Kept::read(from)?;
+    let _ = Kept::read_known(None, from)?;
     Ok(())
 }

@@ -241,9 +241,9 @@ impl IterativeSolver {
     }
 
     /// Numbers of the unknowns at degrees of freedom.
-    fn numbers(&self, dofs: Vec<usize>) -> Vec<usize> {
-        let dofs = dofs.into_iter();
-        dofs.filter_map(|dof| self.unknowns.number(dof)).collect()
+    fn unknown_of(&self, mut dofs: Vec<usize>) -> Vec<usize> {
+        dofs.retain(|&dof| self.unknowns.is_unknown(dof));
+        dofs
     }
 
     fn stale_at(&mut self, dofs: impl Iterator<Item = usize>) {
@@ -308,10 +308,10 @@ impl TangentSolver for IterativeSolver {
         if !self.is_due && self.levels.is_some() {
             let loose = self.renew_blocks(making)?;
             costs.change += start.elapsed();
-            return Ok(self.numbers(loose));
+            return Ok(self.unknown_of(loose));
         }
         match self.levels_of(&making)? {
-            Err(loose) => return Ok(self.numbers(loose)),
+            Err(loose) => return Ok(self.unknown_of(loose)),
             Ok(levels) => self.levels = Some(levels),
         }
         self.coarse_of = making.clone();

@@ -77,22 +77,21 @@ impl Making {
         }
     }
 
-    /// A making of all bonds with those that are known here alone.
+    /// Reads a making with the bonds that are known here alone, from that of all.
     ///
     /// # Errors
     ///
-    /// If it is of another body.
-    pub(super) fn of_known(self, numbers: &BondNumbers) -> Result<Self, CheckpointError> {
+    /// If the bytes are damaged or of another body.
+    pub(super) fn read_known(
+        numbers: &BondNumbers,
+        from: &mut &[u8],
+    ) -> Result<Self, CheckpointError> {
         Ok(Self {
-            intact: match self.intact.is_empty() {
-                true => Vec::new(),
-                false => numbers.of_known(&self.intact)?,
-            },
-            remaining: match self.remaining.is_empty() {
-                true => Vec::new(),
-                false => numbers.of_known(&self.remaining)?,
-            },
-            ..self
+            intact: numbers.read(from)?,
+            remaining: numbers.read(from)?,
+            held: Serial::read(from)?,
+            beside: Serial::read(from)?,
+            changes: Serial::read(from)?,
         })
     }
 

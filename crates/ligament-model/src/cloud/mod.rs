@@ -10,7 +10,7 @@ use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
 use crate::horizon::INCLUSION_TOLERANCE;
-use crate::portion::{Exchange, Partition, Portion};
+use crate::portion::{Exchange, Partition, Portion, largest};
 
 /// Material points with their volumes, nearest-neighbour distances and materials.
 ///
@@ -118,11 +118,7 @@ impl<const D: usize> PointCloud<D> {
 
     /// The largest of a value over all processes.
     pub fn largest(&self, value: f64) -> f64 {
-        let mut largest = [value];
-        if let Some(portion) = &self.portion {
-            portion.largest(&mut largest);
-        }
-        largest[0]
+        largest(self.portion.as_ref(), value)
     }
 
     /// The sum of what each process has counted.

@@ -5,7 +5,8 @@ use std::borrow::Cow;
 
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
-use crate::portion::{Exchange, Portion};
+use crate::ghosts::Ghosts;
+use crate::portion::Portion;
 
 /// Rank of a point that is neither an own one nor bonded to one.
 const NONE: u32 = u32::MAX;
@@ -16,18 +17,8 @@ pub(crate) struct Seats<'a> {
     points: Cow<'a, [u32]>,
     n_own: usize,
     portion: Option<&'a Portion>,
-    told: Option<Told>,
-}
-
-/// The points that processes tell each other of: those with bonds between two parts.
-struct Told {
-    exchange: &'static dyn Exchange,
-    /// Ranks of own ones.
-    own: Vec<u32>,
-    /// Number of those of each process.
-    counts: Vec<usize>,
-    /// Ranks of those of all processes.
-    all: Vec<u32>,
+    /// Points of other processes, by rank.
+    ghosts: Option<Ghosts>,
 }
 
 impl<'a> Seats<'a> {
@@ -37,20 +28,20 @@ impl<'a> Seats<'a> {
             points: Cow::Borrowed(&cloud.curve),
             n_own: cloud.len(),
             portion: cloud.portion.as_ref(),
-            told: None,
+            ghosts: None,
         };
         if let Some(portion) = seats.portion {
-            let mut is_between = vec![false; cloud.len()];
-            for ends in &bonds.ends {
-                if ends.iter().any(|&end| !portion.is_own(end)) {
-                    ends.iter().for_each(|&end| is_between[end as usize] = true);
-                }
-            }
-            let between = cloud.curve.iter().copied();
-            let others = between.filter(|&it| is_between[it as usize] && !portion.is_own(it));
+            let mut is_seen = vec![false; cloud.len()];
+            let seen = bonds.ends.iter().flatten().copied();
+            let seen = seen.filter(|&end| !portion.is_own(end));
+            seen.for_each(|end| is_seen[end as usize] = true);
+            let others = cloud.curve.iter().copied();
+            let others = others.filter(|&it| is_seen[it as usize]);
             seats.points = portion.own_along(&cloud.curve).chain(others).collect();
             seats.n_own = portion.own().len();
-            seats.told = Some(Told::new(portion, &is_between, &seats.ranks(cloud.len())));
+            let ranks = seats.ranks(cloud.len());
+            let ghosts = Ghosts::new(portion, seats.points.iter().copied());
+            seats.ghosts = Some(ghosts.renumbered(|point| ranks[point as usize]));
         }
         seats
     }
@@ -76,8 +67,8 @@ impl<'a> Seats<'a> {
 
     /// Puts the values of points of other processes, by rank, in the place of those here.
     pub(crate) fn complete<const N: usize>(&self, values: &mut [[f64; N]]) {
-        if let Some(told) = &self.told {
-            told.complete(values);
+        if let Some(ghosts) = &self.ghosts {
+            ghosts.tell(values.as_flattened_mut(), N);
         }
     }
 
@@ -110,35 +101,5 @@ impl<'a> Seats<'a> {
     /// Whether this process is the first, or the only one.
     pub(crate) fn is_first(&self) -> bool {
         self.portion.is_none_or(|it| it.exchange().rank() == 0)
-    }
-}
-
-impl Told {
-    /// The points that are marked, with the ranks of all points.
-    fn new(portion: &Portion, is_between: &[bool], ranks: &[u32]) -> Self {
-        let exchange = portion.exchange();
-        let own = portion.own().iter().filter(|it| is_between[**it as usize]);
-        let points: Vec<[f64; 1]> = own.clone().map(|&it| [f64::from(it)]).collect();
-        let mut counts = vec![0.0; exchange.n_ranks()];
-        counts[exchange.rank()] = points.len() as f64;
-        exchange.largest(&mut counts);
-        let all = portion.concatenated(&points).into_iter();
-        Self {
-            exchange,
-            own: own.map(|&it| ranks[it as usize]).collect(),
-            counts: counts.iter().map(|&it| it as usize).collect(),
-            all: all.map(|[it]| ranks[it as usize]).collect(),
-        }
-    }
-
-    fn complete<const N: usize>(&self, values: &mut [[f64; N]]) {
-        let own: Vec<[f64; N]> = self.own.iter().map(|&it| values[it as usize]).collect();
-        let counts: Vec<usize> = self.counts.iter().map(|count| N * count).collect();
-        let all = self.exchange.gather(own.as_flattened(), &counts);
-        for (&rank, value) in self.all.iter().zip(all.as_chunks().0) {
-            if rank != NONE {
-                values[rank as usize] = *value;
-            }
-        }
     }
 }

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::element::SolidKinematics;
 use super::system::Typed;
 use crate::deformation::{Deformations, SpaceDeformation};
-use crate::portion::counts;
+use crate::portion::{counts, row};
 use crate::sweep::{BondSweep, PARTS, Part, TASK};
 use crate::system::BondsLeft;
 use crate::thermal::ThermalStrain;
@@ -62,7 +62,7 @@ impl<const M: usize, B: SolidKinematics<M>> Typed<'_, B, M> {
         expansion: ThermalStrain<'_>,
         of_part: Range<usize>,
     ) -> Part<M> {
-        let mut part = Part::new(self.system.cloud.len());
+        let mut part = Part::new(&self.system.cloud);
         let portion = self.system.cloud.portion.as_ref();
         for bond in of_part.clone() {
             let Some(element) = self.left(bonds, bond) else {
@@ -74,7 +74,9 @@ impl<const M: usize, B: SolidKinematics<M>> Typed<'_, B, M> {
                 part.energy += element.mutual_energy(deformation, deformation);
             }
             for (point, force) in ends.into_iter().zip(element.end_forces(deformation)) {
-                part.forces[point as usize].add(force);
+                if let Some(row) = row(portion, point) {
+                    part.forces[row].add(force);
+                }
             }
         }
         if expansion.is_none() {

@@ -1,7 +1,10 @@
 //! The pairs across the cracks of a bond system, and the stresses of those that are closed.
 
+use std::borrow::Cow;
+
 use super::BondSystem;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
+use crate::ghosts::Ghosts;
 use crate::interface::{Bonds, StressReading};
 use crate::layout::Component;
 use crate::portion::{any, counts};
@@ -54,9 +57,11 @@ impl BondSystem {
                 *sum = [sum[0] + x * x - y * y, sum[1] + 2.0 * x * y];
             }
         }
+        let seen = parted().flat_map(|(ends, _)| ends);
+        let ghosts = self.portion().map(|it| Ghosts::new(it, seen));
         let complete = |sums: &mut Vec<[f64; 2]>| {
-            if let Some(portion) = self.portion() {
-                portion.complete(sums.as_flattened_mut(), 2);
+            if let Some(ghosts) = &ghosts {
+                ghosts.tell(sums.as_flattened_mut(), 2);
             }
         };
         complete(&mut own);
@@ -143,7 +148,14 @@ impl BondSystem {
         if !any(self.portion(), has_cut || broken().any(approaches)) {
             return None;
         }
-        let pairs = self.contact_pairs(intact).into_iter();
+        let pairs = self.contact_pairs(intact);
+        let mut motions = Cow::Borrowed(motions);
+        if let Some(portion) = self.portion() {
+            // Cut bonds lead to points that intact ones need not lead to.
+            let ghosts = Ghosts::new(portion, pairs.iter().flat_map(|it| it.ends));
+            ghosts.tell(motions.to_mut(), layout.components.len());
+        }
+        let (pairs, motions) = (pairs.into_iter(), &*motions);
         let overlaps = pairs
             .filter(|pair| is_asked(pair.ends))
             .map(|pair| Overlap {

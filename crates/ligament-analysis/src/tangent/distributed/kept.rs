@@ -1,11 +1,10 @@
 //! What several ranks keep of a matrix and its preconditioner beside their values.
 
 use std::collections::BTreeSet;
-use std::mem;
 
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
-use crate::serial::{Damaged, Serial};
+use crate::serial::Serial;
 use crate::tangent::making::Making;
 
 /// What a preconditioner came from and how it serves: the same on all ranks.
@@ -37,48 +36,20 @@ impl Kept {
         }
     }
 
-    /// Takes of the bonds of all processes those that are known here.
+    /// Reads what was kept, of bonds those that are known here where processes share the body out.
     ///
     /// # Errors
     ///
-    /// If they are those of another body.
-    pub(super) fn take_known(&mut self, numbers: &BondNumbers) -> Result<(), CheckpointError> {
-        for making in [&mut self.preconditioner_of, &mut self.matrix_of] {
-            *making = mem::take(making).of_known(numbers)?;
-        }
-        Ok(())
-    }
-
-    /// What all processes know of it, with their bonds on rank 0, in a body of some points.
-    pub(super) fn of_all(&self, numbers: &BondNumbers, n_points: usize) -> Self {
-        let mut stale = vec![0.0; n_points];
-        for &point in &self.stale {
-            stale[point as usize] = 1.0;
-        }
-        numbers.portion().largest(&mut stale);
-        let marked = (0..).zip(stale).filter(|(_, mark)| *mark > 0.0);
-        Self {
-            preconditioner_of: self.preconditioner_of.of_all(numbers),
-            matrix_of: self.matrix_of.of_all(numbers),
-            stale: marked.map(|it| it.0).collect(),
-            ..*self
-        }
-    }
-}
-
-impl Serial for Kept {
-    fn write(&self, out: &mut Vec<u8>) {
-        self.preconditioner_of.write(out);
-        self.matrix_of.write(out);
-        self.stale.iter().copied().collect::<Vec<u32>>().write(out);
-        self.is_due.write(out);
-        self.pace.write(out);
-        self.excess.write(out);
-    }
-
-    fn read(from: &mut &[u8]) -> Result<Self, Damaged> {
-        let preconditioner_of = Serial::read(from)?;
-        let matrix_of = Serial::read(from)?;
+    /// If the bytes are damaged or of another body.
+    pub(super) fn read_known(
+        numbers: Option<&BondNumbers>,
+        from: &mut &[u8],
+    ) -> Result<Self, CheckpointError> {
+        let mut making = || match numbers {
+            None => Ok(Making::read(from)?),
+            Some(numbers) => Making::read_known(numbers, from),
+        };
+        let (preconditioner_of, matrix_of) = (making()?, making()?);
         let stale: Vec<u32> = Serial::read(from)?;
         Ok(Self {
             preconditioner_of,
@@ -88,5 +59,27 @@ impl Serial for Kept {
             pace: Serial::read(from)?,
             excess: Serial::read(from)?,
         })
+    }
+
+    /// Appends what it takes to make it again.
+    pub(super) fn write(&self, out: &mut Vec<u8>) {
+        self.preconditioner_of.write(out);
+        self.matrix_of.write(out);
+        self.stale.iter().copied().collect::<Vec<u32>>().write(out);
+        self.is_due.write(out);
+        self.pace.write(out);
+        self.excess.write(out);
+    }
+
+    /// What all processes know of it, with their bonds on rank 0.
+    pub(super) fn of_all(&self, numbers: &BondNumbers) -> Self {
+        let stale: Vec<_> = self.stale.iter().map(|&point| [f64::from(point)]).collect();
+        let stale = numbers.portion().concatenated(&stale).into_iter();
+        Self {
+            preconditioner_of: self.preconditioner_of.of_all(numbers),
+            matrix_of: self.matrix_of.of_all(numbers),
+            stale: stale.map(|[point]| point as u32).collect(),
+            ..*self
+        }
     }
 }

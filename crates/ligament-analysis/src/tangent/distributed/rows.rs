@@ -46,7 +46,7 @@ impl OwnRows<'_> {
         restraints.lower_points(layout, self.system.coupled_points(), point as usize)
     }
 
-    fn is_own(&self, point: u32) -> bool {
+    pub(super) fn is_own(&self, point: u32) -> bool {
         self.partition.has(self.rank, point)
     }
 
