@@ -7,7 +7,9 @@ use std::path::Path;
 use ligament_model::PointCloud;
 use ligament_output::FieldLocation::{self, Cell as OnCells, Point as OnPoints};
 use ligament_output::vtu::read::VtuFile;
-use ligament_output::vtu::{Cell, Field, SharedCells, UnstructuredGrid, write_shared, write_vtu};
+use ligament_output::vtu::{
+    Cell, Field, Held, SharedCells, UnstructuredGrid, write_shared, write_vtu,
+};
 use verification::threads_as_ranks::on_ranks;
 
 const COLUMNS: usize = 7;
@@ -100,7 +102,7 @@ fn pieces_read_as_the_whole() {
         let cells = SharedCells {
             portion: &portion,
             points: &Body::points(&body.cells),
-            are_all: true,
+            held: Held::All,
         };
         let write = |grid: &UnstructuredGrid<'_>| write_shared(&shared, grid, Some(cells));
         body.grid(&body.cells, &body.area, write).unwrap();
@@ -157,7 +159,7 @@ fn lines_that_two_processes_know_are_written_once() {
         let cells = SharedCells {
             portion: &portion,
             points: &Body::points(&lines),
-            are_all: false,
+            held: Held::OwnCells,
         };
         body.grid(&lines, &first, |grid| {
             write_shared(&path, grid, Some(cells))
@@ -192,7 +194,7 @@ fn what_is_missing_of_a_grid_in_pieces_is_told() {
             let cells = SharedCells {
                 portion: &portion,
                 points: &Body::points(&body.cells),
-                are_all: true,
+                held: Held::All,
             };
             let write = |grid: &UnstructuredGrid<'_>| write_shared(path, grid, Some(cells));
             body.grid(&body.cells, &body.area, write)

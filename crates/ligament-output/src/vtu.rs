@@ -18,8 +18,9 @@ use crate::atomic::replace_file;
 use crate::xml::escape_attribute;
 use crate::{Error, FieldLocation};
 
+pub(crate) use field::Chosen;
 pub use field::Field;
-pub use pieces::{IN_PIECES, SINGLE, SharedCells, file_name, stem, write_shared};
+pub use pieces::{Held, IN_PIECES, SINGLE, SharedCells, file_name, stem, write_shared};
 
 /// A cell given by its points, indices from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -37,6 +37,11 @@ fn awkward(random: &mut Random) -> Vec<(&'static str, Graph, usize, Vec<usize>)>
         (0..leaves).flat_map(|leaf| (0..20).map(move |k| (leaf, leaves + (7 * leaf + k) % root)));
     let dense = (0..root).flat_map(|b| (0..b).map(move |a| (leaves + a, leaves + b)));
     let star = Graph::new(leaves + root, pairs.chain(dense));
+    // Two blocks of points that are all coupled, and both with a third one: large panels with many rows below.
+    let sides = [0..180, 180..360, 360..590];
+    let coupled = |a: usize, b: usize| sides[0].contains(&a) && sides[1].contains(&b);
+    let pairs = (0..590).flat_map(|b| (0..b).map(move |a| (a, b)));
+    let blocks = Graph::new(590, pairs.filter(|&(a, b)| !coupled(a, b)));
     // A leg of three points at each point of a spine, before it or after it.
     let spine = 8_000;
     let legs = (0..spine).flat_map(|k| {
@@ -57,6 +62,7 @@ fn awkward(random: &mut Random) -> Vec<(&'static str, Graph, usize, Vec<usize>)>
         ("chain", chain.clone(), 3, order(&chain)),
         ("forest", forest.clone(), 3, order(&forest)),
         ("star", star.clone(), 2, order(&star)),
+        ("blocks", blocks.clone(), 3, order(&blocks)),
         ("caterpillar", caterpillar.clone(), 2, order(&caterpillar)),
         (
             "caterpillar, backwards",

@@ -9,7 +9,7 @@ use ligament_model::portion::Portion;
 use ligament_model::{BodyGrid, Canvas, FixedFields, box_corners, raised};
 
 use crate::Error;
-use crate::vtu::{self, Field, SharedCells, UnstructuredGrid};
+use crate::vtu::{self, Chosen, Field, Held, SharedCells, UnstructuredGrid};
 
 /// Fields of a model that a run does not change, with volumes (n_points) and distances to the nearest point (n_points).
 pub fn fixed_fields<'a>(
@@ -110,7 +110,7 @@ impl Lines {
         let shared = portion.map(|portion| SharedCells {
             portion,
             points: &self.first_ends,
-            are_all: false,
+            held: Held::OwnCells,
         });
         vtu::write_shared(path, &grid, shared)
     }
@@ -124,60 +124,105 @@ pub(super) fn write_grid(
     fields: &[Field<'_>],
     portion: Option<&Portion>,
 ) -> Result<(), Error> {
+    if matches!(body.canvas, Canvas::Around(_) | Canvas::Boxes(_)) {
+        return write_around(path, body, displacement, fields, portion);
+    }
     let order = body.numbering.order_of_file();
     let displacement = displacement.map(|it| body.numbering.to_file(it.to_vec()));
-    let displacement = displacement.as_deref();
     let numbering = &body.numbering;
     let body = &body.in_order_of_file();
-    let vector = |values| Field::vector("displacement", values);
-    let mut all: Vec<Field<'_>> = displacement.map(vector).into_iter().collect();
+    let mut all: Vec<Field<'_>> = displacement.as_deref().map(moved).into_iter().collect();
     all.extend(fields.iter().map(|it| it.ordered(order)));
     let cells = cells(&body.canvas);
     let points_of_cells = portion.map(|_| {
-        let in_file = points_of_cells(&body.canvas, &cells).into_iter();
+        let in_file = cells.iter().map(|it| it.points()[0]);
         in_file.map(|it| numbering.point(it)).collect::<Vec<u32>>()
     });
     let shared = points_of_cells.as_deref().zip(portion);
     let shared = shared.map(|(points, portion)| SharedCells {
         portion,
         points,
-        are_all: true,
+        held: Held::All,
     });
-    let (points, n_corners) = match &body.canvas {
-        Canvas::Between(_) | Canvas::Solid(_) => {
-            let grid = UnstructuredGrid {
-                points: &body.positions,
-                cells: &cells,
-                point_fields: &all,
-                cell_fields: &[],
-            };
-            return vtu::write_shared(path, &grid, shared);
-        }
-        Canvas::Around(corners) => (raised(corners.as_flattened()), 4),
-        Canvas::Boxes(boxes) => (boxes.iter().copied().flat_map(box_corners).collect(), 8),
-    };
-    let moved = |values: &[[f64; 3]]| -> Vec<[f64; 3]> {
-        let of_corners = values.iter().flat_map(|it| repeat_n(*it, n_corners));
-        of_corners.collect()
-    };
-    let of_corners = displacement.map(moved);
-    let of_corners: Vec<Field<'_>> = of_corners.as_deref().map(vector).into_iter().collect();
     let grid = UnstructuredGrid {
-        points: &points,
+        points: &body.positions,
         cells: &cells,
-        point_fields: &of_corners,
-        cell_fields: &all,
+        point_fields: &all,
+        cell_fields: &[],
     };
     vtu::write_shared(path, &grid, shared)
 }
 
-/// The point of each cell by which its process is known, by its number in the file (n_cells): the first of its corners, or the one that it
-/// lies around.
-fn points_of_cells(canvas: &Canvas, cells: &[vtu::Cell]) -> Vec<u32> {
+/// The field of displacements.
+fn moved(displacement: &[[f64; 3]]) -> Field<'_> {
+    Field::vector("displacement", displacement)
+}
+
+/// Writes fields on cells around the points, in the order of the file; a process that shares the body those of its own points.
+fn write_around(
+    path: &Path,
+    body: &BodyGrid,
+    displacement: Option<&[[f64; 3]]>,
+    fields: &[Field<'_>],
+    portion: Option<&Portion>,
+) -> Result<(), Error> {
+    let numbering = &body.numbering;
+    let points: Vec<u32> = match portion {
+        None => (0..body.positions.len() as u32).collect(),
+        Some(portion) => portion.own().to_vec(),
+    };
+    let points = numbering.sorted(&points);
+    let canvas = around(&body.canvas, &points);
+    let displacement = displacement.map(|it| at(it, &points));
+    let chosen: Vec<Chosen> = fields.iter().map(|it| it.at(&points)).collect();
+    let chosen = fields.iter().zip(&chosen).map(|(field, it)| field.with(it));
+    let in_order = displacement.as_deref().map(moved).into_iter().chain(chosen);
+    let in_order: Vec<Field<'_>> = in_order.collect();
+    let (corners, n_corners) = match &canvas {
+        Canvas::Around(corners) => (raised(corners.as_flattened()), 4),
+        Canvas::Boxes(boxes) => (boxes.iter().copied().flat_map(box_corners).collect(), 8),
+        Canvas::Between(_) | Canvas::Solid(_) => (Vec::new(), 0),
+    };
+    let of_corners = displacement.as_ref().map(|it| -> Vec<[f64; 3]> {
+        let of_corners = it.iter().flat_map(|it| repeat_n(*it, n_corners));
+        of_corners.collect()
+    });
+    let of_corners: Vec<Field<'_>> = of_corners.as_deref().map(moved).into_iter().collect();
+    let grid = UnstructuredGrid {
+        points: &corners,
+        cells: &cells(&canvas),
+        point_fields: &of_corners,
+        cell_fields: &in_order,
+    };
+    let Some(portion) = portion else {
+        return vtu::write_shared(path, &grid, None);
+    };
+    let in_file: Vec<u32> = points.iter().map(|&it| numbering.in_file(it)).collect();
+    let of_cell = |&cell: &u32| (0..n_corners as u32).map(move |it| n_corners as u32 * cell + it);
+    let corners_in_file: Vec<u32> = in_file.iter().flat_map(of_cell).collect();
+    let shared = SharedCells {
+        portion,
+        points: &points,
+        held: Held::Own {
+            points: &corners_in_file,
+            cells: &in_file,
+        },
+    };
+    vtu::write_shared(path, &grid, Some(shared))
+}
+
+/// The cells around some points.
+fn around(canvas: &Canvas, points: &[u32]) -> Canvas {
     match canvas {
-        Canvas::Between(_) | Canvas::Solid(_) => cells.iter().map(|it| it.points()[0]).collect(),
-        Canvas::Around(_) | Canvas::Boxes(_) => (0..cells.len() as u32).collect(),
+        Canvas::Around(corners) => Canvas::Around(at(corners, points)),
+        Canvas::Boxes(boxes) => Canvas::Boxes(at(boxes, points)),
+        Canvas::Between(_) | Canvas::Solid(_) => canvas.clone(),
     }
+}
+
+/// The values of some points.
+fn at<T: Copy>(values: &[T], points: &[u32]) -> Vec<T> {
+    points.iter().map(|&point| values[point as usize]).collect()
 }
 
 /// The cells of a canvas; those of one point each have corners of their own, in the order of the points.

@@ -6,8 +6,9 @@ use ligament_analysis::fields;
 use ligament_analysis::history::View;
 use ligament_analysis::interface::{StressReading, Stresses};
 use ligament_analysis::{Component, Layout};
+use ligament_model::ghosts::Ghosts;
 use ligament_model::portion::Portion;
-use ligament_model::{BodyGrid, FixedFields};
+use ligament_model::{BodyGrid, Canvas, FixedFields};
 
 use super::grid::{fixed_fields, write_grid};
 use super::rule::WriteRule;
@@ -31,7 +32,13 @@ pub(super) fn write(
     rule: WriteRule,
     view: &View<'_>,
 ) -> Result<(), Error> {
-    let read = PointFields::read(rule, view);
+    let mut read = PointFields::read(rule, view);
+    let mut displacements = displacements(view);
+    let ghosts = view.system.portion().map(|it| corners(grid, it));
+    if let Some(ghosts) = &ghosts {
+        read.tell(ghosts);
+        ghosts.tell(displacements.as_flattened_mut(), 3);
+    }
     let mut fields = read.motion.fields(&read.damage.share);
     fields.push(Field::integer(grid.tagged, &grid.tags));
     fields.extend(read.damage.fields());
@@ -40,13 +47,7 @@ pub(super) fn write(
     fields.extend(of_stress.map(|(name, it)| Field::components(name, it.names, &it.values)));
     let system = view.system;
     fields.extend(fixed_fields(fixed, system.volumes(), system.spacing()));
-    write_grid(
-        path,
-        grid,
-        Some(&displacements(view)),
-        &fields,
-        system.portion(),
-    )
+    write_grid(path, grid, Some(&displacements), &fields, system.portion())
 }
 
 /// Fields on the points in a state of a run, as the files of fields have them.
@@ -67,22 +68,18 @@ pub enum FieldValues {
 }
 
 impl PointFields {
-    /// Reads them from a state, with the stresses that the rule asks for; where processes share the body all of them call this.
+    /// Reads them from a state, with the stresses that the rule asks for; where processes share the body they are those of own points.
     pub fn read(rule: WriteRule, view: &View<'_>) -> Self {
-        let mut read = Self {
+        Self {
             motion: Motion::read(view),
             damage: Damage::read(view),
             heat: Heat::read(view),
             stresses: stresses(rule, view),
-        };
-        if let Some(portion) = view.system.portion() {
-            read.complete(portion);
         }
-        read
     }
 
-    /// Takes over what other processes know of their points: sums over the bonds of a point are those of its own process.
-    fn complete(&mut self, portion: &Portion) {
+    /// Takes over what other processes know of the points that are seen: sums over the bonds of a point are those of its own process.
+    fn tell(&mut self, ghosts: &Ghosts) {
         let Damage {
             share,
             by_way,
@@ -91,16 +88,16 @@ impl PointFields {
         let by_way = by_way.iter_mut().map(|(_, values)| values);
         let motion = &mut self.motion;
         match &mut motion.rotation {
-            Rotations::InPlane(values) => portion.complete(values, 1),
-            Rotations::InSpace(values) => portion.complete(values.as_flattened_mut(), 3),
+            Rotations::InPlane(values) => ghosts.tell(values, 1),
+            Rotations::InSpace(values) => ghosts.tell(values.as_flattened_mut(), 3),
         }
-        portion.complete(motion.reaction.as_flattened_mut(), 3);
+        ghosts.tell(motion.reaction.as_flattened_mut(), 3);
         let of_points = [&mut motion.density, share];
         for values in of_points.into_iter().chain(by_way).chain(dissipated) {
-            portion.complete(values, 1);
+            ghosts.tell(values, 1);
         }
         for (_, stresses) in &mut self.stresses {
-            portion.complete(&mut stresses.values, stresses.names.len());
+            ghosts.tell(&mut stresses.values, stresses.names.len());
         }
     }
 
@@ -294,14 +291,24 @@ fn stresses(rule: WriteRule, view: &View<'_>) -> Vec<(&'static str, Stresses)> {
         .collect()
 }
 
-/// Displacements of the points, with a third component of zero in the plane, shape (n_points), m; where processes share the body all of
-/// them call this.
+/// Displacements of the points, with a third component of zero in the plane, shape (n_points), m; where processes share the body those of
+/// own points and of ends of their bonds.
 pub fn displacements(view: &View<'_>) -> Vec<[f64; 3]> {
-    let mut of_points = vectors(view.system.layout(), &view.state.displacement);
-    if let Some(portion) = view.system.portion() {
-        portion.complete(of_points.as_flattened_mut(), 3);
-    }
-    of_points
+    vectors(view.system.layout(), &view.state.displacement)
+}
+
+/// The points of others at the corners of the cells that a process writes: those whose first corner it has.
+fn corners(grid: &BodyGrid, portion: &Portion) -> Ghosts {
+    let of_own = |corners: &[u32]| match portion.is_own(corners[0]) {
+        true => corners.to_vec(),
+        false => Vec::new(),
+    };
+    let seen: Vec<u32> = match &grid.canvas {
+        Canvas::Between(cells) => cells.iter().flat_map(|it| of_own(it.corners())).collect(),
+        Canvas::Solid(cells) => cells.iter().flat_map(|it| of_own(it.corners())).collect(),
+        Canvas::Around(_) | Canvas::Boxes(_) => Vec::new(),
+    };
+    Ghosts::new(portion, seen.into_iter())
 }
 
 /// The x, y and z components, of which those that points do not have are zero, shape (n_points).

@@ -32,7 +32,7 @@ pub struct Field<'a> {
 
 /// Numbers of some of the points or cells of a field.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Chosen {
+pub(crate) enum Chosen {
     Double(Vec<f64>),
     Single(Vec<f32>),
     Integer(Vec<i64>),
@@ -99,7 +99,7 @@ impl<'a> Field<'a> {
     }
 
     /// The numbers of some points or cells, by their places in the file.
-    pub(super) fn at(&self, rows: &[u32]) -> Chosen {
+    pub(crate) fn at(&self, rows: &[u32]) -> Chosen {
         let taken: Vec<u32>;
         let rows = match self.order {
             None => rows,
@@ -122,7 +122,7 @@ impl<'a> Field<'a> {
     }
 
     /// The field with other numbers.
-    pub(super) fn with<'b>(&self, chosen: &'b Chosen) -> Field<'b>
+    pub(crate) fn with<'b>(&self, chosen: &'b Chosen) -> Field<'b>
     where
         'a: 'b,
     {

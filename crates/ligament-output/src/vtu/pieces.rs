@@ -63,8 +63,40 @@ pub struct SharedCells<'a> {
     pub portion: &'a Portion,
     /// For each cell, the point of the body by which its rank is known (n_cells).
     pub points: &'a [u32],
-    /// Whether all ranks have all cells of the grid, or each those of its own.
-    pub are_all: bool,
+    /// What of the whole grid is here.
+    pub held: Held<'a>,
+}
+
+/// What a process has of a grid that several share.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Held<'a> {
+    /// All points and cells.
+    All,
+    /// All points, and cells of its own that have no numbers in the whole grid.
+    OwnCells,
+    /// Own cells with their points, with their numbers in the whole grid.
+    Own {
+        /// Shape (n_points).
+        points: &'a [u32],
+        /// Shape (n_cells).
+        cells: &'a [u32],
+    },
+}
+
+impl Held<'_> {
+    /// Numbers in the whole grid of a point and of a cell.
+    fn numbers(self, points: &[u32], own: &[u32]) -> [Vec<i64>; 2] {
+        let numbers = |all: Option<&[u32]>, some: &[u32]| {
+            let number = |&it: &u32| all.map_or(it, |all| all[it as usize]);
+            some.iter().map(|it| i64::from(number(it))).collect()
+        };
+        match self {
+            Self::Own { points: all, cells } => {
+                [numbers(Some(all), points), numbers(Some(cells), own)]
+            }
+            Self::All | Self::OwnCells => [numbers(None, points), numbers(None, own)],
+        }
+    }
 }
 
 /// Writes a grid to `path`, in pieces if processes share it: then all of them call this, the fields of each are right where its cells are,
@@ -91,7 +123,7 @@ pub fn write_shared(
     let written = if own.is_empty() {
         Ok(())
     } else {
-        write_piece(&piece(path, exchange.rank()), grid, &own, shared.are_all)
+        write_piece(&piece(path, exchange.rank()), grid, &own, shared.held)
     };
     let counts = shared
         .portion
@@ -109,7 +141,7 @@ pub fn write_shared(
     let ranks = counts.iter().enumerate();
     let with_cells = ranks.filter(|(_, [count, _])| *count > 0.0);
     let pieces: Vec<PathBuf> = with_cells.map(|(rank, _)| piece(path, rank)).collect();
-    replace_file(path, outline(grid, &pieces, shared.are_all).as_bytes())
+    replace_file(path, outline(grid, &pieces, shared.held).as_bytes())
 }
 
 /// Writes some cells of a grid with their points.
@@ -117,7 +149,7 @@ fn write_piece(
     path: &Path,
     grid: &UnstructuredGrid<'_>,
     own: &[u32],
-    are_all: bool,
+    held: Held<'_>,
 ) -> Result<(), Error> {
     grid.check(path)?;
     let corners = |&cell: &u32| grid.cells[cell as usize].points();
@@ -133,8 +165,7 @@ fn write_piece(
         .iter()
         .map(|&point| grid.points[point as usize])
         .collect();
-    let numbers = [&points[..], own].map(|it| it.iter().map(|&n| i64::from(n)).collect());
-    let [point_numbers, cell_numbers]: [Vec<i64>; 2] = numbers;
+    let [point_numbers, cell_numbers] = held.numbers(&points, own);
     let [of_points, of_cells] = [(grid.point_fields, &points[..]), (grid.cell_fields, own)]
         .map(|(fields, rows)| fields.iter().map(|it| it.at(rows)).collect());
     let of_points: Vec<Chosen> = of_points;
@@ -142,7 +173,7 @@ fn write_piece(
     let mut point_fields: Vec<Field<'_>> = chosen(grid.point_fields, &of_points);
     point_fields.push(Field::integer(POINT_NUMBER, &point_numbers));
     let mut cell_fields: Vec<Field<'_>> = chosen(grid.cell_fields, &of_cells);
-    if are_all {
+    if held != Held::OwnCells {
         cell_fields.push(Field::integer(CELL_NUMBER, &cell_numbers));
     }
     let piece = UnstructuredGrid {
@@ -160,7 +191,7 @@ fn chosen<'a>(fields: &'a [Field<'a>], numbers: &'a [Chosen]) -> Vec<Field<'a>> 
 }
 
 /// The document that names the pieces.
-fn outline(grid: &UnstructuredGrid<'_>, pieces: &[PathBuf], are_all: bool) -> String {
+fn outline(grid: &UnstructuredGrid<'_>, pieces: &[PathBuf], held: Held<'_>) -> String {
     let mut xml = String::from(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
          <VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
@@ -169,7 +200,7 @@ fn outline(grid: &UnstructuredGrid<'_>, pieces: &[PathBuf], are_all: bool) -> St
     let mut point_fields = grid.point_fields.to_vec();
     point_fields.push(Field::integer(POINT_NUMBER, &[]));
     let mut cell_fields = grid.cell_fields.to_vec();
-    if are_all {
+    if held != Held::OwnCells {
         cell_fields.push(Field::integer(CELL_NUMBER, &[]));
     }
     push_fields(&mut xml, "PPointData", &point_fields, |it| it.outline());

@@ -1,0 +1,154 @@
+//! What processes that share a body out tell each other: neighbours what is near cuts, and all of them nothing of the size of the body when
+//! a bond breaks. The processes are threads here.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use ligament::run::follow;
+use ligament_analysis::Termination;
+use ligament_analysis::history::{Observer, ObserverError, StepRecord, View};
+use ligament_analysis::ranks::{Exchange, RankMatrix, Ranks, Rows, Together};
+use ligament_model::ghosts::Ghosts;
+use ligament_model::portion::{Partition, Portion};
+use verification::bench::Bench;
+use verification::threads_as_ranks::on_ranks;
+
+const RANKS: usize = 3;
+
+/// Points in a row, of which each sees the two on either side: values come from the ranks that have them, and stay as they are elsewhere.
+#[test]
+fn values_of_ghosts_are_those_of_their_ranks() {
+    const POINTS: usize = 20;
+    on_ranks(RANKS, |Together(ranks)| {
+        let halve = |points: &mut [u32]| points.sort_unstable();
+        let portion = Portion::new(Partition::new(POINTS, RANKS, &halve), ranks);
+        let near = |&point: &u32| point.saturating_sub(2)..(point + 3).min(POINTS as u32);
+        let ghosts = Ghosts::new(&portion, portion.own().iter().flat_map(near));
+        let value = |point: u32| [f64::from(point), f64::from(ranks.rank() as u32)];
+        let mut values: Vec<[f64; 2]> = (0..POINTS as u32).map(value).collect();
+        ghosts.tell(values.as_flattened_mut(), 2);
+        let first = portion.own()[0];
+        let last = first + portion.own().len() as u32 - 1;
+        for (point, told) in (0..).zip(values) {
+            let is_seen = (first.saturating_sub(2)..last + 3).contains(&point);
+            let from = if is_seen {
+                portion.partition().rank(point)
+            } else {
+                ranks.rank()
+            };
+            assert_eq!(told, [f64::from(point), from as f64], "{point}");
+        }
+        assert_eq!(ghosts.seen().len(), if ranks.rank() == 1 { 4 } else { 2 });
+    });
+}
+
+/// Ranks that count the numbers that go to all of them.
+#[derive(Debug)]
+struct Counting {
+    ranks: &'static dyn Ranks,
+    to_all: AtomicUsize,
+}
+
+impl Counting {
+    fn count(&self, numbers: usize) {
+        self.to_all.fetch_add(numbers, Ordering::Relaxed);
+    }
+}
+
+impl Exchange for Counting {
+    fn rank(&self) -> usize {
+        self.ranks.rank()
+    }
+
+    fn n_ranks(&self) -> usize {
+        self.ranks.n_ranks()
+    }
+
+    fn largest(&self, values: &mut [f64]) {
+        self.count(values.len());
+        self.ranks.largest(values);
+    }
+
+    fn gather(&self, own: &[f64], counts: &[usize]) -> Vec<f64> {
+        self.count(counts.iter().sum());
+        self.ranks.gather(own, counts)
+    }
+
+    fn swap(&self, own: &[f64], to: &[usize], from: &[usize]) -> Vec<f64> {
+        self.ranks.swap(own, to, from)
+    }
+
+    fn broadcast(&self, bytes: &mut Vec<u8>) {
+        self.ranks.broadcast(bytes);
+    }
+
+    fn stranger(&self) -> f64 {
+        self.ranks.stranger()
+    }
+}
+
+impl Ranks for Counting {
+    fn matrix(&self, rows: &Rows<'_>) -> Box<dyn RankMatrix> {
+        self.ranks.matrix(rows)
+    }
+}
+
+/// Strip that breaks in the middle, which is far from its ends.
+fn strip(cells: usize, bonds: usize) -> String {
+    format!(
+        r#"
+lattice = {{ cells = [{cells}, 6], spacing = 0.002, set = {{ left = {{ left = 1 }}, right = {{ right = 1 }} }} }}
+material = {{ young = 30e9, poisson = 0.2, tensile_strength = 3e6 }}
+model = {{ law = "nhpd", horizon_factor = 3.0 }}
+precrack = [{{ points = [[{middle}, -0.001], [{middle}, 0.003]] }}]
+support = [{{ group = "left", displacement = {{ x = 0.0, y = 0.0 }} }}]
+load = [{{ group = "right", displacement = {{ x = 1e-4 }} }}]
+fracture = {{ control = "event", tie_tolerance = 1e-6, stop = {{ bonds = {bonds} }} }}
+"#,
+        middle = 0.001 * cells as f64 + 1e-4
+    )
+}
+
+/// Asks for no checkpoint, which is one of the whole body.
+struct Unasking;
+
+impl Observer for Unasking {
+    fn asks(&mut self, _: Option<&Termination>) -> Result<bool, ObserverError> {
+        Ok(false)
+    }
+
+    fn step(&mut self, _: &StepRecord, _: &View<'_>) -> Result<(), ObserverError> {
+        Ok(())
+    }
+}
+
+/// Numbers that go to all ranks in a run, and its states.
+fn told(cells: usize, bonds: usize) -> [f64; 2] {
+    let told = on_ranks(RANKS, |Together(ranks)| {
+        let counting: &'static Counting = Box::leak(Box::new(Counting {
+            ranks,
+            to_all: AtomicUsize::new(0),
+        }));
+        let bench = Bench::on_ranks(&strip(cells, bonds), &[], Together(counting));
+        let before = counting.to_all.load(Ordering::Relaxed);
+        let outcome = follow(&bench.problem(), &bench.model.setup.analysis, &mut Unasking).unwrap();
+        assert!(outcome.broken_bonds >= bonds);
+        let all = counting.to_all.load(Ordering::Relaxed) - before;
+        [all as f64, outcome.history.len() as f64]
+    });
+    told[0]
+}
+
+/// A body twice as long tells all ranks as much in a breakage: what they know at its ends and at the crack is no more.
+#[test]
+fn breakages_tell_all_ranks_nothing_of_the_size_of_the_body() {
+    let [short, long] = [24, 48].map(|cells| {
+        let [few, many] = [6, 24].map(|bonds| told(cells, bonds));
+        let a_state = (many[0] - few[0]) / (many[1] - few[1]);
+        println!("{cells} cells: {few:?} and {many:?}, {a_state:.0} numbers a state");
+        a_state
+    });
+    // What one more solution in some state tells.
+    let chance = 1.1;
+    assert!(long < chance * short, "{short:.0} and {long:.0} numbers");
+}
