@@ -280,10 +280,41 @@ pub fn counts(portion: Option<&Portion>, ends: [u32; 2]) -> bool {
     portion.is_none_or(|it| it.counts(ends))
 }
 
-/// Place of a point in an array over own points, or over all where a body is not shared out.
-#[inline]
-pub fn row(portion: Option<&Portion>, point: u32) -> Option<usize> {
-    portion.map_or(Some(point as usize), |it| it.own_place(point))
+/// What is added up of the bonds that a process knows: a type, so that a loop over bonds asks once whether the body is shared out.
+pub(crate) trait Share: Copy {
+    /// Place of a point in an array over the points whose forces are added up here.
+    fn row(self, point: u32) -> Option<usize>;
+
+    /// Whether a bond, of which the ends are given, is counted here.
+    fn counts(self, ends: [u32; 2]) -> bool;
+}
+
+/// The share of the only process.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Whole;
+
+impl Share for Whole {
+    #[inline(always)]
+    fn row(self, point: u32) -> Option<usize> {
+        Some(point as usize)
+    }
+
+    #[inline(always)]
+    fn counts(self, _: [u32; 2]) -> bool {
+        true
+    }
+}
+
+impl Share for &Portion {
+    #[inline]
+    fn row(self, point: u32) -> Option<usize> {
+        self.own_place(point)
+    }
+
+    #[inline]
+    fn counts(self, ends: [u32; 2]) -> bool {
+        Portion::counts(self, ends)
+    }
 }
 
 /// Lists of all ranks, one after the other, from rank 0 on; each entry is some numbers.

@@ -8,7 +8,7 @@ use crate::cloud::PointCloud;
 use crate::deformation::Deformations;
 use crate::element::{BondDeformation, Element, Elements};
 use crate::layout::Component;
-use crate::portion::{Portion, counts, row};
+use crate::portion::{Portion, Share, Whole, counts};
 use crate::system::{BondsLeft, Typed};
 use crate::thermal::ThermalStrain;
 
@@ -97,14 +97,20 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
         expansion: ThermalStrain<'_>,
     ) -> BondSweep {
         let n_bonds = deformations.len();
-        let parts: Vec<Part<M>> = (0..PARTS)
-            .into_par_iter()
-            .map(|part| {
-                let of_part = part * n_bonds / PARTS..(part + 1) * n_bonds / PARTS;
-                Part::of_bonds(self, bonds, &deformations, expansion, of_part)
-            })
-            .collect();
         let portion = self.system.cloud.portion.as_ref();
+        let of_part = |part: usize| {
+            let of_part = part * n_bonds / PARTS..(part + 1) * n_bonds / PARTS;
+            let all = of_part.clone();
+            let mut part = match portion {
+                None => Part::of_bonds(self, Whole, bonds, &deformations, all),
+                Some(portion) => Part::of_bonds(self, portion, bonds, &deformations, all),
+            };
+            if !expansion.is_none() {
+                part.add_expansion(self, bonds, &deformations, expansion, of_part);
+            }
+            part
+        };
+        let parts: Vec<Part<M>> = (0..PARTS).into_par_iter().map(of_part).collect();
         BondSweep::of_parts(&parts, &E::COMPONENTS, deformations, portion)
     }
 }
@@ -222,9 +228,9 @@ impl<const M: usize> Part<M> {
 
     fn of_bonds<E: Elements<M>>(
         typed: Typed<'_, E, M>,
+        share: impl Share,
         bonds: BondsLeft<'_>,
         deformations: &[BondDeformation],
-        expansion: ThermalStrain<'_>,
         of_part: Range<usize>,
     ) -> Self {
         let Self {
@@ -232,31 +238,26 @@ impl<const M: usize> Part<M> {
             mut energy,
             ..
         } = Self::new(&typed.system.cloud);
-        let portion = typed.system.cloud.portion.as_ref();
-        for bond in of_part.clone() {
+        for bond in of_part {
             let Some(element) = typed.left(bonds, bond) else {
                 continue;
             };
             let deformation = &deformations[bond];
-            if counts(portion, typed.system.bonds.ends[bond]) {
+            if share.counts(typed.system.bonds.ends[bond]) {
                 energy += element.mutual_energy(deformation, deformation);
             }
             element.forces(deformation, |point, force| {
-                if let Some(row) = row(portion, point) {
+                if let Some(row) = share.row(point) {
                     forces[row].add(force);
                 }
             });
         }
-        let mut part = Self {
+        Self {
             forces,
             energy,
             thermal: 0.0,
             expansion_energy: 0.0,
-        };
-        if !expansion.is_none() {
-            part.add_expansion(typed, bonds, deformations, expansion, of_part);
         }
-        part
     }
 
     /// Adds what the temperature does to the bonds of the part.

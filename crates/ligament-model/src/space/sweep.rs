@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::element::SolidKinematics;
 use super::system::Typed;
 use crate::deformation::{Deformations, SpaceDeformation};
-use crate::portion::{counts, row};
+use crate::portion::{Share, Whole, counts};
 use crate::sweep::{BondSweep, PARTS, Part, TASK};
 use crate::system::BondsLeft;
 use crate::thermal::ThermalStrain;
@@ -44,45 +44,60 @@ impl<const M: usize, B: SolidKinematics<M>> Typed<'_, B, M> {
         expansion: ThermalStrain<'_>,
     ) -> BondSweep {
         let n_bonds = self.system.bonds.len();
-        let parts: Vec<Part<M>> = (0..PARTS)
-            .into_par_iter()
-            .map(|part| {
-                let of_part = part * n_bonds / PARTS..(part + 1) * n_bonds / PARTS;
-                self.part(bonds, deformations.vectors(), expansion, of_part)
-            })
-            .collect();
         let portion = self.system.cloud.portion.as_ref();
+        let vectors = deformations.vectors();
+        let of_part = |part: usize| {
+            let of_part = part * n_bonds / PARTS..(part + 1) * n_bonds / PARTS;
+            let mut part = match portion {
+                None => self.part(Whole, bonds, vectors, of_part.clone()),
+                Some(portion) => self.part(portion, bonds, vectors, of_part.clone()),
+            };
+            if !expansion.is_none() {
+                self.add_expansion(&mut part, bonds, vectors, expansion, of_part);
+            }
+            part
+        };
+        let parts: Vec<Part<M>> = (0..PARTS).into_par_iter().map(of_part).collect();
         BondSweep::of_parts(&parts, &B::COMPONENTS, deformations, portion)
     }
 
     fn part(
         self,
+        share: impl Share,
         bonds: BondsLeft<'_>,
         deformations: &[SpaceDeformation],
-        expansion: ThermalStrain<'_>,
         of_part: Range<usize>,
     ) -> Part<M> {
         let mut part = Part::new(&self.system.cloud);
-        let portion = self.system.cloud.portion.as_ref();
-        for bond in of_part.clone() {
+        for bond in of_part {
             let Some(element) = self.left(bonds, bond) else {
                 continue;
             };
             let deformation = &deformations[bond];
             let ends = self.system.bonds.ends[bond];
-            if counts(portion, ends) {
+            if share.counts(ends) {
                 part.energy += element.mutual_energy(deformation, deformation);
             }
             for (point, force) in ends.into_iter().zip(element.end_forces(deformation)) {
-                if let Some(row) = row(portion, point) {
+                if let Some(row) = share.row(point) {
                     part.forces[row].add(force);
                 }
             }
         }
-        if expansion.is_none() {
-            return part;
-        }
+        part
+    }
+
+    /// Adds what the temperature does to the bonds of a part.
+    fn add_expansion(
+        self,
+        part: &mut Part<M>,
+        bonds: BondsLeft<'_>,
+        deformations: &[SpaceDeformation],
+        expansion: ThermalStrain<'_>,
+        of_part: Range<usize>,
+    ) {
         let at_full_load = expansion.at_full_load();
+        let portion = self.system.cloud.portion.as_ref();
         for bond in of_part {
             let ends = self.system.bonds.ends[bond];
             let element = self.left(bonds, bond).filter(|_| counts(portion, ends));
@@ -93,6 +108,5 @@ impl<const M: usize, B: SolidKinematics<M>> Typed<'_, B, M> {
             part.thermal -= 2.0 * element.mutual_energy(&deformations[bond], &thermal);
             part.expansion_energy += element.mutual_energy(&thermal, &thermal);
         }
-        part
     }
 }
