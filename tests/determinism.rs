@@ -110,6 +110,19 @@ fn meshes_with_the_domain_correction() {
     }
 }
 
+/// Parts of the factor side by side along the exact path, and events between those of the whole body.
+#[test]
+fn parts_left_behind() {
+    let settings = [
+        DISK,
+        "solver.ordering=nested-dissection",
+        "output.fields_every=50",
+    ];
+    let summary = assert_same_path("exact-path/case.toml", 300, &settings);
+    let solver = &summary["solver"];
+    assert!(solver["changes"].as_u64().unwrap() >= 300 && solver["factorisations"] == 1);
+}
+
 /// Products without a matrix, sums of chunks and the coarse space, along both ways.
 #[test]
 fn conjugate_gradients() {

@@ -200,9 +200,7 @@ fn leaders(
         },
     );
     let mut leaders = start();
-    for (bond, ratio) in of_tasks.into_iter().flat_map(|it| it.met) {
-        leaders.meet(bond, ratio);
-    }
+    of_tasks.into_iter().for_each(|it| leaders.meet_all(it));
     leaders
 }
 
@@ -256,6 +254,13 @@ impl Leaders {
                 self.lowest_tied = ratio - self.tie_tolerance * ratio;
             }
             self.met.push((bond, ratio));
+        }
+    }
+
+    /// Meets the bonds that others met.
+    pub(crate) fn meet_all(&mut self, others: Self) {
+        for (bond, ratio) in others.met {
+            self.meet(bond, ratio);
         }
     }
 

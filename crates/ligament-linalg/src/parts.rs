@@ -20,6 +20,11 @@ pub struct Part {
 }
 
 impl Part {
+    /// Number of values of the factor in the part, as if it were one panel.
+    pub fn n_values(&self) -> usize {
+        self.rows.len() * (self.rows.len() / 2 + self.border.len())
+    }
+
     /// The parts of a factor, each after the one above it; no part below which there is another one has less than `least` values with it.
     pub(crate) fn of_factor(supernodes: Supernodes<'_>, least: usize) -> Vec<Self> {
         let mut parts = Vec::new();

@@ -9,7 +9,7 @@ use crate::branches::Branch;
 use crate::panels::{FactorKind, Panels};
 
 /// Columns of a panel that are read together: as many streams from memory.
-const BLOCK: usize = 8;
+pub(crate) const BLOCK: usize = 8;
 
 /// Solves L y = b in place, from the leaves to the root; rows in the order of elimination.
 pub(crate) fn solve_forward(panels: Panels<'_>, branch: &Branch, vector: &mut [f64]) {
@@ -85,9 +85,14 @@ impl WithSimd for Forward<'_> {
         let mut column = Vec::new();
         for supernode in self.stem {
             let Range { start, end } = supernodes.columns(supernode);
-            let solution = &mut self.vector[start - self.first_row..end - self.first_row];
-            let additions = forward(simd, self.panels, supernode, solution, &mut column);
             let below = supernodes.rows_below(supernode);
+            let solution = &mut self.vector[start - self.first_row..end - self.first_row];
+            column.clear();
+            column.extend_from_slice(solution);
+            column.resize(end - start + below.len(), 0.0);
+            forward(simd, self.panels, supernode, &mut column);
+            let (solved, additions) = column.split_at(end - start);
+            solution.copy_from_slice(solved);
             let is_own = |row: &usize| row - self.first_row < self.vector.len();
             let own = match below.last() {
                 Some(last) if !is_own(last) => below.partition_point(is_own),
@@ -190,52 +195,92 @@ impl WithSimd for Backward<'_> {
     }
 }
 
-/// Solves for the columns of one supernode in place; gives what has to be added to the rows below, which stands in `column`.
-#[inline(always)]
-pub(crate) fn forward<'a, S: Simd>(
-    simd: S,
-    panels: Panels<'_>,
+/// Solves for the columns of one supernode in place, the first entries of `column`; the others become what has to be added to the rows
+/// below.
+pub(crate) fn forward_in(panels: Panels<'_>, supernode: usize, column: &mut [f64]) {
+    Arch::new().dispatch(ForwardIn {
+        panels,
+        supernode,
+        column,
+    });
+}
+
+struct ForwardIn<'a> {
+    panels: Panels<'a>,
     supernode: usize,
-    solution: &mut [f64],
-    column: &'a mut Vec<f64>,
-) -> &'a [f64] {
+    column: &'a mut [f64],
+}
+
+impl WithSimd for ForwardIn<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        forward(simd, self.panels, self.supernode, self.column);
+    }
+}
+
+/// As [`forward_in`].
+#[inline(always)]
+fn forward<S: Simd>(simd: S, panels: Panels<'_>, supernode: usize, column: &mut [f64]) {
     let Panels {
         kind,
         supernodes,
         values,
     } = panels;
-    let height = solution.len() + supernodes.rows_below(supernode).len();
-    column.clear();
-    column.extend_from_slice(solution);
-    column.resize(height, 0.0);
+    let height = column.len();
     let panel = &values[supernodes.panel(supernode)];
     for (index, block) in panel.chunks(BLOCK * height).enumerate() {
-        let first = BLOCK * index;
-        let end = first + block.len() / height;
-        for (k, l) in block.chunks_exact(height).enumerate() {
-            let row = first + k;
-            if kind == FactorKind::Llt {
-                column[row] /= l[row];
-            }
-            for r in row + 1..end {
-                column[r] -= l[r] * column[row];
-            }
+        let mut columns: [&[f64]; BLOCK] = Default::default();
+        for (place, l) in columns.iter_mut().zip(block.chunks_exact(height)) {
+            *place = l;
         }
-        let (solved, rest) = column.split_at_mut(end);
-        match end - first {
-            8 => subtract::<S, 8>(simd, block, &solved[first..], rest),
-            7 => subtract::<S, 7>(simd, block, &solved[first..], rest),
-            6 => subtract::<S, 6>(simd, block, &solved[first..], rest),
-            5 => subtract::<S, 5>(simd, block, &solved[first..], rest),
-            4 => subtract::<S, 4>(simd, block, &solved[first..], rest),
-            3 => subtract::<S, 3>(simd, block, &solved[first..], rest),
-            2 => subtract::<S, 2>(simd, block, &solved[first..], rest),
-            _ => subtract::<S, 1>(simd, block, &solved[first..], rest),
+        let columns = &columns[..block.len() / height];
+        forward_block(simd, kind, columns, BLOCK * index, column);
+    }
+}
+
+/// Solves for a block of columns, the first of which has its pivot in the row `first` of them all and of `column`.
+#[inline(always)]
+pub(crate) fn forward_block<S: Simd>(
+    simd: S,
+    kind: FactorKind,
+    block: &[impl AsRef<[f64]>],
+    first: usize,
+    column: &mut [f64],
+) {
+    let end = first + block.len();
+    for (k, l) in block.iter().enumerate() {
+        let (row, l) = (first + k, l.as_ref());
+        if kind == FactorKind::Llt {
+            column[row] /= l[row];
+        }
+        for r in row + 1..end {
+            column[r] -= l[r] * column[row];
         }
     }
-    let (solved, additions) = column.split_at(solution.len());
-    solution.copy_from_slice(solved);
-    additions
+    let (solved, rest) = column.split_at_mut(end);
+    subtract_block(simd, block, &solved[first..], rest);
+}
+
+/// rest <- rest - sum over the columns of a block of l x, at the last rows of the columns, which `rest` has.
+#[inline(always)]
+pub(crate) fn subtract_block<S: Simd>(
+    simd: S,
+    block: &[impl AsRef<[f64]>],
+    x: &[f64],
+    rest: &mut [f64],
+) {
+    match block.len() {
+        8 => subtract::<S, 8>(simd, block, x, rest),
+        7 => subtract::<S, 7>(simd, block, x, rest),
+        6 => subtract::<S, 6>(simd, block, x, rest),
+        5 => subtract::<S, 5>(simd, block, x, rest),
+        4 => subtract::<S, 4>(simd, block, x, rest),
+        3 => subtract::<S, 3>(simd, block, x, rest),
+        2 => subtract::<S, 2>(simd, block, x, rest),
+        _ => subtract::<S, 1>(simd, block, x, rest),
+    }
 }
 
 /// Solves for the columns of one supernode, the first entries of `column`, from the rows below, which are known.
@@ -275,13 +320,18 @@ fn backward<S: Simd>(simd: S, panels: Panels<'_>, supernode: usize, column: &mut
     }
 }
 
-/// rest <- rest - sum over the columns of the block of l x, at the rows of `rest`.
+/// As [`subtract_block`], for blocks of `WIDTH` columns.
 #[inline(always)]
-fn subtract<S: Simd, const WIDTH: usize>(simd: S, block: &[f64], x: &[f64], rest: &mut [f64]) {
-    let height = block.len() / WIDTH;
-    let first_row = height - rest.len();
-    let columns: [_; WIDTH] =
-        std::array::from_fn(|k| S::as_simd_f64s(&block[k * height + first_row..(k + 1) * height]));
+fn subtract<S: Simd, const WIDTH: usize>(
+    simd: S,
+    block: &[impl AsRef<[f64]>],
+    x: &[f64],
+    rest: &mut [f64],
+) {
+    let columns: [_; WIDTH] = std::array::from_fn(|k| {
+        let l = block[k].as_ref();
+        S::as_simd_f64s(&l[l.len() - rest.len()..])
+    });
     let (rest, tail) = S::as_mut_simd_f64s(rest);
     let factors: [_; WIDTH] = std::array::from_fn(|k| simd.splat_f64s(x[k]));
     for column in &columns {

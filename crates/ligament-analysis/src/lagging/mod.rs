@@ -10,6 +10,7 @@
 
 mod borders;
 mod bound;
+mod descent;
 mod division;
 
 use std::cmp::Ordering;
@@ -17,6 +18,7 @@ use std::collections::BinaryHeap;
 
 use ligament_linalg::Factorisation;
 use ligament_model::element::BondDeformation;
+use rayon::prelude::*;
 
 use crate::breaking::{FirstToBreak, Leaders};
 use crate::problem::Problem;
@@ -24,6 +26,9 @@ use crate::state::State;
 use crate::stiffness::Stiffness;
 
 use borders::Bounds;
+use descent::{Descent, Rooms};
+
+pub(crate) use descent::HalfSolved;
 use division::Division;
 
 /// Relative distance below the bonds that lead at which a bound counts as below them: rounding of a bound is less.
@@ -65,17 +70,7 @@ pub(crate) struct Lagging<'a> {
     at_most: Vec<f64>,
     /// What no such ratio exceeds now.
     now: Vec<f64>,
-    /// Changes by row of the factor.
-    changes: Vec<f64>,
-}
-
-/// A correction after the forward substitution, by row of the factor.
-#[derive(Clone, Copy)]
-pub(crate) struct HalfSolved<'a> {
-    pub(crate) factor: &'a dyn Factorisation,
-    pub(crate) by_row: &'a [f64],
-    /// Factor from the load factor of the correction to that of the displacements.
-    pub(crate) scale: f64,
+    rooms: Rooms,
 }
 
 impl<'a> Lagging<'a> {
@@ -97,7 +92,7 @@ impl<'a> Lagging<'a> {
             references: vec![Vec::new(); n_parts],
             at_most: vec![0.0; n_parts],
             now: vec![0.0; n_parts],
-            changes: vec![0.0; division.degree_of_freedom.len()],
+            rooms: Rooms::default(),
         };
         for part in (0..n_parts).rev() {
             lagging.refer(part);
@@ -117,32 +112,24 @@ impl<'a> Lagging<'a> {
         state: &State,
     ) -> FirstToBreak {
         let broken_in = self.division.parts_above(points);
+        let is_asked_for: Vec<bool> = (broken_in.iter().zip(&self.division.is_wanted))
+            .map(|(broken_in, wanted)| *broken_in || *wanted)
+            .collect();
         let mut leaders = Leaders::new(self.tie_tolerance);
-        let mut substituted = Vec::new();
-        let mut waiting = BinaryHeap::from([Waiting {
-            at_most: f64::INFINITY,
-            part: 0,
-        }]);
+        let mut substituted = self.substitute_all(correction, &broken_in, &is_asked_for, state);
+        let mut waiting = BinaryHeap::new();
+        self.judge_all(&substituted, state, &mut leaders);
+        self.wait(&substituted, &is_asked_for, &mut waiting);
         while let Some(Waiting { at_most, part }) = waiting.pop() {
             if at_most * (1.0 + SURELY) < leaders.lowest_tied {
                 break;
             }
-            self.substitute(part, correction, broken_in[part], state);
-            self.judge(part, state, &mut leaders);
+            let descent = self.descent(correction, &broken_in, &state.held);
+            let changes = descent.one(part);
+            self.take_in(part, &changes, &state.held);
+            self.judge_all(&[part], state, &mut leaders);
+            self.wait(&[part], &is_asked_for, &mut waiting);
             substituted.push(part);
-            for &below in &self.division.below[part] {
-                let is_asked_for = broken_in[below] || self.division.is_wanted[below];
-                let at_most = if is_asked_for {
-                    f64::INFINITY
-                } else {
-                    self.at_most[below] + self.growth(below)
-                };
-                self.now[below] = at_most;
-                waiting.push(Waiting {
-                    at_most,
-                    part: below,
-                });
-            }
         }
         for part in substituted.into_iter().rev() {
             self.take_in_below(part);
@@ -157,8 +144,68 @@ impl<'a> Lagging<'a> {
             by_row: &[],
             scale: 0.0,
         };
-        for part in 0..self.division.parts.len() {
-            self.substitute(part, nothing, false, state);
+        let n_parts = self.division.parts.len();
+        self.substitute_all(nothing, &vec![false; n_parts], &vec![true; n_parts], state);
+    }
+
+    fn descent<'b>(
+        &'b self,
+        correction: HalfSolved<'b>,
+        broken_in: &'b [bool],
+        held: &'b [bool],
+    ) -> Descent<'b> {
+        Descent {
+            division: self.division,
+            displacement: &self.displacement,
+            references: &self.references,
+            rooms: &self.rooms,
+            correction,
+            broken_in,
+            held,
+        }
+    }
+
+    /// Brings the displacements of parts that are asked for up to date; gives them, each after the one above it.
+    fn substitute_all(
+        &mut self,
+        correction: HalfSolved<'_>,
+        broken_in: &[bool],
+        is_asked_for: &[bool],
+        state: &State,
+    ) -> Vec<usize> {
+        let descent = self.descent(correction, broken_in, &state.held);
+        let changed = descent.all(is_asked_for);
+        for (part, changes) in &changed {
+            self.take_in(*part, changes, &state.held);
+        }
+        changed.into_iter().map(|(part, _)| part).collect()
+    }
+
+    /// Takes in the changes of the motions of a part, by its rows; all above it are up to date.
+    fn take_in(&mut self, part: usize, changes: &[f64], held: &[bool]) {
+        let Division {
+            parts,
+            degree_of_freedom,
+            ..
+        } = self.division;
+        let dofs = &degree_of_freedom[parts[part].rows.clone()];
+        for (&dof, change) in dofs.iter().zip(changes) {
+            if !held[dof as usize] {
+                self.displacement[dof as usize] += change;
+            }
+        }
+        self.refer(part);
+    }
+
+    /// Puts the parts below some, which were substituted, in line, but for those that are asked for.
+    fn wait(&mut self, above: &[usize], is_asked_for: &[bool], waiting: &mut BinaryHeap<Waiting>) {
+        let below = above.iter().flat_map(|&part| &self.division.below[part]);
+        let below: Vec<usize> = below.copied().filter(|&it| !is_asked_for[it]).collect();
+        let bound = |&part: &usize| self.at_most[part] + self.growth(part);
+        let bounds: Vec<f64> = below.par_iter().with_min_len(2).map(bound).collect();
+        for (part, at_most) in below.into_iter().zip(bounds) {
+            self.now[part] = at_most;
+            waiting.push(Waiting { at_most, part });
         }
     }
 
@@ -166,42 +213,6 @@ impl<'a> Lagging<'a> {
     fn growth(&self, part: usize) -> f64 {
         let then = &self.references[part];
         self.bounds.growth(part, &self.displacement, then)
-    }
-
-    /// Brings the displacements of a part up to date; those above it are.
-    fn substitute(
-        &mut self,
-        part: usize,
-        correction: HalfSolved<'_>,
-        is_broken_in: bool,
-        state: &State,
-    ) {
-        let Division {
-            parts,
-            degree_of_freedom,
-            ..
-        } = self.division;
-        let it = &parts[part];
-        for (&row, then) in it.border.iter().zip(&self.references[part]) {
-            self.changes[row] = self.displacement[degree_of_freedom[row] as usize] - then;
-        }
-        let own = &mut self.changes[it.rows.clone()];
-        if is_broken_in {
-            let by_row = correction.by_row[it.rows.clone()].iter();
-            own.iter_mut()
-                .zip(by_row)
-                .for_each(|(own, value)| *own = correction.scale * value);
-        } else {
-            own.fill(0.0);
-        }
-        correction.factor.finish_part(it, &mut self.changes);
-        for row in it.rows.clone() {
-            let dof = degree_of_freedom[row] as usize;
-            if !state.held[dof] {
-                self.displacement[dof] += self.changes[row];
-            }
-        }
-        self.refer(part);
     }
 
     /// Takes the motions of the border of a part as those that it was last substituted with.
@@ -217,18 +228,29 @@ impl<'a> Lagging<'a> {
         reference.extend(parts[part].border.iter().map(motion));
     }
 
-    /// Judges the bonds of a part, which is up to date.
-    fn judge(&mut self, part: usize, state: &State, leaders: &mut Leaders) {
+    /// Judges the bonds of parts, which are up to date.
+    fn judge_all(&mut self, parts: &[usize], state: &State, leaders: &mut Leaders) {
+        let judged = parts.par_iter().map(|&part| self.judged(part, state));
+        let judged: Vec<(f64, Leaders)> = judged.collect();
+        for (&part, (largest, of_part)) in parts.iter().zip(judged) {
+            self.now[part] = largest;
+            leaders.meet_all(of_part);
+        }
+    }
+
+    /// The largest ratio in a part, and the bonds that lead there.
+    fn judged(&self, part: usize, state: &State) -> (f64, Leaders) {
         let bonds = self.division.bonds(part);
         let system = &self.problem.system;
         let deformations = system.measured(&state.intact, &self.displacement, bonds);
         let mut largest = 0.0_f64;
+        let mut leaders = Leaders::new(self.tie_tolerance);
         for (&bond, deformation) in bonds.iter().zip(&deformations) {
             let ratio = self.ratio(bond, deformation, state);
             largest = largest.max(ratio);
             leaders.meet(bond, ratio);
         }
-        self.now[part] = largest;
+        (largest, leaders)
     }
 
     /// Largest ratio of measure to limit of a bond; 0 where it is broken.

@@ -8,17 +8,20 @@
 
 mod diagonal;
 mod panel;
+mod rotation;
+mod square;
+mod terms;
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
-
-use pulp::{Arch, Simd, WithSimd};
 
 use crate::panels::{FactorKind, Panels};
 use crate::rank_one::RankOne;
 use crate::substitution;
 use crate::supernodes::Supernodes;
-use panel::{TERMS_AT_ONCE, Terms};
+use panel::Panel;
+use square::Rows;
+use terms::{TERMS_AT_ONCE, Terms};
 
 pub(crate) use diagonal::DiagonalEntry;
 pub use diagonal::VANISHING_PIVOT;
@@ -44,6 +47,16 @@ pub(crate) struct Target<'a> {
     pub(crate) diagonal: &'a mut [DiagonalEntry],
     /// Number of negative pivots; changed along.
     pub(crate) negative_pivots: &'a mut usize,
+}
+
+impl Target<'_> {
+    fn panels(&self) -> Panels<'_> {
+        Panels {
+            kind: self.kind,
+            supernodes: self.supernodes,
+            values: self.values,
+        }
+    }
 }
 
 /// The row whose pivot vanished; the factor is then half changed and worthless.
@@ -72,7 +85,6 @@ impl Modification {
         right_hand_side: &mut [f64],
         rows_of_b: &[usize],
     ) -> Result<(), VanishingPivot> {
-        let arch = Arch::new();
         let mut chunks = terms.chunks(TERMS_AT_ONCE).peekable();
         loop {
             let chunk = chunks.next().unwrap_or_default();
@@ -89,7 +101,7 @@ impl Modification {
                 target,
                 right_hand_side,
             };
-            if let Err(vanishing) = arch.dispatch(walk) {
+            if let Err(vanishing) = walk.walk() {
                 self.on_the_way.fill(0.0);
                 self.is_touched.fill(false);
                 self.touched.clear();
@@ -135,70 +147,77 @@ struct Walk<'a, 'b> {
     right_hand_side: Option<&'a mut [f64]>,
 }
 
-impl WithSimd for Walk<'_, '_> {
-    type Output = Result<(), VanishingPivot>;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(mut self, simd: S) -> Self::Output {
+impl Walk<'_, '_> {
+    fn walk(mut self) -> Result<(), VanishingPivot> {
         while let Some(Reverse(supernode)) = self.modification.touched.pop() {
             let supernode = supernode as usize;
             self.modification.is_touched[supernode] = false;
-            self.change_panel(simd, supernode)?;
-            let Target {
-                kind,
-                supernodes,
-                values,
-                ..
-            } = &*self.target;
-            if let Some(right_hand_side) = &mut self.right_hand_side {
-                let panels = Panels {
-                    kind: *kind,
-                    supernodes: *supernodes,
-                    values,
-                };
-                let column = &mut self.modification.column;
-                let solution = &mut right_hand_side[supernodes.columns(supernode)];
-                let additions = substitution::forward(simd, panels, supernode, solution, column);
-                for (&row, value) in supernodes.rows_below(supernode).iter().zip(additions) {
-                    right_hand_side[row] += value;
-                }
-            }
-            if let Some(&parent_row) = supernodes.rows_below(supernode).first() {
+            self.visit(supernode)?;
+            let below = self.target.supernodes.rows_below(supernode);
+            if let Some(&parent_row) = below.first() {
                 self.modification.touch(parent_row);
+            }
+        }
+        Ok(())
+    }
+
+    /// Changes the panel of a supernode, and takes the right-hand side through it.
+    fn visit(&mut self, supernode: usize) -> Result<(), VanishingPivot> {
+        let Modification {
+            on_the_way,
+            terms,
+            column,
+            ..
+        } = &mut *self.modification;
+        let supernodes = self.target.supernodes;
+        let columns = supernodes.columns(supernode);
+        let below = supernodes.rows_below(supernode);
+        column.clear();
+        if let Some(right_hand_side) = &self.right_hand_side {
+            column.extend_from_slice(&right_hand_side[columns.clone()]);
+            column.resize(columns.len() + below.len(), 0.0);
+        }
+        if terms.gather(columns.clone(), below, on_the_way) {
+            let right_hand_side = self.right_hand_side.is_some().then_some(&mut column[..]);
+            change_panel(self.target, supernode, terms, right_hand_side)?;
+            terms.scatter(columns.clone(), below, on_the_way);
+        } else if self.right_hand_side.is_some() {
+            substitution::forward_in(self.target.panels(), supernode, column);
+        }
+        if let Some(right_hand_side) = &mut self.right_hand_side {
+            let (solved, additions) = column.split_at(columns.len());
+            right_hand_side[columns].copy_from_slice(solved);
+            for (&row, value) in below.iter().zip(additions) {
+                right_hand_side[row] += value;
             }
         }
         Ok(())
     }
 }
 
-impl Walk<'_, '_> {
-    #[inline(always)]
-    fn change_panel<S: Simd>(&mut self, simd: S, supernode: usize) -> Result<(), VanishingPivot> {
-        let Target {
-            kind,
-            supernodes,
-            values,
-            diagonal,
-            negative_pivots,
-        } = &mut *self.target;
-        let Modification {
-            on_the_way, terms, ..
-        } = &mut *self.modification;
-        let columns = supernodes.columns(supernode);
-        let below = supernodes.rows_below(supernode);
-        if !terms.gather(columns.clone(), below, on_the_way) {
-            return Ok(());
-        }
-        let panel = &mut values[supernodes.panel(supernode)];
-        let diagonal = &diagonal[columns.clone()];
-        let change = terms.change(simd, *kind, panel, diagonal);
-        match change {
-            Ok(more_negative) => {
-                **negative_pivots = negative_pivots.wrapping_add_signed(more_negative);
-                terms.scatter(columns, below, on_the_way);
-                Ok(())
-            }
-            Err(column) => Err(VanishingPivot(columns.start + column)),
-        }
-    }
+/// Takes terms through the panel of a supernode, with a right-hand side at its rows.
+fn change_panel(
+    target: &mut Target<'_>,
+    supernode: usize,
+    terms: &mut Terms,
+    right_hand_side: Option<&mut [f64]>,
+) -> Result<(), VanishingPivot> {
+    let columns = target.supernodes.columns(supernode);
+    let height = columns.len() + target.supernodes.rows_below(supernode).len();
+    let (weights, of_terms) = terms.in_panel();
+    let values = &mut target.values[target.supernodes.panel(supernode)];
+    let panel = Panel {
+        kind: target.kind,
+        diagonal: &target.diagonal[columns.clone()],
+        weights,
+        rows: Rows {
+            columns: values.chunks_exact_mut(height).collect(),
+            terms: of_terms,
+            right_hand_side,
+        },
+    };
+    let more_negative = panel.change();
+    let more_negative = more_negative.map_err(|column| VanishingPivot(columns.start + column))?;
+    *target.negative_pivots = target.negative_pivots.wrapping_add_signed(more_negative);
+    Ok(())
 }

@@ -1,256 +1,313 @@
-//! The dense kernel of a change: terms through the panel of one supernode.
+//! Terms through the panel of one supernode.
+//!
+//! Large panels are taken in tiles of columns. The rows below the square of a tile do not wait for each other: once the square is changed
+//! and its rotations are known, they are tasks, and the first of these goes on to the next square. Tiles and tasks begin at
+//! multiples of what vectors and blocks of columns hold, so that a row takes the instructions that it takes in a panel that
+//! is not divided: the bits are the same.
 
 use std::ops::Range;
 
-use pulp::Simd;
+use pulp::Arch;
+use rayon::prelude::*;
 
-use super::diagonal::{DiagonalEntry, VANISHING_PIVOT};
+use super::diagonal::DiagonalEntry;
+use super::square::{Below, Rows, Square, Turned};
 use crate::panels::FactorKind;
+use crate::substitution::BLOCK;
 
-/// Terms that go through the factor at once: their part of a panel stays in the cache.
-pub(super) const TERMS_AT_ONCE: usize = 32;
+/// Columns of a tile.
+const TILE: usize = 192;
 
-/// Columns of a panel that are changed together.
-const BLOCK: usize = 4;
+/// Values to change, times the terms and two more, that make a task worth while: some 25 microseconds.
+const TASK: usize = 200_000;
 
-/// The terms c w w^T on their way, with what of w lies in the panel at hand.
-#[derive(Default)]
-pub(super) struct Terms {
-    /// What is left of the weight c of each term.
-    weights: Vec<f64>,
-    /// The terms that are not zero in the columns of the panel.
-    active: Vec<usize>,
-    /// Rows of the panel of the active terms, one term after another, shape (active, height).
-    rows: Vec<f64>,
-    height: usize,
-    /// For each active term, its action on the columns of a block.
-    rotations: Vec<[Rotation; BLOCK]>,
+/// A panel with terms that go through it.
+pub(super) struct Panel<'a> {
+    pub(super) kind: FactorKind,
+    /// Diagonal entries of the matrix, shape (n_columns).
+    pub(super) diagonal: &'a [DiagonalEntry],
+    /// What is left of the weights of the terms, shape (n_terms).
+    pub(super) weights: &'a mut [f64],
+    /// All of its rows.
+    pub(super) rows: Rows<'a>,
 }
 
-/// The action of a term on a column l of the factor, below the diagonal: w <- w - c l, then l <- p l + q w.
-#[derive(Debug, Clone, Copy, Default)]
-struct Rotation {
-    c: f64,
-    p: f64,
-    q: f64,
+/// Columns that are changed before others.
+struct Tile {
+    columns: Range<usize>,
+    /// Rows of each task below the square of the columns; None where all rows are changed along with the pivots.
+    rows_of_task: Option<usize>,
 }
 
-impl Terms {
-    /// Starts with the weights of new terms.
-    pub(super) fn start(&mut self, weights: impl Iterator<Item = f64>) {
-        self.weights.clear();
-        self.weights.extend(weights);
-    }
-
-    /// Takes over what terms have in a panel; false if they are all zero in its columns.
-    pub(super) fn gather(
-        &mut self,
-        columns: Range<usize>,
-        below: &[usize],
-        on_the_way: &mut [f64],
-    ) -> bool {
-        let n_terms = self.weights.len();
-        self.active.clear();
-        let in_columns = &on_the_way[TERMS_AT_ONCE * columns.start..TERMS_AT_ONCE * columns.end];
-        self.active.extend((0..n_terms).filter(|&term| {
-            in_columns
-                .chunks_exact(TERMS_AT_ONCE)
-                .any(|row| row[term] != 0.0)
-        }));
-        self.height = columns.len() + below.len();
-        self.rows.clear();
-        self.rows.resize(self.active.len() * self.height, 0.0);
-        for (local, row) in columns.clone().chain(below.iter().copied()).enumerate() {
-            let values = &on_the_way[TERMS_AT_ONCE * row..][..n_terms];
-            for (place, &term) in self.active.iter().enumerate() {
-                self.rows[place * self.height + local] = values[term];
-            }
-        }
-        on_the_way[TERMS_AT_ONCE * columns.start..TERMS_AT_ONCE * columns.end].fill(0.0);
-        !self.active.is_empty()
-    }
-
-    /// Hands the terms on to the rows below the panel.
-    pub(super) fn scatter(&self, columns: Range<usize>, below: &[usize], on_the_way: &mut [f64]) {
-        for (local, &row) in below.iter().enumerate() {
-            let values = &mut on_the_way[TERMS_AT_ONCE * row..][..TERMS_AT_ONCE];
-            for (place, &term) in self.active.iter().enumerate() {
-                values[term] = self.rows[place * self.height + columns.len() + local];
-            }
-        }
-    }
-
-    /// Changes a panel; gives the change of the number of negative pivots, or the column whose pivot vanished.
-    #[inline(always)]
-    pub(super) fn change<S: Simd>(
-        &mut self,
-        simd: S,
-        kind: FactorKind,
-        panel: &mut [f64],
-        diagonal: &[DiagonalEntry],
-    ) -> Result<isize, usize> {
+impl Panel<'_> {
+    /// Changes the panel; gives the change of the number of negative pivots, or the column whose pivot vanished.
+    pub(super) fn change(mut self) -> Result<isize, usize> {
         let mut more_negative = 0;
-        for (index, block) in panel.chunks_mut(BLOCK * self.height).enumerate() {
-            let first = BLOCK * index;
-            let width = block.len() / self.height;
-            more_negative += self.change_pivots(kind, block, first, width, diagonal)?;
-            match width {
-                4 => self.change_below::<S, 4>(simd, block, first + 4),
-                3 => self.change_below::<S, 3>(simd, block, first + 3),
-                2 => self.change_below::<S, 2>(simd, block, first + 2),
-                _ => self.change_below::<S, 1>(simd, block, first + 1),
-            }
+        let mut before: Option<(Tile, Turned)> = None;
+        for tile in self.tiles() {
+            let turned = match (&before, tile.rows_of_task) {
+                (Some(before), Some(_)) => self.turn_along(before, &tile),
+                (Some(before), None) => {
+                    self.turn_below(before);
+                    self.turn(&tile)
+                }
+                (None, _) => self.turn(&tile),
+            };
+            let turned = turned.map_err(|column| tile.columns.start + column)?;
+            more_negative += turned.more_negative;
+            before = Some((tile, turned));
+        }
+        if let Some(last) = &before {
+            self.turn_below(last);
         }
         Ok(more_negative)
     }
 
-    /// Changes the pivots of a block of columns and the triangle between them, and notes the rotations.
-    #[inline(always)]
-    fn change_pivots(
-        &mut self,
-        kind: FactorKind,
-        block: &mut [f64],
-        first: usize,
-        width: usize,
-        diagonal: &[DiagonalEntry],
-    ) -> Result<isize, usize> {
-        let height = self.height;
-        self.rotations.clear();
-        self.rotations
-            .resize(self.active.len(), [Rotation::default(); BLOCK]);
-        let mut more_negative = 0;
-        for (k, column) in block.chunks_exact_mut(height).enumerate() {
-            let row = first + k;
-            let was_negative = column[row] < 0.0;
-            let vanishing = VANISHING_PIVOT * diagonal[row].largest;
-            for (place, &term) in self.active.iter().enumerate() {
-                let w = &mut self.rows[place * height..][..height];
-                let weight = &mut self.weights[term];
-                let (rotation, pivot) = match kind {
-                    FactorKind::Llt => rotate_root(&mut column[row], weight, w[row]),
-                    FactorKind::Ldlt => rotate(&mut column[row], weight, w[row]),
-                };
-                let size = match kind {
-                    FactorKind::Llt => pivot,
-                    FactorKind::Ldlt => pivot.abs(),
-                };
-                // After each term: what is lost with one does not come back with the next.
-                if size.is_nan() || size <= vanishing {
-                    return Err(row);
-                }
-                for r in row + 1..first + width {
-                    w[r] -= rotation.c * column[r];
-                    column[r] = rotation.p * column[r] + rotation.q * w[r];
-                }
-                self.rotations[place][k] = rotation;
-            }
-            more_negative += isize::from(column[row] < 0.0) - isize::from(was_negative);
+    /// The tiles: the last one takes all columns that are left where the rows below are not worth several tasks.
+    fn tiles(&self) -> Vec<Tile> {
+        let n_columns = self.rows.columns.len();
+        let height = self.rows.columns.first().map_or(0, |column| column.len());
+        let mut tiles = Vec::new();
+        let mut first = 0;
+        while first < n_columns {
+            let width = TILE.min((n_columns - first) / BLOCK * BLOCK);
+            let below = height - first - width;
+            let n_tasks = width * below * (self.rows.terms.len() + 2) / TASK;
+            let (end, rows_of_task) = if n_tasks < 2 {
+                (n_columns, None)
+            } else {
+                let rows = below.div_ceil(n_tasks).next_multiple_of(BLOCK);
+                (first + width, Some(rows))
+            };
+            tiles.push(Tile {
+                columns: first..end,
+                rows_of_task,
+            });
+            first = end;
         }
-        Ok(more_negative)
+        tiles
     }
 
-    /// Applies the rotations to the rows below a block of columns, for two terms at a time: the columns are then read and
-    /// written half as often.
-    #[inline(always)]
-    fn change_below<S: Simd, const WIDTH: usize>(
+    /// Changes the square of a tile, or all of its rows where they are not divided.
+    fn turn(&mut self, tile: &Tile) -> Result<Turned, usize> {
+        let Range { start, end } = tile.columns;
+        let n_rows = match tile.rows_of_task {
+            Some(_) => end - start,
+            None => self.rows.columns[start].len() - start,
+        };
+        let cut = Cut {
+            from: start,
+            n_first: n_rows,
+            n_each: usize::MAX,
+        };
+        let pieces = cut.pieces(&mut self.rows, tile.columns.clone());
+        Arch::new().dispatch(Square {
+            kind: self.kind,
+            diagonal: &self.diagonal[tile.columns.clone()],
+            weights: self.weights,
+            rows: pieces.into_iter().next().unwrap_or_default(),
+        })
+    }
+
+    /// Changes the rows below the square of a tile.
+    fn turn_below(&mut self, (tile, turned): &(Tile, Turned)) {
+        let Some(n_each) = tile.rows_of_task else {
+            return;
+        };
+        let cut = Cut {
+            from: tile.columns.end,
+            n_first: 0,
+            n_each,
+        };
+        let pieces = cut.pieces(&mut self.rows, tile.columns.clone());
+        side_by_side(pieces.into_iter().skip(1).collect(), turned);
+    }
+
+    /// Changes the rows below the square of a tile, and along with them the square of the next one.
+    fn turn_along(
         &mut self,
-        simd: S,
-        block: &mut [f64],
-        first_row: usize,
-    ) {
-        let height = self.height;
-        let mut pairs = self.rows.chunks_exact_mut(2 * height);
-        let mut rotations = self.rotations.chunks_exact(2);
-        for (w, rotations) in (&mut pairs).zip(&mut rotations) {
-            let (one, other) = w.split_at_mut(height);
-            let w = [&mut one[first_row..], &mut other[first_row..]];
-            let rotations = [rotations[0], rotations[1]];
-            apply::<S, WIDTH, 2>(simd, block, w, &rotations);
-        }
-        if let ([rotations], w) = (rotations.remainder(), pairs.into_remainder()) {
-            apply::<S, WIDTH, 1>(simd, block, [&mut w[first_row..]], &[*rotations]);
-        }
+        (before, turned): &(Tile, Turned),
+        tile: &Tile,
+    ) -> Result<Turned, usize> {
+        let Range { start, end } = tile.columns;
+        let cut = Cut {
+            from: start,
+            n_first: end - start,
+            n_each: before.rows_of_task.unwrap_or(usize::MAX),
+        };
+        let mut later = self.rows.columns.split_off(start);
+        let of_square = later[..end - start].iter_mut();
+        let columns = of_square.map(|column| &mut column[start..end]).collect();
+        let pieces = cut.pieces(&mut self.rows, before.columns.clone());
+        let mut pieces = pieces.into_iter();
+        let mut first = pieces.next().unwrap_or_default();
+        let square = || {
+            let rows = &mut first;
+            Arch::new().dispatch(Below { rows, turned });
+            Arch::new().dispatch(Square {
+                kind: self.kind,
+                diagonal: &self.diagonal[start..end],
+                weights: self.weights,
+                rows: Rows { columns, ..first },
+            })
+        };
+        let (turned, ()) = rayon::join(square, || side_by_side(pieces.collect(), turned));
+        self.rows.columns.append(&mut later);
+        turned
     }
 }
 
-/// Applies the rotations of some terms, one after the other, to the last rows of a block of columns.
-#[inline(always)]
-fn apply<S: Simd, const WIDTH: usize, const TERMS: usize>(
-    simd: S,
-    block: &mut [f64],
-    terms: [&mut [f64]; TERMS],
-    rotations: &[[Rotation; BLOCK]; TERMS],
-) {
-    let height = block.len() / WIDTH;
-    let n_rows = terms[0].len();
-    let mut terms = terms.map(|w| S::as_mut_simd_f64s(w));
-    let mut columns = block.chunks_exact_mut(height);
-    let mut columns: [_; WIDTH] = std::array::from_fn(|_| {
-        let column = columns.next().unwrap_or_default();
-        S::as_mut_simd_f64s(&mut column[height - n_rows..])
+/// Changes rows below the pivots of columns, which are tasks.
+fn side_by_side(pieces: Vec<Rows<'_>>, turned: &Turned) {
+    let tasks = pieces.into_par_iter().with_max_len(1);
+    tasks.for_each(|mut rows| {
+        let rows = &mut rows;
+        Arch::new().dispatch(Below { rows, turned });
     });
-    let splat = |part: fn(&Rotation) -> f64| -> [[_; WIDTH]; TERMS] {
-        std::array::from_fn(|t| std::array::from_fn(|k| simd.splat_f64s(part(&rotations[t][k]))))
-    };
-    let (c, p, q) = (splat(|r| r.c), splat(|r| r.p), splat(|r| r.q));
-    let n_vectors = terms[0].0.len();
-    for w in &terms {
-        assert_eq!(w.0.len(), n_vectors);
+}
+
+/// Where the rows of a panel are cut: so many from one on, and then each so many.
+#[derive(Clone, Copy)]
+struct Cut {
+    from: usize,
+    n_first: usize,
+    n_each: usize,
+}
+
+impl Cut {
+    fn divide(self, rows: &mut [f64]) -> impl Iterator<Item = &mut [f64]> {
+        let (first, rest) = rows[self.from..].split_at_mut(self.n_first);
+        std::iter::once(first).chain(rest.chunks_mut(self.n_each))
     }
-    for column in &columns {
-        assert_eq!(column.0.len(), n_vectors);
-    }
-    for r in 0..n_vectors {
-        let mut values: [_; TERMS] = std::array::from_fn(|t| terms[t].0[r]);
-        for k in 0..WIDTH {
-            let mut l = columns[k].0[r];
-            for t in 0..TERMS {
-                values[t] = simd.negate_mul_add_e_f64s(c[t][k], l, values[t]);
-                l = simd.mul_add_e_f64s(q[t][k], values[t], simd.mul_f64s(p[t][k], l));
-            }
-            columns[k].0[r] = l;
-        }
-        for t in 0..TERMS {
-            terms[t].0[r] = values[t];
-        }
-    }
-    for (w, rotations) in terms.iter_mut().zip(rotations) {
-        for (r, w) in w.1.iter_mut().enumerate() {
-            for (column, rotation) in columns.iter_mut().zip(rotations) {
-                let l = &mut column.1[r];
-                *w -= rotation.c * *l;
-                *l = rotation.p * *l + rotation.q * *w;
+
+    /// The pieces of some columns, with the terms and the right-hand side.
+    fn pieces<'a>(self, rows: &'a mut Rows<'_>, columns: Range<usize>) -> Vec<Rows<'a>> {
+        let mut pieces: Vec<Rows<'a>> = Vec::new();
+        for column in &mut rows.columns[columns] {
+            for (place, rows) in self.divide(column).enumerate() {
+                if place == pieces.len() {
+                    pieces.push(Rows::default());
+                }
+                pieces[place].columns.push(rows);
             }
         }
+        for term in &mut rows.terms {
+            let pieces = pieces.iter_mut().zip(self.divide(term));
+            pieces.for_each(|(piece, rows)| piece.terms.push(rows));
+        }
+        if let Some(right_hand_side) = &mut rows.right_hand_side {
+            let pieces = pieces.iter_mut().zip(self.divide(right_hand_side));
+            pieces.for_each(|(piece, rows)| piece.right_hand_side = Some(rows));
+        }
+        pieces
     }
 }
 
-/// One step of L D L^T + c w w^T at a pivot d: d' = d + c w^2, c' = c d/d' (Gill 1974, method C1). Gives the action on the
-/// column, and d'; the result is worthless where d' vanishes.
-#[inline(always)]
-fn rotate(pivot: &mut f64, weight: &mut f64, w: f64) -> (Rotation, f64) {
-    let old = *pivot;
-    let new = old + *weight * w * w;
-    let q = *weight * w / new;
-    *weight *= old / new;
-    *pivot = new;
-    (Rotation { c: w, p: 1.0, q }, new)
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::modification::diagonal::VANISHING_PIVOT;
 
-/// One step as [`rotate`] does it where the diagonal holds the square root of the pivot, and each column is that root times
-/// the column of a unit L. The result is worthless where the new pivot is not positive.
-#[inline(always)]
-fn rotate_root(root: &mut f64, weight: &mut f64, w: f64) -> (Rotation, f64) {
-    let old = *root;
-    let new = old * old + *weight * w * w;
-    let new_root = new.sqrt();
-    let q = *weight * w / new_root;
-    *weight *= old * old / new;
-    *root = new_root;
-    let rotation = Rotation {
-        c: w / old,
-        p: new_root / old,
-        q,
-    };
-    (rotation, new)
+    /// Columns that fill no last block, and rows that fill no last vector.
+    const N_COLUMNS: usize = 437;
+    const HEIGHT: usize = 1_103;
+
+    /// A panel with terms and a right-hand side.
+    #[derive(Clone, PartialEq, Debug)]
+    struct Case {
+        values: Vec<f64>,
+        weights: Vec<f64>,
+        terms: Vec<f64>,
+        right_hand_side: Vec<f64>,
+    }
+
+    impl Case {
+        /// A factor with small entries below its diagonal: terms stay as large as they are. Every fifth pivot of L D L^T is negative.
+        fn new(kind: FactorKind, n_terms: usize) -> Self {
+            let number = |k: usize| ((k * 7_919 % 10_007) as f64 / 5_003.5 - 1.0) / 30.0;
+            let mut values: Vec<f64> = (0..N_COLUMNS * HEIGHT).map(number).collect();
+            for column in 0..N_COLUMNS {
+                let is_negative = kind == FactorKind::Ldlt && column % 5 == 0;
+                values[column * HEIGHT + column] = if is_negative { -1.5 } else { 1.5 };
+            }
+            Self {
+                values,
+                weights: (0..n_terms).map(|k| [0.3, -0.2, 0.1][k % 3]).collect(),
+                terms: (0..n_terms * HEIGHT).map(|k| number(k + 31)).collect(),
+                right_hand_side: (0..HEIGHT).map(|k| number(k + 77)).collect(),
+            }
+        }
+
+        fn panel<'a>(&'a mut self, kind: FactorKind, diagonal: &'a [DiagonalEntry]) -> Panel<'a> {
+            Panel {
+                kind,
+                diagonal,
+                weights: &mut self.weights,
+                rows: Rows {
+                    columns: self.values.chunks_exact_mut(HEIGHT).collect(),
+                    terms: self.terms.chunks_exact_mut(HEIGHT).collect(),
+                    right_hand_side: Some(&mut self.right_hand_side),
+                },
+            }
+        }
+    }
+
+    /// Changes a panel in tiles, and another one like it as a whole.
+    fn both(kind: FactorKind, start: &Case) -> [(Case, Result<isize, usize>); 2] {
+        let diagonal = [DiagonalEntry::new(1.0); N_COLUMNS];
+        let (mut divided, mut whole) = (start.clone(), start.clone());
+        let panel = divided.panel(kind, &diagonal);
+        let n_tasks = |tile: &Tile| (HEIGHT - tile.columns.end).checked_div(tile.rows_of_task?);
+        let n_tasks: Vec<_> = panel.tiles().iter().map(n_tasks).collect();
+        assert!(
+            matches!(n_tasks[..], [Some(2..), Some(1..), None]),
+            "{n_tasks:?}"
+        );
+        let of_divided = panel.change();
+        let Panel {
+            kind,
+            diagonal,
+            weights,
+            rows,
+        } = whole.panel(kind, &diagonal);
+        let of_whole = Arch::new().dispatch(Square {
+            kind,
+            diagonal,
+            weights,
+            rows,
+        });
+        let of_whole = of_whole.map(|turned| turned.more_negative);
+        [(divided, of_divided), (whole, of_whole)]
+    }
+
+    #[test]
+    fn tiles_have_the_bits_of_a_panel_that_is_not_divided() {
+        for kind in [FactorKind::Llt, FactorKind::Ldlt] {
+            for n_terms in [3, 8] {
+                let start = Case::new(kind, n_terms);
+                let [divided, whole] = both(kind, &start);
+                assert!(whole.1.is_ok() && whole.0 != start, "{kind:?}");
+                assert!(divided == whole, "{kind:?}, {n_terms} terms");
+            }
+        }
+    }
+
+    /// A term takes a pivot away where no other is: in the first tile, in the one that follows along with others, and in what is left.
+    #[test]
+    fn a_pivot_that_vanishes_has_the_same_column() {
+        for kind in [FactorKind::Llt, FactorKind::Ldlt] {
+            for column in [100, 251, 390, 436] {
+                let mut start = Case::new(kind, 4);
+                let pivot = start.values[column * HEIGHT + column];
+                start.terms.fill(0.0);
+                start.terms[3 * HEIGHT + column] = pivot;
+                start.weights[3] = match kind {
+                    FactorKind::Llt => -1.0,
+                    FactorKind::Ldlt => -(1.0 - VANISHING_PIVOT / 10.0) / pivot,
+                };
+                let [divided, whole] = both(kind, &start);
+                assert_eq!([divided.1, whole.1], [Err(column); 2], "{kind:?}");
+            }
+        }
+    }
 }

@@ -8,6 +8,7 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Par, Side};
+use ligament_linalg::digest;
 use ligament_linalg::{Elimination, FactorKind, RankOne, SymmetricMatrix};
 
 use crate::changes::random_terms;
@@ -36,6 +37,11 @@ fn awkward(random: &mut Random) -> Vec<(&'static str, Graph, usize, Vec<usize>)>
         (0..leaves).flat_map(|leaf| (0..20).map(move |k| (leaf, leaves + (7 * leaf + k) % root)));
     let dense = (0..root).flat_map(|b| (0..b).map(move |a| (leaves + a, leaves + b)));
     let star = Graph::new(leaves + root, pairs.chain(dense));
+    // Two blocks of points that are all coupled, and both with a third one: large panels with many rows below.
+    let sides = [0..180, 180..360, 360..590];
+    let coupled = |a: usize, b: usize| sides[0].contains(&a) && sides[1].contains(&b);
+    let pairs = (0..590).flat_map(|b| (0..b).map(move |a| (a, b)));
+    let blocks = Graph::new(590, pairs.filter(|&(a, b)| !coupled(a, b)));
     // A leg of three points at each point of a spine, before it or after it.
     let spine = 8_000;
     let legs = (0..spine).flat_map(|k| {
@@ -56,6 +62,7 @@ fn awkward(random: &mut Random) -> Vec<(&'static str, Graph, usize, Vec<usize>)>
         ("chain", chain.clone(), 3, order(&chain)),
         ("forest", forest.clone(), 3, order(&forest)),
         ("star", star.clone(), 2, order(&star)),
+        ("blocks", blocks.clone(), 3, order(&blocks)),
         ("caterpillar", caterpillar.clone(), 2, order(&caterpillar)),
         (
             "caterpillar, backwards",
@@ -98,7 +105,7 @@ fn halves(side: usize) -> Vec<usize> {
     order.iter().map(|[x, y]| y * side + x).collect()
 }
 
-/// Bits of the values of a factor by faer on one thread, folded as [`ligament_linalg::Factorisation::digest`] folds them.
+/// Bits of the values of a factor by faer on one thread, as [`ligament_linalg::Factorisation::digest`] tells them.
 fn digest_of_faer(matrix: &SymmetricMatrix, order: &[usize], kind: FactorKind) -> u64 {
     let pattern = matrix.pattern();
     let n = pattern.dimension();
@@ -155,10 +162,7 @@ fn digest_of_faer(matrix: &SymmetricMatrix, order: &[usize], kind: FactorKind) -
                 .unwrap();
         }
     }
-    let fold = |digest: u64, value: &f64| {
-        (digest.rotate_left(29) ^ value.to_bits()).wrapping_mul(0x0000_0100_0000_01b3)
-    };
-    values.iter().fold(0xcbf2_9ce4_8422_2325, fold)
+    digest(&values)
 }
 
 fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {

@@ -1,0 +1,144 @@
+//! Parts substituted from the first one downwards; those that are below the same one, side by side.
+//!
+//! A part needs the motions of the parts above it alone, so that each gives what it would give in turn.
+
+use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
+
+use ligament_linalg::Factorisation;
+use rayon::prelude::*;
+
+use super::division::Division;
+
+/// Values of the factor that make a task worth while: a substitution takes some 50 microseconds for them.
+const TASK: usize = 150_000;
+
+/// Vectors by row of the factor to work in, one for each thread that does.
+#[derive(Default)]
+pub(super) struct Rooms(Mutex<Vec<Vec<f64>>>);
+
+impl Rooms {
+    /// Does work with a vector (n_rows) of any values.
+    fn with<T>(&self, n_rows: usize, work: impl FnOnce(&mut [f64]) -> T) -> T {
+        let rooms = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let free = rooms().pop();
+        let mut room = free.unwrap_or_else(|| vec![0.0; n_rows]);
+        let done = work(&mut room);
+        rooms().push(room);
+        done
+    }
+}
+
+/// A correction after the forward substitution, by row of the factor.
+#[derive(Clone, Copy)]
+pub(crate) struct HalfSolved<'a> {
+    pub(crate) factor: &'a dyn Factorisation,
+    pub(crate) by_row: &'a [f64],
+    /// Factor from the load factor of the correction to that of the displacements.
+    pub(crate) scale: f64,
+}
+
+/// What a breakage asks of parts.
+#[derive(Clone, Copy)]
+pub(super) struct Descent<'a> {
+    pub(super) division: &'a Division,
+    /// Displacements and rotations before, shape (n_degrees_of_freedom), m and rad.
+    pub(super) displacement: &'a [f64],
+    /// Motions of the border of each part when it was last substituted.
+    pub(super) references: &'a [Vec<f64>],
+    pub(super) rooms: &'a Rooms,
+    pub(super) correction: HalfSolved<'a>,
+    /// Whether the breakage was in each part or below it.
+    pub(super) broken_in: &'a [bool],
+    /// Degrees of freedom that are held.
+    pub(super) held: &'a [bool],
+}
+
+/// Changes of the motions of a part, by its rows, and of those above it.
+struct Above<'a> {
+    rows: Range<usize>,
+    changes: &'a [f64],
+    above: Option<&'a Above<'a>>,
+}
+
+/// A part with the changes of its motions by its rows.
+type Changed = (usize, Vec<f64>);
+
+impl Descent<'_> {
+    /// The changes of all parts that are asked for; with one, the part above it is.
+    pub(super) fn all(self, is_asked_for: &[bool]) -> Vec<Changed> {
+        self.downwards(0, is_asked_for, None)
+    }
+
+    /// The changes of one part, above which all displacements are up to date.
+    pub(super) fn one(self, part: usize) -> Vec<f64> {
+        self.part(part, None)
+    }
+
+    fn downwards(
+        self,
+        part: usize,
+        is_asked_for: &[bool],
+        above: Option<&Above<'_>>,
+    ) -> Vec<Changed> {
+        let Division { parts, below, .. } = self.division;
+        let changes = self.part(part, above);
+        let here = Above {
+            rows: parts[part].rows.clone(),
+            changes: &changes,
+            above,
+        };
+        let below = below[part].iter().copied();
+        let below: Vec<usize> = below.filter(|&part| is_asked_for[part]).collect();
+        let is_large = |part: &&usize| parts[**part].n_values() > TASK;
+        let further = |&part: &usize| self.downwards(part, is_asked_for, Some(&here));
+        let further: Vec<Vec<Changed>> = if below.iter().filter(is_large).count() > 1 {
+            below.par_iter().with_max_len(1).map(further).collect()
+        } else {
+            below.iter().map(further).collect()
+        };
+        let mut all = vec![(part, changes)];
+        all.extend(further.into_iter().flatten());
+        all
+    }
+
+    /// The changes of one part from those of the parts above it, which the displacements do not have yet.
+    fn part(self, part: usize, above: Option<&Above<'_>>) -> Vec<f64> {
+        let Self {
+            division,
+            displacement,
+            references,
+            rooms,
+            ..
+        } = self;
+        let it = &division.parts[part];
+        rooms.with(division.degree_of_freedom.len(), |room| {
+            let mut above = above;
+            for (&row, then) in it.border.iter().zip(&references[part]) {
+                let dof = division.degree_of_freedom[row] as usize;
+                while let Some(passed) = above.filter(|it| row >= it.rows.end) {
+                    above = passed.above;
+                }
+                let motion = match above {
+                    Some(above) if !self.held[dof] => {
+                        displacement[dof] + above.changes[row - above.rows.start]
+                    }
+                    _ => displacement[dof],
+                };
+                room[row] = motion - then;
+            }
+            let own = &mut room[it.rows.clone()];
+            if self.broken_in[part] {
+                let HalfSolved { by_row, scale, .. } = self.correction;
+                let by_row = by_row[it.rows.clone()].iter();
+                own.iter_mut()
+                    .zip(by_row)
+                    .for_each(|(own, value)| *own = scale * value);
+            } else {
+                own.fill(0.0);
+            }
+            self.correction.factor.finish_part(it, room);
+            room[it.rows.clone()].to_vec()
+        })
+    }
+}

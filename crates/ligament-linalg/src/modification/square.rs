@@ -1,0 +1,170 @@
+//! The dense kernels of a change: terms through some columns of a panel, and a right-hand side after them while what they changed is in
+//! the cache.
+
+use pulp::{Simd, WithSimd};
+
+use super::diagonal::{DiagonalEntry, VANISHING_PIVOT};
+use super::rotation::{BLOCK, Rotation, rotate, rotate_root, rotate_rows};
+use crate::panels::FactorKind;
+use crate::substitution::{self, forward_block, subtract_block};
+
+/// Some rows of a panel.
+#[derive(Default)]
+pub(super) struct Rows<'a> {
+    /// Columns of the factor, shape (n_columns, n_rows).
+    pub(super) columns: Vec<&'a mut [f64]>,
+    /// Terms, shape (n_terms, n_rows).
+    pub(super) terms: Vec<&'a mut [f64]>,
+    /// A right-hand side that the forward substitution takes along, shape (n_rows).
+    pub(super) right_hand_side: Option<&'a mut [f64]>,
+}
+
+/// Columns from the row of their first pivot on, down to that of their last one or further.
+pub(super) struct Square<'a, 'b> {
+    pub(super) kind: FactorKind,
+    /// Diagonal entries of the matrix by row.
+    pub(super) diagonal: &'a [DiagonalEntry],
+    /// What is left of the weights of the terms, shape (n_terms).
+    pub(super) weights: &'a mut [f64],
+    pub(super) rows: Rows<'b>,
+}
+
+/// What terms do with columns.
+pub(super) struct Turned {
+    /// For each block of columns and each term, its action on the columns, shape (n_blocks, n_terms).
+    pub(super) rotations: Vec<[Rotation; BLOCK]>,
+    /// What the right-hand side becomes at the pivots; empty without one.
+    pub(super) solved: Vec<f64>,
+    /// Change of the number of negative pivots.
+    pub(super) more_negative: isize,
+}
+
+/// The change, or the column whose pivot vanished.
+impl WithSimd for Square<'_, '_> {
+    type Output = Result<Turned, usize>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let Square {
+            kind,
+            diagonal,
+            weights,
+            rows,
+        } = self;
+        let Rows {
+            mut columns,
+            mut terms,
+            mut right_hand_side,
+        } = rows;
+        let mut rotations = Vec::new();
+        let mut more_negative = 0;
+        let mut first = 0;
+        for columns in columns.chunks_mut(substitution::BLOCK) {
+            let start = first;
+            for block in columns.chunks_mut(BLOCK) {
+                let pivots = Pivots {
+                    kind,
+                    diagonal,
+                    first,
+                };
+                let before = rotations.len();
+                more_negative += pivots.change(block, weights, &mut terms, &mut rotations)?;
+                first += block.len();
+                rotate_rows(simd, block, first, &mut terms, &rotations[before..]);
+            }
+            if let Some(right_hand_side) = &mut right_hand_side {
+                forward_block(simd, kind, columns, start, right_hand_side);
+            }
+        }
+        let solved = right_hand_side.map_or_else(Vec::new, |it| it[..first].to_vec());
+        Ok(Turned {
+            rotations,
+            solved,
+            more_negative,
+        })
+    }
+}
+
+/// Rows below the pivots of columns.
+pub(super) struct Below<'a, 'b> {
+    pub(super) rows: &'a mut Rows<'b>,
+    pub(super) turned: &'a Turned,
+}
+
+impl WithSimd for Below<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Rows {
+            columns,
+            terms,
+            right_hand_side,
+        } = self.rows;
+        let mut rotations = self.turned.rotations.chunks_exact(terms.len());
+        let mut solved = self.turned.solved.chunks(substitution::BLOCK);
+        for columns in columns.chunks_mut(substitution::BLOCK) {
+            for block in columns.chunks_mut(BLOCK) {
+                let rotations = rotations.next().unwrap_or_default();
+                rotate_rows(simd, block, 0, terms, rotations);
+            }
+            if let (Some(rest), Some(solved)) = (&mut *right_hand_side, solved.next()) {
+                subtract_block(simd, columns, solved, rest);
+            }
+        }
+    }
+}
+
+/// The pivots of a block of columns, from the row of the first of them on.
+struct Pivots<'a> {
+    kind: FactorKind,
+    /// Diagonal entries by row.
+    diagonal: &'a [DiagonalEntry],
+    first: usize,
+}
+
+impl Pivots<'_> {
+    /// Changes the pivots and the triangle between them, and notes the rotations.
+    #[inline(always)]
+    fn change(
+        self,
+        block: &mut [&mut [f64]],
+        weights: &mut [f64],
+        terms: &mut [&mut [f64]],
+        rotations: &mut Vec<[Rotation; BLOCK]>,
+    ) -> Result<isize, usize> {
+        let before = rotations.len();
+        rotations.resize(before + terms.len(), [Rotation::default(); BLOCK]);
+        let rotations = &mut rotations[before..];
+        let end = self.first + block.len();
+        let mut more_negative = 0;
+        for (k, column) in block.iter_mut().enumerate() {
+            let row = self.first + k;
+            let was_negative = column[row] < 0.0;
+            let vanishing = VANISHING_PIVOT * self.diagonal[row].largest;
+            for ((w, weight), rotations) in
+                (terms.iter_mut().zip(&mut *weights)).zip(&mut *rotations)
+            {
+                let (rotation, pivot) = match self.kind {
+                    FactorKind::Llt => rotate_root(&mut column[row], weight, w[row]),
+                    FactorKind::Ldlt => rotate(&mut column[row], weight, w[row]),
+                };
+                let size = match self.kind {
+                    FactorKind::Llt => pivot,
+                    FactorKind::Ldlt => pivot.abs(),
+                };
+                // After each term: what is lost with one does not come back with the next.
+                if size.is_nan() || size <= vanishing {
+                    return Err(row);
+                }
+                for r in row + 1..end {
+                    w[r] -= rotation.c * column[r];
+                    column[r] = rotation.p * column[r] + rotation.q * w[r];
+                }
+                rotations[k] = rotation;
+            }
+            more_negative += isize::from(column[row] < 0.0) - isize::from(was_negative);
+        }
+        Ok(more_negative)
+    }
+}

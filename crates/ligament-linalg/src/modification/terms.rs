@@ -1,0 +1,84 @@
+//! Terms on their way through a factor, and what of them lies in the panel at hand.
+
+use std::ops::Range;
+
+/// Terms that go through the factor at once: their part of a panel stays in the cache.
+pub(super) const TERMS_AT_ONCE: usize = 32;
+
+/// The terms c w w^T on their way, with what of w lies in the panel at hand.
+#[derive(Default)]
+pub(super) struct Terms {
+    /// What is left of the weight c of each term.
+    weights: Vec<f64>,
+    /// The terms that are not zero in the columns of the panel.
+    active: Vec<usize>,
+    /// Weights of the active terms.
+    active_weights: Vec<f64>,
+    /// Rows of the panel of the active terms, one term after another, shape (active, height).
+    rows: Vec<f64>,
+    height: usize,
+}
+
+impl Terms {
+    /// Starts with the weights of new terms.
+    pub(super) fn start(&mut self, weights: impl Iterator<Item = f64>) {
+        self.weights.clear();
+        self.weights.extend(weights);
+    }
+
+    /// Takes over what terms have in a panel; false if they are all zero in its columns.
+    pub(super) fn gather(
+        &mut self,
+        columns: Range<usize>,
+        below: &[usize],
+        on_the_way: &mut [f64],
+    ) -> bool {
+        let n_terms = self.weights.len();
+        self.active.clear();
+        let in_columns = &on_the_way[TERMS_AT_ONCE * columns.start..TERMS_AT_ONCE * columns.end];
+        self.active.extend((0..n_terms).filter(|&term| {
+            in_columns
+                .chunks_exact(TERMS_AT_ONCE)
+                .any(|row| row[term] != 0.0)
+        }));
+        let active = self.active.iter();
+        self.active_weights.clear();
+        self.active_weights
+            .extend(active.map(|&term| self.weights[term]));
+        self.height = columns.len() + below.len();
+        self.rows.clear();
+        self.rows.resize(self.active.len() * self.height, 0.0);
+        for (local, row) in columns.clone().chain(below.iter().copied()).enumerate() {
+            let values = &on_the_way[TERMS_AT_ONCE * row..][..n_terms];
+            for (place, &term) in self.active.iter().enumerate() {
+                self.rows[place * self.height + local] = values[term];
+            }
+        }
+        on_the_way[TERMS_AT_ONCE * columns.start..TERMS_AT_ONCE * columns.end].fill(0.0);
+        !self.active.is_empty()
+    }
+
+    /// Weights of the terms that are not zero in the panel, and the rows of each of them.
+    pub(super) fn in_panel(&mut self) -> (&mut [f64], Vec<&mut [f64]>) {
+        let rows = self.rows.chunks_exact_mut(self.height).collect();
+        (&mut self.active_weights, rows)
+    }
+
+    /// Hands the terms on to the rows below the panel.
+    pub(super) fn scatter(
+        &mut self,
+        columns: Range<usize>,
+        below: &[usize],
+        on_the_way: &mut [f64],
+    ) {
+        for (&term, &weight) in self.active.iter().zip(&self.active_weights) {
+            self.weights[term] = weight;
+        }
+        for (local, &row) in below.iter().enumerate() {
+            let values = &mut on_the_way[TERMS_AT_ONCE * row..][..TERMS_AT_ONCE];
+            for (place, &term) in self.active.iter().enumerate() {
+                values[term] = self.rows[place * self.height + columns.len() + local];
+            }
+        }
+    }
+}
