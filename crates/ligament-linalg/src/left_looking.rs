@@ -75,9 +75,11 @@ impl LeftLooking<'_> {
         }
         let place_of_row = &*place_of_row;
         let height = columns.len() + below.len();
+        // The first tiles have more rows than the last: each is a task, so that threads end together.
         panel
             .par_chunks_mut(TILE * height)
             .enumerate()
+            .with_max_len(1)
             .for_each_init(Buffers::default, |buffers, (tile, values)| {
                 let first = columns.start + TILE * tile;
                 let target = Target {

@@ -9,6 +9,7 @@
 mod branches;
 mod cholesky;
 mod dense;
+mod digest;
 mod eigen;
 mod factor_error;
 mod factor_kind;
@@ -27,6 +28,7 @@ mod subtraction;
 mod supernodes;
 mod symbolic;
 
+pub use digest::digest;
 pub use eigen::{Eigenpairs, Search, largest_eigenpairs};
 pub use factor_error::FactorError;
 pub use factorisation::{Factorisation, HalfSolved, Inertia};

@@ -3,6 +3,8 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use crate::cell::Cell;
 use crate::curve::along_hilbert_curve;
 use crate::field::NodeField;
@@ -105,9 +107,10 @@ impl Numbering {
     /// Bonds in the order of their ends in the file, shape (n_bonds); none where that is their own.
     pub fn bonds_in_file(&self, ends: &[[u32; 2]]) -> Option<Vec<u32>> {
         self.0.as_ref()?;
-        let mut bonds: Vec<u32> = (0..ends.len() as u32).collect();
-        bonds.sort_by_cached_key(|&bond| self.ends_in_file(ends[bond as usize]));
-        Some(bonds)
+        let in_file = ends.par_iter().map(|ends| self.ends_in_file(*ends));
+        let mut bonds: Vec<([u32; 2], u32)> = (in_file.zip(0..ends.len() as u32)).collect();
+        bonds.par_sort_unstable();
+        Some(bonds.into_iter().map(|(_, bond)| bond).collect())
     }
 
     /// Values in the order of the points, so many a point, taken to the order of the file.

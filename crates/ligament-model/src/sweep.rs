@@ -8,7 +8,7 @@ use crate::cloud::PointCloud;
 use crate::deformation::Deformations;
 use crate::element::{BondDeformation, Element, Elements};
 use crate::layout::Component;
-use crate::portion::{Portion, counts, row};
+use crate::portion::{Portion, counts};
 use crate::system::{BondsLeft, Typed};
 use crate::thermal::ThermalStrain;
 
@@ -227,13 +227,48 @@ impl<const M: usize> Part<M> {
         expansion: ThermalStrain<'_>,
         of_part: Range<usize>,
     ) -> Self {
-        let Self {
-            mut forces,
-            mut energy,
-            ..
-        } = Self::new(&typed.system.cloud);
+        let mut part = Self::new(&typed.system.cloud);
+        let bonds_of_part = (bonds, of_part.clone());
+        // The addition is a few instructions, which a question for each end would double.
+        match &typed.system.cloud.portion {
+            None => part.add_forces(
+                typed,
+                bonds_of_part,
+                deformations,
+                |forces, point, force| {
+                    forces[point as usize].add(force);
+                },
+            ),
+            Some(portion) => {
+                part.add_forces(
+                    typed,
+                    bonds_of_part,
+                    deformations,
+                    |forces, point, force| {
+                        if let Some(place) = portion.own_place(point) {
+                            forces[place].add(force);
+                        }
+                    },
+                );
+            }
+        }
+        if !expansion.is_none() {
+            part.add_expansion(typed, bonds, deformations, expansion, of_part);
+        }
+        part
+    }
+
+    /// Adds forces and energy of some bonds, by how a force is added at a point.
+    fn add_forces<E: Elements<M>>(
+        &mut self,
+        typed: Typed<'_, E, M>,
+        (bonds, of_part): (BondsLeft<'_>, Range<usize>),
+        deformations: &[BondDeformation],
+        add: impl Fn(&mut [PointForces<M>], u32, [f64; M]),
+    ) {
+        let (mut forces, mut energy) = (std::mem::take(&mut self.forces), 0.0);
         let portion = typed.system.cloud.portion.as_ref();
-        for bond in of_part.clone() {
+        for bond in of_part {
             let Some(element) = typed.left(bonds, bond) else {
                 continue;
             };
@@ -241,22 +276,9 @@ impl<const M: usize> Part<M> {
             if counts(portion, typed.system.bonds.ends[bond]) {
                 energy += element.mutual_energy(deformation, deformation);
             }
-            element.forces(deformation, |point, force| {
-                if let Some(row) = row(portion, point) {
-                    forces[row].add(force);
-                }
-            });
+            element.forces(deformation, |point, force| add(&mut forces, point, force));
         }
-        let mut part = Self {
-            forces,
-            energy,
-            thermal: 0.0,
-            expansion_energy: 0.0,
-        };
-        if !expansion.is_none() {
-            part.add_expansion(typed, bonds, deformations, expansion, of_part);
-        }
-        part
+        (self.forces, self.energy) = (forces, energy);
     }
 
     /// Adds what the temperature does to the bonds of the part.

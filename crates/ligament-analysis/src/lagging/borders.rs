@@ -4,6 +4,7 @@ use ligament_model::Bonds;
 use ligament_model::element::{BondDeformation, Remaining};
 use ligament_model::failure::Criterion;
 use ligament_model::thermal::ThermalStrain;
+use rayon::prelude::*;
 
 use super::bound::{Bound, Modes, NOT_THERE};
 use super::division::Division;
@@ -24,12 +25,13 @@ impl Bounds {
         let system = &*problem.system;
         let modes = Modes::of_body(system);
         let mut stiffness = strain_stiffness(system, division, &modes.strain);
-        let mut per_norm = vec![0.0_f64; division.parts.len()];
         let whole = vec![true; division.part_of_bond.len()];
-        for (bond, &part) in division.part_of_bond.iter().enumerate() {
-            let largest = &mut per_norm[part as usize];
-            *largest = largest.max(ratio_per_norm(problem, &whole, bond));
-        }
+        let largest = |part: usize| {
+            let bonds = division.bonds(part).par_iter();
+            let ratios = bonds.map(|&bond| ratio_per_norm(problem, &whole, bond as usize));
+            ratios.reduce(|| 0.0, f64::max)
+        };
+        let mut per_norm: Vec<f64> = (0..division.parts.len()).map(largest).collect();
         for part in (1..division.parts.len()).rev() {
             if let Some(above) = division.parts[part].above {
                 per_norm[above] = per_norm[above].max(per_norm[part]);
@@ -43,12 +45,9 @@ impl Bounds {
         for (row, &dof) in division.degree_of_freedom.iter().enumerate() {
             row_of[dof as usize] = row;
         }
-        let mut rest = across.as_slice();
         let bound = |(part, (stiffness, per_norm))| {
-            let count = rest.partition_point(|it| it.0 as usize == part);
-            let (of_part, others) = rest.split_at(count);
-            rest = others;
-            let border = Border::new(system, &whole, of_part);
+            let first = |part: usize| across.partition_point(|it| (it.0 as usize) < part);
+            let border = Border::new(system, &whole, &across[first(part)..first(part + 1)]);
             let places = border.places(&division.parts[part].border, &row_of)?;
             let Border { dofs, blocks } = border;
             Some(Bound::new(
@@ -59,7 +58,7 @@ impl Bounds {
                 per_norm,
             ))
         };
-        let numbered = stiffness.into_iter().zip(per_norm).enumerate();
+        let numbered = stiffness.into_par_iter().zip(per_norm).enumerate();
         Some(Self {
             of_parts: numbered.map(bound).collect::<Option<_>>()?,
             modes,
@@ -141,16 +140,24 @@ fn strain_stiffness(system: &dyn Bonds, division: &Division, modes: &[Vec<f64>])
     let whole = vec![true; division.part_of_bond.len()];
     let of_mode = |mode: &Vec<f64>| system.deformations(&whole, mode, ThermalStrain::NONE);
     let deformations: Vec<_> = modes.iter().map(of_mode).collect();
-    let mut stiffness = vec![vec![0.0; modes.len() * modes.len()]; division.parts.len()];
-    for (bond, &part) in division.part_of_bond.iter().enumerate() {
-        for (i, of_i) in deformations.iter().enumerate() {
-            for (j, of_j) in deformations.iter().enumerate() {
-                let energy = system.mutual_energy(&whole, bond, &Remaining::WHOLE, [of_i, of_j]);
-                stiffness[part as usize][modes.len() * i + j] += 2.0 * energy;
+    let of_part = |part: usize| {
+        let mut stiffness = vec![0.0; modes.len() * modes.len()];
+        for &bond in division.bonds(part) {
+            for (i, of_i) in deformations.iter().enumerate() {
+                for (j, of_j) in deformations.iter().enumerate() {
+                    let remaining = &Remaining::WHOLE;
+                    let energy =
+                        system.mutual_energy(&whole, bond as usize, remaining, [of_i, of_j]);
+                    stiffness[modes.len() * i + j] += 2.0 * energy;
+                }
             }
         }
-    }
-    stiffness
+        stiffness
+    };
+    (0..division.parts.len())
+        .into_par_iter()
+        .map(of_part)
+        .collect()
 }
 
 /// The largest ratio of measure to limit of a bond with an energy of 1/2 J, J^(-1/2).

@@ -8,6 +8,7 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Par, Side};
+use ligament_linalg::digest;
 use ligament_linalg::{Elimination, FactorKind, RankOne, SymmetricMatrix};
 
 use crate::changes::random_terms;
@@ -104,7 +105,7 @@ fn halves(side: usize) -> Vec<usize> {
     order.iter().map(|[x, y]| y * side + x).collect()
 }
 
-/// Bits of the values of a factor by faer on one thread, folded as [`ligament_linalg::Factorisation::digest`] folds them.
+/// Bits of the values of a factor by faer on one thread, as [`ligament_linalg::Factorisation::digest`] tells them.
 fn digest_of_faer(matrix: &SymmetricMatrix, order: &[usize], kind: FactorKind) -> u64 {
     let pattern = matrix.pattern();
     let n = pattern.dimension();
@@ -161,10 +162,7 @@ fn digest_of_faer(matrix: &SymmetricMatrix, order: &[usize], kind: FactorKind) -
                 .unwrap();
         }
     }
-    let fold = |digest: u64, value: &f64| {
-        (digest.rotate_left(29) ^ value.to_bits()).wrapping_mul(0x0000_0100_0000_01b3)
-    };
-    values.iter().fold(0xcbf2_9ce4_8422_2325, fold)
+    digest(&values)
 }
 
 fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
