@@ -42,50 +42,60 @@ struct Tile {
 impl Panel<'_> {
     /// Changes the panel; gives the change of the number of negative pivots, or the column whose pivot vanished.
     pub(super) fn change(mut self) -> Result<isize, usize> {
-        let mut more_negative = 0;
-        let mut before: Option<(Tile, Turned)> = None;
-        for tile in self.tiles() {
-            let turned = match (&before, tile.rows_of_task) {
-                (Some(before), Some(_)) => self.turn_along(before, &tile),
-                (Some(before), None) => {
-                    self.turn_below(before);
-                    self.turn(&tile)
+        let n_columns = self.rows.columns.len();
+        let mut tile = self.tile(0);
+        // One thread has the same bits without tiles, and sooner.
+        if tile.rows_of_task.is_none() || rayon::current_num_threads() == 1 {
+            return self.whole().map(|turned| turned.more_negative);
+        }
+        let of_first = |column| tile.columns.start + column;
+        let mut turned = self.turn(&tile).map_err(of_first)?;
+        let mut more_negative = turned.more_negative;
+        while tile.columns.end < n_columns {
+            let next = self.tile(tile.columns.end);
+            let before = (tile, turned);
+            let of_next = match next.rows_of_task {
+                Some(_) => self.turn_along(&before, &next),
+                None => {
+                    self.turn_below(&before);
+                    self.turn(&next)
                 }
-                (None, _) => self.turn(&tile),
             };
-            let turned = turned.map_err(|column| tile.columns.start + column)?;
+            turned = of_next.map_err(|column| next.columns.start + column)?;
             more_negative += turned.more_negative;
-            before = Some((tile, turned));
+            tile = next;
         }
-        if let Some(last) = &before {
-            self.turn_below(last);
-        }
+        self.turn_below(&(tile, turned));
         Ok(more_negative)
     }
 
-    /// The tiles: the last one takes all columns that are left where the rows below are not worth several tasks.
-    fn tiles(&self) -> Vec<Tile> {
+    /// The tile from a column on: all columns that are left where the rows below are not worth several tasks.
+    fn tile(&self, first: usize) -> Tile {
         let n_columns = self.rows.columns.len();
         let height = self.rows.columns.first().map_or(0, |column| column.len());
-        let mut tiles = Vec::new();
-        let mut first = 0;
-        while first < n_columns {
-            let width = TILE.min((n_columns - first) / BLOCK * BLOCK);
-            let below = height - first - width;
-            let n_tasks = width * below * (self.rows.terms.len() + 2) / TASK;
-            let (end, rows_of_task) = if n_tasks < 2 {
-                (n_columns, None)
-            } else {
-                let rows = below.div_ceil(n_tasks).next_multiple_of(BLOCK);
-                (first + width, Some(rows))
-            };
-            tiles.push(Tile {
-                columns: first..end,
-                rows_of_task,
-            });
-            first = end;
+        let width = TILE.min((n_columns - first) / BLOCK * BLOCK);
+        let below = height - first - width;
+        let n_tasks = width * below * (self.rows.terms.len() + 2) / TASK;
+        let (end, rows_of_task) = if n_tasks < 2 {
+            (n_columns, None)
+        } else {
+            let rows = below.div_ceil(n_tasks).next_multiple_of(BLOCK);
+            (first + width, Some(rows))
+        };
+        Tile {
+            columns: first..end,
+            rows_of_task,
         }
-        tiles
+    }
+
+    /// Changes all rows of a panel that is not divided.
+    fn whole(self) -> Result<Turned, usize> {
+        Arch::new().dispatch(Square {
+            kind: self.kind,
+            diagonal: self.diagonal,
+            weights: self.weights,
+            rows: self.rows,
+        })
     }
 
     /// Changes the square of a tile, or all of its rows where they are not divided.
@@ -258,24 +268,17 @@ mod tests {
         let (mut divided, mut whole) = (start.clone(), start.clone());
         let panel = divided.panel(kind, &diagonal);
         let n_tasks = |tile: &Tile| (HEIGHT - tile.columns.end).checked_div(tile.rows_of_task?);
-        let n_tasks: Vec<_> = panel.tiles().iter().map(n_tasks).collect();
+        let mut tiles = vec![panel.tile(0)];
+        while let Some(last) = tiles.last().filter(|it| it.columns.end < N_COLUMNS) {
+            tiles.push(panel.tile(last.columns.end));
+        }
+        let n_tasks: Vec<_> = tiles.iter().map(n_tasks).collect();
         assert!(
             matches!(n_tasks[..], [Some(2..), Some(1..), None]),
             "{n_tasks:?}"
         );
         let of_divided = panel.change();
-        let Panel {
-            kind,
-            diagonal,
-            weights,
-            rows,
-        } = whole.panel(kind, &diagonal);
-        let of_whole = Arch::new().dispatch(Square {
-            kind,
-            diagonal,
-            weights,
-            rows,
-        });
+        let of_whole = whole.panel(kind, &diagonal).whole();
         let of_whole = of_whole.map(|turned| turned.more_negative);
         [(divided, of_divided), (whole, of_whole)]
     }

@@ -56,7 +56,8 @@ impl WithSimd for Square<'_, '_> {
             mut terms,
             mut right_hand_side,
         } = rows;
-        let mut rotations = Vec::new();
+        let n_blocks = columns.len().div_ceil(BLOCK);
+        let mut rotations = Vec::with_capacity(n_blocks * terms.len());
         let mut more_negative = 0;
         let mut first = 0;
         for columns in columns.chunks_mut(substitution::BLOCK) {
