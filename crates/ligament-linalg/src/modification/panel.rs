@@ -18,8 +18,8 @@ use crate::substitution::BLOCK;
 /// Columns of a tile.
 const TILE: usize = 192;
 
-/// Values to change, times the terms and two more, that make a task worth while: some 25 microseconds.
-const TASK: usize = 200_000;
+/// Values to change, times the terms and two more, that make a task worth while: some 50 microseconds.
+const TASK: usize = 400_000;
 
 /// A panel with terms that go through it.
 pub(super) struct Panel<'a> {
@@ -220,7 +220,7 @@ mod tests {
 
     /// Columns that fill no last block, and rows that fill no last vector.
     const N_COLUMNS: usize = 437;
-    const HEIGHT: usize = 1_103;
+    const HEIGHT: usize = 1_603;
 
     /// A panel with terms and a right-hand side.
     #[derive(Clone, PartialEq, Debug)]
