@@ -98,19 +98,18 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
     ) -> BondSweep {
         let n_bonds = deformations.len();
         let portion = self.system.cloud.portion.as_ref();
-        let of_part = |part: usize| {
-            let of_part = part * n_bonds / PARTS..(part + 1) * n_bonds / PARTS;
-            let all = of_part.clone();
+        let made = |number: usize| {
+            let of_part = || number * n_bonds / PARTS..(number + 1) * n_bonds / PARTS;
             let mut part = match portion {
-                None => Part::of_bonds(self, Whole, bonds, &deformations, all),
-                Some(portion) => Part::of_bonds(self, portion, bonds, &deformations, all),
+                None => Part::of_bonds(self, Whole, bonds, &deformations, of_part()),
+                Some(portion) => Part::of_bonds(self, portion, bonds, &deformations, of_part()),
             };
             if !expansion.is_none() {
-                part.add_expansion(self, bonds, &deformations, expansion, of_part);
+                part.add_expansion(self, bonds, &deformations, expansion, of_part());
             }
             part
         };
-        let parts: Vec<Part<M>> = (0..PARTS).into_par_iter().map(of_part).collect();
+        let parts: Vec<Part<M>> = (0..PARTS).into_par_iter().map(made).collect();
         BondSweep::of_parts(&parts, &E::COMPONENTS, deformations, portion)
     }
 }

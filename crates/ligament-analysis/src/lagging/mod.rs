@@ -27,9 +27,9 @@ use crate::stiffness::Stiffness;
 
 use borders::Bounds;
 use descent::{Descent, Rooms};
+use division::Division;
 
 pub(crate) use descent::HalfSolved;
-use division::Division;
 
 /// Relative distance below the bonds that lead at which a bound counts as below them: rounding of a bound is less.
 const SURELY: f64 = 1e-6;

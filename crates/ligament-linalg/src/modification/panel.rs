@@ -277,7 +277,9 @@ mod tests {
             matches!(n_tasks[..], [Some(2..), Some(1..), None]),
             "{n_tasks:?}"
         );
-        let of_divided = panel.change();
+        // One thread would not divide it.
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build();
+        let of_divided = pool.expect("two threads").install(|| panel.change());
         let of_whole = whole.panel(kind, &diagonal).whole();
         let of_whole = of_whole.map(|turned| turned.more_negative);
         [(divided, of_divided), (whole, of_whole)]

@@ -46,18 +46,18 @@ impl<const M: usize, B: SolidKinematics<M>> Typed<'_, B, M> {
         let n_bonds = self.system.bonds.len();
         let portion = self.system.cloud.portion.as_ref();
         let vectors = deformations.vectors();
-        let of_part = |part: usize| {
-            let of_part = part * n_bonds / PARTS..(part + 1) * n_bonds / PARTS;
+        let made = |number: usize| {
+            let of_part = || number * n_bonds / PARTS..(number + 1) * n_bonds / PARTS;
             let mut part = match portion {
-                None => self.part(Whole, bonds, vectors, of_part.clone()),
-                Some(portion) => self.part(portion, bonds, vectors, of_part.clone()),
+                None => self.part(Whole, bonds, vectors, of_part()),
+                Some(portion) => self.part(portion, bonds, vectors, of_part()),
             };
             if !expansion.is_none() {
-                self.add_expansion(&mut part, bonds, vectors, expansion, of_part);
+                self.add_expansion(&mut part, bonds, vectors, expansion, of_part());
             }
             part
         };
-        let parts: Vec<Part<M>> = (0..PARTS).into_par_iter().map(of_part).collect();
+        let parts: Vec<Part<M>> = (0..PARTS).into_par_iter().map(made).collect();
         BondSweep::of_parts(&parts, &B::COMPONENTS, deformations, portion)
     }
 
