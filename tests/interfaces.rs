@@ -1,13 +1,17 @@
-//! Two halves in series and in parallel against the closed form, at any ratio of their stiffnesses.
+//! Two halves in series and in parallel, and layers between halves, against the closed form, at any ratio of their stiffnesses.
 //!
 //! All points are held across the load, so that each half has one strain and the stiffness C = E/(1 - nu^2). In series, with halves of the
 //! length L/2, F = A u/(L/2 (1/C_1 + 1/C_2)); in parallel the forces add.
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
+use ligament::body::SolidMeshBody;
 use ligament::prelude::*;
-use ligament::setup::{Form, MaterialRegion, Strains, Surface};
+use ligament::setup::{Dim, Dimension, Form, MaterialRegion, Strains, Surface};
+use ligament_mesh::{Cell, Group, Mesh, SolidCell, SolidMesh};
+use ligament_model::Canvas;
 use ligament_model::correction::patch::Settings;
 use verification::meshes;
+use verification::solids::block;
 
 const CALIBRATION: Calibration = Calibration::Integral;
 const LENGTH: f64 = 0.1;
@@ -28,7 +32,7 @@ fn halved(body: impl Body + 'static, law: Law, poisson: f64, ratio: f64) -> Setu
     setup
 }
 
-fn along_x(value: f64) -> Action {
+fn along_x<const D: usize>(value: f64) -> Action<D> {
     Action::Displacement(Displacement {
         x: Some(value),
         ..Displacement::default()
@@ -159,6 +163,194 @@ fn halves_of_a_lattice_at_any_ratio() {
             assert!(
                 (found - 1.0).abs() < 0.02,
                 "{law:?}, ratio {ratio}: {found}"
+            );
+        }
+    }
+}
+
+/// Cells of the layered bodies along x, y and z, each of unit size.
+const CELLS: [u32; 3] = [14, 6, 6];
+
+/// The first cell along x behind the left half.
+const LAYER: u32 = 6;
+
+/// Groups "half" and "layer" of the cells of which the first number says whether they lie in a layer, so many cells thick, and "left" and
+/// "right" of the nodes at both ends.
+fn layered(dimension: u8, is_in_layer: &[bool], along: &[f64]) -> Vec<Group> {
+    let cells = |wanted: bool| {
+        let numbered = (0..).zip(is_in_layer);
+        numbered
+            .filter(|(_, is_in)| **is_in == wanted)
+            .map(|it| it.0)
+            .collect()
+    };
+    let at = |wanted: f64| {
+        let numbered = (0..).zip(along);
+        numbered
+            .filter(|(_, x)| (**x - wanted).abs() < 1e-9)
+            .map(|it| it.0)
+            .collect()
+    };
+    let group = |name: &str, number, dimension, nodes, cells| Group {
+        name: name.to_owned(),
+        dimension,
+        number,
+        nodes,
+        edges: Vec::new(),
+        faces: Vec::new(),
+        cells,
+    };
+    vec![
+        group("left", 1, 0, at(0.0), Vec::new()),
+        group("right", 2, 0, at(f64::from(CELLS[0])), Vec::new()),
+        group("half", 3, dimension, Vec::new(), cells(false)),
+        group("layer", 4, dimension, Vec::new(), cells(true)),
+    ]
+}
+
+/// A strip of quadrangles and triangles, their nodes inside moved along y without a pattern.
+fn layered_strip(thick: u32) -> Mesh {
+    let [nx, ny, _] = CELLS;
+    let node = |i: u32, j: u32| j * (nx + 1) + i;
+    let places = (0..(nx + 1) * (ny + 1)).map(|k| {
+        let (i, j) = (k % (nx + 1), k / (nx + 1));
+        let is_inside = j > 0 && j < ny;
+        let moved = 0.15 * (f64::from(k) * 12.9898).sin() * f64::from(u8::from(is_inside));
+        [f64::from(i), f64::from(j) + moved]
+    });
+    let positions: Vec<[f64; 2]> = places.collect();
+    let mut cells = Vec::new();
+    let mut is_in_layer = Vec::new();
+    for k in 0..nx * ny {
+        let (i, j) = (k % nx, k / nx);
+        let [a, b, c, d] = [
+            node(i, j),
+            node(i + 1, j),
+            node(i + 1, j + 1),
+            node(i, j + 1),
+        ];
+        let of_place = match k % 3 {
+            0 => vec![Cell::Quadrangle([a, b, c, d])],
+            1 => vec![Cell::Triangle([a, b, c]), Cell::Triangle([a, c, d])],
+            _ => vec![Cell::Triangle([a, b, d]), Cell::Triangle([b, c, d])],
+        };
+        is_in_layer.extend(of_place.iter().map(|_| (LAYER..LAYER + thick).contains(&i)));
+        cells.extend(of_place);
+    }
+    let along: Vec<f64> = positions.iter().map(|it| it[0]).collect();
+    Mesh {
+        node_tags: (1..=positions.len() as u64).collect(),
+        groups: layered(2, &is_in_layer, &along),
+        positions,
+        cells,
+        fields: Vec::new(),
+        remarks: Vec::new(),
+    }
+}
+
+/// A block of tetrahedra.
+fn layered_block(thick: u32) -> SolidMesh {
+    let grid = block(CELLS.map(|it| it as usize), 0.0);
+    let Canvas::Solid(cells) = grid.canvas else {
+        unreachable!("a block is of solid cells")
+    };
+    let cells: Vec<SolidCell> = (cells.iter())
+        .flat_map(|cell| cell.tetrahedra().map(SolidCell::Tetrahedron))
+        .collect();
+    let is_in_layer = cells.iter().map(|cell| {
+        let corners = cell.corners();
+        let places = corners.iter().map(|&node| grid.positions[node as usize][0]);
+        let middle = places.sum::<f64>() / corners.len() as f64;
+        (f64::from(LAYER)..f64::from(LAYER + thick)).contains(&middle)
+    });
+    let is_in_layer: Vec<bool> = is_in_layer.collect();
+    let along: Vec<f64> = grid.positions.iter().map(|it| it[0]).collect();
+    SolidMesh {
+        node_tags: (1..=grid.positions.len() as u64).collect(),
+        groups: layered(3, &is_in_layer, &along),
+        positions: grid.positions,
+        cells,
+        ..SolidMesh::default()
+    }
+}
+
+/// A body of a layer between halves, its ends pulled apart, all points held across.
+fn with_layer<const D: usize>(
+    body: impl Body<D> + 'static,
+    law: Law,
+    [half, layer]: [Material; 2],
+    across: &[Component],
+) -> Setup<D>
+where
+    Dim: Dimension<D>,
+{
+    let mut setup = Setup::new(body, half.clone(), law);
+    let region = |group: &str, material: Material| MaterialRegion {
+        group: Some(group.to_owned()),
+        material,
+    };
+    setup.materials = vec![region("half", half), region("layer", layer)];
+    setup.correction.surface = Surface::Patch(Settings::default());
+    setup.supports = vec![
+        Support::new("left", &[Component::X]),
+        Support::new(Place::Everywhere, across),
+    ];
+    setup.loads = vec![Load::new("right", along_x(PULLED))];
+    setup
+}
+
+/// Force of a layer between halves, which all have the stiffness C along x but for the factor on that of the layer, for a section of area A:
+/// A u/(L_half/C_half + L_layer/C_layer).
+fn force_through(area: f64, stiffness: f64, thick: u32, ratio: f64) -> f64 {
+    let (layer, all) = (f64::from(thick), f64::from(CELLS[0]));
+    area * PULLED * stiffness / (all - layer + layer / ratio)
+}
+
+/// Layers of one to four cells, soft and stiff, within 2 %; measured 1.5 % at most. Where bonds are those of their ends, a layer of one cell
+/// with a hundredth of the stiffness is 10 % too stiff, and one with a ten-thousandth 94 times.
+#[test]
+fn layers_between_halves_of_a_mesh() {
+    let bbpd = Law::Bbpd {
+        calibration: CALIBRATION,
+    };
+    let orthotropic = Law::Orthotropic {
+        rotational_stiffness: RotationalStiffness::Decaying,
+    };
+    for (law, poisson) in [(Law::Nhpd, 0.2), (bbpd, 1.0 / 3.0), (orthotropic, 0.2)] {
+        for ratio in [1e-4, 0.01, 0.1, 10.0, 100.0] {
+            for thick in [1, 2, 4] {
+                let materials = [1.0, ratio].map(|young| Material::isotropic(young, poisson));
+                let body = MeshBody::from(layered_strip(thick));
+                let setup = with_layer(body, law, materials, &[Component::Y]);
+                let expected = force_through(f64::from(CELLS[1]), modulus(poisson), thick, ratio);
+                let found = reaction(setup) / expected;
+                assert!(
+                    (found - 1.0).abs() < 0.02,
+                    "{law:?}, ratio {ratio}, {thick} cells: {found}"
+                );
+            }
+        }
+    }
+}
+
+/// Layers in space, within 5 %: 4.6 % too stiff at a ratio of 1e-4 and one cell, on these even tetrahedra; 2 % was hoped for, and what
+/// limits it is not known yet. Where bonds are those of their ends, a hundredth of the stiffness becomes 1.6 times that.
+#[test]
+fn layers_between_halves_of_a_solid() {
+    for ratio in [1e-4, 0.01, 10.0] {
+        for thick in [1, 2] {
+            let materials = [1.0, ratio].map(|young| Material::isotropic(young, 0.2));
+            let body = SolidMeshBody::from(layered_block(thick));
+            let setup = with_layer(body, Law::Nhpd, materials, &[Component::Y, Component::Z]);
+            // E (1 - nu)/((1 + nu)(1 - 2 nu)) of E = 1 and nu = 0.2.
+            let stiffness = 0.8 / (1.2 * 0.6);
+            let area = f64::from(CELLS[1] * CELLS[2]);
+            let history = setup.solve(&mut Unobserved).unwrap().outcome.history;
+            let reaction = history.last().unwrap().reaction.abs();
+            let found = reaction / force_through(area, stiffness, thick, ratio);
+            assert!(
+                (found - 1.0).abs() < 0.05,
+                "ratio {ratio}, {thick} cells: {found}"
             );
         }
     }

@@ -48,6 +48,7 @@ impl Body {
             tags: (0..n as i64).map(|it| 100 - it).collect(),
             cloud: PointCloud {
                 positions: places,
+                precision: 0.0,
                 origin: [0.0; 2],
                 thickness: 1.0,
                 volumes: vec![1.0; n],

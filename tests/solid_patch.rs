@@ -178,7 +178,7 @@ fn equations_that_cannot_be_met_are_told_with_a_remedy() {
             _ => None,
         })
     };
-    assert_eq!(not_met("2.0"), Some(Some(2.5)));
+    assert_eq!(not_met("1.75"), Some(Some(2.5)));
     assert_eq!(not_met("2.5"), None);
 }
 

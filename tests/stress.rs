@@ -1,6 +1,7 @@
 //! Stresses at the points against the continuum, and against the forces that the bodies bear.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use ligament::warning::Warning;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
 use ligament_mesh::Mesh;
@@ -266,14 +267,20 @@ fn stresses_do_not_depend_on_the_number_of_threads() {
     assert_eq!(on(1), on(4));
 }
 
-/// The plate with stress fields or without them; a probe reads what the field has at its point.
+/// The plate with stress fields or without them; a probe reads what the field has at its point, and a warning says what it is worth.
 #[test]
 fn stresses_are_written_where_they_are_asked_for() {
-    let probe = "[[probe]]\nname = \"middle\"\nat = [0.1, 0.05]\nfield = \"stress_xx\"\n";
     let coarse: Mesh = meshes::read("meshes/plate-coarse.msh");
+    let from_middle = |p: &&[f64; 2]| (p[0] - 0.1).hypot(p[1] - 0.05);
+    let places = coarse.positions.iter();
+    let place = places
+        .min_by(|p, q| from_middle(p).total_cmp(&from_middle(q)))
+        .unwrap();
+    let probe = format!("[[probe]]\nname = \"middle\"\nat = {place:?}\nfield = \"stress_xx\"\n");
     let bench = Bench::on(&coarse, &format!("{PLATE}{PULL}{probe}"), &[]);
     let run = bench.solve();
-    let point = bench.model.system.cloud.nearest_point([0.1, 0.05]) as usize;
+    assert!(bench.model.warnings.contains(&Warning::PointStress));
+    let point = bench.model.system.cloud.nearest_point(*place) as usize;
     assert_eq!(
         run.last().probes,
         [stresses_of_run(&bench, &run).0[point][0]]
@@ -283,7 +290,9 @@ fn stresses_are_written_where_they_are_asked_for() {
         let folder = tempfile::tempdir().unwrap();
         let settings = ["mesh.file=../meshes/plate-coarse.msh", setting];
         let case = bench::case(&format!("{PLATE}{PULL}"), &settings);
-        bench::run_program(&case, &folder.path().join("out"));
+        let told = bench::run_program(&case, &folder.path().join("out")).warnings;
+        let is_told = told.contains(&Warning::PointStress.to_string());
+        assert_eq!(is_told, setting.contains("virial"), "{told:?}");
         std::fs::read_to_string(folder.path().join("out/fields_0001.vtu")).unwrap()
     };
     let virial = "Name=\"stress_virial\" NumberOfComponents=\"3\" ComponentName0=\"xx\" ComponentName1=\"yy\" ComponentName2=\"xy\"";

@@ -208,7 +208,7 @@ def is_solid(folder):
 
 def drawn_by_plot(program, folder, field, options, place):
     """The pictures of all steps that `ligament plot` draws."""
-    words = [program, "plot", folder, "--field", field, "--step", "all", "--width", "100", *options, "--out", place / "plotted.svg"]
+    words = [program, "plot", folder, "--field", field, "--step", "all", "--width", "100", *options, "--force", "--out", place / "plotted.svg"]
     said = subprocess.run(words, check=True, capture_output=True, text=True).stdout
     return [Path(line).read_text() for line in said.splitlines()]
 
@@ -240,7 +240,7 @@ def check_pictures(page, program, folder, run, place):
 def check_solid(program, folder, plane, place):
     """The page of a solid beside a body in the plane; returns how many pictures it has."""
     report = place / "solid.html"
-    subprocess.run([program, "report", folder, plane, "--output", report], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([program, "report", folder, plane, "--force", "--out", report], check=True, stdout=subprocess.DEVNULL)
     shown = "({ picture: document.getElementById('picture').offsetHeight, body: document.getElementById('body').offsetHeight })"
     with browser.Browser() as page:
         page.open(report, READY)
@@ -288,7 +288,7 @@ def main(program, *folders):
         (copy / "summary.json").write_text(json.dumps(summary | {"title": TITLE}))
         report = Path(place) / "report.html"
         results = [copy, *map(Path, folders)]
-        subprocess.run([program, "report", *results, "--output", report], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([program, "report", *results, "--force", "--out", report], check=True, stdout=subprocess.DEVNULL)
         with browser.Browser() as page:
             begun = time.monotonic()
             page.open(report, READY)

@@ -101,6 +101,7 @@ impl Results {
                 subject,
                 csv: None,
                 json: None,
+                force: false,
             };
             let mut told = Vec::new();
             explain::explain(&request, &mut told).map_err(|it| it.to_string())?;
@@ -120,6 +121,7 @@ impl Results {
             format: None,
             width: None,
             dpi: Some(100.0),
+            force: true,
         };
         let fields = draw_fields(&FieldRequest {
             folders: vec![self.out()],

@@ -8,7 +8,7 @@ use ligament_analysis::history::{BreakRecord, ObserverError, StepRecord, View};
 use ligament_model::correction::CorrectionReport;
 use verification::numbers::{by_point, deviation, largest};
 
-use crate::image::Image;
+use super::image::Image;
 
 /// Step and round of a breakage, with the ends of the bonds that broke then.
 type Round = ((usize, usize), Vec<[u32; 2]>);

@@ -11,9 +11,9 @@ use ligament_model::failure::stretch::TENSION;
 use ligament_model::failure::{After, softening};
 use verification::numbers::{Random, largest, relative_error};
 
-use crate::image::Image;
-use crate::invariance::{analysis, criteria};
-use crate::specimen::Specimen;
+use super::image::Image;
+use super::invariance::{analysis, criteria};
+use super::specimen::Specimen;
 
 /// What only grows, as it was at the step before.
 #[derive(Default)]

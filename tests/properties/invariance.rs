@@ -11,9 +11,9 @@ use ligament_model::failure::sliding::SLIDING;
 use ligament_model::failure::stretch::TENSION;
 use verification::numbers::{Random, largest, short};
 
-use crate::answer::Answer;
-use crate::image::Image;
-use crate::specimen::Specimen;
+use super::answer::Answer;
+use super::image::Image;
+use super::specimen::Specimen;
 
 /// Rounding in sums of another order, some 1e-14, times the condition of the stiffness.
 pub(crate) const ROUNDING: f64 = 1e-9;

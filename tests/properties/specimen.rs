@@ -9,7 +9,7 @@ use ligament_model::{ElementKind, Expansion, Orthotropic};
 use verification::meshes;
 use verification::numbers::Random;
 
-use crate::image::Image;
+use super::image::Image;
 
 /// A rectangle in cells, with what it is made of and what acts on it.
 #[derive(Debug, Clone)]

@@ -3,10 +3,10 @@
 use ligament::prelude::*;
 use verification::numbers::{Random, largest, short};
 
-use crate::answer::Answer;
-use crate::image::Image;
-use crate::invariance::{ROUNDING, analysis, criteria};
-use crate::specimen::Specimen;
+use super::answer::Answer;
+use super::image::Image;
+use super::invariance::{ROUNDING, analysis, criteria};
+use super::specimen::Specimen;
 
 /// The bottom is held and the top moved.
 fn moved(specimen: &Specimen, [x, y]: [f64; 2]) -> Setup {

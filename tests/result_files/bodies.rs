@@ -8,7 +8,7 @@ use ligament_model::Canvas as Drawn;
 use ligament_run::model::Model;
 use verification::meshes;
 
-use crate::expected::{Expected, Place};
+use super::expected::{Expected, Place};
 
 /// What the squares of a small plate are made of.
 #[derive(Clone, Copy, PartialEq, Eq)]

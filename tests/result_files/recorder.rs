@@ -11,9 +11,9 @@ use ligament_model::{Absence, Bonds};
 use ligament_run::model::Model;
 use verification::numbers::by_point;
 
-use crate::bodies::Canvas;
-use crate::expected::{Entry, Expected, Place, Rows};
-use crate::softening::Softened;
+use super::bodies::Canvas;
+use super::expected::{Entry, Expected, Place, Rows};
+use super::softening::Softened;
 
 /// A utilisation that is not larger by more than this is the same: the file keeps the first of several.
 const SAME: f64 = 1.0 + 2e-7;

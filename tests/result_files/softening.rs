@@ -3,7 +3,7 @@
 use ligament_analysis::history::{StepRecord, View};
 use ligament_model::failure::Weakened;
 
-use crate::expected::{Entry, Expected, Rows};
+use super::expected::{Entry, Expected, Rows};
 
 /// Bonds that began to soften and that opened, step by step.
 pub(crate) struct Softened {

@@ -58,6 +58,7 @@ impl Truss {
         let cloud = PointCloud {
             numbering: Default::default(),
             positions: places.iter().map(|&x| [x, 0.0]).collect(),
+            precision: 0.0,
             origin: [0.0; 2],
             thickness: 1.0,
             volumes: vec![1.0; n],

@@ -8,7 +8,9 @@ mod dissipating;
 mod equations;
 mod external;
 mod iterate;
+mod line;
 mod line_search;
+mod mechanism;
 mod newton;
 mod precedents;
 mod residual;
@@ -262,13 +264,17 @@ impl Equilibrium {
     ///
     /// # Errors
     ///
-    /// If the stiffness has no factor.
+    /// If the stiffness has no factor, a solver that iterates does not come near enough, or a hold would carry some of the loads.
     pub(crate) fn growth(
         &mut self,
         state: &mut State,
         loads: &dyn LoadProgram,
     ) -> Result<Vec<f64>, Unbalanced> {
-        self.equations.growth(state, loads)
+        let growth = line::growth(&mut self.equations, state, loads)?;
+        match line::carried_by_hold(&self.equations, state, &growth, loads) {
+            Some(reason) => Err(reason),
+            None => Ok(growth),
+        }
     }
 
     /// Whether a breakage can be taken in as [`Equilibrium::half_follow`] does.
@@ -297,6 +303,13 @@ impl Equilibrium {
         costs.backward += start.elapsed();
         costs.solves += 1;
         Some(finished)
+    }
+
+    /// Why a state of a body that is no longer whole is no equilibrium although its forces are in balance: it moves farther than the body is
+    /// large.
+    pub(crate) fn beyond_size(&self, state: &State) -> Option<Unbalanced> {
+        let Equations { problem, .. } = &self.equations;
+        self.equations.motions().beyond_size(&*problem.loads, state)
     }
 
     /// The factor of the stiffness; None where there is none at present.

@@ -7,6 +7,7 @@
 //! No files and no printing here.
 
 pub mod assembly;
+pub mod at_once;
 pub mod balanced;
 mod bond_numbers;
 pub mod breakage;
@@ -41,6 +42,7 @@ pub mod state;
 pub mod stiffness;
 pub mod supports;
 mod tangent;
+mod termination;
 pub mod unbalanced;
 pub mod unknowns;
 mod vectors;

@@ -18,20 +18,23 @@ pub struct Probe {
     pub reading: Reading,
 }
 
+/// A place in the body: points and their shares in what is read there, which add up to one.
+pub type Shares = Vec<(u32, f64)>;
+
 /// What a probe reads.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Reading {
-    /// Motion of the second point minus that of the first (crack mouth opening, strain gauge), m or rad.
+    /// Motion at the second place minus that at the first (crack mouth opening, strain gauge), m or rad.
     RelativeDisplacement {
-        /// The two points.
-        points: [u32; 2],
+        /// The two places.
+        places: [Shares; 2],
         /// Component.
         component: Component,
     },
-    /// A field at a point.
+    /// A field at a place.
     Field {
-        /// Point.
-        point: u32,
+        /// Place.
+        place: Shares,
         /// Field.
         field: PointField,
     },
@@ -92,10 +95,23 @@ pub(crate) fn values(
         let values = readings.map(|it| it.value(system, criteria, state, balanced));
         return values.collect();
     };
+    let first_is_own =
+        |place: &Shares| (place.first()).is_some_and(|(point, _)| portion.is_own(*point));
     let parts = readings.map(|reading| match reading {
-        // The motions of all points are known.
-        Reading::RelativeDisplacement { points, .. } if !portion.is_own(points[0]) => 0.0,
-        Reading::Field { point, .. } if !portion.is_own(*point) => 0.0,
+        // The motions of points that are read are known to all: one process reads the whole.
+        Reading::RelativeDisplacement { places, .. } if !first_is_own(&places[0]) => 0.0,
+        Reading::Field {
+            place,
+            field: PointField::Motion(_),
+        } if !first_is_own(place) => 0.0,
+        Reading::Field { place, field } if !matches!(field, PointField::Motion(_)) => {
+            let own = place.iter().filter(|(point, _)| portion.is_own(*point));
+            let own = Reading::Field {
+                place: own.copied().collect(),
+                field: *field,
+            };
+            own.value(system, criteria, state, balanced)
+        }
         Reading::SectionForce { bonds, component } => {
             let ends = system.ends();
             let counted = bonds.iter().filter(|(bond, _)| {
@@ -118,22 +134,24 @@ pub(crate) fn values(
 impl Reading {
     /// Degrees of freedom whose motions, times their weights, add up to the reading; None where it is no motion.
     pub fn weights(&self, layout: Layout) -> Option<Vec<(u32, f64)>> {
-        let motions = match self {
-            Self::RelativeDisplacement {
-                points: [first, second],
-                component,
-            } => vec![(*first, *component, -1.0), (*second, *component, 1.0)],
+        let (shares, component) = match self {
+            Self::RelativeDisplacement { places, component } => {
+                let [first, second] = places;
+                let minus = first.iter().map(|(point, share)| (*point, -share));
+                let all: Shares = minus.chain(second.iter().copied()).collect();
+                (all, *component)
+            }
             Self::Field {
-                point,
+                place,
                 field: PointField::Motion(component),
-            } => vec![(*point, *component, 1.0)],
+            } => (place.clone(), *component),
             Self::Field { .. } | Self::SectionForce { .. } => return None,
         };
-        let weight = |(point, component, weight): (u32, Component, f64)| {
+        let weight = |(point, weight): (u32, f64)| {
             let dof = layout.degree_of_freedom(point, component)?;
             Some((dof as u32, weight))
         };
-        Some(motions.into_iter().filter_map(weight).collect())
+        Some(shares.into_iter().filter_map(weight).collect())
     }
 
     /// The value in a state of equilibrium; where processes share the body out, this one's part of it.
@@ -148,20 +166,21 @@ impl Reading {
             system.layout().value(point, component, &state.displacement)
         };
         match self {
-            Self::RelativeDisplacement {
-                points: [first, second],
-                component,
-            } => motion(*second, *component) - motion(*first, *component),
-            Self::Field { point, field } => match field {
-                PointField::Damage => fields::point_damage(system, &state.intact, *point),
+            Self::RelativeDisplacement { places, component } => {
+                let [first, second] =
+                    (places.each_ref()).map(|it| mean(it, |point| motion(point, *component)));
+                second - first
+            }
+            Self::Field { place, field } => mean(place, |point| match field {
+                PointField::Damage => fields::point_damage(system, &state.intact, point),
                 PointField::DamageBy(way) => {
-                    fields::point_damage_by(system, criteria, state, *way, *point)
+                    fields::point_damage_by(system, criteria, state, *way, point)
                 }
-                PointField::Motion(component) => motion(*point, *component),
+                PointField::Motion(component) => motion(point, *component),
                 PointField::Stress(component) => {
                     let deformations = &balanced.deformations;
-                    let mut stress = system.stress(state.bonds(), deformations, *point);
-                    contact::add_virial(system, &balanced.closed, *point, &mut stress);
+                    let mut stress = system.stress(state.bonds(), deformations, point);
+                    contact::add_virial(system, &balanced.closed, point, &mut stress);
                     stress.get(*component as usize).copied().unwrap_or(0.0)
                 }
                 PointField::StrainEnergyDensity => fields::point_energy_density(
@@ -169,9 +188,9 @@ impl Reading {
                     state.bonds(),
                     &balanced.deformations,
                     &balanced.closed,
-                    *point,
+                    point,
                 ),
-            },
+            }),
             Self::SectionForce { bonds, component } => {
                 let deformations = &balanced.deformations;
                 // Beyond the bonds stand those that pre-cracks cut.
@@ -186,4 +205,10 @@ impl Reading {
             }
         }
     }
+}
+
+/// The value at a place, from those of its points.
+fn mean(place: &Shares, value: impl Fn(u32) -> f64) -> f64 {
+    let parts = place.iter().map(|&(point, share)| share * value(point));
+    parts.reduce(|sum, part| sum + part).unwrap_or(0.0)
 }

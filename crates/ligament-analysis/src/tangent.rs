@@ -21,6 +21,11 @@ use ligament_model::thermal::ThermalStrain;
 /// close carry the part in one more iteration. What it adds stands in the tangent alone, never in the forces.
 const SOFT_HOLD: f64 = 1e-6;
 
+/// Share of the stiffness of the points, each by itself, at which what resists a motion u of them together is rounding:
+/// u . K u of a motion that costs no energy is some 1e-16 of sum k_i u_i^2, that of the softest motion of a bar a thousand points
+/// long 1e-12.
+pub(crate) const UNRESISTED: f64 = 1e-14;
+
 /// The force that a solver which iterates may leave out of balance; an exact one leaves rounding.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Left {
@@ -37,10 +42,11 @@ pub(crate) struct HalfFollowed<'a> {
 }
 
 /// Why a solver that is ready has no solution.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Unsolved {
-    /// The stiffness is not definite, and the solver needs one that is.
-    Indefinite,
+    /// The stiffness does not resist a motion, shape (n_unknowns), and the solver needs one that does; zero where the motion is not
+    /// known.
+    Indefinite(Vec<f64>),
     /// Ranks have other bonds left or another load.
     Disagreement,
 }

@@ -35,3 +35,14 @@ pub(crate) fn dot_of_chunks(one: &[f64], other: &[f64]) -> f64 {
     let sums: Vec<f64> = chunks.map(|(one, other)| dot(one, other)).collect();
     sums.iter().sum()
 }
+
+/// The sum of w_i a_i^2 over an array a with weights w of the same shape, of chunks on all threads.
+pub(crate) fn weighted_square(weights: &[f64], values: &[f64]) -> f64 {
+    let chunks = weights.par_chunks(CHUNK).zip(values.par_chunks(CHUNK));
+    let of_chunk = |(weights, values): (&[f64], &[f64])| -> f64 {
+        let pairs = weights.iter().zip(values);
+        pairs.map(|(weight, value)| weight * value * value).sum()
+    };
+    let sums: Vec<f64> = chunks.map(of_chunk).collect();
+    sums.iter().sum()
+}

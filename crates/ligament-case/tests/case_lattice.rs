@@ -34,7 +34,7 @@ fn the_section_is_read_with_its_defaults() {
         (lattice.cells, lattice.spacing),
         ([20, 12], Spacing([0.01; 2]))
     );
-    assert_eq!((lattice.corner, lattice.thickness), ([0.0; 2], 1.0));
+    assert_eq!((lattice.corner, lattice.thickness), ([0.0; 2], None));
     assert_eq!(lattice.plane.0, Plane::Stress);
     let circle = |centre, radius| Circle { centre, radius };
     let hole = |name: Option<&str>, circle, outside| Hole {
@@ -107,7 +107,10 @@ fn the_section_is_read_with_its_defaults() {
         (lattice.spacing, lattice.corner),
         (Spacing([1e-3, 2.0]), [-1.0, 5.0])
     );
-    assert_eq!((lattice.thickness, lattice.plane.0), (0.1, Plane::Strain));
+    assert_eq!(
+        (lattice.thickness, lattice.plane.0),
+        (Some(0.1), Plane::Strain)
+    );
 }
 
 #[test]

@@ -37,7 +37,7 @@ fn defaults_are_filled_in() {
         case.mesh
             .as_ref()
             .map(|it| (it.thickness, it.plane.map(|it| it.0))),
-        Some((Some(1.0), Some(Plane::Stress)))
+        Some((None, Some(Plane::Stress)))
     );
     let mean = Some(Word(Some(Iteration::MEAN)));
     assert_eq!(

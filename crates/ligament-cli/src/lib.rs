@@ -11,7 +11,7 @@
 //! | `build` | the commit and the compiler that the program is from |
 //! | `lines` | lines of reports: names with what they are, aligned columns |
 //! | `ranks` | the processes that a run is one of |
-//! | `stop_signal` | the wish that a run stop |
+//! | `stop_signal` | the wish that a run stop, files beyond a limit |
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")

@@ -6,11 +6,14 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
+use crate::stop_signal::report_large_files;
 use crate::{Cli, ranks, terminal};
 
 /// Does what the arguments ask for, the name of the program first, and gives the exit code; `program` is the command that calls
 /// this program, for runs that it starts as processes of their own.
 pub fn execute(arguments: &[OsString], program: &[OsString]) -> ExitCode {
+    // Where the system refuses, a file that is too large ends the program as it would without this.
+    let _ = report_large_files();
     let code = answer(arguments, program);
     // Where the program is a part of another one nobody else writes what is left of a line.
     let _ = io::stdout().flush();
@@ -57,9 +60,8 @@ fn print_error(error: &anyhow::Error) {
     }
 }
 
-/// Whether standard output was closed by its reader, as by `ligament inspect ... | head`.
+/// Whether standard output, or a pipe in the place of a file, was closed by its reader, as by `ligament inspect ... | head`.
 fn is_closed_pipe(error: &anyhow::Error) -> bool {
-    error
-        .downcast_ref::<io::Error>()
-        .is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+    let mut causes = error.chain().filter_map(|it| it.downcast_ref());
+    causes.any(|it: &io::Error| it.kind() == io::ErrorKind::BrokenPipe)
 }

@@ -1,4 +1,4 @@
-//! The wish of a user, or of the system, that a run stop.
+//! Signals: the wish of a user, or of the system, that a run stop, and files that grow beyond a limit.
 
 use std::io;
 use std::sync::Arc;
@@ -40,4 +40,23 @@ impl StopSignal {
     pub(crate) fn came(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
+}
+
+/// Lets a write fail with an error, which names the file, where a limit such as that of `ulimit -f` is exceeded; by default the signal
+/// of that ends the program without a word.
+///
+/// # Errors
+///
+/// If the system does not let it.
+#[cfg(unix)]
+pub(crate) fn report_large_files() -> io::Result<()> {
+    // A handler, unlike a signal that is ignored, does not pass on to programs that this one calls.
+    let signal = signal_hook::consts::signal::SIGXFSZ;
+    flag::register(signal, Arc::new(AtomicBool::new(false))).map(|_| ())
+}
+
+/// Systems without the signal report it anyway.
+#[cfg(not(unix))]
+pub(crate) fn report_large_files() -> io::Result<()> {
+    Ok(())
 }

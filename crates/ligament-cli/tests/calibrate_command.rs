@@ -8,9 +8,7 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 
-mod support;
-
-use support::text;
+use crate::support::text;
 
 fn case(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))

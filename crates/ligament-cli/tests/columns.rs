@@ -8,9 +8,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-mod support;
-
-use support::{ligament_in, stderr};
+use crate::support::{ligament_in, stderr};
 
 const PAGE: &str = include_str!("../../../docs/columns.md");
 

@@ -8,9 +8,7 @@ use std::process::Output;
 
 use serde_json::Value;
 
-mod support;
-
-use support::{ligament_in, text};
+use crate::support::{ligament_in, text};
 
 /// A bar of 120 x 60 x 10 mm with a slit of 20 mm from below in its middle, between two columns of cells, pulled apart along the exact path.
 const BAR: &str = r#"title = "Bar with a slit"

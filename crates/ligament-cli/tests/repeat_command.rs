@@ -362,3 +362,31 @@ fn other_runs_are_repeated() {
         );
     }
 }
+
+/// A block of cells that is pulled apart.
+const BLOCK: &str = r#"
+solid_lattice = { cells = [4, 4, 8], spacing = [0.01, 0.01, 0.01], set = { low = { bottom = 1 }, high = { top = 1 } } }
+material = { young = 30e9, poisson = 0.2, tensile_strength = 3e6 }
+model = { law = "nhpd", horizon_factor = 2.0 }
+support = [{ group = "low", displacement = { x = 0.0, y = 0.0, z = 0.0 } }]
+load = [{ group = "high", displacement = { z = 2e-5 } }]
+fracture = { steps = 10, stop = { load_fraction = 0.3 } }
+"#;
+
+/// Files of cracks and surfaces are made of results afterwards, and are none of what a run repeats.
+#[test]
+fn surfaces_that_were_made_later_are_no_difference() {
+    let bench = Bench::new(BLOCK);
+    bench.run(0, &[]);
+    bench.assert_same(&[]);
+    for more in [["--step", "all"], ["--iso", "0.1"]] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_ligament"));
+        let command = command.arg("crack").arg(bench.path("out")).args(more);
+        let (code, words) = said(&command.output().unwrap());
+        assert_eq!(code, Some(0), "{words}");
+    }
+    for name in ["crack.stl", "crack_0005.vtu", "crack.pvd", "iso.vtu"] {
+        assert!(bench.path("out").join(name).is_file(), "{name}");
+    }
+    bench.assert_same(&[]);
+}

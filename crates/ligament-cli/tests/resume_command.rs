@@ -335,6 +335,51 @@ fn a_checkpoint_of_other_inputs_is_refused() {
     succeeded(bench.resume("out", &["--quiet"]));
 }
 
+/// What was written so far must be as it was, to the last bit: a digit of a table, the end of a field.
+#[test]
+fn results_that_were_changed_are_named() {
+    let bench = Bench::new(EVENT, "1e-6");
+    let every = ["--set", "output.fields_every=1"];
+    let out = bench.out("out");
+    let mut child = started(bench.run("out", &every));
+    wait_for_rows(&out, 5, &mut child);
+    send("-INT", &child);
+    assert_eq!(child.wait().unwrap().code(), Some(4));
+    let digit = |bytes: &mut Vec<u8>| {
+        // In the first row with a load.
+        let place = bytes.iter().rposition(|it| *it == b'\n').unwrap() / 2;
+        let place = place + bytes[place..].iter().position(u8::is_ascii_digit).unwrap();
+        bytes[place] = if bytes[place] == b'7' { b'3' } else { b'7' };
+    };
+    let cut = |bytes: &mut Vec<u8>| bytes.truncate(bytes.len() - 20);
+    type Change<'a> = &'a dyn Fn(&mut Vec<u8>);
+    let changes: [(&str, Change<'_>, &str); 4] = [
+        ("history.csv", &digit, "was changed since"),
+        ("criteria.csv", &|bytes| bytes[0] ^= 1, "was changed since"),
+        ("fields_0001.vtu", &cut, "bytes where it had"),
+        (
+            "fields_0000.vtu",
+            &|bytes| bytes[300] ^= 1,
+            "was changed since",
+        ),
+    ];
+    for (name, change, words) in changes {
+        let path = out.join(name);
+        let before = fs::read(&path).unwrap();
+        let mut changed = before.clone();
+        change(&mut changed);
+        assert_ne!(changed, before);
+        fs::write(&path, changed).unwrap();
+        let said = refused(bench.resume("out", &[]));
+        assert!(
+            said.contains(name) && said.contains(words),
+            "{name}: {said}"
+        );
+        fs::write(&path, before).unwrap();
+    }
+    succeeded(bench.resume("out", &["--quiet"]));
+}
+
 #[test]
 fn only_settings_that_change_nothing_so_far_are_taken() {
     let bench = Bench::new(EVENT, "1e-6");

@@ -10,9 +10,7 @@ use ligament_output::vtu::Cell;
 use ligament_output::vtu::read::VtuFile;
 use serde_json::Value;
 
-mod support;
-
-use support::{ligament_in, stderr, text};
+use crate::support::{ligament_in, stderr, text};
 
 /// A bar of 80 x 40 x 40 mm of cubes of 10 mm with a slit of 10 mm from the side, pulled until the 30 x 40 mm behind it part.
 const BAR: &str = include_str!("support/small-solid.toml");

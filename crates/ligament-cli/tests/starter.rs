@@ -11,9 +11,7 @@ use ligament_cli::check::{Extent, check};
 use serde_json::Value;
 use tempfile::TempDir;
 
-mod support;
-
-use support::ligament_in;
+use crate::support::ligament_in;
 
 fn meshes() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../meshes")
@@ -246,6 +244,37 @@ fn a_beam_lies_on_both_supports() {
     assert_eq!(load.group, None);
     assert!(load.displacement.unwrap().x.is_some_and(|x| x != 0.0));
     checked(&case, Extent::Matrix);
+}
+
+/// A beam whose ends are called left and right and that has a load between them: three-point bending, as a beam between supports.
+#[test]
+fn a_load_between_two_ends_bends() {
+    let folder = TempDir::new().unwrap();
+    let mesh = meshes().join("notched-beam-10mm.msh");
+    let starter = of_mesh(&mesh, folder.path(), Law::Nhpd).unwrap();
+    let case = case(&starter, folder.path());
+    let supports = case.case.supports.iter();
+    let supports: Vec<_> = supports
+        .map(|it| (it.group.as_deref(), it.displacement.unwrap()))
+        .map(|(group, held)| (group, held.x, held.y))
+        .collect();
+    assert_eq!(
+        supports,
+        [
+            (Some("left"), Some(0.0), Some(0.0)),
+            (Some("right"), None, Some(0.0))
+        ]
+    );
+    assert_eq!(case.case.loads.len(), 1);
+    assert_eq!(case.case.loads[0].group.as_deref(), Some("load"));
+    let moved = case.case.loads[0].displacement.unwrap();
+    assert!(moved.x.is_none() && moved.y.is_some_and(|y| y < 0.0));
+    checked(&case, Extent::Matrix);
+    // With one named side beside the load, that side is held.
+    let (folder, starter) = of_text(&square(0.1, ["a", "b", "bottom", "load"]));
+    let case = self::case(&starter.unwrap(), folder.path()).case;
+    assert_eq!(case.supports[0].group.as_deref(), Some("bottom"));
+    assert_eq!(case.loads[0].group.as_deref(), Some("load"));
 }
 
 /// A body of 100 m was meant in mm; bodies of all other sizes get numbers that suit them.

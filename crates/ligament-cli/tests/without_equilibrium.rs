@@ -4,9 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-mod support;
-
-use support::ligament_in;
+use crate::support::ligament_in;
 
 /// A strip under a force; its loaded points lose their bonds one by one.
 const STRIP: &str = r#"
@@ -110,6 +108,53 @@ fn a_run_that_a_rule_ends_went_well() {
     assert!(shown.contains("bonds were broken"), "{shown}");
 }
 
+/// A body that is free to move across, pulled and then lifted: the first stage has an equilibrium, the second none, elastic, in load
+/// steps and on the exact path. The exit code is 3 for all, the end says why, and a study takes none of them as done.
+#[test]
+fn a_load_without_equilibrium_after_others_ends_with_one_code() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let free = r#"
+lattice = { cells = [10, 5], spacing = 0.01, thickness = 0.01, set = { left = { left = 1 }, right = { right = 1 } } }
+material = { young = 15e9, poisson = 0.3333, fracture_energy = 10.0 }
+model = { law = "bbpd", horizon_factor = 2.0 }
+support = [{ group = "left", displacement = { x = 0.0 } }]
+load = [{ name = "pull", group = "right", force = { x = 500.0 } }, { name = "lift", group = "right", force = { y = 100.0 } }]
+"#;
+    let stages = |steps: &str| {
+        format!(
+            "stage = [{{ name = \"pull\", loads = {{ pull = [0.0, 1.0] }}{steps} }}, {{ name = \"lift\", loads = {{ lift = [0.0, 1.0] }}{steps} }}]\n"
+        )
+    };
+    let criterion = "[[fracture.criterion]]\nkind = \"critical-stretch\"\n";
+    for case in [
+        format!("{free}{}", stages("")),
+        format!("{free}{}[fracture]\n{criterion}", stages(", steps = 2")),
+        format!(
+            "{free}{}[fracture]\ncontrol = \"event\"\n{criterion}",
+            stages("")
+        ),
+    ] {
+        let (code, shown, _) = run(folder, &case);
+        assert_eq!(code, Some(3), "{shown}");
+        // What was pulled stands.
+        assert!(shown.contains("largest load       500.0 N"), "{shown}");
+        assert!(shown.contains("NO EQUILIBRIUM"), "{shown}");
+        let summary = fs::read_to_string(folder.join("out/summary.json")).unwrap();
+        let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+        assert_eq!(summary["termination"], "no-equilibrium");
+        let warnings = summary["warnings"].as_array().unwrap().iter();
+        let told = |it: &serde_json::Value| it.as_str().unwrap().contains("no equilibrium");
+        assert!(warnings.clone().any(told), "{summary}");
+    }
+    let study = "case = \"case.toml\"\n[[axis]]\nkey = \"load.0.force.x\"\nvalues = [500.0]\n";
+    fs::write(folder.join("study.toml"), study).unwrap();
+    let output = ligament_in(folder, &["sweep", "study.toml", "--out", "study"]);
+    let shown = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(1), "{shown}");
+    assert!(shown.contains("0 done, 1 failed"), "{shown}");
+}
+
 /// Loads that move a body as a whole break nothing: the run is refused before its first load step, and earlier results stay.
 #[test]
 fn loads_that_nothing_resists_are_refused() {
@@ -210,4 +255,30 @@ fn studies_and_calibrations_mark_such_runs() {
         record.contains("\"last_state_not_at_rest\": true"),
         "{record}"
     );
+}
+
+/// Bonds soften in one step of a force that is taken back in another: the work follows the chords of both and comes to nothing, while bonds
+/// dissipated 8 % of the largest. The run says that its steps are too coarse; with 200 of them both agree to 1 %, and it says nothing.
+#[test]
+fn steps_that_are_too_coarse_for_softening_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    for (steps, is_told) in [(1, true), (200, false)] {
+        let loads = |name: &str, from: f64, to: f64| {
+            format!(
+                "{{ name = \"{name}\", loads = {{ pull = [{from:?}, {to:?}] }}, steps = {steps} }}"
+            )
+        };
+        let case = STRIP.replace(
+            "{ group = \"right\", force = { x = 1e6 } }",
+            "{ name = \"pull\", group = \"right\", force = { x = 2200.0 } }",
+        ) + &format!(
+            "stage = [{}, {}]\n",
+            loads("up", 0.0, 1.0),
+            loads("down", 1.0, 0.0)
+        ) + "[[fracture.criterion]]\nkind = \"critical-stretch\"\nafter = \"linear\"\nend = 20.0\n";
+        let (code, shown, error) = run(folder, &case);
+        assert_eq!(code, Some(0), "{shown}{error}");
+        assert_eq!(shown.contains("steps are too coarse"), is_told, "{shown}");
+    }
 }

@@ -22,8 +22,10 @@ mod curve;
 mod field;
 pub mod gmsh;
 mod group;
+mod interpolation;
 mod mesh;
 mod numbering;
+mod overlap;
 mod remark;
 mod solid;
 

@@ -2,15 +2,13 @@
 
 #![allow(clippy::unwrap_used, missing_docs)]
 
-mod writer;
-
 use std::fs;
 use std::path::Path;
 use std::sync::LazyLock;
 
+use crate::writer::{Encoding, Model, Version};
 use ligament_mesh::{Cell, Group, Remark, gmsh};
 use proptest::prelude::*;
-use writer::{Encoding, Model, Version};
 
 const FORMATS: [(Version, Encoding); 6] = [
     (Version::V2, Encoding::Ascii),

@@ -1,9 +1,10 @@
 //! Horizons: one radius a point.
 
-/// Relative tolerance of the comparison of a bond's length with a horizon.
+/// Relative tolerance of the comparison of a length with another one, as that of a bond with a horizon.
 ///
 /// On a regular lattice the neighbour at exactly lambda times the spacing belongs to the family; rounding must not
-/// decide about it.
+/// decide about it. That of the arithmetic is 1e-16; where coordinates are known to fewer digits, as those of single precision are,
+/// [`PointCloud::tolerance`](crate::PointCloud::tolerance) is larger by what they leave open.
 pub const INCLUSION_TOLERANCE: f64 = 1e-9;
 
 /// The horizon radius of each point.
@@ -26,10 +27,5 @@ impl Horizons {
         Self {
             radius: vec![radius; n_points],
         }
-    }
-
-    /// Whether the horizon of a point reaches to a given distance (m) from the point.
-    pub fn contains(&self, point: u32, distance: f64) -> bool {
-        distance <= self.radius[point as usize] * (1.0 + INCLUSION_TOLERANCE)
     }
 }

@@ -110,6 +110,9 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     /// Stiffness of each point with all its bonds, shape (n_points).
     fn point_stiffness(&self) -> Vec<PointStiffness>;
 
+    /// Diagonal of the box around all points of the body, m.
+    fn extent(&self) -> f64;
+
     /// Sorts points so that those of the first half lie before those of the second along the longest side of all; ties are
     /// broken by number.
     fn halve(&self, points: &mut [u32]);

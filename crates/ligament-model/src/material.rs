@@ -1,10 +1,12 @@
 //! Linear elastic materials, isotropic, orthotropic or anisotropic, with their strengths.
 
 mod anisotropic;
+mod contrast;
 mod elasticity;
 mod expansion;
 
 pub use anisotropic::Anisotropic;
+pub use contrast::milder;
 pub use elasticity::{Elasticity, Isotropic, Orthotropic, OutOfPlane, Plane};
 pub use expansion::Expansion;
 

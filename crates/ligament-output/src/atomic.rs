@@ -6,18 +6,6 @@ use std::path::{Path, PathBuf};
 
 use crate::Error;
 
-/// Writes `contents` to `path`, replacing what is there.
-///
-/// They go to a temporary file in the same folder (a rename works only within one file system), which then takes the
-/// name `path`. On failure `path` is as before and the temporary file is removed.
-///
-/// # Errors
-///
-/// If the file cannot be written or put in its place.
-pub fn replace_file(path: &Path, contents: &[u8]) -> Result<(), Error> {
-    write_and_rename(path, contents).map_err(Error::system("write", path))
-}
-
 /// Writes `contents` to `path`, and what was there to `older`; all of it is safely on the disk when this returns.
 ///
 /// At any moment one of the two is whole.
@@ -107,7 +95,8 @@ pub fn rename(from: &Path, to: &Path) -> Result<(), Error> {
     fs::rename(from, to).map_err(Error::system("move", from))
 }
 
-fn write_and_rename(path: &Path, contents: &[u8]) -> io::Result<()> {
+/// Writes `contents` to a temporary file beside `path`, which then takes its name.
+pub(crate) fn replace_regular(path: &Path, contents: &[u8]) -> io::Result<()> {
     let temporary = temporary_path(path)?;
     let written = write_synced(&temporary, contents).and_then(|()| fs::rename(&temporary, path));
     if written.is_err() {
@@ -144,6 +133,7 @@ fn temporary_path(path: &Path) -> io::Result<PathBuf> {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use crate::replace_file;
 
     fn names_in(folder: &Path) -> Vec<String> {
         let mut names: Vec<_> = fs::read_dir(folder)
@@ -165,12 +155,12 @@ mod tests {
     }
 
     #[test]
-    fn a_failed_rename_leaves_no_temporary() {
+    fn a_folder_in_the_place_leaves_no_temporary() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("taken");
         fs::create_dir(&path).unwrap();
         let error = replace_file(&path, b"text").unwrap_err();
-        assert!(matches!(error, Error::System { path: p, .. } if p == path));
+        assert!(matches!(error, Error::NoPlaceForFile(p) if p == path));
         assert_eq!(names_in(folder.path()), ["taken"]);
     }
 

@@ -25,7 +25,7 @@ use crate::atomic::{read_bytes, remove_file, rotate_file};
 pub const NAMES: [&str; 2] = ["checkpoint.bin", "checkpoint.older.bin"];
 
 /// Number of the format, which changes whenever what is in a checkpoint does.
-pub const FORMAT: u32 = 4;
+pub const FORMAT: u32 = 5;
 
 const BEGINNING: &[u8; 19] = b"ligament checkpoint";
 
@@ -203,7 +203,7 @@ mod tests {
         bytes[BEGINNING.len()] += 1;
         let reason = Checkpoint::from_bytes(&bytes).unwrap_err();
         assert!(
-            reason.contains("format 5") && reason.contains("format 4"),
+            reason.contains("format 6") && reason.contains("format 5"),
             "{reason}"
         );
         let reason = Checkpoint::from_bytes(b"step,load_factor").unwrap_err();

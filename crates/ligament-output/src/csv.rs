@@ -4,10 +4,15 @@ pub mod read;
 
 use std::fmt::Write as _;
 use std::fs::File;
+use std::hash::Hasher;
 use std::io::{Seek, SeekFrom, Write as _};
 use std::path::PathBuf;
 
+use twox_hash::XxHash64;
+
 use crate::Error;
+use crate::folder::refuse_link;
+use crate::written::{Written, digested};
 
 /// One entry of a row.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,17 +75,25 @@ pub struct Table {
     path: PathBuf,
     file: File,
     n_columns: usize,
+    /// Of all bytes so far.
+    digest: XxHash64,
 }
 
 impl Table {
     /// Creates the file, replacing an existing one, and writes the header.
+    ///
+    /// # Errors
+    ///
+    /// If a link is in the place, which may lead to anybody's file, or the file cannot be written.
     pub fn create(path: impl Into<PathBuf>, columns: &[&str]) -> Result<Self, Error> {
         let path = path.into();
+        refuse_link(&path)?;
         let file = File::create(&path).map_err(Error::system("write", &path))?;
         let mut table = Self {
             path,
             file,
             n_columns: columns.len(),
+            digest: XxHash64::with_seed(0),
         };
         let header: Vec<Value<'_>> = columns.iter().copied().map(Value::from).collect();
         table.append(&header)?;
@@ -107,25 +120,30 @@ impl Table {
             let mut file = File::options().write(true).open(&path)?;
             file.set_len(length)?;
             file.seek(SeekFrom::End(0))?;
-            Ok(file)
+            let (digest, _) = digested(&path, length)?;
+            Ok((file, digest))
         };
-        let file = open().map_err(Error::system("write", &path))?;
+        let (file, digest) = open().map_err(Error::system("write", &path))?;
         Ok(Self {
             path,
             file,
             n_columns,
+            digest,
         })
     }
 
-    /// Bytes of the table so far, which are safely on the disk when this returns.
+    /// The table so far, which is safely on the disk when this returns.
     ///
     /// # Errors
     ///
-    /// If the system cannot tell, or cannot get them there.
-    pub fn synced_length(&self) -> Result<u64, Error> {
+    /// If the system cannot tell, or cannot get it there.
+    pub fn synced(&self) -> Result<Written, Error> {
         let synced = self.file.sync_data().and_then(|()| self.file.metadata());
         let metadata = synced.map_err(Error::system("write", &self.path))?;
-        Ok(metadata.len())
+        Ok(Written {
+            length: metadata.len(),
+            digest: self.digest.finish(),
+        })
     }
 
     /// Appends one row, one value per column of the header.
@@ -139,7 +157,9 @@ impl Table {
             return Err(Error::Refused { path, reason });
         }
         // The file has no buffer of its own: the row goes out in one write and needs no flush.
-        let written = self.file.write_all(line(row).as_bytes());
+        let line = line(row);
+        let written = self.file.write_all(line.as_bytes());
+        self.digest.write(line.as_bytes());
         written.map_err(Error::system("write", &self.path))
     }
 }

@@ -86,6 +86,14 @@ pub enum Error {
         /// The file that would show it.
         marker: &'static str,
     },
+    /// A file is in the place of a file that was asked for.
+    #[error("{0} is there already: write to another file with --out, or replace it with --force")]
+    FileExists(PathBuf),
+    /// A folder, a disk or the like is in the place of a file that was asked for.
+    #[error(
+        "{0} exists and is not a file, so nothing is written there; choose another file with --out"
+    )]
+    NoPlaceForFile(PathBuf),
     /// Something other than a folder is in the place of the folder.
     #[error("{0} exists and is not a folder; choose another folder with --out")]
     NotAFolder(PathBuf),

@@ -10,12 +10,14 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::Error;
-use crate::atomic::{remove_file, replace_file};
+use crate::atomic::remove_file;
+use crate::replace_file;
+use entries::{remove_files, resolved};
 use lock::Lock;
 use replacement::{behind, beside, free_place_aside};
 
 pub use entries::{refuse_link, refuse_links};
-pub use kind::{Kind, RESOLVED_CASE};
+pub use kind::{Kind, RESOLVED_CASE, is_made_later};
 pub use replacement::{put_in_place, recover};
 
 /// A folder for the results of one run, to which no other process writes.
@@ -187,6 +189,15 @@ impl ResultFolder {
         remove_file(&self.file(name))
     }
 
+    /// Removes files that were made of the results of the run as they were, as those of its cracks.
+    ///
+    /// # Errors
+    ///
+    /// If they cannot be listed or removed.
+    pub fn remove_made_later(&self) -> Result<(), Error> {
+        remove_files(&self.path, is_made_later)
+    }
+
     /// Ends the work on the folder: the results are complete, and take the place of earlier ones.
     ///
     /// Files that are not the program's own stay; a link to a folder stays a link.
@@ -206,10 +217,13 @@ impl ResultFolder {
     }
 }
 
-/// The lock on a folder in which nothing leads elsewhere.
+/// The lock on a folder in which nothing leads elsewhere; files that a killed process had not finished go.
 fn locked(folder: &Path, kind: Kind) -> Result<Lock, Error> {
     refuse_links(folder, kind)?;
-    Lock::take(folder)
+    let lock = Lock::take(folder)?;
+    // Nobody else writes files of this kind here now.
+    remove_files(folder, |name| kind.is_unfinished(name))?;
+    Ok(lock)
 }
 
 /// The occupant of the place of a result folder, where a run may put its results.
@@ -247,16 +261,6 @@ impl Occupant {
                 marker,
             }),
         }
-    }
-}
-
-/// The folder that a path means: what a link points to, and no separator at the end.
-fn resolved(path: &Path) -> PathBuf {
-    let plain: PathBuf = path.components().collect();
-    let is_link = fs::symlink_metadata(&plain).is_ok_and(|it| it.is_symlink());
-    match fs::canonicalize(&plain) {
-        Ok(target) if is_link => target,
-        _ => plain,
     }
 }
 

@@ -23,9 +23,12 @@ pub mod folder;
 pub mod pvd;
 pub mod quantity;
 pub mod results;
+mod single_file;
 pub mod terminal;
 pub mod vtu;
+mod written;
 mod xml;
 
-pub use atomic::{read_text, remove_if_there, rename, replace_file};
+pub use atomic::{read_text, remove_if_there, rename};
 pub use error::{Error, FieldLocation};
+pub use single_file::{check_file, is_standard_output, is_stream, replace_file, write_file};

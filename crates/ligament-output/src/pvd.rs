@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use crate::Error;
-use crate::atomic::{remove_file, replace_file};
+use crate::atomic::remove_file;
+use crate::replace_file;
 use crate::xml::escape_attribute;
 
 /// A list of VTU files with their times, which ParaView opens as one series.

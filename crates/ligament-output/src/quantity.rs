@@ -100,8 +100,23 @@ impl Shown {
     }
 }
 
+/// A size below which a value in an SI unit is what is left of sums that cancel: 10^-20 of most, of a length far less than an atom.
+fn least(unit: &str) -> f64 {
+    match unit {
+        "m" => 1e-15,
+        "m^2" => 1e-24,
+        "m^3" => 1e-36,
+        _ => 1e-20,
+    }
+}
+
 /// A value in an SI unit as people read it: `quantity(6.4e5, "N")` is `640.0 kN`; `-` is no unit.
 pub fn quantity(value: f64, unit: &str) -> String {
+    let value = if value.abs() < least(unit) {
+        0.0
+    } else {
+        value
+    };
     Shown::new(unit, value.abs()).value(value)
 }
 
@@ -151,6 +166,10 @@ mod tests {
             ("m", -0.05, "-50.00 mm"),
             ("m", 2e-7, "0.2000 um"),
             ("m", 0.0, "0 m"),
+            // Left of sums that cancel.
+            ("N", -9.737e-27, "0 N"),
+            ("m", 2.776e-17, "0 m"),
+            ("J", 1e-19, "100.0e-21 J"),
             ("m", 0.25, "0.2500 m"),
             ("N", 644_761.3, "644.8 kN"),
             ("N", 999.96, "1000 N"),

@@ -14,7 +14,7 @@ use std::path::Path;
 use ligament_mesh::SolidCell;
 use rayon::prelude::*;
 
-use crate::atomic::replace_file;
+use crate::replace_file;
 use crate::xml::escape_attribute;
 use crate::{Error, FieldLocation};
 

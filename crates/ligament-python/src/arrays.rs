@@ -1,11 +1,13 @@
-//! Arrays of NumPy: moved there, not copied.
+//! Arrays of NumPy: moved there, not copied, and read only, as they are what a result has.
 
 use numpy::{Element, IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 
 /// An array that takes over the memory of a vector, shape (n).
 pub(crate) fn array<T: Element>(py: Python<'_>, values: Vec<T>) -> Bound<'_, PyAny> {
-    values.into_pyarray(py).into_any()
+    let array = values.into_pyarray(py);
+    array.readwrite().make_nonwriteable();
+    array.into_any()
 }
 
 /// An array that takes over the memory of a vector, shape (n, columns).
@@ -15,5 +17,8 @@ pub(crate) fn rows<T: Element>(
     columns: usize,
 ) -> PyResult<Bound<'_, PyAny>> {
     let n = values.len() / columns.max(1);
-    Ok(values.into_pyarray(py).reshape([n, columns])?.into_any())
+    // Made so before it gets its shape: a view of what cannot be written cannot be made writable.
+    let array = values.into_pyarray(py);
+    array.readwrite().make_nonwriteable();
+    Ok(array.reshape([n, columns])?.into_any())
 }

@@ -1,11 +1,15 @@
 //! Pictures of results in memory, as SVG.
 
+use std::borrow::Cow;
+
 use ligament_mesh::Cell;
 use ligament_model::{BodyGrid, Canvas};
 use ligament_output::vtu;
 use ligament_plot::picture::maps::{MappedBody, Maps};
 use ligament_plot::picture::units::Shown;
 use ligament_plot::picture::{PictureError, unit_of};
+use ligament_plot::plots::pdf::to_pdf;
+use ligament_plot::plots::png::to_png;
 use ligament_plot::plots::{Colour, Plot, Series};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
@@ -58,6 +62,24 @@ pub(crate) fn svg(picture: Picture<'_>, width: f64) -> Result<String, PictureErr
         are_modes: false,
     };
     maps.to_svg(width)
+}
+
+/// The bytes of a file of a picture (SVG) with a title, of the kind that a name ends in: svg, png or pdf.
+#[pyfunction]
+pub(crate) fn picture_file(
+    py: Python<'_>,
+    svg: &str,
+    title: &str,
+    kind: &str,
+    dpi: f64,
+) -> PyResult<Cow<'static, [u8]>> {
+    let bytes = match kind {
+        "png" => to_png(svg, dpi).map_err(|error| error.to_string()),
+        "pdf" => to_pdf(svg, title).map_err(|error| error.to_string()),
+        _ => Ok(svg.as_bytes().to_vec()),
+    };
+    let bytes = bytes.map_err(|fault| errors::of_request(py, &fault))?;
+    Ok(Cow::Owned(bytes))
 }
 
 /// A curve: its label, and its values along x and y.

@@ -25,7 +25,12 @@ pub(crate) fn modes<'py>(py: Python<'py>, case: &Bound<'py, Case>) -> PyResult<B
     if stopped {
         return Err(Failure::Stopped.exception(py));
     }
-    let (outcome, layout, grid) = found.map_err(|failure| failure.exception(py))?;
+    let Found {
+        outcome,
+        warnings,
+        layout,
+        grid,
+    } = found.map_err(|failure| failure.exception(py))?;
     let named = PyDict::new(py);
     let of = |value: fn(&Mode) -> f64| -> Vec<f64> { outcome.modes.iter().map(value).collect() };
     named.set_item("frequency", array(py, of(Mode::frequency)))?;
@@ -38,8 +43,7 @@ pub(crate) fn modes<'py>(py: Python<'py>, case: &Bound<'py, Case>) -> PyResult<B
     named.set_item("participation", rows(py, participation.collect(), n)?)?;
     named.set_item("mass", outcome.moving.total)?;
     named.set_item("complete", outcome.complete)?;
-    let notices: Vec<String> = outcome.notices.iter().map(ToString::to_string).collect();
-    named.set_item("warnings", notices)?;
+    named.set_item("warnings", warnings)?;
     named.set_item("position", positions(py, &grid.in_order_of_file())?)?;
     let numbering = &grid.numbering;
     let mut shapes = Vec::new();
@@ -64,8 +68,16 @@ fn in_space(layout: Layout, shape: &[f64]) -> Vec<f64> {
     (0..layout.n_points as u32).flat_map(of_point).collect()
 }
 
-/// Modes, the layout of their shapes and the body.
-type Found = (ModalOutcome, Layout, BodyGrid);
+/// Natural modes of a model.
+struct Found {
+    outcome: ModalOutcome,
+    /// What the user should know of the model and of the modes.
+    warnings: Vec<String>,
+    /// Layout of the shapes.
+    layout: Layout,
+    /// The body.
+    grid: BodyGrid,
+}
 
 fn find(case: &Case) -> Result<Found, Failure> {
     let found = match case.setup()? {
@@ -101,5 +113,12 @@ where
     let problem = vibration.problem(&model.system);
     let analysis = ModalAnalysis::new(&problem, settings).map_err(|it| other(it.into()))?;
     let outcome = analysis.find().map_err(|it| other(it.into()))?;
-    Ok((outcome, model.system.layout(), model.body().grid()))
+    let warnings = model.warnings.iter().map(ToString::to_string);
+    let notices = outcome.notices.iter().map(ToString::to_string);
+    Ok(Found {
+        warnings: warnings.chain(notices).collect(),
+        layout: model.system.layout(),
+        grid: model.body().grid(),
+        outcome,
+    })
 }

@@ -38,6 +38,31 @@ def test_sections_in_memory_have_keys_and_no_lines(plate: dict[str, Any]) -> Non
         ligament.run({**plate, "material": {"young": object()}})
 
 
+def test_what_holds_itself_is_no_case(plate: dict[str, Any]) -> None:
+    loop: list[Any] = []
+    loop.append(loop)
+    ring: dict[str, Any] = {}
+    ring["ring"] = ring
+    deep: list[Any] = []
+    for _ in range(20_000):
+        deep = [deep]
+    wide: list[Any] = [1.0]
+    for _ in range(30):
+        wide = [wide, wide]
+
+    class Itself:
+        def tolist(self) -> Any:
+            return self
+
+    for value, words in [(loop, "hold themselves"), (ring, "hold themselves"), (deep, "nested more than 32 deep"), (Itself(), "nested"),
+                         (wide, "values at most")]:
+        with pytest.raises(ligament.CaseError, match=words) as found:
+            ligament.run({**plate, "load": value})
+        assert found.value.key.startswith("load") and len(str(found.value)) < 300
+        with pytest.raises(ligament.CaseError, match=words):
+            ligament.Case(plate).with_changes(load=value)
+
+
 def test_a_group_that_is_not_there_is_told_with_those_that_are(plate: dict[str, Any]) -> None:
     plate["load"][0]["group"] = "topp"
     with fault(key="load.0.group") as found:

@@ -58,6 +58,18 @@ def test_arrays_are_those_that_the_run_filled(result: Any) -> None:
     assert not result.points["horizon"].flags.owndata and not result.bonds["ends"].flags.owndata
 
 
+def test_arrays_are_read_only(result: Any) -> None:
+    arrays = [result.field("displacement"), result.field("damage"), result.points["position"], result.points["volume"]]
+    arrays += [result.bonds["ends"], result.bonds["intact"], result.columns["reaction"], result.crack_path()[0].points]
+    for array in arrays:
+        before = array.copy()
+        with pytest.raises(ValueError, match="read-only"):
+            array[:] = 0
+        with pytest.raises(ValueError, match="WRITEABLE"):
+            array.reshape(-1).setflags(write=True)
+        np.testing.assert_array_equal(array, before)
+
+
 def test_history_as_a_table_shares_the_arrays(result: Any) -> None:
     pandas = pytest.importorskip("pandas")
     table = result.history
@@ -101,6 +113,13 @@ def test_pictures_are_svg(result: Any, tmp_path: Path) -> None:
         root = ElementTree.fromstring(picture.svg)
         assert root.tag.endswith("svg") and len(list(root.iter())) > 20
     assert result.plot().save(tmp_path / "damage").read_text().startswith("<svg")
+    names = ["lambda2.5", "lambda2.75", "a.png", "a.pdf", "a.svg", "no-ending"]
+    saved = [result.plot().save(tmp_path / name) for name in names]
+    assert [it.name for it in saved] == ["lambda2.5.svg", "lambda2.75.svg", "a.png", "a.pdf", "a.svg", "no-ending.svg"]
+    beginnings = [it.read_bytes()[:4] for it in saved]
+    assert beginnings == [b"<svg", b"<svg", b"\x89PNG", b"%PDF", b"<svg", b"<svg"]
+    with pytest.raises(ligament.LigamentError, match=r"written as \.svg, \.png or \.pdf"):
+        result.plot().save(tmp_path / "a.jpg")
     shown = result._repr_html_()
     assert shown.count("<img") == 2 and "broken bonds" in shown
 

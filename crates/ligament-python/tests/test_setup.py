@@ -98,6 +98,43 @@ def test_the_live_model_of_gmsh_is_a_body() -> None:
     assert ligament.run(setup, progress=False).columns["reaction"][-1] > 0
 
 
+def test_groups_are_indices_or_masks_and_nothing_between() -> None:
+    at = grid()
+    is_left = at[:, 0] < 0.02
+
+    def groups(left: Any) -> list[str]:
+        return ligament.Setup(positions=at, areas=1e-4, groups={"left": left, "right": at[:, 0] > 0.28}, **ELASTIC).groups
+
+    for left in (is_left, np.flatnonzero(is_left), [0, 1], list(is_left), np.arange(20, dtype=np.uint8)):
+        assert groups(left) == ["left", "right"]
+    for left, words in [
+        # The ones of a mask of whole numbers are no second point.
+        (is_left.astype(int), "mask has truth values"),
+        (is_left.astype(float), "whole numbers"),
+        ([0.9, 12.7], "whole numbers"),
+        (["0", "1"], "whole numbers"),
+        (is_left[:-1], "shape"),
+        ([[0, 1]], "shape"),
+        (3, "shape"),
+    ]:
+        with pytest.raises(ligament.BodyError, match=words):
+            groups(left)
+    nested: list[Any] = []
+    nested.append(nested)
+    with pytest.raises(ligament.BodyError):
+        groups(nested)
+
+
+def test_nodes_of_cells_are_whole_numbers() -> None:
+    at = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    with pytest.raises(ligament.BodyError, match="`quad` are whole numbers"):
+        ligament.Setup(positions=at, cells={"quad": [[0, 1, 2, 3.5]]}, **ELASTIC)
+    mesh = square_mesh(2)
+    mesh.cell_sets["left"][1] = np.array([0.5, 1.5])
+    with pytest.raises(ligament.BodyError, match="cell set `left`: indices are whole numbers"):
+        ligament.Setup(mesh, **ELASTIC)
+
+
 def test_bodies_that_are_none_are_refused() -> None:
     at = grid()
     for arguments, words in [

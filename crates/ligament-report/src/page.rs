@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use ligament_output::replace_file;
+use ligament_output::{check_file, write_file};
 use serde_json::{Value, json};
 
 use crate::error::ReportError;
@@ -41,6 +41,8 @@ pub struct Request {
     pub labels: Vec<String>,
     /// The file; None: `report.html` in the first folder.
     pub output: Option<PathBuf>,
+    /// Whether it may replace a file that is there; the page in the first folder always does, as a file of the program's own.
+    pub force: bool,
     /// Digits of the largest value of a field in each step.
     pub digits: u32,
     /// Steps of each result at most; None: 60, and 12 of a solid, of whose steps there are pictures.
@@ -80,6 +82,10 @@ pub struct Contents {
 /// If there are no results, they cannot be used, or the page cannot be written.
 pub fn write_report(request: &Request) -> Result<Written, ReportError> {
     let labels = labels(request)?;
+    let first = || request.folders.first().cloned().unwrap_or_default();
+    let own = || (first().join("report.html"), true);
+    let (path, replace) = (request.output.clone()).map_or_else(own, |it| (it, request.force));
+    check_file(&path, replace)?;
     let share = request.size.saturating_sub(OTHER_LETTERS) / request.folders.len().max(1);
     let choice = Choice {
         digits: request.digits,
@@ -91,12 +97,8 @@ pub fn write_report(request: &Request) -> Result<Written, ReportError> {
     for (folder, label) in request.folders.iter().zip(&labels) {
         runs.push(PageRun::read(folder, label, choice, &mut texts)?);
     }
-    let path = request.output.clone().unwrap_or_else(|| {
-        let first = request.folders.first().cloned().unwrap_or_default();
-        first.join("report.html")
-    });
     let page = page(&runs, &texts, request);
-    replace_file(&path, page.as_bytes())?;
+    write_file(&path, page.as_bytes(), replace)?;
     let contents = labels.into_iter().zip(runs).map(|(label, run)| Contents {
         label,
         points: run.points,

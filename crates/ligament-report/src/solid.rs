@@ -268,6 +268,7 @@ impl Series<'_> {
             solid: self.sight.drawn,
             target: Target {
                 out: None,
+                force: false,
                 format: None,
                 width: Some(WIDTH),
                 dpi: None,

@@ -9,6 +9,7 @@
 //! | [`provenance`] | what results came from: program, processor, files |
 //! | [`model`] | the discrete model of a case, its stages timed and shown |
 //! | [`loading`] | a body under loads, and by which rule its results are written |
+//! | [`end`] | how a run ended, as its exit code tells |
 //! | [`summary`] | `summary.json`, and the lines at the end of a run |
 //! | [`watch`], [`progress`] | the observer that writes results, and how far the run is |
 //! | `ranks`, `assist` | what several processes tell each other, and the part of those beside the first |
@@ -25,12 +26,14 @@ mod checkpoints;
 mod comparison;
 mod destination;
 pub mod disk;
+pub mod end;
 pub mod gauges;
 pub mod inputs;
 pub mod loading;
 pub mod memory;
 pub mod model;
 mod modes;
+pub mod notices;
 mod processors;
 pub mod progress;
 pub mod provenance;

@@ -6,6 +6,7 @@ use ligament::model::Discretises;
 use ligament::run::on_threads;
 use ligament::setup::{Dim, Dimension};
 use ligament::stage::{Finding, StageWatcher};
+use ligament::warning::of_virial_stress;
 use ligament_analysis::ranks::Together;
 use rayon::ThreadPoolBuildError;
 
@@ -14,7 +15,7 @@ use crate::processors::{tasks_of_others, threads_beside};
 use crate::progress::Progress;
 use crate::stages::Stages;
 use crate::summary;
-use ligament_case::case::CaseFile;
+use ligament_case::case::{CaseFile, StressField};
 
 /// Times the stages of a case and tells of what they find.
 struct Preparation<'a> {
@@ -127,7 +128,13 @@ where
     memory::foresee_model(case, &setup)?;
     let tasks = tasks_before.min(tasks_of_others());
     let model = on_free_processors(tasks, || Model::build(setup, &mut preparation))?;
-    Ok(model.map_err(|error| case.located(error))?)
+    let mut model = model.map_err(|error| case.located(error))?;
+    if case.case.output.stress.contains(&StressField::Virial) {
+        let told = of_virial_stress(&model.body().origin());
+        let news = told.filter(|it| !model.warnings.contains(it));
+        model.warnings.extend(news);
+    }
+    Ok(model)
 }
 
 /// Does short loops, one after the other, on as many threads as have a processor beside the tasks of others.

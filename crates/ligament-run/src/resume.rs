@@ -13,8 +13,8 @@ use ligament_case::case::CaseFile;
 use ligament_output::checkpoint::Checkpoint;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::read_text;
+use ligament_output::results::SoFar;
 use ligament_output::results::outputs::{clear, require_results};
-use ligament_output::results::{CRACK_FILES, SoFar};
 use serde_json::Value;
 
 use crate::checkpoints::{IsStopped, VERSION};
@@ -116,9 +116,7 @@ impl Request<'_> {
         let kept = kept.transpose()?;
         // From here on the results of the run change.
         folder.remove(SUMMARY)?;
-        CRACK_FILES
-            .iter()
-            .try_for_each(|name| folder.remove(name))?;
+        folder.remove_made_later()?;
         if kept.is_none() {
             clear(&folder)?;
         }

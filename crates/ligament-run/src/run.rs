@@ -9,6 +9,7 @@ use ligament_analysis::ranks::Together;
 use ligament_output::folder::ResultFolder;
 
 use crate::destination::{self, make_results};
+use crate::end::End;
 use crate::inputs::{Contents, unread};
 use crate::loading::LoadedBody;
 use crate::memory;
@@ -22,9 +23,6 @@ use crate::summary::{ModalSummary, Summary};
 use ligament_case::case::CaseFile;
 
 pub use crate::checkpoints::IsStopped;
-
-/// Exit code of a run that ended while bonds were breaking, other than by its user or a rule of its case.
-pub const NOT_AT_REST: u8 = 6;
 
 /// What a run found.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,20 +52,17 @@ impl Report {
         }
     }
 
-    /// Whether the last state is no answer to its load, though no stop rule of the case ended the run.
-    pub fn ends_not_at_rest(&self) -> bool {
+    /// How the run ended.
+    pub fn end(&self) -> End {
         match self {
-            Self::Loading(summary) => summary.ends_not_at_rest(),
-            Self::Modes(_) => false,
+            Self::Loading(summary) => summary.end(),
+            Self::Modes(_) => End::Done,
         }
     }
 
     /// Whether the run was stopped by its user, and can go on.
     pub fn is_stopped(&self) -> bool {
-        match self {
-            Self::Loading(summary) => summary.is_stopped(),
-            Self::Modes(_) => false,
-        }
+        self.end() == End::Stopped
     }
 }
 
@@ -134,6 +129,9 @@ impl Request<'_> {
     where
         Dim: Dimension<D>,
     {
+        for warning in &model.warnings {
+            progress.stage(&format!("warning: {warning}"));
+        }
         if let Analysis::Modal(settings) = model.setup.analysis {
             let create = || ResultFolder::create(self.out, self.force);
             let provenance = Provenance::new(self.build, self.case, &mut Contents::default());

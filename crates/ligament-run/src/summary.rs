@@ -17,6 +17,7 @@ use ligament_output::quantity::{between, quantity};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
+use crate::end::{End, UP_TO_THERE};
 use crate::provenance::Provenance;
 use crate::stages::Stage;
 use ligament::Model;
@@ -103,6 +104,9 @@ pub const DROP: f64 = 0.02;
 
 /// Warnings that are shown at the end of a run; small pieces that come loose can give hundreds.
 const WARNINGS_SHOWN: usize = 10;
+
+/// Largest load over that of the first breakage which is rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// A point of the force-displacement curve.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -207,8 +211,10 @@ impl Summary {
         let scale = |step: &StepRecord| step.external_work.abs().max(step.energy_floor);
         let work = largest(&mut history.iter().map(scale));
         let missing = largest(&mut history.iter().map(|step| step.missing_energy().abs()));
-        let mut warnings: Vec<String> = model.warnings.iter().map(ToString::to_string).collect();
-        warnings.extend(notices);
+        let is_cut_short = !without_equilibrium
+            && matches!(outcome.termination, Termination::NoEquilibrium { .. });
+        let of_model = model.warnings.iter().map(ToString::to_string);
+        let of_end = is_cut_short.then(|| UP_TO_THERE.to_owned());
         Self {
             model: ModelSummary::new(case, model),
             temperature_change: temperature_change(boundary),
@@ -240,19 +246,19 @@ impl Summary {
             solver: SolverSummary::new(&outcome.costs, &outcome.solver),
             provenance,
             stages: stages.to_vec(),
-            warnings,
+            warnings: of_model.chain(notices).chain(of_end).collect(),
         }
     }
 
-    /// Whether the last state is no answer to its load, though neither the user nor a rule of the case ended the run there.
-    pub fn ends_not_at_rest(&self) -> bool {
-        const ASKED_FOR: [&str; 3] = ["bonds-broken", "wall-time", "stopped"];
-        self.last_state_not_at_rest && !ASKED_FOR.contains(&self.termination)
+    /// How the run ended.
+    pub fn end(&self) -> End {
+        let is_not_at_rest = self.last_state_not_at_rest;
+        End::from_termination(self.termination, self.without_equilibrium, is_not_at_rest)
     }
 
     /// Whether the run was stopped by its user.
     pub fn is_stopped(&self) -> bool {
-        self.termination == Termination::Stopped.name()
+        self.end() == End::Stopped
     }
 
     /// The lines that a user sees at the end of a run.
@@ -290,6 +296,8 @@ impl Summary {
         if self.without_equilibrium {
             let none = "no state under load is in equilibrium: there are no results";
             writeln!(out, "  NO EQUILIBRIUM     {none}")?;
+        } else if self.end() == End::NoEquilibrium {
+            writeln!(out, "  NO EQUILIBRIUM     {UP_TO_THERE}")?;
         } else if self.last_state_not_at_rest {
             let last =
                 "the last state is no answer: its bonds were still breaking when the run ended";
@@ -303,6 +311,13 @@ impl Summary {
             writeln!(out, "  warning: {more} more in summary.json")?;
         }
         Ok(())
+    }
+
+    /// Whether the load that was to break the first bond is more than the body ever carried, beyond all rounding: no state under load held.
+    fn nothing_held(&self) -> bool {
+        let foreseen = self.first_break.map_or(0.0, |it| it.reaction.abs());
+        let held = self.peak.map_or(0.0, |it| it.reaction.abs());
+        held <= ROUNDING * foreseen && foreseen > 0.0
     }
 
     /// The lines of where the body gave way first.
@@ -343,6 +358,13 @@ impl Summary {
             Some(_) => "first softening",
             None => "first breakage",
         };
+        if broke && !self.without_equilibrium && self.nothing_held() {
+            writeln!(
+                out,
+                "  largest load       none: the body broke in the first load step"
+            )?;
+            return Ok(());
+        }
         for (name, point) in [
             (onset, self.first_break),
             ("first peak", of_breaking(self.first_peak)),

@@ -7,15 +7,15 @@ use ligament::{Body, Setup};
 use ligament_analysis::Termination;
 use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::history::{
-    BreakRecord, LargestOverlap, Moment, Notice, Observer, ObserverError, Onward, StepRecord, View,
+    BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, View,
 };
 use ligament_output::results::ResultWriter;
 
 use crate::checkpoints::{Checkpoints, IsStopped};
-use crate::gauges;
+use crate::notices::words;
 use crate::progress::{Progress, StepLine};
 
-/// Notices that are shown while the run goes on, and points that a notice lists; all are in `summary.json`.
+/// Notices that are shown while the run goes on; all are in `summary.json`.
 const SHOWN: usize = 5;
 
 /// The observer of `ligament run`.
@@ -73,49 +73,6 @@ where
     pub(crate) fn into_parts(self) -> (Vec<String>, FirstBonds, Checkpoints<'a>) {
         (self.notices, self.writer.first_bonds(), self.checkpoints)
     }
-
-    /// A notice with points given by their tags.
-    fn words(&self, notice: &Notice) -> String {
-        match notice {
-            Notice::FreeBody(body) => gauges::words(body, self.body, self.closing),
-            Notice::CameLoose {
-                step,
-                points,
-                motions,
-                first,
-            } => format!(
-                "step {step}: {points} points came loose, {motions} rigid motions of theirs are held from now on \
-                 (first at {})",
-                self.body.label(*first)
-            ),
-            Notice::Mechanisms { step, points } => {
-                let in_file = self.body.numbering().sorted(points).into_owned();
-                let shown = in_file.iter().take(SHOWN);
-                let tags: Vec<String> = shown
-                    .map(|&point| self.body.tag(point).to_string())
-                    .collect();
-                format!(
-                    "step {step}: {} mechanism(s) without stiffness held, at {}(s) {}",
-                    points.len(),
-                    self.body.tagged(),
-                    tags.join(", ")
-                )
-            }
-            Notice::Overlap(LargestOverlap { depth, ends, step }) => {
-                let ends = self.body.numbering().ordered(*ends);
-                let [a, b] = ends.map(|end| self.body.label(end));
-                format!(
-                    "step {step}: the faces of a crack pass through each other, by {depth:.2e} m between {a} and {b}, and nothing \
-                     keeps them from it; `closing = true` in [model] lets them carry pressure"
-                )
-            }
-            Notice::Unstable { .. }
-            | Notice::Undeformed
-            | Notice::PastPeak { .. }
-            | Notice::NegativeEnergy { .. }
-            | Notice::EnergyUnbalanced { .. } => notice.to_string(),
-        }
-    }
 }
 
 impl<const D: usize> Observer for Watch<'_, D>
@@ -155,7 +112,7 @@ where
     }
 
     fn notice(&mut self, notice: &Notice) -> Result<(), ObserverError> {
-        let words = self.words(notice);
+        let words = words(notice, self.body, self.closing);
         if self.notices.len() < SHOWN {
             self.progress.stage(&words);
         }

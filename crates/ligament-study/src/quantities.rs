@@ -8,6 +8,7 @@ use serde_json::Value;
 use ligament::suggestion::hint;
 use ligament_case::input_file;
 use ligament_output::folder::refuse_link;
+use ligament_run::end::NO_EQUILIBRIUM;
 
 /// What a summary has and no table of runs wants one by one: lists whose length is all that matters, ...
 const COUNTED: [&str; 1] = ["warnings"];
@@ -143,12 +144,14 @@ impl Quantities {
         })
     }
 
-    /// Why the run has no result under load, where it has none.
+    /// Why the run has no result under load, or none beyond some load, where it ended without equilibrium.
     pub(crate) fn without_equilibrium(&self) -> Option<String> {
         let reason = self.get("termination_message").and_then(Value::as_str);
         let reason = reason.unwrap_or("no equilibrium was found");
-        (self.get("without_equilibrium")? == true)
-            .then(|| format!("no result under load: {reason}"))
+        if self.get("without_equilibrium").is_some_and(|it| it == true) {
+            return Some(format!("no result under load: {reason}"));
+        }
+        (self.get("termination")? == NO_EQUILIBRIUM).then(|| reason.to_owned())
     }
 
     /// Whether the last state of the run is none in which it could stay.

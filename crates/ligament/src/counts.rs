@@ -13,6 +13,8 @@ pub struct BondCounts {
     pub cut: usize,
     /// Pairs of points that would be bonded but for a void of the body between them.
     pub across_voids: usize,
+    /// Bonds that cross a material which neither of their ends has.
+    pub across_layers: usize,
     /// Fewest and most bonds of a point.
     pub of_points: [usize; 2],
 }
@@ -30,9 +32,17 @@ impl BondCounts {
             bonds: bonds.count(cloud),
             cut: count(cloud, absent, Absence::PreCrack),
             across_voids: count(cloud, absent, Absence::Void),
+            across_layers: across_layers(cloud, bonds),
             of_points: [sizes().min(), sizes().max()].map(Option::unwrap_or_default),
         }
     }
+}
+
+/// Number of bonds that cross a material which neither of their ends has.
+fn across_layers<const D: usize>(cloud: &PointCloud<D>, bonds: &BondSet<D>) -> usize {
+    let across = bonds.composition.across_layers(&bonds.ends, cloud);
+    let counted = across.filter(|&bond| cloud.counts(bonds.ends[bond]));
+    cloud.total(counted.count())
 }
 
 /// What the search of bonds has found.

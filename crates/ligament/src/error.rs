@@ -10,6 +10,7 @@ use thiserror::Error;
 
 use crate::body::OffOutline;
 use crate::coordinates::coordinates;
+use crate::implausible::Implausible;
 use crate::suggestion::hint;
 
 /// Why a computation could not begin. How it went is in its outcome.
@@ -94,8 +95,13 @@ pub enum Fault {
     #[error(transparent)]
     Unfit(Unfit),
     /// A criterion leaves bonds without a limit, or nothing after it.
-    #[error(transparent)]
-    NoLimit(NoLimit),
+    #[error("{reason}{}", cause.as_ref().map_or(String::new(), |it| format!(". {it}")))]
+    NoLimit {
+        /// Reason why there is none.
+        reason: NoLimit,
+        /// Constant of a material that is hardly ever meant, from which it may come.
+        cause: Option<Box<Implausible>>,
+    },
     /// Points without a neighbour, which no correction gives a stiffness.
     #[error(
         "{count} of {n_points} points have no neighbour in their horizon (the first is {first}): they need a larger horizon, or \
@@ -134,6 +140,18 @@ pub enum Fault {
     NoNumber {
         /// Ends of the bond, in words.
         places: [String; 2],
+    },
+    /// A factor of a correction that is not a number.
+    #[error(
+        "the surface correction has gone astray: its factor for the bond from {} to {} is not a number. Its equations bear no cells that are much \
+         longer than wide, nor sizes that change this steeply (the nearest neighbours of points are {:.1e} to {:.1e} m away): take cells \
+         of about equal sides, or correction.surface = \"volume\"", places[0], places[1], spacing[0], spacing[1]
+    )]
+    NoCorrection {
+        /// Ends of the bond, in words.
+        places: [String; 2],
+        /// Smallest and largest distance of a point of the body to its nearest neighbour, m.
+        spacing: [f64; 2],
     },
     /// Bonds too stiff or too soft for their energies to be numbers.
     #[error(

@@ -9,13 +9,15 @@ use ligament_model::failure::crack_energies::{Components, Lattice};
 use ligament_model::failure::{self, Basis, Criteria};
 use ligament_model::law::rotational::{self, RotationalScale};
 use ligament_model::law::{bbpd, bbpd_conical, beam, calibration, mbb_pd, mppd, orthotropic, pds};
+use ligament_model::material::milder;
 use ligament_model::{
     BondStiffness, BondSystem, Elasticity, ElementKind, FixedFields, Horizons, Isotropic, Material,
     Plane, PointCloud,
 };
 
 use crate::body::Origin;
-use crate::error::{Fault, Field, SetupError};
+use crate::error::{Field, SetupError};
+use crate::plausibility;
 use crate::setup::{Alpha, Calibration, Form, Law, Setup, Surface};
 
 /// Law, calibration and corrections of a setup on the points of its body.
@@ -116,13 +118,29 @@ impl<'a> Formulation<'a> {
         rotational::calibrated(scaled, alpha, bonds, cloud, &moduli)
     }
 
-    /// The correction of bonds with stiffness densities and factors alpha (n_bonds).
+    /// The correction of bonds with stiffness densities and factors alpha (n_bonds), found between [milder] materials.
     pub fn correction(
         &self,
         bonds: &BondSet,
         stiffness: &BondStiffness,
         alpha: Vec<f64>,
     ) -> Correction {
+        let largest = self.setup.correction.surface.largest_contrast();
+        let materials = self.setup.materials();
+        let Some(milder) = milder(&materials, self.setup.plane(), largest) else {
+            return self.corrected(bonds, stiffness, alpha);
+        };
+        let setup = self.setup.of_materials(milder);
+        let between = Formulation {
+            setup: &setup,
+            ..*self
+        };
+        let stiffness = between.stiffness(bonds, &alpha);
+        between.corrected(bonds, &stiffness, alpha)
+    }
+
+    /// The correction of bonds between the materials of the setup.
+    fn corrected(&self, bonds: &BondSet, stiffness: &BondStiffness, alpha: Vec<f64>) -> Correction {
         let (setup, cloud) = (self.setup, self.cloud);
         match setup.correction.surface {
             Surface::Domain(iteration) => {
@@ -218,6 +236,6 @@ pub fn criteria(
         scatter: fixed.scatter.as_ref(),
     };
     failure::criteria(&setup.criteria, &basis).map_err(|(place, no_limit)| {
-        Field::element("criteria", place).error(Fault::NoLimit(no_limit))
+        Field::element("criteria", place).error(plausibility::without_limit(setup, no_limit))
     })
 }

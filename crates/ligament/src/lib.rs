@@ -11,7 +11,8 @@
 //!
 //! The first page is [`body`]: where points come from, a mesh, a lattice or arrays. [`formulation`] turns law and corrections
 //! into stiffness ([`direction`] shows it over the direction of a bond), [`loading`] supports and loads into what acts on
-//! the points, [`patch_test`] tells how stiff the body has become, and [`crack_energy`] what a crack through it spends. What is wrong with a setup is a [`SetupError`] that
+//! the points, [`patch_test`] and [`bending_test`] tell how stiff the body has become, [`crack_energy`] what a crack through it
+//! spends, [`foresight`] what the loading comes to first, and [`plausibility`] what is hardly ever meant. What is wrong with a setup is a [`SetupError`] that
 //! names the field, and what a user should know of a model is a [`Warning`].
 //!
 //! ```
@@ -42,6 +43,7 @@
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
 )]
 
+pub mod bending_test;
 pub mod body;
 mod coordinates;
 pub mod counts;
@@ -49,10 +51,13 @@ pub mod crack_energy;
 pub mod direction;
 pub mod error;
 mod faces;
+pub mod foresight;
 pub mod formulation;
+pub mod implausible;
 pub mod loading;
 pub mod model;
 pub mod patch_test;
+pub mod plausibility;
 pub mod prelude;
 pub mod run;
 pub mod setup;

@@ -3,8 +3,10 @@
 use std::sync::Arc;
 
 use ligament_analysis::ranks::Together;
+use ligament_mesh::Mesh;
 use ligament_model::bonds::hole::bonds_across;
 use ligament_model::bonds::outline::{bonds_outside, spacing_inside};
+use ligament_model::bonds::parts::{LatticeCells, PlaneCells};
 use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::contact::Faces;
 use ligament_model::correction::{
@@ -16,14 +18,17 @@ use ligament_model::{
     Absence, AbsentBond, BondSet, BondStiffness, BondSystem, EnergyRatio, FixedFields, PointCloud,
 };
 
-use crate::body::Body;
+use crate::body::{Body, Origin};
 use crate::counts::{self, BondCounts};
 use crate::error::SetupError;
 use crate::faces;
 use crate::formulation::{self, Formulation};
 use crate::loading;
+use crate::plausibility;
 use crate::setup::{Analysis, CorrectionDomain, Dim, Dimension, Law, Setup};
-use crate::soundness::{forbid_overlap, require_connected, require_distinct, require_numbers};
+use crate::soundness::{
+    forbid_overlap, require_connected, require_distinct, require_factors, require_numbers,
+};
 use crate::stage::{Finding, StageWatcher, stage};
 use crate::warning::{self, Warning};
 
@@ -116,14 +121,16 @@ impl Model {
         let cloud = stage(watcher, "points", || points(&setup, &material_of_cell))?;
         let horizons = setup.horizon.of_points(&cloud);
         let (bonds, absent) = stage(watcher, "bonds", || {
-            inside_body(&setup, BondSet::search(&cloud, &horizons), &cloud)
+            let all = BondSet::search(&cloud, &horizons);
+            let (bonds, absent) = inside_body(&setup, all, &cloud);
+            (composed(&setup, bonds, &cloud, &material_of_cell), absent)
         });
         require_connected(&setup, &cloud, &horizons, &bonds)?;
         watcher.found(&counts::finding(&cloud, &bonds, &absent));
-        let (is_cut, touched, precrack_share) = stage(watcher, "pre-cracks", || {
+        let crossed = stage(watcher, "pre-cracks", || {
             precracked(&setup.precracks, &bonds, &cloud)
         });
-        let absent = with_cut(absent, &bonds, &is_cut);
+        let absent = with_cut(absent, &bonds, &crossed.is_cut);
         let Corrected {
             bonds,
             stiffness,
@@ -132,29 +139,29 @@ impl Model {
             faces,
         } = stage(watcher, "correction", || {
             let formulation = Formulation::new(&setup, &cloud, &horizons, &material_of_cell);
-            correct(&formulation, bonds, &is_cut)
+            correct(&formulation, bonds, &crossed.is_cut)
         });
         let report = correction.report.as_ref();
         watcher.found(&Finding::Correction(&setup.correction, report));
+        let scatter =
+            (setup.scatter).map(|it| it.factors(setup.body.positions(), &setup.body.numbering()));
         let fixed = FixedFields {
             horizon: horizons.radius,
-            precrack_share,
+            precrack_share: crossed.share,
             energy_ratios,
-            domain_factor: correction.domain_factor.clone(),
-            shear_ratio: correction.shear_ratio.clone(),
-            patch_residual: correction.patch_residual().to_vec(),
-            no_fail: loading::no_fail(&setup, &cloud)?,
-            scatter: (setup.scatter)
-                .map(|it| it.factors(setup.body.positions(), &setup.body.numbering())),
+            scatter,
             absent,
+            ..of_correction(&correction, loading::no_fail(&setup, &cloud)?)
         };
         let system = stage(watcher, "rigidities", || {
             bond_system(&setup, cloud, bonds, stiffness, &correction, faces)
         })?;
         let limits = || formulation::criteria(&setup, &system, &fixed);
         let criteria = stage(watcher, "criteria", limits)?;
+        let of_cracks = (crossed.idle, crossed.touched);
+        let of_body = (&setup, &system.cloud);
         Ok(Self {
-            warnings: warning::of_model(&setup, &system.cloud.spacing, report, &fixed, touched),
+            warnings: warnings(of_body, report, &fixed, &criteria, of_cracks),
             correction_range: correction_range(&correction, &system.cloud),
             counts: BondCounts::new(&system.cloud, &system.bonds, &fixed.absent),
             correction: correction.report,
@@ -214,18 +221,46 @@ fn all_points(setup: &Setup, material_of_cell: &[u32]) -> Result<PointCloud, Set
     })
 }
 
-/// For each bond, whether a pre-crack cuts it (n_bonds), how many only touch an end of one, and the share of its bonds that
-/// each point loses
-/// (n_points).
-fn precracked(
-    precracks: &[PreCrack],
-    bonds: &BondSet,
-    cloud: &PointCloud,
-) -> (Vec<bool>, usize, Vec<f64>) {
-    let is_cut = cut_bonds(precracks, bonds, cloud);
-    let touched = count_touched_bonds(precracks, bonds, cloud, &is_cut);
-    let share = precrack_share(cloud, bonds, &is_cut);
-    (is_cut, touched, share)
+/// What pre-cracks do to the bonds of a body.
+pub(crate) struct Precracked {
+    /// Whether a pre-crack cuts each bond, shape (n_bonds).
+    pub(crate) is_cut: Vec<bool>,
+    /// Number of the bonds that only touch an end of one.
+    pub(crate) touched: usize,
+    /// Indices of the pre-cracks that cut no bond.
+    pub(crate) idle: Vec<usize>,
+    /// Share of its bonds that each point loses, shape (n_points).
+    pub(crate) share: Vec<f64>,
+}
+
+impl Precracked {
+    /// What some pre-cracks do, with the bonds that they and each of them `cut` (n_bonds), and the number of those that they only touch.
+    pub(crate) fn new<C, const D: usize>(
+        cracks: &[C],
+        (cloud, bonds): (&PointCloud<D>, &BondSet<D>),
+        cut: impl Fn(&[C]) -> Vec<bool>,
+        touched: impl Fn(&[bool]) -> usize,
+    ) -> Self {
+        let is_cut = cut(cracks);
+        let count = |is_cut: &[bool]| cloud.total(is_cut.iter().filter(|it| **it).count());
+        let is_idle = |index: &usize| match cracks {
+            [_] => count(&is_cut) == 0,
+            _ => count(&cut(&cracks[*index..=*index])) == 0,
+        };
+        Self {
+            idle: (0..cracks.len()).filter(is_idle).collect(),
+            touched: touched(&is_cut),
+            share: precrack_share(cloud, bonds, &is_cut),
+            is_cut,
+        }
+    }
+}
+
+/// What the pre-cracks of a body in the plane do to its bonds.
+fn precracked(precracks: &[PreCrack], bonds: &BondSet, cloud: &PointCloud) -> Precracked {
+    let cut = |cracks: &[PreCrack]| cut_bonds(cracks, bonds, cloud);
+    let touched = |is_cut: &[bool]| count_touched_bonds(precracks, bonds, cloud, is_cut);
+    Precracked::new(precracks, (cloud, bonds), cut, touched)
 }
 
 /// Points and corrected bonds with the rigidities of their elements.
@@ -239,9 +274,34 @@ fn bond_system(
 ) -> Result<BondSystem, SetupError> {
     let element = setup.law.element();
     let (alpha, omega) = (&correction.length_factor, &correction.domain_factor);
+    let factors = (omega.as_slice(), stiffness.axial.as_slice());
+    require_factors(&*setup.body, &cloud, factors, &bonds.ends)?;
     let system = BondSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega);
     require_numbers(&*setup.body, &system)?;
     Ok(system.with_faces(faces))
+}
+
+/// The bonds, followed through the cells of a body of several materials.
+fn composed(setup: &Setup, bonds: BondSet, cloud: &PointCloud, materials: &[u32]) -> BondSet {
+    match (setup.body.origin(), cloud.lattice_cell) {
+        (Origin::Mesh(Mesh { cells, .. }), _) => {
+            let cells = PlaneCells {
+                cells,
+                cloud,
+                materials,
+            };
+            bonds.through(&cells, cloud)
+        }
+        (_, Some(size)) => bonds.through(
+            &LatticeCells {
+                cloud,
+                size,
+                materials,
+            },
+            cloud,
+        ),
+        _ => bonds,
+    }
 }
 
 /// The bonds inside the body, and those that its voids part.
@@ -361,7 +421,7 @@ fn of_bonds(formulation: &Formulation<'_>, bonds: BondSet) -> Corrected {
 }
 
 /// Share of the bonds of each point that pre-cracks cut, by number, shape (n_points).
-pub(crate) fn precrack_share<const D: usize>(
+fn precrack_share<const D: usize>(
     cloud: &PointCloud<D>,
     bonds: &BondSet<D>,
     is_cut: &[bool],
@@ -376,6 +436,40 @@ pub(crate) fn precrack_share<const D: usize>(
         [cut as f64 / family.len().max(1) as f64]
     });
     shares.into_iter().map(|[share]| share).collect()
+}
+
+/// What a correction leaves in the fields of a model, with the points where bonds never fail (n_points); the other fields are empty.
+pub(crate) fn of_correction(correction: &Correction, no_fail: Vec<bool>) -> FixedFields {
+    FixedFields {
+        horizon: Vec::new(),
+        precrack_share: Vec::new(),
+        energy_ratios: Vec::new(),
+        domain_factor: correction.domain_factor.clone(),
+        shear_ratio: correction.shear_ratio.clone(),
+        patch_residual: correction.patch_residual().to_vec(),
+        no_fail,
+        scatter: None,
+        absent: Vec::new(),
+    }
+}
+
+/// What the user should know of a model, with the pre-cracks that cut no bond and the number of the bonds that they only touch.
+pub(crate) fn warnings<const D: usize>(
+    (setup, cloud): (&Setup<D>, &PointCloud<D>),
+    report: Option<&CorrectionReport>,
+    fixed: &FixedFields,
+    criteria: &Criteria,
+    (idle, touched): (Vec<usize>, usize),
+) -> Vec<Warning>
+where
+    Dim: Dimension<D>,
+{
+    let implausible = plausibility::of_model(setup, cloud, criteria, idle).into_iter();
+    let of_model = warning::of_model(setup, &cloud.spacing, report, fixed, touched);
+    implausible
+        .map(Warning::Implausible)
+        .chain(of_model)
+        .collect()
 }
 
 /// Smallest and largest Omega of the bonds of a body.

@@ -75,6 +75,12 @@ pub enum Untested {
     /// The strains of the body do not tell its stiffness.
     #[error("the uniform strains of the body cannot be told apart")]
     Degenerate,
+    /// A strip for the bending test is too large.
+    #[error("the strip at the thinnest section has {points} points; ask with --patch-test")]
+    TooLarge {
+        /// Number of points of the strip.
+        points: usize,
+    },
 }
 
 /// The patch test of the body of a model, without its pre-cracks.

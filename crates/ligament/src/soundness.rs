@@ -135,6 +135,42 @@ pub(crate) fn require_numbers(body: &dyn Body, system: &BondSystem) -> Result<()
     require_rigidities(body, &system.cloud, &system.rigidities, &system.bonds.ends)
 }
 
+/// Refuses factors of a correction (n_bonds) that are no numbers, of bonds between some ends with an axial stiffness (n_bonds both) of a size
+/// with which a correction can compute.
+pub(crate) fn require_factors<const D: usize>(
+    body: &dyn Body<D>,
+    cloud: &PointCloud<D>,
+    (factors, axial): (&[f64], &[f64]),
+    ends: &[[u32; 2]],
+) -> Result<(), SetupError> {
+    // What is larger or smaller has a square that is no number.
+    let is_sound = |stiffness: &f64| (1e-150..1e150).contains(&stiffness.abs());
+    let mut both = factors.iter().zip(axial);
+    let wrong = both.position(|(factor, axial)| !factor.is_finite() && is_sound(axial));
+    let Some(places) = first_of(body, cloud, wrong, ends) else {
+        return Ok(());
+    };
+    let distances = cloud.spacing.iter().copied();
+    let spacing = [
+        distances.clone().fold(f64::INFINITY, f64::min),
+        distances.fold(0.0, f64::max),
+    ];
+    Err(Field::whole("correction").error(Fault::NoCorrection { places, spacing }))
+}
+
+/// The first bond that is wrong, over all processes, by its ends in words; `wrong` is the one of this process, if it has one.
+fn first_of<const D: usize>(
+    body: &dyn Body<D>,
+    cloud: &PointCloud<D>,
+    wrong: Option<usize>,
+    ends: &[[u32; 2]],
+) -> Option<[String; 2]> {
+    let wrong = wrong.map(|bond| ends[bond].map(f64::from));
+    let first = (cloud.portion.as_ref()).map_or(wrong, |portion| portion.least(wrong));
+    let ends = first?.map(|it| it as u32);
+    Some((cloud.numbering.ordered(ends)).map(|end| body.place(end)))
+}
+
 /// Refuses rigidities of bonds between some ends (n_bonds) that are no numbers to make equations of.
 pub(crate) fn require_rigidities<const D: usize>(
     body: &dyn Body<D>,
@@ -152,12 +188,8 @@ pub(crate) fn require_rigidities<const D: usize>(
         all.any(|it| !it.is_finite())
     };
     let wrong = (0..axial.len()).find(is_wrong);
-    let wrong = wrong.map(|bond| ends[bond].map(f64::from));
-    let first = (cloud.portion.as_ref()).map_or(wrong, |portion| portion.least(wrong));
-    if let Some(ends) = first {
-        return Err(Field::whole("materials").error(Fault::NoNumber {
-            places: (cloud.numbering.ordered(ends.map(|it| it as u32))).map(|end| body.place(end)),
-        }));
+    if let Some(places) = first_of(body, cloud, wrong, ends) {
+        return Err(Field::whole("materials").error(Fault::NoNumber { places }));
     }
     // The square of a strain of one in 10^14 counts as well.
     let sizes = axial.iter().map(|it| it.abs());

@@ -7,8 +7,9 @@ use ligament_model::space::law::stability::NegativeShear;
 use ligament_model::{ElementKind, FixedFields, Isotropic};
 use thiserror::Error;
 
-use crate::body::Body;
-use crate::setup::{Dim, Dimension, Horizon, Setup};
+use crate::body::{Body, Origin};
+use crate::implausible::Implausible;
+use crate::setup::{Dim, Dimension, Horizon, Law, Setup};
 
 /// Below this the domain correction is not known to have a fixed point.
 const SMALLEST_SAFE_FACTOR: f64 = 2.0;
@@ -31,6 +32,9 @@ pub enum Warning {
     /// Something about the body.
     #[error("{0}")]
     Body(String),
+    /// Something that is hardly ever meant.
+    #[error(transparent)]
+    Implausible(Implausible),
     /// A body as large as one in millimetres is when they are taken for metres.
     #[error(
         "the body is {length:.1} m across, if its lengths are in m as they should be: a mesh in mm must be scaled by 0.001 (in Gmsh: \
@@ -118,6 +122,13 @@ pub enum Warning {
         /// Number of such bonds.
         bonds: usize,
     },
+    /// Virial stresses where points stand irregularly.
+    #[error(
+        "virial stresses (output.stress, probes of stress_xx and so on) are those of the body in the mean alone: at single points of an \
+         irregular mesh they are off by a tenth to a quarter inside the body, and by a third and more at its edges, also with the patch \
+         correction; take means over many points, or the force through a section (probes with `section`)"
+    )]
+    PointStress,
     /// Random factors that vary faster than the points can show.
     #[error(
         "fracture.scatter.correlation_length = {length:.4e} m is less than the largest distance between points, {spacing:.4e} m: there the \
@@ -164,6 +175,15 @@ pub enum Warning {
     /// A Poisson's ratio that makes shear stiffness negative in space.
     #[error("{0}")]
     NegativeShearInSpace(NegativeShear),
+    /// Points without rotations, whose bonds resist rotations of the body.
+    #[error(
+        "law = \"{law}\": points have no rotations, so that every rotation of the body costs energy that it should not: where the body \
+         bends, twists or shears it is up to tens of times too stiff, although its Young's modulus is right; \"mppd\" and \"nhpd\" have rotations"
+    )]
+    RotationResisted {
+        /// The law.
+        law: &'static str,
+    },
     /// A criterion that takes the rotation of the body for sliding.
     #[error(
         "criterion \"{criterion}\": under law = \"{law}\" points have no rotations, so that where the body turns its rotation counts \
@@ -230,6 +250,9 @@ where
     if touched > 0 {
         warnings.push(Warning::Touched { bonds: touched });
     }
+    if setup.probes.iter().any(|it| it.reading.is_stress()) {
+        warnings.extend(of_virial_stress(&setup.body.origin()));
+    }
     warnings.extend(scatter_below_spacing(setup, spacing));
     if setup
         .criteria
@@ -243,6 +266,7 @@ where
         .filter_map(|it| it.material.elasticity.isotropic())
         .collect();
     warnings.extend(constants.iter().filter_map(|it| of_poisson(setup, it)));
+    warnings.extend(constants.iter().find_map(|it| rotation_resisted(setup, it)));
     warnings.extend(rotation_as_sliding(setup));
     warnings.extend(
         constants
@@ -250,6 +274,12 @@ where
             .filter_map(|it| energy_given_back(setup, it)),
     );
     warnings
+}
+
+/// What to know of virial stresses at the points of a body: all but those of lattices stand irregularly.
+pub fn of_virial_stress(origin: &Origin<'_>) -> Option<Warning> {
+    let is_regular = matches!(origin, Origin::Lattice(_) | Origin::SolidLattice(_));
+    (!is_regular).then_some(Warning::PointStress)
 }
 
 fn small_horizon<const D: usize>(
@@ -366,6 +396,17 @@ fn not_converged<const D: usize>(
         worst: body.label(worst as u32),
         position: body.positions()[worst].to_vec(),
     }
+}
+
+/// Bonds with a shear stiffness between points without rotations; above the Poisson's ratio of central forces they give energy.
+fn rotation_resisted<const D: usize>(setup: &Setup<D>, material: &Isotropic) -> Option<Warning>
+where
+    Dim: Dimension<D>,
+{
+    let (poisson, limit) = poisson_and_limit(setup, material);
+    let resists = matches!(setup.law, Law::Pds { .. }) && poisson < limit - POISSON_TOLERANCE;
+    let law = setup.law.name();
+    resists.then_some(Warning::RotationResisted { law })
 }
 
 /// The shear of a bond between points without rotations is that of the body and its rotation together.

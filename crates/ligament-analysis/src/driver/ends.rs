@@ -38,9 +38,8 @@ impl Path<'_> {
     /// The end of a run in a step without equilibrium: where bonds broke, or softened, holds that would have to carry a load tell
     /// that the body collapsed under it.
     pub(super) fn without_equilibrium(&self, step: usize, reason: Unbalanced) -> Termination {
-        let is_whole = self.course.broken == 0 && self.state.softening.remaining.is_empty();
         match reason {
-            Unbalanced::CarriedByHold { place, force } if !is_whole => {
+            Unbalanced::CarriedByHold { place, force } if !self.is_whole() => {
                 Termination::LostStiffness { step, place, force }
             }
             reason => Termination::NoEquilibrium { step, reason },
@@ -100,7 +99,6 @@ impl Path<'_> {
     /// Tells of a way on where a force has passed what a body of which bonds broke or softened carries: a larger one has no equilibrium.
     pub(super) fn report_past_peak(&mut self, end: &Termination) -> Result<(), ObserverError> {
         let is_force = self.problem.loads.control().kind == ControlKind::Force;
-        let is_whole = self.course.broken == 0 && self.state.softening.remaining.is_empty();
         let gave_way = matches!(
             end,
             Termination::NoEquilibrium { .. }
@@ -108,7 +106,7 @@ impl Path<'_> {
                 | Termination::Collapsed
                 | Termination::LostStiffness { .. }
         );
-        if !is_force || is_whole || !gave_way || self.is_controlled() {
+        if !is_force || self.is_whole() || !gave_way || self.is_controlled() {
             return Ok(());
         }
         let step = self.course.history.last().map_or(0, |it| it.step);

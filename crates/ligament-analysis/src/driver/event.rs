@@ -16,6 +16,7 @@ use std::mem;
 use std::rc::Rc;
 
 use super::course::{Place, Restored, ToEvent};
+use super::foretelling::{self, Foretold};
 use super::outcome::{Outcome, Rows};
 use super::path::Path;
 use super::recorder::{Energies, StepCounters, largest_ratio};
@@ -27,6 +28,7 @@ use crate::error::SetupError;
 use crate::history::{Observer, Termination};
 use crate::lagging::Body;
 use crate::problem::Problem;
+use crate::state::State;
 use passing::Passed;
 use way::{Goal, Way};
 
@@ -50,24 +52,8 @@ pub fn run(
     settings: &EventSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    if problem.criteria.soften() {
-        return Err(SetupError::Softening);
-    }
     let is_staged = problem.loads.course().is_some();
-    if is_staged && problem.system.faces_close() {
-        return Err(SetupError::ClosingFaces);
-    }
-    if let Some(criterion) = (problem.system)
-        .unknown_along_lines(&problem.criteria)
-        .filter(|_| is_staged)
-    {
-        return Err(SetupError::UnknownAlongLines {
-            criterion: criterion.name,
-        });
-    }
-    let (mut path, at_one) =
-        Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
-    path.require_resistance(at_one.as_ref())?;
+    let (mut path, at_one) = begin(problem, settings, observer)?;
     let unloaded = match path.balance(0, &Breakage::default())? {
         Attempt::Balanced(balanced) => balanced,
         Attempt::Unbalanced(reason) => {
@@ -89,6 +75,54 @@ pub fn run(
     let mut following = Following::new(path, settings, Vec::new());
     let termination = following.follow()?;
     Ok(following.path.into_outcome(termination, Rows::Events))
+}
+
+/// What the path comes to first.
+///
+/// # Errors
+///
+/// If the path cannot be followed, as of [`run`].
+pub fn foretell(
+    problem: &Problem,
+    settings: &EventSettings,
+    observer: &mut dyn Observer,
+) -> Result<Foretold, SetupError> {
+    let (path, at_one) = begin(problem, settings, observer)?;
+    foretelling::foretell(path, at_one, None)
+}
+
+/// Refuses what is no path of straight lines, or none at all.
+///
+/// # Errors
+///
+/// If bonds soften; in stages if faces of cracks close, or a criterion has no closed form along a line.
+pub fn refuse(problem: &Problem) -> Result<(), SetupError> {
+    if problem.criteria.soften() {
+        return Err(SetupError::Softening);
+    }
+    let is_staged = problem.loads.course().is_some();
+    if is_staged && problem.system.faces_close() {
+        return Err(SetupError::ClosingFaces);
+    }
+    let unknown = problem.system.unknown_along_lines(&problem.criteria);
+    match unknown.filter(|_| is_staged) {
+        Some(criterion) => Err(SetupError::UnknownAlongLines {
+            criterion: criterion.name,
+        }),
+        None => Ok(()),
+    }
+}
+
+/// The run before its first event, and its equilibrium at load factor one, if there is one.
+fn begin<'a>(
+    problem: &'a Problem,
+    settings: &EventSettings,
+    observer: &'a mut dyn Observer,
+) -> Result<(Path<'a>, Option<State>), SetupError> {
+    refuse(problem)?;
+    let (path, at_one) = Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    path.require_resistance(at_one.as_ref())?;
+    Ok((path, at_one))
 }
 
 /// The run of a checkpoint, ready to go on.

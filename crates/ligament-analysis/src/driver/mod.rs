@@ -6,6 +6,7 @@ mod dissipation;
 pub mod elastic;
 mod ends;
 pub mod event;
+mod foretelling;
 mod outcome;
 mod parts;
 mod path;
@@ -17,5 +18,6 @@ mod stop;
 
 pub use crate::problem::Problem;
 pub use course::Restored;
+pub use foretelling::{FirstFailure, Foretold, StepOfFailure};
 pub use outcome::{LoadPoint, Outcome, Rows};
 pub use stop::StopRules;

@@ -160,6 +160,11 @@ impl<'a> Path<'a> {
                 attempt = Attempt::Unbalanced(Unbalanced::NegativeEnergy { energy });
             }
         }
+        if let (Attempt::Balanced(_), false) = (&attempt, self.is_whole())
+            && let Some(unbalanced) = self.equilibrium.beyond_size(&self.state)
+        {
+            attempt = Attempt::Unbalanced(unbalanced);
+        }
         if let Attempt::Unbalanced(_) = attempt {
             self.state.displacement = displacement;
             self.state.softening = softening;
@@ -172,6 +177,11 @@ impl<'a> Path<'a> {
         self.course.solves[0] = self.equilibrium.costs().solves;
         self.course.negative_eigenvalues = self.equilibrium.negative_eigenvalues();
         Ok(attempt)
+    }
+
+    /// Whether no bond has broken or softened in this run.
+    pub(super) fn is_whole(&self) -> bool {
+        self.course.broken == 0 && self.state.softening.remaining.is_empty()
     }
 
     /// Offers the present moment, an equilibrium that is accounted for, to the observer. Gives the reason why the run ends
@@ -428,6 +438,9 @@ impl<'a> Path<'a> {
     fn keep(&mut self, record: StepRecord) -> Result<(), SetupError> {
         let history = &mut self.course.history;
         if let Some(notice) = remarks::energies(&self.problem, &record, history.last()) {
+            self.observer.notice(&notice)?;
+        }
+        if let Some(notice) = remarks::dissipation(&record, history) {
             self.observer.notice(&notice)?;
         }
         history.push(record);

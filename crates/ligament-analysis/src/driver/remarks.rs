@@ -15,6 +15,10 @@ const ENERGY_ERROR: f64 = 1e-6;
 /// Limit of the same error where bonds soften: equilibria are known to 1e-6 of the forces.
 const SOFTENING_ENERGY_ERROR: f64 = 1e-4;
 
+/// Share of the largest work by which bonds may have dissipated more than was spent on the body, so that its load steps are not called too
+/// coarse: where bonds soften, work and released energy follow the chords of a step and what is dissipated the curves between them.
+const DISSIPATED_BEYOND: f64 = 0.05;
+
 /// Overlap of two faces, relative to the largest displacement of a point, from which results are not those of a body with a crack. A
 /// part of a sound body as long as a horizon shortens by less.
 const LARGEST: f64 = 0.1;
@@ -44,6 +48,19 @@ pub(super) fn energies(
     is_first.then(|| Notice::EnergyUnbalanced {
         step: record.step,
         error: record.energy_error().abs(),
+    })
+}
+
+/// What to tell of the first record at which bonds have dissipated more than work less stored energy can have paid for.
+pub(super) fn dissipation(record: &StepRecord, before: &[StepRecord]) -> Option<Notice> {
+    let work = |it: &StepRecord| it.external_work.abs();
+    let largest = before.iter().map(work).fold(work(record), f64::max);
+    let beyond = |it: &StepRecord| it.dissipated_energy - (it.external_work - it.stored_energy);
+    let is_beyond = |it: &StepRecord| beyond(it) > DISSIPATED_BEYOND * largest;
+    let is_first = is_beyond(record) && !before.last().is_some_and(is_beyond);
+    is_first.then(|| Notice::DissipatedBeyondWork {
+        step: record.step,
+        share: beyond(record) / largest,
     })
 }
 

@@ -6,6 +6,7 @@
 use std::time::Instant;
 
 use super::course::{InLoadStep, Place, Restored};
+use super::foretelling::{self, Foretold};
 use super::outcome::{LoadPoint, Outcome, Rows};
 use super::path::Path;
 use super::recorder::{StepCounters, largest_ratio};
@@ -19,6 +20,7 @@ use crate::error::SetupError;
 use crate::history::{Observer, Termination};
 use crate::load_program::Part;
 use crate::problem::Problem;
+use crate::state::State;
 
 /// How to step and when to stop.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,11 +46,8 @@ pub fn run(
     settings: &SteppedSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let (mut path, at_one) =
-        Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
-    path.require_resistance(at_one.as_ref())?;
+    let (mut path, _, plan) = begin(problem, settings, observer)?;
     path.soften();
-    let plan = plan(problem, settings, &path.course.elastic);
     let mut stepping = Stepping {
         path,
         settings,
@@ -57,6 +56,37 @@ pub fn run(
     let termination = stepping.steps_from(0)?;
     stepping.path.report_past_peak(&termination)?;
     Ok(stepping.path.into_outcome(termination, Rows::LoadSteps))
+}
+
+/// What the load steps come to first.
+///
+/// # Errors
+///
+/// If the equations cannot be set up, or nothing resists the loads.
+pub fn foretell(
+    problem: &Problem,
+    settings: &SteppedSettings,
+    observer: &mut dyn Observer,
+) -> Result<Foretold, SetupError> {
+    let (path, at_one, plan) = begin(problem, settings, observer)?;
+    let factors: Vec<f64> = plan.iter().skip(1).map(|it| it.load_factor).collect();
+    foretelling::foretell(path, at_one, Some(&factors))
+}
+
+/// The run before its first load step, its equilibrium at load factor one, if there is one, and all load steps.
+fn begin<'a>(
+    problem: &'a Problem,
+    settings: &SteppedSettings,
+    observer: &'a mut dyn Observer,
+) -> Result<(Path<'a>, Option<State>, Vec<LoadStep>), SetupError> {
+    let (mut path, at_one) =
+        Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    path.require_resistance(at_one.as_ref())?;
+    let plan = plan(problem, settings, &path.course.elastic);
+    if let (Some(at_one), Some(first)) = (&at_one, plan.get(1)) {
+        path.report_first_step(at_one, first.load_factor)?;
+    }
+    Ok((path, at_one, plan))
 }
 
 /// The run of a checkpoint, ready to go on.

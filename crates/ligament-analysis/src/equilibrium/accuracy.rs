@@ -13,14 +13,23 @@ use crate::unknowns::{Layout, Unknowns};
 /// Share of a residual that is sought to which a solver that iterates goes: the next residual is measured against other forces.
 const SURELY: f64 = 0.3;
 
-/// Share of the tolerance of a solver that iterates that it may leave of the force along whose solution a run goes on.
-const LINE: f64 = 0.1;
+/// What the levers of a body make of the forces that are given to it, at most: in a bar a thousand times as long as thick the
+/// forces between points are some thousand times its load.
+const LEVERS: f64 = 1e6;
 
 /// What forces out of balance are judged by.
 pub(super) struct Accuracy {
     pub(super) local_stiffness: LocalStiffness,
     /// Degrees of freedom that loads act on while nothing prescribes their motion, ascending.
     loaded: Vec<u32>,
+    /// Degrees of freedom with prescribed motions, ascending.
+    prescribed: Vec<u32>,
+    /// Whether the temperature changes: what it makes of the forces in a body has no bound here.
+    is_heated: bool,
+    /// Largest stiffness of a point against displacements, N/m.
+    pub(super) stiffest: f64,
+    /// Diagonal of the box around the body, m.
+    pub(super) size: f64,
     /// Largest forces and moments that met at a point so far: a body that is unloaded keeps their rounding.
     pub(super) largest_extents: Extents,
     /// Tolerance of a solver that iterates.
@@ -41,7 +50,13 @@ impl Accuracy {
     /// Nothing is known yet of the forces in a body; `tolerance` is that of a solver that iterates.
     pub(super) fn new(system: &dyn Bonds, loads: &dyn LoadProgram, tolerance: Option<f64>) -> Self {
         let of_bonds = LocalStiffness::new(system);
+        let n_dofs = system.layout().n_degrees_of_freedom();
+        let prescribed = (0..n_dofs).filter(|&dof| loads.is_prescribed(dof));
         Self {
+            prescribed: prescribed.map(|dof| dof as u32).collect(),
+            is_heated: !loads.thermal_strain(1.0).is_none(),
+            stiffest: of_bonds.largest(),
+            size: system.extent(),
             local_stiffness: of_bonds.restrained_by(loads.restraints()),
             loaded: loaded(loads),
             largest_extents: Extents::default(),
@@ -77,7 +92,7 @@ impl Accuracy {
         out_of_balance: Vec<f64>,
     ) -> Residual {
         let given = self.given(at);
-        let scales = self.scales(&given, extents, displacement);
+        let scales = self.scales(at, &given, extents, displacement);
         let dofs = at.unknowns.degrees_of_freedom().iter().copied();
         let of_unknowns = dofs.zip(out_of_balance);
         // No bond resists these: what loads them is carried by nothing.
@@ -104,7 +119,7 @@ impl Accuracy {
         }
         let given = self.given(at);
         let displacement = self.largest_displacement(at.unknowns.layout(), at.state);
-        let scales = self.scales(&given, extents, displacement);
+        let scales = self.scales(at, &given, extents, displacement);
         let of_unknown = |dof: &u32| match SURELY * sought * scales.at(*dof as usize) {
             // Nothing is known yet of what acts there: the next residual tells.
             0.0 => f64::INFINITY,
@@ -114,9 +129,9 @@ impl Accuracy {
         Left::AtMost(dofs.map(of_unknown).collect())
     }
 
-    /// What a solver may leave of a force along whose solution a run goes on.
-    pub(super) fn left_of_line(&self) -> Left {
-        Left::Share(LINE * self.tolerance.unwrap_or_default())
+    /// What a solver may leave of a force that no state is known to be near: a share of its tolerance.
+    pub(super) fn left_of_line(&self, share: f64) -> Left {
+        Left::Share(share * self.tolerance.unwrap_or_default())
     }
 
     /// Forces at the degrees of freedom that are rounding of the displacements of a state, shape (n_degrees_of_freedom); where the solver
@@ -134,10 +149,50 @@ impl Accuracy {
         self.loaded.iter().copied().zip(forces).collect()
     }
 
+    /// Size that forces in the body of a state can have by what is given to it, its forces, moments and motions, and by what met at a point
+    /// in equilibria before, N; infinite where the temperature changes. Larger ones are no measure: a body that has become a mechanism
+    /// makes them of nothing.
+    pub(super) fn bound(&self, at: Loaded<'_>) -> f64 {
+        self.bound_by(&self.given(at), at.state)
+    }
+
+    fn bound_by(&self, given: &[(u32, f64)], state: &State) -> f64 {
+        if self.is_heated {
+            return f64::INFINITY;
+        }
+        let layout = self.local_stiffness.layout();
+        let force = |&(dof, value): &(u32, f64)| {
+            let is_moment = layout.component(dof as usize).is_rotation();
+            value.abs() / if is_moment { self.size } else { 1.0 }
+        };
+        let given: f64 = given.iter().map(force).sum();
+        let motion = self.largest_prescribed(state);
+        LEVERS * (given + self.stiffest * motion + self.largest_extents.force())
+    }
+
+    /// Largest prescribed motion in a state: of a displacement, or of a rotation times the size of the body, m.
+    pub(super) fn largest_prescribed(&self, state: &State) -> f64 {
+        let layout = self.local_stiffness.layout();
+        let motion = |&dof: &u32| {
+            let is_turn = layout.component(dof as usize).is_rotation();
+            state.displacement[dof as usize].abs() * if is_turn { self.size } else { 1.0 }
+        };
+        self.prescribed.iter().map(motion).fold(0.0, f64::max)
+    }
+
     /// What may act in a body with some extents and a largest displacement under given forces.
-    fn scales(&self, given: &[(u32, f64)], extents: Extents, displacement: f64) -> Scales<'_> {
+    fn scales(
+        &self,
+        at: Loaded<'_>,
+        given: &[(u32, f64)],
+        extents: Extents,
+        displacement: f64,
+    ) -> Scales<'_> {
+        let bound = self.bound_by(given, at.state);
+        let [extents, largest] =
+            [extents, self.largest_extents].map(|it| it.at_most(bound, self.size));
         let given = given.iter().copied();
-        (self.local_stiffness).scales(extents, self.largest_extents, given, displacement)
+        (self.local_stiffness).scales(extents, largest, given, displacement)
     }
 }
 

@@ -26,6 +26,10 @@ const REFINED: f64 = 1e-12;
 /// changes is worn out.
 const FALLS: f64 = 0.1;
 
+/// Residual of the last iteration up to which it is an equilibrium all the same: a part that only touches another one carries nothing, and
+/// forces that are judged by a small share of the largest so far do not fall below the rounding of those.
+const LARGEST_RESIDUAL: f64 = 1e-8;
+
 /// Halvings of a step in the search for the lowest energy: as many as a double has bits.
 const HALVINGS: usize = 53;
 
@@ -51,7 +55,11 @@ pub(super) fn balance(
         let is_over = iterations == ITERATION_LIMIT;
         // One more iteration takes off what the soft holds of loose parts leave.
         let falls = is_exact && residual.relative < FALLS * before;
-        let tolerance = if falls && !is_over { REFINED } else { sought };
+        let tolerance = match is_over {
+            true => sought.max(LARGEST_RESIDUAL),
+            false if falls => REFINED,
+            false => sought,
+        };
         before = residual.relative;
         let is_small = equations.is_small(&residual, tolerance);
         // What a hold carries, faces that close may carry in the end.

@@ -3,6 +3,7 @@
 
 use super::equations::Equations;
 use super::iterate::Iterate;
+use super::line;
 use super::target::Target;
 use crate::balanced::Attempt;
 use crate::breakage::Breakage;
@@ -70,7 +71,7 @@ fn correct(
     mechanisms: &mut Vec<u32>,
 ) -> Result<(), Unbalanced> {
     let mut correction = equations.correction(state, iterate, sought, mechanisms)?;
-    let growth = equations.growth(state, &*target.rate)?;
+    let growth = line::growth(equations, state, &*target.rate)?;
     let moved = equations.at_degrees_of_freedom(&correction);
     let change = target.load_change(&state.displacement, &moved, &growth)?;
     for (&dof, value) in equations.degrees_of_freedom().iter().zip(&mut correction) {

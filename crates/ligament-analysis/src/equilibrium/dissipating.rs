@@ -24,6 +24,7 @@ use ligament_model::portion::{self, any};
 use ligament_model::thermal::ThermalStrain;
 
 use super::equations::Equations;
+use super::line;
 use super::secant;
 use super::target::Target;
 use crate::balanced::Attempt;
@@ -143,7 +144,7 @@ fn ahead(
     here: &Deformations,
     goal: &Dissipation,
 ) -> Result<Ahead, Unbalanced> {
-    let growth = equations.growth(state, &*goal.rate)?;
+    let growth = line::growth(equations, state, &*goal.rate)?;
     let problem = &equations.problem;
     let expansion = goal.rate.thermal_strain(1.0);
     let slopes = (problem.system).deformations(&state.intact, &growth, expansion);

@@ -6,11 +6,13 @@ use std::time::Instant;
 use ligament_linalg::FactorKind;
 use ligament_model::deformation::Deformations;
 use ligament_model::portion::Portion;
+use ligament_model::thermal::ThermalStrain;
 
 use super::accuracy::{Accuracy, Loaded};
 use super::iterate::Iterate;
+use super::mechanism::Measure;
 use super::precedents::Precedents;
-use super::residual::{Extents, LocalStiffness, ROUNDING, Residual};
+use super::residual::{Extents, ROUNDING, Residual};
 use crate::balanced::{Attempt, Balanced};
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
@@ -49,8 +51,6 @@ pub(super) struct Equations {
     /// Relative change of the energy that ends the iteration, NHPD eq. 21.
     pub(super) energy_tolerance: f64,
     pub(super) accuracy: Accuracy,
-    /// Largest stiffness of a point against displacements, N/m.
-    stiffest: f64,
     /// Pairs across cracks, where faces close.
     pub(super) contact: Contact,
     /// Earlier equilibria of softening bonds.
@@ -83,7 +83,6 @@ impl Equations {
             } else {
                 0.0
             },
-            stiffest: LocalStiffness::new(&**system).largest(),
             accuracy,
             contact: Contact::default(),
             precedents: Precedents::default(),
@@ -118,7 +117,6 @@ impl Equations {
             stiffness: _,
             choice: _,
             energy_tolerance: _,
-            stiffest: _,
             contact: _,
             precedents,
         } = self;
@@ -192,8 +190,13 @@ impl Equations {
 
     /// The end of an iteration that does not come to rest.
     pub(super) fn not_settled(&self, residual: &Residual, iterations: usize) -> Attempt {
+        Attempt::Unbalanced(self.unsettled(residual, iterations))
+    }
+
+    /// Why an iteration does not come to rest.
+    pub(super) fn unsettled(&self, residual: &Residual, iterations: usize) -> Unbalanced {
         let place = self.place(residual.degree_of_freedom as usize);
-        Attempt::Unbalanced(if residual.relative.is_finite() {
+        if residual.relative.is_finite() {
             Unbalanced::NotConverged {
                 residual: residual.relative,
                 iterations,
@@ -201,10 +204,10 @@ impl Equations {
             }
         } else {
             Unbalanced::ForceOutOfRange { place }
-        })
+        }
     }
 
-    fn place(&self, dof: usize) -> Place {
+    pub(super) fn place(&self, dof: usize) -> Place {
         Place {
             point: self.layout().point(dof),
             component: self.layout().component(dof),
@@ -223,6 +226,16 @@ impl Equations {
     fn tell_motions(&self, motions: &mut [f64]) {
         if let Some(neighbours) = &self.neighbours {
             neighbours.tell_motions(motions);
+        }
+    }
+
+    /// What motions are judged by.
+    pub(super) fn motions(&self) -> Measure<'_> {
+        Measure {
+            accuracy: &self.accuracy,
+            unknowns: &self.unknowns,
+            portion: self.portion(),
+            some_negative: self.problem.system.some_negative(),
         }
     }
 
@@ -296,11 +309,24 @@ impl Equations {
         force: Vec<f64>,
         left: Left,
     ) -> Result<Vec<f64>, Unbalanced> {
+        // An exact solver finds by its pivots what nothing resists.
+        let given = self.solver.tolerance().map(|_| force.clone());
         let solution = self.solver.solve(state, force, left, &mut self.costs);
-        solution.map_err(|reason| match reason {
-            Unsolved::Indefinite => Unbalanced::NegativeCurvature,
-            Unsolved::Disagreement => Unbalanced::RanksDisagree,
-        })
+        match (solution, given) {
+            (Ok(solution), None) => Ok(solution),
+            (Ok(solution), Some(force)) => {
+                if self.motions().is_resisted(&solution, &force) {
+                    Ok(solution)
+                } else {
+                    Err(self.motions().unresisted(&solution, &force))
+                }
+            }
+            (Err(Unsolved::Indefinite(motion)), Some(force)) => {
+                Err(self.motions().unresisted(&motion, &force))
+            }
+            (Err(Unsolved::Indefinite(_)), None) => Err(Unbalanced::NegativeCurvature),
+            (Err(Unsolved::Disagreement), _) => Err(Unbalanced::RanksDisagree),
+        }
     }
 
     /// Deformations, forces, residual and energy of a state.
@@ -352,7 +378,7 @@ impl Equations {
         self.costs.bonds += start.elapsed();
         let of_expansions = factor.powi(2) * expansion_energy.abs();
         let cancelled = CANCELLED * of_expansions;
-        let rounding = ROUNDING * self.stiffest * displacement.powi(2);
+        let rounding = ROUNDING * self.accuracy.stiffest * displacement.powi(2);
         let has_negative = energy_of_motion < -(rounding + cancelled);
         Iterate {
             deformations,
@@ -367,44 +393,21 @@ impl Equations {
         }
     }
 
+    /// Forces of the bonds of a state without its closed faces, at a strain of the temperature.
+    pub(super) fn swept(&self, state: &State, expansion: ThermalStrain<'_>) -> BondSweep {
+        let system = &self.problem.system;
+        let deformations = system.deformations(&state.intact, &state.displacement, expansion);
+        let mut swept = system.forces(state.bonds(), deformations, expansion);
+        if let Some(neighbours) = &self.neighbours {
+            neighbours.tell_forces(&mut swept.internal.values);
+        }
+        swept
+    }
+
     /// A state that is known to be in equilibrium, as the bonds see it.
     pub(super) fn measured(&mut self, state: &mut State) -> Balanced {
         self.prescribe(state);
         self.measure(state).balanced(0, Vec::new())
-    }
-
-    /// What the displacements (n_degrees_of_freedom) grow by with the bonds of a state, under loads at their load factor 1.
-    ///
-    /// # Errors
-    ///
-    /// If the stiffness has no factor.
-    pub(super) fn growth(
-        &mut self,
-        state: &mut State,
-        loads: &dyn LoadProgram,
-    ) -> Result<Vec<f64>, Unbalanced> {
-        self.prepare_solver(state)?;
-        let (mut growth, force) = self.rate(state, loads);
-        let solution = self.solve(state, force, self.accuracy.left_of_line())?;
-        for (&dof, value) in self.degrees_of_freedom().iter().zip(solution) {
-            growth[dof as usize] = value;
-        }
-        self.tell_motions(&mut growth);
-        Ok(growth)
-    }
-
-    /// The motions that loads at their load factor 1 prescribe (n_degrees_of_freedom), and what they put out of balance with the bonds of
-    /// a state (n_unknowns).
-    pub(super) fn rate(&self, state: &State, loads: &dyn LoadProgram) -> (Vec<f64>, Vec<f64>) {
-        let mut prescribed = vec![0.0; state.displacement.len()];
-        loads.prescribe(1.0, &mut prescribed);
-        let system = &self.problem.system;
-        let expansion = loads.thermal_strain(1.0);
-        let deformations = system.deformations(&state.intact, &prescribed, expansion);
-        let swept = system.forces(state.bonds(), deformations, expansion);
-        let dofs = self.degrees_of_freedom();
-        let force = loads.external_less(1.0, &prescribed, &swept.internal, dofs);
-        (prescribed, force)
     }
 
     /// Displacements at the unknowns (n_unknowns) among all others, which are zero, shape (n_degrees_of_freedom).
@@ -432,7 +435,7 @@ impl Equations {
     }
 
     /// A state with the loads and the unknowns.
-    fn loaded<'a>(&'a self, state: &'a State) -> Loaded<'a> {
+    pub(super) fn loaded<'a>(&'a self, state: &'a State) -> Loaded<'a> {
         Loaded {
             loads: &*self.problem.loads,
             unknowns: &self.unknowns,
@@ -462,7 +465,7 @@ impl Equations {
     }
 
     /// Makes the solver ready; mechanisms that turn up are held, and the solver made ready again. Gives their points.
-    fn prepare_solver(&mut self, state: &mut State) -> Result<Vec<u32>, Unbalanced> {
+    pub(super) fn prepare_solver(&mut self, state: &mut State) -> Result<Vec<u32>, Unbalanced> {
         let mut held_now = Vec::new();
         loop {
             let vanishing = self.solver.prepare(state, &mut self.costs);

@@ -63,10 +63,11 @@ pub(super) fn imbalance(
         portion.sum(sums.as_flattened_mut());
     }
     let of_body = equations.largest_force(balanced.internal.force_scale);
+    let bound = equations.accuracy.bound(equations.loaded(state));
     let is_off = |(place, [resultant, size, rounding]): &(usize, &Sum)| {
         let is_force = !layout.components[place % n_components].is_rotation();
         // A resultant that is not a number is no balance either.
-        let is_balanced = resultant.abs() <= BALANCED * (size + of_body) + rounding;
+        let is_balanced = resultant.abs() <= BALANCED * (size + of_body).min(bound) + rounding;
         is_force && !is_balanced
     };
     let (place, &[resultant, size, _]) = sums.iter().enumerate().find(is_off)?;

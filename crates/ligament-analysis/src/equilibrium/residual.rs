@@ -103,10 +103,20 @@ impl LocalStiffness {
         self
     }
 
+    /// Where the degrees of freedom are.
+    pub(super) fn layout(&self) -> Layout {
+        self.layout
+    }
+
     /// The largest stiffness against displacements.
     pub(super) fn largest(&self) -> f64 {
         let of_displacements = self.layout.displacements(&self.values);
         of_displacements.fold(0.0, f64::max)
+    }
+
+    /// Stiffness at a degree of freedom, N/m, and N for moments.
+    pub(super) fn at(&self, dof: usize) -> f64 {
+        self.values[dof]
     }
 
     /// Forces that are rounding of a displacement, m, shape (n_degrees_of_freedom).
@@ -174,6 +184,14 @@ impl Extents {
         }))
     }
 
+    /// The extents with forces of a size at most, N, and moments of that times a length, m.
+    pub(super) fn at_most(self, force: f64, length: f64) -> Self {
+        let [mut forces, mut moments] = self.0;
+        forces.force = forces.force.min(force);
+        moments.force = moments.force.min(force * length);
+        Self([forces, moments])
+    }
+
     /// The largest over all processes.
     pub(super) fn of_all(self, portion: &Portion) -> Self {
         let mut all = [0.0; 4];
@@ -184,6 +202,11 @@ impl Extents {
         let [force, deformation, moment, turn] = all;
         let extent = |force, deformation| Extent { force, deformation };
         Self([extent(force, deformation), extent(moment, turn)])
+    }
+
+    /// Largest force, N.
+    pub(super) fn force(self) -> f64 {
+        self.0[0].force
     }
 
     /// Largest force that is rounding of these in a body that is unloaded, N.

@@ -3,6 +3,7 @@
 use super::curvature::Curvature;
 use super::equations::Equations;
 use super::iterate::Iterate;
+use super::line;
 use super::line_search;
 use super::precedents::Precedents;
 use super::residual::RESIDUAL_TOLERANCE;
@@ -201,7 +202,7 @@ fn correction(
     let mut force = force.to_vec();
     let mut load_change = 0.0;
     if let Some(target) = target {
-        let (mut growth, rate) = equations.rate(state, &*target.rate);
+        let (mut growth, rate) = line::rate(equations, state, &*target.rate);
         let solve = |it| equations.solve(state, it, Left::Share(SOLVED));
         let grown = curvature.correction(&rate, &dot, solve)?;
         for (&dof, value) in equations.degrees_of_freedom().iter().zip(&grown) {

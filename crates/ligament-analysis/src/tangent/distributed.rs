@@ -346,7 +346,7 @@ impl TangentSolver for DistributedSolver {
             return Err(Unsolved::Disagreement);
         }
         let Some(mut matrix) = self.matrix.take() else {
-            return Err(Unsolved::Indefinite);
+            return Err(Unsolved::Indefinite(vec![0.0; force.len()]));
         };
         let free = self.free(&self.kept.matrix_of.held);
         let own_force = self.at_own(&force, &free, 0.0);
@@ -374,7 +374,7 @@ impl TangentSolver for DistributedSolver {
         if found.is_definite {
             Ok(solution)
         } else {
-            Err(Unsolved::Indefinite)
+            Err(Unsolved::Indefinite(solution))
         }
     }
 

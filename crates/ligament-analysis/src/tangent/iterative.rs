@@ -333,7 +333,7 @@ impl TangentSolver for IterativeSolver {
     ) -> Result<Vec<f64>, Unsolved> {
         let start = Instant::now();
         let Some(mut levels) = self.levels.take() else {
-            return Err(Unsolved::Indefinite);
+            return Err(Unsolved::Indefinite(vec![0.0; force.len()]));
         };
         let dofs = self.unknowns.degrees_of_freedom();
         let moment = self.moment(&self.blocks_of);
@@ -363,7 +363,7 @@ impl TangentSolver for IterativeSolver {
         if found.is_definite {
             Ok(solution)
         } else {
-            Err(Unsolved::Indefinite)
+            Err(Unsolved::Indefinite(solution))
         }
     }
 

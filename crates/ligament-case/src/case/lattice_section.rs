@@ -36,9 +36,9 @@ pub struct LatticeSection {
     #[serde(default)]
     pub corner: Point,
     /// Thickness of the body, m.
-    #[serde(default = "metre")]
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub thickness: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0, "default" = 1.0))]
+    pub thickness: Option<f64>,
     /// Plane stress or plane strain.
     #[serde(default)]
     pub plane: Word<Plane>,
@@ -160,7 +160,7 @@ impl LatticeSection {
             &format!("at least 1 along x and y, and {MOST_CELLS} together at most"),
             cells,
         )?;
-        let volume = spacing[0] * spacing[1] * self.thickness;
+        let volume = spacing[0] * spacing[1] * self.thickness.unwrap_or_else(metre);
         require(
             spacing.iter().all(|side| *side > 0.0) && volume.is_normal(),
             || key.child("spacing"),

@@ -11,7 +11,7 @@ use super::key_path::KeyPath;
 use super::region::{Corners, place};
 use super::values::{exactly_one, first_given, one_of, require_column_name};
 use super::word::Word;
-use ligament::setup::{self, Action, Axis, Place};
+use ligament::setup::{self, Action, Axis, Place, begins_as_formula};
 
 /// A load, given as it is at load factor 1.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -74,7 +74,9 @@ impl Load {
     /// Names the load; `number` counts from 1 and names one that has neither name nor group.
     pub(super) fn complete(&mut self, key: &KeyPath, number: usize) -> Result<(), KeyFault> {
         let named_by = if self.name.is_some() { "name" } else { "group" };
-        let name = self.name.take().or_else(|| self.group.clone());
+        // Groups of a mesh may be called `-x`, which is no head of a column.
+        let of_group = || self.group.clone().filter(|it| !begins_as_formula(it));
+        let name = self.name.take().or_else(of_group);
         let name = name.unwrap_or_else(|| format!("load-{number}"));
         require_column_name(|| key.child(named_by), &name)?;
         self.name = Some(name);

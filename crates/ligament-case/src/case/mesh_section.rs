@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::body_kind::BodyKind;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::values::{metre, refuse, require};
+use super::values::{refuse, require};
 use super::word::Word;
 use crate::mesh_file::holds_solid;
 use ligament_model::Plane;
@@ -58,7 +58,6 @@ impl MeshSection {
             let reason = "they belong to bodies in the plane";
             return refuse(key, given, "a mesh of solid cells", reason);
         }
-        self.thickness.get_or_insert_with(metre);
         self.plane.get_or_insert_default();
         Ok(())
     }

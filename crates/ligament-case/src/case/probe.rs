@@ -22,7 +22,7 @@ pub struct Probe {
     pub name: String,
     /// Two positions, m: the second displacement less the first, as of a strain gauge or a crack opening; with `component`.
     pub between: Option<[Coordinates; 2]>,
-    /// A position, m, whose nearest point is read; with `field`.
+    /// A position, m, at which a field is read between the points of the cell around it; with `field`.
     pub at: Option<Coordinates>,
     /// A line, m, through which the bonds carry a force, N; in a solid a point of a plane and one before it along its normal; with
     /// `component`.

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use ligament::body::{Body, LatticeBody, MeshBody, SolidLatticeBody, SolidMeshBody};
+use ligament::implausible::Implausible;
 use ligament::setup::{self, Dim, Dimension, Section, Setup};
 use ligament_mesh::{Mesh, SolidMesh};
 use ligament_model::Plane;
@@ -32,7 +33,7 @@ use super::solid_lattice_section::SolidLatticeSection;
 use super::solver::{self, Solver};
 use super::stage::Stage;
 use super::temperature::Temperature;
-use super::values::{exactly_one, refuse};
+use super::values::{exactly_one, metre, refuse};
 
 /// A case: the sections of its file, with every default filled in.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -234,13 +235,23 @@ impl Case {
     /// The setup of the case on a body in the plane, whatever body the case names. Tables of temperatures have no rows yet.
     pub(crate) fn in_plane(&self, body: Arc<dyn Body>) -> Result<Setup, KeyFault> {
         let of_mesh = self.mesh.as_ref().and_then(|it| it.thickness);
-        let of_lattice = self.lattice.as_ref().map(|it| it.thickness);
+        let of_lattice = self.lattice.as_ref().and_then(|it| it.thickness);
+        let thickness = of_mesh.or(of_lattice);
         let section = Section::Plane {
             state: self.plane(),
-            thickness: of_mesh.or(of_lattice).unwrap_or_default(),
+            thickness: thickness.unwrap_or_else(metre),
         };
         let precracks = each("precrack", &self.precracks, Precrack::in_plane)?;
-        self.setup_of(body, section, precracks)
+        let mut setup = self.setup_of(body, section, precracks)?;
+        // A long body in plane strain is computed per metre of its length.
+        let is_missing = thickness.is_none() && self.plane() == Plane::Stress;
+        let missing = is_missing.then_some(Implausible::NoThickness);
+        let angles = (self.precracks.iter().enumerate()).filter_map(|(index, crack)| {
+            let what = format!("the angle of pre-crack {}", index + 1);
+            Implausible::of_angle(what, crack.angle?)
+        });
+        setup.remarks = missing.into_iter().chain(angles).collect();
+        Ok(setup)
     }
 
     /// The setup of the case on a body in D dimensions. Tables of temperatures have no rows yet.
@@ -295,6 +306,7 @@ impl Case {
             },
             solver: self.solver.setup(),
             threads: self.solver.threads.map(|threads| threads as usize),
+            remarks: Vec::new(),
         })
     }
 

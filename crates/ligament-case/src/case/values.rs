@@ -7,6 +7,7 @@ use serde::de::{SeqAccess, Visitor};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
+use ligament::setup::begins_as_formula;
 
 /// A point in the plane, m.
 pub type Point = [f64; 2];
@@ -104,17 +105,27 @@ pub(super) fn metre() -> f64 {
 
 /// Names head the columns of a table of comma-separated values.
 pub fn require_column_name(key: impl FnOnce() -> KeyPath, name: &str) -> Result<(), KeyFault> {
-    let fits = !name.is_empty()
-        && name.trim() == name
-        && !name
-            .chars()
-            .any(|character| character.is_control() || matches!(character, ',' | '"'));
-    require(
-        fits,
-        key,
-        "a name without commas, quotes or surrounding blanks",
-        name,
-    )
+    let expected = if begins_as_formula(name) {
+        "a name that does not begin with =, +, - or @, by which a spreadsheet knows a formula"
+    } else if name.chars().any(is_unseen) {
+        "a name without characters that are not seen, as control characters are"
+    } else {
+        let fits = !name.is_empty() && name.trim() == name && !name.contains([',', '"']);
+        return require(
+            fits,
+            key,
+            "a name without commas, quotes or surrounding blanks",
+            name,
+        );
+    };
+    require(false, key, expected, name)
+}
+
+/// Whether a character is not seen: a control character, a line or paragraph separator, one that turns the direction of a text
+/// round, or one without width.
+fn is_unseen(character: char) -> bool {
+    character.is_control()
+        || matches!(character, '\u{200b}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
 }
 
 /// Fails where a name repeats an earlier one; `advice` goes at the end of the error.

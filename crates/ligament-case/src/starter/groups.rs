@@ -78,11 +78,14 @@ impl<'a, const D: usize> Named<'a, D> {
 
     /// A body on two supports or more, pressed onto them: by what is named as the load, else in the middle of the far side.
     fn beam(&self, extent: [[f64; D]; 2], spacing: f64) -> Option<Ends<D>> {
-        let [[held, loaded], ..] = PAIRS;
-        let groups = self.groups.iter();
-        let supports: Vec<&Group> = groups
-            .filter(|group| usize::from(group.dimension) < D && has_word(&group.name, held))
-            .collect();
+        let [[held, loaded], _, ends] = PAIRS;
+        let mut supports = self.sides(held);
+        let is_loaded = |group: &Group| has_word(&group.name, loaded);
+        if supports.is_empty() && self.groups.iter().any(is_loaded) {
+            // Beside a load the ends of a beam are what carries it.
+            supports = ends.iter().flat_map(|words| self.sides(words)).collect();
+            supports.retain(|group| !is_loaded(group));
+        }
         let [first, rollers @ ..] = supports.as_slice() else {
             return None;
         };
@@ -131,12 +134,25 @@ impl<'a, const D: usize> Named<'a, D> {
         })
     }
 
+    /// Groups of less than cells with one of the words in their names.
+    fn sides(&self, words: &[&str]) -> Vec<&'a Group> {
+        let groups = self.groups.iter();
+        let sides = groups.filter(|group| usize::from(group.dimension) < D);
+        sides.filter(|group| has_word(&group.name, words)).collect()
+    }
+
     fn by_name(&self) -> Option<Ends<D>> {
-        PAIRS.iter().find_map(|[held, loaded]| {
-            let support = self.best(held)?;
-            let load = self.best(loaded).filter(|load| load.name != support.name)?;
-            self.between(support, load, "by their names")
-        })
+        let [[held, loaded], [below, _], [left, right]] = PAIRS;
+        // What is named as a load acts against what is named as a support, or as a side.
+        let against_load = [held, below, left, right].map(|it| [it, loaded]);
+        against_load
+            .iter()
+            .chain(&PAIRS)
+            .find_map(|[held, loaded]| {
+                let support = self.best(held)?;
+                let load = self.best(loaded).filter(|load| load.name != support.name)?;
+                self.between(support, load, "by their names")
+            })
     }
 
     /// Of the groups with one of the words in their names, one of sides of cells before one of cells, of edges or of points, and the

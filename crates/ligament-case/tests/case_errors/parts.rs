@@ -39,6 +39,19 @@ fn names_are_unique_and_fit_for_columns() {
         error_with("\"cmod\"", "\"a, b\""),
         "39:8: probe.0.name: must be a name without commas, quotes or surrounding blanks, found \"a, b\""
     );
+    for name in ["=cmd|' /C calc'!A0", "+1", "-x", "@SUM(1+1)"] {
+        assert_eq!(
+            error_with("\"cmod\"", &format!("{name:?}")),
+            format!(
+                "39:8: probe.0.name: must be a name that does not begin with =, +, - or @, by which a spreadsheet knows a \
+                 formula, found {name:?}"
+            )
+        );
+    }
+    for unseen in ["a\\u0007", "a\\u2028b", "\\u202Egnp", "\\uFEFFa"] {
+        let error = error_with("\"cmod\"", &format!("\"{unseen}\""));
+        assert!(error.contains("characters that are not seen"), "{error}");
+    }
     let again = "[[load]]\ngroup = \"top\"\nforce = { x = 1 }\n\n[[no_fail]]";
     assert_eq!(
         error_with("[[no_fail]]", again),

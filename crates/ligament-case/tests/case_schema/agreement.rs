@@ -130,7 +130,10 @@ fn defaults_are_those_of_the_reader() {
                         continue;
                     }
                 };
-                assert_eq!(given, as_it_is, "{}/{key}", path.pointer);
+                // The reader keeps whether a thickness was given: a body in plane stress without one has a warning.
+                if key != "thickness" {
+                    assert_eq!(given, as_it_is, "{}/{key}", path.pointer);
+                }
                 tried.insert((path.pattern.clone(), key.clone()));
             }
         }

@@ -87,7 +87,7 @@ fn the_list_of_keys_is_that_of_the_schema() {
         text = listed(&text);
         std::fs::write(&path, &text).unwrap();
     }
-    let again = "make it anew: LIGAMENT_WRITE_KEYS=1 cargo test --release -p ligament-case --test case_schema";
+    let again = "make it anew: LIGAMENT_WRITE_KEYS=1 cargo test --release -p ligament-case --test integration case_schema";
     assert!(
         listed(&text) == text,
         "cases/KEYS.md is not what the keys say; {again}"

@@ -4,9 +4,12 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use ligament::Loading;
-use ligament::setup::{Analysis, Dim, Dimension, ELASTIC_ENERGY_TOLERANCE, Setup};
+use ligament::setup::{
+    Analysis, Dim, Dimension, ELASTIC_ENERGY_TOLERANCE, Reading as Given, Setup,
+};
+use ligament::units::Units;
 use ligament_analysis::gauges;
-use ligament_analysis::probe::Reading;
+use ligament_analysis::probe::{Reading, Shares};
 use ligament_analysis::{ControlKind, Equilibrium};
 use ligament_case::case::CaseFile;
 use ligament_output::quantity::quantity;
@@ -20,16 +23,16 @@ use ligament_run::summary::temperature_change;
 use super::body::write_group;
 use super::entry::{entry, megabytes, spread};
 use super::told::Told;
-use super::{Extent, equations, model, restraints};
+use super::{Extent, equations, foresight, model, restraints};
 
-/// Checks supports, loads and equations.
+/// Checks supports, loads and equations, and gives what a run would notice before its first load step.
 pub(super) fn check<const D: usize>(
     case: &CaseFile,
     extent: Extent,
     model: &Model<D>,
     stages: &mut Stages,
     out: &mut dyn Write,
-) -> anyhow::Result<()>
+) -> anyhow::Result<Vec<String>>
 where
     Dim: Dimension<D> + Told<D>,
 {
@@ -58,7 +61,7 @@ where
     if let Some(equilibrium) = &equilibrium {
         equations::write(out, case, model, equilibrium)?;
     }
-    Ok(())
+    foresight::write(out, (case, extent), model, &loading, equilibrium, stages)
 }
 
 /// Writes the room that fields take on a disk, and a warning where the disk of the current folder has less.
@@ -120,17 +123,45 @@ where
     };
     let words = format!("{what} {}", quantity(control.magnitude, unit));
     entry(out, "controlled by", words)?;
-    for probe in loading.probes.iter() {
-        let reads = match &probe.reading {
-            Reading::RelativeDisplacement { points, .. } => {
-                points.map(|point| body.place(point)).join(" to ")
+    if control.kind == ControlKind::Force && units == Units::COUPLE {
+        let words = "the mean turn of the loaded points themselves, rad, more than a section turns";
+        entry(out, "displacement is", words)?;
+    }
+    for (probe, given) in loading.probes.iter().zip(&model.setup.probes) {
+        let words = |(place, position): (&Shares, &[f64; D])| place_words(model, place, *position);
+        let reads = match (&probe.reading, &given.reading) {
+            (Reading::RelativeDisplacement { places, .. }, Given::Between { positions, .. }) => {
+                let words: Vec<String> = places.iter().zip(positions).map(words).collect();
+                words.join(" to ")
             }
-            Reading::Field { point, .. } => body.place(*point),
-            Reading::SectionForce { bonds, .. } => format!("{} bonds", bonds.len()),
+            (Reading::Field { place, .. }, Given::At { position, .. }) => words((place, position)),
+            (Reading::SectionForce { bonds, .. }, _) => format!("{} bonds", bonds.len()),
+            _ => continue,
         };
         entry(out, &format!("probe {}", probe.name), reads)?;
     }
     Ok(())
+}
+
+/// The points that a probe reads: those of a cell around its position, or the nearest one and how far it is.
+fn place_words<const D: usize>(model: &Model<D>, place: &Shares, position: [f64; D]) -> String
+where
+    Dim: Dimension<D>,
+{
+    let body = model.body();
+    let [(point, _)] = place[..] else {
+        let labels: Vec<String> = place.iter().map(|(point, _)| body.label(*point)).collect();
+        return format!("within {}", labels.join(", "));
+    };
+    let words = body.place(point);
+    let squares =
+        (body.positions()[point as usize].iter().zip(position)).map(|(p, q)| (p - q).powi(2));
+    let distance = squares.sum::<f64>().sqrt();
+    if distance <= Dim::cloud(&model.system).slack(point) {
+        return words;
+    }
+    let unit = model.setup.units().displacement;
+    format!("{words}, {} from the position", quantity(distance, unit))
 }
 
 fn write_loading<const D: usize>(out: &mut dyn Write, setup: &Setup<D>) -> io::Result<()>

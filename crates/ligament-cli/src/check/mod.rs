@@ -1,10 +1,12 @@
 //! `ligament check`: everything up to the first solve with the stiffness of the body, or the model alone, and what it takes.
 
+mod bending_test;
 mod body;
 mod criteria;
 mod entry;
 mod equations;
 mod extent;
+mod foresight;
 mod loading;
 mod modal;
 mod model;
@@ -21,6 +23,8 @@ use ligament_analysis::connectivity::Fragments;
 use ligament_output::results::point_grid;
 
 use ligament::Model;
+use ligament::bending_test::Meshed;
+use ligament::plausibility::notes;
 use ligament::run::on_threads;
 use ligament::setup::{Analysis, Dim, Dimension};
 use ligament_case::case::CaseFile;
@@ -33,6 +37,9 @@ use ligament_run::stages::{Stage, Stages};
 use entry::{entry, megabytes};
 pub use extent::Extent;
 use told::Told;
+
+/// The file with the fields of the points.
+pub const FIELDS: &str = "points.vtu";
 
 /// Builds the model of a case and reports it; with a folder, writes `points.vtu` with all fixed fields into it.
 pub fn check(
@@ -71,15 +78,17 @@ fn tell<const D: usize>(
     out: &mut dyn Write,
 ) -> anyhow::Result<()>
 where
-    Dim: Dimension<D> + Told<D>,
+    Dim: Dimension<D> + Meshed<D> + Told<D>,
 {
-    match model.setup.analysis {
+    let noticed = match model.setup.analysis {
         Analysis::Modal(settings) => {
             modal::check(case, settings, extent, model, &mut stages, out)?;
+            Vec::new()
         }
         _ => loading::check(case, extent, model, &mut stages, out)?,
-    }
+    };
     Dim::patch_test(out, extent, model, &mut stages)?;
+    let too_stiff = bending_test::write(out, extent, model, &mut stages)?;
     write_stages(out, stages.done())?;
     let intact = vec![true; model.system.ends().len()];
     let loose = Fragments::find(&*model.system, &intact).points.len();
@@ -89,12 +98,19 @@ where
             "warning: the body consists of {loose} parts that no bond connects"
         )?;
     }
-    for warning in &model.warnings {
+    let warnings = model.warnings.iter().map(ToString::to_string);
+    for warning in warnings.chain(noticed) {
         writeln!(out, "warning: {warning}")?;
+    }
+    if let Some(warning) = too_stiff {
+        writeln!(out, "warning: {warning}")?;
+    }
+    for note in notes(&model.setup) {
+        writeln!(out, "note: {note}")?;
     }
     if let Some(folder) = fields {
         std::fs::create_dir_all(folder)?;
-        let path = folder.join("points.vtu");
+        let path = folder.join(FIELDS);
         let (grid, cloud) = (model.body().grid(), Dim::cloud(&model.system));
         point_grid(&path, &grid, &cloud.volumes, &cloud.spacing, &model.fixed)?;
         writeln!(out, "fields written to {}", path.display())?;

@@ -126,6 +126,9 @@ where
     if !model.body().holes().is_empty() || model.across_voids() > 0 {
         entry(out, "pairs across voids", model.across_voids())?;
     }
+    if model.counts.across_layers > 0 {
+        entry(out, "through a layer", model.counts.across_layers)?;
+    }
     entry(out, "points with no_fail", model.no_fail_points())?;
     spread(out, "nearest distance", over(system.spacing()), "m")?;
     spread(out, "horizon", over(&fixed.horizon), "m")?;

@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use ligament_output::check_file;
 
 use super::case_args::CaseArgs;
-use crate::check::{Extent, check};
+use crate::check::{Extent, FIELDS, check};
 use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
@@ -24,17 +25,24 @@ pub struct CheckArgs {
     /// Prepare points, bonds and their correction only, and leave the matrix out
     #[arg(long)]
     pub model_only: bool,
-    /// Solve for Young's modulus and Poisson's ratio of the body also where it has more than 20000 points
+    /// Solve also where it takes long: for the first breakage, and for Young's modulus and Poisson's ratio of a body of more than 20000
+    /// points, as a solid more than 2000
     #[arg(long, conflicts_with = "model_only")]
     pub patch_test: bool,
     /// Write horizons, volumes and energy ratios of the points to points.vtu in this folder
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, alias = "output", value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Replace points.vtu in the folder of --out if there is one
+    #[arg(long)]
+    pub force: bool,
 }
 
 impl CheckArgs {
     /// Does it.
     pub(super) fn execute(self) -> anyhow::Result<()> {
+        if let Some(folder) = &self.out {
+            check_file(&folder.join(FIELDS), self.force)?;
+        }
         let case = self.case.load()?;
         let extent = match (self.model_only, self.patch_test) {
             (true, _) => Extent::Model,

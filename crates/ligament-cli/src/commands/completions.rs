@@ -1,9 +1,11 @@
 //! `ligament completions`.
 
 use std::io::{self, Write};
+use std::path::PathBuf;
 
 use clap::{Args, Command};
 use clap_complete::Shell;
+use ligament_output::write_file;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -17,6 +19,12 @@ pub struct CompletionsArgs {
     /// The shell
     #[arg(value_name = "SHELL")]
     pub shell: Shell,
+    /// The file to write [default: standard output]
+    #[arg(long, alias = "output", value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Replace the file if there is one
+    #[arg(long)]
+    pub force: bool,
 }
 
 impl CompletionsArgs {
@@ -25,6 +33,9 @@ impl CompletionsArgs {
         // Generated into memory: clap_complete panics where the pipe is closed early.
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut program, "ligament", &mut script);
-        Ok(io::stdout().lock().write_all(&script)?)
+        match self.out {
+            None => Ok(io::stdout().lock().write_all(&script)?),
+            Some(path) => Ok(write_file(&path, &script, self.force)?),
+        }
     }
 }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use ligament_output::is_standard_output;
 
 use super::numbers::numbers;
 use crate::explain::{Position, Request, Subject, explain};
@@ -28,12 +29,15 @@ pub struct ExplainArgs {
     /// What to explain.
     #[command(flatten)]
     pub subject: SubjectArgs,
-    /// Write a table with a row a bond and step, replacing what is there
+    /// Write a table with a row a bond and step
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
-    /// Write limits, breakages and paths as JSON, replacing what is there
+    /// Write limits, breakages and paths as JSON
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
+    /// Replace the files of --csv and --json if there are some
+    #[arg(long)]
+    pub force: bool,
 }
 
 /// What `explain` explains: one of these.
@@ -69,8 +73,13 @@ impl ExplainArgs {
             subject,
             csv: self.csv,
             json: self.json,
+            force: self.force,
         };
-        explain(&request, &mut terminal::stdout())
+        let is_spoilt = |it: &&PathBuf| is_standard_output(it);
+        match request.csv.iter().chain(&request.json).find(is_spoilt) {
+            Some(file) => explain(&request, &mut terminal::beside(file)),
+            None => explain(&request, &mut terminal::stdout()),
+        }
     }
 }
 

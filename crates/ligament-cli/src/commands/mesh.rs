@@ -45,8 +45,11 @@ pub struct MeshArgs {
     )]
     pub python: PathBuf,
     /// The mesh to write [default: FILE.msh next to the file]
-    #[arg(long, value_name = "FILE.msh")]
+    #[arg(long, alias = "output", value_name = "FILE.msh")]
     pub out: Option<PathBuf>,
+    /// Replace the mesh if there is one
+    #[arg(long)]
+    pub force: bool,
     /// The gmsh program, if it is not on the PATH
     #[arg(
         long,
@@ -73,24 +76,26 @@ impl MeshArgs {
     fn mesh(self, geometry: PathBuf) -> anyhow::Result<()> {
         let request = MeshRequest {
             out: (self.out).unwrap_or_else(|| geometry.with_extension("msh")),
+            force: self.force,
             geometry,
             gmsh: self.gmsh,
             numbers: self.numbers,
         };
         let mesh = make_mesh(&request)?;
-        let mut out = terminal::stdout();
+        let mut out = terminal::beside(&request.out);
         Ok(write_summary(&mut out, &request.out, &mesh)?)
     }
 
     fn convert(self, source: PathBuf) -> anyhow::Result<()> {
         let request = ConversionRequest {
             out: self.out.unwrap_or_else(|| default_out(&source)),
+            force: self.force,
             source,
             format: self.format,
             python: self.python,
         };
         let converted = convert(&request)?;
-        let mut out = terminal::stdout();
+        let mut out = terminal::beside(&request.out);
         write_summary(&mut out, &request.out, &converted.mesh)?;
         for remark in &converted.remarks {
             writeln!(out, "  note: {remark}")?;

@@ -49,7 +49,7 @@ pub use sweep::SweepArgs;
 pub use verify::VerifyArgs;
 pub use yielding::YieldArgs;
 
-/// Peridynamics for the plane: mesh in, cracks out.
+/// Peridynamics of bodies in the plane and in space: mesh in, cracks out.
 ///
 /// A case file (TOML) names a Gmsh mesh, materials, supports and loads; `ligament run` computes
 /// displacements, reactions and the breaking of bonds and writes them for ParaView.
@@ -79,7 +79,9 @@ Examples:
 
 All values are in SI units: m, N, Pa, s, rad.
 Exit codes: 0 done, 1 error in the input or the run, 2 wrong usage, 3 no equilibrium under load, 4 stopped by a signal \
-(`ligament resume` goes on), 5 `ligament repeat` found other results.";
+(`ligament resume` goes on), 5 `ligament repeat` found other results, 6 ended while bonds were breaking: the last state is no answer.
+\
+A file that a command writes replaces another only with --force; a pipe or a device is written to.";
 
 /// The commands.
 #[derive(Debug, Subcommand)]
@@ -141,7 +143,7 @@ pub enum Command {
     /// deformed body with any field and its cracks, whose points and bonds tell their values.
     #[command(after_help = report::EXAMPLES)]
     Report(ReportArgs),
-    /// Cracks of a run as lines: path, tips, length, area, energy release rate
+    /// Cracks of a run as lines, of a solid as surfaces: path, tips, length, area, energy release rate
     ///
     /// Finds the cracks in stored results, writes their lines as a table and for ParaView, and how their
     /// tips, length and area grew over the load, with the energy release rate.
@@ -157,9 +159,9 @@ pub enum Command {
     Inspect(InspectArgs),
     /// Mesh a Gmsh geometry (needs the program gmsh), or convert a mesh of another program
     ///
-    /// Calls gmsh to make a planar mesh, reads it back and shows what is in it. With --via-meshio reads
+    /// Calls gmsh to mesh the surfaces or volumes of the geometry, reads the mesh back and shows what is in it. With --via-meshio reads
     /// a mesh of Abaqus, Nastran, Exodus, MED, VTK and others by the Python package meshio, and writes it
-    /// for Gmsh with its groups. An existing mesh is replaced only by one that could be read.
+    /// for Gmsh with its groups. An existing mesh is replaced only with --force, and by one that could be read.
     #[command(after_help = mesh::EXAMPLES)]
     Mesh(MeshArgs),
     /// Write a commented case to start from, for a mesh or a lattice

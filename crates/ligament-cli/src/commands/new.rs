@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use ligament_output::replace_file;
+use ligament_output::{check_file, write_file};
 
 use super::numbers::positive;
 use crate::terminal;
@@ -33,7 +33,12 @@ pub struct NewArgs {
     #[arg(long, value_name = "NX,NY[,NZ],SPACING", value_parser = lattice, conflicts_with = "mesh")]
     pub lattice: Option<Lattice>,
     /// The case file to write
-    #[arg(long, value_name = "CASE.toml", default_value = "case.toml")]
+    #[arg(
+        long,
+        alias = "output",
+        value_name = "CASE.toml",
+        default_value = "case.toml"
+    )]
     pub out: PathBuf,
     /// The bond law
     #[arg(long, default_value = "nhpd", value_parser = laws())]
@@ -47,12 +52,7 @@ impl NewArgs {
     /// Does it.
     pub(super) fn execute(self) -> anyhow::Result<()> {
         let out = &self.out;
-        if !self.force && out.exists() {
-            anyhow::bail!(
-                "{} is there already: write to another --out, or replace it by --force",
-                out.display()
-            );
-        }
+        check_file(out, self.force)?;
         let folder = out.parent().unwrap_or(Path::new(""));
         if self.mesh.as_ref().is_none_or(|mesh| mesh.is_file()) {
             std::fs::create_dir_all(folder)
@@ -66,13 +66,14 @@ impl NewArgs {
             }
             (None, None) => anyhow::bail!("there is no mesh: give one, or --lattice NX,NY,SPACING"),
         };
-        replace_file(out, starter.text.as_bytes())?;
+        write_file(out, starter.text.as_bytes(), self.force)?;
         for warning in &starter.warnings {
             writeln!(terminal::stderr(), "warning: {warning}")?;
         }
+        let mut told = terminal::beside(out);
         let out = out.display();
         writeln!(
-            terminal::stdout(),
+            told,
             "wrote {out}: {}\nnext: replace the EXAMPLE values, then\n  ligament check {out}\n  ligament run {out}",
             starter.choice
         )?;

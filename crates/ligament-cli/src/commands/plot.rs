@@ -111,10 +111,13 @@ pub struct PlotArgs {
     /// What the results are called [default: the names of their folders]
     #[arg(long, value_name = "TEXT", num_args = 1..)]
     pub labels: Vec<String>,
-    /// The picture, .png, .svg or .pdf, replacing what is there [default: picture-NAME.png in the folder of the
-    /// results; of the curves of several results, in this one]
-    #[arg(long, value_name = "FILE")]
+    /// The picture, .png, .svg or .pdf [default: picture-NAME.png in the folder of the results, which takes the place of an
+    /// earlier one; of the curves of several results, in this one]
+    #[arg(long, alias = "output", value_name = "FILE")]
     pub out: Option<PathBuf>,
+    /// Replace the files of --out and --animate if there are some
+    #[arg(long)]
+    pub force: bool,
     /// Kind of the picture [default: as the file ends, png without one]
     #[arg(long, value_parser = formats())]
     pub format: Option<Format>,
@@ -138,6 +141,7 @@ impl PlotArgs {
     pub(super) fn execute(self) -> anyhow::Result<()> {
         let target = Target {
             out: self.out,
+            force: self.force,
             format: self.format,
             width: self.width,
             dpi: self.dpi,
@@ -186,9 +190,8 @@ impl PlotArgs {
                 None => vec![draw_fields(&request)?],
             }
         };
-        let mut stdout = terminal::stdout();
         for path in paths {
-            writeln!(stdout, "{}", path.display())?;
+            writeln!(terminal::beside(&path), "{}", path.display())?;
         }
         Ok(())
     }

@@ -4,8 +4,8 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use ligament_output::replace_file;
 use ligament_output::results::steps::StepChoice;
+use ligament_output::{check_file, write_file};
 use ligament_plot::picture::profile::{ProfileRequest, profile};
 
 use super::numbers::position;
@@ -40,9 +40,12 @@ pub struct ProfileArgs {
     /// Places on the line, evenly spread
     #[arg(long, value_name = "COUNT", default_value = "101", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     pub samples: u32,
-    /// The table, replacing what is there [default: standard output]
-    #[arg(long, value_name = "FILE")]
+    /// The table [default: standard output]
+    #[arg(long, alias = "output", value_name = "FILE")]
     pub out: Option<PathBuf>,
+    /// Replace the table if there is one
+    #[arg(long)]
+    pub force: bool,
 }
 
 impl ProfileArgs {
@@ -52,6 +55,9 @@ impl ProfileArgs {
             self.from != self.to,
             "the line has no length: give --from and --to different places"
         );
+        if let Some(path) = &self.out {
+            check_file(path, self.force)?;
+        }
         let table = profile(&ProfileRequest {
             folder: self.results,
             fields: self.field,
@@ -62,8 +68,8 @@ impl ProfileArgs {
         match self.out {
             None => Ok(write!(terminal::stdout(), "{table}")?),
             Some(path) => {
-                replace_file(&path, table.as_bytes())?;
-                Ok(writeln!(terminal::stdout(), "{}", path.display())?)
+                write_file(&path, table.as_bytes(), self.force)?;
+                Ok(writeln!(terminal::beside(&path), "{}", path.display())?)
             }
         }
     }

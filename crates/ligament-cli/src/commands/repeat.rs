@@ -31,7 +31,7 @@ pub struct RepeatArgs {
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
     /// Keep the results of the repetition in this folder [default: DIR.repeat, which stays only if they differ]
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, alias = "output", value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// The mesh, where it no longer lies where the run found it
     #[arg(long, value_name = "FILE")]

@@ -15,7 +15,7 @@ const MEGABYTE: f64 = 1e6;
 pub(super) const EXAMPLES: &str = "\
 Examples:
   ligament report results/disk                       writes results/disk/report.html
-  ligament report results/coarse results/fine --labels '4 mm' '2 mm' --output both.html
+  ligament report results/coarse results/fine --labels '4 mm' '2 mm' --out both.html
   ligament report results/disk --digits 4 --steps 20 a smaller page
 
 The page is one file without anything from a network: open it in a browser, send it, print it. It has
@@ -29,9 +29,12 @@ pub struct ReportArgs {
     /// Folders with results of runs
     #[arg(value_name = "RESULT", required = true)]
     pub results: Vec<PathBuf>,
-    /// The page [default: report.html in the first folder]
-    #[arg(long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
+    /// The page [default: report.html in the first folder, which takes the place of an earlier one]
+    #[arg(long, alias = "output", value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Replace the file of --out if there is one
+    #[arg(long)]
+    pub force: bool,
     /// Names of the results in the page, one for each [default: names of the folders]
     #[arg(long, value_name = "TEXT", num_args = 1..)]
     pub labels: Vec<String>,
@@ -52,12 +55,13 @@ impl ReportArgs {
         let written = write_report(&Request {
             folders: self.results,
             labels: self.labels,
-            output: self.output,
+            output: self.out,
+            force: self.force,
             digits: self.digits,
             steps: self.steps.map(|it| it as usize),
             size: (self.size * MEGABYTE) as usize,
         })?;
-        let mut out = terminal::stdout();
+        let mut out = terminal::beside(&written.path);
         for it in &written.contents {
             writeln!(
                 out,

@@ -13,7 +13,7 @@ use crate::stop_signal::StopSignal;
 use crate::terminal;
 use ligament_plot::picture::{asks_for_pictures, draw_run};
 use ligament_run::progress::ProgressMode;
-use ligament_run::run::{NOT_AT_REST, Report, Request};
+use ligament_run::run::{Report, Request};
 use ligament_study::sweep::take_leash;
 
 pub(super) const EXAMPLES: &str = "\
@@ -25,13 +25,10 @@ Examples:
 
 A --set takes any key of the case file; the entries of a list such as [[load]] count from 0.
 The value is TOML; a bare word is a string. Values are in SI units: m, N, Pa, s, rad.
-Paths, also in --set mesh.file=..., are relative to the folder of the case file.";
+Paths, also in --set mesh.file=..., are relative to the folder of the case file.
 
-/// Exit code of a run that a signal stopped.
-const STOPPED: u8 = 4;
-
-/// Exit code of a run without a state under load that is in equilibrium.
-const WITHOUT_EQUILIBRIUM: u8 = 3;
+Exit codes: 0 done, 1 error, 2 wrong usage, 3 no equilibrium (under any load, or beyond some), 4 stopped by a signal,
+6 collapsed, or ended while bonds were breaking.";
 
 /// `ligament run`.
 #[derive(Debug, Args)]
@@ -41,7 +38,7 @@ pub struct RunArgs {
     pub case: CaseArgs,
     /// Folder for the results [default: results/NAME, with the name of the case file, or of its folder where the file is
     /// case.toml]
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, alias = "output", value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace results of an earlier run in the folder
     #[arg(long)]
@@ -96,18 +93,19 @@ impl RunArgs {
 
 /// Shows what a run found, and where its results are, with pictures of them if these are wanted or its case asks for them.
 pub(super) fn tell(report: &Report, folder: &Path, pictures: bool) -> anyhow::Result<ExitCode> {
+    let code = ExitCode::from(report.end().exit_code());
     let mut stdout = terminal::stdout();
     report.write(&mut stdout)?;
     let out = folder.display();
     if report.is_stopped() {
         writeln!(stdout, "  go on with         ligament resume {out}")?;
-        return Ok(ExitCode::from(STOPPED));
+        return Ok(code);
     }
     writeln!(stdout, "  results in         {out}")?;
     if let Some(reason) = report.without_equilibrium() {
         stdout.flush()?;
         writeln!(terminal::stderr(), "error: no result under load: {reason}")?;
-        return Ok(ExitCode::from(WITHOUT_EQUILIBRIUM));
+        return Ok(code);
     }
     if pictures || asks_for_pictures(folder) {
         // A picture that cannot be drawn does not undo the run.
@@ -120,8 +118,5 @@ pub(super) fn tell(report: &Report, folder: &Path, pictures: bool) -> anyhow::Re
             Err(error) => writeln!(terminal::stderr(), "warning: no picture: {error}")?,
         }
     }
-    if report.ends_not_at_rest() {
-        return Ok(ExitCode::from(NOT_AT_REST));
-    }
-    Ok(ExitCode::SUCCESS)
+    Ok(code)
 }

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use clap::Args;
-use ligament_output::replace_file;
+use ligament_output::write_file;
 
 use ligament_case::case::schema;
 
@@ -20,8 +20,11 @@ VS Code (extension Even Better TOML), Helix and Zed (language server taplo) a ca
 #[derive(Debug, Args)]
 pub struct SchemaArgs {
     /// The file to write [default: standard output]
-    #[arg(long, value_name = "FILE.json")]
+    #[arg(long, alias = "output", value_name = "FILE.json")]
     pub out: Option<PathBuf>,
+    /// Replace the file if there is one
+    #[arg(long)]
+    pub force: bool,
 }
 
 impl SchemaArgs {
@@ -30,7 +33,7 @@ impl SchemaArgs {
         let text = serde_json::to_string_pretty(&schema())? + "\n";
         match self.out {
             None => Ok(io::stdout().lock().write_all(text.as_bytes())?),
-            Some(path) => Ok(replace_file(&path, text.as_bytes())?),
+            Some(path) => Ok(write_file(&path, text.as_bytes(), self.force)?),
         }
     }
 }

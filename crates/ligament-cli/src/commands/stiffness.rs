@@ -24,7 +24,7 @@ pub struct StiffnessArgs {
     #[arg(long, value_name = "SHARE", default_value_t = 0.5)]
     pub length: f64,
     /// Folder for the results [default: results/NAME-stiffness with the name of the case's folder]
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, alias = "output", value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace earlier results in the folder
     #[arg(long)]

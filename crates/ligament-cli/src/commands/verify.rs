@@ -30,7 +30,12 @@ pub struct VerifyArgs {
     #[arg(long)]
     pub fast: bool,
     /// Folder for the report
-    #[arg(long, value_name = "DIR", default_value = "results/verification")]
+    #[arg(
+        long,
+        alias = "output",
+        value_name = "DIR",
+        default_value = "results/verification"
+    )]
     pub out: PathBuf,
     /// Replace an earlier report in the folder
     #[arg(long)]

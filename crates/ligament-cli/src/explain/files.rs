@@ -1,19 +1,17 @@
 //! An explanation as a table and as JSON.
 
-use std::path::Path;
-
 use anyhow::Context;
 use ligament_model::Absence;
 use ligament_model::element::BondDeformation;
-use ligament_output::csv::{Table, Value};
+use ligament_output::csv::{Value, line};
 use ligament_output::results::stored::StoredRun;
 use serde_json::json;
 
 use super::life::{Life, Lives};
 use super::report::angle;
 
-/// Writes a row a bond and step with fields.
-pub(super) fn write_csv(path: &Path, run: &StoredRun, lives: &Lives) -> anyhow::Result<()> {
+/// A table with a row a bond and step with fields.
+pub(super) fn csv(run: &StoredRun, lives: &Lives) -> String {
     let tagged = run.model.tagged;
     let mut columns: Vec<String> = ["a", "b"].map(|end| format!("{tagged}_{end}")).to_vec();
     let loads = ["step", "load_factor", "displacement", "reaction", "intact"];
@@ -26,8 +24,8 @@ pub(super) fn write_csv(path: &Path, run: &StoredRun, lives: &Lives) -> anyhow::
             columns.extend(["mu", "omega"].map(of));
         }
     }
-    let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
-    let mut table = Table::create(path, &columns)?;
+    let columns: Vec<Value<'_>> = columns.iter().map(|it| it.as_str().into()).collect();
+    let mut table = line(&columns);
     for life in &lives.of_bonds {
         let tags = life.ends.map(|end| run.model.tags[end as usize]);
         for (place, (moment, deformation)) in
@@ -58,14 +56,14 @@ pub(super) fn write_csv(path: &Path, run: &StoredRun, lives: &Lives) -> anyhow::
                     row.extend([left.force, left.secant].map(Value::from));
                 }
             }
-            table.append(&row)?;
+            table += &line(&row);
         }
     }
-    Ok(())
+    table
 }
 
-/// Writes bonds with their limits, breakages and paths; what is infinite is `null`.
-pub(super) fn write_json(path: &Path, run: &StoredRun, lives: &Lives) -> anyhow::Result<()> {
+/// Bonds with their limits, breakages and paths; what is infinite is `null`.
+pub(super) fn json(run: &StoredRun, lives: &Lives) -> anyhow::Result<String> {
     let tags = |ends: [u32; 2]| ends.map(|end| run.model.tags[end as usize]);
     let absent = lives.absent.iter().map(|pair| {
         let why = match run.model.bonds.absence[*pair] {
@@ -83,7 +81,7 @@ pub(super) fn write_json(path: &Path, run: &StoredRun, lives: &Lives) -> anyhow:
     });
     let text = serde_json::to_string_pretty(&document)
         .context("the explanation cannot be written as JSON")?;
-    std::fs::write(path, text + "\n").with_context(|| format!("cannot write {}", path.display()))
+    Ok(text + "\n")
 }
 
 fn bond(run: &StoredRun, lives: &Lives, life: &Life) -> serde_json::Value {

@@ -14,6 +14,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use ligament_output::results::stored::StoredRun;
+use ligament_output::{check_file, write_file};
 use thiserror::Error;
 
 use self::life::{Lives, bonds_of, pair_of};
@@ -50,6 +51,8 @@ pub struct Request {
     pub csv: Option<PathBuf>,
     /// File to write everything to.
     pub json: Option<PathBuf>,
+    /// Whether the two may replace files that are there.
+    pub force: bool,
 }
 
 /// Why nothing can be explained.
@@ -97,6 +100,9 @@ fn nearest_words(nearest: &[i64]) -> String {
 ///
 /// If the folder has no results that tell, there is no such point, or a file cannot be written.
 pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
+    for path in request.csv.iter().chain(&request.json) {
+        check_file(path, request.force)?;
+    }
     let run = StoredRun::open(&request.folder)?;
     let loading = stored_loading(&request.folder)?;
     let family = |out: &mut dyn Write, point: u32, sought: Option<[f64; 3]>| {
@@ -124,11 +130,11 @@ pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
         }
     };
     if let Some(path) = &request.csv {
-        files::write_csv(path, &run, &lives)?;
+        write_file(path, files::csv(&run, &lives).as_bytes(), request.force)?;
         writeln!(out, "\ntable in {}", path.display())?;
     }
     if let Some(path) = &request.json {
-        files::write_json(path, &run, &lives)?;
+        write_file(path, files::json(&run, &lives)?.as_bytes(), request.force)?;
         writeln!(out, "\neverything in {}", path.display())?;
     }
     Ok(())

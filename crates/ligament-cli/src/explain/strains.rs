@@ -1,7 +1,7 @@
 //! Strains of bonds that have some of their own, from the stored motions of the points of a lattice.
 
 use ligament_model::BondSet;
-use ligament_model::bonds::Incidence;
+use ligament_model::bonds::{Composition, Incidence};
 use ligament_model::element::imaginary::{ImaginaryElements, StrainStiffness};
 use ligament_model::element::{BondDeformation, Element, Elements, Rigidities};
 use ligament_output::results::stored::{Motions, StoredRun};
@@ -47,6 +47,7 @@ impl Strains {
             horizon: model.bonds.horizon[..ends.len()].to_vec(),
             length,
             ends,
+            composition: Composition::default(),
         };
         // Strains need no stiffness.
         let none = StrainStiffness {

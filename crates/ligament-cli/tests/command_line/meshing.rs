@@ -70,7 +70,7 @@ fn a_failure_shows_the_errors_of_gmsh_and_leaves_the_mesh_alone() {
     ] {
         let folder = folder(script);
         fs::write(folder.path().join("plate.msh"), "old").unwrap();
-        let output = mesh(folder.path(), &[]);
+        let output = mesh(folder.path(), &["--force"]);
         assert_eq!(output.status.code(), Some(1));
         let expected = "plate.geo\n  Error   : 'plate.geo', line 3: syntax error\n";
         assert!(stderr(&output).ends_with(expected), "{}", stderr(&output));
@@ -102,7 +102,7 @@ fn a_failure_without_error_lines_shows_what_gmsh_said_last() {
 fn a_mesh_that_cannot_be_read_does_not_replace_one() {
     let folder = folder("echo nonsense > \"$OUT\"");
     fs::write(folder.path().join("plate.msh"), "old").unwrap();
-    let output = mesh(folder.path(), &[]);
+    let output = mesh(folder.path(), &["--force"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(
         stderr(&output).contains("that cannot be used"),

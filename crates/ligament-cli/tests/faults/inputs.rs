@@ -147,6 +147,38 @@ fn empty_sections_of_a_mesh_take_no_memory() {
     assert_success(&place.limited("ulimit -v 1500000", "inspect many.msh"));
 }
 
+/// A mesh that does not fit into the memory that there is is an error with its size, and not the end of the program by a signal.
+///
+/// The limits lie between the memory of the program itself (30 MB) and that of a mesh of 400,000 cells (180 MB).
+#[test]
+fn a_mesh_without_memory_is_refused() {
+    let place = Place::new();
+    let n = 640;
+    let mut mesh = format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n", n * n);
+    for node in 0..n * n {
+        let _ = writeln!(mesh, "{} {} {} 0", node + 1, node % n, node / n);
+    }
+    let _ = writeln!(mesh, "$EndNodes\n$Elements\n{}", (n - 1) * (n - 1));
+    for cell in 0..(n - 1) * (n - 1) {
+        let a = 1 + n * (cell / (n - 1)) + cell % (n - 1);
+        let _ = writeln!(
+            mesh,
+            "{} 3 2 1 1 {a} {} {} {}",
+            cell + 1,
+            a + 1,
+            a + 1 + n,
+            a + n
+        );
+    }
+    fs::write(place.path("large.msh"), mesh + "$EndElements\n").unwrap();
+    assert_success(&place.limited("ulimit -v 400000", "inspect large.msh"));
+    for kilobytes in [80_000, 100_000, 120_000] {
+        let limits = format!("ulimit -v {kilobytes}");
+        let output = place.limited(&limits, "inspect large.msh");
+        assert_refused(&output, &["no memory for this mesh", "MB more"]);
+    }
+}
+
 /// A name has any length, a column has not.
 #[test]
 fn a_name_may_be_longer_than_a_column() {

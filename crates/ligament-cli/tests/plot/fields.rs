@@ -163,10 +163,9 @@ fn fields_have_units_and_signs_their_colours() {
             .contains(&"displacement.y (µm)".to_owned())
     );
     assert!(
-        of("stress_virial.yy")
-            .0
-            .iter()
-            .any(|it| it.starts_with("stress_virial.yy (") && it.ends_with("Pa)"))
+        of("stress_virial.yy").0.iter().any(|it| it
+            .starts_with("stress_virial.yy, right in the mean (")
+            && it.ends_with("Pa)"))
     );
     let (labels, svg) = of("displacement.x");
     assert!(labels.contains(&"0.0".to_owned()), "{labels:?}");

@@ -66,6 +66,42 @@ fn meshes_of_the_repository_have_cases_that_check() {
     assert!(!report.contains("(0 cut by pre-cracks)"), "{report}");
 }
 
+/// A bar of eight cubes with nodes called left and right below its ends and load above its middle is bent in three points.
+#[test]
+fn a_load_between_two_ends_bends() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n0 1 \"left\"\n0 2 \"right\"\n0 3 \"load\"\n3 4 \"beam\"\n\
+                    $EndPhysicalNames\n$Nodes\n36\n"
+        .to_owned();
+    for node in 0..36 {
+        text += &format!("{} {} {} {}\n", node + 1, node % 9, node / 9 % 2, node / 18);
+    }
+    text += "$EndNodes\n$Elements\n11\n1 15 2 1 1 1\n2 15 2 2 2 9\n3 15 2 3 3 23\n";
+    for cell in 1..=8 {
+        let base = [cell, cell + 1, cell + 10, cell + 9];
+        let corners = base.into_iter().chain(base.map(|it| it + 18));
+        let corners: Vec<String> = corners.map(|it| it.to_string()).collect();
+        text += &format!("{} 5 2 4 4 {}\n", cell + 3, corners.join(" "));
+    }
+    let file = folder.path().join("beam.msh");
+    std::fs::write(&file, text + "$EndElements\n").unwrap();
+    let starter = of_mesh(&file, folder.path(), Law::Nhpd).unwrap();
+    let case = case(&starter.text, folder.path()).case;
+    let [left, right] = case.supports.as_slice() else {
+        panic!("{}", starter.text);
+    };
+    assert_eq!(
+        [&left.group, &right.group].map(|it| it.as_deref()),
+        [Some("left"), Some("right")]
+    );
+    let [pinned, sliding] = [left, right].map(|it| it.displacement.unwrap());
+    assert_eq!([pinned.x, pinned.y, pinned.z], [Some(0.0); 3]);
+    assert_eq!([sliding.x, sliding.y, sliding.z], [None, None, Some(0.0)]);
+    assert_eq!(case.loads[0].group.as_deref(), Some("load"));
+    let moved = case.loads[0].displacement.unwrap();
+    assert!(moved.z.is_some_and(|z| z < 0.0), "{}", starter.text);
+}
+
 /// A mesh without groups is held and pulled by boxes at its ends, and breaks.
 #[test]
 fn without_groups_boxes_are_taken_and_the_case_runs() {

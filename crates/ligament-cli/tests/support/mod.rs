@@ -1,5 +1,5 @@
 //! What the tests of the commands share: the program, what it says, and a small case.
-#![allow(dead_code, reason = "each file of tests takes what it needs")]
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
 use std::ffi::OsStr;
 use std::path::Path;

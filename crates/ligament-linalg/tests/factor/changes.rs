@@ -2,8 +2,8 @@
 
 use ligament_linalg::{Elimination, FactorKind, Factorisation, Inertia, RankOne};
 
-use crate::EPSILON;
-use crate::systems::*;
+use super::EPSILON;
+use super::systems::*;
 
 /// Pivots, inertia and solution of a changed factor are those of a new one.
 fn assert_like_new(

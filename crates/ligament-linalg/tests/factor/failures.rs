@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use ligament_linalg::{Elimination, FactorError, FactorKind, Factorisation, RankOne, Symbolic};
 
-use crate::EPSILON;
-use crate::systems::*;
+use super::EPSILON;
+use super::systems::*;
 
 fn is_refused(kind: FactorKind, error: &FactorError) -> bool {
     match kind {

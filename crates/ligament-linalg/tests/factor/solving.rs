@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use ligament_linalg::{Elimination, Inertia, Pattern, Symbolic, SymmetricMatrix};
 
-use crate::EPSILON;
-use crate::systems::*;
+use super::EPSILON;
+use super::systems::*;
 
 /// Shapes that panels take: single columns, blocks of one to nine columns, several roots, no rows below.
 fn small_graphs(random: &mut Random) -> Vec<Graph> {

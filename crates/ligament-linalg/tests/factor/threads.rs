@@ -11,8 +11,8 @@ use faer::{Par, Side};
 use ligament_linalg::digest;
 use ligament_linalg::{Elimination, FactorKind, RankOne, SymmetricMatrix};
 
-use crate::changes::random_terms;
-use crate::systems::*;
+use super::changes::random_terms;
+use super::systems::*;
 
 /// Numbers of threads that are compared with one.
 const THREADS: [usize; 3] = [2, 3, 7];

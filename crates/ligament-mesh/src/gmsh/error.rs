@@ -114,6 +114,15 @@ pub enum GmshError {
         /// The count.
         count: u64,
     },
+    /// The system has no memory for the mesh.
+    #[error(
+        "there is no memory for this mesh: it takes at least {megabytes} MB more; mesh more coarsely, or give the program more (a limit as \
+         of `ulimit -v`, or of the queue, may be set)"
+    )]
+    NoMemory {
+        /// The least that is missing, MB.
+        megabytes: usize,
+    },
     /// The blocks of a section hold another number of items than its head announces.
     #[error(
         "{place}: {announced} {items} are announced, but the blocks hold {found}; save the mesh again"
@@ -265,6 +274,21 @@ pub enum GmshError {
         element: u64,
         /// Tag of the first cell.
         other: u64,
+    },
+    /// A cell that covers some of another one, with no edge or face in common.
+    #[error(
+        "{place}: cell {element} and cell {other} ({other_place}) lie over each other: \
+         are there two meshes of one part, or do two parts of the geometry overlap? Remove one (`Coherence;`), and mesh again"
+    )]
+    CoveringCells {
+        /// Where the second stands.
+        place: Place,
+        /// Tag of the second cell.
+        element: u64,
+        /// Tag of the first cell.
+        other: u64,
+        /// Where the first stands.
+        other_place: Place,
     },
     /// Two nodes of a solid mesh at one place.
     #[error(

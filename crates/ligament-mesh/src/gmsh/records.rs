@@ -91,6 +91,7 @@ impl Records {
                 value: *value,
             }),
             None => {
+                make_room(&mut self.nodes, 1)?;
                 self.nodes.push(node);
                 Ok(())
             }
@@ -132,6 +133,7 @@ impl Records {
             first_corner: self.corners.len(),
             offset,
         };
+        make_room(&mut self.corners, n_corners)?;
         for _ in 0..n_corners {
             self.corners.push(node_tag(cursor)?);
         }
@@ -139,10 +141,35 @@ impl Records {
         for _ in n_corners..nodes {
             let inner = node_tag(cursor)?;
             if shape.dimension() > 1 {
+                make_room(&mut self.inner_nodes, 1)?;
                 self.inner_nodes.push((inner, index));
             }
         }
+        make_room(&mut self.elements, 1)?;
         self.elements.push(element);
         Ok(())
     }
+
+    /// Fails where the system would not have the memory that it takes to make a mesh of these records.
+    ///
+    /// What follows asks for it in many parts, each of which would end the program where there is none. Measured beside the records
+    /// were 200 bytes a node with its quadrangle (a million of them), and 130 bytes a tetrahedron with its fifth of a node.
+    pub(super) fn require_memory(&self) -> Result<(), GmshError> {
+        let parts = [
+            self.nodes.len().saturating_mul(100),
+            self.elements.len().saturating_mul(130),
+        ];
+        make_room(&mut Vec::<u8>::new(), parts[0].saturating_add(parts[1]))
+    }
+}
+
+/// Makes room for more elements of a list, whose number a file tells.
+///
+/// # Errors
+///
+/// If the system has no memory for them.
+pub(super) fn make_room<T>(list: &mut Vec<T>, more: usize) -> Result<(), GmshError> {
+    list.try_reserve(more).map_err(|_| GmshError::NoMemory {
+        megabytes: (list.len().saturating_add(more)).saturating_mul(size_of::<T>()) / 1_000_000,
+    })
 }

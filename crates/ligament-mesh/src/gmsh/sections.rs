@@ -48,7 +48,7 @@ pub(super) fn read(cursor: &mut Cursor<'_>) -> Result<Records, GmshError> {
         elements |= name == "Elements";
     }
     match (nodes, elements) {
-        (true, true) => Ok(records),
+        (true, true) => records.require_memory().map(|()| records),
         (false, _) => Err(GmshError::MissingSection { name: "Nodes" }),
         (true, false) => Err(GmshError::MissingSection { name: "Elements" }),
     }

@@ -1,6 +1,6 @@
 //! One damaged or unfit file for each refusal of the reader, with the place it is refused at.
 
-use crate::square::{SQUARE, SQUARE_41, golden, refusal, refusal_of};
+use super::square::{SQUARE, SQUARE_41, golden, refusal, refusal_of};
 use ligament_mesh::gmsh::{GmshError, Place, parse};
 
 fn unexpected(line: usize, expected: &'static str, found: &str) -> GmshError {

@@ -1,6 +1,6 @@
 //! Values at nodes: what is read of `$NodeData`, and what is refused.
 
-use crate::square::{SQUARE, SQUARE_41, golden};
+use super::square::{SQUARE, SQUARE_41, golden};
 use ligament_mesh::gmsh::{self, GmshError, Place};
 use ligament_mesh::{Mesh, NodeField};
 

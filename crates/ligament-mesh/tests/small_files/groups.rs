@@ -1,6 +1,6 @@
 //! Physical groups in the ways that files can give them.
 
-use crate::square::{SQUARE, SQUARE_41};
+use super::square::{SQUARE, SQUARE_41};
 use ligament_mesh::{Mesh, Remark, gmsh};
 
 /// The mesh of a square with `old` replaced by `new`.

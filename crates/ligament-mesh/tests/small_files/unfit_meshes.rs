@@ -1,6 +1,6 @@
 //! One file for each refusal of what is no planar mesh, with the place it is refused at.
 
-use crate::square::{SQUARE, SQUARE_41, golden, refusal, refusal_of};
+use super::square::{SQUARE, SQUARE_41, golden, refusal, refusal_of};
 use ligament_mesh::gmsh::{GmshError, Place, parse};
 
 #[test]
@@ -225,6 +225,52 @@ fn overlapping_cells_are_refused() {
     };
     let overlapping = SQUARE.replace("4 0 1 0", "4 1 0.4 0");
     assert_eq!(parse(overlapping.as_bytes()), Err(expected));
+}
+
+/// Eight triangles on three by three nodes, and two large ones on the corners of all: no edge in common. A node that the second one has
+/// in its middle, or the middle of a small one in it, tells of them; without the large ones nothing is amiss.
+#[test]
+fn coarse_cells_over_fine_ones_are_refused() {
+    let file = |coarse: &[&str]| {
+        let mut text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n9\n".to_owned();
+        for node in 0..9 {
+            text += &format!("{} {} {} 0\n", node + 1, node % 3, node / 3);
+        }
+        let mut cells = Vec::new();
+        for corner in [1, 2, 4, 5] {
+            let [right, above, across] = [1, 3, 4].map(|it| corner + it);
+            cells.push(format!("{corner} {right} {above}"));
+            cells.push(format!("{right} {across} {above}"));
+        }
+        cells.extend(coarse.iter().map(|it| (*it).to_owned()));
+        text += &format!("$EndNodes\n$Elements\n{}\n", cells.len());
+        for (number, cell) in (1..).zip(&cells) {
+            text += &format!("{number} 2 2 1 1 {cell}\n");
+        }
+        text + "$EndElements\n"
+    };
+    assert_eq!(parse(file(&[]).as_bytes()).unwrap().area(), 4.0);
+    // Elements begin in line 18; the first cell lies in the first large triangle.
+    let expected = |other: u64| GmshError::CoveringCells {
+        place: Place::Line(26),
+        element: 9,
+        other,
+        other_place: Place::Line(17 + other as usize),
+    };
+    let error = parse(file(&["1 3 9", "1 9 7"]).as_bytes()).unwrap_err();
+    assert!(
+        error.to_string().contains("line 26: cell 9 and cell "),
+        "{error}"
+    );
+    let GmshError::CoveringCells { other, .. } = error else {
+        panic!("{error}")
+    };
+    assert_eq!(error, expected(other));
+    let alone = parse(file(&["1 9 7"]).as_bytes()).unwrap_err();
+    assert!(
+        matches!(alone, GmshError::CoveringCells { element: 9, .. }),
+        "{alone}"
+    );
 }
 
 #[test]

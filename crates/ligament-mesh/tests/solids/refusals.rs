@@ -1,6 +1,6 @@
 //! One file for each refusal of what is no solid mesh, with the place it is refused at.
 
-use crate::small_files::{CHAPEL, changed};
+use super::small_files::{CHAPEL, changed};
 use ligament_mesh::gmsh::{GmshError, Place, parse_any};
 
 fn refusal(old: &str, new: &str) -> GmshError {
@@ -103,6 +103,44 @@ fn cells_twice_or_over_each_other_are_refused() {
         other: 6,
     };
     assert_eq!(add("7 4 2 6 1 5 6 9 8"), overlap);
+}
+
+/// Eight cubes, and on the corners of all of them a ninth: no face in common.
+#[test]
+fn coarse_solids_over_fine_ones_are_refused() {
+    let file = |with_coarse: bool| {
+        let mut text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n27\n".to_owned();
+        for node in 0..27 {
+            text += &format!("{} {} {} {}\n", node + 1, node % 3, node / 3 % 3, node / 9);
+        }
+        let cube = |corner: u32, side: u32| {
+            let base = [0, side, 4 * side, 3 * side].map(|it| corner + it);
+            let corners = base.into_iter().chain(base.map(|it| it + 9 * side));
+            corners
+                .map(|it| it.to_string())
+                .collect::<Vec<_>>()
+                .join(" ")
+        };
+        let mut cells: Vec<String> = [1, 2, 4, 5, 10, 11, 13, 14].map(|it| cube(it, 1)).to_vec();
+        cells.extend(with_coarse.then(|| cube(1, 2)));
+        text += &format!("$EndNodes\n$Elements\n{}\n", cells.len());
+        for (number, cell) in (1..).zip(&cells) {
+            text += &format!("{number} 5 2 1 1 {cell}\n");
+        }
+        text + "$EndElements\n"
+    };
+    assert!(parse_any(file(false).as_bytes()).is_ok());
+    let error = parse_any(file(true).as_bytes()).unwrap_err();
+    let GmshError::CoveringCells { other, .. } = error else {
+        panic!("{error}")
+    };
+    let expected = GmshError::CoveringCells {
+        place: Place::Line(44),
+        element: 9,
+        other,
+        other_place: Place::Line(35 + other as usize),
+    };
+    assert_eq!(error, expected);
 }
 
 #[test]

@@ -4,10 +4,9 @@ use rayon::prelude::*;
 
 use super::BondSet;
 use crate::cloud::PointCloud;
-use crate::horizon::INCLUSION_TOLERANCE;
 use crate::shape::Region;
 
-/// For each bond, whether it meets the inside of a hole (coordinates of the case) by more than 1e-9 of the nearest distance
+/// For each bond, whether it meets the inside of a hole (coordinates of the case) by more than 1e-5 of the nearest distance
 /// of its ends, shape (n_bonds). Without this slack rounding would decide about bonds along a rim.
 pub fn bonds_across<const D: usize, S: Region<D>>(
     holes: &[S],
@@ -18,9 +17,8 @@ pub fn bonds_across<const D: usize, S: Region<D>>(
     let holes: Vec<S> = holes.iter().map(|hole| hole.moved(to_local)).collect();
     (bonds.ends.par_iter())
         .map(|&[a, b]| {
-            let [a, b] = [a, b].map(|end| end as usize);
-            let slack = INCLUSION_TOLERANCE * cloud.spacing[a].min(cloud.spacing[b]);
-            let ends = [cloud.positions[a], cloud.positions[b]];
+            let slack = cloud.slack_between([a, b]);
+            let ends = [a, b].map(|end| cloud.positions[end as usize]);
             holes
                 .iter()
                 .any(|hole| hole.is_crossed_by(ends[0], ends[1], slack))

@@ -1,12 +1,18 @@
 //! Dual-horizon bonds: one record for each pair of points of which one lies in the horizon of the other.
 
+pub mod composition;
 pub mod hole;
 pub mod outline;
+pub mod parts;
 pub mod precrack;
+pub(crate) mod retained;
 mod search;
 pub mod star;
 
 use crate::cloud::PointCloud;
+pub use composition::Composition;
+use parts::Parts;
+use retained::retained;
 
 /// All bonds of a body, as arrays over the bonds.
 ///
@@ -23,6 +29,8 @@ pub struct BondSet<const D: usize = 2> {
     pub horizon: Vec<f64>,
     /// The bonds of each point.
     pub incidence: Incidence,
+    /// What bonds are made of that cross an interface; empty until they are followed through the body.
+    pub composition: Composition,
 }
 
 /// The bonds of each point, ascending; with the order of [`BondSet`] the neighbours ascend as well.
@@ -77,16 +85,17 @@ impl<const D: usize> BondSet<D> {
             direction: retained(self.direction, keep),
             horizon: retained(self.horizon, keep),
             incidence,
+            composition: self.composition.retained(keep),
         }
     }
-}
 
-/// The entries of `values` for which `keep` is true, in order.
-pub(crate) fn retained<T>(mut values: Vec<T>, keep: &[bool]) -> Vec<T> {
-    let mut keep = keep.iter();
-    values.retain(|_| keep.next().is_some_and(|&kept| kept));
-    values.shrink_to_fit();
-    values
+    /// The bonds, followed through the parts of the body between whose points they are.
+    pub fn through(self, parts: &impl Parts<D>, cloud: &PointCloud<D>) -> Self {
+        Self {
+            composition: Composition::new(parts, &self.ends, cloud),
+            ..self
+        }
+    }
 }
 
 impl Incidence {

@@ -3,7 +3,7 @@
 //! Holes, slots, notches and re-entrant corners are what the cells leave free. The rule, decided with exact orientation predicates:
 //! a bond stays in the body if it crosses no edge of the outline, and if it goes on into a cell, or along an edge of one, from every
 //! node of the outline on it. Along the outline, and past a corner that it only touches, it stays: what comes closer to a line than
-//! 1e-9 of the nearest distance of the bond's ends lies on it, or rounding would decide about bonds along a slanted side.
+//! 1e-5 of the nearest distance of the bond's ends lies on it, or rounding would decide about bonds along a slanted side.
 
 use ligament_mesh::Cell;
 use rayon::prelude::*;
@@ -35,8 +35,7 @@ pub fn bonds_outside(cells: &[Cell], bonds: &BondSet, cloud: &PointCloud) -> Vec
         lengths.copied().fold(0.0, f64::max)
     };
     let leaves = |bond: usize, near: &[[u32; 2]]| {
-        let spacing = bonds.ends[bond].map(|end| cloud.spacing[end as usize]);
-        let slack = INCLUSION_TOLERANCE * spacing[0].min(spacing[1]);
+        let slack = cloud.slack_between(bonds.ends[bond]);
         outline.is_left_by(bonds.ends[bond], near, slack)
     };
     let of_points: Vec<usize> = (cloud.curve.par_chunks(BLOCK))
@@ -90,7 +89,7 @@ pub fn spacing_inside(cells: &[Cell], cloud: &PointCloud) -> Vec<f64> {
         let (position, shortest) = (cloud.positions[point as usize], shortest[point as usize]);
         let near = outline.near(position, shortest);
         let is_seen = |other: u32, length: f64| {
-            !outline.is_left_by([point, other], &near, INCLUSION_TOLERANCE * length)
+            !outline.is_left_by([point, other], &near, cloud.tolerance(point) * length)
         };
         spacing[point as usize] = tree
             .locate_within_distance(position, shortest * shortest)

@@ -8,14 +8,13 @@
 //!
 //! With the ends included every bond is cut that has a point in common with the polyline, whatever the point: an end of the
 //! polyline or of the bond, or a part of it where the two are collinear. A point on the crack then loses all of its bonds. Bonds
-//! of a lattice pass exactly through such ends, but not their rounded coordinates: what comes closer than 1e-9 of the nearest
+//! of a lattice pass exactly through such ends, but not their rounded coordinates: what comes closer than 1e-5 of the nearest
 //! distance of the bond's ends has a point in common.
 
 use rayon::prelude::*;
 
 use super::BondSet;
 use crate::cloud::PointCloud;
-use crate::horizon::INCLUSION_TOLERANCE;
 use crate::shape::{meet_within, orientation};
 
 /// A polyline that cuts bonds.
@@ -50,9 +49,8 @@ pub fn cut_bonds(cracks: &[PreCrack], bonds: &BondSet, cloud: &PointCloud) -> Ve
         .ends
         .par_iter()
         .map(|&[a, b]| {
-            let [a, b] = [a, b].map(|end| end as usize);
-            let slack = INCLUSION_TOLERANCE * cloud.spacing[a].min(cloud.spacing[b]);
-            let (a, b) = (cloud.positions[a], cloud.positions[b]);
+            let slack = cloud.slack_between([a, b]);
+            let [a, b] = [a, b].map(|end| cloud.positions[end as usize]);
             cracks.iter().any(|crack| match crack.ends {
                 Ends::Excluded => crack.cuts(a, b),
                 Ends::Included => crack.meets(a, b, slack),

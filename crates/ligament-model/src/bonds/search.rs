@@ -4,9 +4,9 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 
-use super::{BondSet, Incidence};
+use super::{BondSet, Composition, Incidence};
 use crate::cloud::{PointCloud, distance, search_tree};
-use crate::horizon::{Horizons, INCLUSION_TOLERANCE};
+use crate::horizon::Horizons;
 
 /// Points whose pairs are found by one thread in one go.
 const BLOCK: usize = 1024;
@@ -26,7 +26,8 @@ impl<const D: usize> BondSet<D> {
                 for &point in points {
                     let position = cloud.positions[point as usize];
                     // The tree compares squared distances: ask for a little more and let `contains` decide.
-                    let reach = horizons.radius[point as usize] * (1.0 + 2.0 * INCLUSION_TOLERANCE);
+                    let tolerance = cloud.tolerance(point);
+                    let reach = horizons.radius[point as usize] * (1.0 + 2.0 * tolerance);
                     pairs.extend(
                         tree.locate_within_distance(position, reach * reach)
                             .map(|neighbour| neighbour.data)
@@ -54,7 +55,7 @@ impl<const D: usize> BondSet<D> {
                 let l = distance(a, b);
                 *length = l;
                 *direction = std::array::from_fn(|axis| (b[axis] - a[axis]) / l);
-                *horizon = bond_horizon(pair, l, horizons);
+                *horizon = bond_horizon(pair, l, cloud, horizons);
             });
         let incidence = Incidence::new(&ends, cloud.len());
         Self {
@@ -63,6 +64,7 @@ impl<const D: usize> BondSet<D> {
             direction,
             horizon,
             incidence,
+            composition: Composition::default(),
         }
     }
 }
@@ -82,7 +84,7 @@ fn reaching<'a, const D: usize>(cloud: &'a PointCloud<D>, horizons: &Horizons) -
     let reaches = |point: u32| {
         let position = cloud.positions[point as usize];
         let nearest = std::array::from_fn(|axis| position[axis].max(lower[axis]).min(upper[axis]));
-        horizons.contains(point, distance(position, nearest))
+        contains(point, distance(position, nearest), cloud, horizons)
     };
     let points = cloud.curve.iter().copied();
     points
@@ -123,13 +125,28 @@ fn is_recorded_by<const D: usize>(
         cloud.positions[neighbour as usize],
     );
     neighbour != point
-        && horizons.contains(point, l)
-        && (point < neighbour || !horizons.contains(neighbour, l))
+        && contains(point, l, cloud, horizons)
+        && (point < neighbour || !contains(neighbour, l, cloud, horizons))
 }
 
-fn bond_horizon([a, b]: [u32; 2], length: f64, horizons: &Horizons) -> f64 {
+/// Whether the horizon of a point reaches to a given distance (m) from the point, as far as the coordinates tell.
+fn contains<const D: usize>(
+    point: u32,
+    distance: f64,
+    cloud: &PointCloud<D>,
+    horizons: &Horizons,
+) -> bool {
+    distance <= horizons.radius[point as usize] * (1.0 + cloud.tolerance(point))
+}
+
+fn bond_horizon<const D: usize>(
+    [a, b]: [u32; 2],
+    length: f64,
+    cloud: &PointCloud<D>,
+    horizons: &Horizons,
+) -> f64 {
     let (h_a, h_b) = (horizons.radius[a as usize], horizons.radius[b as usize]);
-    if horizons.contains(a, length) && horizons.contains(b, length) {
+    if contains(a, length, cloud, horizons) && contains(b, length, cloud, horizons) {
         0.5 * (h_a + h_b)
     } else {
         h_a.max(h_b)

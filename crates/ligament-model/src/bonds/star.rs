@@ -1,6 +1,6 @@
 //! Bonds from one point into many directions, all of one length: what a law makes of the direction alone.
 
-use super::{BondSet, Incidence};
+use super::{BondSet, Composition, Incidence};
 use crate::cloud::PointCloud;
 
 /// A point with bonds of one length (m) and one horizon (m) at these angles (n_bonds, rad), and the points at their other ends, each of
@@ -24,6 +24,7 @@ pub fn star(
         length: vec![length; angles.len()],
         direction: directions,
         horizon: vec![horizon; angles.len()],
+        composition: Composition::default(),
     };
     (cloud, bonds)
 }

@@ -43,7 +43,7 @@ pub struct Face<const D: usize = 2> {
 
 impl<const D: usize, S: Region<D>> Lattice<D, S> {
     /// The box of so many cells with its lowest corner at `corner`, without the cells whose centre lies in one of the holes (rim
-    /// included, to 1e-9 of the spacing).
+    /// included, to 1e-5 of the spacing).
     pub fn new(size: [u32; D], spacing: [f64; D], corner: [f64; D], holes: Vec<S>) -> Self {
         let mut lattice = Self {
             size,
@@ -111,6 +111,37 @@ impl<const D: usize, S: Region<D>> Lattice<D, S> {
         (number != NONE).then_some(number)
     }
 
+    /// Points and their shares, which add up to one, in a value at a position (m): linear along each axis between the centres of cells,
+    /// that of the outermost centre beyond it. None where one of the cells is missing.
+    pub fn shares_at(&self, position: [f64; D]) -> Option<Vec<(u32, f64)>> {
+        let cells_along: [f64; D] = std::array::from_fn(|axis| {
+            let along = (position[axis] - self.corner[axis]) / self.spacing[axis] - 0.5;
+            let along = along.clamp(0.0, f64::from(self.size[axis] - 1));
+            // At a centre its neighbours have no part in it, whatever rounding did.
+            let whole = along.round();
+            if (along - whole).abs() < INCLUSION_TOLERANCE {
+                whole
+            } else {
+                along
+            }
+        });
+        let mut shares = Vec::new();
+        for corner in 0..1 << D {
+            let is_upper = |axis: usize| (corner >> axis) & 1 == 1;
+            let share = (0..D).map(|axis| match is_upper(axis) {
+                true => cells_along[axis].fract(),
+                false => 1.0 - cells_along[axis].fract(),
+            });
+            let share: f64 = share.product();
+            if share > 0.0 {
+                let upper = |axis: usize| i64::from(is_upper(axis));
+                let cell = std::array::from_fn(|axis| cells_along[axis] as i64 + upper(axis));
+                shares.push((self.point_in(cell)?, share));
+            }
+        }
+        Some(shares)
+    }
+
     /// The faces between two cells: the point with the lower coordinate, the normal towards the other and the other point.
     pub fn inner_faces(&self) -> Vec<(u32, [i8; D], u32)> {
         let of_cell = |(point, cell): (u32, &[u32; D])| {
@@ -152,7 +183,7 @@ impl<const D: usize, S: Region<D>> Lattice<D, S> {
         along.map(|axis| self.spacing[axis]).product()
     }
 
-    /// Numbers of the points whose centre lies in a shape (rim included, to 1e-9 of the spacing), ascending.
+    /// Numbers of the points whose centre lies in a shape (rim included, to 1e-5 of the spacing), ascending.
     pub fn points_in(&self, shape: &S) -> Vec<u32> {
         let (shape, slack) = (self.local(shape), self.slack());
         self.points_where(|cell| shape.contains(self.offset(cell), slack))
@@ -237,6 +268,7 @@ impl<const D: usize> PointCloud<D> {
         Self {
             curve: along_hilbert_curve(&positions),
             positions,
+            precision: 0.0,
             origin: lattice.middle(),
             thickness,
             volumes: vec![volume; n_points],

@@ -2,7 +2,7 @@
 
 use ligament_mesh::{Cell, Mesh, Numbering, along_hilbert_curve};
 
-use super::{PointCloud, distance, middle_of_bounding_box, search_tree};
+use super::{PointCloud, distance, middle_of_bounding_box, precision_of_coordinates, search_tree};
 use crate::horizon::INCLUSION_TOLERANCE;
 
 impl PointCloud {
@@ -46,6 +46,7 @@ impl PointCloud {
             numbering: Numbering::default(),
             portion: None,
             positions,
+            precision: precision_of_coordinates(&mesh.positions),
             origin,
             thickness,
             volumes,

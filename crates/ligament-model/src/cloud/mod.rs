@@ -3,14 +3,15 @@
 pub mod lattice;
 pub(crate) mod mesh;
 mod points;
+mod precision;
 
 use ligament_mesh::Numbering;
 use rayon::prelude::*;
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
-use crate::horizon::INCLUSION_TOLERANCE;
 use crate::portion::{Exchange, Partition, Portion, largest};
+pub(crate) use precision::precision_of_coordinates;
 
 /// Material points with their volumes, nearest-neighbour distances and materials.
 ///
@@ -21,6 +22,8 @@ use crate::portion::{Exchange, Partition, Portion, largest};
 pub struct PointCloud<const D: usize = 2> {
     /// Positions X_i relative to [`PointCloud::origin`], shape (n_points), m.
     pub positions: Vec<[f64; D]>,
+    /// Error that the coordinates of the case may have, m.
+    pub precision: f64,
     /// Middle of the bounding box, which is subtracted from the positions of the mesh file or the lattice, m.
     pub origin: [f64; D],
     /// Thickness t, m; 1 in space.
@@ -161,8 +164,7 @@ impl<const D: usize> PointCloud<D> {
             .map(|&p| distance(p, target))
             .fold(f64::INFINITY, f64::min);
         let is_nearest = |&point: &u32| {
-            let point = point as usize;
-            distance(self.positions[point], target) <= nearest + self.slack(point)
+            distance(self.positions[point as usize], target) <= nearest + self.slack(point)
         };
         (0..self.len() as u32)
             .map(|in_file| self.numbering.point(in_file))
@@ -189,11 +191,24 @@ impl<const D: usize> PointCloud<D> {
         let (lower, upper) = (self.local(lower), self.local(upper));
         (0..self.len())
             .filter(|&point| {
-                let (p, slack) = (self.positions[point], self.slack(point));
+                let (p, slack) = (self.positions[point], self.slack(point as u32));
                 (0..D).all(|axis| lower[axis] - slack <= p[axis] && p[axis] <= upper[axis] + slack)
             })
             .map(|point| point as u32)
             .collect()
+    }
+
+    /// Diagonal of the box around all points, m.
+    pub(crate) fn extent(&self) -> f64 {
+        let square = |axis: usize| {
+            let (lowest, highest) = (self.positions.iter())
+                .map(|position| position[axis])
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                    (low.min(x), high.max(x))
+                });
+            (highest - lowest).powi(2)
+        };
+        (0..D).map(square).sum::<f64>().sqrt()
     }
 
     /// Orders some points so that the first half of them lies on one side of the second along the axis in which they reach farthest (the
@@ -239,10 +254,22 @@ impl<const D: usize> PointCloud<D> {
         pairs.map(mode).collect()
     }
 
+    /// Relative difference up to which lengths at a point count as equal:
+    /// [`INCLUSION_TOLERANCE`](crate::horizon::INCLUSION_TOLERANCE), and the uncertainty of its nearest distance by
+    /// [`PointCloud::precision`].
+    pub fn tolerance(&self, point: u32) -> f64 {
+        precision::tolerance(self.precision, self.spacing[point as usize])
+    }
+
     /// Distance that counts as zero in comparisons at a point, m. On a lattice points lie exactly on the rims of boxes and
     /// halfway between others, and rounding must not decide about them.
-    fn slack(&self, point: usize) -> f64 {
-        INCLUSION_TOLERANCE * self.spacing[point]
+    pub fn slack(&self, point: u32) -> f64 {
+        self.tolerance(point) * self.spacing[point as usize]
+    }
+
+    /// Distance that counts as zero along a bond between two points, m: that of the end where it is smaller.
+    pub(crate) fn slack_between(&self, [a, b]: [u32; 2]) -> f64 {
+        self.slack(a).min(self.slack(b))
     }
 }
 

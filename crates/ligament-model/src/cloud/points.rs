@@ -15,6 +15,7 @@ impl<const D: usize> PointCloud<D> {
         n_materials: usize,
     ) -> Self {
         let origin = super::middle_of_bounding_box(positions);
+        let precision = super::precision_of_coordinates(positions);
         let positions: Vec<[f64; D]> = (positions.iter())
             .map(|p| std::array::from_fn(|axis| p[axis] - origin[axis]))
             .collect();
@@ -25,6 +26,7 @@ impl<const D: usize> PointCloud<D> {
         let mut cloud = Self {
             curve: along_hilbert_curve(&positions),
             positions,
+            precision,
             origin,
             thickness,
             volumes: volumes.to_vec(),

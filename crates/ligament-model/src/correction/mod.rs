@@ -23,7 +23,7 @@ pub use domain::{Continuum, energy_ratios};
 pub use strain_mode::StrainMode;
 pub use sweeps::{StopRule, Sweeps};
 
-use crate::bonds::retained;
+use crate::bonds::retained::retained;
 
 /// Factors of the bonds and how they were found.
 #[derive(Debug, Clone, PartialEq)]

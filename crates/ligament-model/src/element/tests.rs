@@ -58,6 +58,7 @@ fn bonds(positions: &[[f64; 2]]) -> BondSet {
             .map(|(&pair, l)| offset(pair).map(|it| it / l))
             .collect(),
         horizon: vec![0.8; ends.len()],
+        composition: Default::default(),
         length,
         ends,
     }

@@ -1,6 +1,7 @@
 //! What the limits of bonds are made from.
 
 use super::crack_energies::Lattice;
+use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::material::{Isotropic, Material, Plane};
 use crate::portion::Portion;
@@ -39,11 +40,11 @@ impl Basis<'_> {
             .collect()
     }
 
-    /// The smallest of the values of the materials (n_materials) that have a share in an end of each bond, and infinity where the
-    /// bond never fails, shape (n_bonds).
+    /// The smallest of the values of the materials (n_materials) that have a share in an end of each bond or that it crosses, and
+    /// infinity where the bond never fails, shape (n_bonds).
     pub fn weakest(&self, of_materials: &[f64]) -> Vec<f64> {
         let BondSystem { cloud, bonds, .. } = self.system;
-        weakest(cloud, &bonds.ends, self.no_fail, of_materials)
+        weakest(cloud, bonds, self.no_fail, of_materials)
     }
 
     /// What of the body the ends of limits are made from.
@@ -82,15 +83,15 @@ impl LimitEnds<'_> {
     }
 }
 
-/// The smallest of the values of the materials (n_materials) that have a share in an end of each bond, and infinity where an end
-/// is marked in `no_fail` (n_points), shape (n_bonds).
+/// The smallest of the values of the materials (n_materials) that have a share in an end of each bond or that it crosses, and infinity
+/// where an end is marked in `no_fail` (n_points), shape (n_bonds).
 pub(crate) fn weakest<const D: usize>(
     cloud: &PointCloud<D>,
-    ends: &[[u32; 2]],
+    bonds: &BondSet<D>,
     no_fail: &[bool],
     of_materials: &[f64],
 ) -> Vec<f64> {
-    let materials = weakest_materials(cloud, ends, of_materials);
+    let materials = weakest_materials(cloud, bonds, of_materials);
     let of_bond = |(ends, material): (&[u32; 2], usize)| {
         if ends.iter().any(|end| no_fail[*end as usize]) {
             f64::INFINITY
@@ -98,14 +99,14 @@ pub(crate) fn weakest<const D: usize>(
             of_materials[material]
         }
     };
-    ends.iter().zip(materials).map(of_bond).collect()
+    bonds.ends.iter().zip(materials).map(of_bond).collect()
 }
 
-/// The material with the smallest of the values (n_materials) among those that have a share in an end of each bond, the first of
-/// equals, shape (n_bonds).
+/// The material with the smallest of the values (n_materials) among those that have a share in an end of each bond or that it crosses,
+/// the first of equals, shape (n_bonds).
 pub(super) fn weakest_materials<const D: usize>(
     cloud: &PointCloud<D>,
-    ends: &[[u32; 2]],
+    bonds: &BondSet<D>,
     of_materials: &[f64],
 ) -> Vec<usize> {
     let smaller = |one: usize, other: usize| {
@@ -117,17 +118,18 @@ pub(super) fn weakest_materials<const D: usize>(
             one
         }
     };
-    let at_point = |point: usize| {
-        let shares = cloud.shares(point).iter().enumerate();
-        let present = shares
-            .filter(|(_, share)| **share > 0.0)
-            .map(|(material, _)| material);
+    let among = |shares: &[f64]| {
+        let present = (0..shares.len()).filter(|&material| shares[material] > 0.0);
         present.reduce(smaller).unwrap_or_default()
     };
-    let at_points: Vec<usize> = (0..cloud.len()).map(at_point).collect();
+    let at_points: Vec<usize> = (0..cloud.len()).map(|it| among(cloud.shares(it))).collect();
     let of_bond = |ends: &[u32; 2]| {
         let [a, b] = ends.map(|end| at_points[end as usize]);
         smaller(a, b)
     };
-    ends.iter().map(of_bond).collect()
+    let mut of_bonds: Vec<usize> = bonds.ends.iter().map(of_bond).collect();
+    for (bond, shares) in bonds.composition.numbered() {
+        of_bonds[bond] = smaller(of_bonds[bond], among(shares));
+    }
+    of_bonds
 }

@@ -12,6 +12,11 @@
 //! G = sum_b W_b abs(xi_b . n)/V
 //!
 //! (Silling and Askari 2005, eq. 26, as a sum over the bonds that there are, with their shear and with any criterion).
+//!
+//! A bond that lies nearly along the crack comes to its limit of stretch only when the crack is wide open, w = s_0 l/cos(phi), and would have
+//! taken R_t s_0^2 tan(phi)^2/2 in shear until then: the sum over all directions has no limit, and one bond along a row of points could outweigh
+//! all others. No crack opens across such a bond. Its ends lie side by side, and a crack passes both of them on the same side. So bonds count
+//! whose ends are apart across the crack by a quarter of the distance of points at least ([`PASSED`]), the others as never broken.
 
 use super::criterion::{Criteria, Criterion};
 use super::measure::Weakened;
@@ -19,12 +24,18 @@ use crate::element::BondDeformation;
 use crate::interface::Bonds;
 use crate::system::BondSystem;
 
+/// Distance of the ends of a bond across a crack, over that of points, below which the crack passes the bond by.
+///
+/// On irregular meshes the energies hardly depend on it between 0.1 and 0.45 (2.51 to 2.49 and 2.92 to 2.90 J/m^2 in a plate of 1,544 points by
+/// `tension` at a Poisson's ratio of 0.2), and of lattices it takes no bond away.
+const PASSED: f64 = 0.25;
+
 /// Energy that straight cracks across one direction spend.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrackEnergy {
     /// Energy per area of the crack G, J/m^2.
     pub per_area: f64,
-    /// Share of the bonds across a crack that no opening breaks.
+    /// Share of the bonds across a crack that no opening breaks, and that a crack passes by.
     pub unbroken: f64,
 }
 
@@ -51,7 +62,10 @@ impl CrackEnergy {
             let met = 0.5 * marked as f64 * length * cosine;
             across += met;
             let opened = BondDeformation::new([cosine / length, sine / length, 0.0]);
-            match taken(system, criteria, bond, &opened) {
+            let spacing = ends.map(|end| system.cloud.spacing[end as usize]);
+            let is_passed = length * cosine < PASSED * spacing[0].min(spacing[1]);
+            let taken = (!is_passed).then(|| taken(system, criteria, bond, &opened));
+            match taken.flatten() {
                 Some(taken) => energy += met * taken,
                 None => unbroken += met,
             }

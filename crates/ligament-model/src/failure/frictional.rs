@@ -104,7 +104,7 @@ fn limits(choice: &Choice, basis: &Basis<'_>) -> Result<Vec<Limits>, NoLimit> {
     };
     let (cohesion, slope) = (of(|it| it.cohesion), of(|it| it.slope));
     let limit = basis.weakest(&cohesion);
-    let materials = weakest_materials(&basis.system.cloud, &basis.system.bonds.ends, &cohesion);
+    let materials = weakest_materials(&basis.system.cloud, &basis.system.bonds, &cohesion);
     // A bond that never fails has no slope, which may be infinite: infinity times zero is no number.
     let slope_of = |(limit, material): (&f64, usize)| {
         if limit.is_finite() {

@@ -69,7 +69,7 @@ fn limits(choice: &Choice, basis: &Basis<'_>) -> Vec<Limits> {
 fn opening(axis: usize, of_materials: &[OfMaterial], basis: &Basis<'_>) -> Limits {
     let bonds = &basis.system.bonds;
     let stretches: Vec<f64> = of_materials.iter().map(|it| it.stretch[axis]).collect();
-    let materials = weakest_materials(&basis.system.cloud, &basis.system.bonds.ends, &stretches);
+    let materials = weakest_materials(&basis.system.cloud, &basis.system.bonds, &stretches);
     let other_axis = [BondClass::Vertical, BondClass::Horizontal][axis];
     let mut limit = basis.weakest(&stretches);
     for (limit, &direction) in limit.iter_mut().zip(&bonds.direction) {

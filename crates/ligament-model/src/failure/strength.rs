@@ -46,11 +46,11 @@ pub fn critical_energy(material: &Isotropic, tensile_strength: f64, plane: Plane
 ///
 /// s_0 = sqrt(e_0 (V_A + V_B) / (Omega alpha V_A V_B c l))
 ///
-/// A bond between materials takes the smaller e_0 of all that have a share in one of its ends. A bond of which an end is
+/// A bond between materials takes the smallest e_0 of all that have a share in one of its ends or that it crosses. A bond of which an end is
 /// marked in `no_fail` (n_points) never breaks: s_0 is infinite.
 pub fn critical_stretches(system: &BondSystem, energies: &[f64], no_fail: &[bool]) -> Vec<f64> {
     (
-        weakest(&system.cloud, &system.bonds.ends, no_fail, energies),
+        weakest(&system.cloud, &system.bonds, no_fail, energies),
         &system.bonds.ends,
         &system.rigidities.axial,
     )

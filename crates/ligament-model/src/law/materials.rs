@@ -41,7 +41,7 @@ pub(super) fn of_bond<'a, const D: usize>(
 }
 
 /// 2/(1 + k_soft/k_stiff) of the bonds whose ends have no material in common, 1 of the others, from the `stiffness` (n_materials) of the
-/// materials; shape (n_bonds), empty where no bond crosses an interface.
+/// materials; shape (n_bonds), empty in a body of one material.
 ///
 /// Half of such a bond in either material, as springs in series, is so much stiffer than all of it in the softer.
 pub(super) fn series_factors<const D: usize>(
@@ -61,11 +61,34 @@ pub(super) fn series_factors<const D: usize>(
         let [first, second] = ends.map(|end| cloud.mean_property(end, stiffness));
         2.0 / (1.0 + first.min(second) / first.max(second))
     };
-    let factors: Vec<f64> = bonds.ends.iter().map(of_bond).collect();
-    if factors.iter().all(|&factor| factor == 1.0) {
-        return Vec::new();
-    }
-    factors
+    bonds.ends.iter().map(of_bond).collect()
+}
+
+/// The softest of the materials in which a bond has shares of its length (n_materials), and how much stiffer the bond is than all of it
+/// in that one, as springs in series:
+///
+/// 1/sum of phi_i k_s/k_i, with the shares phi_i, the stiffnesses k_i and the smallest of them k_s.
+///
+/// Of two sets of stiffnesses (n_materials) the first decides, or the second where one of the first is not positive.
+pub(super) fn softest(shares: &[f64], [first, second]: [&[f64]; 2]) -> (usize, f64) {
+    let crossed = || (0..shares.len()).filter(|&material| shares[material] > 0.0);
+    let of_all = if crossed().all(|it| first[it] > 0.0) {
+        first
+    } else {
+        second
+    };
+    let softer = |one: usize, other: usize| {
+        if of_all[other] < of_all[one] {
+            other
+        } else {
+            one
+        }
+    };
+    let softest = crossed().reduce(softer).unwrap_or_default();
+    let compliance: f64 = crossed()
+        .map(|it| shares[it] * of_all[softest] / of_all[it])
+        .sum();
+    (softest, 1.0 / compliance)
 }
 
 #[cfg(test)]

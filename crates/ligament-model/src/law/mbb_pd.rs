@@ -88,5 +88,10 @@ fn plane_stiffnesses(
             sum + share * of_materials[material]
         })
     };
-    bonds.ends.iter().map(of_bond).collect()
+    let mut of_bonds: Vec<Matrix3<f64>> = bonds.ends.iter().map(of_bond).collect();
+    for (bond, shares) in bonds.composition.numbered() {
+        let (softest, _) = materials::softest(shares, [&bulk, &bulk]);
+        of_bonds[bond] = of_materials[softest];
+    }
+    of_bonds
 }

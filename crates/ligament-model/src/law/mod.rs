@@ -26,7 +26,8 @@ pub mod rotational;
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 
-use crate::bonds::{BondSet, retained};
+use crate::bonds::BondSet;
+use crate::bonds::retained::retained;
 use crate::cloud::PointCloud;
 use crate::element::imaginary::StrainStiffness;
 
@@ -76,7 +77,7 @@ impl BondStiffness {
         densities: impl Fn(&[f64; N], &BondGeometry<D>) -> Densities + Sync,
     ) -> Self {
         let axial_constants: Vec<f64> = constants.iter().map(|it| it[0]).collect();
-        let of_bond = |ends| {
+        let of_ends = |ends| {
             materials::of_bond(cloud, ends, &axial_constants).fold(
                 [0.0; N],
                 |mut sum, (material, share)| {
@@ -87,30 +88,38 @@ impl BondStiffness {
                 },
             )
         };
+        let geometry = |bond: usize| BondGeometry {
+            length: bonds.length[bond],
+            horizon: bonds.horizon[bond],
+            direction: bonds.direction[bond],
+        };
+        let mut series = materials::series_factors(bonds, cloud, &axial_constants);
         let [mut axial, mut shear, mut rotational] = [(); 3].map(|()| vec![0.0; bonds.len()]);
-        (
-            (&bonds.ends, &bonds.length, &bonds.horizon, &bonds.direction).into_par_iter(),
-            (&mut axial, &mut shear, &mut rotational).into_par_iter(),
-        )
+        (&bonds.ends, &mut axial, &mut shear, &mut rotational)
             .into_par_iter()
-            .for_each(
-                |((&ends, &length, &horizon, &direction), (axial, shear, rotational))| {
-                    let bond = BondGeometry {
-                        length,
-                        horizon,
-                        direction,
-                    };
-                    let of_bond = densities(&of_bond(ends), &bond);
-                    (*axial, *shear, *rotational) =
-                        (of_bond.axial, of_bond.shear, of_bond.rotational);
-                },
-            );
+            .enumerate()
+            .for_each(|(bond, (&ends, axial, shear, rotational))| {
+                let of_bond = densities(&of_ends(ends), &geometry(bond));
+                (*axial, *shear, *rotational) = (of_bond.axial, of_bond.shear, of_bond.rotational);
+            });
+        for (bond, shares) in bonds.composition.numbered() {
+            let of_material = |constants: &[f64; N]| densities(constants, &geometry(bond));
+            let axial_of = constants
+                .iter()
+                .map(|it| of_material(it).axial)
+                .collect::<Vec<_>>();
+            let (softest, factor) = materials::softest(shares, [&axial_of, &axial_constants]);
+            let of_bond = of_material(&constants[softest]);
+            (axial[bond], shear[bond], rotational[bond]) =
+                (of_bond.axial, of_bond.shear, of_bond.rotational);
+            series[bond] = factor;
+        }
         Self {
             axial,
             shear,
             rotational,
             strain: Vec::new(),
-            series: materials::series_factors(bonds, cloud, &axial_constants),
+            series: some_other_than_one(series),
         }
     }
 
@@ -146,6 +155,14 @@ impl BondStiffness {
             strain: some_retained(self.strain, keep),
             series: some_retained(self.series, keep),
         }
+    }
+}
+
+/// Factors; none where all are 1.
+fn some_other_than_one(factors: Vec<f64>) -> Vec<f64> {
+    match factors.iter().all(|&factor| factor == 1.0) {
+        true => Vec::new(),
+        false => factors,
     }
 }
 

@@ -134,6 +134,10 @@ impl Bonds for SolidSystem {
         PointStiffness::of_bonds(&self.rigidities, &self.bonds, self.portion())
     }
 
+    fn extent(&self) -> f64 {
+        self.cloud.extent()
+    }
+
     fn halve(&self, points: &mut [u32]) {
         self.cloud.halve(points);
     }

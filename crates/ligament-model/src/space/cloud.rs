@@ -2,7 +2,9 @@
 
 use ligament_mesh::{Numbering, SolidCell, SolidMesh, along_hilbert_curve};
 
-use crate::cloud::{PointCloud, distance, middle_of_bounding_box, search_tree};
+use crate::cloud::{
+    PointCloud, distance, middle_of_bounding_box, precision_of_coordinates, search_tree,
+};
 use crate::horizon::INCLUSION_TOLERANCE;
 
 impl PointCloud<3> {
@@ -39,6 +41,7 @@ impl PointCloud<3> {
             portion: None,
             material_shares: material_shares.collect(),
             positions,
+            precision: precision_of_coordinates(&mesh.positions),
             origin,
             thickness: 1.0,
             volumes,

@@ -30,6 +30,7 @@ pub mod lattice;
 pub mod law;
 mod mass;
 pub mod outline;
+pub mod parts;
 pub mod precrack;
 mod predicates;
 mod product;

@@ -4,7 +4,7 @@
 //! quadrangles split in two triangles as their cells are split in tetrahedra. The rule, decided with exact orientation predicates: a
 //! bond stays in the body if it passes through no triangle of the outline, and if it goes on into a tetrahedron, or along a face or
 //! an edge of one, from its first end and from every edge and node of the outline on it. Along the outline, and past an edge that it
-//! only touches, it stays: what comes closer to a plane or a line than 1e-9 of the nearest distance of the bond's ends lies on it, or
+//! only touches, it stays: what comes closer to a plane or a line than 1e-5 of the nearest distance of the bond's ends lies on it, or
 //! rounding would decide about bonds along a slanted side.
 //!
 //! The nodes of a round body lie on its surface, but the triangles between them dip below it wherever an edge goes round the body
@@ -18,7 +18,6 @@ use rayon::prelude::*;
 
 use crate::bonds::BondSet;
 use crate::cloud::{PointCloud, distance, search_tree};
-use crate::horizon::INCLUSION_TOLERANCE;
 use crate::space::cloud::shortest_edges;
 use surface::Facet;
 pub use surface::Surface;
@@ -41,8 +40,7 @@ pub fn bonds_outside(surface: &Surface, bonds: &BondSet<3>, cloud: &PointCloud<3
         lengths.copied().fold(0.0, f64::max)
     };
     let leaves = |bond: usize, near: &[Facet]| {
-        let spacing = bonds.ends[bond].map(|end| cloud.spacing[end as usize]);
-        let slack = INCLUSION_TOLERANCE * spacing[0].min(spacing[1]);
+        let slack = cloud.slack_between(bonds.ends[bond]);
         surface.is_left_by(bonds.ends[bond], near, slack)
     };
     let of_points: Vec<usize> = (cloud.curve.par_chunks(BLOCK))
@@ -84,7 +82,7 @@ pub fn spacing_inside(surface: &Surface, cells: &[SolidCell], cloud: &PointCloud
             let (position, shortest) = (cloud.positions[point as usize], shortest[point as usize]);
             let near = surface.near(position, shortest);
             let is_seen = |other: u32, length: f64| {
-                !surface.is_left_by([point, other], &near, INCLUSION_TOLERANCE * length)
+                !surface.is_left_by([point, other], &near, cloud.tolerance(point) * length)
             };
             tree.locate_within_distance(position, shortest * shortest)
                 .filter(|other| other.data != point)

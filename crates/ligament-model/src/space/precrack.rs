@@ -5,9 +5,9 @@
 //! - a bond in the plane of a piece of the crack survives;
 //! - a bond that only touches the rim survives; one through an edge or a vertex inside of the surface is cut.
 //!
-//! The rim of a disk is round: what comes closer to it, or to its plane, than 1e-9 of the nearest distance of the bond's ends touches it.
+//! The rim of a disk is round: what comes closer to it, or to its plane, than 1e-5 of the nearest distance of the bond's ends touches it.
 //!
-//! With the rim included every bond is cut that has a point in common with the surface, or comes no farther than 1e-9 of the nearest
+//! With the rim included every bond is cut that has a point in common with the surface, or comes no farther than 1e-5 of the nearest
 //! distance of its ends, as in the plane (`bonds/precrack.rs`).
 
 mod disk;
@@ -21,7 +21,6 @@ use rstar::{AABB, RTree};
 use crate::bonds::BondSet;
 use crate::bonds::precrack::Ends;
 use crate::cloud::PointCloud;
-use crate::horizon::INCLUSION_TOLERANCE;
 use disk::Disk;
 use sheet::Sheet;
 pub use unfit::UnfitCrack;
@@ -179,9 +178,8 @@ impl Pieces {
         [a, b]: [u32; 2],
         question: impl Fn(&SolidPreCrack, u32, [[f64; 3]; 2], f64) -> bool,
     ) -> bool {
-        let [a, b] = [a, b].map(|end| end as usize);
-        let slack = INCLUSION_TOLERANCE * cloud.spacing[a].min(cloud.spacing[b]);
-        let (a, b) = (cloud.positions[a], cloud.positions[b]);
+        let slack = cloud.slack_between([a, b]);
+        let [a, b] = [a, b].map(|end| cloud.positions[end as usize]);
         let around = AABB::from_corners(
             [0, 1, 2].map(|axis| a[axis].min(b[axis]) - slack),
             [0, 1, 2].map(|axis| a[axis].max(b[axis]) + slack),

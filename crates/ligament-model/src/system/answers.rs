@@ -147,6 +147,10 @@ impl Bonds for BondSystem {
         PointStiffness::of_bonds(&self.rigidities, &self.bonds, self.portion())
     }
 
+    fn extent(&self) -> f64 {
+        self.cloud.extent()
+    }
+
     fn halve(&self, points: &mut [u32]) {
         self.cloud.halve(points);
     }

@@ -4,10 +4,11 @@
 use std::ffi::OsString;
 use std::fs;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::kind::Kind;
 use crate::Error;
+use crate::atomic::remove_file;
 
 /// Names of what a folder holds.
 ///
@@ -20,7 +21,28 @@ pub(super) fn names(folder: &Path) -> Result<Vec<OsString>, Error> {
     names.map_err(Error::system("list", folder))
 }
 
-/// Fails where a link is in the place of a file or folder.
+/// Removes the files of a folder whose names are so.
+///
+/// # Errors
+///
+/// If the folder cannot be listed, or a file not be removed.
+pub(super) fn remove_files(folder: &Path, is_one: impl Fn(&str) -> bool) -> Result<(), Error> {
+    let names = names(folder)?;
+    let mut ones = names.iter().filter(|it| it.to_str().is_some_and(&is_one));
+    ones.try_for_each(|name| remove_file(&folder.join(name)))
+}
+
+/// The folder that a path means: what a link points to, and no separator at the end.
+pub(super) fn resolved(path: &Path) -> PathBuf {
+    let plain: PathBuf = path.components().collect();
+    let is_link = fs::symlink_metadata(&plain).is_ok_and(|it| it.is_symlink());
+    match fs::canonicalize(&plain) {
+        Ok(target) if is_link => target,
+        _ => plain,
+    }
+}
+
+/// Fails where a link, or something that is neither file nor folder, is in the place of a file or folder.
 ///
 /// # Errors
 ///
@@ -28,6 +50,10 @@ pub(super) fn names(folder: &Path) -> Result<Vec<OsString>, Error> {
 pub fn refuse_link(path: &Path) -> Result<(), Error> {
     match fs::symlink_metadata(path) {
         Ok(found) if found.is_symlink() => Err(Error::Link(path.to_path_buf())),
+        // A pipe would wait for somebody at its other end.
+        Ok(found) if !found.is_file() && !found.is_dir() => {
+            Err(Error::NoPlaceForFile(path.to_path_buf()))
+        }
         _ => Ok(()),
     }
 }

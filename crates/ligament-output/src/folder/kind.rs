@@ -12,23 +12,13 @@ pub(super) const LOCK: &str = ".lock";
 pub(super) const REPLACED: &str = ".replaced";
 
 /// Files of a run whose names do not vary.
-const OF_A_RUN: [&str; 22] = [
+const OF_A_RUN: [&str; 12] = [
     RESOLVED_CASE,
     "breaks.csv",
-    "crack.csv",
-    "crack.pvd",
-    "crack.stl",
-    "crack.vtu",
-    "crack_growth.csv",
-    "crack_tips.csv",
     "criteria.csv",
     "history.csv",
     "iterations.csv",
-    "iso.pvd",
-    "iso.vtu",
     "modes.csv",
-    "opened.pvd",
-    "opened.vtu",
     "softening.csv",
     "summary.json",
     "timings.csv",
@@ -41,7 +31,22 @@ const OF_A_RUN: [&str; 22] = [
 const MODEL_STEM: &str = "model";
 
 /// Files of a run that have a number, by what stands before it.
-const NUMBERED: [&str; 6] = ["fields_", "bonds_", "mode_", "crack_", "opened_", "iso_"];
+const NUMBERED: [&str; 3] = ["fields_", "bonds_", "mode_"];
+
+/// Files of cracks and other surfaces, which are made of the results of a run afterwards, and those of them that have a number.
+const OF_SURFACES: [&str; 10] = [
+    "crack.csv",
+    "crack.pvd",
+    "crack.stl",
+    "crack.vtu",
+    "crack_growth.csv",
+    "crack_tips.csv",
+    "iso.pvd",
+    "iso.vtu",
+    "opened.pvd",
+    "opened.vtu",
+];
+const NUMBERED_SURFACES: [&str; 3] = ["crack_", "opened_", "iso_"];
 
 /// A kind of result folder.
 #[derive(Debug, Clone, Copy)]
@@ -79,6 +84,11 @@ impl Kind {
             (self.owns)(whole)
         }
     }
+
+    /// Whether a file of this name was to become one of the program's own, and did not.
+    pub(super) fn is_unfinished(self, name: &str) -> bool {
+        unfinished(name).is_some_and(|whole| whole == self.marker || (self.owns)(whole))
+    }
 }
 
 /// The name of the file that a temporary file `.NAME.PROCESS.partial` was to become.
@@ -89,10 +99,24 @@ fn unfinished(name: &str) -> Option<&str> {
 }
 
 fn is_of_a_run(name: &str) -> bool {
+    let is_model = vtu::stem(name) == Some(MODEL_STEM);
+    OF_A_RUN.contains(&name)
+        || is_model
+        || is_numbered(name, &NUMBERED)
+        || is_made_later(name)
+        || name.starts_with("checkpoint")
+}
+
+/// Whether a file of this name is made of the results of a run afterwards: of its cracks, or of another surface.
+pub fn is_made_later(name: &str) -> bool {
+    OF_SURFACES.contains(&name) || is_numbered(name, &NUMBERED_SURFACES)
+}
+
+/// Whether a grid has a number behind one of these beginnings.
+fn is_numbered(name: &str, beginnings: &[&str]) -> bool {
     let stem = vtu::stem(name).unwrap_or_default();
-    let number = |start: &&str| stem.strip_prefix(*start);
-    let is_numbered = NUMBERED.iter().filter_map(number).any(is_number);
-    OF_A_RUN.contains(&name) || stem == MODEL_STEM || is_numbered || name.starts_with("checkpoint")
+    let numbers = beginnings.iter().filter_map(|it| stem.strip_prefix(it));
+    numbers.into_iter().any(is_number)
 }
 
 fn is_number(text: &str) -> bool {
@@ -102,6 +126,18 @@ fn is_number(text: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn surfaces_are_made_later_and_fields_are_not() {
+        let later = ["crack.stl", "opened.vtu", "crack_0007.vtu", "iso_0001.vtu"];
+        assert!(
+            later
+                .iter()
+                .all(|name| is_made_later(name) && Kind::RUN.may_remove(name))
+        );
+        let of_the_run = ["fields_0007.vtu", "history.csv", "crack_a.vtu", "iso.stl"];
+        assert!(!of_the_run.iter().any(|name| is_made_later(name)));
+    }
 
     #[test]
     fn files_of_a_run_are_told_from_others() {

@@ -11,7 +11,8 @@ use std::path::{Path, PathBuf};
 use super::entries::{names, refuse_link};
 use super::kind::{Kind, REPLACED};
 use crate::Error;
-use crate::atomic::{rename, replace_file};
+use crate::atomic::rename;
+use crate::replace_file;
 
 /// A folder with `suffix` behind its name.
 ///

@@ -46,6 +46,7 @@ use crate::Error;
 use crate::folder::ResultFolder;
 use crate::pvd::Collection;
 use crate::vtu::{self, Field};
+use crate::written::Written;
 
 pub use crack_tables::{CRACK_COLUMNS, CRACK_FILES, write_cracks};
 use grid::Lines;
@@ -61,7 +62,7 @@ pub use so_far::SoFar;
 use softening_table::SofteningTable;
 pub use softening_table::{OPEN, SoftenedBond, SoftenedBonds};
 pub use surface_files::{SURFACE_FILES, write_series, write_surface};
-use tables::Tables;
+use tables::{CRITERIA_FILE, Tables};
 pub use tables::{
     break_columns, break_row, criterion_labels, deformation_names, history_columns, history_row,
     labels_of,
@@ -86,6 +87,8 @@ pub struct ResultWriter<'a> {
     step_of_breaking: Vec<i64>,
     /// Largest utilisation of each bond so far, where the model is written.
     largest: Option<Largest>,
+    /// Names of the files that were written as a whole and stay, as they were.
+    whole: Vec<(String, Written)>,
 }
 
 impl<'a> ResultWriter<'a> {
@@ -103,7 +106,7 @@ impl<'a> ResultWriter<'a> {
         // Where processes share the body each would know the largest utilisations of its own bonds alone.
         let can_fail = !problem.criteria.list.is_empty() && problem.system.portion().is_none();
         let largest = (rule.model && can_fail).then(|| Largest::new(problem.system.ends().len()));
-        Ok(Self {
+        let mut writer = Self {
             folder,
             grid,
             largest,
@@ -117,7 +120,10 @@ impl<'a> ResultWriter<'a> {
             bonds_collection: Collection::new(folder.file("bonds.pvd")),
             breaks: Vec::new(),
             step_of_breaking: vec![-1; fixed.domain_factor.len()],
-        })
+            whole: Vec::new(),
+        };
+        writer.keep(CRITERIA_FILE)?;
+        Ok(writer)
     }
 
     /// Goes on with the results of a run: what was written after the moment goes.
@@ -141,6 +147,7 @@ impl<'a> ResultWriter<'a> {
             bonds,
             breaks,
             largest,
+            whole,
         } = so_far;
         // Where processes share the body out this one does not follow all bonds.
         let is_whole = problem.system.portion().is_none();
@@ -165,6 +172,7 @@ impl<'a> ResultWriter<'a> {
             bonds_collection: Collection::with_outputs(folder.file("bonds.pvd"), bonds)?,
             breaks,
             step_of_breaking,
+            whole,
         })
     }
 
@@ -175,7 +183,7 @@ impl<'a> ResultWriter<'a> {
     /// If the system cannot get it there.
     pub fn so_far(&self) -> Result<SoFar, Error> {
         Ok(SoFar {
-            tables: self.tables.written()?,
+            tables: self.tables.progress()?,
             softening: self
                 .softening
                 .as_ref()
@@ -186,12 +194,21 @@ impl<'a> ResultWriter<'a> {
             bonds: self.bonds_collection.outputs().to_vec(),
             breaks: self.breaks.clone(),
             largest: self.largest.clone(),
+            whole: self.whole.clone(),
         })
     }
 
     /// The first bonds that broke and softened so far.
     pub fn first_bonds(&self) -> FirstBonds {
         self.first
+    }
+
+    /// Keeps what a file that was written as a whole has, which a run that goes on relies on.
+    fn keep(&mut self, name: &str) -> Result<(), Error> {
+        let path = self.folder.file(name);
+        let written = Written::now(&path).map_err(Error::system("read", &path))?;
+        self.whole.push((name.to_owned(), written));
+        Ok(())
     }
 
     fn write_fields(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
@@ -203,6 +220,7 @@ impl<'a> ResultWriter<'a> {
             self.rule,
             view,
         )?;
+        self.keep(&name)?;
         self.fields_collection
             .append(self.rule.time.value(record, view), name)
     }
@@ -242,6 +260,7 @@ impl<'a> ResultWriter<'a> {
             &cell_fields,
             None,
         )?;
+        self.keep(&name)?;
         self.bonds_collection
             .append(self.rule.time.value(record, view), name)
     }

@@ -1,20 +1,19 @@
 //! What a run has written up to a moment, for it to go on there later.
 
-use std::fs;
-
 use ligament_analysis::driver::Problem;
 use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::serial;
 
 use super::largest::Largest;
 use super::softening_table::{self, Told};
-use super::tables::{FILES, Written};
+use super::tables::{FILES, Progress};
 use crate::folder::{Kind, ResultFolder};
+use crate::written::Written;
 
 /// What a run has written up to a moment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SoFar {
-    pub(super) tables: Written,
+    pub(super) tables: Progress,
     pub(super) softening: Option<Told>,
     pub(super) first: FirstBonds,
     /// Times and names of the field files.
@@ -24,6 +23,8 @@ pub struct SoFar {
     /// Ends of the broken bonds, with the steps.
     pub(super) breaks: Vec<([u32; 2], u32)>,
     pub(super) largest: Option<Largest>,
+    /// Names of the files that were written as a whole and stay, as they were.
+    pub(super) whole: Vec<(String, Written)>,
 }
 
 serial!(SoFar {
@@ -33,7 +34,8 @@ serial!(SoFar {
     fields,
     bonds,
     breaks,
-    largest
+    largest,
+    whole
 });
 
 impl SoFar {
@@ -61,23 +63,17 @@ impl SoFar {
 
     /// Why a run cannot go on from there with what its folder holds; `None` if it can.
     pub fn obstacle(&self, folder: &ResultFolder) -> Option<String> {
-        let tables = FILES.iter().copied().zip(self.tables.lengths);
-        let softening = self.softening.iter();
-        let softening = softening.map(|told| (softening_table::FILE, told.length));
-        for (name, length) in tables.chain(softening) {
-            let found = fs::metadata(folder.file(name)).map_or(0, |it| it.len());
-            if found < length {
-                return Some(format!(
-                    "{name} has {found} bytes where it had {length} when its checkpoint was written"
-                ));
-            }
+        let series = self.fields.iter().chain(&self.bonds);
+        let whole = self.whole.iter().map(|(name, _)| name);
+        let mut named = series.map(|(_, name)| name).chain(whole);
+        if let Some(foreign) = named.find(|name| !(Kind::RUN.owns)(name)) {
+            return Some(format!("{foreign} is no name of a file of a run"));
         }
-        let mut named = self.fields.iter().chain(&self.bonds).map(|(_, name)| name);
-        named.find_map(|name| {
-            if !(Kind::RUN.owns)(name) {
-                return Some(format!("{name} is no name of a file of a run"));
-            }
-            (!folder.file(name).is_file()).then(|| format!("{name} is missing"))
-        })
+        let tables = FILES.iter().copied().zip(self.tables.of_files);
+        let softening = self.softening.iter();
+        let softening = softening.map(|told| (softening_table::FILE, told.written));
+        let whole = self.whole.iter().map(|(name, it)| (name.as_str(), *it));
+        let mut all = tables.chain(softening).chain(whole);
+        all.find_map(|(name, written)| written.obstacle(&folder.file(name)))
     }
 }

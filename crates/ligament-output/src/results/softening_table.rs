@@ -10,6 +10,7 @@ use super::tables::labels_of;
 use crate::Error;
 use crate::csv::{Table, Value};
 use crate::folder::ResultFolder;
+use crate::written::Written;
 
 /// The name of the table.
 pub(super) const FILE: &str = "softening.csv";
@@ -52,11 +53,11 @@ pub struct SoftenedBond {
 /// How far the table is.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Told {
-    pub(super) length: u64,
+    pub(super) written: Written,
     pub(super) of_bonds: Vec<u8>,
 }
 
-serial!(Told { length, of_bonds });
+serial!(Told { written, of_bonds });
 
 impl SofteningTable {
     /// Creates the table; none where no bond softens, or processes share the body out.
@@ -88,7 +89,7 @@ impl SofteningTable {
     ) -> Result<Self, Error> {
         let n_columns = COLUMNS.len() + 3;
         Ok(Self {
-            table: Table::cut_back(folder.file(FILE), n_columns, told.length)?,
+            table: Table::cut_back(folder.file(FILE), n_columns, told.written.length)?,
             criteria: labels_of(problem),
             softened: SoftenedBonds {
                 told: told.of_bonds,
@@ -99,7 +100,7 @@ impl SofteningTable {
     /// How far the table is; what it has is safely on the disk when this returns.
     pub(super) fn told(&self) -> Result<Told, Error> {
         Ok(Told {
-            length: self.table.synced_length()?,
+            written: self.table.synced()?,
             of_bonds: self.softened.told.clone(),
         })
     }

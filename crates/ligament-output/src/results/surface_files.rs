@@ -21,9 +21,10 @@ use super::opened_files::{has_cells, write_opened};
 use super::outputs::Outputs;
 use super::solid_cracks::SolidCracks;
 use crate::Error;
-use crate::atomic::{remove_file, replace_file};
+use crate::atomic::remove_file;
 use crate::csv::{Table, Value};
 use crate::pvd::Collection;
+use crate::replace_file;
 use crate::vtu::read::VtuFile;
 use crate::vtu::{self, Cell, Field, UnstructuredGrid};
 

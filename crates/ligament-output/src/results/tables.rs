@@ -11,6 +11,7 @@ use ligament_model::BodyGrid;
 use crate::Error;
 use crate::csv::{Table, Value};
 use crate::folder::ResultFolder;
+use crate::written::Written;
 
 /// A column of a table: its name, and its value in the row of a record.
 type Column<R> = (&'static str, fn(&R) -> Value<'static>);
@@ -70,6 +71,8 @@ const TIMINGS: [Timing; 7] = [
 /// The tables that grow with a run.
 pub(super) const FILES: [&str; 4] = ["history.csv", "iterations.csv", "breaks.csv", "timings.csv"];
 
+/// The table of the failure criteria.
+pub(super) const CRITERIA_FILE: &str = "criteria.csv";
 const CRITERIA: [&str; 3] = ["criterion", "measure", "after"];
 
 /// Names of the failure criteria in results, each different: a second criterion of the same name ends in -2.
@@ -97,7 +100,7 @@ fn write_criteria(
     problem: &Problem,
     labels: &[String],
 ) -> Result<(), Error> {
-    let mut table = Table::create(folder.file("criteria.csv"), &CRITERIA)?;
+    let mut table = Table::create(folder.file(CRITERIA_FILE), &CRITERIA)?;
     for (criterion, label) in problem.criteria.list.iter().zip(labels) {
         table.append(&[
             label.as_str().into(),
@@ -123,14 +126,14 @@ type Opening<'a> = &'a dyn Fn(usize, &[&str]) -> Result<Table, Error>;
 
 /// How far the tables of a run are.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Written {
-    /// Bytes of each of [`FILES`].
-    pub(super) lengths: [u64; 4],
+pub(super) struct Progress {
+    /// What was written of each of [`FILES`].
+    pub(super) of_files: [Written; 4],
     /// Costs up to the last row of times.
     costs: Costs,
 }
 
-serial!(Written { lengths, costs });
+serial!(Progress { of_files, costs });
 
 pub(super) struct Tables {
     history: Table,
@@ -246,22 +249,21 @@ impl Tables {
         folder: &ResultFolder,
         problem: &Problem,
         tagged: &str,
-        written: &Written,
+        progress: &Progress,
     ) -> Result<Self, Error> {
         let cut_back = |place: usize, columns: &[&str]| {
-            let length = written.lengths[place];
+            let length = progress.of_files[place].length;
             Table::cut_back(folder.file(FILES[place]), columns.len(), length)
         };
-        Self::with(problem, tagged, written.costs, &cut_back)
+        Self::with(problem, tagged, progress.costs, &cut_back)
     }
 
     /// How far the tables are; what they have is safely on the disk when this returns.
-    pub(super) fn written(&self) -> Result<Written, Error> {
+    pub(super) fn progress(&self) -> Result<Progress, Error> {
         let [history, iterations, breaks, timings] =
-            [&self.history, &self.iterations, &self.breaks, &self.timings]
-                .map(Table::synced_length);
-        Ok(Written {
-            lengths: [history?, iterations?, breaks?, timings?],
+            [&self.history, &self.iterations, &self.breaks, &self.timings].map(Table::synced);
+        Ok(Progress {
+            of_files: [history?, iterations?, breaks?, timings?],
             costs: self.costs_before,
         })
     }

@@ -16,7 +16,7 @@ use ligament_model::portion::Portion;
 use super::field::Chosen;
 use super::{Cell, Field, UnstructuredGrid, push_fields, write_vtu};
 use crate::Error;
-use crate::atomic::replace_file;
+use crate::replace_file;
 use crate::xml::escape_attribute;
 
 /// Field of the places of the points in the whole grid.

@@ -54,10 +54,16 @@ type Landmark<'a> = (Mark, &'a dyn Fn(&Curve) -> Vec<(&'static str, [f64; 2])>);
 /// If there are no such results or columns, the units do not fit, or the picture cannot be written.
 pub fn draw_curves(request: &CurveRequest) -> Result<PathBuf, PictureError> {
     let labels = labels_of(&request.folders, &request.labels)?;
-    let file = request.target.file(|| match request.folders.as_slice() {
+    let mut target = request.target.clone();
+    let file = target.file(|| match request.folders.as_slice() {
         [only] => only.join("picture-curve.png"),
         _ => PathBuf::from("picture-curves.png"),
     })?;
+    if request.folders.len() > 1 {
+        // It lies in no folder of results, so that it may be anybody's.
+        target.out = Some(file.clone());
+    }
+    target.check(&file)?;
     let mut curves = Vec::new();
     for folder in &request.folders {
         curves.push(Curve::read(folder, &request.columns)?);
@@ -99,7 +105,7 @@ pub fn draw_curves(request: &CurveRequest) -> Result<PathBuf, PictureError> {
         words(&request.columns[0]),
         labels.join(", ")
     );
-    request.target.write(file, &svg, &title)
+    target.write(file, &svg, &title)
 }
 
 /// Curves up to which each has a colour of its own.

@@ -18,6 +18,7 @@ use super::style::{Style, crack_legend};
 pub fn draw_fields(request: &FieldRequest) -> Result<PathBuf, PictureError> {
     let subject = Subject::open(request)?;
     let file = request.target.file(|| subject.default_file(request))?;
+    request.target.check(&file)?;
     let outputs = outputs(&subject.sources, &request.choice)?;
     let mut panels = Vec::new();
     for output in &outputs {

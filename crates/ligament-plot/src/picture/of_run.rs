@@ -29,6 +29,7 @@ pub fn draw_run(folder: &Path) -> Result<Vec<PathBuf>, PictureError> {
     let folders = vec![folder.to_path_buf()];
     let target = Target {
         out: None,
+        force: false,
         format: None,
         width: None,
         dpi: None,

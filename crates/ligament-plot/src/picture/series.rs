@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use ligament_output::replace_file;
+use ligament_output::{check_file, is_stream, write_file};
 
 use super::PictureError;
 use super::body::{bounds, common_scale_of};
@@ -40,8 +40,12 @@ pub fn draw_each(request: &FieldRequest) -> Result<Vec<PathBuf>, PictureError> {
     let file = request.target.file(|| subject.default_file(request))?;
     let series = Series::new(request, &subject)?;
     let mut written = Vec::new();
+    let files = |output: &Output<'_>| numbered(&file, output.number());
     for output in &series.outputs {
-        let numbered = numbered(&file, output.number());
+        request.target.check(&files(output))?;
+    }
+    for output in &series.outputs {
+        let numbered = files(output);
         written.push(
             request
                 .target
@@ -78,9 +82,10 @@ pub fn animate(
     per_second: f64,
 ) -> Result<PathBuf, PictureError> {
     let is_gif = (file.extension()).is_some_and(|it| it.eq_ignore_ascii_case("gif"));
-    if !is_gif {
+    if !is_gif && !is_stream(file) {
         return Err(PictureError::Ending(file.to_path_buf()));
     }
+    check_file(file, request.target.force)?;
     let subject = one_subject(request, "--animate")?;
     let evenly_spread = FieldRequest {
         choice: match &request.choice {
@@ -96,7 +101,8 @@ pub fn animate(
         pictures.push(Pixels::drawn(&series.svg(output)?, dpi)?);
     }
     let hundredths = (100.0 / per_second).round().clamp(2.0, 6000.0);
-    replace_file(file, &to_gif(&pictures, hundredths as u16)?)?;
+    let bytes = to_gif(&pictures, hundredths as u16)?;
+    write_file(file, &bytes, request.target.force)?;
     Ok(file.to_path_buf())
 }
 

@@ -74,8 +74,8 @@ impl<'a> Style<'a> {
             words: magnification_words(self.magnification),
         };
         let colours = self.colours.as_ref();
-        let bar =
-            colours.map(|(scale, range)| ColourBar::new(scale, &self.quantity, self.unit, *range));
+        let quantity = caption(&self.quantity);
+        let bar = colours.map(|(scale, range)| ColourBar::new(scale, &quantity, self.unit, *range));
         let strip = Strip {
             scale: self.colours.as_ref().map(|it| &it.0),
             bar,
@@ -88,6 +88,15 @@ impl<'a> Style<'a> {
             panels,
         };
         strip.to_svg(self.request.target.width.unwrap_or(width) * PIXELS_PER_MM)
+    }
+}
+
+/// The name of a field under its colours; with virial stresses, which are not those of the continuum at single points of a mesh, what they
+/// are good for.
+fn caption(quantity: &str) -> String {
+    match quantity.starts_with("stress_virial") {
+        true => format!("{quantity}, right in the mean"),
+        false => quantity.to_owned(),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use ligament_output::replace_file;
+use ligament_output::{check_file, write_file};
 
 use super::PictureError;
 use crate::plots::pdf::to_pdf;
@@ -13,6 +13,8 @@ use crate::plots::png::to_png;
 pub struct Target {
     /// File to write; None: one beside the results.
     pub out: Option<PathBuf>,
+    /// Whether it may replace a file that is there; a picture of the program's own in a folder of results always does.
+    pub force: bool,
     /// Kind of the file; None: the one that the file ends in, PNG where no file is given.
     pub format: Option<Format>,
     /// Width, mm; None: that of a column or of a page.
@@ -65,7 +67,7 @@ impl Target {
             let format = self.format.unwrap_or(Format::Png);
             return Ok(default().with_extension(format.word()));
         };
-        let named = Format::named_by(&path)?;
+        let named = self.format_of(&path)?;
         match self.format {
             Some(format) if format != named => Err(PictureError::OtherEnding {
                 path,
@@ -75,6 +77,24 @@ impl Target {
         }
     }
 
+    /// The kind of a file: that which its name ends in, and of a name without ending, as those of pipes, the one that was asked for.
+    fn format_of(&self, path: &Path) -> Result<Format, PictureError> {
+        match self.format {
+            Some(format) if path.extension().is_none() => Ok(format),
+            _ => Format::named_by(path),
+        }
+    }
+
+    /// Whether a file that is there may be replaced.
+    fn may_replace(&self) -> bool {
+        self.force || self.out.is_none()
+    }
+
+    /// Fails where a picture could not be written, before it is drawn.
+    pub(super) fn check(&self, path: &Path) -> Result<(), PictureError> {
+        Ok(check_file(path, self.may_replace())?)
+    }
+
     /// Writes the picture with a title as the kind of file that its name ends in.
     pub(super) fn write(
         &self,
@@ -82,11 +102,12 @@ impl Target {
         svg: &str,
         title: &str,
     ) -> Result<PathBuf, PictureError> {
-        match Format::named_by(&path)? {
-            Format::Png => replace_file(&path, &to_png(svg, self.dpi.unwrap_or(DPI))?)?,
-            Format::Svg => replace_file(&path, svg.as_bytes())?,
-            Format::Pdf => replace_file(&path, &to_pdf(svg, title)?)?,
-        }
+        let bytes = match self.format_of(&path)? {
+            Format::Png => to_png(svg, self.dpi.unwrap_or(DPI))?,
+            Format::Svg => svg.as_bytes().to_vec(),
+            Format::Pdf => to_pdf(svg, title)?,
+        };
+        write_file(&path, &bytes, self.may_replace())?;
         Ok(path)
     }
 }

@@ -45,14 +45,34 @@ def of_points(
 
 
 def _indices(name: str, group: ArrayLike, n_points: int) -> list[int]:
-    chosen = np.asarray(group)
+    chosen = _array(name, group)
     if chosen.dtype == bool:
         if chosen.shape != (n_points,):
             raise BodyError(f"group `{name}`: a mask has the shape ({n_points},), found {chosen.shape}")
         chosen = np.flatnonzero(chosen)
+    if chosen.ndim != 1:
+        raise BodyError(f"group `{name}`: indices have the shape (n,), found {chosen.shape}")
+    chosen = _whole(f"group `{name}`: indices", chosen)
+    # Three places or more among the first two: a mask, whose ones would be read as the second point.
+    if chosen.size > 2 and chosen.min() >= 0 and chosen.max() <= 1:
+        raise BodyError(f"group `{name}` has nothing but 0 and 1; a mask has truth values: give `mask.astype(bool)`")
     if chosen.size and (chosen.min() < 0 or chosen.max() >= n_points):
         raise BodyError(f"group `{name}` has an index outside of 0 to {n_points - 1}")
     return [int(index) for index in chosen]
+
+
+def _array(name: str, values: ArrayLike) -> NDArray[Any]:
+    try:
+        return np.asarray(values)
+    except (ValueError, RecursionError) as error:
+        raise BodyError(f"`{name}` is no array: {error}") from error
+
+
+def _whole(what: str, values: NDArray[Any]) -> NDArray[np.int64]:
+    """Whole numbers, which are not made of others by cutting off what stands behind the point."""
+    if values.size and values.dtype.kind not in "iu":
+        raise BodyError(f"{what} are whole numbers (int), found {values.dtype}; `np.flatnonzero(condition)` gives the indices of points")
+    return values.astype(np.int64)
 
 
 def of_mesh(mesh: Any, groups: Mapping[str, ArrayLike] | None = None) -> _native.Body:
@@ -91,7 +111,7 @@ def of_cells(
 
 
 def _corners(name: str, rows: ArrayLike, sizes: tuple[int, ...], tags: NDArray[np.uint64]) -> NDArray[np.uint64]:
-    corners = np.asarray(rows, dtype=np.int64)
+    corners = _whole(f"the nodes of `{name}`", _array(name, rows))
     if corners.ndim != 2 or corners.shape[1] not in sizes:
         shape = " or ".join(f"(n, {size})" for size in sizes)
         raise BodyError(f"the nodes of `{name}` have the shape {shape}, found {corners.shape}")
@@ -132,7 +152,8 @@ def _of_meshio(mesh: Any) -> tuple[NDArray[np.uint64], NDArray[Any], Elements]:
         if shape is None:
             raise BodyError(f"the kind of cells `{block.type}` {UNREAD}")
         dimension, n = shape
-        corners = np.ascontiguousarray(tags[np.asarray(block.data)[:, :n]])
+        nodes = _whole(f"the nodes of `{block.type}`", np.asarray(block.data))
+        corners = np.ascontiguousarray(tags[nodes[:, :n]])
         in_group = np.zeros(len(corners), dtype=bool)
         # A reader of Gmsh's files gives the same group as a set and by its number.
         sets = {name: sets[place] for name, sets in mesh.cell_sets.items() if not name.startswith("gmsh:")}
@@ -140,7 +161,7 @@ def _of_meshio(mesh: Any) -> tuple[NDArray[np.uint64], NDArray[Any], Elements]:
             sets.update(_by_number(physical[place], dimension, names))
         for name, chosen in sets.items():
             if chosen is not None and len(chosen):
-                chosen = np.asarray(chosen, dtype=np.int64)
+                chosen = _whole(f"cell set `{name}`: indices", np.asarray(chosen))
                 in_group[chosen] = True
                 elements.append((dimension, corners[chosen], name))
         if not in_group.all() and dimension > 1:

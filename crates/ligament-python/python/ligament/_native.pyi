@@ -70,6 +70,7 @@ def draw_curves(
     title: str,
     width: float,
 ) -> str: ...
+def picture_file(svg: str, title: str, kind: str, dpi: float) -> bytes: ...
 def next_trial(
     trials: Sequence[tuple[float, float]],
     start: float,

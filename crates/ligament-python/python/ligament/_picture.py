@@ -6,6 +6,13 @@ import base64
 import os
 from pathlib import Path
 
+from ligament import _native
+from ligament._errors import LigamentError
+
+# Endings of the files that pictures are written as, and of some that are not: any other ending is a part of a name, as in `at 2.75`.
+KINDS = ("svg", "png", "pdf")
+OTHER_KINDS = ("bmp", "eps", "gif", "jpeg", "jpg", "ps", "tif", "tiff", "webp")
+
 
 class Picture:
     """A picture as SVG, which notebooks show."""
@@ -14,10 +21,18 @@ class Picture:
         self.svg = svg
         self.words = words
 
-    def save(self, path: str | os.PathLike[str]) -> Path:
-        """Writes the picture into a file of SVG, and gives its path."""
-        written = Path(path).with_suffix(".svg")
-        written.write_text(self.svg, encoding="utf-8")
+    def save(self, path: str | os.PathLike[str], *, dpi: float = 300.0) -> Path:
+        """Writes the picture into a file, and gives its path: SVG, PNG or PDF as the name ends, SVG with `.svg` behind any other name.
+
+        A file that is there is replaced. The dots per inch are those of a PNG.
+        """
+        written = Path(path)
+        kind = written.suffix.lower().removeprefix(".")
+        if kind in OTHER_KINDS:
+            raise LigamentError(f"{written}: pictures are written as .svg, .png or .pdf", hint="name it .svg, .png or .pdf")
+        if kind not in KINDS:
+            written, kind = written.with_name(written.name + ".svg"), "svg"
+        written.write_bytes(_native.picture_file(self.svg, self.words, kind, dpi))
         return written
 
     def to_html(self) -> str:

@@ -7,14 +7,16 @@ function exactText(multiple, exponent, shift) {
   if (multiple >= NOT_A_NUMBER) return multiple === NOT_A_NUMBER ? "–" : "∞";
   const power = exponent + shift;
   const decimals = Math.min(Math.max(-power, 0), MOST_DECIMALS);
-  return minus(Number(`${multiple}e${power}`).toFixed(decimals));
+  const text = Number(`${multiple}e${power}`).toFixed(decimals);
+  return Number(text) === 0 ? "0" : minus(text);
 }
 
 // A value with four digits, in the display unit.
 function shortText(value, digits = 4) {
   if (!Number.isFinite(value)) return Number.isNaN(value) ? "–" : "∞";
   const size = Math.abs(value);
-  if (size === 0) return "0";
+  // What is left of sums that cancel is nothing in any unit.
+  if (size < 1e-20) return "0";
   if (size >= 1e6 || size < 1e-4) return minus(value.toExponential(digits - 1).replace("e+", "e"));
   const decimals = Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
   return minus(value.toFixed(decimals));
@@ -32,9 +34,10 @@ function labelWithUnit(name, unit) {
   return unit ? `${name} (${unit})` : name;
 }
 
-// The name of a column or field in words.
+// The name of a column or field in words. Virial stresses are not those of the continuum at single points of a mesh.
 function inWords(name) {
-  return name.replaceAll("_", " ").replaceAll(".", " ");
+  const words = name.replaceAll("_", " ").replaceAll(".", " ");
+  return name.startsWith("stress_virial") ? `${words}, right in the mean` : words;
 }
 
 // Round numbers from low to high, about so many.

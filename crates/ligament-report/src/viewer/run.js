@@ -99,7 +99,7 @@ function choicesOfField(field) {
   const words = inWords(field.name);
   if (field.components.length === 0) return [{ id: field.name, label: words, field, place: 0 }];
   const parts = field.components.map((name, place) => ({
-    id: `${field.name}.${name}`, label: `${words} ${name}`, field, place,
+    id: `${field.name}.${name}`, label: inWords(`${field.name}.${name}`), field, place,
   }));
   const isVector = field.components.join() === "x,y";
   return isVector ? [{ id: field.name, label: words, field, place: null }, ...parts] : parts;

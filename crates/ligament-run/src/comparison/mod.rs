@@ -11,8 +11,7 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::Context;
-use ligament_output::folder::{Kind, RESOLVED_CASE};
-use ligament_output::results::CRACK_FILES;
+use ligament_output::folder::{Kind, RESOLVED_CASE, is_made_later};
 
 use crate::loading::SUMMARY;
 
@@ -84,8 +83,8 @@ impl Comparison {
     }
 }
 
-/// Names of the files in a folder that equal runs have in common. The case is an input, and compared before; the lines of cracks are made
-/// of results afterwards.
+/// Names of the files in a folder that equal runs have in common. The case is an input, and compared before; files of cracks are made of
+/// results afterwards.
 fn results(folder: &Path) -> anyhow::Result<BTreeSet<String>> {
     let listed = || format!("cannot list {}", folder.display());
     let mut names = BTreeSet::new();
@@ -94,8 +93,7 @@ fn results(folder: &Path) -> anyhow::Result<BTreeSet<String>> {
         let name = name.to_string_lossy().into_owned();
         let is_passing =
             [RESOLVED_CASE, "timings.csv"].contains(&&*name) || name.starts_with("checkpoint");
-        let is_made_later = CRACK_FILES.contains(&&*name);
-        if (Kind::RUN.owns)(&name) && !is_passing && !is_made_later {
+        if (Kind::RUN.owns)(&name) && !is_passing && !is_made_later(&name) {
             names.insert(name);
         }
     }

@@ -61,6 +61,9 @@ pub enum MeshingError {
         /// The system's reason.
         source: io::Error,
     },
+    /// The mesh has no place where it is to go.
+    #[error(transparent)]
+    Output(#[from] ligament_output::Error),
     /// Python lacks a package.
     #[error(
         "`{}` has no package `{package}`; install it: {} -m pip install {}",

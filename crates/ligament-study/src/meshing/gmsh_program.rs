@@ -6,6 +6,7 @@ use std::process::{Command, Output};
 
 use ligament_mesh::AnyMesh;
 use ligament_mesh::gmsh;
+use ligament_output::{check_file, write_file};
 
 use super::error::{MeshingError, Refusal};
 use super::{Unfinished, is_same_file, last_lines, output_of};
@@ -17,6 +18,8 @@ pub struct MeshRequest {
     pub geometry: PathBuf,
     /// The mesh file to write.
     pub out: PathBuf,
+    /// Whether it may replace a file that is there.
+    pub force: bool,
     /// The program gmsh: a path, or a name to be found on the PATH.
     pub gmsh: PathBuf,
     /// Numbers of the geometry to be set.
@@ -49,6 +52,7 @@ pub fn make_mesh(request: &MeshRequest) -> Result<AnyMesh, MeshingError> {
         let (what, path) = ("geometry itself", out.clone());
         return Err(MeshingError::WouldReplaceSource { what, path });
     }
+    check_file(out, request.force)?;
     check_numbers(request)?;
     let write_error = |source| MeshingError::File {
         action: "write",
@@ -73,7 +77,7 @@ pub fn make_mesh(request: &MeshRequest) -> Result<AnyMesh, MeshingError> {
         geometry: geometry.clone(),
         source,
     })?;
-    unfinished.put_at(out).map_err(write_error)?;
+    write_file(out, &bytes, request.force)?;
     Ok(mesh)
 }
 

@@ -10,7 +10,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-use ligament_output::remove_if_there;
+use ligament_output::{is_stream, remove_if_there};
 
 mod error;
 pub mod gmsh_program;
@@ -51,15 +51,21 @@ fn last_lines(mut lines: Vec<String>, who: &str, output: &Output) -> Vec<String>
     }
 }
 
-/// A mesh in the making: a hidden file beside its place, removed if it is still there at the end.
+/// Makes the folder of a file, if need be.
+fn make_folder_of(file: &Path) -> io::Result<()> {
+    file.parent().map_or(Ok(()), std::fs::create_dir_all)
+}
+
+/// A mesh in the making: a hidden file beside its place, removed at the end.
 struct Unfinished(PathBuf);
 
 impl Unfinished {
-    /// A name in the folder of `out`, which is made if need be (a rename must not cross file systems), unique to this process.
+    /// A name in the folder of `out`, which is made if need be, unique to this process. Beside a pipe or a device nothing is made: a
+    /// mesh for it has a name among the system's temporary files.
     fn beside(out: &Path) -> io::Result<Self> {
-        if let Some(folder) = out.parent() {
-            std::fs::create_dir_all(folder)?;
-        }
+        let aside = std::env::temp_dir().join("mesh");
+        let out = if is_stream(out) { &aside } else { out };
+        make_folder_of(out)?;
         let mut name = OsString::from(".");
         name.push(out.file_stem().unwrap_or_default());
         name.push(format!("-unfinished-{}.msh", std::process::id()));
@@ -72,16 +78,11 @@ impl Unfinished {
     fn path(&self) -> &Path {
         &self.0
     }
-
-    /// Puts it in its place.
-    fn put_at(self, out: &Path) -> io::Result<()> {
-        std::fs::rename(&self.0, out)
-    }
 }
 
 impl Drop for Unfinished {
     fn drop(&mut self) {
-        // After success it has been renamed, so there is nothing to remove.
+        // What the program called did not write is not there to be removed.
         let _ = std::fs::remove_file(&self.0);
     }
 }

@@ -8,9 +8,10 @@ use std::process::{Command, Output};
 
 use ligament_mesh::gmsh;
 use ligament_mesh::{AnyMesh, Cell, Group, Mesh, SolidCell, SolidMesh};
+use ligament_output::{check_file, write_file};
 
 use super::error::{MeshingError, Refusal};
-use super::{Unfinished, is_same_file, last_lines, output_of};
+use super::{is_same_file, last_lines, make_folder_of, output_of};
 
 /// The script, which needs no file of its own.
 const SCRIPT: &str = include_str!("via_meshio.py");
@@ -24,6 +25,8 @@ pub struct ConversionRequest {
     pub format: Option<String>,
     /// The mesh file to write.
     pub out: PathBuf,
+    /// Whether it may replace a file that is there.
+    pub force: bool,
     /// The program python: a path, or a name to be found on the PATH.
     pub python: PathBuf,
 }
@@ -68,6 +71,7 @@ pub fn convert(request: &ConversionRequest) -> Result<Conversion, MeshingError> 
         let (what, path) = ("mesh that is to be converted", out.clone());
         return Err(MeshingError::WouldReplaceSource { what, path });
     }
+    check_file(out, request.force)?;
     let output = call_python(request)?;
     let text = String::from_utf8_lossy(&output.stdout);
     let failed = || MeshingError::Failed {
@@ -96,9 +100,8 @@ pub fn convert(request: &ConversionRequest) -> Result<Conversion, MeshingError> 
         path: out.clone(),
         source,
     };
-    let unfinished = Unfinished::beside(out).map_err(write_error)?;
-    std::fs::write(unfinished.path(), text).map_err(write_error)?;
-    unfinished.put_at(out).map_err(write_error)?;
+    make_folder_of(out).map_err(write_error)?;
+    write_file(out, text.as_bytes(), request.force)?;
     Ok(Conversion { mesh, remarks })
 }
 

@@ -11,8 +11,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use ligament_output::remove_if_there;
+use ligament_run::end::End;
 use ligament_run::memory;
-use ligament_run::run::NOT_AT_REST;
 
 use super::estimate::Estimates;
 use super::folder::StudyFolder;
@@ -248,8 +248,8 @@ impl Launcher<'_> {
         self.time += time;
         let run = self.runs[index];
         let exit = status?;
-        // A run that ended while bonds were breaking has results, and the table of the runs says of what kind.
-        let has_results = exit.success() || exit.code() == Some(NOT_AT_REST.into());
+        // Also a run that ended while bonds were breaking, or without equilibrium, left results, and they say how it ended.
+        let has_results = End::leaves_results(exit.code());
         if !has_results {
             let reason = self.last_words(run, exit);
             record::fail(run, self.folder, &reason)?;

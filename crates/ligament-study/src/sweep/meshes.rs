@@ -36,6 +36,7 @@ impl MeshPlan {
             request: MeshRequest {
                 geometry: geometry.to_owned(),
                 out: folder.join(file),
+                force: true,
                 gmsh: "gmsh".into(),
                 numbers,
             },

@@ -97,6 +97,12 @@ pub trait Body<const D: usize = 2>: Debug + Send + Sync {
         Vec::new()
     }
 
+    /// Points and their shares, which add up to one, in a value at a position (m), by the cell around it; None off the cells, and for a body
+    /// without cells.
+    fn shares_at(&self, _position: [f64; D]) -> Option<Vec<(u32, f64)>> {
+        None
+    }
+
     /// Outward normals of the outline along a group times their lengths, m, in space times their areas, m^2, added up at its points: half
     /// of an edge of a mesh at each of its nodes, a face of a lattice at its cell. Empty where no part of the group is an edge or a face.
     ///

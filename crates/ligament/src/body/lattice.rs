@@ -114,6 +114,10 @@ impl Body for LatticeBody {
         self.sets.parts_of_side(group)
     }
 
+    fn shares_at(&self, position: [f64; 2]) -> Option<Vec<(u32, f64)>> {
+        self.lattice.shares_at(position)
+    }
+
     fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; 2])>, OffOutline> {
         Ok(self.sets.outline(group, &self.lattice))
     }

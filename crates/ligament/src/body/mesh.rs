@@ -124,6 +124,10 @@ impl Body for MeshBody {
         &self.mesh.fields
     }
 
+    fn shares_at(&self, position: [f64; 2]) -> Option<Vec<(u32, f64)>> {
+        self.mesh.shares_at(position)
+    }
+
     /// Half of the normal of each edge, away from its one cell, at each of its nodes.
     fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; 2])>, OffOutline> {
         let groups = self.mesh.groups_named(group);

@@ -99,6 +99,10 @@ impl Body<3> for SolidLatticeBody {
         self.sets.parts_of_side(group)
     }
 
+    fn shares_at(&self, position: [f64; 3]) -> Option<Vec<(u32, f64)>> {
+        self.lattice.shares_at(position)
+    }
+
     fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; 3])>, OffOutline> {
         Ok(self.sets.outline(group, &self.lattice))
     }

@@ -105,6 +105,10 @@ impl Body<3> for SolidMeshBody {
         around.flatten().copied().collect()
     }
 
+    fn shares_at(&self, position: [f64; 3]) -> Option<Vec<(u32, f64)>> {
+        self.mesh.shares_at(position)
+    }
+
     /// Parts of the area vector of each face, away from its one cell, at each of its nodes.
     fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; 3])>, OffOutline> {
         let areas = self.mesh.outward_areas(&self.faces_of(group));

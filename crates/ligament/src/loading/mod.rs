@@ -2,6 +2,7 @@
 
 mod boundary;
 mod places;
+mod probes;
 mod programme;
 mod restraints;
 mod temperature;
@@ -59,7 +60,11 @@ impl Loading {
         couples_have_stiffness(setup, &boundary, system)?;
         let places = Places { setup, cloud };
         places.require_probes_on_body()?;
-        let probes: Arc<[Probe]> = setup.probes.iter().map(|it| it.on(system)).collect();
+        let probes: Arc<[Probe]> = setup
+            .probes
+            .iter()
+            .map(|it| probes::on(it, setup, system))
+            .collect();
         sections_are_crossed(&probes, system.portion())?;
         let staged = staged(setup, system, &probes)?;
         let boundary = restrained(setup, system, boundary, Acting::All)?;

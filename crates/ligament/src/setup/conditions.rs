@@ -180,13 +180,18 @@ impl<const D: usize> Support<D> {
         all.filter(move |it| self.held.contains(it) || along == Some(*it))
     }
 
-    /// Name of the support with this index in the history.
+    /// Name of the support with this index in the history: that of its group, unless it begins as a formula does.
     pub fn name(&self, index: usize) -> String {
         match &self.place {
-            Place::Group(group) => group.clone(),
-            Place::Everywhere | Place::Box(_) | Place::At(_) => format!("support-{}", index + 1),
+            Place::Group(group) if !begins_as_formula(group) => group.clone(),
+            _ => format!("support-{}", index + 1),
         }
     }
+}
+
+/// Whether a name begins as a formula does, which a spreadsheet computes where the name heads a column.
+pub fn begins_as_formula(name: &str) -> bool {
+    name.starts_with(['=', '+', '-', '@'])
 }
 
 /// Components that only solids have.

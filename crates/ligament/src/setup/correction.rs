@@ -42,6 +42,19 @@ pub enum Surface {
     Patch(patch::Settings),
 }
 
+impl Surface {
+    /// Largest ratio of the stiffnesses of materials between which the factors are found ([milder](ligament_model::material::milder)). Where
+    /// it is smaller, soft layers between stiffer parts come closer to what they should carry, stiff layers under a pull along them less:
+    /// both were measured, on layers of one to four cells.
+    pub(crate) fn largest_contrast(&self) -> f64 {
+        match self {
+            Self::Patch(_) => 10.0,
+            Self::Domain(_) => 2.0,
+            Self::None | Self::Volume => f64::INFINITY,
+        }
+    }
+}
+
 /// How the domain correction is iterated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Iteration {

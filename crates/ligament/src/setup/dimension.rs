@@ -6,10 +6,13 @@ use ligament_analysis::Component;
 use ligament_model::bonds::precrack::{self, PreCrack};
 use ligament_model::space::law::stability::NegativeShear;
 use ligament_model::thermal::FreeStrains;
-use ligament_model::{BondSystem, Bonds, Isotropic, LumpedMass, Material, Plane, PointCloud};
+use ligament_model::{
+    BondSet, BondSystem, Bonds, Isotropic, LumpedMass, Material, Plane, PointCloud,
+};
 
 use super::law::Law;
 use super::section::Section;
+use crate::body::Body;
 
 /// The plane and space: `Dim` is a [`Dimension<2>`](Dimension) and a [`Dimension<3>`](Dimension).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,6 +61,13 @@ pub trait Dimension<const D: usize>: 'static {
 
     /// Bonds through a section of a probe, and whether their first end lies on its left or, in space, behind it.
     fn crossing(system: &Self::System, section: [[f64; D]; 2]) -> Vec<(u32, bool)>;
+
+    /// For each of some pairs of points, whether the pre-cracks of a body part them, shape (n_bonds).
+    fn parted(
+        cracked: (&dyn Body<D>, &[Self::PreCrack]),
+        pairs: &BondSet<D>,
+        cloud: &PointCloud<D>,
+    ) -> Vec<bool>;
 
     /// Directions of length one across a direction of length one.
     fn across(direction: [f64; D]) -> Vec<[f64; D]>;
@@ -113,6 +123,14 @@ impl Dimension<2> for Dim {
         let ends = system.bonds.ends.iter().copied();
         let ends = ends.chain(cut.map(|it| it.ends));
         precrack::crossing_bonds(ends, cloud, start, end)
+    }
+
+    fn parted(
+        (_, precracks): (&dyn Body, &[PreCrack]),
+        pairs: &BondSet,
+        cloud: &PointCloud,
+    ) -> Vec<bool> {
+        precrack::cut_bonds(precracks, pairs, cloud)
     }
 
     fn across([x, y]: [f64; 2]) -> Vec<[f64; 2]> {

@@ -26,11 +26,13 @@ use ligament_model::law::rotational::RotationalScale;
 use ligament_model::{Horizons, Material, Plane, PointCloud, Scatter};
 
 use crate::body::Body;
+use crate::implausible::Implausible;
 
 pub use analysis::{Analysis, ELASTIC_ENERGY_TOLERANCE, event, modal, stepped};
 pub use check::Checks;
 pub use conditions::{
     Action, Axis, Couple, Displacement, Load, Place, Profile, SpringStiffness, Support,
+    begins_as_formula,
 };
 pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
 pub use dimension::{Dim, Dimension};
@@ -95,6 +97,8 @@ where
     pub solver: SolverSettings,
     /// Number of threads; without it the threads of the caller.
     pub threads: Option<usize>,
+    /// What a user should know of the input that the other fields were made of: the model tells it among its warnings.
+    pub remarks: Vec<Implausible>,
 }
 
 /// A material and the part of the body that it fills.
@@ -148,6 +152,7 @@ where
             analysis: Analysis::default(),
             solver: SolverSettings::default(),
             threads: None,
+            remarks: Vec::new(),
         }
     }
 
@@ -155,6 +160,19 @@ where
     pub fn materials(&self) -> Vec<Material> {
         let regions = self.materials.iter();
         regions.map(|region| region.material.clone()).collect()
+    }
+
+    /// The setup with other materials in its regions.
+    pub(crate) fn of_materials(&self, materials: Vec<Material>) -> Self {
+        let regions = self.materials.iter().zip(materials);
+        let regions = regions.map(|(region, material)| MaterialRegion {
+            group: region.group.clone(),
+            material,
+        });
+        Self {
+            materials: regions.collect(),
+            ..self.clone()
+        }
     }
 }
 

@@ -1,10 +1,9 @@
 //! Probes: what the history records beside displacement and load.
 
 use ligament_analysis::Component;
-use ligament_analysis::probe::{self, PointField};
+use ligament_analysis::probe::PointField;
 
 use super::conditions::Axis;
-use super::dimension::{Dim, Dimension};
 
 /// A number read off the body at every load step.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,14 +19,14 @@ pub struct Probe<const D: usize = 2> {
 pub enum Reading<const D: usize = 2> {
     /// Displacement of one point relative to another.
     Between {
-        /// Two positions, m: the displacement of the point nearest to the second less that nearest to the first.
+        /// Two positions, m: the displacement at the second less that at the first.
         positions: [[f64; D]; 2],
         /// Component read, m or rad.
         component: Component,
     },
-    /// A field at a point.
+    /// A field at a position.
     At {
-        /// Position, m; the nearest point is read.
+        /// Position, m: what the points of the cell around it have, in parts; where no cell is, or a pre-crack parts them, the nearest point.
         position: [f64; D],
         /// Field read.
         field: PointField,
@@ -43,43 +42,18 @@ pub enum Reading<const D: usize = 2> {
 }
 
 impl<const D: usize> Reading<D> {
+    /// Whether it is a virial stress.
+    pub(crate) fn is_stress(&self) -> bool {
+        let stress = |field: &PointField| matches!(field, PointField::Stress(_));
+        matches!(self, Self::At { field, .. } if stress(field))
+    }
+
     /// Whether it is a motion of points, or a difference of such.
     pub(crate) fn is_motion(&self) -> bool {
         match self {
             Self::Between { .. } => true,
             Self::At { field, .. } => matches!(field, PointField::Motion(_)),
             Self::Section { .. } => false,
-        }
-    }
-}
-
-impl<const D: usize> Probe<D>
-where
-    Dim: Dimension<D>,
-{
-    /// The probe on the points and bonds of a model.
-    pub(crate) fn on(&self, system: &<Dim as Dimension<D>>::System) -> probe::Probe {
-        let nearest = |position: [f64; D]| Dim::cloud(system).nearest_point(position);
-        let reading = match self.reading {
-            Reading::Between {
-                positions,
-                component,
-            } => probe::Reading::RelativeDisplacement {
-                points: positions.map(nearest),
-                component,
-            },
-            Reading::At { position, field } => probe::Reading::Field {
-                point: nearest(position),
-                field,
-            },
-            Reading::Section { line, component } => probe::Reading::SectionForce {
-                bonds: Dim::crossing(system, line),
-                component: component.displacement(),
-            },
-        };
-        probe::Probe {
-            name: self.name.clone(),
-            reading,
         }
     }
 }

@@ -4,11 +4,13 @@ use ligament_analysis::Component;
 use ligament_model::space::SolidSystem;
 use ligament_model::space::law::bbpd;
 use ligament_model::space::law::stability::NegativeShear;
+use ligament_model::space::precrack::cut_bonds;
 use ligament_model::thermal::FreeStrains;
-use ligament_model::{Bonds, LumpedMass, Material, PointCloud};
+use ligament_model::{BondSet, Bonds, LumpedMass, Material, PointCloud};
 
 use super::formulation::shear_form;
-use super::precrack::SolidCrack;
+use super::precrack::{SolidCrack, surfaces};
+use crate::body::Body;
 use crate::setup::{Dim, Dimension, Law};
 
 impl Dimension<3> for Dim {
@@ -67,6 +69,16 @@ impl Dimension<3> for Dim {
                 (first != second).then_some((bond as u32, second))
             })
             .collect()
+    }
+
+    fn parted(
+        (body, precracks): (&dyn Body<3>, &[SolidCrack]),
+        pairs: &BondSet<3>,
+        cloud: &PointCloud<3>,
+    ) -> Vec<bool> {
+        // What is wrong with a surface was told when the model was made.
+        let surfaces = surfaces(body, precracks).unwrap_or_default();
+        cut_bonds(&surfaces, pairs, cloud)
     }
 
     fn across(direction: [f64; 3]) -> Vec<[f64; 3]> {

@@ -4,6 +4,7 @@ use ligament_model::bonds::BondSet;
 use ligament_model::correction::{Correction, length};
 use ligament_model::failure::Criteria;
 use ligament_model::law::rotational::{self, RotationalScale};
+use ligament_model::material::milder;
 use ligament_model::space::correction::patch::{self, SolidCellForces};
 use ligament_model::space::correction::{
     SolidStrainMode, axes, energy_ratios, partial_volume, surface,
@@ -12,11 +13,12 @@ use ligament_model::space::criteria::{self, NoSolidLimit, SolidBasis};
 use ligament_model::space::law::{ShearForm, bbpd, calibration, mppd, nhpd, pds};
 use ligament_model::space::{SolidElement, SolidSystem};
 use ligament_model::{
-    BondStiffness, ElementKind, EnergyRatio, FixedFields, Horizons, Isotropic, PointCloud,
+    BondStiffness, ElementKind, EnergyRatio, FixedFields, Horizons, Isotropic, Plane, PointCloud,
 };
 
 use crate::body::Origin;
 use crate::error::{Fault, Field, SetupError};
+use crate::plausibility;
 use crate::setup::{Alpha, Calibration, CorrectionDomain, Law, Setup, Surface};
 
 /// Law, calibration and corrections of a setup on the points of its body in space.
@@ -114,8 +116,30 @@ impl<'a> SolidFormulation<'a> {
         }
     }
 
-    /// The correction of bonds with stiffness densities and factors alpha (n_bonds).
+    /// The correction of bonds with stiffness densities and factors alpha (n_bonds), found between [milder] materials.
     pub(super) fn correction(
+        &self,
+        bonds: &BondSet<3>,
+        stiffness: &BondStiffness,
+        alpha: Vec<f64>,
+    ) -> Correction {
+        let largest = self.setup.correction.surface.largest_contrast();
+        let materials = self.setup.materials();
+        let Some(milder) = milder(&materials, Plane::Strain, largest) else {
+            return self.corrected(bonds, stiffness, alpha);
+        };
+        let setup = self.setup.of_materials(milder);
+        let between = SolidFormulation {
+            setup: &setup,
+            constants: constants(&setup),
+            ..*self
+        };
+        let stiffness = between.stiffness(bonds, &alpha);
+        between.corrected(bonds, &stiffness, alpha)
+    }
+
+    /// The correction of bonds between the materials of the setup.
+    fn corrected(
         &self,
         bonds: &BondSet<3>,
         stiffness: &BondStiffness,
@@ -191,7 +215,9 @@ pub(super) fn criteria(
     criteria::criteria(&setup.criteria, &basis).map_err(|(place, reason)| {
         let field = Field::element("criteria", place);
         match reason {
-            NoSolidLimit::NoLimit(no_limit) => field.error(Fault::NoLimit(no_limit)),
+            NoSolidLimit::NoLimit(no_limit) => {
+                field.error(plausibility::without_limit(setup, no_limit))
+            }
             NoSolidLimit::PlaneOnly(reason) => field
                 .part("kind")
                 .error(Fault::Contradiction(reason.to_string().into())),

@@ -3,9 +3,11 @@
 use std::sync::Arc;
 
 use ligament_model::bonds::hole::bonds_across;
+use ligament_model::bonds::parts::LatticeCells;
 use ligament_model::correction::Correction;
 use ligament_model::space::SolidSystem;
 use ligament_model::space::outline::{Surface, bonds_outside, spacing_inside};
+use ligament_model::space::parts::Tetrahedra;
 use ligament_model::space::precrack::{SolidPreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::{
     Absence, AbsentBond, BondSet, BondStiffness, EnergyRatio, FixedFields, PointCloud,
@@ -19,11 +21,12 @@ use crate::counts::{self, BondCounts};
 use crate::error::SetupError;
 use crate::loading;
 use crate::model::{
-    Discretises, Model, absent_bonds, correction_range, portion_of, precrack_share, with_cut,
+    Discretises, Model, Precracked, absent_bonds, correction_range, of_correction, portion_of,
+    warnings, with_cut,
 };
 use crate::setup::{Dim, Setup};
+use crate::soundness::require_factors;
 use crate::stage::{Finding, StageWatcher, stage};
-use crate::warning;
 
 impl Discretises<3> for Dim {
     fn model(setup: Setup<3>, watcher: &mut dyn StageWatcher) -> Result<Model<3>, SetupError> {
@@ -40,13 +43,13 @@ impl Model<3> {
         let horizons = setup.horizon.of_points(&cloud);
         let (bonds, absent) = stage(watcher, "bonds", || {
             let all = BondSet::search(&cloud, &horizons);
-            inside_body(&setup, all, &cloud, outline)
+            let (bonds, absent) = inside_body(&setup, all, &cloud, outline);
+            (composed(&setup, bonds, &cloud, &material_of_cell), absent)
         });
         require_connected(&setup, &cloud, &horizons, &bonds)?;
         watcher.found(&counts::finding(&cloud, &bonds, &absent));
-        let (is_cut, touched, precrack_share) =
-            stage(watcher, "pre-cracks", || precracked(&setup, &bonds, &cloud))?;
-        let absent = with_cut(absent, &bonds, &is_cut);
+        let crossed = stage(watcher, "pre-cracks", || precracked(&setup, &bonds, &cloud))?;
+        let absent = with_cut(absent, &bonds, &crossed.is_cut);
         let Corrected {
             bonds,
             stiffness,
@@ -54,29 +57,29 @@ impl Model<3> {
             energy_ratios,
         } = stage(watcher, "correction", || {
             let formulation = SolidFormulation::new(&setup, &cloud, &horizons, &material_of_cell);
-            correct(&formulation, bonds, &is_cut)
+            correct(&formulation, bonds, &crossed.is_cut)
         });
         let report = correction.report.as_ref();
         watcher.found(&Finding::Correction(&setup.correction, report));
+        let scatter = (setup.scatter)
+            .map(|it| it.factors_in_space(setup.body.positions(), &setup.body.numbering()));
         let fixed = FixedFields {
             horizon: horizons.radius,
-            precrack_share,
+            precrack_share: crossed.share,
             energy_ratios,
-            domain_factor: correction.domain_factor.clone(),
-            shear_ratio: correction.shear_ratio.clone(),
-            patch_residual: correction.patch_residual().to_vec(),
-            no_fail: loading::no_fail(&setup, &cloud)?,
-            scatter: (setup.scatter)
-                .map(|it| it.factors_in_space(setup.body.positions(), &setup.body.numbering())),
+            scatter,
             absent,
+            ..of_correction(&correction, loading::no_fail(&setup, &cloud)?)
         };
         let system = stage(watcher, "rigidities", || {
             bond_system(&setup, cloud, bonds, stiffness, &correction)
         })?;
         let limits = || formulation::criteria(&setup, &system, &fixed);
         let criteria = stage(watcher, "criteria", limits)?;
+        let of_cracks = (crossed.idle, crossed.touched);
+        let of_body = (&setup, &system.cloud);
         Ok(Self {
-            warnings: warning::of_model(&setup, &system.cloud.spacing, report, &fixed, touched),
+            warnings: warnings(of_body, report, &fixed, &criteria, of_cracks),
             correction_range: correction_range(&correction, &system.cloud),
             counts: BondCounts::new(&system.cloud, &system.bonds, &fixed.absent),
             correction: correction.report,
@@ -118,6 +121,32 @@ fn all_points(
     }
 }
 
+/// The bonds, followed through the cells of a body of several materials.
+fn composed(
+    setup: &Setup<3>,
+    bonds: BondSet<3>,
+    cloud: &PointCloud<3>,
+    materials: &[u32],
+) -> BondSet<3> {
+    if cloud.n_materials == 1 {
+        return bonds;
+    }
+    match (setup.body.origin(), cloud.lattice_cell) {
+        (Origin::SolidMesh(mesh), _) => {
+            bonds.through(&Tetrahedra::new(&mesh.cells, cloud, materials), cloud)
+        }
+        (_, Some(size)) => bonds.through(
+            &LatticeCells {
+                cloud,
+                size,
+                materials,
+            },
+            cloud,
+        ),
+        _ => bonds,
+    }
+}
+
 /// The bonds inside the body, and those that its voids part.
 fn inside_body(
     setup: &Setup<3>,
@@ -138,18 +167,16 @@ fn inside_body(
     (bonds.retained(&keep), absent)
 }
 
-/// For each bond, whether a pre-crack cuts it (n_bonds), how many only touch one, and the share of its bonds that each point loses
-/// (n_points).
+/// What the pre-cracks of a solid do to its bonds.
 fn precracked(
     setup: &Setup<3>,
     bonds: &BondSet<3>,
     cloud: &PointCloud<3>,
-) -> Result<(Vec<bool>, usize, Vec<f64>), SetupError> {
-    let surfaces: Vec<SolidPreCrack> = surfaces(setup)?;
-    let is_cut = cut_bonds(&surfaces, bonds, cloud);
-    let touched = count_touched_bonds(&surfaces, bonds, cloud, &is_cut);
-    let share = precrack_share(cloud, bonds, &is_cut);
-    Ok((is_cut, touched, share))
+) -> Result<Precracked, SetupError> {
+    let surfaces: Vec<SolidPreCrack> = surfaces(&*setup.body, &setup.precracks)?;
+    let cut = |cracks: &[SolidPreCrack]| cut_bonds(cracks, bonds, cloud);
+    let touched = |is_cut: &[bool]| count_touched_bonds(&surfaces, bonds, cloud, is_cut);
+    Ok(Precracked::new(&surfaces, (cloud, bonds), cut, touched))
 }
 
 /// Points and corrected bonds with their rigidities.
@@ -162,6 +189,8 @@ fn bond_system(
 ) -> Result<SolidSystem, SetupError> {
     let element = formulation::element(&setup.law);
     let (alpha, omega) = (&correction.length_factor, &correction.domain_factor);
+    let factors = (omega.as_slice(), stiffness.axial.as_slice());
+    require_factors(&*setup.body, &cloud, factors, &bonds.ends)?;
     let system = SolidSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega);
     require_numbers(&*setup.body, &system)?;
     Ok(system)

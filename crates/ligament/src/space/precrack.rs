@@ -6,7 +6,6 @@ use ligament_model::space::precrack::SolidPreCrack;
 
 use crate::body::{Body, Origin};
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::Setup;
 
 /// A crack that is in a solid from the start.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,10 +41,12 @@ pub enum CrackSurface {
     Group(String),
 }
 
-/// The surfaces that cut bonds, of a setup on its body.
-pub(super) fn surfaces(setup: &Setup<3>) -> Result<Vec<SolidPreCrack>, SetupError> {
-    let body = &*setup.body;
-    let cracks = setup.precracks.iter().enumerate();
+/// The surfaces that cut bonds of a body.
+pub(super) fn surfaces(
+    body: &dyn Body<3>,
+    precracks: &[SolidCrack],
+) -> Result<Vec<SolidPreCrack>, SetupError> {
+    let cracks = precracks.iter().enumerate();
     let surface = |(index, crack): (usize, &SolidCrack)| {
         let field = Field::element("precracks", index);
         let surface = match &crack.surface {

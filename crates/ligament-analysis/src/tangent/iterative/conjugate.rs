@@ -9,7 +9,8 @@ use rayon::prelude::*;
 use super::coarse::Coarse;
 use super::operator::Operator;
 use super::point_blocks::PointBlocks;
-use crate::vectors::{CHUNK, dot_of_chunks};
+use crate::tangent::UNRESISTED;
+use crate::vectors::{CHUNK, dot_of_chunks, weighted_square};
 
 /// Iterations after which what there is has to do; those who asked find out by the residual.
 const ITERATION_LIMIT: usize = 2000;
@@ -33,12 +34,12 @@ pub(super) enum Limit {
 
 /// What conjugate gradients found.
 pub(super) struct Found {
-    /// Shape (n_degrees_of_freedom).
+    /// The solution, or the way that the stiffness does not resist, shape (n_degrees_of_freedom).
     pub(super) motions: Vec<f64>,
     pub(super) iterations: usize,
     /// Decades by which the norm of the force out of balance fell.
     pub(super) decades: f64,
-    /// Whether the stiffness was positive along every way.
+    /// Whether the stiffness resisted every way: by more than the rounding of the stiffnesses of the points.
     pub(super) is_definite: bool,
 }
 
@@ -101,8 +102,10 @@ pub(super) fn solve(
             });
         operator.multiply(&way, &mut pushed);
         let curvature = dot_of_chunks(&way, &pushed);
-        if curvature.is_nan() || curvature <= 0.0 {
+        let of_points = weighted_square(iteration.levels.blocks.diagonal(), &way);
+        if curvature.is_nan() || curvature <= UNRESISTED * of_points {
             is_definite = false;
+            iteration.motions = way;
             break;
         }
         let step = dot_of_chunks(&way, &iteration.force) / curvature;

@@ -1,10 +1,12 @@
 //! The planar cells: their shape, their orientation, and those that stand twice in the file.
 
+use super::super::assembly::refuse_covering;
 use super::super::cursor::Cursor;
 use super::super::element_type::Shape;
 use super::super::error::GmshError;
 use super::super::records::{Element, Records};
 use crate::cell::Cell;
+use crate::overlap::first_covering;
 
 /// Twice the area of a triangle, as a part of its longest side times the mesh size, that counts as none.
 const FLATNESS: f64 = 1e-12;
@@ -129,8 +131,23 @@ pub(super) fn merge_repeated(
     Ok((cells, cell_of_element))
 }
 
-/// Refuses cells that lie on the same side of a common edge: one of them covers some of the other.
+/// Refuses cells that lie on the same side of a common edge, or otherwise over each other.
 pub(super) fn check_overlap(
+    cursor: &Cursor<'_>,
+    records: &Records,
+    planar: &[PlanarCell],
+    positions: &[[f64; 2]],
+) -> Result<(), GmshError> {
+    check_common_edges(cursor, records, planar)?;
+    let corners: Vec<&[u32]> = planar.iter().map(|it| it.cell.corners()).collect();
+    let triangles = |cell: usize| planar[cell].cell.triangles();
+    let covering = first_covering(positions, &corners, triangles);
+    let elements = covering.map(|pair| pair.map(|cell| planar[cell as usize].element));
+    refuse_covering(cursor, records, elements)
+}
+
+/// Refuses cells that lie on the same side of a common edge: one of them covers some of the other.
+fn check_common_edges(
     cursor: &Cursor<'_>,
     records: &Records,
     planar: &[PlanarCell],

@@ -29,7 +29,7 @@ pub(super) fn assemble(cursor: &Cursor<'_>, records: &Records) -> Result<Mesh, G
         .collect();
     let planar = cells::oriented(cursor, records, &assembly.corners, &positions, size)?;
     let (planar, cell_of_element) = cells::merge_repeated(cursor, records, planar)?;
-    cells::check_overlap(cursor, records, &planar)?;
+    cells::check_overlap(cursor, records, &planar, &positions)?;
     let higher_order = planar
         .iter()
         .filter(|cell| records.elements[cell.element].higher_order);

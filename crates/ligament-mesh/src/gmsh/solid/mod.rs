@@ -3,13 +3,14 @@
 mod cells;
 mod nodes;
 
-use super::assembly::{Assembly, DROPPED};
+use super::assembly::{Assembly, DROPPED, refuse_covering};
 use super::cursor::Cursor;
 use super::error::GmshError;
 use super::records::Records;
 use super::{fields, groups};
 use crate::group::Group;
-use crate::solid::{Faces, SolidMesh};
+use crate::overlap::first_covering;
+use crate::solid::{Faces, SolidCell, SolidMesh};
 
 /// Makes the solid mesh of the records, or refuses them.
 pub(super) fn assemble(cursor: &Cursor<'_>, records: &Records) -> Result<SolidMesh, GmshError> {
@@ -24,6 +25,7 @@ pub(super) fn assemble(cursor: &Cursor<'_>, records: &Records) -> Result<SolidMe
     let groups = groups::collect(records, &assembly, &cell_of_element, &mut remarks);
     let faces = Faces::new(&solid.cells, positions.len());
     check_overlap(cursor, records, &solid, &faces)?;
+    check_covering(cursor, records, &solid, &positions)?;
     check_faces(cursor, records, &assembly, &faces, &groups)?;
     let fields = fields::on_nodes(records, &assembly.by_tag, &assembly.numbers);
     Ok(SolidMesh {
@@ -52,6 +54,20 @@ fn check_overlap(
         element: second.tag,
         other: first.tag,
     })
+}
+
+/// Refuses cells that lie over each other without a common face.
+fn check_covering(
+    cursor: &Cursor<'_>,
+    records: &Records,
+    solid: &cells::SolidCells,
+    positions: &[[f64; 3]],
+) -> Result<(), GmshError> {
+    let corners: Vec<&[u32]> = solid.cells.iter().map(SolidCell::corners).collect();
+    let tetrahedra = |cell: usize| solid.cells[cell].tetrahedra();
+    let covering = first_covering(positions, &corners, tetrahedra);
+    let elements = covering.map(|pair| pair.map(|cell| solid.elements[cell as usize]));
+    refuse_covering(cursor, records, elements)
 }
 
 /// Refuses surface elements in a group that are faces of no cell: shells beside the solid, or a surface that was meshed anew.

@@ -30,11 +30,11 @@ impl SolidBasis<'_> {
             .collect()
     }
 
-    /// The smallest of the values of the materials (n_materials) that have a share in an end of each bond, and infinity where the
-    /// bond never fails, shape (n_bonds).
+    /// The smallest of the values of the materials (n_materials) that have a share in an end of each bond or that it crosses, and
+    /// infinity where the bond never fails, shape (n_bonds).
     pub fn weakest(&self, of_materials: &[f64]) -> Vec<f64> {
         let SolidSystem { cloud, bonds, .. } = self.system;
-        weakest(cloud, &bonds.ends, self.no_fail, of_materials)
+        weakest(cloud, bonds, self.no_fail, of_materials)
     }
 
     pub(super) fn ends(&self) -> LimitEnds<'_> {

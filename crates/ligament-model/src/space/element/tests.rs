@@ -11,6 +11,7 @@ fn bond(along: [f64; 3], [axial, shear, rotational]: [f64; 3]) -> (BondSet<3>, R
         length: vec![length],
         direction: vec![along.map(|it| it / length)],
         horizon: vec![length],
+        composition: Default::default(),
     };
     let rigidities = Rigidities {
         axial: vec![axial],

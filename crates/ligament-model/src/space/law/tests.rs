@@ -48,6 +48,7 @@ fn ball() -> (BondSet<3>, PointCloud<3>) {
         ends,
         length,
         direction,
+        composition: Default::default(),
     };
     let cloud = PointCloud::from_points(&positions, &volumes, 1.0, &materials, 1);
     (bonds, cloud)

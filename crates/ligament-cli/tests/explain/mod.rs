@@ -10,10 +10,7 @@ use std::process::Output;
 use ligament_output::results::stored::StoredRun;
 use serde_json::Value;
 
-#[path = "../support/mod.rs"]
-mod support;
-
-use support::{ligament, text};
+use crate::support::{ligament, text};
 
 mod life;
 mod results;
@@ -56,7 +53,7 @@ fn bonds(results: &Path, words: &[&str]) -> Vec<Value> {
     let file = results.with_extension("json");
     let mut all = words.to_vec();
     let path = file.display().to_string();
-    all.extend(["--json", &path]);
+    all.extend(["--force", "--json", &path]);
     explain(results, &all);
     let document: Value = serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap();
     document["bonds"].as_array().unwrap().clone()

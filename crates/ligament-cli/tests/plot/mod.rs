@@ -13,10 +13,7 @@ use std::process::Output;
 
 use resvg::usvg::roxmltree::Document;
 
-#[path = "../support/mod.rs"]
-mod support;
-
-use support::{ligament, text};
+use crate::support::{ligament, text};
 
 /// A plate of 12 x 8 cells with a pre-crack, pulled apart until it is in two; every step has fields.
 const LATTICE: &str = r#"
@@ -66,9 +63,9 @@ fn call(words: &[&str]) -> Output {
     ligament(["plot"].iter().chain(words))
 }
 
-/// Calls it, and returns the file that it names.
+/// Calls it, in the place of earlier pictures, and returns the file that it names.
 fn plot(words: &[&str]) -> Vec<u8> {
-    let output = call(words);
+    let output = call(&[words, &["--force"]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     fs::read(text(&output.stdout).trim_end()).unwrap()
 }

@@ -9,12 +9,9 @@ use std::process::{Command, Output};
 
 use ligament_mesh::{Cell, Mesh, gmsh};
 
-#[path = "../support/mod.rs"]
-mod support;
-
 mod solids;
 
-use support::{ligament, text};
+use crate::support::{ligament, text};
 
 fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -51,6 +48,7 @@ fn convert(folder: &Path, file: &str, out: &str) -> Output {
         python.as_os_str(),
         to,
         out.as_os_str(),
+        "--force".as_ref(),
     ])
 }
 

@@ -8,10 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::time::SystemTime;
 
-#[path = "../support/mod.rs"]
-mod support;
-
-use support::{SMALL_BAR, assert_success, ligament, stderr, stdout};
+use crate::support::{SMALL_BAR, assert_success, ligament, stderr, stdout};
 
 mod faults;
 #[cfg(unix)]

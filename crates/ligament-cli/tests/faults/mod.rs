@@ -9,14 +9,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-#[path = "../support/mod.rs"]
-mod support;
-
-use support::{SMALL_BAR, assert_success};
+use crate::support::{SMALL_BAR, assert_success};
 
 mod disks;
 mod folders;
 mod inputs;
+mod outputs;
 mod paths;
 
 /// Settings with which the bar takes some seconds.

@@ -5,17 +5,14 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-#[path = "../support/mod.rs"]
-mod support;
-
 mod block;
 mod commands;
 mod inspected;
 mod starters;
 mod wrong_inputs;
 
+use crate::support::{ligament_in, stderr, stdout};
 use block::Block;
-use support::{ligament_in, stderr, stdout};
 
 fn meshes() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../meshes/solids")

@@ -7,10 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
-#[path = "../support/mod.rs"]
-mod support;
-
-use support::{ligament, stderr, stdout};
+use crate::support::{ligament, stderr, stdout};
 
 #[cfg(unix)]
 mod meshing;

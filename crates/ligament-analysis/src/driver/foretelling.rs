@@ -1,0 +1,365 @@
+//! What a loading comes to first, told by elastic solutions alone: the first bond at its limit, or why no bond gets there.
+//!
+//! Up to its first breakage a body is elastic. In proportion to one load factor its first solution tells where that is; in a programme of
+//! stages everything goes along a straight line from the end of one part to the end of the next, and one solution a part tells it.
+
+use ligament_model::deformation::Deformations;
+use ligament_model::failure::Criteria;
+use rayon::prelude::*;
+
+use super::outcome::LoadPoint;
+use super::path::Path;
+use crate::at_once::AtOnce;
+use crate::balanced::{Attempt, Balanced};
+use crate::bond_numbers::sum_over_bonds;
+use crate::breakage::Breakage;
+use crate::error::SetupError;
+use crate::history::Notice;
+use crate::load_program::{Part, PartControl, Programme};
+use crate::state::State;
+use crate::unbalanced::Unbalanced;
+
+/// Utilisation of a bond that counts as at its limit: a load step that ends exactly at the first breakage is off by rounding.
+const AT_LIMIT: f64 = 1.0 - 1e-9;
+
+/// Share of the first load step before which the first bond reaches its limit where a load breaks the body at once.
+const AT_ONCE: f64 = 0.1;
+
+/// Utilisations of bonds closer than this, relatively, are one: of these the bond with the smallest numbers is named.
+const TIED: f64 = 1e-8;
+
+/// Halvings after which the place on a line where a bond reaches its limit is known to the last digits.
+const HALVINGS: usize = 52;
+
+/// Doublings of a way without an end after which nothing on it reaches a limit.
+const DOUBLINGS: usize = 60;
+
+/// What a run comes to first.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Foretold {
+    /// A bond reaches its limit.
+    FirstFailure(FirstFailure),
+    /// No bond reaches its limit.
+    NoFailure {
+        /// Largest utilisation of a bond under the loading, below one.
+        utilisation: f64,
+    },
+    /// There is no equilibrium.
+    NoEquilibrium {
+        /// Part of the programme of stages; 0 without one.
+        part: usize,
+        /// Reason why there is none.
+        reason: Unbalanced,
+    },
+    /// Nothing is in proportion to the load, or goes along straight lines, from which it could be told.
+    Nonlinear,
+}
+
+/// The first bond that reaches its limit, where it breaks or begins to soften.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FirstFailure {
+    /// Number of the bond; of several that reach theirs together the one with the smallest numbers of its ends.
+    pub bond: u32,
+    /// Number of the criterion.
+    pub criterion: usize,
+    /// Place on the force-displacement curve.
+    pub point: LoadPoint,
+    /// Part of the programme of stages; 0 without one.
+    pub part: usize,
+    /// Load factor, or the share of its stage that is over; None in a stage that goes on until an energy is dissipated.
+    pub share: Option<f64>,
+    /// Load step in which it comes; None along the exact path.
+    pub step: Option<StepOfFailure>,
+}
+
+/// The load step in which the first bond reaches its limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StepOfFailure {
+    /// Number of the step, from 1.
+    pub step: usize,
+    /// Number of all steps.
+    pub steps: usize,
+    /// Bonds that would be beyond their limits at the end of the step if none broke.
+    pub beyond: usize,
+}
+
+impl Path<'_> {
+    /// Tells the observer of loads that break the body at once, which no results are of: where the first bond reaches its limit in the first
+    /// part of the first load step, which ends at `load_factor`. The equilibrium at load factor one is `at_one`.
+    pub(super) fn report_first_step(
+        &mut self,
+        at_one: &State,
+        load_factor: f64,
+    ) -> Result<(), SetupError> {
+        let Some(first) = self.course.elastic.first_break else {
+            return Ok(());
+        };
+        let share = first.load_factor / load_factor;
+        if !(0.0..AT_ONCE).contains(&share) {
+            return Ok(());
+        }
+        let balanced = self.equilibrium.measured(&mut at_one.clone());
+        let criteria = self.criteria(&balanced);
+        let deformations = balanced.deformations.scaled(load_factor);
+        let is_beyond = |(bond, deformation)| criteria.utilisation(bond, deformation) >= AT_LIMIT;
+        let of_bonds = deformations.iter().enumerate();
+        let of_bonds = of_bonds.map(|it| f64::from(u8::from(is_beyond(it))));
+        let system = &*self.problem.system;
+        let at_once = AtOnce {
+            share,
+            beyond: sum_over_bonds(system, of_bonds) as usize,
+            bonds: sum_over_bonds(system, system.ends().iter().map(|_| 1.0)) as usize,
+        };
+        Ok(self.observer.notice(&Notice::AtOnce(at_once))?)
+    }
+}
+
+/// What comes first on the way of a run that has begun; `at_one` is its equilibrium at load factor one, `steps` has the load
+/// factors of its load steps, and there is none along the exact path.
+pub(super) fn foretell(
+    path: Path<'_>,
+    at_one: Option<State>,
+    steps: Option<&[f64]>,
+) -> Result<Foretold, SetupError> {
+    let system = &path.problem.system;
+    if !system.is_linear() {
+        return Ok(Foretold::Nonlinear);
+    }
+    match path.problem.loads.course() {
+        None => in_proportion(path, at_one, steps),
+        Some(_) if system.faces_close() => Ok(Foretold::Nonlinear),
+        Some(course) => {
+            let programme = course.programme.clone();
+            in_stages(path, &programme, steps.is_some())
+        }
+    }
+}
+
+/// What comes first where everything is in proportion to one load factor.
+fn in_proportion(
+    mut path: Path<'_>,
+    at_one: Option<State>,
+    steps: Option<&[f64]>,
+) -> Result<Foretold, SetupError> {
+    let balanced = match at_full_load(&mut path, at_one)? {
+        Attempt::Balanced(balanced) => balanced,
+        Attempt::Unbalanced(reason) => return Ok(Foretold::NoEquilibrium { part: 0, reason }),
+    };
+    let factors = steps.unwrap_or(&[1.0]);
+    let criteria = path.criteria(&balanced).into_owned();
+    let (displacement, reaction) = path.control(&balanced);
+    let along = balanced.deformations;
+    // Faces that close under a load are open under the opposite one.
+    let reversed = factors.iter().position(|factor| *factor < 0.0);
+    let open = reversed.filter(|_| path.problem.system.faces_close());
+    let told = open.unwrap_or(factors.len());
+    let forward = Nearest::new(&path, &criteria, &along);
+    let backward = reversed.map(|_| Nearest::new(&path, &criteria, &along.scaled(-1.0)));
+    let nearest = |factor: f64| match &backward {
+        Some(backward) if factor < 0.0 => backward,
+        _ => &forward,
+    };
+    let utilisation = |factor: f64| factor.abs() * nearest(factor).utilisation;
+    let mut of_steps = factors[..told].iter();
+    let Some(index) = of_steps.position(|&factor| utilisation(factor) >= AT_LIMIT) else {
+        let largest = factors.iter().map(|&it| utilisation(it));
+        let utilisation = largest.fold(0.0, f64::max);
+        return Ok(match open {
+            Some(_) => Foretold::Nonlinear,
+            None => Foretold::NoFailure { utilisation },
+        });
+    };
+    let first = nearest(factors[index]);
+    let load_factor = factors[index].signum() / first.utilisation;
+    Ok(Foretold::FirstFailure(FirstFailure {
+        bond: first.bond,
+        criterion: first.criterion,
+        point: LoadPoint {
+            displacement: load_factor * displacement,
+            reaction: load_factor * reaction,
+            load_factor,
+        },
+        part: 0,
+        share: Some(load_factor),
+        step: steps.map(|_| StepOfFailure {
+            step: index + 1,
+            steps: factors.len(),
+            beyond: beyond(&criteria, &along.scaled(factors[index])),
+        }),
+    }))
+}
+
+/// The equilibrium at load factor one, of which the state may be known.
+fn at_full_load(path: &mut Path<'_>, at_one: Option<State>) -> Result<Attempt, SetupError> {
+    let Some(state) = at_one else {
+        path.state.load_factor = 1.0;
+        return path.balance(0, &Breakage::default());
+    };
+    path.state = state;
+    Ok(Attempt::Balanced(
+        path.equilibrium.measured(&mut path.state),
+    ))
+}
+
+/// What comes first in a programme of stages.
+fn in_stages(
+    mut path: Path<'_>,
+    programme: &Programme,
+    has_steps: bool,
+) -> Result<Foretold, SetupError> {
+    let nothing = Breakage::default();
+    let mut largest: f64 = 0.0;
+    let mut here = match path.balance(0, &nothing)? {
+        Attempt::Balanced(balanced) => balanced,
+        Attempt::Unbalanced(reason) => return Ok(Foretold::NoEquilibrium { part: 0, reason }),
+    };
+    for (index, part) in programme.parts.iter().enumerate() {
+        let start = path.control(&here);
+        path.begin_part(index);
+        let goes_on = aim_at_end(&mut path, part);
+        let there = match path.balance(0, &nothing)? {
+            Attempt::Balanced(balanced) => balanced,
+            Attempt::Unbalanced(reason) => {
+                return Ok(Foretold::NoEquilibrium {
+                    part: index,
+                    reason,
+                });
+            }
+        };
+        let criteria = path.criteria(&there).into_owned();
+        let line = Line::new(&here, &there);
+        let Some(share) = line.first_failure(&criteria, goes_on) else {
+            largest = largest.max(utilisation(&criteria, &there.deformations));
+            here = there;
+            continue;
+        };
+        let first = Nearest::new(&path, &criteria, &line.at(share));
+        let end = path.control(&there);
+        let on_way = |start: f64, end: f64| start + share * (end - start);
+        let (begins, ends) = part.span;
+        let steps_before: usize = programme.parts[..index].iter().map(|it| it.steps).sum();
+        let step = (share * part.steps as f64 * AT_LIMIT).ceil().max(1.0);
+        let is_counted = has_steps && !goes_on;
+        return Ok(Foretold::FirstFailure(FirstFailure {
+            bond: first.bond,
+            criterion: first.criterion,
+            point: LoadPoint {
+                displacement: on_way(start.0, end.0),
+                reaction: on_way(start.1, end.1),
+                load_factor: on_way(begins, path.state.load_factor),
+            },
+            part: index,
+            share: (!goes_on).then(|| on_way(begins, ends)),
+            step: is_counted.then(|| StepOfFailure {
+                step: steps_before + step as usize,
+                steps: programme.parts.iter().map(|it| it.steps).sum(),
+                beyond: beyond(&criteria, &line.at(step / part.steps as f64)),
+            }),
+        }));
+    }
+    Ok(Foretold::NoFailure {
+        utilisation: largest,
+    })
+}
+
+/// Seeks equilibrium at the end of a part that has just begun; true where the part goes on until an energy is dissipated, so that no
+/// elastic solution is its end: then at the load that it names.
+fn aim_at_end(path: &mut Path<'_>, part: &Part) -> bool {
+    let dissipates = matches!(part.control, Some(PartControl::DissipatedEnergy { .. }));
+    if dissipates {
+        path.equilibrium.aim(None);
+    } else {
+        path.aim(1.0);
+    }
+    if !matches!(part.control, Some(PartControl::Motion(_))) {
+        path.state.load_factor = part.span.1;
+    }
+    dissipates
+}
+
+/// Deformations on the straight line from one equilibrium to another.
+struct Line {
+    here: Deformations,
+    slopes: Deformations,
+}
+
+impl Line {
+    fn new(here: &Balanced, there: &Balanced) -> Self {
+        Self {
+            here: here.deformations.clone(),
+            slopes: there.deformations.ahead(&here.deformations, -1.0),
+        }
+    }
+
+    fn at(&self, share: f64) -> Deformations {
+        self.here.ahead(&self.slopes, share)
+    }
+
+    /// Share of the line at which the first bond reaches its limit, at most 1 unless it goes on; None where none does.
+    ///
+    /// A measure is convex along a line, so that from a state within all limits on there is one place where the largest utilisation passes
+    /// one, and halving finds it.
+    fn first_failure(&self, criteria: &Criteria, goes_on: bool) -> Option<f64> {
+        let fails = |share: f64| utilisation(criteria, &self.at(share)) >= AT_LIMIT;
+        let mut doublings =
+            (0..=if goes_on { DOUBLINGS } else { 0 }).map(|it| 2_f64.powi(it as i32));
+        let [mut low, mut high] = [0.0, doublings.find(|share| fails(*share))?];
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if fails(middle) {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        Some(high)
+    }
+}
+
+/// The bond nearest to its limit.
+struct Nearest {
+    utilisation: f64,
+    bond: u32,
+    criterion: usize,
+}
+
+impl Nearest {
+    fn new(path: &Path<'_>, criteria: &Criteria, deformations: &Deformations) -> Self {
+        let of_bonds: Vec<f64> = (deformations.par_iter().enumerate())
+            .map(|(bond, deformation)| criteria.utilisation(bond, deformation))
+            .collect();
+        let utilisation = of_bonds.iter().copied().fold(0.0, f64::max);
+        let is_tied = |bond: &u32| of_bonds[*bond as usize] >= (1.0 - TIED) * utilisation;
+        let tied = (0..of_bonds.len() as u32).filter(is_tied);
+        let bond = tied.min_by_key(|bond| path.problem.system.ends_in_file(*bond));
+        let bond = bond.unwrap_or_default();
+        let of_criterion = |index: usize| {
+            let deformation = deformations.get(bond as usize);
+            deformation.map_or(0.0, |it| {
+                criteria.list[index].utilisation(bond as usize, it)
+            })
+        };
+        let criteria = (0..criteria.list.len()).rev();
+        let worst =
+            criteria.max_by(|one, other| of_criterion(*one).total_cmp(&of_criterion(*other)));
+        Self {
+            utilisation,
+            bond,
+            criterion: worst.unwrap_or_default(),
+        }
+    }
+}
+
+/// Largest utilisation of a bond at deformations (n_bonds).
+fn utilisation(criteria: &Criteria, deformations: &Deformations) -> f64 {
+    (deformations.par_iter().enumerate())
+        .map(|(bond, deformation)| criteria.utilisation(bond, deformation))
+        .reduce(|| 0.0, f64::max)
+}
+
+/// Number of the bonds that are at their limits or beyond at deformations (n_bonds).
+fn beyond(criteria: &Criteria, deformations: &Deformations) -> usize {
+    (deformations.par_iter().enumerate())
+        .filter(|(bond, deformation)| criteria.utilisation(*bond, deformation) >= AT_LIMIT)
+        .count()
+}

@@ -1,0 +1,130 @@
+//! Lines along which a run goes on: what the displacements grow by with the load factor, for the bonds as they are.
+
+use super::accuracy::Loaded;
+use super::equations::Equations;
+use super::residual::{Extents, RESIDUAL_TOLERANCE, Residual};
+use crate::load_program::LoadProgram;
+use crate::state::State;
+use crate::unbalanced::Unbalanced;
+
+/// Share of the tolerance of a solver that iterates that a line may be off by: all states on it are.
+const LINE: f64 = 0.1;
+
+/// Solutions after which a solver that iterates is not asked again: each gains all that it is asked for, or rounding is reached.
+const MOST_SOLUTIONS: usize = 8;
+
+/// Forces of a line under its loads at their load factor 1.
+struct Forces {
+    extents: Extents,
+    /// Given less internal forces at the unknowns, shape (n_unknowns), N and N m.
+    out_of_balance: Vec<f64>,
+    residual: Residual,
+}
+
+/// What the displacements (n_degrees_of_freedom) grow by with the bonds of a state, under loads at their load factor 1.
+///
+/// A solver that iterates is judged as in a state, by what acts at each point. The norm of the force says nothing where a stiff platen moves
+/// the body: the force of the platen on a body that does not move is many times what deforms it.
+///
+/// # Errors
+///
+/// If the stiffness has no factor, or a solver that iterates does not come near enough.
+pub(super) fn growth(
+    equations: &mut Equations,
+    state: &mut State,
+    loads: &dyn LoadProgram,
+) -> Result<Vec<f64>, Unbalanced> {
+    equations.prepare_solver(state)?;
+    let (prescribed, force) = rate(equations, state, loads);
+    let mut line = at_one(state, prescribed);
+    let left = equations.accuracy.left_of_line(LINE);
+    let solution = equations.solve(state, force, left)?;
+    equations.add_correction(&mut line, 1.0, &solution);
+    // What closed faces exert is in the stiffness alone, not among the forces that would judge the solution.
+    let faces_close = equations.problem.system.faces_close();
+    let tolerance = equations.solver.tolerance().filter(|_| !faces_close);
+    let Some(tolerance) = tolerance else {
+        return Ok(line.displacement);
+    };
+    let sought = (LINE * tolerance).max(RESIDUAL_TOLERANCE);
+    for solutions in 1.. {
+        let forces = measured(equations, &line, loads);
+        if forces.residual.relative <= sought {
+            break;
+        }
+        if solutions == MOST_SOLUTIONS {
+            return Err(equations.unsettled(&forces.residual, solutions));
+        }
+        let at = loaded(equations, &line, loads);
+        let left = equations.accuracy.left(at, forces.extents, sought);
+        let correction = equations.solve(state, forces.out_of_balance, left)?;
+        equations.add_correction(&mut line, 1.0, &correction);
+    }
+    Ok(line.displacement)
+}
+
+/// Why loads cannot grow along a line (n_degrees_of_freedom) of a state: a hold would have to carry some of them.
+pub(super) fn carried_by_hold(
+    equations: &Equations,
+    state: &State,
+    growth: &[f64],
+    loads: &dyn LoadProgram,
+) -> Option<Unbalanced> {
+    if !state.held.contains(&true) {
+        return None;
+    }
+    let line = at_one(state, growth.to_vec());
+    let (dof, force) = measured(equations, &line, loads).residual.carried?;
+    let place = equations.place(dof as usize);
+    Some(Unbalanced::CarriedByHold { place, force })
+}
+
+/// The motions that loads at their load factor 1 prescribe (n_degrees_of_freedom), and what they put out of balance with the bonds of
+/// a state (n_unknowns).
+pub(super) fn rate(
+    equations: &Equations,
+    state: &State,
+    loads: &dyn LoadProgram,
+) -> (Vec<f64>, Vec<f64>) {
+    let mut prescribed = vec![0.0; state.displacement.len()];
+    loads.prescribe(1.0, &mut prescribed);
+    let system = &equations.problem.system;
+    let expansion = loads.thermal_strain(1.0);
+    let deformations = system.deformations(&state.intact, &prescribed, expansion);
+    let swept = system.forces(state.bonds(), deformations, expansion);
+    let dofs = equations.degrees_of_freedom();
+    let force = loads.external_less(1.0, &prescribed, &swept.internal, dofs);
+    (prescribed, force)
+}
+
+/// Displacements (n_degrees_of_freedom) at load factor 1, with the bonds and holds of a state.
+fn at_one(state: &State, displacement: Vec<f64>) -> State {
+    State {
+        displacement,
+        load_factor: 1.0,
+        ..state.clone()
+    }
+}
+
+fn loaded<'a>(equations: &'a Equations, line: &'a State, loads: &'a dyn LoadProgram) -> Loaded<'a> {
+    Loaded {
+        loads,
+        unknowns: &equations.unknowns,
+        state: line,
+    }
+}
+
+fn measured(equations: &Equations, line: &State, loads: &dyn LoadProgram) -> Forces {
+    let swept = equations.swept(line, loads.thermal_strain(1.0));
+    let accuracy = &equations.accuracy;
+    let extents = accuracy.extents(&swept.sizes);
+    let displacement = accuracy.largest_displacement(equations.layout(), line);
+    let dofs = equations.degrees_of_freedom();
+    let out_of_balance = loads.external_less(1.0, &line.displacement, &swept.internal, dofs);
+    let at = loaded(equations, line, loads);
+    Forces {
+        residual: accuracy.residual(at, extents, displacement, out_of_balance.clone()),
+        extents,
+        out_of_balance,
+    }
+}

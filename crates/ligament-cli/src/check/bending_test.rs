@@ -1,0 +1,120 @@
+//! What `ligament check` tells of how stiff the body is in bending and, in space, in torsion.
+
+use std::io::{self, Write};
+
+use ligament::Model;
+use ligament::bending_test::{
+    BendingTest, Meshed, Section, THICK, TOO_STIFF, bending_test, thinnest_section,
+};
+use ligament::setup::{Dim, Dimension, Law, Surface};
+use ligament_output::quantity::{place, quantity};
+use ligament_run::stages::Stages;
+
+use super::Extent;
+use super::entry::entry;
+
+/// Writes how stiff the body is at its thinnest section; a warning where that is too much.
+pub(super) fn write<const D: usize>(
+    out: &mut dyn Write,
+    extent: Extent,
+    model: &Model<D>,
+    stages: &mut Stages,
+) -> io::Result<Option<String>>
+where
+    Dim: Dimension<D> + Meshed<D>,
+{
+    if extent == Extent::Model {
+        return Ok(None);
+    }
+    writeln!(out, "strip at the thinnest section, bent")?;
+    let most_points = match extent {
+        Extent::PatchTest => usize::MAX,
+        _ => Dim::MOST_POINTS,
+    };
+    if Dim::cloud(&model.system).len() > most_points {
+        let words = format!("the body has more than {most_points} points; ask with --patch-test");
+        entry(out, "not computed", words)?;
+        return Ok(None);
+    }
+    let Some(section) = stages.time("section", || thinnest_section(model)) else {
+        let words = "there are no cells with sides that lie opposite to each other";
+        entry(out, "not computed", words)?;
+        return Ok(None);
+    };
+    let words = format!(
+        "{} at {}, {:.1} distances of points across, {:.1} horizons",
+        quantity(section.thickness, "m"),
+        place(&section.place),
+        section.thickness / section.spacing,
+        section.horizons()
+    );
+    entry(out, "thinnest section", words)?;
+    if section.horizons() > THICK && !matches!(model.setup.law, Law::Pds { .. }) {
+        let words = format!("it has more than {THICK} horizons across, enough to bend");
+        entry(out, "not tested", words)?;
+        return Ok(None);
+    }
+    let tested = stages.time("bending test", || {
+        bending_test(model, &section, most_points)
+    });
+    match tested {
+        Ok(test) => {
+            write_test(out, &test)?;
+            Ok((test.largest() > TOO_STIFF).then(|| warning(model, &section, &test)))
+        }
+        Err(reason) => entry(out, "not computed", reason).map(|()| None),
+    }
+}
+
+fn write_test(out: &mut dyn Write, test: &BendingTest) -> io::Result<()> {
+    let words = |stiffness: f64| {
+        let more = 100.0 * (stiffness - 1.0);
+        format!(
+            "{} as stiff as the material ({more:+.1} %)",
+            times(stiffness)
+        )
+    };
+    let of = format!("{}, a strip of {} points", words(test.bending), test.points);
+    entry(out, "in bending", of)?;
+    match test.torsion {
+        Some(torsion) => entry(out, "in torsion", words(torsion)),
+        None => Ok(()),
+    }
+}
+
+/// A ratio of stiffnesses; one in the hundreds has no digits that mean anything.
+fn times(stiffness: f64) -> String {
+    match stiffness > 100.0 {
+        true => "more than 100 times".to_owned(),
+        false => format!("{stiffness:.3} times"),
+    }
+}
+
+fn warning<const D: usize>(model: &Model<D>, section: &Section<D>, test: &BendingTest) -> String
+where
+    Dim: Dimension<D>,
+{
+    let across = section.thickness / section.spacing;
+    let torsion = test
+        .torsion
+        .map(|it| format!(" and {} in torsion", times(it)));
+    let is_patched = matches!(model.setup.correction.surface, Surface::Patch(_));
+    let cure = match test.refinement() {
+        Some(factor) if is_patched => {
+            format!(
+                "about {:.0} of them keep it within 5 %",
+                (across / factor).ceil()
+            )
+        }
+        Some(_) => "more of them and correction.surface = \"patch\" bring it down".to_owned(),
+        None => "finer points do not cure this".to_owned(),
+    };
+    format!(
+        "the body is {} as stiff as its material in bending{} where it is thinnest, {} with {across:.1} distances of points across at \
+         {}: {cure}",
+        times(test.bending),
+        torsion.unwrap_or_default(),
+        quantity(section.thickness, "m"),
+        place(&section.place),
+    )
+}

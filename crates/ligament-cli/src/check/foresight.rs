@@ -1,0 +1,225 @@
+//! What `ligament check` foretells of a run: where its first bond reaches its limit, by the first solutions of the run itself.
+
+use std::io::{self, Write};
+
+use ligament::Loading;
+use ligament::foresight::{foretell, refuse};
+use ligament::setup::{Dim, Dimension};
+use ligament_analysis::Equilibrium;
+use ligament_analysis::driver::{FirstFailure, Foretold, Problem};
+use ligament_analysis::history::{Notice, Observer, ObserverError, StepRecord, View};
+use ligament_case::case::CaseFile;
+use ligament_model::Bonds;
+use ligament_output::quantity::{four_digits, place, quantity};
+use ligament_run::memory;
+use ligament_run::model::Model;
+use ligament_run::notices::words;
+use ligament_run::stages::Stages;
+
+use super::Extent;
+use super::entry::entry;
+use super::told::Told;
+
+/// Multiplications of a factor up to which the solution is done unasked, some seconds on one processor.
+const MOST_MULTIPLICATIONS: f64 = 5e10;
+
+/// Utilisation of a bond that is rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// Unknowns up to which a solution without a factor is done unasked, some seconds on one processor.
+const MOST_UNKNOWNS: usize = 300_000;
+
+/// Writes what the loading comes to first, and gives what a run would notice before its first load step; the equations have been set up as far
+/// as the extent of the check goes.
+///
+/// # Errors
+///
+/// If the run would be refused.
+pub(super) fn write<const D: usize>(
+    out: &mut dyn Write,
+    (case, extent): (&CaseFile, Extent),
+    model: &Model<D>,
+    loading: &Loading,
+    equilibrium: Option<Equilibrium>,
+    stages: &mut Stages,
+) -> anyhow::Result<Vec<String>>
+where
+    Dim: Dimension<D> + Told<D>,
+{
+    let problem = loading.problem(&model.system, &model.criteria);
+    let analysis = &model.setup.analysis;
+    refuse(&problem, analysis).map_err(|it| case.explained(it))?;
+    let Some(equilibrium) = equilibrium else {
+        return Ok(Vec::new());
+    };
+    if let Some(reason) = too_costly(case, extent, &problem, &equilibrium) {
+        let name = match analysis.is_fracture() {
+            true => "first breakage",
+            false => "first solution",
+        };
+        entry(out, name, format!("not done: {reason}"))?;
+        return Ok(Vec::new());
+    }
+    drop(equilibrium);
+    let mut heard = Heard::default();
+    let foretold = stages.time("first solution", || {
+        foretell(&problem, analysis, &mut heard)
+    });
+    if let Some(foretold) = foretold.map_err(|it| case.explained(it))? {
+        write_foretold(out, model, &problem, &foretold)?;
+    }
+    // What nothing holds stands among the supports.
+    let told = heard
+        .0
+        .iter()
+        .filter(|it| !matches!(it, Notice::FreeBody(_)));
+    let closing = model.setup.closing;
+    Ok(told.map(|it| words(it, model.body(), closing)).collect())
+}
+
+/// Why the solution is not done unasked.
+fn too_costly(
+    case: &CaseFile,
+    extent: Extent,
+    problem: &Problem,
+    equilibrium: &Equilibrium,
+) -> Option<String> {
+    let stiffness = equilibrium.stiffness();
+    if memory::foresee(case, &*problem.system, stiffness).is_err() {
+        return Some("the equations need more memory than there is".to_owned());
+    }
+    if extent == Extent::PatchTest {
+        return None;
+    }
+    let unknowns = equilibrium.unknowns().len();
+    match stiffness.map(|it| it.symbolic().n_multiplications()) {
+        Some(cost) if cost > MOST_MULTIPLICATIONS => Some(format!(
+            "a solution takes {cost:.1e} multiplications, more than {MOST_MULTIPLICATIONS:.0e}; ask with --patch-test"
+        )),
+        None if unknowns > MOST_UNKNOWNS => Some(format!(
+            "a solution has {unknowns} unknowns, more than {MOST_UNKNOWNS}; ask with --patch-test"
+        )),
+        _ => None,
+    }
+}
+
+fn write_foretold<const D: usize>(
+    out: &mut dyn Write,
+    model: &Model<D>,
+    problem: &Problem,
+    foretold: &Foretold,
+) -> io::Result<()>
+where
+    Dim: Dimension<D>,
+{
+    let stage = |part: usize| {
+        let course = problem.loads.course();
+        course.map(|it| format!("stage `{}`", it.programme.stage_name(part)))
+    };
+    let name = "first breakage";
+    match foretold {
+        Foretold::FirstFailure(first) => write_first(out, model, first, stage(first.part)),
+        Foretold::NoFailure { utilisation } if *utilisation < ROUNDING => {
+            entry(out, name, "none: no bond is strained towards a limit")
+        }
+        Foretold::NoFailure { utilisation } => {
+            let words = match stage(0) {
+                None => {
+                    let times = four_digits(1.0 / utilisation);
+                    format!(
+                        "not within the load: it comes at {times} times the load, so raise it {times}-fold"
+                    )
+                }
+                Some(_) => format!(
+                    "not within the stages: the bond nearest to its limit comes to {} of it",
+                    four_digits(*utilisation)
+                ),
+            };
+            entry(out, name, words)
+        }
+        Foretold::NoEquilibrium { part, reason } => {
+            let at = stage(*part).map_or(String::new(), |it| format!(" at the end of {it}"));
+            let body = model.body();
+            let reason = reason.words(&|point| body.place(point));
+            writeln!(
+                out,
+                "warning: the whole body has no equilibrium under the loads{at}: {reason}"
+            )
+        }
+        Foretold::Nonlinear => entry(
+            out,
+            name,
+            "not told: strains are in no proportion to the loads (faces of cracks close, or strains are true ones)",
+        ),
+    }
+}
+
+/// Writes where the first bond reaches its limit: at which load, in which load step, and which bond it is.
+fn write_first<const D: usize>(
+    out: &mut dyn Write,
+    model: &Model<D>,
+    first: &FirstFailure,
+    stage: Option<String>,
+) -> io::Result<()>
+where
+    Dim: Dimension<D>,
+{
+    let criterion = &model.criteria.list[first.criterion];
+    let name = match criterion.after.is_brittle() {
+        true => "first breakage",
+        false => "first softening",
+    };
+    let of = stage.unwrap_or_else(|| "the load".to_owned());
+    let mut at = match first.share {
+        Some(share) => format!("at {} of {of}", four_digits(share)),
+        None => format!("in {of}"),
+    };
+    if let Some(step) = first.step {
+        at += &format!(", in step {} of {}", step.step, step.steps);
+    }
+    let units = model.setup.units();
+    let load = quantity(first.point.reaction, units.force);
+    let moved = quantity(first.point.displacement, units.displacement);
+    entry(out, name, format!("{at}: {load} at {moved}"))?;
+    let cloud = Dim::cloud(&model.system);
+    let ends = cloud
+        .numbering
+        .ordered(model.system.ends()[first.bond as usize]);
+    let [a, b] = ends.map(|end| cloud.positions[end as usize]);
+    let middle: [f64; D] =
+        std::array::from_fn(|axis| 0.5 * (a[axis] + b[axis]) + cloud.origin[axis]);
+    let [one, other] = ends.map(|end| model.body().tag(end));
+    let mut bond = format!(
+        "{}s {one} and {other} at {}, by {}",
+        model.body().tagged(),
+        place(&middle),
+        criterion.name
+    );
+    if let Some(step) = first.step {
+        let bonds = model.counts.bonds;
+        bond += &format!(
+            "; {} of {bonds} bonds beyond their limits at the end of the step",
+            step.beyond
+        );
+    }
+    entry(out, "", bond)
+}
+
+/// Keeps what a run notices.
+#[derive(Default)]
+struct Heard(Vec<Notice>);
+
+impl Observer for Heard {
+    fn notice(&mut self, notice: &Notice) -> Result<(), ObserverError> {
+        self.0.push(notice.clone());
+        Ok(())
+    }
+
+    fn looks(&self, _: usize) -> bool {
+        false
+    }
+
+    fn step(&mut self, _: &StepRecord, _: &View<'_>) -> Result<(), ObserverError> {
+        Ok(())
+    }
+}

@@ -1,0 +1,255 @@
+//! Values between the nodes of a cell: the shares of its corners in a place.
+
+use crate::cell::Cell;
+use crate::mesh::Mesh;
+use crate::solid::{SolidCell, SolidMesh};
+
+/// Depth below the sides of a cell, over its height from them, to which a place beside the mesh belongs to it: a place on a round rim
+/// lies outside the straight sides between its nodes.
+const OUTSIDE: f64 = 0.1;
+
+/// Shares below this are those of corners that a place on the opposite side of the cell has nothing to do with.
+const NOTHING: f64 = 1e-9;
+
+/// Pivot over the largest entry below which equations have no solution to speak of.
+const SINGULAR: f64 = 1e-12;
+
+/// Steps of Newton's method at most, and the step after which it has found the place.
+const STEPS: (usize, f64) = (30, 1e-13);
+
+/// A place in a cell.
+struct Found {
+    /// Depth below the sides of the cell, over its height; negative outside.
+    depth: f64,
+    /// Corners and their shares, which add up to one.
+    shares: Vec<(u32, f64)>,
+}
+
+impl Mesh {
+    /// Nodes and their shares, which add up to one, in a value at a position (m): linear in a triangle, bilinear in a quadrangle. A place
+    /// beside the mesh, by less than a tenth of a cell, is moved to its side; None farther off.
+    pub fn shares_at(&self, position: [f64; 2]) -> Option<Vec<(u32, f64)>> {
+        let corner = |node: u32| self.positions[node as usize];
+        let near =
+            (self.cells.iter()).filter(|it| is_near(it.corners(), &self.positions, position));
+        deepest(near.filter_map(|cell| match *cell {
+            Cell::Triangle(nodes) => in_simplex(nodes, nodes.map(corner), position),
+            Cell::Quadrangle(nodes) => in_block(&nodes, &nodes.map(corner), position),
+        }))
+    }
+}
+
+impl SolidMesh {
+    /// Nodes and their shares, which add up to one, in a value at a position (m): linear in a tetrahedron, trilinear in a hexahedron,
+    /// linear in each of the tetrahedra of a prism or a pyramid. A place beside the mesh, by less than a tenth of a cell, is moved to its
+    /// side; None farther off.
+    pub fn shares_at(&self, position: [f64; 3]) -> Option<Vec<(u32, f64)>> {
+        let corner = |node: u32| self.positions[node as usize];
+        let near =
+            (self.cells.iter()).filter(|it| is_near(it.corners(), &self.positions, position));
+        deepest(near.filter_map(|cell| match *cell {
+            SolidCell::Hexahedron(nodes) => in_block(&nodes, &nodes.map(corner), position),
+            _ => {
+                let parts = cell.tetrahedra();
+                let found = parts.filter_map(|it| in_simplex(it, it.map(corner), position));
+                found.max_by(|one, other| one.depth.total_cmp(&other.depth))
+            }
+        }))
+    }
+}
+
+/// Whether a position is in the box around some nodes, or beside it by no more than a place in a cell may be.
+fn is_near<const D: usize>(nodes: &[u32], positions: &[[f64; D]], position: [f64; D]) -> bool {
+    (0..D).all(|axis| {
+        let along = nodes.iter().map(|&node| positions[node as usize][axis]);
+        let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+            (low.min(x), high.max(x))
+        });
+        let slack = OUTSIDE * (high - low);
+        (low - slack..=high + slack).contains(&position[axis])
+    })
+}
+
+/// The shares where a place lies deepest, of the first of several cells.
+fn deepest(found: impl Iterator<Item = Found>) -> Option<Vec<(u32, f64)>> {
+    let best = found.reduce(|best, it| if it.depth > best.depth { it } else { best });
+    let mut shares = best.filter(|it| it.depth >= -OUTSIDE)?.shares;
+    shares.retain(|(_, share)| *share > NOTHING);
+    let sum: f64 = shares.iter().map(|(_, share)| share).sum();
+    for (_, share) in &mut shares {
+        *share /= sum;
+    }
+    Some(shares)
+}
+
+fn in_simplex<const D: usize, const N: usize>(
+    nodes: [u32; N],
+    corners: [[f64; D]; N],
+    position: [f64; D],
+) -> Option<Found> {
+    let shares = barycentric(corners, position)?;
+    Some(Found {
+        depth: shares.into_iter().fold(f64::INFINITY, f64::min),
+        shares: nodes.into_iter().zip(shares).collect(),
+    })
+}
+
+/// Shares of the corners of a triangle or tetrahedron: sum of lambda_k x_k = x with the sum of lambda_k = 1, by elimination. None where it
+/// is flat.
+pub(crate) fn barycentric<const D: usize, const N: usize>(
+    corners: [[f64; D]; N],
+    position: [f64; D],
+) -> Option<[f64; N]> {
+    let rows = std::array::from_fn(|axis| {
+        std::array::from_fn(|corner| corners[corner + 1][axis] - corners[0][axis])
+    });
+    let right = std::array::from_fn(|axis| position[axis] - corners[0][axis]);
+    let others: [f64; D] = solution(rows, right)?;
+    let first = 1.0 - others.iter().sum::<f64>();
+    Some(std::array::from_fn(|corner| match corner {
+        0 => first,
+        _ => others[corner - 1],
+    }))
+}
+
+/// The place in a quadrangle or hexahedron, with its corners in the order of Gmsh, by Newton's method for sum of N_k(s) x_k = x with the
+/// products N_k of s_a or 1 - s_a along each axis.
+fn in_block<const D: usize>(
+    nodes: &[u32],
+    corners: &[[f64; D]],
+    position: [f64; D],
+) -> Option<Found> {
+    // Around the base and then around the top: along x the corners are 0, 1, 1, 0, along y 0, 0, 1, 1.
+    let is_upper = |corner: usize, axis: usize| match axis {
+        0 => (corner ^ (corner >> 1)) & 1 == 1,
+        _ => (corner >> axis) & 1 == 1,
+    };
+    let along = |corner: usize, axis: usize, at: &[f64; D]| match is_upper(corner, axis) {
+        true => at[axis],
+        false => 1.0 - at[axis],
+    };
+    let share = |corner: usize, at: &[f64; D]| -> f64 {
+        (0..D).map(|axis| along(corner, axis, at)).product()
+    };
+    let slope = |corner: usize, axis: usize, at: &[f64; D]| -> f64 {
+        let others = (0..D).filter(|it| *it != axis);
+        let rest: f64 = others.map(|it| along(corner, it, at)).product();
+        if is_upper(corner, axis) { rest } else { -rest }
+    };
+    let sum = |of: &dyn Fn(usize) -> f64, axis: usize| -> f64 {
+        (0..corners.len()).map(|k| of(k) * corners[k][axis]).sum()
+    };
+    let mut at = [0.5; D];
+    for _ in 0..STEPS.0 {
+        let right = std::array::from_fn(|row| position[row] - sum(&|k| share(k, &at), row));
+        let rows = std::array::from_fn(|row| {
+            std::array::from_fn(|column| sum(&|k| slope(k, column, &at), row))
+        });
+        let step: [f64; D] = solution(rows, right)?;
+        at = std::array::from_fn(|axis| at[axis] + step[axis]);
+        if step.iter().all(|it| it.abs() < STEPS.1) {
+            let depths = at.iter().map(|&it| it.min(1.0 - it));
+            let inside = at.map(|it| it.clamp(0.0, 1.0));
+            let shares = (0..).zip(nodes).map(|(k, &node)| (node, share(k, &inside)));
+            return Some(Found {
+                depth: depths.fold(f64::INFINITY, f64::min),
+                shares: shares.collect(),
+            });
+        }
+    }
+    None
+}
+
+/// The solution of a few equations by elimination with the largest pivot of each column; None where they have none.
+fn solution<const D: usize>(mut rows: [[f64; D]; D], mut right: [f64; D]) -> Option<[f64; D]> {
+    let entries = rows.as_flattened().iter();
+    let largest = entries.fold(0.0, |most: f64, it| most.max(it.abs()));
+    for column in 0..D {
+        let size = |row: &usize| rows[*row][column].abs();
+        let pivot = (column..D).max_by(|one, other| size(one).total_cmp(&size(other)))?;
+        if size(&pivot) <= SINGULAR * largest {
+            return None;
+        }
+        rows.swap(column, pivot);
+        right.swap(column, pivot);
+        let (upper, value) = (rows[column], right[column]);
+        for row in (0..D).filter(|row| *row != column) {
+            let factor = rows[row][column] / upper[column];
+            for (entry, above) in rows[row].iter_mut().zip(upper) {
+                *entry -= factor * above;
+            }
+            right[row] -= factor * value;
+        }
+    }
+    Some(std::array::from_fn(|axis| right[axis] / rows[axis][axis]))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+mod tests {
+    use super::*;
+
+    /// A crooked quadrangle with a triangle beside it.
+    fn mesh() -> Mesh {
+        Mesh {
+            node_tags: (1..=5).collect(),
+            positions: vec![[0.0, 0.0], [2.0, 0.2], [2.4, 1.9], [0.1, 1.5], [3.5, 0.8]],
+            cells: vec![Cell::Quadrangle([0, 1, 2, 3]), Cell::Triangle([1, 4, 2])],
+            ..Mesh::default()
+        }
+    }
+
+    fn value<const D: usize>(shares: &[(u32, f64)], positions: &[[f64; D]]) -> f64 {
+        let field = |p: &[f64; D]| 3.0 + (1..).zip(p).map(|(k, x)| f64::from(k) * x).sum::<f64>();
+        let parts = shares
+            .iter()
+            .map(|(node, share)| share * field(&positions[*node as usize]));
+        parts.sum()
+    }
+
+    /// A linear field is what it is anywhere, a node has its own value, a place on an edge those of its two ends.
+    #[test]
+    fn linear_fields_are_met_in_the_plane() {
+        let mesh = mesh();
+        for place in [[0.7, 0.9], [1.9, 1.2], [2.6, 1.0], [2.2, 1.05]] {
+            let shares = mesh.shares_at(place).unwrap();
+            let expected = 3.0 + place[0] + 2.0 * place[1];
+            assert!((value(&shares, &mesh.positions) - expected).abs() < 1e-12);
+        }
+        assert_eq!(mesh.shares_at([2.4, 1.9]), Some(vec![(2, 1.0)]));
+        let on_edge = mesh.shares_at([2.1, 0.625]).unwrap();
+        assert_eq!(on_edge.len(), 2);
+        assert!((on_edge[0].1 - 0.75).abs() < 1e-12 && on_edge[0].0 == 1);
+        // Just below the base, and far below.
+        assert!(mesh.shares_at([1.0, 0.1 - 0.01]).is_some());
+        assert_eq!(mesh.shares_at([1.0, -0.5]), None);
+    }
+
+    /// The middle of a square is a fourth of each corner, whichever diagonal there is; a cube and a prism meet a linear field.
+    #[test]
+    fn blocks_and_prisms() {
+        let corner = |k: u32| [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]][k as usize % 4];
+        let square = Mesh {
+            positions: (0..4).map(corner).collect(),
+            cells: vec![Cell::Quadrangle([0, 1, 2, 3])],
+            ..Mesh::default()
+        };
+        let fourths = (0..4).map(|node| (node, 0.25)).collect();
+        assert_eq!(square.shares_at([0.5, 0.5]), Some(fourths));
+        let solid = |cells: Vec<SolidCell>| SolidMesh {
+            positions: (0..8)
+                .map(|k| [corner(k)[0], corner(k)[1], if k < 4 { 0.0 } else { 1.3 }])
+                .collect(),
+            cells,
+            ..SolidMesh::default()
+        };
+        let cube = solid(vec![SolidCell::Hexahedron([0, 1, 2, 3, 4, 5, 6, 7])]);
+        let prism = solid(vec![SolidCell::Prism([0, 1, 3, 4, 5, 7])]);
+        for (mesh, corners) in [(cube, 8), (prism, 4)] {
+            let place = [0.2, 0.3, 0.4];
+            let shares = mesh.shares_at(place).unwrap();
+            assert_eq!(shares.len(), corners);
+            assert!((value(&shares, &mesh.positions) - (3.0 + 0.2 + 0.6 + 1.2)).abs() < 1e-12);
+        }
+    }
+}

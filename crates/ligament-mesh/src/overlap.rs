@@ -1,0 +1,138 @@
+//! Cells that cover others without an edge or a face in common, as a coarse mesh over a fine one.
+
+use rayon::prelude::*;
+use rstar::primitives::GeomWithData;
+use rstar::{AABB, RTree};
+
+use crate::interpolation::barycentric;
+
+/// Depth within a triangle or tetrahedron, over its height from each of its sides, at which a place lies in it. Sound cells that only
+/// touch are none the deeper for rounded coordinates or bent faces.
+const DEPTH: f64 = 0.01;
+
+/// The first cell in which a node lies that is none of its corners, or the middle of another cell, and the first such cell.
+///
+/// `corners` holds the nodes of each cell, `simplices` gives the triangles, in space the tetrahedra, that it consists of. A middle is
+/// no centroid: its weights are uneven, as centroids of regular meshes lie on edges of others.
+pub(crate) fn first_covering<const D: usize, const N: usize, S: Iterator<Item = [u32; N]>>(
+    positions: &[[f64; D]],
+    corners: &[&[u32]],
+    simplices: impl Fn(usize) -> S + Sync,
+) -> Option<[u32; 2]> {
+    let at = |node: u32| positions[node as usize];
+    let tree = RTree::bulk_load(places(positions, corners));
+    (0..corners.len()).into_par_iter().find_map_first(|cell| {
+        let own = corners[cell].iter().map(|&node| at(node));
+        let (low, high) = own.fold(
+            ([f64::INFINITY; D], [f64::NEG_INFINITY; D]),
+            |(low, high), p| {
+                let low = std::array::from_fn(|axis| p[axis].min(low[axis]));
+                (low, std::array::from_fn(|axis| p[axis].max(high[axis])))
+            },
+        );
+        let near = tree.locate_in_envelope(AABB::from_corners(low, high));
+        let covered = near
+            .filter(|place| place.data != cell as u32)
+            .filter(|place| {
+                simplices(cell).any(|simplex| is_inside(simplex.map(at), *place.geom()))
+            });
+        let other = covered.map(|place| place.data).min()?;
+        Some([cell as u32, other])
+    })
+}
+
+/// The nodes, each with the first cell that has it, and the middles of the cells.
+fn places<const D: usize>(
+    positions: &[[f64; D]],
+    corners: &[&[u32]],
+) -> Vec<GeomWithData<[f64; D], u32>> {
+    let mut first = vec![None; positions.len()];
+    for (cell, corners) in (0..).zip(corners) {
+        for &node in *corners {
+            first[node as usize].get_or_insert(cell);
+        }
+    }
+    let nodes = positions.iter().zip(first);
+    let nodes = nodes.filter_map(|(&p, cell)| Some(GeomWithData::new(p, cell?)));
+    let middle = |corners: &[u32]| {
+        let weights = (3..).map(f64::from).take(corners.len());
+        let sum: f64 = weights.clone().sum();
+        let weighted = weights.zip(corners);
+        weighted.fold([0.0; D], |middle: [f64; D], (weight, &node)| {
+            let p = positions[node as usize];
+            std::array::from_fn(|axis| middle[axis] + weight / sum * p[axis])
+        })
+    };
+    let middles = (0..).zip(corners);
+    let middles = middles.map(|(cell, corners)| GeomWithData::new(middle(corners), cell));
+    nodes.chain(middles).collect()
+}
+
+/// Whether a place lies in a triangle or tetrahedron, no nearer to a side than the depth; a flat one has no inside.
+fn is_inside<const D: usize, const N: usize>(corners: [[f64; D]; N], place: [f64; D]) -> bool {
+    barycentric(corners, place).is_some_and(|shares| shares.iter().all(|share| *share >= DEPTH))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+mod tests {
+    use super::*;
+    use crate::SolidCell;
+
+    fn covering(positions: &[[f64; 2]], triangles: &[[u32; 3]]) -> Option<[u32; 2]> {
+        let corners: Vec<&[u32]> = triangles.iter().map(|it| it.as_slice()).collect();
+        first_covering(positions, &corners, |cell| std::iter::once(triangles[cell]))
+    }
+
+    /// A fan of six triangles around a node, and one triangle more between nodes halfway between those of the fan.
+    #[test]
+    fn a_fan_of_more_than_a_turn_is_found() {
+        let on_circle = |sixth: f64| {
+            let (sin, cos) = (sixth * std::f64::consts::FRAC_PI_3).sin_cos();
+            [cos, sin]
+        };
+        let ring = (0..6).map(|k| on_circle(f64::from(k)));
+        let more = [on_circle(0.5), on_circle(1.5)];
+        let positions: Vec<[f64; 2]> = [[0.0; 2]].into_iter().chain(ring).chain(more).collect();
+        let mut triangles: Vec<[u32; 3]> = (0..6).map(|k| [0, 1 + k, 1 + (k + 1) % 6]).collect();
+        assert_eq!(covering(&positions, &triangles), None);
+        triangles.push([0, 7, 8]);
+        let [cell, other] = covering(&positions, &triangles).unwrap();
+        assert!(other == 6 || cell == 6, "{cell} {other}");
+    }
+
+    /// A needle of one in ten million beside its neighbours, and nodes that rounding moved across their common edge.
+    #[test]
+    fn slivers_and_rounded_nodes_are_sound() {
+        for height in [1e-7, 1e-12, -1e-9] {
+            let positions = [
+                [0.0, 0.0],
+                [1.0, 0.0],
+                [0.5, height],
+                [0.5, 1.0],
+                [0.5, -1.0],
+            ];
+            let triangles = [[0, 2, 3], [2, 1, 3], [0, 4, 1]];
+            assert_eq!(covering(&positions, &triangles), None, "{height}");
+            let with_needle = [triangles[0], triangles[1], triangles[2], [0, 1, 2]];
+            assert_eq!(covering(&positions, &with_needle), None, "{height}");
+        }
+    }
+
+    /// A tetrahedron across a row of two cubes lies in both, one on a face of the row only touches it.
+    #[test]
+    fn solids_in_each_other_are_found() {
+        let layer = |x: f64| [[x, 0.0, 0.0], [x, 1.0, 0.0], [x, 1.0, 1.0], [x, 0.0, 1.0]];
+        let apex = [[1.0, 0.5, 1.5]];
+        let positions = [layer(0.0).as_slice(), &layer(1.0), &layer(2.0), &apex].concat();
+        let cubes = [[0, 4, 5, 1, 3, 7, 6, 2], [4, 8, 9, 5, 7, 11, 10, 6]];
+        let found = |last: [u32; 4]| {
+            let cells = cubes.map(SolidCell::Hexahedron);
+            let cells = [cells[0], cells[1], SolidCell::Tetrahedron(last)];
+            let corners: Vec<&[u32]> = cells.iter().map(SolidCell::corners).collect();
+            first_covering(&positions, &corners, |cell| cells[cell].tetrahedra())
+        };
+        assert_eq!(found([0, 8, 9, 12]), Some([1, 2]));
+        assert_eq!(found([3, 11, 10, 12]), None);
+    }
+}

@@ -1,0 +1,264 @@
+//! What bonds are made of, where their ends do not tell it: lengths in the materials that they cross.
+//!
+//! The straight line of a bond from one half of a body to the other passes through a layer between them, whatever its ends are made of.
+//! A bond is followed through the cells of the body. Pieces along a face or an edge between two materials have both at their sides, and count
+//! only where there is nothing else: what lies along an interface all the way is told by its ends.
+
+use rayon::prelude::*;
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+
+use super::retained::retained;
+use crate::bonds::parts::{Parts, Side};
+use crate::cloud::PointCloud;
+use crate::horizon::INCLUSION_TOLERANCE;
+
+/// Points along the curve that are asked for together whether there is more than one material near them.
+const BLOCK: usize = 64;
+
+/// Shortest piece of a bond that counts, over its length: well above what the slack of the sides of cells makes of a corner, well below
+/// any part of a cell.
+const SHORTEST_PIECE: f64 = 1e-6;
+
+/// Shares of the lengths of bonds in materials, of those bonds whose ends do not tell what they are made of.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Composition {
+    /// The bonds, ascending.
+    bonds: Vec<u32>,
+    n_materials: usize,
+    /// Shares of their lengths in the materials, shape (n, n_materials); rows sum to one.
+    shares: Vec<f64>,
+}
+
+impl Composition {
+    /// Follows the bonds through the parts of the body between whose points they are. Bodies of one material have nothing to follow.
+    pub fn new<const D: usize>(
+        parts: &impl Parts<D>,
+        ends: &[[u32; 2]],
+        cloud: &PointCloud<D>,
+    ) -> Self {
+        if cloud.n_materials == 1 || parts.is_empty() {
+            return Self::default();
+        }
+        let ways = Ways::new(parts, ends, cloud);
+        let found: Vec<(u32, Vec<f64>)> = (cloud.curve.par_chunks(BLOCK))
+            .filter(|block| ways.may_differ(ways.around(block)))
+            .flat_map_iter(|block| block.iter().flat_map(|&point| ways.of_point(point)))
+            .collect();
+        Self::from_found(found, cloud.n_materials)
+    }
+
+    fn from_found(mut found: Vec<(u32, Vec<f64>)>, n_materials: usize) -> Self {
+        found.sort_unstable_by_key(|(bond, _)| *bond);
+        Self {
+            n_materials,
+            bonds: found.iter().map(|(bond, _)| *bond).collect(),
+            shares: found.into_iter().flat_map(|(_, shares)| shares).collect(),
+        }
+    }
+
+    /// Whether the ends of all bonds tell what they are made of.
+    pub fn is_empty(&self) -> bool {
+        self.bonds.is_empty()
+    }
+
+    /// Shares of the length of a bond in the materials (n_materials); none where its ends tell what it is made of.
+    pub fn of_bond(&self, bond: usize) -> Option<&[f64]> {
+        let place = self.bonds.binary_search(&(bond as u32)).ok()?;
+        Some(&self.shares[place * self.n_materials..][..self.n_materials])
+    }
+
+    /// The bonds with the shares of their lengths in the materials (n_materials), ascending.
+    pub fn numbered(&self) -> impl Iterator<Item = (usize, &[f64])> {
+        let rows = self.shares.chunks(self.n_materials.max(1));
+        self.bonds.iter().map(|&bond| bond as usize).zip(rows)
+    }
+
+    /// The bonds that cross a material of which neither end has a share, ascending.
+    pub fn across_layers<'a, const D: usize>(
+        &'a self,
+        ends: &'a [[u32; 2]],
+        cloud: &'a PointCloud<D>,
+    ) -> impl Iterator<Item = usize> + 'a {
+        let is_foreign = move |bond: usize, shares: &[f64]| {
+            let ends = ends[bond].map(|end| cloud.shares(end as usize));
+            let mut materials = (0..).zip(shares);
+            materials
+                .any(|(k, share): (usize, _)| *share > 0.0 && ends.iter().all(|it| it[k] == 0.0))
+        };
+        self.numbered()
+            .filter(move |(bond, shares)| is_foreign(*bond, shares))
+            .map(|(bond, _)| bond)
+    }
+
+    /// What is left for the bonds for which `keep` (n_bonds) is true.
+    pub(super) fn retained(self, keep: &[bool]) -> Self {
+        if self.is_empty() {
+            return self;
+        }
+        let is_kept: Vec<bool> = self.bonds.iter().map(|&it| keep[it as usize]).collect();
+        let of_shares: Vec<bool> = (is_kept.iter())
+            .flat_map(|&kept| std::iter::repeat_n(kept, self.n_materials))
+            .collect();
+        let mut number = 0;
+        let numbers: Vec<u32> = (keep.iter())
+            .map(|&kept| {
+                number += u32::from(kept);
+                number - u32::from(kept)
+            })
+            .collect();
+        let bonds = retained(self.bonds, &is_kept);
+        Self {
+            bonds: bonds.into_iter().map(|it| numbers[it as usize]).collect(),
+            shares: retained(self.shares, &of_shares),
+            ..self
+        }
+    }
+}
+
+/// A part of the body near a point.
+struct Near<const D: usize> {
+    bounds: [[f64; D]; 2],
+    sides: Vec<Side<D>>,
+    material: u32,
+}
+
+/// The bonds on their ways through the parts of a body.
+struct Ways<'a, const D: usize, P> {
+    parts: &'a P,
+    ends: &'a [[u32; 2]],
+    cloud: &'a PointCloud<D>,
+    tree: RTree<GeomWithData<Rectangle<[f64; D]>, u32>>,
+    /// First bond of each point, and behind the last point the number of all.
+    first_bond: Vec<usize>,
+}
+
+impl<'a, const D: usize, P: Parts<D>> Ways<'a, D, P> {
+    fn new(parts: &'a P, ends: &'a [[u32; 2]], cloud: &'a PointCloud<D>) -> Self {
+        let bounds = (0..parts.len()).into_par_iter().map(|part| {
+            let [lower, upper] = parts.bounds(part);
+            GeomWithData::new(Rectangle::from_corners(lower, upper), part as u32)
+        });
+        let first = |point: usize| ends.partition_point(|it| (it[0] as usize) < point);
+        Self {
+            tree: RTree::bulk_load(bounds.collect()),
+            first_bond: (0..=cloud.len()).map(first).collect(),
+            parts,
+            ends,
+            cloud,
+        }
+    }
+
+    /// The bonds of which a point is the first end.
+    fn own(&self, point: u32) -> std::ops::Range<usize> {
+        self.first_bond[point as usize]..self.first_bond[point as usize + 1]
+    }
+
+    /// The box around some points and the bonds of which they are the first ends.
+    fn around(&self, points: &[u32]) -> AABB<[f64; D]> {
+        let (mut lower, mut upper) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
+        let others = points.iter().flat_map(|&point| self.own(point));
+        let others = others.map(|bond| self.ends[bond][1]);
+        for point in points.iter().copied().chain(others) {
+            for (axis, x) in self.cloud.positions[point as usize].into_iter().enumerate() {
+                lower[axis] = lower[axis].min(x);
+                upper[axis] = upper[axis].max(x);
+            }
+        }
+        AABB::from_corners(lower, upper)
+    }
+
+    /// Whether parts of several materials meet a box.
+    fn may_differ(&self, around: AABB<[f64; D]>) -> bool {
+        let mut parts = self.tree.locate_in_envelope_intersecting(around);
+        let material = |part: &GeomWithData<_, u32>| self.parts.material(part.data as usize);
+        let first = parts.next().map(material);
+        parts.any(|part| Some(material(part)) != first)
+    }
+
+    /// The bonds of which a point is the first end and whose ends do not tell what they are made of, with their shares (n_materials).
+    fn of_point(&self, point: u32) -> Vec<(u32, Vec<f64>)> {
+        let around = self.around(&[point]);
+        if !self.may_differ(around) {
+            return Vec::new();
+        }
+        let parts = self.tree.locate_in_envelope_intersecting(around);
+        let near = parts.map(|part| {
+            let part = part.data as usize;
+            Near {
+                bounds: self.parts.bounds(part),
+                sides: self.parts.sides(part),
+                material: self.parts.material(part),
+            }
+        });
+        let near: Vec<Near<D>> = near.collect();
+        let of_bond = |bond: usize| {
+            let shares = self.shares(bond, &near)?;
+            (!self.is_told(bond, &shares)).then_some((bond as u32, shares))
+        };
+        self.own(point).filter_map(of_bond).collect()
+    }
+
+    /// Shares of the length of a bond in the materials (n_materials), from all parts that it may pass; none where it runs along
+    /// interfaces all the way.
+    fn shares(&self, bond: usize, near: &[Near<D>]) -> Option<Vec<f64>> {
+        let [a, b] = self.ends[bond].map(|end| end as usize);
+        let slack = INCLUSION_TOLERANCE * self.cloud.spacing[a].min(self.cloud.spacing[b]);
+        let ends = [self.cloud.positions[a], self.cloud.positions[b]];
+        let passed = near.iter().filter_map(|part| {
+            let [from, to] = part.passed(ends, slack)?;
+            (to - from > SHORTEST_PIECE).then_some((from, to, part.material))
+        });
+        let passed: Vec<(f64, f64, u32)> = passed.collect();
+        let mut places: Vec<f64> = passed.iter().flat_map(|it| [it.0, it.1]).collect();
+        places.sort_unstable_by(f64::total_cmp);
+        let mut lengths = vec![0.0; self.cloud.n_materials];
+        for piece in places.windows(2) {
+            let (length, middle) = (piece[1] - piece[0], 0.5 * (piece[0] + piece[1]));
+            let mut here = passed.iter().filter(|it| it.0 < middle && middle < it.1);
+            let Some(&(.., material)) = here.next() else {
+                continue;
+            };
+            if length > SHORTEST_PIECE && here.all(|it| it.2 == material) {
+                lengths[material as usize] += length;
+            }
+        }
+        let total: f64 = lengths.iter().sum();
+        (total > 0.0).then(|| lengths.into_iter().map(|it| it / total).collect())
+    }
+
+    /// Whether a bond is all in one material, and that is the only one that both of its ends have.
+    fn is_told(&self, bond: usize, shares: &[f64]) -> bool {
+        let [first, second] = self.ends[bond].map(|end| self.cloud.shares(end as usize));
+        let common = first.iter().zip(second).map(|(a, b)| *a > 0.0 && *b > 0.0);
+        common
+            .zip(shares)
+            .all(|(common, share)| common == (*share > 0.0))
+            && shares.iter().filter(|share| **share > 0.0).count() == 1
+    }
+}
+
+impl<const D: usize> Near<D> {
+    /// Where a line is within the part, from 0 at its first end to 1 at its second; none where it passes it by.
+    fn passed(&self, [start, end]: [[f64; D]; 2], slack: f64) -> Option<[f64; 2]> {
+        let [lower, upper] = self.bounds;
+        let is_beside = (0..D).any(|axis| {
+            let (least, most) = (start[axis].min(end[axis]), start[axis].max(end[axis]));
+            most + slack < lower[axis] || least - slack > upper[axis]
+        });
+        if is_beside {
+            return None;
+        }
+        let [mut from, mut to] = [0.0_f64, 1.0];
+        for side in &self.sides {
+            let [before, after] = [start, end].map(|point| side.height(point) - slack);
+            match (before > 0.0, after > 0.0) {
+                (true, true) => return None,
+                (true, false) => from = from.max(before / (before - after)),
+                (false, true) => to = to.min(before / (before - after)),
+                (false, false) => {}
+            }
+        }
+        (from < to).then_some([from, to])
+    }
+}

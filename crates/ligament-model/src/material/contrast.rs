@@ -1,0 +1,53 @@
+//! Materials with less of a contrast between their stiffnesses.
+
+use super::elasticity::{Elasticity, Isotropic, Orthotropic, OutOfPlane, Plane};
+use super::{Anisotropic, Material};
+use crate::law::bulk_stiffness;
+
+/// The materials of a body with their stiffnesses k taken to a power p, k' = k_s (k/k_s)^p, so that the stiffest is so many times as stiff as
+/// the softest, k_s; none where it is no more than that already.
+///
+/// Corrections look for factors between such materials. The forces of a soft part on a stiff one may be below what an iteration leaves of
+/// the forces of that one; then nothing tells what a soft layer between stiff parts should carry.
+pub fn milder(materials: &[Material], plane: Plane, largest: f64) -> Option<Vec<Material>> {
+    let stiffnesses = materials
+        .iter()
+        .map(|it| bulk_stiffness(&it.elasticity.plane_stiffness(plane)));
+    let stiffnesses: Vec<f64> = stiffnesses.collect();
+    let least = stiffnesses.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = stiffnesses.iter().copied().fold(0.0, f64::max);
+    if most <= largest * least {
+        return None;
+    }
+    let power = largest.ln() / (most / least).ln();
+    let of_materials = materials
+        .iter()
+        .zip(stiffnesses)
+        .map(|(material, stiffness)| Material {
+            elasticity: times(material.elasticity, (stiffness / least).powf(power - 1.0)),
+            ..material.clone()
+        });
+    Some(of_materials.collect())
+}
+
+/// Constants of a material so many times as stiff in all directions.
+fn times(elasticity: Elasticity, factor: f64) -> Elasticity {
+    match elasticity {
+        Elasticity::Isotropic(it) => Elasticity::Isotropic(Isotropic {
+            young: factor * it.young,
+            ..it
+        }),
+        Elasticity::Orthotropic(it) => Elasticity::Orthotropic(Orthotropic {
+            young: it.young.map(|young| factor * young),
+            shear_modulus: factor * it.shear_modulus,
+            out_of_plane: it.out_of_plane.map(|across| OutOfPlane {
+                young: factor * across.young,
+                ..across
+            }),
+            ..it
+        }),
+        Elasticity::Anisotropic(it) => Elasticity::Anisotropic(Anisotropic {
+            stiffness: factor * it.stiffness,
+        }),
+    }
+}

@@ -1,0 +1,73 @@
+//! What a file had when it was written, so that a change since is seen.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+use ligament_analysis::serial;
+use std::hash::Hasher;
+use twox_hash::XxHash64;
+
+/// The beginning of a file as it was written: its length and digest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Written {
+    /// Bytes.
+    pub length: u64,
+    /// XXH64 of these bytes.
+    pub digest: u64,
+}
+
+serial!(Written { length, digest });
+
+/// Bytes of a file that are read at once.
+const AT_ONCE: usize = 1 << 16;
+
+impl Written {
+    /// A whole file as it is now.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be read.
+    pub(crate) fn now(path: &Path) -> io::Result<Self> {
+        let (digest, length) = digested(path, u64::MAX)?;
+        let digest = digest.finish();
+        Ok(Self { length, digest })
+    }
+
+    /// Why a file no longer begins as it was written; none if it does.
+    pub(crate) fn obstacle(self, path: &Path) -> Option<String> {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let length = self.length;
+        match digested(path, length) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                Some(format!("{name} is missing"))
+            }
+            Err(error) => Some(format!("{name} cannot be read: {error}")),
+            Ok((_, found)) if found < length => Some(format!(
+                "{name} has {found} bytes where it had {length} when its checkpoint was written"
+            )),
+            Ok((digest, _)) => (digest.finish() != self.digest).then(|| {
+                format!(
+                    "{name} was changed since: its first {length} bytes are not those that the run wrote; put back what was \
+                     there, or run the case anew"
+                )
+            }),
+        }
+    }
+}
+
+/// The digest of at most so many bytes at the beginning of a file, to which more may be added, and how many there were.
+pub(crate) fn digested(path: &Path, most: u64) -> io::Result<(XxHash64, u64)> {
+    let mut digest = XxHash64::with_seed(0);
+    let mut file = File::open(path)?.take(most);
+    let (mut bytes, mut length) = (vec![0; AT_ONCE], 0);
+    loop {
+        match file.read(&mut bytes)? {
+            0 => return Ok((digest, length)),
+            count => {
+                digest.write(&bytes[..count]);
+                length += count as u64;
+            }
+        }
+    }
+}

@@ -1,0 +1,4 @@
+//! Result files as other readers see them.
+
+mod python_readers;
+mod vtkio_reader;

@@ -1,0 +1,66 @@
+//! How a run ended, as its exit code tells: one rule for all ways to load a body.
+
+use ligament_analysis::Termination;
+
+/// What the end of a run makes of its results.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    /// The loading was done, a rule of the case ended the run, or the body fell apart.
+    Done,
+    /// A signal stopped the run, which can go on.
+    Stopped,
+    /// No state under load is in equilibrium: there is no result.
+    NoResult,
+    /// No equilibrium was found for a load, whether or not bonds were breaking then: the results reach up to there.
+    NoEquilibrium,
+    /// The run ended while bonds were breaking, other than by its user or a rule of its case: the last state is no answer to its load.
+    NotAtRest,
+}
+
+impl End {
+    /// The end of a run by the name of its [`Termination`], whether no state under load is in equilibrium, and whether the last one is
+    /// not at rest.
+    pub fn from_termination(termination: &str, has_no_result: bool, is_not_at_rest: bool) -> Self {
+        const ASKED_FOR: [&str; 2] = ["bonds-broken", "wall-time"];
+        if termination == Termination::Stopped.name() {
+            Self::Stopped
+        } else if has_no_result {
+            Self::NoResult
+        } else if termination == NO_EQUILIBRIUM {
+            Self::NoEquilibrium
+        } else if is_not_at_rest && !ASKED_FOR.contains(&termination) {
+            Self::NotAtRest
+        } else {
+            Self::Done
+        }
+    }
+
+    /// The exit code of the program.
+    pub fn exit_code(self) -> u8 {
+        match self {
+            Self::Done => 0,
+            Self::NoResult | Self::NoEquilibrium => 3,
+            Self::Stopped => 4,
+            Self::NotAtRest => 6,
+        }
+    }
+
+    /// Whether a run with an exit code has results that a study may read.
+    pub fn leaves_results(exit_code: Option<i32>) -> bool {
+        let ends = [
+            Self::Done,
+            Self::NoResult,
+            Self::NoEquilibrium,
+            Self::NotAtRest,
+        ];
+        ends.iter()
+            .any(|it| exit_code == Some(it.exit_code().into()))
+    }
+}
+
+/// Name of the end of a run without equilibrium, as summaries have it.
+pub const NO_EQUILIBRIUM: &str = "no-equilibrium";
+
+/// Words for a run that ended without equilibrium after other states.
+pub(crate) const UP_TO_THERE: &str =
+    "the run ended at a load for which no equilibrium was found: its results reach up to there";

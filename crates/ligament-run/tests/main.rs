@@ -1,0 +1,4 @@
+//! Cases as runs take them.
+
+mod case_precrack;
+mod case_temperature;

@@ -1,0 +1,167 @@
+//! How stiff a strip is: its equations, and what they make of the tractions of a stress.
+
+use std::sync::Arc;
+
+use ligament_analysis::driver::Problem;
+use ligament_analysis::{Attempt, Bonds, Equilibrium, State};
+use ligament_model::layout::{Component, Layout};
+
+use super::facets::dot;
+use super::meshed::{LinearStress, Meshed};
+use super::strip::Strip;
+use super::thinnest::Section;
+use crate::model::Model;
+use crate::patch_test::{SIZE, Untested, free_loading};
+use crate::run::Unobserved;
+use crate::setup::{Dim, Dimension, ELASTIC_ENERGY_TOLERANCE};
+
+/// Stiffness over that of the material from which on there is a warning.
+pub const TOO_STIFF: f64 = 1.05;
+
+/// Times as stiff as the material beyond which the points are not what is wrong: a strip of one cell is three times as stiff.
+const MOST_CURABLE: f64 = 4.0;
+
+/// Horizons across from which on a body is not tested. With the patch correction strips of all laws but PDS are 2 % too stiff there at most
+/// in bending, and round bars 3 % in torsion.
+pub const THICK: f64 = 6.0;
+
+/// How many times too stiff a strip of a body is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BendingTest {
+    /// Number of points of the strip.
+    pub points: usize,
+    /// Stiffness in bending across its thickness over that of the continuum.
+    pub bending: f64,
+    /// Stiffness in torsion over that of the continuum; none in the plane.
+    pub torsion: Option<f64>,
+}
+
+impl BendingTest {
+    /// The larger of the two stiffnesses over those of the continuum.
+    pub fn largest(&self) -> f64 {
+        self.torsion.map_or(self.bending, |it| it.max(self.bending))
+    }
+
+    /// Factor by which distances of points should shrink for a body that is too stiff by no more than [`TOO_STIFF`], as what is too much
+    /// goes with their square; none where it is not, or where finer points are no cure.
+    pub fn refinement(&self) -> Option<f64> {
+        let largest = self.largest();
+        let factor = ((TOO_STIFF - 1.0) / (largest - 1.0)).sqrt();
+        (TOO_STIFF..=MOST_CURABLE)
+            .contains(&largest)
+            .then_some(factor)
+    }
+}
+
+/// The bending test of the body of a model at a section, with strips of up to so many points.
+///
+/// # Errors
+///
+/// If the strip has too many points, cannot be built or has no equilibrium.
+pub fn bending_test<const D: usize>(
+    model: &Model<D>,
+    section: &Section<D>,
+    most_points: usize,
+) -> Result<BendingTest, Untested>
+where
+    Dim: Dimension<D> + Meshed<D>,
+{
+    let strip = Strip::cut(&model.setup, section)?;
+    let points = strip.setup.body.positions().len();
+    if points > most_points {
+        return Err(Untested::TooLarge { points });
+    }
+    let system = match strip.is_whole && model.cut_bonds() == 0 {
+        true => model.system.clone(),
+        false => Model::build(strip.setup.clone(), &mut ())?.system,
+    };
+    let mut solver = Solver::new(system, &strip)?;
+    let bending = solver.stiffness(&strip, &strip.bending())?;
+    let torsion = strip.torsion();
+    let torsion = torsion.map(|stress| solver.stiffness(&strip, &stress));
+    Ok(BendingTest {
+        points,
+        bending,
+        torsion: torsion.transpose()?,
+    })
+}
+
+/// The equations of a free strip.
+struct Solver {
+    layout: Layout,
+    equilibrium: Equilibrium,
+    state: State,
+}
+
+impl Solver {
+    fn new<const D: usize, S>(system: Arc<S>, strip: &Strip<D>) -> Result<Self, Untested>
+    where
+        S: Bonds + 'static,
+        Dim: Dimension<D>,
+    {
+        let layout = system.layout();
+        let state = State::fresh(&*system);
+        let problem = Problem {
+            system,
+            criteria: Arc::default(),
+            loads: free_loading(layout, vec![0.0; layout.n_degrees_of_freedom()]),
+            solver: strip.setup.solver,
+            probes: Arc::default(),
+        };
+        Ok(Self {
+            layout,
+            equilibrium: Equilibrium::new(&problem, ELASTIC_ENERGY_TOLERANCE)?,
+            state,
+        })
+    }
+
+    /// How many times too stiff the strip is under the tractions of a stress that is linear.
+    fn stiffness<const D: usize>(
+        &mut self,
+        strip: &Strip<D>,
+        stress: &LinearStress<D>,
+    ) -> Result<f64, Untested>
+    where
+        Dim: Dimension<D> + Meshed<D>,
+    {
+        let layout = self.layout;
+        let axes = [Component::X, Component::Y, Component::Z];
+        let mut force = vec![0.0; layout.n_degrees_of_freedom()];
+        for (point, part) in (0..).zip(strip.forces(stress)) {
+            for (component, part) in axes.into_iter().zip(part) {
+                let place = layout.degree_of_freedom(point, component);
+                place.into_iter().for_each(|place| force[place] += part);
+            }
+        }
+        let classical = strip.displacement(stress).ok_or(Untested::Degenerate)?;
+        // Strains of the size of those of the patch test.
+        let size = SIZE / strip.largest_strain(stress).ok_or(Untested::Degenerate)?;
+        self.equilibrium
+            .load_with(free_loading(layout, force.clone()));
+        self.state.load_factor = size;
+        self.state.displacement.fill(0.0);
+        let nothing = self.equilibrium.break_bonds(&mut self.state, &[]);
+        let attempt = self
+            .equilibrium
+            .balance(&mut self.state, &nothing, &mut Unobserved);
+        if let Attempt::Unbalanced(reason) = attempt.map_err(ligament_analysis::SetupError::from)? {
+            return Err(Untested::Unbalanced(reason));
+        }
+        let found = |point: u32, axis: usize| {
+            layout.value(point, axes[axis], &self.state.displacement) / size
+        };
+        let share: f64 = (0..)
+            .zip(&classical)
+            .map(|(point, it)| {
+                (0..D)
+                    .map(|axis| found(point, axis) * it[axis])
+                    .sum::<f64>()
+            })
+            .sum();
+        let whole: f64 = classical.iter().map(|it| dot(*it, *it)).sum();
+        Ok(match share > 0.0 {
+            true => whole / share,
+            false => f64::INFINITY,
+        })
+    }
+}

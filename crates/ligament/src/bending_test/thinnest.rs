@@ -1,0 +1,124 @@
+//! The thinnest section of a body: the shortest way through it, counted in horizons, between sides that lie opposite to each other.
+
+use super::facets::{self, Facet, dot, mean, minus, size};
+use super::meshed::Meshed;
+use crate::model::Model;
+use crate::setup::{Dim, Dimension};
+
+/// Cosine of the largest angle between the way through the body and the normal of the side where it ends: beyond it, at 26 degrees, the way
+/// goes into a corner and not through a section.
+const OPPOSITE: f64 = 0.9;
+
+/// Ways longer by this factor than the shortest are as thin as it: horizons on irregular meshes differ as much.
+const AS_THIN: f64 = 1.2;
+
+/// Room around a side within which a way meets it, over the size of the side.
+const SLACK: f64 = 1e-9;
+
+/// A section of a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Section<const D: usize> {
+    /// Middle of the section, m.
+    pub place: [f64; D],
+    /// Direction through the body, of length one.
+    pub across: [f64; D],
+    /// Length of the way through the body, m.
+    pub thickness: f64,
+    /// Mean distance of the points at the sides to their nearest ones, m.
+    pub spacing: f64,
+    /// Mean horizon of the points at the sides, m.
+    pub horizon: f64,
+}
+
+impl<const D: usize> Section<D> {
+    /// Thickness over the horizon.
+    pub fn horizons(&self) -> f64 {
+        self.thickness / self.horizon
+    }
+}
+
+/// The thinnest section of the body of a model; none of a body without a mesh, or without sides that lie opposite to each other.
+///
+/// From the middle of each side of the outline a way goes straight inwards until it leaves the body. Of the ways that are about as many
+/// horizons long as the shortest, the one nearest to the middle of all of these is taken: the middle of a strip, not its end.
+pub fn thinnest_section<const D: usize>(model: &Model<D>) -> Option<Section<D>>
+where
+    Dim: Dimension<D> + Meshed<D>,
+{
+    let setup = &model.setup;
+    let facets = facets::of_body(setup);
+    let cloud = Dim::cloud(&model.system);
+    let around = |values: &[f64], [one, other]: [&Facet<D>; 2]| {
+        let corners = one.corners.iter().chain(&other.corners);
+        corners.map(|&corner| values[corner as usize]).sum::<f64>() / (2 * D) as f64
+    };
+    let mut sections = Vec::new();
+    for from in &facets {
+        let inward = from.area.map(|it| -it / size(from.area));
+        let Some((thickness, to)) = way_through(&facets, from.middle(), inward) else {
+            continue;
+        };
+        if dot(inward, to.area) < OPPOSITE * size(to.area) {
+            continue;
+        }
+        let middle = from.middle();
+        sections.push(Section {
+            place: std::array::from_fn(|axis| middle[axis] + 0.5 * thickness * inward[axis]),
+            across: inward,
+            thickness,
+            spacing: around(&cloud.spacing, [from, to]),
+            horizon: around(&model.fixed.horizon, [from, to]),
+        });
+    }
+    let shortest = sections
+        .iter()
+        .map(Section::horizons)
+        .fold(f64::INFINITY, f64::min);
+    sections.retain(|it| it.horizons() <= AS_THIN * shortest);
+    let places: Vec<_> = sections.iter().map(|it| it.place).collect();
+    let middle = mean(&places);
+    let away = |it: &Section<D>| size(minus(it.place, middle));
+    sections
+        .into_iter()
+        .min_by(|one, other| away(one).total_cmp(&away(other)))
+}
+
+/// Length of the way from a place on the outline to where it leaves the body, and the side there.
+fn way_through<const D: usize>(
+    facets: &[Facet<D>],
+    from: [f64; D],
+    direction: [f64; D],
+) -> Option<(f64, &Facet<D>)>
+where
+    Dim: Dimension<D> + Meshed<D>,
+{
+    let mut found: Option<(f64, &Facet<D>)> = None;
+    for facet in facets {
+        let rate = dot(direction, facet.area);
+        if rate <= 0.0 {
+            continue;
+        }
+        let length = dot(minus(facet.places[0], from), facet.area) / rate;
+        if length <= 0.0 || found.is_some_and(|(shortest, _)| length >= shortest) {
+            continue;
+        }
+        let place = std::array::from_fn(|axis| from[axis] + length * direction[axis]);
+        if is_on(facet, place) {
+            found = Some((length, facet));
+        }
+    }
+    found
+}
+
+/// Whether a place in the plane of a side lies on it: none of the sides with the place for a corner is turned round.
+fn is_on<const D: usize>(facet: &Facet<D>, place: [f64; D]) -> bool
+where
+    Dim: Dimension<D> + Meshed<D>,
+{
+    let slack = -SLACK * dot(facet.area, facet.area);
+    (0..D).all(|corner| {
+        let mut places = facet.places;
+        places[corner] = place;
+        dot(Dim::area(places), facet.area) >= slack
+    })
+}

@@ -1,0 +1,79 @@
+//! Probes of a setup on the points of its model.
+
+use ligament_analysis::probe;
+use ligament_model::{BondSet, Horizons, PointCloud};
+
+use crate::setup::{Dim, Dimension, Probe, Reading, Setup};
+
+/// A horizon that reaches farther than coordinates of meshes may, m.
+const EVERYWHERE: f64 = 1e120;
+
+/// A probe on the points and bonds of the model of a setup.
+pub(super) fn on<const D: usize>(
+    probe: &Probe<D>,
+    setup: &Setup<D>,
+    system: &<Dim as Dimension<D>>::System,
+) -> probe::Probe
+where
+    Dim: Dimension<D>,
+{
+    let shares = |position: [f64; D]| shares(position, setup, Dim::cloud(system));
+    let reading = match probe.reading {
+        Reading::Between {
+            positions,
+            component,
+        } => probe::Reading::RelativeDisplacement {
+            places: positions.map(shares),
+            component,
+        },
+        Reading::At { position, field } => probe::Reading::Field {
+            place: shares(position),
+            field,
+        },
+        Reading::Section { line, component } => probe::Reading::SectionForce {
+            bonds: Dim::crossing(system, line),
+            component: component.displacement(),
+        },
+    };
+    probe::Probe {
+        name: probe.name.clone(),
+        reading,
+    }
+}
+
+/// Points and their shares in what is read at a position (m): those of the cell around it, and the nearest point off the cells. Where a
+/// pre-crack parts them, the nearest of them that it does not part from the position.
+fn shares<const D: usize>(
+    position: [f64; D],
+    setup: &Setup<D>,
+    cloud: &PointCloud<D>,
+) -> Vec<(u32, f64)>
+where
+    Dim: Dimension<D>,
+{
+    let nearest = || vec![(cloud.nearest_point(position), 1.0)];
+    let Some(shares) = setup.body.shares_at(position) else {
+        return nearest();
+    };
+    if shares.len() == 1 || setup.precracks.is_empty() {
+        return shares;
+    }
+    let corners = shares
+        .iter()
+        .map(|(point, _)| setup.body.positions()[*point as usize]);
+    // The position stands before its points.
+    let places: Vec<[f64; D]> = std::iter::once(position).chain(corners).collect();
+    let n = places.len();
+    let few = PointCloud::from_points(&places, &vec![1.0; n], 1.0, &vec![0; n], 1);
+    let pairs = BondSet::search(&few, &Horizons::unified(EVERYWHERE, n));
+    let parted = Dim::parted((&*setup.body, setup.precracks.as_slice()), &pairs, &few);
+    if !parted.contains(&true) {
+        return shares;
+    }
+    let seen = (pairs.ends.iter().zip(&pairs.length)).zip(&parted);
+    let seen = seen.filter(|((ends, _), parted)| ends[0] == 0 && !**parted);
+    let best = seen.min_by(|((_, one), _), ((_, other), _)| one.total_cmp(other));
+    best.map_or_else(nearest, |((ends, _), _)| {
+        vec![(shares[ends[1] as usize - 1].0, 1.0)]
+    })
+}

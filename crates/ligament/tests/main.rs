@@ -1,0 +1,7 @@
+//! The library from outside: bodies and setups that are refused, programmes of loads, the examples.
+
+mod examples;
+mod half_a_body;
+mod programmes;
+mod unsound_bodies;
+mod wrong_setups;

@@ -1,0 +1,21 @@
+//! Bodies that break: criteria, drivers, softening, cracks, published values, and the files and checkpoints of runs.
+
+mod breaking;
+mod cases;
+mod closing;
+mod crack_lines;
+mod crack_surfaces;
+mod determinism;
+mod exact_path;
+mod failure_criteria;
+mod fracture_energy;
+mod incremental;
+mod mbb_pd_reference;
+mod properties;
+mod published;
+mod random_strength;
+mod result_files;
+mod resume;
+mod softening;
+mod solid_results;
+mod solids_fracture;

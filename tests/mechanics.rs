@@ -1,0 +1,41 @@
+//! Bodies under load before and while nothing breaks: discretisation, laws, loads, solvers, stresses, vibrations; and the numbers
+//! of several processes.
+
+mod bending;
+mod connectivity;
+mod discretisation;
+mod equilibrium;
+mod force_balance;
+mod heated_disk;
+mod interfaces;
+mod iterative;
+mod lame;
+mod lattice;
+mod lattice_laws;
+mod laws;
+mod left_behind;
+mod loads;
+mod mbb_pd;
+mod mbb_pd_variants;
+mod modal;
+mod neighbours;
+mod patch;
+mod patch_test;
+mod physics;
+mod pieces;
+mod pressure;
+mod probes;
+mod ranks;
+mod reference_values;
+mod restraints;
+mod rotational_stiffness;
+mod shared_bonds;
+mod shared_preparation;
+mod solid_iterative;
+mod solid_lattices;
+mod solid_patch;
+mod solids_elastic;
+mod space_bonds;
+mod stress;
+mod symmetry;
+mod temperature;
