@@ -6,6 +6,8 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
+use ligament_run::end::StoppedUnbegun;
+
 use crate::stop_signal::report_large_files;
 use crate::{Cli, ranks, terminal};
 
@@ -32,7 +34,7 @@ fn answer(arguments: &[OsString], program: &[OsString]) -> ExitCode {
     let (code, error) = match cli.execute(program) {
         Ok(code) => (code, None),
         Err(error) if is_closed_pipe(&error) => (ExitCode::SUCCESS, None),
-        Err(error) => (ExitCode::FAILURE, Some(error)),
+        Err(error) => (code_of(&error), Some(error)),
     };
     // What all processes meet the first one tells of.
     if let Some(error) = error.as_ref().filter(|_| !ranks::is_beside_the_first()) {
@@ -49,6 +51,12 @@ fn answer(arguments: &[OsString], program: &[OsString]) -> ExitCode {
         ranks::abort();
     }
     code
+}
+
+/// The exit code of an error: a run that a signal stopped ends alike whether or not it had begun.
+fn code_of(error: &anyhow::Error) -> ExitCode {
+    let stopped = error.downcast_ref::<StoppedUnbegun>();
+    stopped.map_or(ExitCode::FAILURE, |it| it.exit_code().into())
 }
 
 /// The error and its causes; a reader that has gone away does not want to hear of them.

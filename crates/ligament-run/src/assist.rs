@@ -15,6 +15,7 @@ use ligament_output::folder::RESOLVED_CASE;
 use ligament_output::results::PieceWriter;
 
 use crate::checkpoints::IsStopped;
+use crate::end::StoppedUnbegun;
 use crate::loading::write_rule;
 use crate::model::{build_model_in_space_on, build_model_on};
 use crate::progress::{Progress, ProgressMode};
@@ -122,10 +123,7 @@ where
     let problem = loading.problem(&model.system, &model.criteria);
     let solution: Option<Vec<u8>> = match begin {
         Begin::Unloaded => {
-            ensure!(
-                !any_stopped(Some(ranks), is_stopped),
-                "stopped before the first solution: nothing was written"
-            );
+            ensure!(!any_stopped(Some(ranks), is_stopped), StoppedUnbegun);
             None
         }
         Begin::AsTold => {

@@ -58,6 +58,18 @@ impl End {
     }
 }
 
+/// A signal stopped a run before its first solution, while nothing was written that it could go on with.
+#[derive(Debug, Clone, Copy, thiserror::Error)]
+#[error("stopped before the first solution: nothing was written")]
+pub struct StoppedUnbegun;
+
+impl StoppedUnbegun {
+    /// The exit code of the program: that of every run that a signal stops.
+    pub fn exit_code(self) -> u8 {
+        End::Stopped.exit_code()
+    }
+}
+
 /// Name of the end of a run without equilibrium, as summaries have it.
 pub const NO_EQUILIBRIUM: &str = "no-equilibrium";
 
