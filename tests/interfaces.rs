@@ -9,7 +9,7 @@ use ligament::prelude::*;
 use ligament::setup::{Dim, Dimension, Form, MaterialRegion, Strains, Surface};
 use ligament_mesh::{Cell, Group, Mesh, SolidCell, SolidMesh};
 use ligament_model::Canvas;
-use ligament_model::correction::patch::Settings;
+use ligament_model::correction::patch::{Reference, Settings};
 use verification::meshes;
 use verification::solids::block;
 
@@ -74,6 +74,14 @@ fn reaction(setup: Setup) -> f64 {
     history.last().unwrap().reaction.abs()
 }
 
+/// The patch correction with the factors that it departs from.
+fn patch_from(reference: Reference) -> Surface {
+    Surface::Patch(Settings {
+        reference,
+        ..Settings::default()
+    })
+}
+
 /// C_11 of Young's modulus 1 with the Poisson's ratio of the law.
 fn modulus(poisson: f64) -> f64 {
     1.0 / (1.0 - poisson * poisson)
@@ -107,10 +115,15 @@ fn halves_of_a_mesh_at_any_ratio() {
     let body = || MeshBody::from(meshes::read("meshes/bimaterial.msh"));
     for (law, poisson) in laws {
         for ratio in RATIOS {
-            for lambda in [2.0, 3.0, 4.0] {
+            for (lambda, reference) in [
+                (2.0, Reference::Body),
+                (3.0, Reference::Body),
+                (3.0, Reference::Families),
+                (4.0, Reference::Body),
+            ] {
                 let setup = || {
                     let mut setup = halved(body(), law, poisson, ratio);
-                    setup.correction.surface = Surface::Patch(Settings::default());
+                    setup.correction.surface = patch_from(reference);
                     setup.horizon = Horizon::Factor(lambda);
                     setup
                 };
@@ -120,7 +133,7 @@ fn halves_of_a_mesh_at_any_ratio() {
                 let found = [in_series(setup()) / series, in_parallel(setup()) / parallel];
                 assert!(
                     (found[0] - 1.0).abs() < 0.01 && (found[1] - 1.0).abs() < 5e-3,
-                    "{law:?} {poisson}, ratio {ratio}, lambda {lambda}: {found:?}"
+                    "{law:?} {poisson}, ratio {ratio}, lambda {lambda}, {reference:?}: {found:?}"
                 );
             }
         }
@@ -321,13 +334,16 @@ fn layers_between_halves_of_a_mesh() {
             for thick in [1, 2, 4] {
                 let materials = [1.0, ratio].map(|young| Material::isotropic(young, poisson));
                 let body = MeshBody::from(layered_strip(thick));
-                let setup = with_layer(body, law, materials, &[Component::Y]);
+                let mut setup = with_layer(body, law, materials, &[Component::Y]);
                 let expected = force_through(f64::from(CELLS[1]), modulus(poisson), thick, ratio);
-                let found = reaction(setup) / expected;
-                assert!(
-                    (found - 1.0).abs() < 0.02,
-                    "{law:?}, ratio {ratio}, {thick} cells: {found}"
-                );
+                for reference in [Reference::Body, Reference::Families] {
+                    setup.correction.surface = patch_from(reference);
+                    let found = reaction(setup.clone()) / expected;
+                    assert!(
+                        (found - 1.0).abs() < 0.02,
+                        "{law:?}, ratio {ratio}, {thick} cells, {reference:?}: {found}"
+                    );
+                }
             }
         }
     }

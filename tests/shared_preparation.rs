@@ -238,6 +238,17 @@ fn the_patch_correction_is_shared_out() {
     in_plane("springs", &named("l-panel", &springs), Accuracy::Newton);
     in_plane("bar", &named("bimaterial-bar", &[]), Accuracy::Newton);
     in_space("block", &named("split-block", &[PATCH]), Accuracy::Newton);
+    let families = "correction.reference=families";
+    in_plane(
+        "bar",
+        &named("bimaterial-bar", &[families]),
+        Accuracy::Newton,
+    );
+    in_space(
+        "block",
+        &named("split-block", &[PATCH, families]),
+        Accuracy::Newton,
+    );
 }
 
 /// What no rank sees by itself is refused by all of them with the words of one process.

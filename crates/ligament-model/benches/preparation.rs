@@ -71,7 +71,10 @@ fn preparation(criterion: &mut Criterion) {
                 turn: true,
             };
             let alpha = length_factors(&bonds, &cloud);
-            patch::correct(&bonds, &points, &stiffness, alpha, &Settings::DEFAULT)
+            let settings = Settings::DEFAULT;
+            let nearest_to =
+                patch::reference(settings.reference, &bonds, &cloud, &stiffness.axial, &alpha);
+            patch::correct(&bonds, &points, &stiffness, (alpha, &nearest_to), &settings)
         };
         let correction = correct();
         let stages = || {

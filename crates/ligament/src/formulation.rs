@@ -158,7 +158,16 @@ impl<'a> Formulation<'a> {
                     forces: cell_forces(setup, cloud, self.material_of_cell),
                     turn: setup.law.element() == ElementKind::Beam,
                 };
-                patch::correct(bonds, &points, stiffness, alpha, &settings)
+                let of_one_material = setup.of_one_material().map(|setup| {
+                    let formulation = Formulation {
+                        setup: &setup,
+                        ..*self
+                    };
+                    formulation.stiffness(bonds, &alpha)
+                });
+                let axial = &of_one_material.as_ref().unwrap_or(stiffness).axial;
+                let nearest_to = patch::reference(settings.reference, bonds, cloud, axial, &alpha);
+                patch::correct(bonds, &points, stiffness, (alpha, &nearest_to), &settings)
             }
             Surface::Volume => {
                 let factors = surface::surface_factors(bonds, cloud, self.horizons, &alpha);

@@ -9,7 +9,7 @@ use super::values::{refuse, require};
 use super::word::{Word, Worded};
 use ligament::setup::{self, Alpha, CorrectionDomain, Iteration, Law, Surface};
 use ligament_model::correction::StopRule;
-use ligament_model::correction::patch::Settings;
+use ligament_model::correction::patch::{Reference, Settings};
 
 /// The corrections of the bonds.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
@@ -27,6 +27,8 @@ pub struct Correction {
     /// Sweeps of the domain correction at most.
     #[schemars(range(min = 1), extend("default" = Iteration::default().max_sweeps))]
     pub max_sweeps: Option<u32>,
+    /// The factors that those of the patch correction are the nearest to; without it `body`.
+    pub reference: Option<Word<Reference>>,
     /// Smallest factor of the patch correction over the uncorrected one.
     #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1, "default" = Settings::DEFAULT.lowest))]
     pub smallest_factor: Option<f64>,
@@ -56,6 +58,7 @@ impl Correction {
             ("max_sweeps", self.max_sweeps.is_some()),
         ];
         let of_patch = [
+            ("reference", self.reference.is_some()),
             ("smallest_factor", self.smallest_factor.is_some()),
             ("largest_factor", self.largest_factor.is_some()),
             ("moment_weight", self.moment_weight.is_some()),
@@ -84,6 +87,7 @@ impl Correction {
     fn patch(&mut self) -> Settings {
         let default = Settings::DEFAULT;
         Settings {
+            reference: self.reference.get_or_insert(Word(default.reference)).0,
             lowest: *self.smallest_factor.get_or_insert(default.lowest),
             highest: *self.largest_factor.get_or_insert(default.highest),
             moment_weight: *self.moment_weight.get_or_insert(default.moment_weight),

@@ -15,7 +15,7 @@ use ligament_analysis::solver::{FactorKind, Method, Ordering, Update};
 use ligament_model::Plane;
 use ligament_model::bonds::precrack::Ends;
 use ligament_model::correction::StopRule;
-use ligament_model::correction::patch::Settings;
+use ligament_model::correction::patch::{Reference, Settings};
 use ligament_model::failure::softening::{LAWS, Law};
 use ligament_model::failure::{self, KINDS, Kind, Weakened};
 use ligament_model::law::rotational::RotationalStiffness;
@@ -133,6 +133,11 @@ worded! { Surface:
     [Self::Volume] "volume" "By the volumes of the families.";
     [Self::Domain(Iteration::default())] in [Self::Domain(_)] "domain" "NHPD's iterative domain correction.";
     [Self::Patch(Settings::DEFAULT)] in [Self::Patch(_)] "patch" "Two factors a bond for which every uniform strain is an equilibrium.";
+}
+
+worded! { Reference:
+    [Self::Body] "body" "alpha times one number for the body.";
+    [Self::Families] "families" "alpha times factors with which a dilation has one stress at all points, also where the mesh is graded.";
 }
 
 worded! { Option<StopRule>:

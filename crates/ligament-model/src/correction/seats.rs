@@ -67,8 +67,13 @@ impl<'a> Seats<'a> {
 
     /// Puts the values of points of other processes, by rank, in the place of those here.
     pub(crate) fn complete<const N: usize>(&self, values: &mut [[f64; N]]) {
+        self.complete_rows(values.as_flattened_mut(), N);
+    }
+
+    /// Puts the values of points of other processes, by rank and so many a point, in the place of those here.
+    pub(crate) fn complete_rows(&self, values: &mut [f64], n_values: usize) {
         if let Some(ghosts) = &self.ghosts {
-            ghosts.tell(values.as_flattened_mut(), N);
+            ghosts.tell(values, n_values);
         }
     }
 

@@ -23,7 +23,7 @@ use std::sync::Arc;
 use ligament_analysis::SolverSettings;
 use ligament_model::failure::Choice;
 use ligament_model::law::rotational::RotationalScale;
-use ligament_model::{Horizons, Material, Plane, PointCloud, Scatter};
+use ligament_model::{Elasticity, Horizons, Isotropic, Material, Plane, PointCloud, Scatter};
 
 use crate::body::Body;
 use crate::implausible::Implausible;
@@ -160,6 +160,20 @@ where
     pub fn materials(&self) -> Vec<Material> {
         let regions = self.materials.iter();
         regions.map(|region| region.material.clone()).collect()
+    }
+
+    /// The setup with one isotropic material in all regions; none where it has no other.
+    pub(crate) fn of_one_material(&self) -> Option<Self> {
+        let mut first = self.materials.first()?.material.clone();
+        let isotropic = first.elasticity.isotropic();
+        if self.materials.len() == 1 && isotropic.is_some() {
+            return None;
+        }
+        first.elasticity = Elasticity::Isotropic(isotropic.unwrap_or(Isotropic {
+            young: 1.0,
+            poisson: 0.0,
+        }));
+        Some(self.of_materials(vec![first; self.materials.len()]))
     }
 
     /// The setup with other materials in its regions.

@@ -1,6 +1,7 @@
 //! The formulation that a setup chooses in space: law, calibration and corrections of the bonds.
 
 use ligament_model::bonds::BondSet;
+use ligament_model::correction::patch::reference;
 use ligament_model::correction::{Correction, length};
 use ligament_model::failure::Criteria;
 use ligament_model::law::rotational::{self, RotationalScale};
@@ -158,7 +159,18 @@ impl<'a> SolidFormulation<'a> {
                 let forces = cell_forces(self.setup, self.cloud, self.material_of_cell);
                 let points = (self.cloud, &forces);
                 let element = element(&self.setup.law);
-                patch::correct(bonds, points, element, stiffness, alpha, &settings)
+                let of_one_material = self.setup.of_one_material().map(|setup| {
+                    let formulation = SolidFormulation {
+                        setup: &setup,
+                        constants: constants(&setup),
+                        ..*self
+                    };
+                    formulation.stiffness(bonds, &alpha)
+                });
+                let axial = &of_one_material.as_ref().unwrap_or(stiffness).axial;
+                let nearest_to = reference(settings.reference, bonds, self.cloud, axial, &alpha);
+                let factors = (alpha, nearest_to.as_slice());
+                patch::correct(bonds, points, element, stiffness, factors, &settings)
             }
             Surface::None => Correction::fixed(alpha, vec![1.0; bonds.len()]),
         }

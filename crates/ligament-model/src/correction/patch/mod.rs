@@ -12,12 +12,13 @@
 //!
 //! forces of the bonds = f_P(eps), moments of the bonds = 0.
 //!
-//! These equations G q = f are fewer than the factors: the factors are those nearest to the uncorrected ones.
+//! These equations G q = f are fewer than the factors: the factors are those nearest to given ones (`reference.rs`).
 //!
 //! | file | of the correction |
 //! |---|---|
 //! | `forces.rs`, `lattice_forces.rs` | f of meshes and of lattices |
 //! | `equations.rs`, `plane.rs` | G, as sums over the bonds; its rows in the plane |
+//! | `reference.rs` | the factors that it departs from |
 //! | `pairs.rs` | the order in which sums go over the bonds |
 //! | `dual.rs` | the way to the factors by Newton steps |
 //! | `newton.rs` | the direction of such a step |
@@ -34,11 +35,13 @@ mod lattice_forces;
 mod newton;
 pub(crate) mod pairs;
 mod plane;
+mod reference;
 mod settings;
 
 pub use dual::Report;
 pub use forces::{CellForces, Points, of_mesh};
 pub use lattice_forces::{of_lattice, stiffness_of_lattice};
+pub use reference::{Reference, reference};
 pub use settings::Settings;
 
 use super::{Correction, CorrectionReport};
@@ -51,20 +54,20 @@ use equations::Equations;
 use plane::PlaneEquations;
 
 /// The correction of bonds with uncorrected factors alpha (n_bonds): Omega = q_n/alpha, and beside it what shear and rotation have
-/// more, q_t/q_n.
+/// more, q_t/q_n. The factors q are those nearest to given ones times one number for the body (n_bonds).
 pub fn correct(
     bonds: &BondSet,
     points: &Points<'_>,
     stiffness: &BondStiffness,
-    alpha: Vec<f64>,
+    (alpha, nearest_to): (Vec<f64>, &[f64]),
     settings: &Settings,
 ) -> Correction {
     let weight = settings.moment_weight;
     let factors = if points.turn {
-        let equations = PlaneEquations::<8>::new(bonds, points, stiffness, &alpha, weight);
+        let equations = PlaneEquations::<8>::new(bonds, points, stiffness, nearest_to, weight);
         minimise(&equations, points.cloud, settings)
     } else {
-        let equations = PlaneEquations::<6>::new(bonds, points, stiffness, &alpha, weight);
+        let equations = PlaneEquations::<6>::new(bonds, points, stiffness, nearest_to, weight);
         minimise(&equations, points.cloud, settings)
     };
     factors.correction(alpha)

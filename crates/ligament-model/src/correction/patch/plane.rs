@@ -34,7 +34,7 @@ pub(super) struct PlaneEquations<'a, const N: usize> {
     places: Vec<Place>,
     /// w k_n and w k_t of the pairs, N.
     stiffness: Vec<[f64; 2]>,
-    /// Uncorrected factors alpha c_0 of the pairs.
+    /// Factors q_0 of the pairs, to which those of the correction are the nearest.
     start: Vec<f64>,
     /// Scales of the forces and the moments of own points, by rank: one over the norm of their rows with the weights q_0.
     scale: Vec<[f64; 2]>,
@@ -68,12 +68,12 @@ impl<'a, const N: usize> PlaneEquations<'a, N> {
         bonds: &'a BondSet,
         points: &'a Points<'_>,
         stiffness: &BondStiffness,
-        alpha: &[f64],
+        nearest_to: &[f64],
         moment_weight: f64,
     ) -> Self {
         let Points { cloud, forces, .. } = points;
         let pairs = Pairs::new(bonds, cloud);
-        let body_factor = body_factor(bonds, points, stiffness, alpha, &pairs.seats);
+        let body_factor = body_factor(bonds, points, stiffness, nearest_to, &pairs.seats);
         let of_bond = |bond: usize| {
             let [a, b] = bonds.ends[bond].map(|end| cloud.volumes[end as usize]);
             [stiffness.axial[bond], stiffness.shear[bond]].map(|density| a * b * density)
@@ -88,7 +88,7 @@ impl<'a, const N: usize> PlaneEquations<'a, N> {
         };
         let mut squares = vec![[0.0; 2]; cloud.len()];
         for (bond, ends) in bonds.ends.iter().enumerate() {
-            let [axial, shear] = of_bond(bond).map(|it| body_factor * alpha[bond] * it * it);
+            let [axial, shear] = of_bond(bond).map(|it| body_factor * nearest_to[bond] * it * it);
             for &end in ends {
                 let [force, moment] = &mut squares[end as usize];
                 *force += axial + 0.5 * shear;
@@ -109,7 +109,7 @@ impl<'a, const N: usize> PlaneEquations<'a, N> {
         Self {
             places: pairs.values(place),
             stiffness: pairs.values(|_, bond| of_bond(bond as usize)),
-            start: pairs.values(|_, bond| body_factor * alpha[bond as usize]),
+            start: pairs.values(|_, bond| body_factor * nearest_to[bond as usize]),
             scale: pairs.seats.own().iter().map(scale).collect(),
             right: pairs.seats.own().iter().map(right).collect(),
             pairs,
@@ -141,7 +141,7 @@ fn body_factor(
     bonds: &BondSet,
     points: &Points<'_>,
     stiffness: &BondStiffness,
-    alpha: &[f64],
+    nearest_to: &[f64],
     seats: &Seats<'_>,
 ) -> f64 {
     let Points { cloud, forces, .. } = points;
@@ -153,7 +153,7 @@ fn body_factor(
         let [a, b] = bonds.ends[bond].map(|end| cloud.volumes[end as usize]);
         // In the mean over the three strains s^2 and gamma^2 do not depend on the direction: their sums are 1 and 1/2.
         let densities = stiffness.axial[bond] + 0.5 * stiffness.shear[bond];
-        alpha[bond] * a * b * bonds.length[bond] * densities
+        nearest_to[bond] * a * b * bonds.length[bond] * densities
     };
     let counted = (0..bonds.len()).filter(|&bond| cloud.counts(bonds.ends[bond]));
     of_cells / seats.total(counted.map(of_bond).sum::<f64>())

@@ -23,25 +23,26 @@ use crate::space::SolidElement;
 use solid::SolidEquations;
 
 /// The correction of bonds with uncorrected factors alpha (n_bonds) on points with the forces of their cells: Omega = q_n/alpha, and
-/// beside it what shear and rotation have more, q_t/q_n.
+/// beside it what shear and rotation have more, q_t/q_n. The factors q are those nearest to given ones times one number for the body
+/// (n_bonds).
 pub fn correct(
     bonds: &BondSet<3>,
     (cloud, forces): (&PointCloud<3>, &SolidCellForces),
     element: SolidElement,
     stiffness: &BondStiffness,
-    alpha: Vec<f64>,
+    (alpha, nearest_to): (Vec<f64>, &[f64]),
     settings: &Settings,
 ) -> Correction {
     let weight = settings.moment_weight;
     let factors = match element {
         SolidElement::Beam => {
             let equations =
-                SolidEquations::<18>::new(bonds, cloud, forces, stiffness, &alpha, weight);
+                SolidEquations::<18>::new(bonds, cloud, forces, stiffness, nearest_to, weight);
             minimise(&equations, cloud, settings)
         }
         SolidElement::Spring => {
             let equations =
-                SolidEquations::<13>::new(bonds, cloud, forces, stiffness, &alpha, weight);
+                SolidEquations::<13>::new(bonds, cloud, forces, stiffness, nearest_to, weight);
             minimise(&equations, cloud, settings)
         }
     };

@@ -39,7 +39,7 @@ pub(super) struct SolidEquations<'a, const N: usize> {
     places: Vec<([f64; 3], f64)>,
     /// w k_n and w k_t of the pairs, N.
     stiffness: Vec<[f64; 2]>,
-    /// Uncorrected factors alpha c_0 of the pairs.
+    /// Factors q_0 of the pairs, to which those of the correction are the nearest.
     start: Vec<f64>,
     /// Scales of the forces and the moments of own points, by rank: one over the norm of their rows with the weights q_0.
     scale: Vec<[f64; 2]>,
@@ -58,7 +58,7 @@ impl<'a, const N: usize> SolidEquations<'a, N> {
         cloud: &'a PointCloud<3>,
         forces: &SolidCellForces,
         stiffness: &BondStiffness,
-        alpha: &[f64],
+        nearest_to: &[f64],
         moment_weight: f64,
     ) -> Self {
         let pairs = Pairs::new(bonds, cloud);
@@ -69,7 +69,7 @@ impl<'a, const N: usize> SolidEquations<'a, N> {
         let counted = (0..bonds.len()).filter(|&bond| cloud.counts(bonds.ends[bond]));
         let of_bonds = counted.map(|bond| {
             let [axial, shear] = of_bond(bond);
-            alpha[bond] * bonds.length[bond] * (axial + shear)
+            nearest_to[bond] * bonds.length[bond] * (axial + shear)
         });
         let body_factor = energy(cloud, forces) / pairs.seats.total(of_bonds.sum::<f64>());
         let place = |point: u32, bond: u32| {
@@ -84,7 +84,7 @@ impl<'a, const N: usize> SolidEquations<'a, N> {
         };
         let mut squares = vec![[0.0; 2]; cloud.len()];
         for (bond, ends) in bonds.ends.iter().enumerate() {
-            let [axial, shear] = of_bond(bond).map(|it| body_factor * alpha[bond] * it * it);
+            let [axial, shear] = of_bond(bond).map(|it| body_factor * nearest_to[bond] * it * it);
             for &end in ends {
                 let [force, moment] = &mut squares[end as usize];
                 *force += axial + shear;
@@ -102,7 +102,7 @@ impl<'a, const N: usize> SolidEquations<'a, N> {
         Self {
             places: pairs.values(place),
             stiffness: pairs.values(|_, bond| of_bond(bond as usize)),
-            start: pairs.values(|_, bond| body_factor * alpha[bond as usize]),
+            start: pairs.values(|_, bond| body_factor * nearest_to[bond as usize]),
             scale: pairs.seats.own().iter().map(scale).collect(),
             right: pairs.seats.own().iter().map(right).collect(),
             pairs,

@@ -75,7 +75,9 @@ fn corrected(mesh: &SolidMesh, horizon: f64, element: SolidElement) -> Case {
     let alpha = vec![1.0; bonds.len()];
     let points = (&cloud, &forces);
     let settings = Settings::DEFAULT;
-    let correction = correct(&bonds, points, element, &stiffness, alpha, &settings);
+    let nearest_to = alpha.clone();
+    let factors = (alpha, nearest_to.as_slice());
+    let correction = correct(&bonds, points, element, &stiffness, factors, &settings);
     Case {
         cloud,
         bonds,

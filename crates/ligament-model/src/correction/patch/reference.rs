@@ -1,0 +1,155 @@
+//! The factors that the correction departs from.
+
+use rayon::prelude::*;
+
+use crate::bonds::BondSet;
+use crate::cloud::PointCloud;
+use crate::correction::seats::Seats;
+
+/// Sweeps over the points: the points inside are right to a few per cent then, and the factors of the correction hardly change with more.
+const SWEEPS: usize = 10;
+
+/// Largest change of a factor, and one over the smallest: the family of a corner of a solid is an eighth of one inside.
+const LARGEST: f64 = 8.0;
+
+/// What the correction departs from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reference {
+    /// alpha times one number for the body.
+    Body,
+    /// alpha times one number for the body and a factor of each bond, with which a dilation has one stress at all points.
+    Families,
+}
+
+/// A symmetric tensor at a point.
+type Tensor<const D: usize> = [[f64; D]; D];
+
+/// The factors that the correction departs from, but for one number for the body, shape (n_bonds), from factors alpha (n_bonds) and axial
+/// densities k_n (n_bonds) of bonds as in a body of one material.
+///
+/// Horizons follow the mesh. Where it is graded, families reach farther to one side than to the other, and with alpha alone they store
+/// more or less of a uniform strain than the material does; the factors nearest to these carry the strain and leave its energy where it was.
+/// [`Reference::Families`] departs from alpha g instead, with g nearest to 1 in the entropy g log g for which
+///
+/// T_P = sum over the bonds of P of alpha g k_n l V_J n n^T = T I
+///
+/// at every point P with neighbours J. T_P is in proportion to the stress of the bonds at P under a dilation, and T is the mean over the body
+/// with g = 1. Then g = exp(n . (M_P + M_J) n/2) with a symmetric tensor M a point. Where the directions of a family are spread evenly
+/// and both ends change alike, a change of M changes T_P/T by (2 M + I tr M)/(D + 2), by which each sweep goes on.
+pub fn reference<const D: usize>(
+    kind: Reference,
+    bonds: &BondSet<D>,
+    cloud: &PointCloud<D>,
+    axial: &[f64],
+    alpha: &[f64],
+) -> Vec<f64> {
+    if kind == Reference::Body {
+        return alpha.to_vec();
+    }
+    let seats = Seats::new(bonds, cloud);
+    let families = Families {
+        bonds,
+        cloud,
+        ranks: seats.ranks(cloud.len()),
+        weights: (0..bonds.len())
+            .map(|bond| alpha[bond] * axial[bond] * bonds.length[bond])
+            .collect(),
+    };
+    let mut tensors = vec![[[0.0; D]; D]; seats.all().len()];
+    let mean = families.mean_stress(&seats, &tensors);
+    for _ in 0..SWEEPS {
+        let stresses = families.stresses(&seats, &tensors);
+        for (tensor, stress) in tensors.iter_mut().zip(stresses) {
+            approach(tensor, stress.map(|row| row.map(|it| it / mean)));
+        }
+        let values = tensors.as_flattened_mut().as_flattened_mut();
+        seats.complete_rows(values, D * D);
+    }
+    let factors = (0..bonds.len()).map(|bond| alpha[bond] * families.factor(bond, &tensors));
+    factors.collect()
+}
+
+/// Changes M of a point by what would make T_P/T the unit tensor if all families were spread evenly.
+fn approach<const D: usize>(tensor: &mut Tensor<D>, mut excess: Tensor<D>) {
+    (0..D).for_each(|axis| excess[axis][axis] -= 1.0);
+    let common = 0.5 * trace(&excess);
+    for (tensor, excess) in tensor
+        .as_flattened_mut()
+        .iter_mut()
+        .zip(excess.as_flattened())
+    {
+        *tensor -= 0.5 * (D as f64 + 2.0) * excess;
+    }
+    (0..D).for_each(|axis| tensor[axis][axis] += common);
+}
+
+struct Families<'a, const D: usize> {
+    bonds: &'a BondSet<D>,
+    cloud: &'a PointCloud<D>,
+    /// Rank of each point.
+    ranks: Vec<u32>,
+    /// alpha k_n l of the bonds.
+    weights: Vec<f64>,
+}
+
+impl<const D: usize> Families<'_, D> {
+    /// T: the mean of a third (in the plane half) of the traces of T_P, by volume.
+    fn mean_stress(&self, seats: &Seats<'_>, tensors: &[Tensor<D>]) -> f64 {
+        let mut sums = [0.0; 2];
+        for (&point, stress) in seats.own().iter().zip(self.stresses(seats, tensors)) {
+            let volume = self.cloud.volumes[point as usize];
+            sums[0] += volume * trace(&stress) / D as f64;
+            sums[1] += volume;
+        }
+        seats.sum(&mut sums);
+        sums[0] / sums[1]
+    }
+
+    /// T_P of the own points, by rank, for tensors M by rank.
+    fn stresses(&self, seats: &Seats<'_>, tensors: &[Tensor<D>]) -> Vec<Tensor<D>> {
+        let own = seats.own().par_iter();
+        own.map(|&point| self.stress(point, tensors)).collect()
+    }
+
+    fn stress(&self, point: u32, tensors: &[Tensor<D>]) -> Tensor<D> {
+        let mut stress = [[0.0; D]; D];
+        for &bond in self.bonds.incidence.at(point) {
+            let volume = self.cloud.volumes[self.bonds.neighbour(bond, point) as usize];
+            let bond = bond as usize;
+            let size = self.factor(bond, tensors) * self.weights[bond] * volume;
+            let direction = self.bonds.direction[bond];
+            for (row, one) in stress.iter_mut().zip(direction) {
+                for (entry, other) in row.iter_mut().zip(direction) {
+                    *entry += size * one * other;
+                }
+            }
+        }
+        stress
+    }
+
+    /// g of a bond.
+    fn factor(&self, bond: usize, tensors: &[Tensor<D>]) -> f64 {
+        let direction = &self.bonds.direction[bond];
+        let [one, other] = self.bonds.ends[bond].map(|end| {
+            let rank = self.ranks[end as usize] as usize;
+            along(direction, &tensors[rank])
+        });
+        (0.5 * (one + other)).exp().clamp(1.0 / LARGEST, LARGEST)
+    }
+}
+
+/// n . M n.
+fn along<const D: usize>(direction: &[f64; D], tensor: &Tensor<D>) -> f64 {
+    let of_row = |(one, row): (&f64, &[f64; D])| {
+        let products = row
+            .iter()
+            .zip(direction)
+            .map(|(entry, other)| entry * other);
+        one * products.sum::<f64>()
+    };
+    direction.iter().zip(tensor).map(of_row).sum()
+}
+
+fn trace<const D: usize>(tensor: &Tensor<D>) -> f64 {
+    (0..D).map(|axis| tensor[axis][axis]).sum()
+}
