@@ -9,7 +9,7 @@ use super::point_blocks::PointBlocks;
 use crate::tangent::UNRESISTED;
 use crate::vectors::{dot_of_chunks, weighted_square};
 
-/// Iterations after which no motion is found: in bodies that long, conjugate gradients with a coarse space need some hundreds.
+/// Iterations after which no motion is found: as many as conjugate gradients had.
 const ITERATION_LIMIT: usize = 2000;
 
 /// Share of the motion M^-1 f of the forces at which what is left of it is rounding: the body resists all of them.
@@ -18,8 +18,8 @@ const ROUNDING: f64 = 1e-14;
 /// The motion that the stiffness K resists by no more than the rounding of the stiffnesses of the points, and that forces
 /// (n_degrees_of_freedom) push; none where it balances them.
 ///
-/// The motion z = M^-1 r of the forces r out of balance is followed alone: z - a M^-1 q with a = z . K z / q . M^-1 q, where q is K p of the
-/// search p = z + b p with b the growth of z . K z.
+/// The motions z = M^-1 r of the forces r out of balance are followed alone: a step takes a M^-1 q from z with a = z . K z / q . M^-1 q, and
+/// q = K z + b q goes on with b = z . K z over that before.
 pub(super) fn motion(
     operator: &Operator<'_>,
     blocks: &PointBlocks,
