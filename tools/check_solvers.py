@@ -34,9 +34,9 @@ LAWS = {
 # little has a condition of 1e3 between both.
 SAME_LOAD = 1e-5
 
-# Largest loads below this, N, are rounding: all problems prescribe forces above 1e4 N, or motions that would cost as much, and 1e-10 of those is
-# what a solution leaves out of balance. A body whose first load step breaks it has no other largest load.
-NO_LOAD = 1e-6
+# Largest loads below this, N, are rounding: all problems prescribe forces above 1e4 N, or motions that would cost as much, and 1e-9 of a load is
+# none to the program either. A body whose first load step breaks it has no other largest load.
+NO_LOAD = 1e-5
 
 ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
 
