@@ -7,6 +7,7 @@
 
 use super::equations::Equations;
 use super::iterate::Iterate;
+use super::residual::Residual;
 use crate::balanced::Attempt;
 use crate::breakage::Breakage;
 use crate::contact;
@@ -79,10 +80,7 @@ pub(super) fn balance(
         if is_over || !residual.relative.is_finite() {
             return Ok(equations.not_settled(&residual, iterations));
         }
-        let least = nearest.as_ref().map_or(largest, |it| it.0);
-        if residual.relative <= least && residual.carried.is_none() {
-            nearest = Some((residual.relative, state.displacement.clone()));
-        }
+        keep_nearer(&mut nearest, &residual, largest, state);
         let correction = match equations.correction(state, &iterate, sought, &mut mechanisms) {
             Ok(correction) => correction,
             Err(unbalanced) => return Ok(Attempt::Unbalanced(unbalanced)),
@@ -95,6 +93,20 @@ pub(super) fn balance(
         }
         iterate = next;
         iterations += 1;
+    }
+}
+
+/// Keeps the residual and the displacements of an iterate that holds carry nothing of, if its residual is at most the largest that counts, and
+/// that of the nearest so far.
+fn keep_nearer(
+    nearest: &mut Option<(f64, Vec<f64>)>,
+    residual: &Residual,
+    largest: f64,
+    state: &State,
+) {
+    let least = nearest.as_ref().map_or(largest, |it| it.0);
+    if residual.relative <= least && residual.carried.is_none() {
+        *nearest = Some((residual.relative, state.displacement.clone()));
     }
 }
 
