@@ -9,8 +9,10 @@ use ligament_model::space::element::SolidElement;
 use ligament_model::space::law::{ShearForm, mppd, nhpd, pds};
 use ligament_model::{BondSet, BondStiffness, PointCloud};
 use rayon::ThreadPoolBuilder;
+use verification::bench;
 use verification::cylinders::{MATERIAL, Torn, cylinder, cylinder_of, pulled};
-use verification::numbers::deviation;
+use verification::numbers::{deviation, relative_error};
+use verification::table::Table;
 
 /// Displacements and rotations after the crack and a few bonds more, those of the factor to 1e-6: a residual of 1e-8 times the condition of
 /// the body between forces and displacements at a point.
@@ -146,4 +148,41 @@ fn iterations_stay_few_while_bonds_break() {
     // Published for a coarse space of the body without its crack: four times as many.
     assert!(last < 1.5 * first, "{first} {last}");
     assert!(points_of_aggregate(3, 99_999) < points_of_aggregate(3, 100_000));
+}
+
+/// A block on inclined rollers whose platen tilts, pushed, pulled back and pushed again in a stage of the exact path. The stiff platen exerts many
+/// times what deforms the block: a line of the path that is judged by the norm of that puts the first breakage off by 7e-4. The first breakage
+/// is that of the factor to 1e-6, and so do the energies balance: the iteration goes to 1e-8 of the forces at a point.
+#[test]
+fn a_stage_of_the_exact_path_moves_a_platen_that_tilts() {
+    const BLOCK: &str = r#"
+solid_lattice = { cells = [5, 5, 4], spacing = [0.2, 0.2, 0.2], set = { left = { left = 1 }, right = { right = 1 } } }
+material = { young = 1e10, poisson = 0.2, tensile_strength = 2e6 }
+model = { law = "mppd", horizon_factor = 2.0 }
+support = [
+    { group = "left", normal = [0.8, 0.36, 0.48] },
+    { at = [0.1, 0.1, 0.1], displacement = { y = 0.0, z = 0.0 } },
+    { at = [0.1, 0.9, 0.1], displacement = { z = 0.0 } },
+]
+load = [{ name = "pull", group = "right", displacement = { x = 4e-4 }, tilts = true }]
+stage = [{ name = "a", loads = { pull = [0.7, -0.3, 0.0, 1.0] } }]
+fracture = { control = "event" }
+"#;
+    let folder = tempfile::tempdir().unwrap();
+    let [direct, iterative] = ["direct", "iterative"].map(|method| {
+        let case = bench::case(BLOCK, &[&format!("solver.method={method}")]);
+        let out = folder.path().join(method);
+        bench::run_program(&case, &out);
+        ["breaks.csv", "history.csv"].map(|file| Table::read(&out.join(file)))
+    });
+    for column in ["load_factor", "reaction"] {
+        let [wanted, first] = [&direct, &iterative].map(|run| run[0].number(0, column));
+        let off = relative_error(first, wanted);
+        println!("{column} of the first breakage off by {off:.1e}");
+        assert!(off < 1e-6, "{column}: {first} {wanted}");
+    }
+    let history = &iterative[1];
+    let missing = history.number(history.len() - 1, "energy_error").abs();
+    println!("energies miss by {missing:.1e}");
+    assert!(missing > 0.0 && missing < 1e-6, "{missing:e}");
 }

@@ -18,6 +18,8 @@ from pathlib import Path
 import numpy as np
 import pyvista
 
+import check_solvers
+
 ROOT = Path(__file__).resolve().parent.parent
 SCRATCH = ROOT / "target" / "check-ranks"
 
@@ -34,6 +36,9 @@ DISK = ["cases/brazilian-disk/case.toml", "--set", "fracture.stop.bonds=25", "--
 INDEFINITE = ["cases/split-block/case.toml", "--set", "fracture.stop.bonds=4", "--set", "material.poisson=0.3"]
 LATTICE = ["cases/lattice-plate/case.toml", "--set", "fracture.stop.bonds=20", "--set", "fracture.tie_tolerance=1e-6"]
 CLOSING = ["cases/closing-crack/case.toml"]
+
+# Problems of tools/check_solvers.py by dimension, law and number that end as mechanisms, on the exact path and in load steps.
+MECHANISMS = [(2, "bbpd", 12), (2, "bbpd", 25), (2, "bbpd-conical", 75), (2, "nhpd", 40), (3, "bbpd", 34)]
 
 # Long enough for a checkpoint to come and a process to be killed.
 LONG = ["cases/split-block/case.toml", "--set", "fracture.stop.bonds=100", "--set", "fracture.tie_tolerance=1e-6",
@@ -164,6 +169,14 @@ def check_killed(program):
         compare(f"gone on with, {words}", copy, reference, ITERATED)
 
 
+def check_mechanisms(program):
+    """Bodies of which broken bonds make mechanisms end as with the factor: the same end and exit code."""
+    for problem in MECHANISMS:
+        end, differences = check_solvers.compare(program, *problem, [1, 2])
+        assert end == "collapsed" and not differences, differences
+    print(f"  {len(MECHANISMS)} mechanisms end as with the factor")
+
+
 def check_errors(program):
     """What all processes meet is told once, and what they cannot solve is refused by name."""
     said = call(program, 2, ["run", "cases/no-such-case.toml"], fails=True)
@@ -187,6 +200,7 @@ def main():
     check_case(program, "lattice", LATTICE, ITERATED)
     for name in ("block", "disk", "lattice"):
         check_pieces(program, name, FIELDS)
+    check_mechanisms(program)
     check_killed(program)
     print("several processes: all is as with one")
 

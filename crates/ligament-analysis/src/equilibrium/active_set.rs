@@ -7,6 +7,7 @@
 
 use super::equations::Equations;
 use super::iterate::Iterate;
+use super::residual::Residual;
 use crate::balanced::Attempt;
 use crate::breakage::Breakage;
 use crate::contact;
@@ -26,8 +27,8 @@ const REFINED: f64 = 1e-12;
 /// changes is worn out.
 const FALLS: f64 = 0.1;
 
-/// Residual of the last iteration up to which it is an equilibrium all the same: a part that only touches another one carries nothing, and
-/// forces that are judged by a small share of the largest so far do not fall below the rounding of those.
+/// Residual up to which the last iterate, or else the nearest on the way, is an equilibrium all the same: a part that only touches another
+/// one carries nothing, and forces that are judged by a small share of the largest so far do not fall below the rounding of those.
 const LARGEST_RESIDUAL: f64 = 1e-8;
 
 /// Halvings of a step in the search for the lowest energy: as many as a double has bits.
@@ -47,6 +48,9 @@ pub(super) fn balance(
     let mut iterations = usize::from(equations.follow(state, breakage));
     let mut iterate = equations.measure(state);
     let mut before = f64::INFINITY;
+    let largest = sought.max(LARGEST_RESIDUAL);
+    // Faces of a part that only touches another one close and open by rounding, and iterates farther off can follow a solution.
+    let mut nearest: Option<(f64, Vec<f64>)> = None;
     loop {
         let residual = iterate.residual;
         if iterations > 0 {
@@ -56,7 +60,7 @@ pub(super) fn balance(
         // One more iteration takes off what the soft holds of loose parts leave.
         let falls = is_exact && residual.relative < FALLS * before;
         let tolerance = match is_over {
-            true => sought.max(LARGEST_RESIDUAL),
+            true => largest,
             false if falls => REFINED,
             false => sought,
         };
@@ -67,9 +71,16 @@ pub(super) fn balance(
             equations.remember(iterate.extents);
             return Ok(equations.settled(iterate, iterations, mechanisms));
         }
+        if is_over && let Some((_, displacement)) = nearest {
+            state.displacement = displacement;
+            let iterate = equations.measure(state);
+            equations.remember(iterate.extents);
+            return Ok(equations.settled(iterate, iterations, mechanisms));
+        }
         if is_over || !residual.relative.is_finite() {
             return Ok(equations.not_settled(&residual, iterations));
         }
+        keep_nearer(&mut nearest, &residual, largest, state);
         let correction = match equations.correction(state, &iterate, sought, &mut mechanisms) {
             Ok(correction) => correction,
             Err(unbalanced) => return Ok(Attempt::Unbalanced(unbalanced)),
@@ -82,6 +93,20 @@ pub(super) fn balance(
         }
         iterate = next;
         iterations += 1;
+    }
+}
+
+/// Keeps the residual and the displacements of an iterate that holds carry nothing of, if its residual is at most the largest that counts, and
+/// that of the nearest so far.
+fn keep_nearer(
+    nearest: &mut Option<(f64, Vec<f64>)>,
+    residual: &Residual,
+    largest: f64,
+    state: &State,
+) {
+    let least = nearest.as_ref().map_or(largest, |it| it.0);
+    if residual.relative <= least && residual.carried.is_none() {
+        *nearest = Some((residual.relative, state.displacement.clone()));
     }
 }
 

@@ -12,6 +12,7 @@ mod operator;
 mod point_blocks;
 mod resistance;
 mod space;
+mod unresisted;
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -346,13 +347,19 @@ impl TangentSolver for IterativeSolver {
             }
             all
         };
-        let force = at_dofs(&force, 0.0);
+        let given = at_dofs(&force, 0.0);
         let limit = match left {
-            Left::Share(share) => Limit::Norm(share * dot_of_chunks(&force, &force).sqrt()),
+            Left::Share(share) => Limit::Norm(share * dot_of_chunks(&given, &given).sqrt()),
             Left::AtMost(sizes) => Limit::Sizes(at_dofs(&sizes, f64::INFINITY)),
         };
         let operator = self.operator(&moment, state.bonds());
-        let found = conjugate::solve(&operator, &mut levels, force, &limit);
+        let mut found = conjugate::solve(&operator, &mut levels, given, &limit);
+        if found.is_stalled {
+            let given = at_dofs(&force, 0.0);
+            if let Some(motion) = unresisted::motion(&operator, &levels.blocks, &given) {
+                (found.motions, found.is_definite) = (motion, false);
+            }
+        }
         let solution = dofs.iter().map(|&dof| found.motions[dof as usize]);
         let solution = solution.collect();
         self.levels = Some(levels);

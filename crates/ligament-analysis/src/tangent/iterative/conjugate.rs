@@ -41,6 +41,8 @@ pub(super) struct Found {
     pub(super) decades: f64,
     /// Whether the stiffness resisted every way: by more than the rounding of the stiffnesses of the points.
     pub(super) is_definite: bool,
+    /// Whether the iteration ended at its limit, with more force left than may be.
+    pub(super) is_stalled: bool,
 }
 
 /// What is kept of the last step.
@@ -86,7 +88,7 @@ pub(super) fn solve(
         let mut work = dot_of_chunks(&conditioned, &iteration.force);
         // A coarse stiffness that is out of date need not be definite with what is left of the body.
         if work <= 0.0 {
-            conditioned = iteration.conditioned_by_blocks();
+            conditioned = iteration.levels.blocks.conditioned(&iteration.force);
             work = dot_of_chunks(&conditioned, &iteration.force);
             last = None;
         }
@@ -114,11 +116,13 @@ pub(super) fn solve(
         iterations += 1;
     }
     let left = dot_of_chunks(&iteration.force, &iteration.force);
+    let is_stalled = iterations == ITERATION_LIMIT && !iteration.is_within(limit);
     Found {
         motions: iteration.motions,
         iterations,
         decades: 0.5 * (norm / left).log10(),
         is_definite,
+        is_stalled,
     }
 }
 
@@ -160,23 +164,9 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    /// M^-1 r.
-    fn conditioned_by_blocks(&self) -> Vec<f64> {
-        let n_components = self.operator.n_components();
-        let mut motions = vec![0.0; self.force.len()];
-        let (blocks, chunk) = (&self.levels.blocks, self.chunk);
-        (motions.par_chunks_mut(chunk))
-            .zip(self.force.par_chunks(chunk))
-            .enumerate()
-            .for_each(|(place, (motions, force))| {
-                blocks.apply(place * chunk / n_components, force, motions);
-            });
-        motions
-    }
-
     /// M^-1 r + Q (r - K M^-1 r).
     fn conditioned(&mut self) -> Vec<f64> {
-        let mut motions = self.conditioned_by_blocks();
+        let mut motions = self.levels.blocks.conditioned(&self.force);
         let coarse = &mut self.levels.coarse;
         let amounts = coarse.amounts_after(self.operator, &self.force, &motions);
         self.add_coarse(&amounts, &mut motions);

@@ -4,6 +4,7 @@ use ligament_linalg::{FactorError, VANISHING_PIVOT};
 use rayon::prelude::*;
 
 use super::operator::Operator;
+use crate::vectors::CHUNK;
 
 /// Points that make a task worth while.
 const TASK: usize = 512;
@@ -70,8 +71,22 @@ impl PointBlocks {
         &self.diagonal
     }
 
+    /// The product M^-1 f of the inverses with forces f, both of shape (n_degrees_of_freedom).
+    pub(super) fn conditioned(&self, force: &[f64]) -> Vec<f64> {
+        let mut motions = vec![0.0; force.len()];
+        // Points of a chunk times components.
+        let chunk = CHUNK / self.n_components * self.n_components;
+        (motions.par_chunks_mut(chunk))
+            .zip(force.par_chunks(chunk))
+            .enumerate()
+            .for_each(|(place, (motions, force))| {
+                self.apply(place * chunk / self.n_components, force, motions);
+            });
+        motions
+    }
+
     /// The product of the inverses with the forces of a range of points from a first one on, shape (n, components) both.
-    pub(super) fn apply(&self, first: usize, forces: &[f64], motions: &mut [f64]) {
+    fn apply(&self, first: usize, forces: &[f64], motions: &mut [f64]) {
         match self.n_components {
             2 => self.apply_to::<2>(first, forces, motions),
             3 => self.apply_to::<3>(first, forces, motions),
