@@ -256,9 +256,9 @@ fn turned_alike(mesh: &Mesh, departing: impl Fn(Setup) -> Setup) {
     }
 }
 
-/// Energies of uniform strains over the material's where a mesh is refined about a hole, in the mean over the points: 4 to 5 % too large under
-/// factors that depart from one number for the body, and 1 % under such as make a dilation right at all points. What is left of the
-/// equations is no more, and the body as stiff as its material.
+/// Energies of uniform strains over the material's where a mesh is refined about a hole, in the mean over the points: 4.2 to 5.2 % too large under
+/// factors that depart from one number for the body, and 0.6 to 1.1 % under such as make a dilation right at all points; less is left of
+/// the equations, 2.9e-4 for 4.1e-4.
 #[test]
 fn families_leave_a_graded_mesh_its_energy() {
     let setup = || {
@@ -276,7 +276,7 @@ fn families_leave_a_graded_mesh_its_energy() {
         assert!(of_body > 1.035, "{of_body}");
         assert!((of_families - 1.0).abs() < 0.015, "{of_families}");
     }
-    assert!(left(&of_families) < 1.2 * left(&of_body));
+    assert!(left(&of_families) < left(&of_body));
 }
 
 /// With hardly more bonds than equations they cannot be met, and the model says so.

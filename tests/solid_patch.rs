@@ -96,8 +96,8 @@ fn bodies_of_all_cells_have_the_material_s_constants() {
 }
 
 /// Energies of uniform strains over the material's in a block that is refined fourfold about its middle, in the mean over the points: a third
-/// too large under factors that depart from one number for the body, and 9 % under such as make a dilation right at all points. A crack in
-/// the middle releases as much more.
+/// too large under factors that depart from one number for the body, and 7 to 9 % under such as make a dilation right at all points; a tenth is
+/// asked for.
 #[test]
 fn families_leave_a_graded_block_its_energy() {
     let energies = |reference: &str| -> Vec<f64> {

@@ -5,8 +5,7 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::Parser;
-
-use ligament_run::end::StoppedUnbegun;
+use ligament_run::end::StoppedBeforeSolution;
 
 use crate::stop_signal::report_large_files;
 use crate::{Cli, ranks, terminal};
@@ -55,7 +54,7 @@ fn answer(arguments: &[OsString], program: &[OsString]) -> ExitCode {
 
 /// The exit code of an error: a run that a signal stopped ends alike whether or not it had begun.
 fn code_of(error: &anyhow::Error) -> ExitCode {
-    let stopped = error.downcast_ref::<StoppedUnbegun>();
+    let stopped = error.downcast_ref::<StoppedBeforeSolution>();
     stopped.map_or(ExitCode::FAILURE, |it| it.exit_code().into())
 }
 

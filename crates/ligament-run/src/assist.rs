@@ -15,7 +15,7 @@ use ligament_output::folder::RESOLVED_CASE;
 use ligament_output::results::PieceWriter;
 
 use crate::checkpoints::IsStopped;
-use crate::end::StoppedUnbegun;
+use crate::end::StoppedBeforeSolution;
 use crate::loading::write_rule;
 use crate::model::{build_model_in_space_on, build_model_on};
 use crate::progress::{Progress, ProgressMode};
@@ -123,7 +123,7 @@ where
     let problem = loading.problem(&model.system, &model.criteria);
     let solution: Option<Vec<u8>> = match begin {
         Begin::Unloaded => {
-            ensure!(!any_stopped(Some(ranks), is_stopped), StoppedUnbegun);
+            ensure!(!any_stopped(Some(ranks), is_stopped), StoppedBeforeSolution);
             None
         }
         Begin::AsTold => {

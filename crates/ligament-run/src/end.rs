@@ -61,9 +61,9 @@ impl End {
 /// A signal stopped a run before its first solution, while nothing was written that it could go on with.
 #[derive(Debug, Clone, Copy, thiserror::Error)]
 #[error("stopped before the first solution: nothing was written")]
-pub struct StoppedUnbegun;
+pub struct StoppedBeforeSolution;
 
-impl StoppedUnbegun {
+impl StoppedBeforeSolution {
     /// The exit code of the program: that of every run that a signal stops.
     pub fn exit_code(self) -> u8 {
         End::Stopped.exit_code()

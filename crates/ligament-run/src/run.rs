@@ -9,7 +9,7 @@ use ligament_analysis::ranks::Together;
 use ligament_output::folder::ResultFolder;
 
 use crate::destination::{self, make_results};
-use crate::end::{End, StoppedUnbegun};
+use crate::end::{End, StoppedBeforeSolution};
 use crate::inputs::{Contents, unread};
 use crate::loading::LoadedBody;
 use crate::memory;
@@ -164,7 +164,7 @@ where
         memory::foresee_equations(case, &*model.system, &problem)?;
     }
     let is_stopped = || any_stopped(request.ranks, request.is_stopped);
-    anyhow::ensure!(!is_stopped(), StoppedUnbegun);
+    anyhow::ensure!(!is_stopped(), StoppedBeforeSolution);
     // Nothing is written, and nothing replaced, before all input was found good.
     let create = || ResultFolder::create(request.out, request.force);
     make_results(case, create, |folder| {

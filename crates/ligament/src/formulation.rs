@@ -158,15 +158,17 @@ impl<'a> Formulation<'a> {
                     forces: cell_forces(setup, cloud, self.material_of_cell),
                     turn: setup.law.element() == ElementKind::Beam,
                 };
-                let of_one_material = setup.of_one_material().map(|setup| {
-                    let formulation = Formulation {
-                        setup: &setup,
-                        ..*self
-                    };
-                    formulation.stiffness(bonds, &alpha)
-                });
-                let axial = &of_one_material.as_ref().unwrap_or(stiffness).axial;
-                let nearest_to = patch::reference(settings.reference, bonds, cloud, axial, &alpha);
+                let axial = || match setup.of_one_material() {
+                    None => stiffness.axial.clone(),
+                    Some(setup) => {
+                        let of_one_material = Formulation {
+                            setup: &setup,
+                            ..*self
+                        };
+                        of_one_material.stiffness(bonds, &alpha).axial
+                    }
+                };
+                let nearest_to = patch::reference(settings.reference, bonds, cloud, &alpha, axial);
                 patch::correct(bonds, &points, stiffness, (alpha, &nearest_to), &settings)
             }
             Surface::Volume => {

@@ -159,16 +159,18 @@ impl<'a> SolidFormulation<'a> {
                 let forces = cell_forces(self.setup, self.cloud, self.material_of_cell);
                 let points = (self.cloud, &forces);
                 let element = element(&self.setup.law);
-                let of_one_material = self.setup.of_one_material().map(|setup| {
-                    let formulation = SolidFormulation {
-                        setup: &setup,
-                        constants: constants(&setup),
-                        ..*self
-                    };
-                    formulation.stiffness(bonds, &alpha)
-                });
-                let axial = &of_one_material.as_ref().unwrap_or(stiffness).axial;
-                let nearest_to = reference(settings.reference, bonds, self.cloud, axial, &alpha);
+                let axial = || match self.setup.of_one_material() {
+                    None => stiffness.axial.clone(),
+                    Some(setup) => {
+                        let of_one_material = SolidFormulation {
+                            setup: &setup,
+                            constants: constants(&setup),
+                            ..*self
+                        };
+                        of_one_material.stiffness(bonds, &alpha).axial
+                    }
+                };
+                let nearest_to = reference(settings.reference, bonds, self.cloud, &alpha, axial);
                 let factors = (alpha, nearest_to.as_slice());
                 patch::correct(bonds, points, element, stiffness, factors, &settings)
             }

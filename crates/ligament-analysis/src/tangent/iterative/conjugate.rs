@@ -13,7 +13,7 @@ use crate::tangent::UNRESISTED;
 use crate::vectors::{CHUNK, dot_of_chunks, weighted_square};
 
 /// Iterations after which what there is has to do; those who asked find out by the residual.
-const ITERATION_LIMIT: usize = 2000;
+pub(super) const ITERATION_LIMIT: usize = 2000;
 
 /// Share of the norm of the force at which nothing but rounding is left.
 const ROUNDING: f64 = 1e-14;

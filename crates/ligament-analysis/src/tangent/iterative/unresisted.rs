@@ -4,13 +4,11 @@
 //! the coarse stiffness, nearly singular, steers by its rounding. Conjugate residuals bring the least force out of balance that there
 //! is, and of forces r that no motion balances, M^-1 r is the motion.
 
+use super::conjugate::ITERATION_LIMIT;
 use super::operator::Operator;
 use super::point_blocks::PointBlocks;
 use crate::tangent::UNRESISTED;
 use crate::vectors::{dot_of_chunks, weighted_square};
-
-/// Iterations after which no motion is found: as many as conjugate gradients had.
-const ITERATION_LIMIT: usize = 2000;
 
 /// Share of the motion M^-1 f of the forces at which what is left of it is rounding: the body resists all of them.
 const ROUNDING: f64 = 1e-14;

@@ -1,0 +1,64 @@
+//! Runs that are killed again and again.
+
+use std::fs;
+use std::time::Instant;
+
+use super::bench::{Bench, EVENT, SOFTENING, STEPPED, assert_same, started, succeeded};
+
+/// Kills a run, and what goes on with it, again and again at moments of a fixed sequence; what is finished at last is as if nothing
+/// had happened. Gives the number of kills.
+fn kill_and_resume(fracture: &str, n_kills: usize, seed: u64) -> usize {
+    let bench = Bench::new(fracture, "1e-6");
+    let start = Instant::now();
+    succeeded(bench.run("whole", &["--quiet"]));
+    let whole = start.elapsed();
+    let mut random = seed;
+    let mut killed = 0;
+    while killed < n_kills {
+        let mut command = bench.run("killed", &["--quiet", "--force"]);
+        let _ = fs::remove_dir_all(bench.out("killed"));
+        loop {
+            random = random
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            let share = (random >> 33) as f64 / (1u64 << 31) as f64;
+            let mut child = started(command);
+            std::thread::sleep(whole.mul_f64(0.02 + 0.7 * share));
+            let ended = child.try_wait().unwrap();
+            child.kill().unwrap();
+            let status = child.wait().unwrap();
+            if ended.is_some() {
+                assert_eq!(status.code(), Some(0), "after {killed} kills");
+                break;
+            }
+            killed += 1;
+            // Killed before its first file, it starts anew.
+            let has_begun = bench.out("killed").join("case.resolved.toml").is_file();
+            command = if has_begun {
+                bench.resume("killed", &["--quiet"])
+            } else {
+                bench.run("killed", &["--quiet"])
+            };
+        }
+        assert_same(&bench.out("whole"), &bench.out("killed"));
+    }
+    killed
+}
+
+#[test]
+fn a_killed_run_goes_on() {
+    for (fracture, seed) in [(STEPPED, 1), (EVENT, 2), (SOFTENING, 3)] {
+        let killed = kill_and_resume(fracture, 4, seed);
+        println!("{killed} kills survived");
+    }
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn hundreds_of_killed_runs_go_on() {
+    let mut total = 0;
+    for (fracture, seed) in [(STEPPED, 11), (EVENT, 12), (SOFTENING, 13)] {
+        total += kill_and_resume(fracture, 80, seed);
+        println!("{total} kills survived so far");
+    }
+}
