@@ -3,8 +3,8 @@
 /// Relative tolerance of the comparison of a length with another one, as that of a bond with a horizon.
 ///
 /// On a regular lattice the neighbour at exactly lambda times the spacing belongs to the family; rounding must not
-/// decide about it. That of the arithmetic is 1e-16; where coordinates are known to fewer digits, as those of single precision are,
-/// [`PointCloud::tolerance`](crate::PointCloud::tolerance) is larger by what they leave open.
+/// decide about it. That of the arithmetic is 1e-16. Coordinates that were given are known to single precision at best, and
+/// [`PointCloud::tolerance`](crate::PointCloud::tolerance) is larger by what that leaves open.
 pub const INCLUSION_TOLERANCE: f64 = 1e-9;
 
 /// The horizon radius of each point.

@@ -27,7 +27,7 @@ pub struct Correction {
     /// Sweeps of the domain correction at most.
     #[schemars(range(min = 1), extend("default" = Iteration::default().max_sweeps))]
     pub max_sweeps: Option<u32>,
-    /// The factors that those of the patch correction are the nearest to; without it `body`.
+    /// The factors that those of the patch correction are the nearest to; without it `families`.
     pub reference: Option<Word<Reference>>,
     /// Smallest factor of the patch correction over the uncorrected one.
     #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1, "default" = Settings::DEFAULT.lowest))]

@@ -12,20 +12,18 @@ const ERRORS_OF_A_LENGTH: f64 = 8.0;
 /// Share of the nearest distance beyond which uncertain coordinates do not make more lengths equal: such points are no regular grid.
 const LARGEST_UNCERTAINTY: f64 = 1e-3;
 
-/// Error that coordinates of the case may have, m, as far as they tell it themselves.
+/// Error that coordinates of the case may have, m.
 ///
-/// Numbers of at most nine digits, with which single precision is written, are known to half of their last digit, or to single
-/// precision (2^-24) if that is less; and so are numbers that all are ones of single precision. The largest coordinate counts: files
-/// hold as many digits of it as of the others. Zero for numbers with more digits.
+/// Coordinates have often been numbers of single precision on their way, and then were moved, turned or written in other units, so that their
+/// digits no longer tell it: none are taken to be known better than 2^-24 of the largest. Numbers of at most nine digits, with which single
+/// precision is written, are known to half of their last digit if that is more. The largest coordinate counts: files hold as many digits of it
+/// as of the others.
 pub(crate) fn precision_of_coordinates<const D: usize>(positions: &[[f64; D]]) -> f64 {
     let all = |condition: &dyn Fn(f64) -> bool| positions.iter().flatten().all(|&x| condition(x));
     let largest = (positions.iter().flatten()).fold(0.0, |largest: f64, x| largest.max(x.abs()));
     let of_single = SINGLE_PRECISION * largest;
-    if all(&|x| f64::from(x as f32) == x) {
-        return of_single;
-    }
     if largest == 0.0 || !all(&|x| has_digits(x, 9)) {
-        return 0.0;
+        return of_single;
     }
     let digits = [7, 8].into_iter().find(|&n| all(&|x| has_digits(x, n)));
     let last = largest.log10().floor() as i32 + 1 - digits.unwrap_or(9) as i32;
@@ -53,7 +51,8 @@ mod tests {
     #[test]
     fn coordinates_tell_their_precision() {
         let full = [[1e4 / 3.0, 0.2], [0.1, 1.0 / 3.0]];
-        assert_eq!(precision_of_coordinates(&full), 0.0);
+        let of_single = 1e4 / 3.0 / 16_777_216.0;
+        assert_eq!(precision_of_coordinates(&full), of_single);
         let seven = [[3333.333, 0.2], [0.1, 0.3333333]];
         assert!((precision_of_coordinates(&seven) / 0.5e-3 - 1.0).abs() < 1e-12);
         let single = full.map(|p| p.map(|x| f64::from(x as f32)));

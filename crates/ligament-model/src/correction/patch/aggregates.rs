@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::equations::{Equations, Multipliers};
 use super::pairs::BLOCK;
-use crate::cloud::PointCloud;
+use crate::cloud::{PointCloud, distance};
 use crate::correction::seats::Seats;
 
 /// Aggregates at most: the dense matrix of their multipliers is to cost less than a product.
@@ -20,7 +20,7 @@ const MOST: usize = 64;
 /// Points of an aggregate at least: less is hardly more than what the block of a point sees.
 const FEWEST_POINTS: usize = 32;
 
-/// Below this share of a square of a distance another one is the shorter of both, whatever rounding did.
+/// Below this share of a distance or a volume another one is the smaller of both, whatever rounding did.
 const TIE: f64 = 1.0 - 1e-9;
 
 /// Regularisation of multipliers that are constant over aggregates over that of others: it holds those that are the same everywhere, which
@@ -29,7 +29,8 @@ const SHARE: f64 = 1e-3;
 
 /// Points that are nearer to one of some points far from each other than to the others.
 ///
-/// Distances and the numbers of the points in the file decide, not the axes: a turned body has the same aggregates.
+/// Distances decide, and volumes of the points where distances are equal: a body that is turned, or whose nodes have other numbers, has the
+/// same aggregates. The numbers in the file count only where a body is as symmetric as its mesh.
 pub(crate) struct Aggregates<'a> {
     seats: &'a Seats<'a>,
     /// Place of the first number of the aggregate of each rank.
@@ -49,25 +50,15 @@ impl<'a> Aggregates<'a> {
         let count = (cloud.len() / FEWEST_POINTS).clamp(1, MOST);
         let mut distance = vec![f64::INFINITY; cloud.len()];
         let mut aggregate = vec![0; cloud.len()];
-        let first = cloud.numbering.point(0) as usize;
-        let mut seed = first;
+        let mut seed = farthest(cloud, &distances_from(centroid(cloud), cloud));
         for number in 0..count {
-            let centre = cloud.positions[seed];
-            seed = first;
-            for in_file in 0..cloud.len() as u32 {
-                let point = cloud.numbering.point(in_file) as usize;
-                let square: f64 = cloud.positions[point]
-                    .iter()
-                    .zip(centre)
-                    .map(|(a, b)| (a - b).powi(2))
-                    .sum();
-                if square < TIE * distance[point] {
-                    (distance[point], aggregate[point]) = (square, number);
-                }
-                if TIE * distance[point] > distance[seed] {
-                    seed = point;
+            let from_seed = distances_from(cloud.positions[seed], cloud);
+            for (point, from_seed) in from_seed.into_iter().enumerate() {
+                if from_seed < TIE * distance[point] {
+                    (distance[point], aggregate[point]) = (from_seed, number);
                 }
             }
+            seed = farthest(cloud, &distance);
         }
         let first = |&point: &u32| (width * aggregate[point as usize]) as u32;
         Self {
@@ -112,6 +103,35 @@ impl<'a> Aggregates<'a> {
         self.seats.sum(&mut all);
         all
     }
+}
+
+/// The mean of the positions by volume, m.
+fn centroid<const D: usize>(cloud: &PointCloud<D>) -> [f64; D] {
+    let total: f64 = cloud.volumes.iter().sum();
+    std::array::from_fn(|axis| {
+        let positions = cloud.positions.iter().zip(&cloud.volumes);
+        let moments = positions.map(|(position, volume)| volume * position[axis]);
+        moments.sum::<f64>() / total
+    })
+}
+
+/// Distances of all points from a place, m.
+fn distances_from<const D: usize>(place: [f64; D], cloud: &PointCloud<D>) -> Vec<f64> {
+    let from_place = |&position: &[f64; D]| distance(position, place);
+    cloud.positions.iter().map(from_place).collect()
+}
+
+/// The point with the largest of some distances (n_points); of several that are equally far the one of the largest volume, and of those the
+/// first in the file.
+fn farthest<const D: usize>(cloud: &PointCloud<D>, distances: &[f64]) -> usize {
+    let largest = distances.iter().copied().fold(0.0, f64::max);
+    let in_file = (0..cloud.len() as u32).map(|number| cloud.numbering.point(number) as usize);
+    let mut farthest = in_file.filter(|&point| distances[point] >= TIE * largest);
+    let first = farthest.next().unwrap_or(0);
+    farthest.fold(first, |best, point| {
+        let is_larger = TIE * cloud.volumes[point] > cloud.volumes[best];
+        if is_larger { point } else { best }
+    })
 }
 
 /// What holds the multipliers of each point at a centre: r/d^2 times their distance from it, less what an aggregate has in common.

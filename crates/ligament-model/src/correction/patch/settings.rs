@@ -23,7 +23,7 @@ impl Settings {
         lowest: 0.02,
         highest: 20.0,
         moment_weight: 0.04,
-        reference: Reference::Body,
+        reference: Reference::Families,
         regularisation: 1e-5,
     };
 }
