@@ -1,5 +1,6 @@
 //! What coordinates are worth: the lengths that count as equal.
 
+use super::distance;
 use crate::horizon::INCLUSION_TOLERANCE;
 
 /// Half of the last bit of the significand in single precision, over the number.
@@ -15,15 +16,34 @@ const LARGEST_UNCERTAINTY: f64 = 1e-3;
 /// Error that coordinates of the case may have, m.
 ///
 /// Coordinates have often been numbers of single precision on their way, and then were moved, turned or written in other units, so that their
-/// digits no longer tell it: none are taken to be known better than 2^-24 of the largest. Numbers of at most nine digits, with which single
-/// precision is written, are known to half of their last digit if that is more. The largest coordinate counts: files hold as many digits of it
-/// as of the others.
+/// digits no longer tell it: none are taken to be known better than 2^-24 of the size of the body, wherever it lies. They may be known less by
+/// their digits.
 pub(crate) fn precision_of_coordinates<const D: usize>(positions: &[[f64; D]]) -> f64 {
+    (SINGLE_PRECISION * size(positions)).max(precision_of_digits(positions))
+}
+
+/// Twice the largest distance of a position from their mean, m: a turned or mirrored body has the same size.
+fn size<const D: usize>(positions: &[[f64; D]]) -> f64 {
+    let sum = |axis: usize| positions.iter().map(|position| position[axis]).sum::<f64>();
+    let mean: [f64; D] = std::array::from_fn(|axis| sum(axis) / positions.len() as f64);
+    let distances = positions.iter().map(|&position| distance(position, mean));
+    2.0 * distances.fold(0.0, f64::max)
+}
+
+/// Error that coordinates may have, m, as far as they tell it themselves.
+///
+/// Numbers of at most nine digits, with which single precision is written, are known to half of their last digit, or to single
+/// precision (2^-24) if that is less; and so are numbers that all are ones of single precision. The largest coordinate counts: files
+/// hold as many digits of it as of the others. Zero for numbers with more digits.
+fn precision_of_digits<const D: usize>(positions: &[[f64; D]]) -> f64 {
     let all = |condition: &dyn Fn(f64) -> bool| positions.iter().flatten().all(|&x| condition(x));
     let largest = (positions.iter().flatten()).fold(0.0, |largest: f64, x| largest.max(x.abs()));
     let of_single = SINGLE_PRECISION * largest;
-    if largest == 0.0 || !all(&|x| has_digits(x, 9)) {
+    if all(&|x| f64::from(x as f32) == x) {
         return of_single;
+    }
+    if largest == 0.0 || !all(&|x| has_digits(x, 9)) {
+        return 0.0;
     }
     let digits = [7, 8].into_iter().find(|&n| all(&|x| has_digits(x, n)));
     let last = largest.log10().floor() as i32 + 1 - digits.unwrap_or(9) as i32;
@@ -51,18 +71,27 @@ mod tests {
     #[test]
     fn coordinates_tell_their_precision() {
         let full = [[1e4 / 3.0, 0.2], [0.1, 1.0 / 3.0]];
-        let of_single = 1e4 / 3.0 / 16_777_216.0;
-        assert_eq!(precision_of_coordinates(&full), of_single);
+        assert_eq!(precision_of_digits(&full), 0.0);
         let seven = [[3333.333, 0.2], [0.1, 0.3333333]];
-        assert!((precision_of_coordinates(&seven) / 0.5e-3 - 1.0).abs() < 1e-12);
+        assert!((precision_of_digits(&seven) / 0.5e-3 - 1.0).abs() < 1e-12);
         let single = full.map(|p| p.map(|x| f64::from(x as f32)));
         let expected = f64::from((1e4 / 3.0) as f32) / 16_777_216.0;
-        assert_eq!(precision_of_coordinates(&single), expected);
+        assert_eq!(precision_of_digits(&single), expected);
         // In millimetres, and written with the nine digits that tell single precision.
         let scaled = seven.map(|p| p.map(|x| 1e-3 * x));
-        assert!((precision_of_coordinates(&scaled) / 0.5e-6 - 1.0).abs() < 1e-12);
+        assert!((precision_of_digits(&scaled) / 0.5e-6 - 1.0).abs() < 1e-12);
         let written = [[3333.33325, 0.200000003], [0.1, 0.333333343]];
-        assert!((precision_of_coordinates(&written) / expected - 1.0).abs() < 1e-7);
+        assert!((precision_of_digits(&written) / expected - 1.0).abs() < 1e-7);
+        assert_eq!(precision_of_digits::<2>(&[]), 0.0);
+    }
+
+    /// A square with sides of three, wherever it lies: its diagonal is its size.
+    #[test]
+    fn a_body_is_known_to_single_precision_of_its_size() {
+        let thirds =
+            [[0.0, 0.0], [3.0, 0.0], [3.0, 3.0], [0.0, 3.0]].map(|p| p.map(|x| x + 1e4 / 3.0));
+        let expected = 18.0_f64.sqrt() / 16_777_216.0;
+        assert!((precision_of_coordinates(&thirds) / expected - 1.0).abs() < 1e-9);
         assert_eq!(precision_of_coordinates::<2>(&[]), 0.0);
     }
 }
