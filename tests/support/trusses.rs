@@ -119,7 +119,7 @@ impl Truss {
                     rotational: of_bonds(&rigidity),
                 },
                 kinematics: Kinematics::Beam(Pairs::default()),
-                series: Vec::new(),
+                beyond_correction: Vec::new(),
                 faces: Faces::default(),
                 room: Room::default(),
                 cloud,

@@ -31,8 +31,9 @@ pub struct BondSystem {
     pub rigidities: Rigidities,
     /// Kinematics of the bonds.
     pub kinematics: Kinematics,
-    /// Factors of the rigidities of bonds across an interface ([`BondStiffness::in_series`]), shape (n_bonds); empty where there is none.
-    pub series: Vec<f64>,
+    /// The part of the rigidities of each bond that corrections know nothing of ([`BondStiffness`] at interfaces), shape (n_bonds); empty
+    /// where there is none.
+    pub beyond_correction: Vec<Remaining>,
     /// Faces of the cracks.
     pub faces: Faces,
     /// Memory of deformations.
@@ -125,13 +126,14 @@ impl BondSystem {
     ) -> Self {
         // The arrays of densities become those of rigidities: at this point of a run memory is scarce.
         let mut weight = length_factor;
+        let (stiffness, beyond_correction) = stiffness.joined::<2>(element == ElementKind::Beam);
         let BondStiffness {
             mut axial,
             mut shear,
             mut rotational,
             strain,
-            series,
-        } = stiffness.in_series();
+            ..
+        } = stiffness;
         (
             (&bonds.ends, &bonds.length, domain_factor).into_par_iter(),
             (&mut weight, &mut axial, &mut shear, &mut rotational).into_par_iter(),
@@ -155,7 +157,7 @@ impl BondSystem {
             rigidities,
             weight,
             kinematics,
-            series,
+            beyond_correction,
             bonds,
             cloud,
             faces: Faces::default(),

@@ -100,35 +100,26 @@ fn excess_across(system: &BondSystem, strain: [f64; 3]) -> Vec<f64> {
     // An expansion without a motion is the strain with the opposite sign.
     let strains = vec![strain.map(|it| -it); system.cloud.len()];
     let expansion = ThermalStrain::proportional(&strains, 1.0);
-    excess_in(system, &system.series, |intact, at_rest| {
+    excess_in(system, &system.beyond_correction, |intact, at_rest| {
         system.deformations(intact, &at_rest, expansion)
     })
 }
 
-/// What bonds exert on their ends more than without the factors of bonds in series (n_bonds; none without an interface), shape
-/// (n_degrees_of_freedom). `deformed` makes deformations of the intact bonds and the motions of a body at rest.
+/// What bonds exert on their ends by a part of their rigidities (n_bonds; none without an interface), shape (n_degrees_of_freedom).
+/// `deformed` makes deformations of the intact bonds and the motions of a body at rest.
 pub(crate) fn excess_in(
     system: &dyn Bonds,
-    series: &[f64],
+    part: &[Remaining],
     deformed: impl FnOnce(&[bool], Vec<f64>) -> Deformations,
 ) -> Vec<f64> {
     let at_rest = vec![0.0; system.layout().n_degrees_of_freedom()];
-    if series.is_empty() {
+    if part.is_empty() {
         return at_rest;
     }
-    let excess = |factor: &f64| {
-        let part = 1.0 - 1.0 / factor;
-        Remaining {
-            axial: part,
-            shear: part,
-            rotational: part,
-        }
-    };
-    let remaining: Vec<_> = series.iter().map(excess).collect();
-    let intact = vec![true; series.len()];
+    let intact = vec![true; part.len()];
     let left = BondsLeft {
         intact: &intact,
-        remaining: &remaining,
+        remaining: part,
     };
     let deformations = deformed(&intact, at_rest);
     let sweep = system.forces(left, deformations, ThermalStrain::NONE);

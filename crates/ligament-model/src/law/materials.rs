@@ -4,6 +4,8 @@
 //! it. Two halves in series show whether the rule is right: with the mean of both ends' materials, as homogeneous laws suggest, a soft half
 //! beside a stiff one is held by bonds that are half as stiff as the stiff ones, whatever its own stiffness.
 
+use rayon::prelude::*;
+
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 
@@ -91,9 +93,41 @@ pub(super) fn softest(shares: &[f64], [first, second]: [&[f64]; 2]) -> (usize, f
     (softest, 1.0 / compliance)
 }
 
+/// How far the ends of bonds are held by stiffer materials, beta, the mean of both ends of
+///
+/// 1 - k_t/(sum of phi_i k_ti), at least 0,
+///
+/// with the shares phi_i of the materials of the end, from the shear densities of the bonds (n_bonds) and those `of_material` that a bond
+/// would have in one; shape (n_bonds), empty in a body of one material.
+///
+/// Where materials are sheared in series, each turns in proportion to 1/k_ti, and the point between them by their mean with the weights
+/// phi_i k_ti: beta is what it turns less than the material of the bond, over how much that turns.
+pub(super) fn held<const D: usize>(
+    bonds: &BondSet<D>,
+    cloud: &PointCloud<D>,
+    shear: &[f64],
+    of_material: impl Fn(usize, usize) -> f64 + Sync,
+) -> Vec<f64> {
+    if cloud.n_materials == 1 {
+        return Vec::new();
+    }
+    let of_bond = |bond: usize| {
+        let materials = 0..cloud.n_materials;
+        let of_materials: Vec<f64> = materials.map(|it| of_material(it, bond).abs()).collect();
+        let own = shear[bond].abs();
+        let [first, second] = bonds.ends[bond].map(|end| {
+            let mean = cloud.mean_property(end as usize, &of_materials);
+            if mean > own { 1.0 - own / mean } else { 0.0 }
+        });
+        0.5 * (first + second)
+    };
+    (0..bonds.len()).into_par_iter().map(of_bond).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::horizon::Horizons;
 
     /// Points of a soft material, on the interface with a stiff one, and of the stiff one.
     fn cloud() -> PointCloud {
@@ -116,5 +150,20 @@ mod tests {
         assert_eq!(shares([1, 1], [1.0, 9.0]), [0.25, 0.75]);
         assert_eq!(shares([0, 2], [1.0, 9.0]), [1.0, 0.0]);
         assert_eq!(shares([0, 2], [9.0, 1.0]), [0.0, 1.0]);
+    }
+
+    /// A bond in the soft material is held at an end on the interface and at one behind it, by what they turn less than the soft one: with
+    /// shares 1/4 and 3/4 and the densities 1 and 9 the mean is 7. Nothing holds a bond in the stiff material.
+    #[test]
+    fn ends_in_a_stiffer_material_hold_a_bond() {
+        let cloud = cloud();
+        let bonds = BondSet::<2>::search(&cloud, &Horizons::unified(2.5, 3));
+        assert_eq!(bonds.ends, [[0, 1], [0, 2], [1, 2]]);
+        let of_material = |material: usize, _| [1.0, 9.0][material];
+        let found = held(&bonds, &cloud, &[1.0, 1.0, 9.0], of_material);
+        assert_eq!(
+            found,
+            [0.5 * (1.0 - 1.0 / 7.0), 0.5 * (1.0 - 1.0 / 9.0), 0.0]
+        );
     }
 }

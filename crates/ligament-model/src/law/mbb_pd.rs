@@ -68,6 +68,7 @@ fn of_matrices(bonds: &BondSet, matrices: &[(Matrix3<f64>, f64)]) -> BondStiffne
         rotational: vec![0.0; bonds.len()],
         strain: matrices.iter().map(strain).collect(),
         series: Vec::new(),
+        held: Vec::new(),
     }
 }
 

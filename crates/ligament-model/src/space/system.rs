@@ -8,7 +8,7 @@ use super::element::{SolidElement, SolidKinematics};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::deformation::Room;
-use crate::element::Rigidities;
+use crate::element::{Remaining, Rigidities};
 use crate::law::BondStiffness;
 use crate::system::BondsLeft;
 
@@ -25,8 +25,9 @@ pub struct SolidSystem {
     pub rigidities: Rigidities,
     /// Kinematics of the bonds.
     pub element: SolidElement,
-    /// Factors of the rigidities of bonds across an interface ([`BondStiffness::in_series`]), shape (n_bonds); empty where there is none.
-    pub series: Vec<f64>,
+    /// The part of the rigidities of each bond that corrections know nothing of ([`BondStiffness`] at interfaces), shape (n_bonds); empty
+    /// where there is none.
+    pub beyond_correction: Vec<Remaining>,
     /// Memory of deformations.
     pub room: Room,
 }
@@ -43,13 +44,13 @@ impl SolidSystem {
     ) -> Self {
         // The arrays of densities become those of rigidities: at this point of a run memory is scarce.
         let mut weight = length_factor;
+        let (stiffness, beyond_correction) = stiffness.joined::<3>(element == SolidElement::Beam);
         let BondStiffness {
             mut axial,
             mut shear,
             mut rotational,
-            series,
             ..
-        } = stiffness.in_series();
+        } = stiffness;
         (
             (&bonds.ends, &bonds.length, domain_factor).into_par_iter(),
             (&mut weight, &mut axial, &mut shear, &mut rotational).into_par_iter(),
@@ -73,7 +74,7 @@ impl SolidSystem {
             bonds,
             weight,
             element,
-            series,
+            beyond_correction,
             room: Room::default(),
         }
     }

@@ -125,7 +125,7 @@ pub fn loads(system: &SolidSystem, forces: &SolidCellForces) -> [Vec<f64>; 6] {
 fn excess_across(system: &SolidSystem, [xx, yy, zz, xy, xz, yz]: [f64; 6]) -> Vec<f64> {
     let rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
     let layout = system.layout();
-    excess_in(system, &system.series, |intact, mut motions| {
+    excess_in(system, &system.beyond_correction, |intact, mut motions| {
         // The motion of the strain itself about the middle of the body.
         for (point, position) in (0..).zip(&system.cloud.positions) {
             for (value, row) in motions[layout.range(point)].iter_mut().zip(rows) {
