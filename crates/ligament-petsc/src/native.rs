@@ -196,12 +196,7 @@ impl Handle {
         let _alone = alone();
         // SAFETY: the matrix lives as long as its handle; as many motions as are named, each at all own degrees of freedom.
         unsafe {
-            ligament_matrix_precondition(
-                self.matrix,
-                motions.as_ptr(),
-                n as i64,
-                n_coupled as i64,
-            );
+            ligament_matrix_precondition(self.matrix, motions.as_ptr(), n as i64, n_coupled as i64);
         }
     }
 

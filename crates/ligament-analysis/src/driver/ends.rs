@@ -83,7 +83,11 @@ impl Path<'_> {
         let factors = course.factors(self.state.load_factor);
         let acts = factors.iter().any(|factor| *factor != 0.0);
         let (at_rest, met) = (self.course.largest_force, self.equilibrium.largest_force());
-        let largest = if at_rest <= NO_LOAD * met { met } else { at_rest };
+        let largest = if at_rest <= NO_LOAD * met {
+            met
+        } else {
+            at_rest
+        };
         acts && balanced.internal.force_scale <= NO_LOAD * largest
     }
 
