@@ -82,6 +82,7 @@ impl Path<'_> {
     fn carries_no_part(&self, course: &LoadCourse, balanced: &Balanced) -> bool {
         let factors = course.factors(self.state.load_factor);
         let acts = factors.iter().any(|factor| *factor != 0.0);
+        // As with one load: what its first load step breaks was at rest under nothing.
         let (at_rest, met) = (self.course.largest_force, self.equilibrium.largest_force());
         let largest = if at_rest <= NO_LOAD * met {
             met
