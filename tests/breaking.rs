@@ -47,6 +47,31 @@ fn unloading_to_nothing_keeps_the_balance() {
     }
 }
 
+/// A body that its first load step tears has never carried a load at rest. What it carries then is rounding, 1e-22 to 1e-6 N of either sign
+/// against 1e5 N and more of the whole body, and ends the run with the factor and with the iteration, whichever way it is moved.
+#[test]
+fn a_body_that_its_first_step_tears_fell_apart() {
+    for method in ["direct", "iterative"] {
+        for steps in ["[1.0]", "[-1.0, -1.2]"] {
+            for motion in ["8e-4", "1.1e-3", "1.5e-3"] {
+                let sign = if steps.starts_with("[-") { "-" } else { "" };
+                let settings = [
+                    format!("solver.method={method}"),
+                    format!("fracture={{ steps = {steps} }}"),
+                    format!("load.0.displacement.y={sign}{motion}"),
+                ];
+                let settings = settings.each_ref().map(String::as_str);
+                let outcome = Bench::new(SQUARE, &settings).break_up().outcome;
+                assert_eq!(outcome.termination, Termination::FellApart, "{settings:?}");
+                let [unloaded, torn] = &outcome.history[..] else {
+                    panic!("{settings:?}: {} states", outcome.history.len());
+                };
+                assert!(unloaded.reaction.abs() + torn.reaction.abs() < 1e-5);
+            }
+        }
+    }
+}
+
 /// External work = stored + released energy in every load step. 1e-9 of the work: all three are exact between breakages.
 #[test]
 fn energies_balance_while_bonds_break() {

@@ -142,7 +142,8 @@ def difference(one, other):
     """In what two ends differ; none if they are alike."""
     for fact in ("exit", "end"):
         if one[fact] != other[fact]:
-            return f"{fact} {one[fact]!r} and {other[fact]!r} ({len(one['bonds'])} and {len(other['bonds'])} bonds broken)"
+            ends = "" if fact == "end" else f", {one['end']!r} and {other['end']!r}"
+            return f"{fact} {one[fact]!r} and {other[fact]!r}{ends} ({len(one['bonds'])} and {len(other['bonds'])} bonds broken)"
     if (one["peak"] is None) != (other["peak"] is None):
         return f"largest load {one['peak']} and {other['peak']}"
     if one["peak"] is not None and abs(one["peak"] - other["peak"]) > max(SAME_LOAD * max(abs(one["peak"]), abs(other["peak"])), NO_LOAD):

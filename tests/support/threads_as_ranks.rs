@@ -187,9 +187,10 @@ impl RankMatrix for Dense {
         );
     }
 
-    fn precondition(&mut self, motions: &[Vec<f64>]) {
+    fn precondition(&mut self, motions: &[Vec<f64>], n_coupled: usize) {
         let own = self.couplings.len() * self.n_components;
         assert!(motions.len() >= 3 && motions.iter().all(|it| it.len() == own));
+        assert!(n_coupled >= 2);
     }
 
     fn factorise(&mut self) -> Pivots {

@@ -189,6 +189,11 @@ impl Equilibrium {
         &self.equations.costs
     }
 
+    /// Largest force at a point in any equilibrium so far, at rest or not, N.
+    pub(crate) fn largest_force(&self) -> f64 {
+        self.equations.accuracy.largest_extents.force()
+    }
+
     /// Negative eigenvalues of the stiffness; 0 where they are not known.
     pub fn negative_eigenvalues(&self) -> usize {
         let inertia = self.equations.solver.inertia();

@@ -35,8 +35,9 @@ pub trait RankMatrix: Debug {
     fn assemble(&mut self);
 
     /// Makes a preconditioner of the matrix as it is, which is kept while the matrix changes. `motions` cost next to no energy, shape
-    /// (n, degrees of freedom of the own points).
-    fn precondition(&mut self, motions: &[Vec<f64>]);
+    /// (n, degrees of freedom of the own points). The matrix is a sum of parts that are not negative, none of which couples more points
+    /// than `n_coupled`.
+    fn precondition(&mut self, motions: &[Vec<f64>], n_coupled: usize);
 
     /// Makes a factor L D L^T of the matrix as it is.
     fn factorise(&mut self) -> Pivots;
@@ -68,7 +69,7 @@ pub enum Tolerated<'a> {
 /// What was found for some forces.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solved {
-    /// Motions at the degrees of freedom of the own points.
+    /// Motions at the degrees of freedom of the own points; of a matrix that is not definite one that it does not resist.
     pub motions: Vec<f64>,
     /// Iterations it took.
     pub iterations: usize,

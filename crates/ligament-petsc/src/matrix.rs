@@ -36,8 +36,9 @@ impl RankMatrix for Matrix {
         self.handle.assemble();
     }
 
-    fn precondition(&mut self, motions: &[Vec<f64>]) {
-        self.handle.precondition(&motions.concat(), motions.len());
+    fn precondition(&mut self, motions: &[Vec<f64>], n_coupled: usize) {
+        let n = motions.len();
+        self.handle.precondition(&motions.concat(), n, n_coupled);
     }
 
     fn factorise(&mut self) -> Pivots {

@@ -36,7 +36,12 @@ unsafe extern "C" {
         values: *const f64,
     );
     fn ligament_matrix_assemble(matrix: *mut c_void);
-    fn ligament_matrix_precondition(matrix: *mut c_void, motions: *const f64, n: i64);
+    fn ligament_matrix_precondition(
+        matrix: *mut c_void,
+        motions: *const f64,
+        n: i64,
+        n_coupled: i64,
+    );
     fn ligament_matrix_factorise(matrix: *mut c_void, inertia: *mut i64);
     fn ligament_matrix_solve(
         matrix: *mut c_void,
@@ -186,11 +191,13 @@ impl Handle {
         unsafe { ligament_matrix_assemble(self.matrix) }
     }
 
-    pub(crate) fn precondition(&mut self, motions: &[f64], n: usize) {
+    pub(crate) fn precondition(&mut self, motions: &[f64], n: usize, n_coupled: usize) {
         assert_eq!(motions.len(), n * self.n_own_values(), "whole motions");
         let _alone = alone();
         // SAFETY: the matrix lives as long as its handle; as many motions as are named, each at all own degrees of freedom.
-        unsafe { ligament_matrix_precondition(self.matrix, motions.as_ptr(), n as i64) }
+        unsafe {
+            ligament_matrix_precondition(self.matrix, motions.as_ptr(), n as i64, n_coupled as i64);
+        }
     }
 
     /// Negative, vanishing and positive pivots.

@@ -20,13 +20,19 @@ typedef struct {
 
 typedef struct {
   Mat matrix;
-  KSP krylov;
+  /* With the hierarchy or the factor, and with the stiffnesses of the points by themselves, which is always that of the matrix as it is. */
+  KSP krylov, plain;
   Vec right, solution, work;
   PetscInt block_size, n_own;
 } LigamentMatrix;
 
-/* How an iteration ended; the same numbers stand in solver.rs. */
+/* How an iteration ended; the last number stands in native.rs as well. */
 enum { CONVERGED = 0, STALLED = 1, INDEFINITE = 2 };
+
+/* Share of the stiffness of the points, each by itself, at which what resists a motion of them together is rounding, and steps to such a
+   motion at most: as in the program's own iteration. */
+static const double UNRESISTED = 1e-14;
+enum { STEPS = 2000 };
 
 static int world_rank = 0, world_size = 1;
 
@@ -199,6 +205,7 @@ void ligament_matrix_free(void *matrix)
 {
   LigamentMatrix *it = matrix;
   CHECK(KSPDestroy(&it->krylov));
+  CHECK(KSPDestroy(&it->plain));
   CHECK(VecDestroy(&it->right));
   CHECK(VecDestroy(&it->solution));
   CHECK(VecDestroy(&it->work));
@@ -225,18 +232,35 @@ void ligament_matrix_assemble(void *matrix)
   CHECK(MatAssemblyEnd(it->matrix, MAT_FINAL_ASSEMBLY));
 }
 
-static void new_krylov(LigamentMatrix *it, const char *kind)
+static void new_krylov(LigamentMatrix *it, KSP *krylov, const char *prefix, const char *kind)
 {
-  CHECK(KSPDestroy(&it->krylov));
-  CHECK(KSPCreate(PETSC_COMM_WORLD, &it->krylov));
-  CHECK(KSPSetOptionsPrefix(it->krylov, "ligament_"));
-  CHECK(KSPSetOperators(it->krylov, it->matrix, it->matrix));
-  CHECK(KSPSetType(it->krylov, kind));
+  CHECK(KSPDestroy(krylov));
+  CHECK(KSPCreate(PETSC_COMM_WORLD, krylov));
+  CHECK(KSPSetOptionsPrefix(*krylov, prefix));
+  CHECK(KSPSetOperators(*krylov, it->matrix, it->matrix));
+  CHECK(KSPSetType(*krylov, kind));
+}
+
+/* The smoother on the points, whose matrix loses bonds while the hierarchy is kept. A bond of two points resists no motion by more than
+   twice what it does while they move one at a time: with the stiffnesses of the points inverted no eigenvalue is above 2. An estimate may be
+   too low where few bonds hold a point, and makes the whole preconditioner indefinite. */
+static void bound_smoother(PC hierarchy)
+{
+  KSP smoother;
+  PC of_points;
+  PetscInt n_levels;
+  CHECK(PCMGGetLevels(hierarchy, &n_levels));
+  if (n_levels < 2) return;
+  CHECK(PCMGGetSmoother(hierarchy, n_levels - 1, &smoother));
+  CHECK(KSPGetPC(smoother, &of_points));
+  CHECK(PCSetType(of_points, PCPBJACOBI));
+  CHECK(KSPChebyshevSetEigenvalues(smoother, 2.0, 0.2));
+  CHECK(KSPSetFromOptions(smoother));
 }
 
 /* A hierarchy of algebraic multigrid anew from the matrix as it is, with `n` motions that cost next to no energy, shape (n, own degrees of
-   freedom). It is kept while the matrix changes, until the next call. */
-void ligament_matrix_precondition(void *matrix, const double *motions, int64_t n)
+   freedom). No element of the matrix couples more points than `n_coupled`. It is kept while the matrix changes, until the next call. */
+void ligament_matrix_precondition(void *matrix, const double *motions, int64_t n, int64_t n_coupled)
 {
   LigamentMatrix *it = matrix;
   PC preconditioner;
@@ -263,7 +287,7 @@ void ligament_matrix_precondition(void *matrix, const double *motions, int64_t n
   CHECK(MatSetNearNullSpace(it->matrix, near));
   CHECK(MatNullSpaceDestroy(&near));
   CHECK(VecDestroyVecs(index_of(n), &shapes));
-  new_krylov(it, KSPCG);
+  new_krylov(it, &it->krylov, "ligament_", KSPCG);
   CHECK(KSPSetNormType(it->krylov, KSP_NORM_UNPRECONDITIONED));
   CHECK(KSPGetPC(it->krylov, &preconditioner));
   CHECK(PCSetType(preconditioner, PCGAMG));
@@ -272,6 +296,9 @@ void ligament_matrix_precondition(void *matrix, const double *motions, int64_t n
   CHECK(PCGAMGSetAggressiveLevels(preconditioner, 0));
   CHECK(KSPSetFromOptions(it->krylov));
   CHECK(KSPSetUp(it->krylov));
+  PetscBool has_levels;
+  CHECK(PetscObjectTypeCompare((PetscObject)preconditioner, PCGAMG, &has_levels));
+  if (has_levels && n_coupled <= 2) bound_smoother(preconditioner);
   CHECK(KSPSetReusePreconditioner(it->krylov, PETSC_TRUE));
 }
 
@@ -280,7 +307,7 @@ static void new_factor(LigamentMatrix *it)
 {
   PC preconditioner;
   Mat factor;
-  new_krylov(it, KSPPREONLY);
+  new_krylov(it, &it->krylov, "ligament_", KSPPREONLY);
   CHECK(KSPGetPC(it->krylov, &preconditioner));
   CHECK(PCSetType(preconditioner, PCCHOLESKY));
   CHECK(PCFactorSetMatSolverType(preconditioner, MATSOLVERMUMPS));
@@ -345,37 +372,119 @@ static PetscErrorCode is_small(KSP krylov, PetscInt iteration, PetscReal norm, K
   return 0;
 }
 
+/* One solution for the forces in `right`, with its iterations. */
+static int solve_once(LigamentMatrix *it, KSP krylov, Limit *limit, int64_t *iterations)
+{
+  KSPConvergedReason reason;
+  PetscInt count;
+  CHECK(KSPSetConvergenceTest(krylov, is_small, limit, NULL));
+  CHECK(KSPSolve(krylov, it->right, it->solution));
+  CHECK(KSPGetConvergedReason(krylov, &reason));
+  CHECK(KSPGetIterationNumber(krylov, &count));
+  /* What the test looks at ends with the caller. */
+  CHECK(KSPSetConvergenceTest(krylov, KSPConvergedSkip, NULL, NULL));
+  *iterations += count;
+  return reason > 0 ? CONVERGED : STALLED;
+}
+
+/* Conjugate gradients with the stiffnesses of the points by themselves, inverted. */
+static void prepare_plain(LigamentMatrix *it)
+{
+  PC of_points;
+  if (!it->plain) {
+    new_krylov(it, &it->plain, "ligament_plain_", KSPCG);
+    CHECK(KSPSetNormType(it->plain, KSP_NORM_UNPRECONDITIONED));
+    CHECK(KSPGetPC(it->plain, &of_points));
+    CHECK(PCSetType(of_points, PCPBJACOBI));
+    CHECK(KSPSetFromOptions(it->plain));
+  }
+  CHECK(KSPSetOperators(it->plain, it->matrix, it->matrix));
+  CHECK(KSPSetUp(it->plain));
+}
+
+/* Whether the matrix resists some motion, to which the forces in `right` push, by no more than rounding; puts it into `motion`. Conjugate
+   residuals (Saad 2003, section 6.8) of the motions z = M^-1 r alone, as in unresisted.rs. */
+static PetscBool is_unresisted(LigamentMatrix *it, Vec motion)
+{
+  PC of_points;
+  Vec own[5], stiffness, pushed, search, step, work;
+  double curvature, of_points_now, at_first = 0, product;
+  PetscBool found = PETSC_FALSE;
+  CHECK(KSPGetPC(it->plain, &of_points));
+  for (int k = 0; k < 5; k++) CHECK(VecDuplicate(motion, &own[k]));
+  stiffness = own[0], pushed = own[1], search = own[2], step = own[3], work = own[4];
+  CHECK(MatGetDiagonal(it->matrix, stiffness));
+  CHECK(PCApply(of_points, it->right, motion));
+  CHECK(MatMult(it->matrix, motion, pushed));
+  CHECK(VecCopy(pushed, search));
+  CHECK(VecDot(motion, pushed, &curvature));
+  for (int steps = 0; steps < STEPS; steps++) {
+    CHECK(VecPointwiseMult(work, stiffness, motion));
+    CHECK(VecDot(work, motion, &of_points_now));
+    if (steps == 0) at_first = of_points_now;
+    /* What is left of a motion to the last digit: the body resists all of the forces. */
+    if (!(of_points_now > 1e-28 * at_first)) break;
+    if (curvature <= UNRESISTED * of_points_now) {
+      found = PETSC_TRUE;
+      break;
+    }
+    CHECK(PCApply(of_points, search, step));
+    CHECK(VecDot(search, step, &product));
+    CHECK(VecAXPY(motion, -curvature / product, step));
+    CHECK(MatMult(it->matrix, motion, pushed));
+    product = curvature;
+    CHECK(VecDot(motion, pushed, &curvature));
+    CHECK(VecAYPX(search, curvature / product, pushed));
+  }
+  for (int k = 0; k < 5; k++) CHECK(VecDestroy(&own[k]));
+  return found;
+}
+
+/* Solves by iteration. A hierarchy of a body that is nearly a mechanism need not be definite, whatever the matrix is: where it does not come
+   near enough, the points by themselves decide, and of a mechanism its motion. */
+static int iterate(LigamentMatrix *it, Limit *limit, int64_t *iterations)
+{
+  if (solve_once(it, it->krylov, limit, iterations) == CONVERGED) return CONVERGED;
+  prepare_plain(it);
+  if (solve_once(it, it->plain, limit, iterations) == CONVERGED) return CONVERGED;
+  Vec motion;
+  CHECK(VecDuplicate(it->right, &motion));
+  PetscBool found = is_unresisted(it, motion);
+  if (found) CHECK(VecCopy(motion, it->solution));
+  CHECK(VecDestroy(&motion));
+  return found ? INDEFINITE : STALLED;
+}
+
 /* Solves for the forces at the own degrees of freedom, by the hierarchy or the factor that was made last. `limits` are sizes of the
-   residual, or there are none and `norm` is one of its norm. Gives the iterations and the norms of the first and the last residual. */
+   residual, or there are none and `norm` is one of its norm. Gives the iterations and the norms of the first and the last residual. Of an
+   indefinite matrix the motions are one that it does not resist. */
 int ligament_matrix_solve(void *matrix, const double *force, const double *limits, double norm, double *motions, int64_t *iterations,
                           double *norms)
 {
   LigamentMatrix *it = matrix;
   Limit limit = {limits, norm, 0, 0, it->work};
-  PetscInt length = it->n_own * it->block_size, count;
+  PetscInt length = it->n_own * it->block_size;
   double *values;
-  const char *kind;
-  KSPConvergedReason reason;
-  PetscBool iterates;
-  CHECK(KSPGetType(it->krylov, &kind));
-  CHECK(PetscStrcmp(kind, KSPPREONLY, &iterates));
-  iterates = !iterates;
-  if (iterates) CHECK(KSPSetConvergenceTest(it->krylov, is_small, &limit, NULL));
+  const double *found;
+  PetscBool is_factor;
+  int end = CONVERGED;
+  *iterations = 0;
   CHECK(VecGetArray(it->right, &values));
   CHECK(PetscArraycpy(values, force, length));
   CHECK(VecRestoreArray(it->right, &values));
-  CHECK(KSPSolve(it->krylov, it->right, it->solution));
-  CHECK(KSPGetConvergedReason(it->krylov, &reason));
-  CHECK(KSPGetIterationNumber(it->krylov, &count));
-  const double *found;
+  CHECK(PetscObjectTypeCompare((PetscObject)it->krylov, KSPPREONLY, &is_factor));
+  if (is_factor) {
+    KSPConvergedReason reason;
+    CHECK(KSPSolve(it->krylov, it->right, it->solution));
+    CHECK(KSPGetConvergedReason(it->krylov, &reason));
+    if (reason <= 0) end = STALLED;
+  } else {
+    end = iterate(it, &limit, iterations);
+  }
   CHECK(VecGetArrayRead(it->solution, &found));
   CHECK(PetscArraycpy(motions, found, length));
   CHECK(VecRestoreArrayRead(it->solution, &found));
-  /* What the test looks at ends with this function. */
-  if (iterates) CHECK(KSPSetConvergenceTest(it->krylov, KSPConvergedSkip, NULL, NULL));
-  *iterations = count;
   norms[0] = limit.first_norm;
   norms[1] = limit.last_norm;
-  if (reason == KSP_DIVERGED_INDEFINITE_MAT || reason == KSP_DIVERGED_INDEFINITE_PC) return INDEFINITE;
-  return reason > 0 ? CONVERGED : STALLED;
+  return end;
 }

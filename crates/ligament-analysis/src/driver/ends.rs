@@ -17,7 +17,19 @@ impl Path<'_> {
             return self.carries_no_part(loads, balanced);
         }
         let (_, reaction) = self.control(balanced);
-        reaction <= NO_LOAD * self.course.peak
+        reaction <= NO_LOAD * self.largest_load()
+    }
+
+    /// The largest load so far, N. A body whose first load step breaks it was at rest under none: then the load counts that it would carry
+    /// whole, where a motion gives it.
+    fn largest_load(&self) -> f64 {
+        let (loads, peak) = (&self.problem.loads, self.course.peak);
+        if loads.control().kind == ControlKind::Force {
+            return peak;
+        }
+        let given = loads.control_displacement(self.state.load_factor, &self.state.displacement);
+        let whole = (self.course.elastic.stiffness * given).abs();
+        if peak <= NO_LOAD * whole { whole } else { peak }
     }
 
     /// The rule that ends the run wherever it is, if one does.
@@ -60,7 +72,7 @@ impl Path<'_> {
         // What fell apart carries again where its faces close.
         let is_over = !self.problem.system.faces_close();
         let carries_nothing = match self.problem.loads.course() {
-            None => carried <= NO_LOAD * self.course.peak,
+            None => carried <= NO_LOAD * self.largest_load(),
             Some(course) => self.carries_no_part(course, balanced),
         };
         (is_over && carries_nothing).then_some(Termination::FellApart)
@@ -70,7 +82,14 @@ impl Path<'_> {
     fn carries_no_part(&self, course: &LoadCourse, balanced: &Balanced) -> bool {
         let factors = course.factors(self.state.load_factor);
         let acts = factors.iter().any(|factor| *factor != 0.0);
-        acts && balanced.internal.force_scale <= NO_LOAD * self.course.largest_force
+        // As with one load: what its first load step breaks was at rest under nothing.
+        let (at_rest, met) = (self.course.largest_force, self.equilibrium.largest_force());
+        let largest = if at_rest <= NO_LOAD * met {
+            met
+        } else {
+            at_rest
+        };
+        acts && balanced.internal.force_scale <= NO_LOAD * largest
     }
 
     /// The end of a run whose body carries only a fraction of the largest load so far, in an equilibrium at rest in which it

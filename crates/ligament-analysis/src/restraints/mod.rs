@@ -6,7 +6,7 @@
 
 mod holds;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use ligament_model::interface::CoupledPoints;
 
@@ -120,6 +120,16 @@ impl Restraints {
                 diagonal[dof as usize] += restraint.stiffness[place * (n + 1)];
             }
         }
+    }
+
+    /// Points that a restraint couples at most.
+    pub(crate) fn most_coupled(&self, layout: Layout) -> usize {
+        let of_restraint = |it: &Restraint| {
+            let dofs = it.degrees_of_freedom.iter();
+            let points: BTreeSet<u32> = dofs.map(|&dof| layout.point(dof as usize)).collect();
+            points.len()
+        };
+        self.list.iter().map(of_restraint).max().unwrap_or(0)
     }
 
     /// Points of smaller number that bonds or restraints couple with a point, ascending.

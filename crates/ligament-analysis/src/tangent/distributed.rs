@@ -161,8 +161,11 @@ impl DistributedSolver {
         };
         let shapes = self.system.rigid_shapes(&all).into_iter();
         let motions: Vec<Vec<f64>> = shapes.map(of_own).collect();
+        let n_coupled = self.rows().most_coupled();
+        let mut of_all = [n_coupled as f64];
+        self.ranks.largest(&mut of_all);
         if let Some(matrix) = &mut self.matrix {
-            matrix.precondition(&motions);
+            matrix.precondition(&motions, of_all[0] as usize);
         }
     }
 

@@ -78,6 +78,20 @@ impl OwnRows<'_> {
         couplings
     }
 
+    /// Points that an element or a restraint couples at most, as far as is known here.
+    pub(super) fn most_coupled(&self) -> usize {
+        let elements = self.system.elements_at_points();
+        let mut n_points = vec![0; self.system.ends().len()];
+        for point in 0..self.system.n_points() as u32 {
+            for &element in elements.at(point) {
+                n_points[element as usize] += 1;
+            }
+        }
+        let of_elements = n_points.into_iter().max().unwrap_or(0);
+        let restraints = self.unknowns.restraints();
+        of_elements.max(restraints.most_coupled(self.unknowns.layout()))
+    }
+
     /// A matrix without values.
     pub(super) fn rows<'a>(&self, couplings: &'a [[usize; 2]]) -> Rows<'a> {
         Rows {
