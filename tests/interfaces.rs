@@ -77,7 +77,7 @@ fn reaction(setup: Setup) -> f64 {
 /// The patch correction with the factors that it departs from.
 fn patch_from(reference: Reference) -> Surface {
     Surface::Patch(Settings {
-        reference,
+        reference: Some(reference),
         ..Settings::default()
     })
 }

@@ -27,7 +27,7 @@ pub struct Correction {
     /// Sweeps of the domain correction at most.
     #[schemars(range(min = 1), extend("default" = Iteration::default().max_sweeps))]
     pub max_sweeps: Option<u32>,
-    /// The factors that those of the patch correction are the nearest to; without it `families`.
+    /// The factors that those of the patch correction are the nearest to; without it `body` in the plane and `families` in space.
     pub reference: Option<Word<Reference>>,
     /// Smallest factor of the patch correction over the uncorrected one.
     #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1, "default" = Settings::DEFAULT.lowest))]
@@ -87,7 +87,7 @@ impl Correction {
     fn patch(&mut self) -> Settings {
         let default = Settings::DEFAULT;
         Settings {
-            reference: self.reference.get_or_insert(Word(default.reference)).0,
+            reference: self.reference.map(|it| it.0),
             lowest: *self.smallest_factor.get_or_insert(default.lowest),
             highest: *self.largest_factor.get_or_insert(default.highest),
             moment_weight: *self.moment_weight.get_or_insert(default.moment_weight),

@@ -39,13 +39,13 @@ type Tensor<const D: usize> = [[f64; D]; D];
 /// and both ends change alike, a change of M changes T_P/T by (2 M + I tr M)/(D + 2), by which each sweep goes on. The equations are this
 /// project's own.
 pub fn reference<const D: usize>(
-    kind: Reference,
+    kind: Option<Reference>,
     bonds: &BondSet<D>,
     cloud: &PointCloud<D>,
     alpha: &[f64],
     axial: impl FnOnce() -> Vec<f64>,
 ) -> Vec<f64> {
-    if kind == Reference::Body {
+    if kind.unwrap_or(Reference::of_dimension(D)) == Reference::Body {
         return alpha.to_vec();
     }
     let (seats, axial) = (Seats::new(bonds, cloud), axial());
@@ -92,6 +92,18 @@ struct Families<'a, const D: usize> {
     ranks: Vec<u32>,
     /// alpha k_n l of the bonds.
     weights: Vec<f64>,
+}
+
+impl Reference {
+    /// The better one by dimension. In space, where families grow with the third power of the horizon, a mesh graded four to one has 1.3 times
+    /// the energy of a uniform strain in the mean with one number for the body. In the plane it has 1.05 times at most, and stresses at
+    /// holes, deflections and places of first breakage are nearer to what they should be with one number.
+    const fn of_dimension(dimension: usize) -> Self {
+        match dimension {
+            3 => Self::Families,
+            _ => Self::Body,
+        }
+    }
 }
 
 impl<const D: usize> Families<'_, D> {

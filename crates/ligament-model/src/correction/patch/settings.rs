@@ -11,8 +11,8 @@ pub struct Settings {
     pub highest: f64,
     /// Weight of the equations of moments against those of forces.
     pub moment_weight: f64,
-    /// The factors from which it departs.
-    pub reference: Reference,
+    /// The factors from which it departs; without a word [`Reference::Body`] in the plane and [`Reference::Families`] in space.
+    pub reference: Option<Reference>,
     /// Regularisation r of the last outer step. The steps begin with 1e-2, and each has three hundredths of the one before.
     pub regularisation: f64,
 }
@@ -23,7 +23,7 @@ impl Settings {
         lowest: 0.02,
         highest: 20.0,
         moment_weight: 0.04,
-        reference: Reference::Families,
+        reference: None,
         regularisation: 1e-5,
     };
 }
