@@ -191,7 +191,8 @@ horizon_factor = 3.0
     )
 }
 
-fn conditions<const D: usize>(body: &Body<D>, ends: &Ends<D>) -> String {
+/// The displacement of the load, m.
+fn displacement<const D: usize>(body: &Body<D>, ends: &Ends<D>) -> f64 {
     let length = size(body, ends.axis);
     // A beam of span L and depth h under a load in its middle has stresses 6 E h u/L^2.
     let bent = BENT * ends.span.powi(2) / (6.0 * length);
@@ -199,7 +200,11 @@ fn conditions<const D: usize>(body: &Body<D>, ends: &Ends<D>) -> String {
         true => -(PRESSED * length).max(bent),
         false => PULLED * length,
     };
-    let displacement = exact(digits(ends.away * stretched * STRETCH, 2));
+    digits(ends.away * stretched * STRETCH, 2)
+}
+
+fn conditions<const D: usize>(body: &Body<D>, ends: &Ends<D>) -> String {
+    let displacement = exact(displacement(body, ends));
     let (axis, how) = (
         AXES[ends.axis],
         if ends.presses {
