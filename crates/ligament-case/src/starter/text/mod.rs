@@ -85,7 +85,7 @@ fn materials<const D: usize>(body: &Body<D>, law: Law) -> String {
     );
     for part in &body.parts {
         let key = match part.contains(is_unseen) {
-            true => quoted(part).into(),
+            true => quoted(part),
             false => Key::new(part.as_str()).display_repr().into_owned(),
         };
         let _ = write!(
