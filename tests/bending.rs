@@ -5,7 +5,7 @@
 use std::f64::consts::{FRAC_PI_4, PI};
 
 use ligament::Warning;
-use ligament::bending_test::{BendingTest, Meshed, Section as Thin, THICK, TOO_STIFF};
+use ligament::bending_test::{BendingTest, MOST_SIDES, Meshed, Section as Thin, THICK, TOO_STIFF};
 use ligament::bending_test::{bending_test, thinnest_section};
 use ligament::body::SolidMeshBody;
 use ligament::prelude::*;
@@ -79,7 +79,7 @@ fn tested<const D: usize>(model: &Model<D>) -> (Thin<D>, BendingTest)
 where
     Dim: Dimension<D> + Meshed<D>,
 {
-    let section = thinnest_section(model).unwrap();
+    let section = thinnest_section(model, usize::MAX).unwrap();
     (section, bending_test(model, &section, usize::MAX).unwrap())
 }
 
@@ -293,6 +293,34 @@ fn torque(mut setup: Setup<3>, section: f64) -> f64 {
     let energy = history.last().unwrap().stored_energy;
     let shear_modulus = YOUNG / 2.4;
     2.0 * energy * length / (shear_modulus * section * section / (2.0 * PI) * angle * angle)
+}
+
+/// A plate of 3,844 points, two cells thick: its strip has a quarter of them and is tested without being asked for, in a body too large for
+/// other tests. An outline of more sides than are compared is no section.
+#[test]
+fn a_large_thin_solid_is_tested_by_its_strip() {
+    let grid = block([30, 30, 3], 0.0);
+    let Canvas::Solid(cells) = grid.canvas else {
+        unreachable!("a block is of solid cells")
+    };
+    let mesh = SolidMesh {
+        node_tags: (1..=grid.positions.len() as u64).collect(),
+        positions: grid.positions,
+        cells,
+        ..SolidMesh::default()
+    };
+    let points = mesh.positions.len();
+    let body = SolidMeshBody::from(mesh);
+    let mut setup = Setup::<3>::new(body, Material::isotropic(YOUNG, 0.2), Law::Nhpd);
+    setup.horizon = Horizon::Factor(2.1);
+    let model = Model::<3>::build(setup, &mut ()).unwrap();
+    let section = thinnest_section(&model, MOST_SIDES).unwrap();
+    let most = <Dim as Meshed<3>>::MOST_POINTS;
+    let test = bending_test(&model, &section, most).unwrap();
+    assert!(points > most && test.points < points / 2, "{test:?}");
+    assert!((section.thickness - 3.0).abs() < 1e-9, "{section:?}");
+    let few = thinnest_section(&model, 100).unwrap_err().to_string();
+    assert!(few.contains("4320 sides"), "{few}");
 }
 
 /// A bar in torsion is as much too stiff as the test says, within 4 %: the ends of the bar are held in their plane. Without rotational stiffness

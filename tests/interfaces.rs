@@ -382,7 +382,7 @@ fn sheared_layers_between_halves_of_a_mesh() {
                 let materials = [1.0, ratio].map(|young| Material::isotropic(young, poisson));
                 let body = MeshBody::from(layered_strip(thick));
                 let mut setup = with_layer(body, law, materials, &[]);
-                setup.correction.surface = patch_from(Reference::Families);
+                setup.correction.surface = Surface::Patch(Settings::default());
                 let found = reaction(sheared(setup, &[Component::X]));
                 let modulus = shear_modulus(poisson);
                 let found = found / force_through(f64::from(CELLS[1]), modulus, thick, ratio);
@@ -409,7 +409,7 @@ fn layers_between_halves_of_a_solid() {
             let body = SolidMeshBody::from(layered_block(thick));
             let across = [Component::Y, Component::Z];
             let mut setup = with_layer(body, Law::Nhpd, materials, &across);
-            setup.correction.surface = patch_from(Reference::Families);
+            setup.correction.surface = Surface::Patch(Settings::default());
             let area = f64::from(CELLS[1] * CELLS[2]);
             // E (1 - nu)/((1 + nu)(1 - 2 nu)) of E = 1 and nu = 0.2.
             let pulled = force_through(area, 0.8 / (1.2 * 0.6), thick, ratio);

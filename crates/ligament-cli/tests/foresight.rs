@@ -245,6 +245,50 @@ fn loads_out_of_proportion_are_told() {
     );
 }
 
+/// So it is in stages, where the first step of the first stage counts: with the load factor, and where a probe controls it; with bonds that
+/// break and such as soften. A stage whose first step is a little beyond the first breakage does not warn.
+#[test]
+fn stages_that_break_the_body_at_once_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let probe =
+        "[[probe]]\nname = \"gauge\"\nbetween = [[0.1, 0.05], [0.2, 0.05]]\ncomponent = \"x\"\n";
+    let stages = |control: &str, criterion: &str| {
+        format!(
+            "{probe}[[stage]]\nname = \"pull\"\nloads = {{ pull = 1.0 }}\nsteps = 10\n{control}\n[fracture]\n\
+             [[fracture.criterion]]\nkind = \"tension\"\n{criterion}"
+        )
+    };
+    let by_probe = "control = { probe = \"gauge\", to = 0.1 }";
+    for (size, rest, is_told) in [
+        (5000.0, stages("", ""), true),
+        (5000.0, stages("", "after = \"linear\"\n"), true),
+        (5000.0, stages(by_probe, ""), true),
+        (12.0, stages("", ""), false),
+    ] {
+        let load = format!("displacement = {{ x = {:e} }}", size * AT_STRENGTH);
+        let (code, said, error) = check(folder.path(), &bar(&load, &rest), &[]);
+        assert_eq!(code, Some(0), "{error}");
+        assert!(foretold(&said).contains("in step 1 of 10"), "{said}");
+        let warned = said.matches("warning: the body breaks at once").count();
+        assert_eq!(warned, usize::from(is_told), "{said}\n{rest}");
+        if !is_told {
+            continue;
+        }
+        let output = ligament_in(
+            folder.path(),
+            &["run", "case.toml", "--out", "out", "--force"],
+        );
+        let (shown, said) = (stdout(&output), stderr(&output));
+        assert!(said.contains("the body breaks at once"), "{said}");
+        assert!(shown.contains("the body breaks at once"), "{shown}");
+        // Softening bonds have no equilibrium in the first step, of which other words tell.
+        if !rest.contains("after") && !rest.contains("control") {
+            let none = "none: the body broke in the first load step";
+            assert!(shown.contains(none), "{shown}");
+        }
+    }
+}
+
 /// What the run refuses the check refuses, with the same words and the same exit code.
 #[test]
 fn the_check_refuses_what_the_run_refuses() {

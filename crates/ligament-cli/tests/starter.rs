@@ -151,6 +151,40 @@ fn the_cases_run_and_break_bonds() {
     }
 }
 
+/// A slender beam on two supports breaks well before its example load: within 0.7 of it, of which beam theory has a half.
+#[test]
+fn beams_break_within_their_example_load() {
+    let folder = TempDir::new().unwrap();
+    let at = "2 1 \"beam\"\n0 2 \"left\"\n0 3 \"right\"\n0 4 \"load\"\n";
+    let mut text = format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n{at}$EndPhysicalNames\n$Nodes\n567\n"
+    );
+    let [columns, rows] = [81, 7];
+    for node in 0..columns * rows {
+        let [x, y] = [node % columns, node / columns].map(|it| 0.025 * f64::from(it));
+        text += &format!("{} {x} {y} 0\n", node + 1);
+    }
+    text += "$EndNodes\n$Elements\n483\n1 15 2 2 1 1\n2 15 2 3 2 81\n3 15 2 4 3 527\n";
+    for cell in 0..80 * 6 {
+        let corner = cell % 80 + columns * (cell / 80) + 1;
+        let above = corner + columns;
+        text += &format!(
+            "{} 3 2 1 1 {corner} {} {} {above}\n",
+            cell + 4,
+            corner + 1,
+            above + 1
+        );
+    }
+    let mesh = folder.path().join("beam.msh");
+    std::fs::write(&mesh, text + "$EndElements\n").unwrap();
+    let starter = of_mesh(&mesh, folder.path(), Law::Nhpd).unwrap();
+    let report = checked(&case(&starter, folder.path()), Extent::Matrix);
+    let first = report.lines().find(|it| it.starts_with("  first breakage"));
+    let share = first.and_then(|it| it.split_once("at ")?.1.split(' ').next()?.parse().ok());
+    let share: f64 = share.unwrap_or_else(|| panic!("{report}"));
+    assert!((0.3..0.7).contains(&share), "{share}\n{report}");
+}
+
 /// A square of two by two cells of a side, with groups of these names: the left and the right half, the lower and the upper side.
 fn square(side: f64, names: [&str; 4]) -> String {
     let mut text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n".to_owned();
@@ -214,6 +248,26 @@ fn names_are_quoted() {
     let (folder, starter) = of_text(&square(0.1, ["a", "b", "base", "top, moved"]));
     let case = self::case(&starter.unwrap(), folder.path());
     assert_eq!(case.case.loads[0].name.as_deref(), Some("load"));
+}
+
+/// Names with characters that are not seen, which head no column, stand in the case with these escaped, and are loaded by another name; what
+/// people are told shows them, too.
+#[test]
+fn names_that_are_not_seen_are_escaped() {
+    let names = ["a\u{200b}", "b", "bottom\tx", "top\u{202e}"];
+    let (folder, starter) = of_text(&square(0.1, names));
+    let starter = starter.unwrap();
+    let shown = |text: &str| {
+        text.chars()
+            .all(|it| it == '\n' || !"\t\u{200b}\u{202e}".contains(it))
+    };
+    assert!(shown(&starter.text), "{:?}", starter.text);
+    assert!(shown(&starter.choice), "{:?}", starter.choice);
+    let case = case(&starter, folder.path());
+    assert_eq!(case.case.supports[0].group.as_deref(), Some(names[2]));
+    assert_eq!(case.case.loads[0].group.as_deref(), Some(names[3]));
+    assert_eq!(case.case.loads[0].name.as_deref(), Some("load"));
+    checked(&case, Extent::Matrix);
 }
 
 /// Groups whose names tell nothing are found by where they lie.

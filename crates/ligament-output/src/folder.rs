@@ -16,8 +16,8 @@ use entries::{remove_files, resolved};
 use lock::Lock;
 use replacement::{behind, beside, free_place_aside};
 
-pub use entries::{refuse_link, refuse_links};
-pub use kind::{Kind, RESOLVED_CASE, is_made_later};
+pub use entries::{refuse_link, refuse_links, remove_unfinished_pages};
+pub use kind::{Kind, REPORT, RESOLVED_CASE, is_made_later};
 pub use replacement::{put_in_place, recover};
 
 /// A folder for the results of one run, to which no other process writes.

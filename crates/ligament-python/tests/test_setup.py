@@ -105,7 +105,7 @@ def test_groups_are_indices_or_masks_and_nothing_between() -> None:
     def groups(left: Any) -> list[str]:
         return ligament.Setup(positions=at, areas=1e-4, groups={"left": left, "right": at[:, 0] > 0.28}, **ELASTIC).groups
 
-    for left in (is_left, np.flatnonzero(is_left), [0, 1], list(is_left), np.arange(20, dtype=np.uint8)):
+    for left in (is_left, np.flatnonzero(is_left), [0, 1], list(is_left), np.arange(20, dtype=np.uint8), np.ma.masked_array([0, 1])):
         assert groups(left) == ["left", "right"]
     for left, words in [
         # The ones of a mask of whole numbers are no second point.
@@ -113,6 +113,8 @@ def test_groups_are_indices_or_masks_and_nothing_between() -> None:
         (is_left.astype(float), "whole numbers"),
         ([0.9, 12.7], "whole numbers"),
         (["0", "1"], "whole numbers"),
+        ([True, 5], "truth values among numbers"),
+        (np.ma.masked_array(np.arange(5), mask=[0, 1, 0, 0, 0]), "masked values"),
         (is_left[:-1], "shape"),
         ([[0, 1]], "shape"),
         (3, "shape"),

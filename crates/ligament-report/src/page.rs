@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use ligament_output::folder::{REPORT, remove_unfinished_pages};
 use ligament_output::{check_file, write_file};
 use serde_json::{Value, json};
 
@@ -83,7 +84,7 @@ pub struct Contents {
 pub fn write_report(request: &Request) -> Result<Written, ReportError> {
     let labels = labels(request)?;
     let first = || request.folders.first().cloned().unwrap_or_default();
-    let own = || (first().join("report.html"), true);
+    let own = || (first().join(REPORT), true);
     let (path, replace) = (request.output.clone()).map_or_else(own, |it| (it, request.force));
     check_file(&path, replace)?;
     let share = request.size.saturating_sub(OTHER_LETTERS) / request.folders.len().max(1);
@@ -98,6 +99,9 @@ pub fn write_report(request: &Request) -> Result<Written, ReportError> {
         runs.push(PageRun::read(folder, label, choice, &mut texts)?);
     }
     let page = page(&runs, &texts, request);
+    if request.output.is_none() {
+        remove_unfinished_pages(&first())?;
+    }
     write_file(&path, page.as_bytes(), replace)?;
     let contents = labels.into_iter().zip(runs).map(|(label, run)| Contents {
         label,

@@ -315,7 +315,12 @@ impl Summary {
 
     /// Whether the load that was to break the first bond is more than the body ever carried, beyond all rounding: no state under load held.
     fn nothing_held(&self) -> bool {
-        let foreseen = self.first_break.map_or(0.0, |it| it.reaction.abs());
+        let event = self.first_softened_bond.as_ref();
+        let event = event.or(self.first_broken_bond.as_ref());
+        // Stages foretell no breakage, but the elastic answer of their first step is that of its first event.
+        let in_first_step = event.filter(|it| it.step == 1).map(|it| it.reaction);
+        let foreseen = self.first_break.map(|it| it.reaction).or(in_first_step);
+        let foreseen = foreseen.map_or(0.0, f64::abs);
         let held = self.peak.map_or(0.0, |it| it.reaction.abs());
         held <= ROUNDING * foreseen && foreseen > 0.0
     }

@@ -75,6 +75,17 @@ pub enum Untested {
     /// The strains of the body do not tell its stiffness.
     #[error("the uniform strains of the body cannot be told apart")]
     Degenerate,
+    /// The bending test finds no section of the body.
+    #[error("there are no cells with sides that lie opposite to each other")]
+    NoSection,
+    /// The outline of a body has many sides for its thinnest section to be sought.
+    #[error(
+        "the outline of the body has {sides} sides, and among so many its thinnest section takes long to find; ask with --patch-test"
+    )]
+    ManySides {
+        /// Number of the sides.
+        sides: usize,
+    },
     /// A strip for the bending test is too large.
     #[error("the strip at the thinnest section has {points} points; ask with --patch-test")]
     TooLarge {

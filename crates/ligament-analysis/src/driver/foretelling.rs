@@ -9,13 +9,15 @@ use rayon::prelude::*;
 
 use super::outcome::LoadPoint;
 use super::path::Path;
+use super::recorder::largest_ratio;
+use super::start::Unobserved;
 use crate::at_once::AtOnce;
 use crate::balanced::{Attempt, Balanced};
 use crate::bond_numbers::sum_over_bonds;
 use crate::breakage::Breakage;
 use crate::error::SetupError;
-use crate::history::Notice;
-use crate::load_program::{Part, PartControl, Programme};
+use crate::history::{Notice, ObserverError};
+use crate::load_program::{LoadCourse, Part, PartControl, Programme};
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
 
@@ -85,22 +87,34 @@ pub struct StepOfFailure {
 
 impl Path<'_> {
     /// Tells the observer of loads that break the body at once, which no results are of: where the first bond reaches its limit in the first
-    /// part of the first load step, which ends at `load_factor`. The equilibrium at load factor one is `at_one`.
+    /// part of the first load step, which ends at `load_factor`, in stages as the step has it. The equilibrium at load factor one, of the load
+    /// of the curve alone in stages, is `at_one`.
     pub(super) fn report_first_step(
         &mut self,
         at_one: &State,
         load_factor: f64,
     ) -> Result<(), SetupError> {
-        let Some(first) = self.course.elastic.first_break else {
-            return Ok(());
+        let first = self.course.elastic.first_break;
+        let (share, balanced, times) = match first.map(|it| it.load_factor / load_factor) {
+            Some(share) if (0.0..AT_ONCE).contains(&share) => {
+                let balanced = self.equilibrium.measured(&mut at_one.clone());
+                (share, balanced, load_factor)
+            }
+            Some(_) => return Ok(()),
+            None => match self.first_step_of_stages(load_factor)? {
+                // A programme begins with the unloaded body.
+                Some(balanced) => {
+                    let utilisation = largest_ratio(&self.problem, &self.state, &balanced);
+                    (1.0 / utilisation, balanced, 1.0)
+                }
+                None => return Ok(()),
+            },
         };
-        let share = first.load_factor / load_factor;
         if !(0.0..AT_ONCE).contains(&share) {
             return Ok(());
         }
-        let balanced = self.equilibrium.measured(&mut at_one.clone());
         let criteria = self.criteria(&balanced);
-        let deformations = balanced.deformations.scaled(load_factor);
+        let deformations = balanced.deformations.scaled(times);
         let is_beyond = |(bond, deformation)| criteria.utilisation(bond, deformation) >= AT_LIMIT;
         let of_bonds = deformations.iter().enumerate();
         let of_bonds = of_bonds.map(|it| f64::from(u8::from(is_beyond(it))));
@@ -111,6 +125,34 @@ impl Path<'_> {
             bonds: sum_over_bonds(system, system.ends().iter().map(|_| 1.0)) as usize,
         };
         Ok(self.observer.notice(&Notice::AtOnce(at_once))?)
+    }
+
+    /// The elastic equilibrium at the end of the first load step of a programme of stages, in which nothing counts as solved; none where no
+    /// elastic solution is its end.
+    fn first_step_of_stages(
+        &mut self,
+        load_factor: f64,
+    ) -> Result<Option<Balanced>, ObserverError> {
+        let course = self.problem.loads.course();
+        let control = course.map(LoadCourse::control);
+        let is_by_energy = matches!(control, Some(Some(PartControl::DissipatedEnergy { .. })));
+        let can_fail = !self.problem.criteria.list.is_empty();
+        if course.is_none() || is_by_energy || !can_fail || !self.problem.system.is_linear() {
+            return Ok(None);
+        }
+        let mut state = self.state.clone();
+        self.aim(load_factor);
+        if !self.is_controlled() {
+            state.load_factor = load_factor;
+        }
+        let nothing = Breakage::default();
+        let attempt = (self.equilibrium).balance(&mut state, &nothing, &mut Unobserved)?;
+        self.equilibrium.aim(None);
+        self.course.solves = [self.equilibrium.costs().solves; 2];
+        Ok(match attempt {
+            Attempt::Balanced(balanced) => Some(balanced),
+            Attempt::Unbalanced(_) => None,
+        })
     }
 }
 

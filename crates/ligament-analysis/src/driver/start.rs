@@ -196,7 +196,7 @@ pub(super) fn report_mechanisms(
 }
 
 /// Watches nothing.
-struct Unobserved;
+pub(super) struct Unobserved;
 
 impl Observer for Unobserved {
     fn looks(&self, _: usize) -> bool {

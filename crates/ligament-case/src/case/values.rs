@@ -104,26 +104,31 @@ pub(super) fn metre() -> f64 {
 }
 
 /// Names head the columns of a table of comma-separated values.
-pub fn require_column_name(key: impl FnOnce() -> KeyPath, name: &str) -> Result<(), KeyFault> {
-    let expected = if begins_as_formula(name) {
-        "a name that does not begin with =, +, - or @, by which a spreadsheet knows a formula"
-    } else if name.chars().any(is_unseen) {
-        "a name without characters that are not seen, as control characters are"
-    } else {
-        let fits = !name.is_empty() && name.trim() == name && !name.contains([',', '"']);
-        return require(
-            fits,
-            key,
-            "a name without commas, quotes or surrounding blanks",
-            name,
-        );
-    };
-    require(false, key, expected, name)
+pub fn require_column_name(key: impl Fn() -> KeyPath, name: &str) -> Result<(), KeyFault> {
+    require_no_formula(&key, "name", name)?;
+    let is_seen = !name.contains(is_unseen);
+    let expected = "a name without characters that are not seen, as control characters are";
+    require(is_seen, &key, expected, name)?;
+    let fits = !name.is_empty() && name.trim() == name && !name.contains([',', '"']);
+    let expected = "a name without commas, quotes or surrounding blanks";
+    require(fits, key, expected, name)
+}
+
+/// No name, label or other text of a table begins as a formula does, which a spreadsheet would compute.
+pub fn require_no_formula(
+    key: impl FnOnce() -> KeyPath,
+    what: &str,
+    text: &str,
+) -> Result<(), KeyFault> {
+    let expected = format!(
+        "a {what} that does not begin with =, +, - or @, by which a spreadsheet knows a formula"
+    );
+    require(!begins_as_formula(text), key, &expected, text)
 }
 
 /// Whether a character is not seen: a control character, a line or paragraph separator, one that turns the direction of a text
 /// round, or one without width.
-fn is_unseen(character: char) -> bool {
+pub(crate) fn is_unseen(character: char) -> bool {
     character.is_control()
         || matches!(character, '\u{200b}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
 }

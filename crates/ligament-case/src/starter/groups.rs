@@ -26,6 +26,8 @@ pub(super) struct Ends<const D: usize> {
     pub(super) away: f64,
     /// Whether the load is moved towards the support, as a platen is.
     pub(super) presses: bool,
+    /// Distance of the outermost supports of a beam, m; 0 of other bodies.
+    pub(super) span: f64,
     /// How they were found, for a comment.
     pub(super) found: &'static str,
 }
@@ -130,6 +132,7 @@ impl<'a, const D: usize> Named<'a, D> {
             axis,
             away: (place - level).signum(),
             presses: true,
+            span: apart[along].abs(),
             found: "as a beam on supports by their names",
         })
     }
@@ -214,6 +217,7 @@ impl<'a, const D: usize> Named<'a, D> {
             axis,
             away: distance.signum(),
             presses: has_word(&load.name, &PRESSING) || has_word(&support.name, &PRESSING),
+            span: 0.0,
             found,
         })
     }
@@ -272,6 +276,7 @@ fn at_the_rim<const D: usize>([low, high]: [[f64; D]; 2], spacing: f64) -> Ends<
         axis,
         away: 1.0,
         presses: false,
+        span: 0.0,
         found: "by place, as no groups of the mesh suit",
     }
 }

@@ -206,6 +206,7 @@ fn of_cells<const D: usize>(cells: [u32; D], spacing: f64, law: Law) -> Starter 
         axis,
         away: 1.0,
         presses: false,
+        span: 0.0,
         found: "as the lowest and the highest rows",
     };
     starter(&body, &ends, law, Vec::new())
@@ -218,7 +219,7 @@ fn starter<const D: usize>(
     warnings: Vec<String>,
 ) -> Starter {
     let spot = |spot: &Spot<D>| match spot {
-        Spot::Group(name) => format!("at group `{name}`"),
+        Spot::Group(name) => format!("at group `{}`", name.escape_debug()),
         Spot::Box(_) => "in a box".to_owned(),
     };
     let direction = if ends.presses { "pressed" } else { "pulled" };

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use ligament::Model;
 use ligament::bending_test::{
-    BendingTest, Meshed, Section, THICK, TOO_STIFF, bending_test, thinnest_section,
+    BendingTest, MOST_SIDES, Meshed, Section, THICK, TOO_STIFF, bending_test, thinnest_section,
 };
 use ligament::setup::{Dim, Dimension, Law, Surface};
 use ligament_output::quantity::{place, quantity};
@@ -27,19 +27,13 @@ where
         return Ok(None);
     }
     writeln!(out, "strip at the thinnest section, bent")?;
-    let most_points = match extent {
-        Extent::PatchTest => usize::MAX,
-        _ => Dim::MOST_POINTS,
+    let (most_points, most_sides) = match extent {
+        Extent::PatchTest => (usize::MAX, usize::MAX),
+        _ => (Dim::MOST_POINTS, MOST_SIDES),
     };
-    if Dim::cloud(&model.system).len() > most_points {
-        let words = format!("the body has more than {most_points} points; ask with --patch-test");
-        entry(out, "not computed", words)?;
-        return Ok(None);
-    }
-    let Some(section) = stages.time("section", || thinnest_section(model)) else {
-        let words = "there are no cells with sides that lie opposite to each other";
-        entry(out, "not computed", words)?;
-        return Ok(None);
+    let section = match stages.time("section", || thinnest_section(model, most_sides)) {
+        Ok(section) => section,
+        Err(reason) => return entry(out, "not computed", reason).map(|()| None),
     };
     let words = format!(
         "{} at {}, {:.1} distances of points across, {:.1} horizons",

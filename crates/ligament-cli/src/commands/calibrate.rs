@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::numbers::{number, positive};
+use super::output;
 use crate::build::BUILD;
 use crate::terminal;
 use ligament_case::case::{CaseFile, MOST_THREADS};
@@ -73,7 +74,7 @@ pub struct RunsArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_THREADS)))]
     pub threads: Option<u32>,
     /// Folder for the record and the runs [default: results/NAME-calibration with the name of the case's folder]
-    #[arg(long, alias = "output", value_name = "DIR")]
+    #[arg(long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace an earlier calibration in the folder instead of going on with it
     #[arg(long)]

@@ -6,6 +6,7 @@ use clap::Args;
 use ligament_output::check_file;
 
 use super::case_args::CaseArgs;
+use super::output;
 use crate::check::{Extent, FIELDS, check};
 use crate::terminal;
 
@@ -30,7 +31,7 @@ pub struct CheckArgs {
     #[arg(long, conflicts_with = "model_only")]
     pub patch_test: bool,
     /// Write horizons, volumes and energy ratios of the points to points.vtu in this folder
-    #[arg(long, alias = "output", value_name = "DIR")]
+    #[arg(long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace points.vtu in the folder of --out if there is one
     #[arg(long)]

@@ -7,6 +7,8 @@ use clap::{Args, Command};
 use clap_complete::Shell;
 use ligament_output::write_file;
 
+use super::output;
+
 pub(super) const EXAMPLES: &str = "\
 Examples:
   ligament completions bash > ~/.local/share/bash-completion/completions/ligament
@@ -20,7 +22,7 @@ pub struct CompletionsArgs {
     #[arg(value_name = "SHELL")]
     pub shell: Shell,
     /// The file to write [default: standard output]
-    #[arg(long, alias = "output", value_name = "FILE")]
+    #[arg(long, alias = "output", value_parser = output::file(), value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Replace the file if there is one
     #[arg(long)]

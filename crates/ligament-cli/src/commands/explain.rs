@@ -6,6 +6,7 @@ use clap::Args;
 use ligament_output::is_standard_output;
 
 use super::numbers::numbers;
+use super::output;
 use crate::explain::{Position, Request, Subject, explain};
 use crate::terminal;
 
@@ -30,10 +31,10 @@ pub struct ExplainArgs {
     #[command(flatten)]
     pub subject: SubjectArgs,
     /// Write a table with a row a bond and step
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output::file())]
     pub csv: Option<PathBuf>,
     /// Write limits, breakages and paths as JSON
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output::file())]
     pub json: Option<PathBuf>,
     /// Replace the files of --csv and --json if there are some
     #[arg(long)]

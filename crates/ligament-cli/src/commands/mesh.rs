@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::numbers::number;
+use super::output;
 use crate::inspect::write_summary;
 use crate::terminal;
 use ligament_study::meshing::gmsh_program::{MeshRequest, make_mesh};
@@ -45,7 +46,7 @@ pub struct MeshArgs {
     )]
     pub python: PathBuf,
     /// The mesh to write [default: FILE.msh next to the file]
-    #[arg(long, alias = "output", value_name = "FILE.msh")]
+    #[arg(long, alias = "output", value_parser = output::file(), value_name = "FILE.msh")]
     pub out: Option<PathBuf>,
     /// Replace the mesh if there is one
     #[arg(long)]

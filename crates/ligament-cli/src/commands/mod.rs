@@ -10,6 +10,7 @@ mod inspect;
 mod mesh;
 mod new;
 mod numbers;
+mod output;
 mod plot;
 mod profile;
 mod repeat;

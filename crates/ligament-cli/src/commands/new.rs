@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use ligament_output::{check_file, write_file};
+use ligament_output::{check_file, is_stream, write_file};
 
 use super::numbers::positive;
+use super::output;
 use crate::terminal;
 use ligament::setup::Law;
 use ligament_case::case::MOST_CELLS;
@@ -35,7 +36,7 @@ pub struct NewArgs {
     /// The case file to write
     #[arg(
         long,
-        alias = "output",
+        alias = "output", value_parser = output::file(),
         value_name = "CASE.toml",
         default_value = "case.toml"
     )]
@@ -53,7 +54,8 @@ impl NewArgs {
     pub(super) fn execute(self) -> anyhow::Result<()> {
         let out = &self.out;
         check_file(out, self.force)?;
-        let folder = out.parent().unwrap_or(Path::new(""));
+        let is_kept = !is_stream(out);
+        let folder = out.parent().filter(|_| is_kept).unwrap_or(Path::new(""));
         if self.mesh.as_ref().is_none_or(|mesh| mesh.is_file()) {
             std::fs::create_dir_all(folder)
                 .with_context(|| format!("cannot make the folder {}", folder.display()))?;
@@ -72,11 +74,13 @@ impl NewArgs {
         }
         let mut told = terminal::beside(out);
         let out = out.display();
-        writeln!(
-            told,
-            "wrote {out}: {}\nnext: replace the EXAMPLE values, then\n  ligament check {out}\n  ligament run {out}",
-            starter.choice
-        )?;
+        writeln!(told, "wrote {out}: {}", starter.choice)?;
+        if is_kept {
+            writeln!(
+                told,
+                "next: replace the EXAMPLE values, then\n  ligament check {out}\n  ligament run {out}"
+            )?;
+        }
         Ok(())
     }
 }

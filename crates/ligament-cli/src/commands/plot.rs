@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use super::numbers;
+use super::{numbers, output};
 use crate::terminal;
 use ligament_output::results::steps::StepChoice;
 use ligament_plot::picture::colour_map::ColourMap;
@@ -113,7 +113,7 @@ pub struct PlotArgs {
     pub labels: Vec<String>,
     /// The picture, .png, .svg or .pdf [default: picture-NAME.png in the folder of the results, which takes the place of an
     /// earlier one; of the curves of several results, in this one]
-    #[arg(long, alias = "output", value_name = "FILE")]
+    #[arg(long, alias = "output", value_parser = output::file(), value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Replace the files of --out and --animate if there are some
     #[arg(long)]
@@ -123,7 +123,7 @@ pub struct PlotArgs {
     pub format: Option<Format>,
     /// An animation of the body over the steps, .gif, with fixed colours and one scale of the displacement [default steps: all, or 120
     /// evenly spread]
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["out", "format", "curve"])]
+    #[arg(long, value_name = "FILE", value_parser = output::file(), conflicts_with_all = ["out", "format", "curve"])]
     pub animate: Option<PathBuf>,
     /// Pictures of the animation a second
     #[arg(long, value_name = "N", default_value = "10", requires = "animate", value_parser = positive)]

@@ -9,6 +9,7 @@ use ligament_output::{check_file, write_file};
 use ligament_plot::picture::profile::{ProfileRequest, profile};
 
 use super::numbers::position;
+use super::output;
 use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
@@ -41,7 +42,7 @@ pub struct ProfileArgs {
     #[arg(long, value_name = "COUNT", default_value = "101", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     pub samples: u32,
     /// The table [default: standard output]
-    #[arg(long, alias = "output", value_name = "FILE")]
+    #[arg(long, alias = "output", value_parser = output::file(), value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Replace the table if there is one
     #[arg(long)]

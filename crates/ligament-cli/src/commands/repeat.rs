@@ -8,6 +8,7 @@ use ligament_case::case::MOST_THREADS;
 use ligament_run::progress::ProgressMode;
 use ligament_run::repeat::Request;
 
+use super::output;
 use crate::build::BUILD;
 use crate::stop_signal::StopSignal;
 use crate::terminal;
@@ -31,7 +32,7 @@ pub struct RepeatArgs {
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
     /// Keep the results of the repetition in this folder [default: DIR.repeat, which stays only if they differ]
-    #[arg(long, alias = "output", value_name = "DIR")]
+    #[arg(long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// The mesh, where it no longer lies where the run found it
     #[arg(long, value_name = "FILE")]

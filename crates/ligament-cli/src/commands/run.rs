@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use clap::Args;
 
 use super::case_args::CaseArgs;
+use super::output;
 use crate::build::BUILD;
 use crate::ranks;
 use crate::stop_signal::StopSignal;
@@ -38,7 +39,7 @@ pub struct RunArgs {
     pub case: CaseArgs,
     /// Folder for the results [default: results/NAME, with the name of the case file, or of its folder where the file is
     /// case.toml]
-    #[arg(long, alias = "output", value_name = "DIR")]
+    #[arg(long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace results of an earlier run in the folder
     #[arg(long)]

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::case_args::CaseArgs;
+use super::output;
 use crate::terminal;
 use ligament_study::bond_stiffness::{Request, bond_stiffness};
 
@@ -24,7 +25,7 @@ pub struct StiffnessArgs {
     #[arg(long, value_name = "SHARE", default_value_t = 0.5)]
     pub length: f64,
     /// Folder for the results [default: results/NAME-stiffness with the name of the case's folder]
-    #[arg(long, alias = "output", value_name = "DIR")]
+    #[arg(long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace earlier results in the folder
     #[arg(long)]

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::numbers::positive;
+use super::output;
 use crate::terminal;
 use ligament_run::progress::ProgressMode;
 use ligament_study::sweep::folder::Shard;
@@ -39,7 +40,7 @@ pub struct SweepArgs {
     pub study: PathBuf,
     /// Folder of the study [default: results/NAME with the name of the study's folder if the file is called study.toml, else
     /// with that of the file]
-    #[arg(long, alias = "output", value_name = "DIR")]
+    #[arg(long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Runs at once [default: one per processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::output;
 use crate::terminal;
 use ligament_verify::report::console;
 use ligament_verify::table::Extent;
@@ -32,7 +33,7 @@ pub struct VerifyArgs {
     /// Folder for the report
     #[arg(
         long,
-        alias = "output",
+        alias = "output", value_parser = output::folder(),
         value_name = "DIR",
         default_value = "results/verification"
     )]

@@ -42,6 +42,78 @@ fn memory_is_foreseen() {
     assert_success(&place.ligament(["run", "case.toml", "--set", "solver.memory=1"]));
 }
 
+/// A mesh is read, or it is refused with a word on memory, whatever there is: nothing in between ends the program. Limits go up from where
+/// the file itself does not fit, in steps of less than the checks of cells take.
+#[test]
+fn memory_of_meshes_is_foreseen() {
+    let place = Place::new();
+    fs::write(place.path("quads.msh"), quadrangles(350)).unwrap();
+    fs::write(place.path("boxes.msh"), boxes(38)).unwrap();
+    for (mesh, command) in [
+        ("quads.msh", "inspect quads.msh"),
+        ("boxes.msh", "new boxes.msh --out boxes.toml --force"),
+    ] {
+        let mut codes = Vec::new();
+        for megabytes in (60..300).step_by(8) {
+            let limit = format!("export RAYON_NUM_THREADS=2; ulimit -v {}", 1000 * megabytes);
+            let output = place.limited(&limit, command);
+            let code = output.status.code();
+            // Far below, even the program itself finds no room to start.
+            if code == Some(1) || codes.contains(&Some(1)) {
+                assert!(matches!(code, Some(0 | 1)), "{megabytes} MB: {output:?}");
+                codes.push(code);
+            }
+            if code == Some(1) {
+                assert_refused(&output, &[mesh]);
+            }
+        }
+        assert!(codes.len() > 4, "{mesh}: {codes:?}");
+        assert_eq!(codes.last(), Some(&Some(0)), "{mesh}: {codes:?}");
+    }
+}
+
+/// A mesh of format 2.2 of nodes in space and cells of a type by their corners.
+fn mesh_of(nodes: &[[usize; 3]], code: u8, cells: &[Vec<usize>]) -> String {
+    let mut text = format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n",
+        nodes.len()
+    );
+    for (index, [x, y, z]) in nodes.iter().enumerate() {
+        let _ = writeln!(text, "{} {x} {y} {z}", index + 1);
+    }
+    let _ = write!(text, "$EndNodes\n$Elements\n{}\n", cells.len());
+    for (index, corners) in cells.iter().enumerate() {
+        let corners: Vec<String> = corners.iter().map(|it| (it + 1).to_string()).collect();
+        let _ = writeln!(text, "{} {code} 2 1 1 {}", index + 1, corners.join(" "));
+    }
+    text + "$EndElements\n"
+}
+
+/// A square of so many by so many quadrangles.
+fn quadrangles(side: usize) -> String {
+    let n = side + 1;
+    let nodes: Vec<[usize; 3]> = (0..n * n).map(|it| [it % n, it / n, 0]).collect();
+    let corner = |cell: usize| cell % side + n * (cell / side);
+    let cell = |cell| [0, 1, n + 1, n].map(|it| corner(cell) + it).to_vec();
+    let cells: Vec<Vec<usize>> = (0..side * side).map(cell).collect();
+    mesh_of(&nodes, 3, &cells)
+}
+
+/// A cube of so many hexahedra along each side.
+fn boxes(side: usize) -> String {
+    let n = side + 1;
+    let place = |it: usize, n: usize| [it % n, it / n % n, it / (n * n)];
+    let nodes: Vec<[usize; 3]> = (0..n * n * n).map(|it| place(it, n)).collect();
+    let cell = |cell| {
+        let [x, y, z] = place(cell, side);
+        let base = x + n * (y + n * z);
+        let face = [0, 1, n + 1, n].map(|it| base + it);
+        face.into_iter().chain(face.map(|it| it + n * n)).collect()
+    };
+    let cells: Vec<Vec<usize>> = (0..side * side * side).map(cell).collect();
+    mesh_of(&nodes, 5, &cells)
+}
+
 /// A body in the plane whose factor does not fit into the memory is solved without a matrix, and that is told; by both drivers, with the
 /// bonds that break with a factor.
 #[test]

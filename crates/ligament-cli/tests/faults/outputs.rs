@@ -141,6 +141,32 @@ fn standard_output_and_devices_are_written_to() {
     assert_refused(&output, &["/dev/full", "No space left on device"]);
 }
 
+/// `-` is standard output for a file, and no name for a folder; of a case that nobody keeps nothing is advised.
+#[test]
+fn a_dash_is_standard_output() {
+    let place = prepared();
+    for writer in WRITERS {
+        let output = place.ligament(words(writer, "-"));
+        assert_success(&output);
+        assert!(output.stdout.len() > 100, "{writer}");
+        assert!(!stdout_has_words(&output.stdout), "{writer}");
+        assert!(!place.path("-").exists(), "{writer}");
+    }
+    for command in ["run case.toml --out -", "check case.toml --out -"] {
+        let output = place.ligament(command.split(' '));
+        assert_eq!(output.status.code(), Some(2), "{command}");
+        assert!(stderr(&output).contains("are a folder"), "{command}");
+    }
+    let new = |out: &str| {
+        let output = place.ligament(["new", "--lattice", "8,8,0.01", "--out", out]);
+        assert_success(&output);
+        output
+    };
+    assert!(!stdout(&new("/dev/null")).contains("/dev/null\n  ligament run"));
+    assert!(!stdout(&new("/dev/null")).contains("ligament check"));
+    assert!(stdout(&new("-")).contains("[lattice]"));
+}
+
 /// Whether the words for people stand behind what was written.
 fn stdout_has_words(written: &[u8]) -> bool {
     let end = &written[written.len().saturating_sub(200)..];
@@ -191,6 +217,16 @@ fn unfinished_files_of_killed_runs_go() {
     let run = ["run", "case.toml", "--out", "new"];
     assert_success(&place.ligament([&run[..], &stop[..]].concat()));
     assert!(!unfinished("new").exists());
+    for made in [
+        "report new",
+        "run case.toml --out new --force --set fracture.stop.bonds=2",
+    ] {
+        let page = place.path("new/.report.html.4711.partial");
+        fs::write(&page, "half").unwrap();
+        assert_success(&place.ligament(made.split(' ')));
+        assert!(!page.exists(), "{made}");
+    }
+    assert!(place.path("new/report.html").exists());
     fs::write(unfinished("new"), "half").unwrap();
     assert_success(&place.ligament(["resume", "new", "--set", "fracture.stop.bonds=3"]));
     assert!(!unfinished("new").exists());

@@ -14,8 +14,8 @@ use std::fs;
 use std::path::PathBuf;
 
 use bench::{
-    Bench, EVENT, STEPPED, assert_same, refused, results, send, started, succeeded, termination,
-    wait_for_rows,
+    Bench, EVENT, STEPPED, assert_same, refused, results, rows, send, started, succeeded,
+    termination, wait_for_rows,
 };
 
 /// A run of the exact path that was stopped after some breaks, with two checkpoints.
@@ -123,6 +123,25 @@ fn results_that_were_changed_are_named() {
         );
         fs::write(&path, before).unwrap();
     }
+    succeeded(bench.resume("out", &["--quiet"]));
+}
+
+/// The model, which follows from case and mesh, is written anew by a run that goes on: one that was cut is whole again, also where that run is
+/// killed before its end.
+#[test]
+fn a_model_that_was_cut_is_whole_again() {
+    let bench = Bench::new(EVENT, "1e-6");
+    let out = stopped(&bench);
+    let model = out.join("model.vtu");
+    let whole = fs::read(&model).unwrap();
+    fs::write(&model, &whole[..whole.len() - 50]).unwrap();
+    let before = rows(&out);
+    let mut child = started(bench.resume("out", &[]));
+    wait_for_rows(&out, before + 3, &mut child);
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let text = fs::read_to_string(&model).unwrap();
+    assert!(text.trim_end().ends_with("</VTKFile>"));
     succeeded(bench.resume("out", &["--quiet"]));
 }
 

@@ -57,6 +57,14 @@ fn faults_of_the_study_have_their_place_and_the_nearest_key() {
         &["study.toml:5:10", "2 values, but 1 labels"],
     );
     assert_told(
+        &axis("key = \"model.horizon_factor\"\nvalues = [2.0, 3.0]\nlabels = [\"a\", \"=cmd\"]"),
+        &["axis.0.labels.1: must be a label that does not begin with ="],
+    );
+    assert_told(
+        &axis("key = \"title\"\nvalues = [\"plate\", \"@b\"]"),
+        &["axis.0.values.1: must be a text that does not begin with ="],
+    );
+    assert_told(
         &axis("key = \"model.horizon_factor\"\nvalues = [2.0, 2.0]"),
         &["axis.0.values.1: `2.0` is already used by axis.0.values.0"],
     );

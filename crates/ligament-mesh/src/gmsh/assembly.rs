@@ -37,6 +37,7 @@ impl Assembly {
         records: &Records,
         dimension: u8,
     ) -> Result<Self, GmshError> {
+        records.require_memory()?;
         let by_tag = NodeIndices::new(cursor, &records.nodes)?;
         let mut corners = resolve_corners(cursor, records, &by_tag)?;
         let uses = node_uses(cursor, records, &corners, &by_tag, dimension)?;

@@ -1,10 +1,15 @@
 //! The records of a file as they stand there, before they make a mesh.
 
 use std::collections::HashMap;
+use std::num::NonZero;
+use std::thread::available_parallelism;
 
 use super::cursor::Cursor;
 use super::element_type::Shape;
 use super::error::GmshError;
+
+/// Bytes of the stack of a thread.
+const STACK: usize = 1 << 21;
 
 /// Coordinates beyond this would overflow in products.
 const LARGEST_COORDINATE: f64 = 1e100;
@@ -152,14 +157,19 @@ impl Records {
 
     /// Fails where the system would not have the memory that it takes to make a mesh of these records.
     ///
-    /// What follows asks for it in many parts, each of which would end the program where there is none. Measured beside the records
-    /// were 200 bytes a node with its quadrangle (a million of them), and 130 bytes a tetrahedron with its fifth of a node.
+    /// What follows asks for it in many parts, each of which would end the program where there is none. Bytes beside the records were
+    /// 370 a node with its quadrangle (a million of them), 280 a triangle with its half of a node, and 270 a tetrahedron with its sixth.
     pub(super) fn require_memory(&self) -> Result<(), GmshError> {
+        let of_element = if self.first_solid.is_some() { 260 } else { 210 };
+        // The threads that look for cells over others begin later, where they have not yet.
+        let threads = available_parallelism().map_or(1, NonZero::get);
         let parts = [
-            self.nodes.len().saturating_mul(100),
-            self.elements.len().saturating_mul(130),
+            self.nodes.len().saturating_mul(200),
+            self.elements.len().saturating_mul(of_element),
+            threads.saturating_mul(STACK),
         ];
-        make_room(&mut Vec::<u8>::new(), parts[0].saturating_add(parts[1]))
+        let sum = parts.into_iter().fold(0, usize::saturating_add);
+        make_room(&mut Vec::<u8>::new(), sum)
     }
 }
 

@@ -48,7 +48,7 @@ pub(super) fn read(cursor: &mut Cursor<'_>) -> Result<Records, GmshError> {
         elements |= name == "Elements";
     }
     match (nodes, elements) {
-        (true, true) => records.require_memory().map(|()| records),
+        (true, true) => Ok(records),
         (false, _) => Err(GmshError::MissingSection { name: "Nodes" }),
         (true, false) => Err(GmshError::MissingSection { name: "Elements" }),
     }

@@ -6,7 +6,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::kind::Kind;
+use super::kind::{Kind, REPORT, unfinished};
 use crate::Error;
 use crate::atomic::remove_file;
 
@@ -30,6 +30,15 @@ pub(super) fn remove_files(folder: &Path, is_one: impl Fn(&str) -> bool) -> Resu
     let names = names(folder)?;
     let mut ones = names.iter().filter(|it| it.to_str().is_some_and(&is_one));
     ones.try_for_each(|name| remove_file(&folder.join(name)))
+}
+
+/// Removes the pages for a browser that killed processes had not finished in a folder of results.
+///
+/// # Errors
+///
+/// If the folder cannot be listed, or one cannot be removed.
+pub fn remove_unfinished_pages(folder: &Path) -> Result<(), Error> {
+    remove_files(folder, |name| unfinished(name) == Some(REPORT))
 }
 
 /// The folder that a path means: what a link points to, and no separator at the end.

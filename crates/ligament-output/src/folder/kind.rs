@@ -5,6 +5,9 @@ use crate::vtu;
 /// The file that every run writes first; it shows that a folder holds the results of a run.
 pub const RESOLVED_CASE: &str = "case.resolved.toml";
 
+/// The page for a browser in a folder of results, which a run leaves where it is.
+pub const REPORT: &str = "report.html";
+
 /// The file that is locked while something writes to a folder.
 pub(super) const LOCK: &str = ".lock";
 
@@ -81,18 +84,19 @@ impl Kind {
     pub(super) fn may_remove(self, name: &str) -> bool {
         name == self.marker || name == LOCK || name == REPLACED || {
             let whole = unfinished(name).unwrap_or(name);
-            (self.owns)(whole)
+            (self.owns)(whole) || self.is_unfinished(name)
         }
     }
 
     /// Whether a file of this name was to become one of the program's own, and did not.
     pub(super) fn is_unfinished(self, name: &str) -> bool {
-        unfinished(name).is_some_and(|whole| whole == self.marker || (self.owns)(whole))
+        let is_own = |whole| whole == self.marker || whole == REPORT || (self.owns)(whole);
+        unfinished(name).is_some_and(is_own)
     }
 }
 
 /// The name of the file that a temporary file `.NAME.PROCESS.partial` was to become.
-fn unfinished(name: &str) -> Option<&str> {
+pub(super) fn unfinished(name: &str) -> Option<&str> {
     let inner = name.strip_prefix('.')?.strip_suffix(".partial")?;
     let (whole, process) = inner.rsplit_once('.')?;
     is_number(process).then_some(whole)
@@ -148,11 +152,13 @@ mod tests {
             "fields_0001.piece_12.vtu",
             "model.pvtu",
             ".summary.json.4711.partial",
+            ".report.html.4711.partial",
             ".lock",
         ];
         assert!(own.iter().all(|name| Kind::RUN.may_remove(name)));
         let foreign = [
             "thesis.tex",
+            "report.html",
             "fields_0000.png",
             "fields_a.vtu",
             "fields_0001.piece_a.vtu",

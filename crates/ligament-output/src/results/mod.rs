@@ -126,11 +126,11 @@ impl<'a> ResultWriter<'a> {
         Ok(writer)
     }
 
-    /// Goes on with the results of a run: what was written after the moment goes.
+    /// Goes on with the results of a run: what was written after the moment goes. The model, which is computed again, is written anew.
     ///
     /// # Errors
     ///
-    /// If a file cannot be cut back or removed.
+    /// If a file cannot be written, cut back or removed.
     pub fn cut_back(
         folder: &'a ResultFolder,
         grid: &'a BodyGrid,
@@ -152,6 +152,9 @@ impl<'a> ResultWriter<'a> {
         // Where processes share the body out this one does not follow all bonds.
         let is_whole = problem.system.portion().is_none();
         let (softening, largest) = (softening.filter(|_| is_whole), largest.filter(|_| is_whole));
+        if rule.model {
+            model_file::write(folder.path(), grid, fixed, problem, None)?;
+        }
         remove_others(folder, "fields", &fields)?;
         remove_others(folder, "bonds", &bonds)?;
         let mut step_of_breaking = vec![-1; fixed.domain_factor.len()];

@@ -62,10 +62,17 @@ def _indices(name: str, group: ArrayLike, n_points: int) -> list[int]:
 
 
 def _array(name: str, values: ArrayLike) -> NDArray[Any]:
+    if np.ma.is_masked(values):
+        raise BodyError(f"`{name}` is an array with masked values, which stand for nothing: give `array.compressed()`, or fill them")
     try:
-        return np.asarray(values)
+        array = np.asarray(values)
+        # Beside numbers a truth value would be read as 0 or 1.
+        each = np.asarray(values, dtype=object).flat if array.dtype.kind in "iuf" and isinstance(values, list | tuple) else ()
     except (ValueError, RecursionError) as error:
         raise BodyError(f"`{name}` is no array: {error}") from error
+    if any(isinstance(it, bool | np.bool_) for it in each):
+        raise BodyError(f"`{name}` has truth values among numbers: give a mask of truth values alone, or indices alone")
+    return array
 
 
 def _whole(what: str, values: NDArray[Any]) -> NDArray[np.int64]:

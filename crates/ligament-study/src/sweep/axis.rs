@@ -10,7 +10,7 @@ use ligament_case::case::decode::decode;
 use ligament_case::case::document::{Node, Value};
 use ligament_case::case::fault::KeyFault;
 use ligament_case::case::key_path::KeyPath;
-use ligament_case::case::values::{not_exactly_one, require, require_unique};
+use ligament_case::case::values::{not_exactly_one, require, require_no_formula, require_unique};
 
 /// Values that an axis may have.
 const MOST_VALUES: usize = 10_000;
@@ -144,6 +144,7 @@ impl Axis {
         for (k, (point, label)) in self.points.iter_mut().zip(labels).enumerate() {
             let fits = !label.trim().is_empty() && !label.chars().any(char::is_control);
             require(fits, || place.child(k), "a label on one line", &label)?;
+            require_no_formula(|| place.child(k), "label", &label)?;
             point.label = label;
         }
         Ok(())
@@ -208,6 +209,11 @@ fn listed(
         }
         if of_geometry {
             decode::<f64>(value, &place)?;
+        }
+        for node in of_keys {
+            if let Value::String(text) = &node.value {
+                require_no_formula(|| place.clone(), "text", text)?;
+            }
         }
         let texts = of_keys.iter().map(|node| written::toml(node, &place));
         let texts: Vec<String> = texts.collect::<Result<_, _>>()?;

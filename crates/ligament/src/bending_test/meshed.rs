@@ -17,7 +17,7 @@ pub trait Meshed<const D: usize>: Discretises<D>
 where
     Dim: Dimension<D>,
 {
-    /// Points of a body or a strip up to which the test takes a second or two.
+    /// Points of a strip up to which the test takes a second or two.
     const MOST_POINTS: usize;
 
     /// Corners of the cells of a body, shape (n_cells, corners); none of bodies without a mesh.

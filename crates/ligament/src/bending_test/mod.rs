@@ -26,4 +26,4 @@ pub use meshed::Meshed;
 pub(crate) use meshed::Tensor;
 pub(crate) use part::Kept;
 pub use solution::{BendingTest, THICK, TOO_STIFF, bending_test};
-pub use thinnest::{Section, thinnest_section};
+pub use thinnest::{MOST_SIDES, Section, thinnest_section};

@@ -1,9 +1,15 @@
 //! The thinnest section of a body: the shortest way through it, counted in horizons, between sides that lie opposite to each other.
 
+use rayon::prelude::*;
+
 use super::facets::{self, Facet, dot, mean, minus, size};
 use super::meshed::Meshed;
 use crate::model::Model;
+use crate::patch_test::Untested;
 use crate::setup::{Dim, Dimension};
+
+/// Sides of an outline up to which its thinnest section is found in a second or two: each is asked where the ways from all others end.
+pub const MOST_SIDES: usize = 20_000;
 
 /// Cosine of the largest angle between the way through the body and the normal of the side where it ends: beyond it, at 26 degrees, the way
 /// goes into a corner and not through a section.
@@ -37,39 +43,46 @@ impl<const D: usize> Section<D> {
     }
 }
 
-/// The thinnest section of the body of a model; none of a body without a mesh, or without sides that lie opposite to each other.
+/// The thinnest section of the body of a model, whose outline has up to so many sides.
 ///
 /// From the middle of each side of the outline a way goes straight inwards until it leaves the body. Of the ways that are about as many
 /// horizons long as the shortest, the one nearest to the middle of all of these is taken: the middle of a strip, not its end.
-pub fn thinnest_section<const D: usize>(model: &Model<D>) -> Option<Section<D>>
+///
+/// # Errors
+///
+/// If the outline has more sides; if the body has no mesh, or no sides that lie opposite to each other.
+pub fn thinnest_section<const D: usize>(
+    model: &Model<D>,
+    most_sides: usize,
+) -> Result<Section<D>, Untested>
 where
     Dim: Dimension<D> + Meshed<D>,
 {
     let setup = &model.setup;
     let facets = facets::of_body(setup);
+    let sides = facets.len();
+    if sides > most_sides {
+        return Err(Untested::ManySides { sides });
+    }
     let cloud = Dim::cloud(&model.system);
     let around = |values: &[f64], [one, other]: [&Facet<D>; 2]| {
         let corners = one.corners.iter().chain(&other.corners);
         corners.map(|&corner| values[corner as usize]).sum::<f64>() / (2 * D) as f64
     };
-    let mut sections = Vec::new();
-    for from in &facets {
+    let section = |from: &Facet<D>| {
         let inward = from.area.map(|it| -it / size(from.area));
-        let Some((thickness, to)) = way_through(&facets, from.middle(), inward) else {
-            continue;
-        };
-        if dot(inward, to.area) < OPPOSITE * size(to.area) {
-            continue;
-        }
         let middle = from.middle();
-        sections.push(Section {
+        let (thickness, to) = way_through(&facets, middle, inward)?;
+        let is_opposite = dot(inward, to.area) >= OPPOSITE * size(to.area);
+        is_opposite.then(|| Section {
             place: std::array::from_fn(|axis| middle[axis] + 0.5 * thickness * inward[axis]),
             across: inward,
             thickness,
             spacing: around(&cloud.spacing, [from, to]),
             horizon: around(&model.fixed.horizon, [from, to]),
-        });
-    }
+        })
+    };
+    let mut sections: Vec<Section<D>> = facets.par_iter().filter_map(section).collect();
     let shortest = sections
         .iter()
         .map(Section::horizons)
@@ -81,6 +94,7 @@ where
     sections
         .into_iter()
         .min_by(|one, other| away(one).total_cmp(&away(other)))
+        .ok_or(Untested::NoSection)
 }
 
 /// Length of the way from a place on the outline to where it leaves the body, and the side there.

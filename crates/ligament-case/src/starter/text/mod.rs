@@ -10,6 +10,8 @@ use std::fmt::Write;
 use toml_edit::{Key, Value};
 
 use super::groups::{Ends, Spot};
+use crate::case::key_path::KeyPath;
+use crate::case::values::{is_unseen, require_column_name};
 use body::size;
 pub(super) use body::{Body, Section};
 use ligament::setup::Law;
@@ -26,6 +28,8 @@ const STRETCH: f64 = TENSILE_STRENGTH / YOUNG;
 /// disk between platens needs several times as much.
 const PULLED: f64 = 4.0;
 const PRESSED: f64 = 16.0;
+/// The displacement in the middle of a beam over what brings it to its tensile strength.
+const BENT: f64 = 2.0;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -80,11 +84,13 @@ fn materials<const D: usize>(body: &Body<D>, law: Law) -> String {
         "# A material for each physical {part}; bonds between two take the smaller limit.\n"
     );
     for part in &body.parts {
-        let key = Key::new(part.as_str());
+        let key = match part.contains(is_unseen) {
+            true => quoted(part),
+            false => Key::new(part.as_str()).display_repr().into_owned(),
+        };
         let _ = write!(
             text,
-            "[material.{}]\ngroup = {}\n{}",
-            key.display_repr(),
+            "[material.{key}]\ngroup = {}\n{}",
             quoted(part),
             constants(body, law)
         );
@@ -185,10 +191,20 @@ horizon_factor = 3.0
     )
 }
 
-fn conditions<const D: usize>(body: &Body<D>, ends: &Ends<D>) -> String {
+/// The displacement of the load, m.
+fn displacement<const D: usize>(body: &Body<D>, ends: &Ends<D>) -> f64 {
     let length = size(body, ends.axis);
-    let factor = if ends.presses { -PRESSED } else { PULLED };
-    let displacement = exact(digits(ends.away * factor * STRETCH * length, 2));
+    // A beam of span L and depth h under a load in its middle has stresses 6 E h u/L^2.
+    let bent = BENT * ends.span.powi(2) / (6.0 * length);
+    let stretched = match ends.presses {
+        true => -(PRESSED * length).max(bent),
+        false => PULLED * length,
+    };
+    digits(ends.away * stretched * STRETCH, 2)
+}
+
+fn conditions<const D: usize>(body: &Body<D>, ends: &Ends<D>) -> String {
+    let displacement = exact(displacement(body, ends));
     let (axis, how) = (
         AXES[ends.axis],
         if ends.presses {
@@ -199,7 +215,7 @@ fn conditions<const D: usize>(body: &Body<D>, ends: &Ends<D>) -> String {
     );
     let held: Vec<String> = AXES[..D].iter().map(|it| format!("{it} = 0.0")).collect();
     let name = match &ends.load {
-        Spot::Group(group) if group.contains([',', '"']) || group.trim() != group => {
+        Spot::Group(group) if require_column_name(KeyPath::default, group).is_err() => {
             "name = \"load\"\n"
         }
         _ => "",

@@ -3,10 +3,19 @@
 use toml_edit::Value;
 
 use super::body::Body;
+use crate::case::values::is_unseen;
 
-/// A TOML string.
+/// A TOML string, in which all characters are seen.
 pub(super) fn quoted(text: &str) -> String {
-    Value::from(text).to_string().trim().to_owned()
+    if !text.contains(is_unseen) {
+        return Value::from(text).to_string().trim().to_owned();
+    }
+    let shown = text.chars().map(|letter| match letter {
+        '"' | '\\' => format!("\\{letter}"),
+        _ if is_unseen(letter) => format!("\\u{:04X}", u32::from(letter)),
+        _ => letter.to_string(),
+    });
+    format!("\"{}\"", shown.collect::<String>())
 }
 
 /// What coordinates are rounded to: a power of ten at most a tenth of the distance of points.
