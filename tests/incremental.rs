@@ -753,7 +753,7 @@ fn whatever_the_order_and_the_factorisation() {
 }
 
 /// Nested dissection is an order of all unknowns, the same every time, and leaves far less fill than the order of the
-/// mesh file; on a disk of 3,000 points no more than a quarter more multiplications than minimum degree.
+/// mesh file; on a disk of 3,000 points no more than a third more multiplications than minimum degree.
 #[test]
 fn nested_dissection_leaves_little_fill() {
     let bench = Bench::new(DISK, &["mesh.file=../meshes/disk-2mm.msh"]);
@@ -783,7 +783,7 @@ fn nested_dissection_leaves_little_fill() {
         short(&over(degree))
     );
     assert!(over(natural)[0] < 0.5 && over(natural)[1] < 0.25);
-    assert!(over(degree)[0] < 1.25 && over(degree)[1] < 1.25);
+    assert!(over(degree)[0] < 1.25 && over(degree)[1] < 4.0 / 3.0);
 }
 
 /// The order holds every unknown once, and is the same the second time.

@@ -47,14 +47,17 @@ class Model:
         area = 0.5 * np.abs(e1[:, 0] * e2[:, 1] - e1[:, 1] * e2[:, 0])
         self.V, self.area = np.bincount(index[tri].ravel(), np.repeat(area * t / 3, 3), self.n), area.sum()
 
-        # horizons and bonds: one per unordered pair, l <= max(h_A, h_B), inclusive to 1e-9
+        # horizons and bonds: one per unordered pair, l <= max(h_A, h_B), inclusive to what single precision of the size leaves open
         tree = cKDTree(self.x)
-        self.h = h = lam * tree.query(self.x, k=2)[0][:, 1]
-        pairs = np.sort(tree.query_pairs(h.max() * (1 + 1e-6), output_type="ndarray"), axis=1)
+        nearest = tree.query(self.x, k=2)[0][:, 1]
+        self.h = h = lam * nearest
+        size = 2 * np.linalg.norm(self.x - self.x.mean(axis=0), axis=1).max()
+        slack = 1e-9 + np.minimum(8 * 2.0**-24 * size / nearest, 1e-3)
+        pairs = np.sort(tree.query_pairs(h.max() * (1 + slack.max()), output_type="ndarray"), axis=1)
         pairs = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]   # ordered by (A, B), A < B
         dx = self.x[pairs[:, 1]] - self.x[pairs[:, 0]]
         l = np.hypot(dx[:, 0], dx[:, 1])
-        in_a, in_b = (l <= h[end] * (1 + 1e-9) for end in pairs.T)      # B in the horizon of A, A in that of B
+        in_a, in_b = (l <= h[end] * (1 + slack[end]) for end in pairs.T)      # B in the horizon of A, A in that of B
         keep = in_a | in_b
         self.A, self.B = A, B = pairs[keep].T
         self.l, in_a, in_b, dx = l[keep], in_a[keep], in_b[keep], dx[keep]

@@ -1,6 +1,5 @@
 //! What coordinates are worth: the lengths that count as equal.
 
-use super::distance;
 use crate::horizon::INCLUSION_TOLERANCE;
 
 /// Half of the last bit of the significand in single precision, over the number.
@@ -26,8 +25,11 @@ pub(crate) fn precision_of_coordinates<const D: usize>(positions: &[[f64; D]]) -
 fn size<const D: usize>(positions: &[[f64; D]]) -> f64 {
     let sum = |axis: usize| positions.iter().map(|position| position[axis]).sum::<f64>();
     let mean: [f64; D] = std::array::from_fn(|axis| sum(axis) / positions.len() as f64);
-    let distances = positions.iter().map(|&position| distance(position, mean));
-    2.0 * distances.fold(0.0, f64::max)
+    let squares = positions.iter().map(|position| {
+        let offsets = position.iter().zip(mean).map(|(x, middle)| x - middle);
+        offsets.map(|offset| offset * offset).sum::<f64>()
+    });
+    2.0 * squares.fold(0.0, f64::max).sqrt()
 }
 
 /// Error that coordinates may have, m, as far as they tell it themselves.
