@@ -49,7 +49,7 @@ pub struct BondStiffness {
     pub strain: Vec<StrainStiffness>,
     /// Factors of bonds across an interface ([`BondStiffness::in_series`]), shape (n_bonds); empty where there is none.
     pub series: Vec<f64>,
-    /// beta, how far the ends of bonds are held by a stiffer material ([`BondStiffness::joined`]), shape (n_bonds); empty where none is.
+    /// beta, how far the ends of bonds are held by a stiffer material, shape (n_bonds); empty where none is.
     pub held: Vec<f64>,
 }
 
