@@ -161,11 +161,10 @@ impl DistributedSolver {
         };
         let shapes = self.system.rigid_shapes(&all).into_iter();
         let motions: Vec<Vec<f64>> = shapes.map(of_own).collect();
+        // Bonds couple two points, and elements that couple more are known whole to each process.
         let n_coupled = self.rows().most_coupled();
-        let mut of_all = [n_coupled as f64];
-        self.ranks.largest(&mut of_all);
         if let Some(matrix) = &mut self.matrix {
-            matrix.precondition(&motions, of_all[0] as usize);
+            matrix.precondition(&motions, n_coupled);
         }
     }
 
