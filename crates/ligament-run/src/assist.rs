@@ -136,10 +136,7 @@ where
     let restored = restored.transpose()?;
     let (grid, fixed) = (model.body().grid(), &model.fixed);
     let (folder, rule) = (hear_folder(ranks)?, write_rule(case, analysis));
-    let shared = || match restored {
-        None => PieceWriter::new(folder, &grid, fixed, rule, &problem),
-        Some(_) => Ok(PieceWriter::going_on(folder, &grid, fixed, rule)),
-    };
+    let shared = || PieceWriter::new(folder, &grid, fixed, rule, &problem);
     let pieces = model.system.portion().map(|_| shared()).transpose()?;
     let mut beside = Beside {
         ranks,

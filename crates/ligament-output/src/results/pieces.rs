@@ -20,7 +20,7 @@ pub struct PieceWriter<'a> {
 }
 
 impl<'a> PieceWriter<'a> {
-    /// Begins with a run.
+    /// Begins with a run, or goes on with one, of which the model is written anew.
     ///
     /// # Errors
     ///
@@ -35,22 +35,12 @@ impl<'a> PieceWriter<'a> {
         if rule.model {
             model_file::write(&folder, grid, fixed, problem, None)?;
         }
-        Ok(Self::going_on(folder, grid, fixed, rule))
-    }
-
-    /// Goes on with a run.
-    pub fn going_on(
-        folder: PathBuf,
-        grid: &'a BodyGrid,
-        fixed: &'a FixedFields,
-        rule: WriteRule,
-    ) -> Self {
-        Self {
+        Ok(Self {
             folder,
             grid,
             fixed,
             rule,
-        }
+        })
     }
 }
 
