@@ -46,6 +46,7 @@ pub mod stress;
 pub mod surfaces;
 pub mod sweep;
 pub mod system;
+pub mod tensor;
 pub mod thermal;
 pub mod uniform_strain;
 pub mod yielding;

@@ -8,7 +8,7 @@
 //! The first is a beam of Euler and Bernoulli with EA = k_n, EI = k_theta l = d and a torsional stiffness GJ = d where k_t = 12 d/l^2, as in
 //! textbooks, without a frame of its own.
 
-use super::vector::{cross, dot, tangents};
+use crate::tensor::{cross, dot, tangents};
 use crate::bonds::BondSet;
 use crate::deformation::SpaceDeformation;
 use crate::element::{Remaining, Rigidities};

@@ -40,7 +40,6 @@ pub mod stress;
 mod sweep;
 pub mod system;
 pub mod uniform_strain;
-mod vector;
 
 pub use element::SolidElement;
 pub use system::SolidSystem;

@@ -4,7 +4,7 @@ use ligament_mesh::SolidCell;
 
 use crate::bonds::parts::{Parts, Side, bounds};
 use crate::cloud::PointCloud;
-use crate::space::vector::{cross, dot, minus};
+use crate::tensor::{cross, dot, minus};
 
 /// The tetrahedra that solid cells consist of, with their materials.
 #[derive(Debug, Clone)]

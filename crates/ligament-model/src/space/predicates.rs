@@ -2,7 +2,7 @@
 
 use robust::{Coord3D, orient3d};
 
-use super::vector::minus;
+use crate::tensor::minus;
 
 /// The volume of the parallelepiped of b - a, c - a and x - a, with the right sign: positive where x lies on the side from which a, b
 /// and c stand counter-clockwise.

@@ -2,7 +2,7 @@
 
 use super::element::SolidElement;
 use super::system::SolidSystem;
-use super::vector::dot;
+use crate::tensor::dot;
 use crate::interface::{Bonds, CentralMotions};
 use crate::layout::Component;
 use crate::portion::any;

@@ -1,6 +1,6 @@
 //! Shapes in space: holes of a lattice, and the parts of a body that its sets are.
 
-use super::vector::{dot, minus, norm};
+use crate::tensor::{dot, minus, norm};
 use crate::shape::Region;
 
 /// A closed region of space.

@@ -8,7 +8,7 @@
 use std::collections::{BTreeSet, HashMap};
 
 use crate::space::predicates::above;
-use crate::space::vector::{cross, dot, minus, norm};
+use crate::tensor::{cross, dot, minus, norm};
 
 /// Cosine of the largest angle between two triangles of a round surface, 45 degrees.
 const ROUND: f64 = 0.707;

@@ -10,7 +10,7 @@ use crate::bonds::outline::crosses;
 use crate::cloud::PointCloud;
 use crate::horizon::INCLUSION_TOLERANCE;
 use crate::space::predicates::{above, side};
-use crate::space::vector::{cross, dot, minus, norm};
+use crate::tensor::{cross, dot, minus, norm};
 
 /// The outline of a mesh.
 #[derive(Debug)]

@@ -1,7 +1,7 @@
 //! A crack in the form of a disk.
 
 use super::UnfitCrack;
-use crate::space::vector::{cross, dot, minus, norm};
+use crate::tensor::{cross, dot, minus, norm};
 
 /// A disk in space.
 #[derive(Debug, Clone, PartialEq)]

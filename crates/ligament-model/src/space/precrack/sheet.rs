@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::UnfitCrack;
 use crate::shape::{cross as cross2, crosses_itself};
 use crate::space::predicates::above;
-use crate::space::vector::{cross, dot, minus, norm};
+use crate::tensor::{cross, dot, minus, norm};
 
 /// Distance of a corner of a polygon from its plane, over the size of the polygon, that counts as none.
 const FLATNESS: f64 = 1e-6;

@@ -4,7 +4,7 @@ use ligament_mesh::SolidCell;
 
 use crate::cloud::PointCloud;
 use crate::material::Isotropic;
-use crate::space::vector::{cross, dot, minus};
+use crate::tensor::{cross, dot, minus};
 
 /// What the cells at each point give it in a uniform strain: the sums of lambda g and of mu g over them, with Lame's constants of a cell
 /// and g, the integral of the gradient of the point's shape function over it (m^2); shape (n_points, 2, 3), N.

@@ -4,7 +4,7 @@ use super::*;
 use crate::Isotropic;
 use crate::horizon::Horizons;
 use crate::space::law::{ShearForm, nhpd};
-use crate::space::vector::{cross, dot, minus, norm};
+use crate::tensor::{cross, dot, minus, norm};
 
 const MATERIAL: Isotropic = Isotropic {
     young: 3.0,
