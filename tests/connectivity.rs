@@ -5,7 +5,7 @@ use ligament_analysis::Restraints;
 use ligament_analysis::connectivity::Fragments;
 use ligament_analysis::connectivity::decremental::Connectivity;
 use ligament_analysis::unknowns::Unknowns;
-use ligament_model::{BondSystem, Bonds};
+use ligament_model::{BondSystem, System};
 use verification::bench::Bench;
 use verification::numbers::Random;
 use verification::problems::{BAR, DISK, PLATE, SQUARE, TWO};
@@ -166,7 +166,7 @@ fn a_small_part_comes_loose_at_its_own_cost() {
 /// Points that the searches reach when this bond breaks.
 fn effort_of(
     connectivity: &mut Connectivity,
-    system: &BondSystem,
+    system: &dyn System<2>,
     intact: &mut [bool],
     bond: u32,
 ) -> usize {

@@ -336,7 +336,7 @@ probe = [{ name = "middle", section = [[0.04, -1.0], [0.04, 1.0]], component = "
     let case =
         verification::bench::case(text, &["load.2={group=\"spot\", force_per_length={x=1.0}}"]);
     let setup = case.setup_on(bench.model.setup.body.clone()).unwrap();
-    let error = ligament::Loading::new(&setup, &bench.model.system);
+    let error = ligament::Loading::new(&setup, &*bench.model.system);
     let error = error.unwrap_err().to_string();
     assert!(error.contains("this group has no length"), "{error}");
 }

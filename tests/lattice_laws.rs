@@ -13,6 +13,7 @@ use tempfile::TempDir;
 use verification::bench::{self, Bench};
 use verification::numbers::{by_point, deviation, of_all, relative_error};
 use verification::table::Table;
+use verification::stresses::{tractions, virial};
 
 /// 12 x 8 cells of 5 mm around the origin, held at the left and pulled aslant at the right.
 const PLATE: &str = r#"
@@ -263,8 +264,8 @@ fn uniform_strains_of_a_lattice_have_the_stress_of_the_continuum() {
             let deformations =
                 internal::sweep(system, BondsLeft::whole(&intact), &u, ThermalStrain::NONE)
                     .deformations;
-            let virial = system.virial_stresses(BondsLeft::whole(&intact), &deformations);
-            let traction = system.tractions(BondsLeft::whole(&intact), &deformations);
+            let virial = virial(system, BondsLeft::whole(&intact), &deformations);
+            let traction = tractions(system, BondsLeft::whole(&intact), &deformations);
             let largest: f64 = expected
                 .iter()
                 .fold(0.0, |most: f64, value| most.max(value.abs()));

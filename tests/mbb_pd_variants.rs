@@ -58,7 +58,7 @@ fn the_printed_form_is_too_soft() {
     );
     assert!((1.65..1.70).contains(&printed_lateral), "{printed_lateral}");
     let bench = Bench::new(STRETCHED, &["model.form=pairwise"]);
-    assert_eq!(bench.model.system.kinematics.kind(), ElementKind::Pairwise);
+    assert_eq!(bench.model.system.element, ElementKind::Pairwise);
     assert!(bench.solve().last().energy_error().abs() > 0.1);
 }
 

@@ -125,7 +125,7 @@ fn factors_of_one_and_zero_are_known_laws() {
         if law == "mppd" {
             assert_eq!(zero, with("model.rotational_stiffness=none"));
             let pds = square(&["model.law=pds"]);
-            assert_eq!(pds.model.system.kinematics.kind(), ElementKind::Spring);
+            assert_eq!(pds.model.system.element, ElementKind::Spring);
             let of_pds = &pds.model.system.rigidities;
             assert_eq!((&of_pds.axial, &of_pds.shear), (&zero.axial, &zero.shear));
         }

@@ -146,7 +146,7 @@ fn problem<const D: usize>(model: &Model<D>, ranks: Option<Together>) -> Problem
 where
     Dim: Dimension<D>,
 {
-    let mut loading = Loading::new(&model.setup, &model.system).unwrap();
+    let mut loading = Loading::new(&model.setup, &*model.system).unwrap();
     loading.solver.ranks = ranks;
     loading.problem(&model.system, &model.criteria)
 }

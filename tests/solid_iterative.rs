@@ -5,7 +5,7 @@ use ligament_analysis::solver::{Method, SolverChoice, Unfit, points_of_aggregate
 use ligament_analysis::{Attempt, Equilibrium, SetupError};
 use ligament_model::law::rotational::RotationalStiffness;
 use ligament_model::material::Isotropic;
-use ligament_model::space::element::SolidElement;
+use ligament_model::ElementKind;
 use ligament_model::space::law::{ShearForm, mppd, nhpd, pds};
 use ligament_model::{BondSet, BondStiffness, PointCloud};
 use rayon::ThreadPoolBuilder;
@@ -67,25 +67,25 @@ fn threads_change_no_bit() {
 #[test]
 fn negative_shear_is_refused_by_name() {
     type Law = fn(&BondSet<3>, &PointCloud<3>, &[Isotropic]) -> BondStiffness;
-    let laws: [(&str, SolidElement, Law); 4] = [
+    let laws: [(&str, ElementKind, Law); 4] = [
         (
             "nhpd, secant",
-            SolidElement::Beam,
+            ElementKind::Beam,
             |bonds, cloud, materials| {
                 nhpd::stiffness(bonds, cloud, materials, ShearForm::default())
             },
         ),
-        ("mppd", SolidElement::Beam, |bonds, cloud, materials| {
+        ("mppd", ElementKind::Beam, |bonds, cloud, materials| {
             mppd::stiffness(bonds, cloud, materials, RotationalStiffness::Decaying)
         }),
         (
             "mppd without",
-            SolidElement::Beam,
+            ElementKind::Beam,
             |bonds, cloud, materials| {
                 mppd::stiffness(bonds, cloud, materials, RotationalStiffness::Zero)
             },
         ),
-        ("pds", SolidElement::Spring, pds::stiffness),
+        ("pds", ElementKind::Spring, pds::stiffness),
     ];
     for (name, element, law) in laws {
         for (poisson, is_refused) in [(0.24, false), (0.26, true), (0.45, true)] {
@@ -115,7 +115,7 @@ fn negative_rotational_stiffness_gives_no_answer() {
         stiffness.rotational.iter_mut().for_each(|it| *it *= -20.0);
         stiffness
     };
-    let system = cylinder_of(6, SolidElement::Beam, law);
+    let system = cylinder_of(6, ElementKind::Beam, law);
     let mut torn = Torn::cracked(&pulled(&system, Method::Iterative), &system, 0.0);
     let Attempt::Unbalanced(reason) = torn.attempt() else {
         panic!("an answer");

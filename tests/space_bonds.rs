@@ -20,9 +20,11 @@ use ligament_model::failure::{Criteria, Criterion, Measure};
 use ligament_model::interface::StressReading;
 use ligament_model::space::correction::axes;
 use ligament_model::space::law::{ShearForm, calibration, nhpd, pds};
-use ligament_model::space::{SolidElement, SolidSystem};
+use ligament_model::tensor::SymTensor;
 use ligament_model::thermal::{FreeStrains, ThermalStrain};
-use ligament_model::{BondSet, Bonds, BondsLeft, Horizons, Isotropic, PointCloud};
+use ligament_model::{
+    BondSet, BondSystem, BondsLeft, ElementKind, Horizons, Isotropic, PointCloud, System,
+};
 use nalgebra::{DMatrix, DVector};
 
 const YOUNG: f64 = 1.0;
@@ -58,19 +60,19 @@ fn material(poisson: f64) -> [Isotropic; 1] {
 }
 
 /// A body with bonds as they come from the law.
-fn plain(cloud: PointCloud<3>, poisson: f64, element: SolidElement) -> SolidSystem {
+fn plain(cloud: PointCloud<3>, poisson: f64, element: ElementKind) -> Arc<dyn System<3>> {
     let bonds = BondSet::<3>::search(&cloud, &Horizons::unified(2.0, cloud.len()));
     let materials = material(poisson);
     let stiffness = match element {
-        SolidElement::Beam => nhpd::stiffness(&bonds, &cloud, &materials, ShearForm::Constant),
-        SolidElement::Spring => pds::stiffness(&bonds, &cloud, &materials),
+        ElementKind::Beam => nhpd::stiffness(&bonds, &cloud, &materials, ShearForm::Constant),
+        _ => pds::stiffness(&bonds, &cloud, &materials),
     };
     let ones = vec![1.0; bonds.len()];
-    SolidSystem::new(cloud, bonds, element, stiffness, ones.clone(), &ones)
+    BondSystem::new(cloud, bonds, element, stiffness, ones.clone(), &ones).with_elements()
 }
 
 /// The stiffness of all degrees of freedom, dense, from the blocks.
-fn dense(system: &SolidSystem, bonds: BondsLeft<'_>) -> DMatrix<f64> {
+fn dense(system: &dyn System<3>, bonds: BondsLeft<'_>) -> DMatrix<f64> {
     let unknowns = Unknowns::all_but(system, |_| false);
     let pattern = Arc::new(assembly::pattern(system, &unknowns).unwrap());
     let held = vec![false; system.layout().n_degrees_of_freedom()];
@@ -104,16 +106,16 @@ fn free_bodies_have_six_motions_without_energy() {
     let of = |poisson, element| {
         let system = plain(ball(), poisson, element);
         counts(dense(
-            &system,
+            &*system,
             BondsLeft::whole(&vec![true; system.bonds.len()]),
         ))
     };
-    assert_eq!(of(0.2, SolidElement::Beam), [0, 6]);
-    assert_eq!(of(0.27, SolidElement::Beam), [3 * n, 6]);
-    let [unstable, _] = of(0.36, SolidElement::Beam);
+    assert_eq!(of(0.2, ElementKind::Beam), [0, 6]);
+    assert_eq!(of(0.27, ElementKind::Beam), [3 * n, 6]);
+    let [unstable, _] = of(0.36, ElementKind::Beam);
     assert!(unstable > 3 * n, "{unstable} of {n} points");
-    assert_eq!(of(0.2, SolidElement::Spring), [0, 3]);
-    let [negative, vanishing] = of(0.3, SolidElement::Spring);
+    assert_eq!(of(0.2, ElementKind::Spring), [0, 3]);
+    let [negative, vanishing] = of(0.3, ElementKind::Spring);
     assert!(negative >= 3 && vanishing == 3, "{negative}");
 }
 
@@ -121,8 +123,8 @@ fn free_bodies_have_six_motions_without_energy() {
 #[test]
 fn the_check_of_stability_expects_a_negative_eigenvalue_a_rotation() {
     let of = |poisson: f64| {
-        let system = plain(ball(), poisson, SolidElement::Beam);
-        let mut loads = pulled(&system, 0.01);
+        let system = plain(ball(), poisson, ElementKind::Beam);
+        let mut loads = pulled(&*system, 0.01);
         let points = [0, 3, system.cloud.len() as u32 - 1];
         for (point, component) in points
             .iter()
@@ -157,10 +159,10 @@ fn the_check_of_stability_expects_a_negative_eigenvalue_a_rotation() {
 /// is the difference between the stiffness with the bonds and without.
 #[test]
 fn all_ways_to_the_stiffness_agree() {
-    for element in [SolidElement::Beam, SolidElement::Spring] {
+    for element in [ElementKind::Beam, ElementKind::Spring] {
         let system = plain(ball(), 0.2, element);
         let mut intact = vec![true; system.bonds.len()];
-        let whole = dense(&system, BondsLeft::whole(&intact));
+        let whole = dense(&*system, BondsLeft::whole(&intact));
         let n = whole.nrows();
         let u: Vec<f64> = (0..n)
             .map(|k| ((k * k * 7 + 3 * k) % 101) as f64 - 50.0)
@@ -177,7 +179,7 @@ fn all_ways_to_the_stiffness_agree() {
         let mut product = vec![0.0; n];
         system.multiply(left, &u, &mut product);
         assert!(close(&product) < 1e-14);
-        let sweep = internal::sweep(&system, left, &u, ThermalStrain::NONE);
+        let sweep = internal::sweep(&*system, left, &u, ThermalStrain::NONE);
         assert!(close(&sweep.internal.values) < 1e-14);
         let energy = 0.5 * expected.dot(&DVector::from_vec(u.clone()));
         assert!((sweep.stored_energy / energy - 1.0).abs() < 1e-12);
@@ -201,7 +203,7 @@ fn all_ways_to_the_stiffness_agree() {
         broken
             .iter()
             .for_each(|&bond| intact[bond as usize] = false);
-        let assembled = dense(&system, BondsLeft::whole(&intact));
+        let assembled = dense(&*system, BondsLeft::whole(&intact));
         assert!((&without - &assembled).amax() < 1e-14 * whole.amax());
         assert!((&whole - &assembled).amax() > 1e-3 * whole.amax());
         let lost = &whole - &assembled;
@@ -237,7 +239,7 @@ impl Observer for Broken {
 }
 
 /// Loads that move the last layer along z by a distance, with the first one held along it.
-fn pulled(system: &SolidSystem, distance: f64) -> ProportionalLoading {
+fn pulled(system: &dyn System<3>, distance: f64) -> ProportionalLoading {
     let positions = &system.cloud.positions;
     let highest = positions.iter().map(|p| p[2]).fold(0.0, f64::max);
     let layer = |height: f64| -> Vec<u32> {
@@ -268,13 +270,13 @@ fn pulled(system: &SolidSystem, distance: f64) -> ProportionalLoading {
 }
 
 fn problem(
-    system: SolidSystem,
+    system: Arc<dyn System<3>>,
     loads: ProportionalLoading,
     criteria: Criteria,
     solver: SolverSettings,
 ) -> Problem {
     Problem {
-        system: Arc::new(system),
+        system,
         criteria: Arc::new(criteria),
         loads: Arc::new(loads),
         solver,
@@ -315,17 +317,17 @@ fn a_bar_has_the_modulus_of_its_material() {
     assert!(off.fold(0.0, f64::max) < 1e-4);
     let omega = &correction.domain_factor;
     let alpha = correction.length_factor.clone();
-    let system = SolidSystem::new(cloud, bonds, SolidElement::Beam, stiffness, alpha, omega);
+    let system = BondSystem::new(cloud, bonds, ElementKind::Beam, stiffness, alpha, omega).with_elements();
     let positions = system.cloud.positions.clone();
     let volume: f64 = system.cloud.volumes.iter().sum();
     let problem = problem(
         system.clone(),
-        pulled(&system, 0.01),
+        pulled(&*system, 0.01),
         Criteria::default(),
         SolverSettings::default(),
     );
     // Bodies that nothing holds sideways and against turning get gauges.
-    let free = gauges::of_intact_body(&system, &*problem.loads);
+    let free = gauges::of_intact_body(&*system, &*problem.loads);
     assert_eq!((free.len(), free[0].gauges.len()), (1, 3));
     assert!(free[0].is_balanced());
     let (state, force) = solved(&problem);
@@ -341,7 +343,7 @@ fn a_bar_has_the_modulus_of_its_material() {
     assert!((contraction - 0.2).abs() < 0.03, "{contraction}");
     // The mean stress of any body in equilibrium is exact: sigma_zz V = F times the length.
     let sweep = internal::sweep(
-        &system,
+        &*system,
         state.bonds(),
         &state.displacement,
         ThermalStrain::NONE,
@@ -381,21 +383,22 @@ fn sums_over_families_make_the_bulk_modulus_right() {
     let stiffness = nhpd::stiffness(&bonds, &cloud, &materials, ShearForm::Constant);
     let ones = vec![1.0; bonds.len()];
     let stiffness = calibration::calibrated(stiffness, &ones, &bonds, &cloud, &materials);
-    let system = SolidSystem::new(
+    let system = BondSystem::new(
         cloud,
         bonds,
-        SolidElement::Beam,
+        ElementKind::Beam,
         stiffness,
         ones.clone(),
         &ones,
-    );
+    )
+    .with_elements();
     let components = system.components().len();
     let swollen: Vec<f64> = (system.cloud.positions.iter())
         .flat_map(|p| (0..components).map(move |place| p.get(place).map_or(0.0, |x| 1e-3 * x)))
         .collect();
     let intact = vec![true; system.bonds.len()];
     let left = BondsLeft::whole(&intact);
-    let sweep = internal::sweep(&system, left, &swollen, ThermalStrain::NONE);
+    let sweep = internal::sweep(&*system, left, &swollen, ThermalStrain::NONE);
     let middle = system.cloud.nearest_point([0.0; 3]);
     let energy = system.energy_density(left, &sweep.deformations, middle);
     let expected = 4.5 * calibration::bulk_modulus(&materials[0]) * 1e-6;
@@ -406,14 +409,14 @@ fn sums_over_families_make_the_bulk_modulus_right() {
 /// presses on them.
 #[test]
 fn heat_makes_a_free_body_grow() {
-    let system = plain(lattice([4, 4, 6], |_| true), 0.2, SolidElement::Beam);
+    let system = plain(lattice([4, 4, 6], |_| true), 0.2, ElementKind::Beam);
     let n = system.cloud.len();
-    let strains = FreeStrains::in_space(vec![[1e-3, 1e-3, 1e-3, 0.0, 0.0, 0.0]; n]);
-    let mut loads = pulled(&system, 5e-3);
+    let strains = FreeStrains::new(vec![SymTensor::<3>::isotropic(1e-3); n]);
+    let mut loads = pulled(&*system, 5e-3);
     loads.thermal_strain = strains.clone();
     let held = ProportionalLoading {
         thermal_strain: strains,
-        ..pulled(&system, 0.0)
+        ..pulled(&*system, 0.0)
     };
     let (state, force) = solved(&problem(
         system.clone(),
@@ -454,13 +457,13 @@ fn heat_makes_a_free_body_grow() {
 #[test]
 fn breakages_in_place_are_those_of_a_new_factor() {
     let run = |update: Update| -> (Outcome, Vec<(u32, f64)>) {
-        let system = plain(lattice([3, 3, 6], |_| true), 0.2, SolidElement::Beam);
+        let system = plain(lattice([3, 3, 6], |_| true), 0.2, ElementKind::Beam);
         // Limits that differ a little from bond to bond, so that one breaks after another.
         let limit = (0..system.bonds.len()).map(|bond| 1.0 + 1e-3 * ((bond * 37) % 101) as f64);
         let criteria = Criteria {
             list: vec![Criterion::brittle("", Measure::Tension, limit.collect())],
         };
-        let loads = pulled(&system, 100.0);
+        let loads = pulled(&*system, 100.0);
         let solver = SolverSettings {
             update: Some(update),
             ..SolverSettings::default()

@@ -9,6 +9,7 @@ use ligament_model::thermal::ThermalStrain;
 use verification::bench::{self, Bench, Run};
 use verification::meshes;
 use verification::numbers::{Random, largest, relative_error};
+use verification::stresses::{tractions, virial};
 
 /// Plate 0.2 x 0.1 m, 2 cm thick, of 1543 irregular points; each test brings its loads along.
 const PLATE: &str = r#"
@@ -35,8 +36,8 @@ fn stresses(bench: &Bench, intact: &[bool], u: &[f64]) -> (Vec<[f64; 3]>, Vec<[f
         internal::sweep(system, BondsLeft::whole(intact), u, ThermalStrain::NONE).deformations;
     let left = BondsLeft::whole(intact);
     (
-        system.virial_stresses(left, &deformations),
-        system.tractions(left, &deformations),
+        virial(system, left, &deformations),
+        tractions(system, left, &deformations),
     )
 }
 

@@ -8,6 +8,7 @@ use ligament_model::Bonds;
 use ligament_model::Deformations;
 use verification::bench::{Bench, Run};
 use verification::numbers::{by_point, largest, relative_error};
+use verification::stresses;
 
 const YOUNG: f64 = 65.8e9; // Pa
 const ALPHA: f64 = 23e-6; // 1/K
@@ -70,7 +71,7 @@ fn deformations(bench: &Bench, run: &Run) -> Deformations {
 
 /// Strain (eps_xx, eps_yy, gamma_xy) that a point would have without stress.
 fn free_strain(bench: &Bench) -> [f64; 3] {
-    bench.boundary.thermal_strain.of_plane()[0]
+    stresses::free(&bench.boundary.thermal_strain)[0]
 }
 
 /// A body that nothing but three gauges holds takes the shape of its thermal strain: displacements are (eps_xx x + gamma_xy y/2,
@@ -355,8 +356,8 @@ fn a_linear_temperature_bends_free_bodies() {
                 path.display()
             );
             let (bench, run) = solved(&text, &settings);
-            let strains = bench.boundary.thermal_strain.of_plane().as_flattened();
-            let size = largest(strains.iter().map(|it| it.abs()));
+            let strains = stresses::free(&bench.boundary.thermal_strain);
+            let size = largest(strains.as_flattened().iter().map(|it| it.abs()));
             let left = deformations(&bench, &run);
             let held = internal::sweep(
                 &*bench.model.system,

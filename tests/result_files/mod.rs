@@ -72,7 +72,7 @@ impl Case {
     fn run(&self) {
         run::run(&self.file, &self.results(), false, ProgressMode::Quiet).unwrap();
         let (model, canvas) = self.model();
-        let loading = Loading::new(&model.setup, &model.system).unwrap();
+        let loading = Loading::new(&model.setup, &*model.system).unwrap();
         let problem = loading.problem(&model.system, &model.criteria);
         let mut recorder = Recorder::new(
             &self.file.case,

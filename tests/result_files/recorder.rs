@@ -10,6 +10,8 @@ use ligament_case::case::StressField;
 use ligament_model::{Absence, Bonds};
 use ligament_run::model::Model;
 use verification::numbers::by_point;
+use verification::stresses;
+use ligament_model::thermal::FreeStrains;
 
 use super::bodies::Canvas;
 use super::expected::{Entry, Expected, Place, Rows};
@@ -241,18 +243,16 @@ impl<'a> Recorder<'a> {
         if !change.is_empty() {
             fields_of.reals("temperature_change", change);
             let strain = view.loads.thermal_strain(state.load_factor);
-            fields_of.components(
-                "thermal_strain",
-                ["xx", "yy", "xy"],
-                points.clone().map(|it| strain.of_point(it)),
-            );
+            let of_points = FreeStrains::new(points.clone().map(|it| strain.of_point(it)));
+            let strains = stresses::free(&of_points);
+            fields_of.components("thermal_strain", ["xx", "yy", "xy"], strains);
         }
         if self.stress.contains(&StressField::Virial) {
-            let stress = system.virial_stresses(state.bonds(), &balanced.deformations);
+            let stress = stresses::virial(system, state.bonds(), &balanced.deformations);
             fields_of.components("stress_virial", ["xx", "yy", "xy"], stress);
         }
         if self.stress.contains(&StressField::Traction) {
-            let stress = system.tractions(state.bonds(), &balanced.deformations);
+            let stress = stresses::tractions(system, state.bonds(), &balanced.deformations);
             fields_of.components("stress_traction", ["xx", "yx", "yy", "xy"], stress);
         }
         fields_of.fixed(self.model);

@@ -106,7 +106,7 @@ impl Bench {
         let model = build_model_on(&case, ranks, &mut Stages::default(), &progress).unwrap();
         let Loading {
             boundary, probes, ..
-        } = Loading::new(&model.setup, &model.system).unwrap();
+        } = Loading::new(&model.setup, &*model.system).unwrap();
         Self {
             case,
             model,

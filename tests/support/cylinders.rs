@@ -11,10 +11,10 @@ use ligament_analysis::{
     State,
 };
 use ligament_model::material::Isotropic;
-use ligament_model::space::element::SolidElement;
 use ligament_model::space::law::{ShearForm, nhpd};
-use ligament_model::space::system::SolidSystem;
-use ligament_model::{BondSet, BondStiffness, Horizons, PointCloud};
+use ligament_model::{
+    BondSet, BondStiffness, BondSystem, ElementKind, Horizons, PointCloud, System,
+};
 
 use crate::numbers::Random;
 
@@ -29,19 +29,19 @@ const LAMBDA: f64 = 2.5;
 
 /// Points in an upright cylinder of radius one and height two, some `across` a diameter, moved at random by up to a fifth of their spacing, with
 /// NHPD's bonds.
-pub fn cylinder(across: usize) -> Arc<SolidSystem> {
+pub fn cylinder(across: usize) -> Arc<dyn System<3>> {
     let law = |bonds: &BondSet<3>, cloud: &PointCloud<3>| {
         nhpd::stiffness(bonds, cloud, &[MATERIAL], ShearForm::default())
     };
-    cylinder_of(across, SolidElement::Beam, law)
+    cylinder_of(across, ElementKind::Beam, law)
 }
 
 /// The points of [`cylinder`] with other bonds.
 pub fn cylinder_of(
     across: usize,
-    element: SolidElement,
+    element: ElementKind,
     law: impl Fn(&BondSet<3>, &PointCloud<3>) -> BondStiffness,
-) -> Arc<SolidSystem> {
+) -> Arc<dyn System<3>> {
     let spacing = 2.0 / across as f64;
     let mut random = Random(3);
     let mut positions = Vec::new();
@@ -63,12 +63,12 @@ pub fn cylinder_of(
     let bonds = BondSet::<3>::search(&cloud, &horizons);
     let stiffness = law(&bonds, &cloud);
     let whole = vec![1.0; bonds.len()];
-    let system = SolidSystem::new(cloud, bonds, element, stiffness, whole.clone(), &whole);
-    Arc::new(system)
+    let system = BondSystem::new(cloud, bonds, element, stiffness, whole.clone(), &whole);
+    system.with_elements()
 }
 
 /// The cylinder pulled by a thousandth of its height, with its lower end held.
-pub fn pulled(system: &Arc<SolidSystem>, method: Method) -> Problem {
+pub fn pulled(system: &Arc<dyn System<3>>, method: Method) -> Problem {
     let layout = system.layout();
     let at_end = |lower: bool| -> Vec<u32> {
         let points = 0..system.n_points() as u32;
@@ -128,7 +128,7 @@ pub struct Torn {
 
 impl Torn {
     /// The problem at load factor 1, with a crack at half of the height where x is below a part of the radius.
-    pub fn cracked(problem: &Problem, system: &SolidSystem, part: f64) -> Self {
+    pub fn cracked(problem: &Problem, system: &BondSystem<3>, part: f64) -> Self {
         let mut equilibrium = Equilibrium::new(problem, 1e-4).unwrap();
         let mut state = State {
             load_factor: 1.0,

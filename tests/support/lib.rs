@@ -15,6 +15,7 @@ pub mod numbers;
 pub mod problems;
 pub mod solid_run;
 pub mod solids;
+pub mod stresses;
 pub mod table;
 pub mod threads_as_ranks;
 pub mod trusses;

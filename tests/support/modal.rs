@@ -45,7 +45,7 @@ impl ModalBench {
     fn from_case(case: CaseFile) -> Self {
         let progress = Progress::new(ProgressMode::Quiet);
         let model = build_model(&case, &mut Stages::default(), &progress).unwrap();
-        let vibration = Vibration::new(&model.setup, &model.system).unwrap();
+        let vibration = Vibration::new(&model.setup, &*model.system).unwrap();
         Self {
             supports: vibration.supports,
             mass: vibration.mass,

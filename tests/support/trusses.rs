@@ -11,9 +11,8 @@ use ligament_analysis::{Layout, SolverSettings};
 use ligament_model::contact::Faces;
 use ligament_model::deformation::Room;
 use ligament_model::element::Rigidities;
-use ligament_model::element::pair::Pairs;
+use ligament_model::element::ElementKind;
 use ligament_model::failure::{Criteria, Criterion, Measure};
-use ligament_model::system::Kinematics;
 use ligament_model::{BondSet, BondSystem, Horizons, PointCloud};
 
 use crate::bench::Watch;
@@ -117,8 +116,9 @@ impl Truss {
                     axial: of_bonds(&rigidity),
                     shear: of_bonds(&rigidity),
                     rotational: of_bonds(&rigidity),
+                    strain: Vec::new(),
                 },
-                kinematics: Kinematics::Beam(Pairs::default()),
+                element: ElementKind::Beam,
                 beyond_correction: Vec::new(),
                 faces: Faces::default(),
                 room: Room::default(),
@@ -145,7 +145,7 @@ impl Truss {
     /// Its problem.
     pub fn problem(&self) -> Problem {
         Problem {
-            system: Arc::new(self.system.clone()),
+            system: self.system.clone().with_elements(),
             criteria: Arc::new(self.criteria.clone()),
             loads: Arc::new(self.boundary.clone()),
             solver: SolverSettings::default(),

@@ -82,6 +82,7 @@ pub(crate) fn add_to(
 pub(crate) fn end_forces(closed: &ClosedPair) -> impl Iterator<Item = (usize, f64)> {
     let force = closed.force();
     let row = closed.pair.row.into_iter();
+    let row = row.filter(|(_, factor)| *factor != 0.0);
     row.map(move |(dof, factor)| (dof as usize, force * factor))
 }
 
@@ -117,7 +118,7 @@ pub(crate) fn add_virial(
 ) {
     let volume = system.volumes()[point as usize];
     for it in closed.iter().filter(|it| it.pair.ends.contains(&point)) {
-        for (stress, part) in stress.iter_mut().zip(it.virial_share(volume)) {
+        for (stress, part) in stress.iter_mut().zip(it.virial_share(volume).components()) {
             *stress += part;
         }
     }

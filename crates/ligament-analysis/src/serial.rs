@@ -5,6 +5,7 @@
 
 use std::time::Duration;
 
+use ligament_model::tensor::SymTensor;
 use ligament_model::element::{BondDeformation, Remaining};
 use thiserror::Error;
 
@@ -246,6 +247,18 @@ impl Serial for BondDeformation {
 
     fn read(from: &mut &[u8]) -> Result<Self, Damaged> {
         Ok(Self::new(Serial::read(from)?))
+    }
+}
+
+impl<const D: usize> Serial for SymTensor<D> {
+    fn write(&self, out: &mut Vec<u8>) {
+        self.components().for_each(|value| value.write(out));
+    }
+
+    fn read(from: &mut &[u8]) -> Result<Self, Damaged> {
+        let components = Self::NAMES.iter().map(|_| f64::read(from));
+        let components: Result<Vec<f64>, Damaged> = components.collect();
+        Ok(Self::from_components(&components?))
     }
 }
 

@@ -2,8 +2,9 @@
 //!
 //! The bonds that break lose their elements, and elements that lean on them change.
 
-use crate::element::{BondDeformation, Element, Elements, Term};
-use crate::system::{BondsLeft, Typed};
+use crate::deformation::Deformation;
+use crate::element::{Element, Elements, Term};
+use crate::system::{BondsLeft, ElementSystem};
 use crate::thermal::ThermalStrain;
 
 /// The elements that bonds change which break together.
@@ -32,19 +33,19 @@ pub trait ChangedElements: std::fmt::Debug {
 
 /// An element that a breakage changes.
 #[derive(Debug, Clone, PartialEq)]
-struct ChangedElement<E, const M: usize> {
+struct ChangedElement<const D: usize, const M: usize, E: Element<D, M>> {
     /// Ends of its bond.
     ends: [u32; 2],
     /// The element before, with its deformation when the bonds break.
-    before: (E, BondDeformation),
+    before: (E, E::Deformation),
     /// The element after, with its deformation then; none if its bond itself breaks.
-    after: Option<(E, BondDeformation)>,
+    after: Option<(E, E::Deformation)>,
 }
 
-impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
+impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     /// The elements that change when some of the bonds that are `left` break, at displacements (n_degrees_of_freedom).
     pub(crate) fn changed(
-        self,
+        &self,
         left: BondsLeft<'_>,
         displacement: &[f64],
         expansion: ThermalStrain<'_>,
@@ -63,7 +64,7 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
                 after: None,
             })
         });
-        let mut elements: Vec<ChangedElement<E::Element, M>> = broken.collect();
+        let mut elements: Vec<ChangedElement<D, M, E::Element>> = broken.collect();
         let leaning = self.elements.leaning(bonds);
         if !leaning.is_empty() {
             let mut intact = left.intact.to_vec();
@@ -84,7 +85,9 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
     }
 }
 
-impl<const M: usize, E: Element<M>> ChangedElements for Vec<ChangedElement<E, M>> {
+impl<const D: usize, const M: usize, E: Element<D, M>> ChangedElements
+    for Vec<ChangedElement<D, M, E>>
+{
     fn n_elements(&self) -> usize {
         self.len()
     }
@@ -121,8 +124,8 @@ impl<const M: usize, E: Element<M>> ChangedElements for Vec<ChangedElement<E, M>
     }
 
     fn released(&self, displacement: &[f64], expansion: ThermalStrain<'_>) -> f64 {
-        let of_element = |it: &ChangedElement<E, M>| {
-            let mutual = |(element, before): &(E, BondDeformation)| {
+        let of_element = |it: &ChangedElement<D, M, E>| {
+            let mutual = |(element, before): &(E, E::Deformation)| {
                 let now = deformation(element, it.ends, displacement, expansion);
                 element.mutual_energy(before, &now)
             };
@@ -133,16 +136,16 @@ impl<const M: usize, E: Element<M>> ChangedElements for Vec<ChangedElement<E, M>
 }
 
 /// Deformation of an element without what its temperature gives it.
-fn deformation<const M: usize, E: Element<M>>(
+fn deformation<const D: usize, const M: usize, E: Element<D, M>>(
     element: &E,
     ends: [u32; 2],
     displacement: &[f64],
     expansion: ThermalStrain<'_>,
-) -> BondDeformation {
+) -> E::Deformation {
     let total = element.deformation(displacement);
     if expansion.is_none() {
         total
     } else {
-        total.less(&element.deformation_in(expansion.of_bond(ends)))
+        total.less(&element.deformation_in(&expansion.of_bond(ends)))
     }
 }

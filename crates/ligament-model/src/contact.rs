@@ -3,28 +3,29 @@
 //! A pair was bonded before its bond broke, or would be but for a pre-crack. Its gap along the normal n of the crack, from A
 //! to B, is
 //!
-//! g = (u_B - u_A) . n - l (t . n) (theta_A + theta_B)/2 - l n . (eps_T e),
+//! g = (u_B - u_A) . n - l (e x n) . (phi_A + phi_B)/2 - l n . (eps_T e),
 //!
-//! with the length l and direction e of the bond, t at right angles to e (counter-clockwise), the rotations of the points and
+//! with the length l and direction e of the bond, the rotations phi of the points (in the plane theta about z) and
 //! the strain eps_T that the temperature gives. A rigid motion leaves it as it is, and so does the sliding of the faces along
 //! each other. Where g < 0 the pair is closed and stores 1/2 k g^2: an energy, so that nothing is lost over a cycle. The
-//! rotations in g put moments -k g l (t . n)/2 on both ends, which balance the couple of two forces that are not in line.
+//! rotations in g put moments -k g l (e x n)/2 on both ends, which balance the couple of two forces that are not in line.
 //!
-//! k = (K_n (e . n)^2 + K_s (t . n)^2)/l^2 is what the bond resists along n with, its axial rigidity K_n and its shear rigidity
+//! k = (K_n (e . n)^2 + K_s |e x n|^2)/l^2 is what the bond resists along n with, its axial rigidity K_n and its shear rigidity
 //! K_s: in a uniform strain eps_nn the closed pairs across a straight crack exert the traction of the body without the crack.
 //! What strain along the crack adds to it (Poisson) is not recovered, nor is shear along the crack: there is no friction.
 
 use crate::bonds::{BondSet, Incidence};
 use crate::layout::Component;
+use crate::tensor::SymTensor;
 use crate::thermal::ThermalStrain;
 
 /// A bond that a pre-crack cut.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CutBond {
+pub struct CutBond<const D: usize = 2> {
     /// Points A < B.
     pub ends: [u32; 2],
     /// Unit normal of the pre-crack where it cuts the bond, from A to B.
-    pub normal: [f64; 2],
+    pub normal: [f64; D],
     /// Omega alpha V_A V_B k_n l of the bond in the whole body, J; 0 where faces do not close.
     pub axial: f64,
     /// Omega alpha V_A V_B k_t l of the bond in the whole body, J; 0 where faces do not close.
@@ -32,10 +33,10 @@ pub struct CutBond {
 }
 
 /// Faces of cracks: what pre-cracks cut, and whether faces that close carry pressure.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Faces {
+#[derive(Debug, Clone, PartialEq)]
+pub struct Faces<const D: usize = 2> {
     /// Bonds that pre-cracks cut, in the order of their ends.
-    cut: Vec<CutBond>,
+    cut: Vec<CutBond<D>>,
     /// The points that bonds and closed faces couple with each point, ascending; none where faces do not close.
     coupled: Option<Incidence>,
 }
@@ -47,15 +48,14 @@ pub struct ContactPair {
     pub number: u32,
     /// Points A < B.
     pub ends: [u32; 2],
-    /// Unit normal n of the crack, from A to B.
-    pub normal: [f64; 2],
+    /// Unit normal n of the crack, from A to B; without a component along z in the plane.
+    pub normal: [f64; 3],
     /// Stiffness k along the normal, N/m.
     pub stiffness: f64,
-    /// l n e, symmetric (xx, yy, xy): what a strain (eps_xx, eps_yy, gamma_xy) of both points makes of the gap, and what the force
-    /// across makes of their stress, m.
-    pub spread: [f64; 3],
-    /// Degrees of freedom and their factors in the gap; of points that do not turn the last two are zero.
-    pub row: [(u32, f64); 6],
+    /// Symmetric part of l n (x) e: what a strain of both points makes of the gap, and what the force across makes of their stress, m.
+    pub spread: SymTensor<3>,
+    /// Degrees of freedom and their factors in the gap; the factors are zero beyond those that two points have.
+    pub row: [(u32, f64); 12],
 }
 
 /// A pair that is closed.
@@ -89,8 +89,7 @@ impl ContactPair {
         if expansion.is_none() {
             return 0.0;
         }
-        let strain = expansion.of_bond(self.ends);
-        self.spread.iter().zip(strain).map(|(l, eps)| l * eps).sum()
+        self.spread.contracted(&expansion.of_bond(self.ends))
     }
 }
 
@@ -102,17 +101,16 @@ impl ClosedPair {
 
     /// What the second end exerts on the first along a component, N.
     pub fn pull(&self, component: Component) -> f64 {
-        match component {
-            Component::X => self.force() * self.pair.normal[0],
-            Component::Y => self.force() * self.pair.normal[1],
-            _ => 0.0,
+        if component.is_rotation() {
+            0.0
+        } else {
+            self.force() * self.pair.normal[component.in_space()]
         }
     }
 
-    /// Virial stress (xx, yy, xy) that it gives an end of a volume, m^3, Pa: half of the force dyad.
-    pub fn virial_share(&self, volume: f64) -> [f64; 3] {
-        let share = 0.5 * self.force() / volume;
-        self.pair.spread.map(|spread| share * spread)
+    /// Virial stress that it gives an end of a volume, m^3, Pa: half of the force dyad.
+    pub fn virial_share(&self, volume: f64) -> SymTensor<3> {
+        self.pair.spread.scaled(0.5 * self.force() / volume)
     }
 
     /// Energy 1/2 k g^2, J.
@@ -121,14 +119,20 @@ impl ClosedPair {
     }
 }
 
-impl Faces {
+impl<const D: usize> Default for Faces<D> {
+    fn default() -> Self {
+        Self::open(Vec::new())
+    }
+}
+
+impl<const D: usize> Faces<D> {
     /// Faces that bonds cut by pre-cracks leave, and that carry no pressure.
-    pub fn open(cut: Vec<CutBond>) -> Self {
+    pub fn open(cut: Vec<CutBond<D>>) -> Self {
         Self { cut, coupled: None }
     }
 
     /// Faces that carry pressure where they close, of bonds that broke as well.
-    pub fn closing(cut: Vec<CutBond>, bonds: &BondSet) -> Self {
+    pub fn closing(cut: Vec<CutBond<D>>, bonds: &BondSet<D>) -> Self {
         let all = || {
             bonds
                 .ends
@@ -152,7 +156,7 @@ impl Faces {
     }
 
     /// The bonds that pre-cracks cut.
-    pub fn cut(&self) -> &[CutBond] {
+    pub fn cut(&self) -> &[CutBond<D>] {
         &self.cut
     }
 

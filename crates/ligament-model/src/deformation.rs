@@ -10,6 +10,7 @@ use std::sync::{Arc, Mutex};
 use rayon::prelude::*;
 
 use crate::element::BondDeformation;
+use crate::tensor::{minus, norm};
 
 /// Deformation of a bond in space between the points A and B, with the unit vector n from A to B and the projection P = I - n n^T.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -22,10 +23,66 @@ pub struct SpaceDeformation {
     pub rotation: [f64; 3],
 }
 
-impl SpaceDeformation {
-    /// A multiple of it.
+/// Deformation of a bond as its element has it, from which follows what criteria measure.
+pub trait Deformation: Copy + Default + PartialEq + fmt::Debug + Send + Sync + 'static {
+    /// The deformation times a factor.
+    fn scaled(&self, factor: f64) -> Self;
+
+    /// The difference to another deformation.
+    fn less(&self, other: &Self) -> Self;
+
+    /// Strains that criteria measure.
+    fn measured(&self) -> BondDeformation;
+
+    /// A deformation in which criteria measure these strains; energies do not depend on its directions.
+    fn with_measures(measured: &BondDeformation) -> Self;
+
+    /// Deformations of all bonds, shape (n_bonds).
+    fn of_bonds(deformations: &Deformations) -> &[Self];
+
+    /// Deformations of so many bonds that a function writes: all of them, and each by its number.
+    fn written(room: &Room, n_bonds: usize, write: impl FnOnce(&mut [Self])) -> Deformations;
+}
+
+impl Deformation for BondDeformation {
+    #[inline(always)]
+    fn scaled(&self, factor: f64) -> Self {
+        self.scaled(factor)
+    }
+
+    #[inline(always)]
+    fn less(&self, other: &Self) -> Self {
+        self.less(other)
+    }
+
+    #[inline(always)]
+    fn measured(&self) -> BondDeformation {
+        *self
+    }
+
+    fn with_measures(measured: &BondDeformation) -> Self {
+        *measured
+    }
+
+    #[inline(always)]
+    fn of_bonds(deformations: &Deformations) -> &[Self] {
+        deformations.measured()
+    }
+
+    fn written(room: &Room, n_bonds: usize, write: impl FnOnce(&mut [Self])) -> Deformations {
+        let mut measured = room.taken(n_bonds, |it| &mut it.measured);
+        write(&mut measured);
+        Deformations {
+            measured,
+            in_space: Vec::new(),
+            room: room.clone(),
+        }
+    }
+}
+
+impl Deformation for SpaceDeformation {
     #[inline]
-    pub fn scaled(&self, factor: f64) -> Self {
+    fn scaled(&self, factor: f64) -> Self {
         Self {
             stretch: factor * self.stretch,
             shear: self.shear.map(|strain| factor * strain),
@@ -33,22 +90,44 @@ impl SpaceDeformation {
         }
     }
 
-    /// What is left of it without another one.
     #[inline]
-    pub fn less(&self, other: &Self) -> Self {
-        let less = |one: [f64; 3], other: [f64; 3]| std::array::from_fn(|k| one[k] - other[k]);
+    fn less(&self, other: &Self) -> Self {
         Self {
             stretch: self.stretch - other.stretch,
-            shear: less(self.shear, other.shear),
-            rotation: less(self.rotation, other.rotation),
+            shear: minus(self.shear, other.shear),
+            rotation: minus(self.rotation, other.rotation),
         }
     }
 
-    /// Strains that criteria measure: s, |gamma| and the size of the relative rotation.
+    /// The stretch s, |gamma| and the size of the relative rotation.
     #[inline]
-    pub fn measured(&self) -> BondDeformation {
-        let size = |[x, y, z]: [f64; 3]| (x * x + y * y + z * z).sqrt();
-        BondDeformation::new([self.stretch, size(self.shear), size(self.rotation)])
+    fn measured(&self) -> BondDeformation {
+        BondDeformation::new([self.stretch, norm(self.shear), norm(self.rotation)])
+    }
+
+    fn with_measures(measured: &BondDeformation) -> Self {
+        Self {
+            stretch: measured.stretch(),
+            shear: [measured.shear(), 0.0, 0.0],
+            rotation: [measured.rotation(), 0.0, 0.0],
+        }
+    }
+
+    #[inline(always)]
+    fn of_bonds(deformations: &Deformations) -> &[Self] {
+        &deformations.in_space
+    }
+
+    fn written(room: &Room, n_bonds: usize, write: impl FnOnce(&mut [Self])) -> Deformations {
+        let mut in_space = room.taken(n_bonds, |it| &mut it.in_space);
+        write(&mut in_space);
+        let mut measured = room.taken(n_bonds, |it| &mut it.measured);
+        (measured.par_iter_mut().zip(&in_space)).for_each(|(to, from)| *to = from.measured());
+        Deformations {
+            measured,
+            in_space,
+            room: room.clone(),
+        }
     }
 }
 
@@ -75,38 +154,6 @@ struct Spare {
 }
 
 impl Room {
-    /// Deformations of bonds in the plane, of so many bonds, that a function writes: all of them, and each by its number.
-    pub(crate) fn in_plane(
-        &self,
-        n_bonds: usize,
-        write: impl FnOnce(&mut [BondDeformation]),
-    ) -> Deformations {
-        let mut measured = self.taken(n_bonds, |it| &mut it.measured);
-        write(&mut measured);
-        Deformations {
-            measured,
-            in_space: Vec::new(),
-            room: self.clone(),
-        }
-    }
-
-    /// Deformations of bonds in space, of so many bonds, that a function writes: all of them, and each by its number.
-    pub(crate) fn in_space(
-        &self,
-        n_bonds: usize,
-        write: impl FnOnce(&mut [SpaceDeformation]),
-    ) -> Deformations {
-        let mut in_space = self.taken(n_bonds, |it| &mut it.in_space);
-        write(&mut in_space);
-        let mut measured = self.taken(n_bonds, |it| &mut it.measured);
-        (measured.par_iter_mut().zip(&in_space)).for_each(|(to, from)| *to = from.measured());
-        Deformations {
-            measured,
-            in_space,
-            room: self.clone(),
-        }
-    }
-
     /// An array of so many deformations, whatever they are.
     fn taken<T: Clone + Default>(
         &self,
@@ -161,46 +208,37 @@ impl Deformations {
         &self.measured
     }
 
-    /// Deformations of bonds in space, shape (n_bonds); empty in the plane.
-    #[inline]
-    pub fn vectors(&self) -> &[SpaceDeformation] {
-        &self.in_space
-    }
-
     /// Multiples of all of them.
     pub fn scaled(&self, factor: f64) -> Self {
-        let Self {
-            measured,
-            in_space,
-            room,
-        } = self;
-        if in_space.is_empty() {
-            let of_bond = |(to, from): (&mut _, &BondDeformation)| *to = from.scaled(factor);
-            return room.in_plane(measured.len(), |all| {
-                all.par_iter_mut().zip(measured).for_each(of_bond);
-            });
+        if self.in_space.is_empty() {
+            scaled::<BondDeformation>(self, factor)
+        } else {
+            scaled::<SpaceDeformation>(self, factor)
         }
-        let of_bond = |(to, from): (&mut _, &SpaceDeformation)| *to = from.scaled(factor);
-        room.in_space(in_space.len(), |all| {
-            all.par_iter_mut().zip(in_space).for_each(of_bond);
-        })
     }
 
     /// Deformations on the line from here along slopes (n_bonds), `by` times the slopes ahead.
     pub fn ahead(&self, slopes: &Self, by: f64) -> Self {
         if self.in_space.is_empty() {
-            let both = self.measured.par_iter().zip(&slopes.measured);
-            return self.room.in_plane(self.measured.len(), |all| {
-                (all.par_iter_mut().zip(both))
-                    .for_each(|(to, (here, slope))| *to = here.less(&slope.scaled(-by)));
-            });
+            ahead::<BondDeformation>(self, slopes, by)
+        } else {
+            ahead::<SpaceDeformation>(self, slopes, by)
         }
-        let both = self.in_space.par_iter().zip(&slopes.in_space);
-        self.room.in_space(self.in_space.len(), |all| {
-            (all.par_iter_mut().zip(both))
-                .for_each(|(to, (here, slope))| *to = here.less(&slope.scaled(-by)));
-        })
     }
+}
+
+fn scaled<B: Deformation>(all: &Deformations, factor: f64) -> Deformations {
+    B::written(&all.room, all.len(), |to| {
+        (to.par_iter_mut().zip(B::of_bonds(all))).for_each(|(to, from)| *to = from.scaled(factor));
+    })
+}
+
+fn ahead<B: Deformation>(all: &Deformations, slopes: &Deformations, by: f64) -> Deformations {
+    let both = B::of_bonds(all).par_iter().zip(B::of_bonds(slopes));
+    B::written(&all.room, all.len(), |to| {
+        (to.par_iter_mut().zip(both))
+            .for_each(|(to, (here, slope))| *to = here.less(&slope.scaled(-by)));
+    })
 }
 
 impl Deref for Deformations {
@@ -224,15 +262,15 @@ mod tests {
             rotation: [0.0, y, x],
         };
         let room = Room::default();
-        let here = room.in_space(1, |all| all[0] = deformation(1.0, 3.0, 0.0));
-        let slopes = room.in_space(1, |all| all[0] = deformation(-1.0, 0.0, 2.0));
+        let here = SpaceDeformation::written(&room, 1, |all| all[0] = deformation(1.0, 3.0, 0.0));
+        let slopes = SpaceDeformation::written(&room, 1, |all| all[0] = deformation(-1.0, 0.0, 2.0));
         let ahead = here.ahead(&slopes, 2.0);
         assert_eq!(ahead[0], BondDeformation::new([-1.0, 5.0, 5.0]));
         assert_eq!(
             ahead.scaled(-2.0)[0],
             BondDeformation::new([2.0, 10.0, 10.0])
         );
-        assert_eq!(ahead.vectors()[0], deformation(-1.0, 3.0, 4.0));
+        assert_eq!(SpaceDeformation::of_bonds(&ahead)[0], deformation(-1.0, 3.0, 4.0));
     }
 
     /// Deformations are written into the memory of those that are gone, and never into that of others of another number.
@@ -240,7 +278,7 @@ mod tests {
     fn memory_is_used_again() {
         let room = Room::default();
         let written = |n_bonds: usize, size: f64| {
-            room.in_plane(n_bonds, |all| {
+            BondDeformation::written(&room, n_bonds, |all| {
                 all.fill(BondDeformation::new([size, 0.0, 0.0]));
             })
         };

@@ -41,6 +41,18 @@ impl Component {
         !matches!(self, Self::X | Self::Y | Self::Z)
     }
 
+    /// Place of the component among those of [`Component::IN_SPACE`]: the rotation of the plane is one about z.
+    pub(crate) fn in_space(self) -> usize {
+        match self {
+            Self::X => 0,
+            Self::Y => 1,
+            Self::Z => 2,
+            Self::RotationX => 3,
+            Self::RotationY => 4,
+            Self::Rotation | Self::RotationZ => 5,
+        }
+    }
+
     /// Name of the force or moment that belongs to it, as columns have it.
     pub fn force_name(self) -> &'static str {
         match self {

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::element::imaginary::matrix;
-use crate::element::{ElementKind, Elements};
+use crate::element::ElementKind;
 use crate::system::BondSystem;
 
 /// Stiffness C of the family of a point in x and y, (sigma_xx, sigma_yy, sigma_xy) = C (eps_xx, eps_yy, gamma_xy), Pa:
@@ -15,11 +15,13 @@ use crate::system::BondSystem;
 /// is free and takes the value that costs least; it does not matter for families that are symmetric. In an infinite lattice
 /// this is the stiffness of the body.
 pub fn family_stiffness(system: &BondSystem, point: u32) -> Matrix3<f64> {
-    if let Some(elements) = system.kinematics.lattice() {
+    let rigidities = &system.rigidities;
+    if system.element.has_strains() {
         let family = system.bonds.incidence.at(point).iter();
         let sum = family.fold(Matrix3::zeros(), |sum, &bond| {
-            let share = elements.share(&system.bonds, bond, point);
-            sum + share * matrix(elements.stiffness[bond as usize].entries)
+            let stiffness = &rigidities.strain[bond as usize];
+            let is_first = system.bonds.ends[bond as usize][0] == point;
+            sum + stiffness.share(is_first) * matrix(stiffness.entries)
         });
         return sum / system.cloud.volumes[point as usize];
     }
@@ -33,13 +35,13 @@ pub fn family_stiffness(system: &BondSystem, point: u32) -> Matrix3<f64> {
         let stretch = Vector3::new(a * a, b * b, a * b);
         let shear = Vector3::new(-a * b, a * b, 0.5 * (a * a - b * b));
         let (axial_rigidity, shear_rigidity) =
-            (system.rigidities.axial[bond], system.rigidities.shear[bond]);
+            (rigidities.axial[bond], rigidities.shear[bond]);
         stiffness += axial_rigidity * stretch * stretch.transpose()
             + shear_rigidity * shear * shear.transpose();
         coupling -= shear_rigidity * shear;
         rotation += shear_rigidity;
     }
-    if system.kinematics.kind() == ElementKind::Beam && rotation != 0.0 {
+    if system.element == ElementKind::Beam && rotation != 0.0 {
         stiffness -= coupling * coupling.transpose() / rotation;
     }
     stiffness / (2.0 * system.cloud.volumes[point as usize])

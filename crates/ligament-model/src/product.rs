@@ -8,7 +8,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::element::{Element, Elements};
-use crate::system::{BondsLeft, Typed};
+use crate::system::{BondsLeft, ElementSystem};
 
 /// Parts into which the bonds are divided; fixed, so that the order of summation is fixed too. Each part but the first adds to
 /// forces of its own at all points.
@@ -19,7 +19,7 @@ const TASK: usize = 2048;
 
 /// Adds up forces at points with M components over bonds that are divided into fixed parts: `add` adds those of a range of bonds to
 /// the forces of all points. What `forces` (M n_points) held is lost.
-pub(crate) fn over_parts<const M: usize>(
+fn over_parts<const M: usize>(
     n_bonds: usize,
     forces: &mut [f64],
     add: impl Fn(Range<usize>, &mut [[f64; M]]) + Sync,
@@ -50,13 +50,13 @@ pub(crate) fn over_parts<const M: usize>(
 
 /// Adds a force to a sum.
 #[inline(always)]
-pub(crate) fn add_to<const M: usize>(sum: &mut [f64; M], force: [f64; M]) {
+fn add_to<const M: usize>(sum: &mut [f64; M], force: [f64; M]) {
     *sum = std::array::from_fn(|place| sum[place] + force[place]);
 }
 
-impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
+impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     /// The product of the stiffness of the bonds that are left with motions, shape (M n_points) both.
-    pub(crate) fn multiply(self, bonds: BondsLeft<'_>, motions: &[f64], forces: &mut [f64]) {
+    pub(crate) fn multiply(&self, bonds: BondsLeft<'_>, motions: &[f64], forces: &mut [f64]) {
         over_parts::<M>(self.system.bonds.len(), forces, |of_part, sums| {
             for bond in of_part {
                 if let Some(element) = self.left(bonds, bond) {

@@ -1,6 +1,7 @@
 //! The rigid motions of some points that cost no energy, and what of them degrees of freedom hold.
 
 use crate::layout::{Component, Layout};
+use crate::tensor::{dot, minus, norm};
 
 /// Below this sine of the angle to what is held already, a degree of freedom holds no further rigid motion.
 const RANK_TOLERANCE: f64 = 1e-6;
@@ -9,20 +10,18 @@ const RANK_TOLERANCE: f64 = 1e-6;
 /// spread over many points, and below what results are read to.
 const BALANCE_TOLERANCE: f64 = 1e-6;
 
-/// The rigid motions of some points in D dimensions, about their middle and scaled by their size: D translations, and the rotations where
-/// they cost no energy either, N motions in all. A motion has N numbers: displacements along the axes at the middle, and angles times the
-/// radius.
-pub(crate) struct RigidMotions<'a, const D: usize, const N: usize> {
+/// A rigid motion as one in space: displacements along x, y and z at the middle, and angles about x, y and z times the radius.
+type Motion = [f64; 6];
+
+/// The rigid motions of some points in D dimensions, about their middle and scaled by their size: the translations, and the rotations where
+/// they cost no energy either.
+pub(crate) struct RigidMotions<'a, const D: usize> {
     layout: Layout,
     positions: &'a [[f64; D]],
     centre: [f64; D],
     radius: f64,
     turn: Turn,
-    row: RowOf<D, N>,
 }
-
-/// How the N motions of size one move a component at a place from the middle, over the radius.
-pub(crate) type RowOf<const D: usize, const N: usize> = fn(Turn, Component, [f64; D]) -> [f64; N];
 
 /// Cost and effect of rotating some points as a whole.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,48 +34,63 @@ pub(crate) enum Turn {
     OfPointsAlong,
 }
 
-impl<'a> RigidMotions<'a, 2, 3> {
-    /// The rigid motions of `points` among `positions` in the plane: along x and y, and the rotation.
-    pub(crate) fn in_plane(
-        layout: Layout,
-        positions: &'a [[f64; 2]],
-        points: &[u32],
-        turn: Turn,
-    ) -> Self {
-        let distance = |[x, y]: [f64; 2]| x.hypot(y);
-        Self::new(layout, positions, points, turn, (distance, row_in_plane))
-    }
-}
-
-/// Row of a degree of freedom in the plane.
-fn row_in_plane(turn: Turn, component: Component, [x, y]: [f64; 2]) -> [f64; 3] {
-    let [turn_x, turn_y, turn] = match turn {
-        Turn::Costly => [0.0; 3],
-        Turn::OfPositions => [-y, x, 0.0],
-        Turn::OfPointsAlong => [-y, x, 1.0],
+/// How motions of size one move a component at a place from the middle, over the radius: a rotation omega moves a place r by omega x r.
+fn row<const D: usize>(turn: Turn, component: Component, place: [f64; D]) -> Motion {
+    let along = |axis: usize| if axis < D { place[axis] } else { 0.0 };
+    let [x, y, z] = [0, 1, 2].map(along);
+    let (moves, turns) = match turn {
+        Turn::Costly => (0.0, 0.0),
+        Turn::OfPositions => (1.0, 0.0),
+        Turn::OfPointsAlong => (1.0, 1.0),
     };
-    match component {
-        Component::X => [1.0, 0.0, turn_x],
-        Component::Y => [0.0, 1.0, turn_y],
-        _ => [0.0, 0.0, turn],
+    let mut row = match component {
+        Component::X => [1.0, 0.0, 0.0, 0.0, z, -y],
+        Component::Y => [0.0, 1.0, 0.0, -z, 0.0, x],
+        Component::Z => [0.0, 0.0, 1.0, y, -x, 0.0],
+        _ => [0.0; 6],
+    };
+    row[3..].iter_mut().for_each(|angle| *angle *= moves);
+    if component.is_rotation() {
+        row[component.in_space()] = turns;
     }
+    row
 }
 
-impl<'a, const D: usize, const N: usize> RigidMotions<'a, D, N> {
-    /// The rigid motions of `points` among `positions`, with the size of a vector and the rows of degrees of freedom.
+/// The rigid motions of size one of points at positions from a centre, each as a column over their degrees of freedom.
+pub(crate) fn columns<const D: usize>(
+    layout: Layout,
+    positions: &[[f64; D]],
+    centre: [f64; D],
+) -> Vec<Vec<f64>> {
+    let motion = |of_body: &Component| -> Vec<f64> {
+        let at_point = |position: &[f64; D]| {
+            let place = minus(*position, centre);
+            let rows = layout.components.iter();
+            rows.map(move |it| row(Turn::OfPointsAlong, *it, place)[of_body.in_space()])
+        };
+        positions.iter().flat_map(at_point).collect()
+    };
+    layout.of_body().iter().map(motion).collect()
+}
+
+impl<'a, const D: usize> RigidMotions<'a, D> {
+    /// The rigid motions of `points` among `positions`.
     pub(crate) fn new(
         layout: Layout,
         positions: &'a [[f64; D]],
         points: &[u32],
         turn: Turn,
-        (size, row): (fn([f64; D]) -> f64, RowOf<D, N>),
     ) -> Self {
         let chosen = || points.iter().map(|&point| positions[point as usize]);
         let centre = std::array::from_fn(|axis| {
             chosen().map(|p| p[axis]).sum::<f64>() / points.len() as f64
         });
+        let size = |place: [f64; D]| match place.as_slice() {
+            [x, y] => x.hypot(*y),
+            _ => norm(place),
+        };
         let radius = chosen()
-            .map(|p| size(std::array::from_fn(|axis| p[axis] - centre[axis])))
+            .map(|p| size(minus(p, centre)))
             .fold(0.0, f64::max);
         Self {
             layout,
@@ -84,15 +98,20 @@ impl<'a, const D: usize, const N: usize> RigidMotions<'a, D, N> {
             centre,
             radius: if radius > 0.0 { radius } else { 1.0 },
             turn,
-            row,
         }
+    }
+
+    /// The motions of a body, as places of a [`Motion`]: translations first.
+    fn motions(&self) -> impl Iterator<Item = (Component, usize)> + use<D> {
+        let of_body = self.layout.of_body().iter();
+        of_body.map(|&component| (component, component.in_space()))
     }
 
     /// Degrees of freedom of some points, in their order.
     fn degrees_of_freedom<'p>(
         &self,
         points: &'p [u32],
-    ) -> impl Iterator<Item = usize> + use<'p, D, N> {
+    ) -> impl Iterator<Item = usize> + use<'p, D> {
         let layout = self.layout;
         points.iter().flat_map(move |&point| layout.range(point))
     }
@@ -101,19 +120,20 @@ impl<'a, const D: usize, const N: usize> RigidMotions<'a, D, N> {
     fn count(&self) -> usize {
         match self.turn {
             Turn::Costly => D,
-            Turn::OfPositions | Turn::OfPointsAlong => N,
+            Turn::OfPositions | Turn::OfPointsAlong => self.layout.of_body().len(),
         }
     }
 
     /// How the motions move a degree of freedom, m a m (a rotation: as an angle times the radius).
-    fn row(&self, degree_of_freedom: usize) -> [f64; N] {
+    fn row(&self, degree_of_freedom: usize) -> Motion {
         let position = self.positions[self.layout.point(degree_of_freedom) as usize];
-        let place = std::array::from_fn(|axis| (position[axis] - self.centre[axis]) / self.radius);
-        (self.row)(self.turn, self.layout.component(degree_of_freedom), place)
+        let place: [f64; D] =
+            std::array::from_fn(|axis| (position[axis] - self.centre[axis]) / self.radius);
+        row(self.turn, self.layout.component(degree_of_freedom), place)
     }
 
     /// What a motion does to a degree of freedom, m or rad.
-    fn value(&self, degree_of_freedom: usize, motion: [f64; N]) -> f64 {
+    fn value(&self, degree_of_freedom: usize, motion: Motion) -> f64 {
         let value = dot(self.row(degree_of_freedom), motion);
         if self.layout.component(degree_of_freedom).is_rotation() {
             value / self.radius
@@ -123,10 +143,10 @@ impl<'a, const D: usize, const N: usize> RigidMotions<'a, D, N> {
     }
 
     /// Orthonormal directions of the motions that the spanned ones leave, translations first.
-    fn left_by(&self, spanned: &[[f64; N]]) -> Vec<[f64; N]> {
+    fn left_by(&self, spanned: &[Motion]) -> Vec<Motion> {
         let mut all = spanned.to_vec();
-        for motion in 0..self.count() {
-            let mut unit = [0.0; N];
+        for (_, motion) in self.motions().take(self.count()) {
+            let mut unit = [0.0; 6];
             unit[motion] = 1.0;
             let rest = without(unit, &all);
             let norm = dot(rest, rest).sqrt();
@@ -138,7 +158,7 @@ impl<'a, const D: usize, const N: usize> RigidMotions<'a, D, N> {
     }
 
     /// Work of forces (N) and couples (N m) at some degrees of freedom on a motion, and the sum of their sizes, N.
-    fn work(&self, motion: [f64; N], forces: impl Iterator<Item = (usize, f64)>) -> [f64; 2] {
+    fn work(&self, motion: Motion, forces: impl Iterator<Item = (usize, f64)>) -> [f64; 2] {
         forces.fold([0.0; 2], |[work, size], (dof, force)| {
             let is_couple = self.layout.component(dof).is_rotation();
             let force = if is_couple {
@@ -154,7 +174,7 @@ impl<'a, const D: usize, const N: usize> RigidMotions<'a, D, N> {
     }
 
     /// What of a degree of freedom the spanned directions do not hold (the directions are orthonormal).
-    fn remainder(&self, spanned: &[[f64; N]], degree_of_freedom: usize) -> [f64; N] {
+    fn remainder(&self, spanned: &[Motion], degree_of_freedom: usize) -> Motion {
         let row = self.row(degree_of_freedom);
         let norm = dot(row, row).sqrt();
         if norm == 0.0 {
@@ -164,7 +184,7 @@ impl<'a, const D: usize, const N: usize> RigidMotions<'a, D, N> {
     }
 
     /// Adds the direction that a degree of freedom holds, if there is a new one.
-    fn extend(&self, spanned: &mut Vec<[f64; N]>, degree_of_freedom: usize) {
+    fn extend(&self, spanned: &mut Vec<Motion>, degree_of_freedom: usize) {
         let rest = self.remainder(spanned, degree_of_freedom);
         let norm = dot(rest, rest).sqrt();
         if norm > RANK_TOLERANCE {
@@ -173,7 +193,7 @@ impl<'a, const D: usize, const N: usize> RigidMotions<'a, D, N> {
     }
 
     /// Orthonormal directions of the motions that the fixed degrees of freedom of some points hold.
-    fn spanned_by(&self, points: &[u32], is_fixed: impl Fn(usize) -> bool) -> Vec<[f64; N]> {
+    fn spanned_by(&self, points: &[u32], is_fixed: impl Fn(usize) -> bool) -> Vec<Motion> {
         let mut spanned = Vec::new();
         for dof in self.degrees_of_freedom(points).filter(|&dof| is_fixed(dof)) {
             self.extend(&mut spanned, dof);
@@ -187,7 +207,7 @@ impl<'a, const D: usize, const N: usize> RigidMotions<'a, D, N> {
     /// The degree of freedom that holds most of what the spanned directions do not.
     fn most_independent(
         &self,
-        spanned: &[[f64; N]],
+        spanned: &[Motion],
         candidates: impl Iterator<Item = usize>,
     ) -> Option<usize> {
         let mut best = None;
@@ -203,26 +223,23 @@ impl<'a, const D: usize, const N: usize> RigidMotions<'a, D, N> {
 
     /// Of the motions along the axes and the rotations those that the spanned directions leave free: translations of the
     /// whole by 1 m, and rotations by an angle of 1 rad about the place that they hold, or the middle.
-    fn free(&self, spanned: &[[f64; N]]) -> [Option<[f64; N]>; N] {
+    fn free(&self, spanned: &[Motion]) -> Vec<(Component, Motion)> {
         let mut held = spanned.to_vec();
-        let mut free = [None; N];
-        for axis in 0..D {
-            let mut unit = [0.0; N];
-            unit[axis] = 1.0;
-            if spanned
-                .iter()
-                .all(|direction| direction[axis].abs() < RANK_TOLERANCE)
-            {
-                free[axis] = Some(unit);
-                held.push(unit);
+        let mut free = Vec::new();
+        for (component, place) in self.motions() {
+            let mut unit = [0.0; 6];
+            unit[place] = 1.0;
+            if !component.is_rotation() {
+                if (spanned.iter()).all(|direction| direction[place].abs() < RANK_TOLERANCE) {
+                    free.push((component, unit));
+                    held.push(unit);
+                }
+                continue;
             }
-        }
-        for angle in D..N {
-            let mut unit = [0.0; N];
-            unit[angle] = 1.0;
             let turn = without(unit, &held);
-            if held.len() < self.count() && turn[angle] > RANK_TOLERANCE {
-                free[angle] = Some(turn.map(|value| value / turn[angle] * self.radius));
+            if held.len() < self.count() && turn[place] > RANK_TOLERANCE {
+                let by_one = turn.map(|value| value / turn[place] * self.radius);
+                free.push((component, by_one));
                 let size = dot(turn, turn).sqrt();
                 held.push(turn.map(|value| value / size));
             }
@@ -269,7 +286,7 @@ impl<'a, const D: usize, const N: usize> RigidMotions<'a, D, N> {
         self.moved(points, &self.left_by(&[]))
     }
 
-    fn moved(&self, points: &[u32], motions: &[[f64; N]]) -> Vec<Vec<f64>> {
+    fn moved(&self, points: &[u32], motions: &[Motion]) -> Vec<Vec<f64>> {
         let shape = |&motion| {
             let dofs = self.degrees_of_freedom(points);
             dofs.map(|dof| self.value(dof, motion)).collect()
@@ -286,14 +303,7 @@ impl<'a, const D: usize, const N: usize> RigidMotions<'a, D, N> {
         force: impl Fn(usize) -> f64,
     ) -> Vec<FreeMotion> {
         let spanned = self.spanned_by(points, is_fixed);
-        // The components of a motion stand in the order of those of a point that turns.
-        let of_motions: &[Component] = if D == 2 {
-            &Component::ALL
-        } else {
-            &Component::IN_SPACE
-        };
-        let free = of_motions.iter().zip(self.free(&spanned));
-        let free = free.filter_map(|(component, motion)| Some((*component, motion?)));
+        let free = self.free(&spanned).into_iter();
         free.map(|(component, motion)| {
             let forces = self.degrees_of_freedom(points).map(|dof| (dof, force(dof)));
             let [load, size] = self.work(motion, forces);
@@ -332,16 +342,12 @@ impl FreeMotion {
     }
 }
 
-/// What of a vector is orthogonal to some orthonormal directions.
-fn without<const N: usize>(vector: [f64; N], directions: &[[f64; N]]) -> [f64; N] {
-    directions.iter().fold(vector, |rest, direction| {
+/// What of a motion is orthogonal to some orthonormal directions.
+fn without(motion: Motion, directions: &[Motion]) -> Motion {
+    directions.iter().fold(motion, |rest, direction| {
         let share = dot(rest, *direction);
         std::array::from_fn(|i| rest[i] - share * direction[i])
     })
-}
-
-fn dot<const N: usize>(one: [f64; N], other: [f64; N]) -> f64 {
-    one.iter().zip(other).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]
@@ -357,7 +363,7 @@ mod tests {
             n_points: 4,
             components: &Component::ALL,
         };
-        let motions = RigidMotions::in_plane(layout, &positions, &points, turn);
+        let motions = RigidMotions::new(layout, &positions, &points, turn);
         let can_hold =
             |dof: usize| turn == Turn::OfPointsAlong || !layout.component(dof).is_rotation();
         motions.holds(&points, |dof| fixed.contains(&dof), can_hold)
@@ -395,5 +401,65 @@ mod tests {
     fn a_held_rotation_without_stiffness_holds_nothing() {
         assert_eq!(holds_of_square(Turn::OfPositions, &[0, 1, 2]).len(), 1);
         assert_eq!(holds_of_square(Turn::OfPointsAlong, &[0, 1, 2]).len(), 0);
+    }
+
+    const CUBE: [[f64; 3]; 8] = [
+        [0.0, 0.0, 0.0],
+        [2.0, 0.0, 0.0],
+        [0.0, 2.0, 0.0],
+        [2.0, 2.0, 0.0],
+        [0.0, 0.0, 2.0],
+        [2.0, 0.0, 2.0],
+        [0.0, 2.0, 2.0],
+        [2.0, 2.0, 2.0],
+    ];
+
+    fn motions(turn: Turn) -> RigidMotions<'static, 3> {
+        let layout = Layout {
+            n_points: 8,
+            components: &Component::IN_SPACE,
+        };
+        let points: Vec<u32> = (0..8).collect();
+        RigidMotions::new(layout, &CUBE, &points, turn)
+    }
+
+    fn holds_of_cube(turn: Turn, fixed: &[usize]) -> usize {
+        let points: Vec<u32> = (0..8).collect();
+        let can_hold = |dof: usize| turn == Turn::OfPointsAlong || dof % 6 < 3;
+        let holds = motions(turn).holds(&points, |dof| fixed.contains(&dof), can_hold);
+        holds.len()
+    }
+
+    /// Six, or three where rotations cost energy. A ball joint at a corner leaves the three rotations, a second one the turn about the line
+    /// through both, a clamped point nothing; where points have no rotational stiffness a clamped point is a ball joint.
+    #[test]
+    fn supports_of_a_cube_take_the_place_of_gauges() {
+        assert_eq!(holds_of_cube(Turn::OfPointsAlong, &[]), 6);
+        assert_eq!(holds_of_cube(Turn::OfPositions, &[]), 6);
+        assert_eq!(holds_of_cube(Turn::Costly, &[]), 3);
+        assert_eq!(holds_of_cube(Turn::Costly, &[0, 7, 14]), 0);
+        assert_eq!(holds_of_cube(Turn::OfPointsAlong, &[0, 1, 2]), 3);
+        assert_eq!(holds_of_cube(Turn::OfPointsAlong, &[0, 1, 2, 42, 43, 44]), 1);
+        assert_eq!(holds_of_cube(Turn::OfPointsAlong, &[0, 1, 2, 3, 4, 5]), 0);
+        assert_eq!(holds_of_cube(Turn::OfPositions, &[0, 1, 2, 3, 4, 5]), 3);
+    }
+
+    /// Hung up along z at three corners of the bottom, the cube may slide along x and y and turn about z. A force along x at the top then
+    /// does work on the first, and on the turn if it is off the middle: moments about the middle, (0, 1, 0) to its left.
+    #[test]
+    fn free_motions_and_their_loads() {
+        let fixed = [2, 8, 14];
+        let points: Vec<u32> = (0..8).collect();
+        let free = motions(Turn::OfPointsAlong).free_motions(
+            &points,
+            |dof| fixed.contains(&dof),
+            |dof| if dof == 6 * 6 { 5.0 } else { 0.0 },
+        );
+        let found: Vec<_> = free.iter().map(|it| it.component).collect();
+        assert_eq!(found, [Component::X, Component::Y, Component::RotationZ]);
+        let loads = [5.0, 0.0, -5.0];
+        for (motion, expected) in free.iter().zip(loads) {
+            assert!((motion.load - expected).abs() < 1e-12, "{motion:?}");
+        }
     }
 }

@@ -5,19 +5,19 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::cloud::PointCloud;
-use crate::deformation::Deformations;
-use crate::element::{BondDeformation, Element, Elements};
+use crate::deformation::{Deformation, Deformations};
+use crate::element::{DeformationOf, Element, Elements};
 use crate::layout::Component;
 use crate::portion::{Portion, Share, Whole, counts};
-use crate::system::{BondsLeft, Typed};
+use crate::system::{BondsLeft, ElementSystem};
 use crate::thermal::ThermalStrain;
 
 /// Parts into which the bonds are divided when their forces are added up; fixed, so that the order of summation is fixed
 /// too. Each part adds to forces of its own at all points, so more parts cost memory.
-pub(crate) const PARTS: usize = 4;
+const PARTS: usize = 4;
 
 /// Bonds that make a task worth while.
-pub(crate) const TASK: usize = 2048;
+const TASK: usize = 2048;
 
 /// What a sweep over all bonds gives.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,28 +60,28 @@ pub struct InternalForces {
     pub thermal: f64,
 }
 
-impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
+impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     /// Deformation of every bond without what its temperature gives it, broken or not, shape (n_bonds).
     pub(crate) fn deformations(
-        self,
+        &self,
         intact: &[bool],
         displacement: &[f64],
         expansion: ThermalStrain<'_>,
     ) -> Deformations {
         assert_eq!(displacement.len(), M * self.system.cloud.len());
         let ends = &self.system.bonds.ends;
-        let of_task = |(task, deformations): (usize, &mut [BondDeformation])| {
+        let of_task = |(task, deformations): (usize, &mut [DeformationOf<D, M, E>])| {
             for (bond, deformation) in (task * TASK..).zip(deformations) {
                 let element = self.whole(intact, bond);
                 *deformation = element.deformation(displacement);
                 if !expansion.is_none() {
                     let thermal = expansion.of_bond(ends[bond]);
-                    *deformation = deformation.less(&element.deformation_in(thermal));
+                    *deformation = deformation.less(&element.deformation_in(&thermal));
                 }
             }
         };
         // Written in place: a closure that gives a deformation to be collected is called bond by bond, which costs more.
-        self.system.room.in_plane(ends.len(), |all| {
+        Deformation::written(&self.system.room, ends.len(), |all| {
             all.par_chunks_mut(TASK).enumerate().for_each(of_task);
         })
     }
@@ -91,21 +91,22 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
     /// Nothing depends on the number of threads: the bonds of a part are added up by one thread in their order, and the parts
     /// after each other.
     pub(crate) fn forces(
-        self,
+        &self,
         bonds: BondsLeft<'_>,
         deformations: Deformations,
         expansion: ThermalStrain<'_>,
     ) -> BondSweep {
         let n_bonds = deformations.len();
         let portion = self.system.cloud.portion.as_ref();
+        let of_bonds: &[DeformationOf<D, M, E>] = Deformation::of_bonds(&deformations);
         let made = |number: usize| {
             let of_part = || number * n_bonds / PARTS..(number + 1) * n_bonds / PARTS;
             let mut part = match portion {
-                None => Part::of_bonds(self, Whole, bonds, &deformations, of_part()),
-                Some(portion) => Part::of_bonds(self, portion, bonds, &deformations, of_part()),
+                None => Part::of_bonds(self, Whole, bonds, of_bonds, of_part()),
+                Some(portion) => Part::of_bonds(self, portion, bonds, of_bonds, of_part()),
             };
             if !expansion.is_none() {
-                part.add_expansion(self, bonds, &deformations, expansion, of_part());
+                part.add_expansion(self, bonds, of_bonds, expansion, of_part());
             }
             part
         };
@@ -116,7 +117,7 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
 
 impl BondSweep {
     /// The sweep over the bonds of some parts, between points with these components; of all ranks, where they share the body out.
-    pub(crate) fn of_parts<const M: usize>(
+    fn of_parts<const M: usize>(
         parts: &[Part<M>],
         components: &[Component; M],
         deformations: Deformations,
@@ -175,17 +176,17 @@ impl BondSweep {
 }
 
 /// What the bonds of one part give.
-pub(crate) struct Part<const M: usize> {
+struct Part<const M: usize> {
     /// Of all points, or of the own ones.
-    pub(crate) forces: Vec<PointForces<M>>,
-    pub(crate) energy: f64,
-    pub(crate) thermal: f64,
-    pub(crate) expansion_energy: f64,
+    forces: Vec<PointForces<M>>,
+    energy: f64,
+    thermal: f64,
+    expansion_energy: f64,
 }
 
 /// The end forces that meet at a point.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct PointForces<const M: usize> {
+struct PointForces<const M: usize> {
     sum: [f64; M],
     /// Sum of their sizes.
     size: [f64; M],
@@ -198,7 +199,7 @@ impl<const M: usize> PointForces<M> {
     };
 
     #[inline]
-    pub(crate) fn add(&mut self, end_force: [f64; M]) {
+    fn add(&mut self, end_force: [f64; M]) {
         for (component, value) in end_force.into_iter().enumerate() {
             self.sum[component] += value;
             self.size[component] += value.abs();
@@ -215,7 +216,7 @@ impl<const M: usize> PointForces<M> {
 
 impl<const M: usize> Part<M> {
     /// A part without bonds, for the points of a cloud, or the own ones of it.
-    pub(crate) fn new<const D: usize>(cloud: &PointCloud<D>) -> Self {
+    fn new<const D: usize>(cloud: &PointCloud<D>) -> Self {
         let own = cloud.portion.as_ref().map(|it| it.own().len());
         Self {
             forces: vec![PointForces::NONE; own.unwrap_or(cloud.len())],
@@ -225,11 +226,11 @@ impl<const M: usize> Part<M> {
         }
     }
 
-    fn of_bonds<E: Elements<M>>(
-        typed: Typed<'_, E, M>,
+    fn of_bonds<const D: usize, E: Elements<D, M>>(
+        typed: &ElementSystem<D, M, E>,
         share: impl Share,
         bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
+        deformations: &[DeformationOf<D, M, E>],
         of_part: Range<usize>,
     ) -> Self {
         let Self {
@@ -260,11 +261,11 @@ impl<const M: usize> Part<M> {
     }
 
     /// Adds what the temperature does to the bonds of the part.
-    fn add_expansion<E: Elements<M>>(
+    fn add_expansion<const D: usize, E: Elements<D, M>>(
         &mut self,
-        typed: Typed<'_, E, M>,
+        typed: &ElementSystem<D, M, E>,
         bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
+        deformations: &[DeformationOf<D, M, E>],
         expansion: ThermalStrain<'_>,
         of_part: Range<usize>,
     ) {
@@ -276,7 +277,7 @@ impl<const M: usize> Part<M> {
             let Some(element) = element else {
                 continue;
             };
-            let thermal = element.deformation_in(at_full_load.of_bond(ends));
+            let thermal = element.deformation_in(&at_full_load.of_bond(ends));
             self.thermal -= 2.0 * element.mutual_energy(&deformations[bond], &thermal);
             self.expansion_energy += element.mutual_energy(&thermal, &thermal);
         }

@@ -3,6 +3,9 @@
 mod answers;
 mod contact;
 
+use std::ops::Deref;
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use crate::bonds::BondSet;
@@ -16,109 +19,36 @@ use crate::element::pairwise::PairwiseElements;
 use crate::element::spring::SpringBond;
 use crate::element::true_strain::TrueStrainElements;
 use crate::element::{Element, ElementKind, Elements, Remaining, Rigidities};
+use crate::interface::Bonds;
 use crate::law::{BondStiffness, mbb_pd};
 
-/// Points and bonds with their rigidities; it never changes after construction.
+/// Points and bonds in D dimensions with their rigidities; it never changes after construction.
 #[derive(Debug, Clone)]
-pub struct BondSystem {
+pub struct BondSystem<const D: usize = 2> {
     /// The points.
-    pub cloud: PointCloud,
+    pub cloud: PointCloud<D>,
     /// The bonds (without those that pre-cracks cut).
-    pub bonds: BondSet,
+    pub bonds: BondSet<D>,
     /// Omega alpha of each bond: its weight in the damage of its ends, shape (n_bonds).
     pub weight: Vec<f64>,
     /// Rigidities of the bonds.
     pub rigidities: Rigidities,
     /// Kinematics of the bonds.
-    pub kinematics: Kinematics,
+    pub element: ElementKind,
     /// The part of the rigidities of each bond that corrections know nothing of ([`BondStiffness`] at interfaces), shape (n_bonds); empty
     /// where there is none.
     pub beyond_correction: Vec<Remaining>,
     /// Faces of the cracks.
-    pub faces: Faces,
+    pub faces: Faces<D>,
     /// Memory of deformations.
     pub room: Room,
 }
 
-/// The kinematics of the bonds of a body.
-#[derive(Debug, Clone)]
-pub enum Kinematics {
-    /// Pairs of points that turn.
-    Beam(Pairs<BeamBond>),
-    /// Pairs of points that do not.
-    Spring(Pairs<SpringBond>),
-    /// The imaginary lattice.
-    Imaginary(ImaginaryElements),
-    /// The imaginary lattice with true strains.
-    TrueStrain(TrueStrainElements),
-    /// The imaginary lattice with the printed forces.
-    Pairwise(PairwiseElements),
-}
-
-impl Kinematics {
-    /// Kinematics of `bonds` between the points of a cloud, with their weights (n_bonds) and, on a lattice, the densities
-    /// of their stiffness over the strains (n_bonds).
-    fn new(
-        kind: ElementKind,
-        cloud: &PointCloud,
-        bonds: &BondSet,
-        weight: &[f64],
-        densities: Vec<StrainStiffness>,
-    ) -> Self {
-        let lattice = || {
-            let of_bond = |(bond, density): (usize, StrainStiffness)| {
-                let [a, b] = bonds.ends[bond].map(|end| cloud.volumes[end as usize]);
-                let factor = weight[bond] * a * b * bonds.length[bond];
-                StrainStiffness {
-                    entries: density.entries.map(|entry| factor * entry),
-                    ..density
-                }
-            };
-            let stiffness = densities.into_iter().enumerate().map(of_bond).collect();
-            ImaginaryElements::new(bonds, cloud.positions.clone(), stiffness)
-        };
-        match kind {
-            ElementKind::Beam => Kinematics::Beam(Pairs::default()),
-            ElementKind::Spring => Kinematics::Spring(Pairs::default()),
-            ElementKind::Imaginary => Kinematics::Imaginary(lattice()),
-            ElementKind::TrueStrain => {
-                Kinematics::TrueStrain(TrueStrainElements { lattice: lattice() })
-            }
-            ElementKind::Pairwise => Kinematics::Pairwise(PairwiseElements {
-                lattice: lattice(),
-                row_factors: mbb_pd::pairwise::row_factors(bonds, cloud),
-                spacing: cloud.cell_size(0),
-            }),
-        }
-    }
-
-    /// Kind of the bonds' elements.
-    pub fn kind(&self) -> ElementKind {
-        match self {
-            Self::Beam(_) => ElementKind::Beam,
-            Self::Spring(_) => ElementKind::Spring,
-            Self::Imaginary(_) => ElementKind::Imaginary,
-            Self::TrueStrain(_) => ElementKind::TrueStrain,
-            Self::Pairwise(_) => ElementKind::Pairwise,
-        }
-    }
-
-    /// The imaginary lattice, where the bonds are of one.
-    pub fn lattice(&self) -> Option<&ImaginaryElements> {
-        match self {
-            Self::Beam(_) | Self::Spring(_) => None,
-            Self::Imaginary(lattice) => Some(lattice),
-            Self::TrueStrain(elements) => Some(&elements.lattice),
-            Self::Pairwise(elements) => Some(&elements.lattice),
-        }
-    }
-}
-
-impl BondSystem {
+impl<const D: usize> BondSystem<D> {
     /// Puts the results of the earlier stages together: factors alpha and Omega and densities of all `bonds`.
     pub fn new(
-        cloud: PointCloud,
-        bonds: BondSet,
+        cloud: PointCloud<D>,
+        bonds: BondSet<D>,
         element: ElementKind,
         stiffness: BondStiffness,
         length_factor: Vec<f64>,
@@ -126,7 +56,7 @@ impl BondSystem {
     ) -> Self {
         // The arrays of densities become those of rigidities: at this point of a run memory is scarce.
         let mut weight = length_factor;
-        let (stiffness, beyond_correction) = stiffness.joined::<2>(element == ElementKind::Beam);
+        let (stiffness, beyond_correction) = stiffness.joined::<D>(element == ElementKind::Beam);
         let BondStiffness {
             mut axial,
             mut shear,
@@ -147,16 +77,24 @@ impl BondSystem {
                 *shear = factor * *shear * l;
                 *rotational *= factor;
             });
+        let of_bond = |(bond, density): (usize, StrainStiffness)| {
+            let [a, b] = bonds.ends[bond].map(|end| cloud.volumes[end as usize]);
+            let factor = weight[bond] * a * b * bonds.length[bond];
+            StrainStiffness {
+                entries: density.entries.map(|entry| factor * entry),
+                ..density
+            }
+        };
         let rigidities = Rigidities {
+            strain: strain.into_iter().enumerate().map(of_bond).collect(),
             axial,
             shear,
             rotational,
         };
-        let kinematics = Kinematics::new(element, &cloud, &bonds, &weight, strain);
         Self {
             rigidities,
             weight,
-            kinematics,
+            element,
             beyond_correction,
             bonds,
             cloud,
@@ -166,8 +104,94 @@ impl BondSystem {
     }
 
     /// The system with faces of cracks.
-    pub fn with_faces(self, faces: Faces) -> Self {
+    pub fn with_faces(self, faces: Faces<D>) -> Self {
         Self { faces, ..self }
+    }
+
+    /// The system with elements of a type.
+    pub fn typed<const M: usize, E: Elements<D, M>>(self, elements: E) -> Arc<dyn System<D>> {
+        Arc::new(ElementSystem {
+            system: self,
+            elements,
+        })
+    }
+}
+
+impl BondSystem<2> {
+    /// The system in the plane with the elements of its bonds.
+    pub fn with_elements(self) -> Arc<dyn System<2>> {
+        let lattice = || ImaginaryElements::new(&self.bonds, self.cloud.positions.clone());
+        match self.element {
+            ElementKind::Beam => self.typed(Pairs::<BeamBond<2>>::default()),
+            ElementKind::Spring => self.typed(Pairs::<SpringBond<2>>::default()),
+            ElementKind::Imaginary => {
+                let lattice = lattice();
+                self.typed(lattice)
+            }
+            ElementKind::TrueStrain => {
+                let lattice = lattice();
+                self.typed(TrueStrainElements { lattice })
+            }
+            ElementKind::Pairwise => {
+                let elements = PairwiseElements {
+                    lattice: lattice(),
+                    row_factors: mbb_pd::pairwise::row_factors(&self.bonds, &self.cloud),
+                    spacing: self.cloud.cell_size(0),
+                };
+                self.typed(elements)
+            }
+        }
+    }
+}
+
+impl BondSystem<3> {
+    /// The system in space with the elements of its bonds.
+    ///
+    /// # Panics
+    ///
+    /// Panics for elements of the plane: no law that is there in space has them.
+    pub fn with_elements(self) -> Arc<dyn System<3>> {
+        match self.element {
+            ElementKind::Beam => self.typed(Pairs::<BeamBond<3>>::default()),
+            ElementKind::Spring => self.typed(Pairs::<SpringBond<3>>::default()),
+            ElementKind::Imaginary | ElementKind::TrueStrain | ElementKind::Pairwise => {
+                panic!("imaginary elements are rectangles in the plane")
+            }
+        }
+    }
+}
+
+/// Points and bonds in D dimensions that equations can be made of.
+pub trait System<const D: usize>: Bonds {
+    /// The points, the bonds and their rigidities.
+    fn parts(&self) -> &BondSystem<D>;
+
+    /// The points, the bonds and their rigidities, to be taken apart; none where others use them.
+    fn into_parts(self: Arc<Self>) -> Option<BondSystem<D>>;
+}
+
+impl<const D: usize> Deref for dyn System<D> + '_ {
+    type Target = BondSystem<D>;
+
+    fn deref(&self) -> &BondSystem<D> {
+        self.parts()
+    }
+}
+
+/// A bond system whose elements, between points with M components, are known as a type, so that loops over its bonds ask for it once.
+#[derive(Debug, Clone)]
+pub(crate) struct ElementSystem<const D: usize, const M: usize, E> {
+    pub(crate) system: BondSystem<D>,
+    pub(crate) elements: E,
+}
+
+impl<const D: usize, const M: usize, E: Elements<D, M>> System<D> for ElementSystem<D, M, E> {
+    fn parts(&self) -> &BondSystem<D> {
+        &self.system
+    }
+
+    fn into_parts(self: Arc<Self>) -> Option<BondSystem<D>> {
+        Arc::into_inner(self).map(|it| it.system)
     }
 }
 
@@ -190,38 +214,20 @@ impl<'a> BondsLeft<'a> {
     }
 }
 
-/// A bond system whose elements, between points with M components, are known as a type, so that loops over its bonds ask for it once.
-pub(crate) struct Typed<'a, E, const M: usize> {
-    pub(crate) system: &'a BondSystem,
-    pub(crate) elements: &'a E,
-}
-
-impl<E, const M: usize> Clone for Typed<'_, E, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<E, const M: usize> Copy for Typed<'_, E, M> {}
-
 // The sweeps over all bonds are these functions: the compiler left some as calls, which cost them a fifth more time.
-impl<'a, const M: usize, E: Elements<M>> Typed<'a, E, M> {
-    pub(crate) fn new(system: &'a BondSystem, elements: &'a E) -> Self {
-        Self { system, elements }
-    }
-
+impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     /// The element of a bond with all of its stiffness, while the bonds marked in `intact` (n_bonds) are unbroken.
     #[inline(always)]
-    pub(crate) fn whole(self, intact: &[bool], bond: usize) -> E::Element {
+    pub(crate) fn whole(&self, intact: &[bool], bond: usize) -> E::Element {
         let BondSystem {
             bonds, rigidities, ..
-        } = self.system;
+        } = &self.system;
         self.elements.element(bonds, rigidities, intact, bond)
     }
 
     /// The element of a bond with what is left of it; None if it is broken.
     #[inline(always)]
-    pub(crate) fn left(self, bonds: BondsLeft<'_>, bond: usize) -> Option<E::Element> {
+    pub(crate) fn left(&self, bonds: BondsLeft<'_>, bond: usize) -> Option<E::Element> {
         if !bonds.intact[bond] {
             return None;
         }

@@ -2,7 +2,7 @@
 
 /// The components of a symmetric tensor as row and column, in the order of all files and names: those of the plane come first, so that the
 /// plane is a part of space.
-const ORDER: [[usize; 2]; 6] = [[0, 0], [1, 1], [0, 1], [2, 2], [0, 2], [1, 2]];
+pub(crate) const ORDER: [[usize; 2]; 6] = [[0, 0], [1, 1], [0, 1], [2, 2], [0, 2], [1, 2]];
 
 /// Names of the components of a symmetric tensor, in their order.
 const NAMES: [&str; 6] = ["xx", "yy", "xy", "zz", "xz", "yz"];
@@ -156,12 +156,18 @@ impl<const D: usize> SymTensor<D> {
         self.rows.map(|row| dot(row, n))
     }
 
+    /// The tensor with a function of each component.
+    #[inline]
+    pub fn map(&self, function: impl Fn(f64) -> f64) -> Self {
+        Self {
+            rows: self.rows.map(|row| row.map(&function)),
+        }
+    }
+
     /// The tensor with every component times a factor.
     #[inline]
     pub fn scaled(&self, factor: f64) -> Self {
-        Self {
-            rows: self.rows.map(|row| row.map(|value| factor * value)),
-        }
+        self.map(|value| factor * value)
     }
 
     /// The sum of two tensors.
@@ -176,8 +182,8 @@ impl<const D: usize> SymTensor<D> {
 
     /// The double contraction S : T, the sum over i and j of S_ij T_ij.
     pub fn contracted(&self, other: &Self) -> f64 {
-        let rows = self.rows.iter().zip(other.rows);
-        rows.map(|(one, other)| dot(*one, other)).sum()
+        let work_conjugate = self.components().zip(other.engineering());
+        work_conjugate.map(|(one, other)| one * other).sum()
     }
 
     /// The tensor Q S Q^T in axes whose unit vectors are the rows of Q.

@@ -8,8 +8,9 @@ use crate::element::Remaining;
 use crate::interface::Bonds;
 use crate::layout::Component;
 use crate::moduli::EngineeringConstants;
-use crate::system::{BondSystem, BondsLeft};
-use crate::thermal::ThermalStrain;
+use crate::system::{BondsLeft, System};
+use crate::tensor::SymTensor;
+use crate::thermal::{FreeStrains, ThermalStrain};
 
 /// The strains of a free body under the forces of the three uniform strains of [`CellForces`], which have the size one.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,7 +30,7 @@ impl UniformStrains {
     /// The strains that displacements, shape (3, n_degrees_of_freedom), give to the bonds under forces of size one. None without bonds
     /// or where the forces do no work on some uniform strain.
     pub fn measure(
-        system: &BondSystem,
+        system: &dyn System<2>,
         forces: &CellForces,
         displacements: &[Vec<f64>; 3],
     ) -> Option<Self> {
@@ -75,7 +76,7 @@ impl UniformStrains {
 /// In a uniform strain the tractions jump at an interface. The cells give the jump to the points on it, as far as bonds across are bonds of
 /// the softer material, which is how they are corrected. As two halves in series they pull their ends by more, and that part of the jump
 /// belongs to their ends.
-pub fn loads(system: &BondSystem, forces: &CellForces) -> [Vec<f64>; 3] {
+pub fn loads(system: &dyn System<2>, forces: &CellForces) -> [Vec<f64>; 3] {
     let layout = system.layout();
     let basis = [
         [1.0, 0.0, 0.0],
@@ -96,10 +97,11 @@ pub fn loads(system: &BondSystem, forces: &CellForces) -> [Vec<f64>; 3] {
 
 /// What bonds across an interface exert on their ends in a uniform strain (eps_xx, eps_yy, gamma_xy) more than in the softer material,
 /// shape (n_degrees_of_freedom).
-fn excess_across(system: &BondSystem, strain: [f64; 3]) -> Vec<f64> {
+fn excess_across(system: &dyn System<2>, strain: [f64; 3]) -> Vec<f64> {
     // An expansion without a motion is the strain with the opposite sign.
-    let strains = vec![strain.map(|it| -it); system.cloud.len()];
-    let expansion = ThermalStrain::proportional(&strains, 1.0);
+    let strain = SymTensor::<2>::from_engineering(&strain.map(|it| -it));
+    let strains = FreeStrains::new(vec![strain; system.cloud.len()]);
+    let expansion = strains.times(1.0);
     excess_in(system, &system.beyond_correction, |intact, at_rest| {
         system.deformations(intact, &at_rest, expansion)
     })
@@ -129,7 +131,7 @@ pub(crate) fn excess_in(
 /// The strains a_l of affine motions on which all three forces do the work that they do on displacements u_l: sum over m of
 /// (F_k . e_m x) a_ml = F_k . u_l.
 fn mean_strains(
-    system: &BondSystem,
+    system: &dyn System<2>,
     forces: &CellForces,
     displacements: &[Vec<f64>; 3],
 ) -> Option<Matrix3<f64>> {
@@ -153,7 +155,7 @@ fn projected([a, b]: [f64; 2]) -> [f64; 3] {
     [a * a, b * b, std::f64::consts::SQRT_2 * a * b]
 }
 
-fn motion(system: &BondSystem, displacement: &[f64], point: u32) -> [f64; 2] {
+fn motion(system: &dyn System<2>, displacement: &[f64], point: u32) -> [f64; 2] {
     let layout = system.layout();
     [Component::X, Component::Y].map(|component| layout.value(point, component, displacement))
 }

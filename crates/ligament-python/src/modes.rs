@@ -109,7 +109,7 @@ where
     let located = |error| Failure::setup(case, error);
     let other = |error: ligament::Error| Failure::computing(case, error);
     let model = Model::build(setup, &mut ()).map_err(located)?;
-    let vibration = Vibration::new(&model.setup, &model.system).map_err(located)?;
+    let vibration = Vibration::new(&model.setup, &*model.system).map_err(located)?;
     let problem = vibration.problem(&model.system);
     let analysis = ModalAnalysis::new(&problem, settings).map_err(|it| other(it.into()))?;
     let outcome = analysis.find().map_err(|it| other(it.into()))?;

@@ -1,6 +1,5 @@
 //! A run on a thread of its own, so that progress and Ctrl-C reach it.
 
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::Duration;
@@ -12,7 +11,7 @@ use ligament::{Loading, Model, Setup};
 use ligament_analysis::ProportionalLoading;
 use ligament_analysis::driver::Outcome;
 use ligament_case::case::CaseFile;
-use ligament_model::space::SolidSystem;
+
 use ligament_model::{BodyGrid, BondSystem, Bonds, FixedFields};
 use ligament_run::loading::write_rule;
 use ligament_run::memory;
@@ -51,30 +50,19 @@ pub(crate) struct SystemArrays {
     pub(crate) weight: Vec<f64>,
 }
 
-/// A system whose arrays can be taken when nobody needs it any more.
-pub(crate) trait IntoArrays {
-    fn into_arrays(self) -> SystemArrays;
-}
-
-macro_rules! into_arrays {
-    ($system:ty) => {
-        impl IntoArrays for $system {
-            fn into_arrays(self) -> SystemArrays {
-                SystemArrays {
-                    volumes: self.cloud.volumes,
-                    spacing: self.cloud.spacing,
-                    ends: self.bonds.ends,
-                    length: self.bonds.length,
-                    horizon: self.bonds.horizon,
-                    weight: self.weight,
-                }
-            }
+impl SystemArrays {
+    /// The arrays of a system that nobody needs any more.
+    fn new<const D: usize>(system: BondSystem<D>) -> Self {
+        Self {
+            volumes: system.cloud.volumes,
+            spacing: system.cloud.spacing,
+            ends: system.bonds.ends,
+            length: system.bonds.length,
+            horizon: system.bonds.horizon,
+            weight: system.weight,
         }
-    };
+    }
 }
-
-into_arrays!(BondSystem);
-into_arrays!(SolidSystem);
 
 /// Does some work on a thread of its own while this one lets others have Python, calls `report` for what the work tells, and
 /// looks for signals; gives what the work came to and whether it was to stop.
@@ -167,14 +155,13 @@ fn solve_here<const D: usize>(
 ) -> Result<Solved, Failure>
 where
     Dim: Discretises<D> + Dimension<D>,
-    <Dim as Dimension<D>>::System: IntoArrays,
 {
     let mut stages = Stages::default();
     memory::foresee_model(case, &setup).map_err(|it| Failure::Other(it.into()))?;
     let rule = write_rule(case, &setup.analysis);
     let model = stages.time("model", || Model::build(setup, &mut ()));
     let model = model.map_err(|it| Failure::setup(case, it))?;
-    let loading = Loading::new(&model.setup, &model.system);
+    let loading = Loading::new(&model.setup, &*model.system);
     let mut loading = loading.map_err(|it| Failure::setup(case, it))?;
     loading.solver.memory = memory::for_factor(case, &*model.system);
     let problem = loading.problem(&model.system, &model.criteria);
@@ -199,12 +186,12 @@ where
         (&outcome, &kept),
         &stages,
     )?;
-    let thickness = Dim::cloud(&model.system).thickness;
+    let thickness = model.system.cloud.thickness;
     drop(problem);
     drop(loading);
     let Model { system, fixed, .. } = model;
     // The model is nobody else's any more, so that its arrays can be taken.
-    let arrays = Arc::into_inner(system).map(IntoArrays::into_arrays);
+    let arrays = system.into_parts().map(SystemArrays::new);
     let shared = || Failure::Other(anyhow::anyhow!("the points and bonds are still in use"));
     Ok(Solved {
         fixed,

@@ -27,7 +27,7 @@ pub(crate) fn find_modes<const D: usize>(
 where
     Dim: Dimension<D>,
 {
-    let vibration = Vibration::new(&model.setup, &model.system);
+    let vibration = Vibration::new(&model.setup, &*model.system);
     let vibration = vibration.map_err(|error| case.located(error))?;
     let problem = vibration.problem(&model.system);
     let analysis = stages.time("analysis", || ModalAnalysis::new(&problem, settings))?;

@@ -124,7 +124,7 @@ fn error_with(old: &str, new: &str) -> String {
 fn loading(case: &CaseFile) -> anyhow::Result<Loading> {
     let progress = Progress::new(ProgressMode::Quiet);
     let model = build_model(case, &mut Stages::default(), &progress)?;
-    Ok(Loading::new(&model.setup, &model.system).map_err(|it| case.located(it))?)
+    Ok(Loading::new(&model.setup, &*model.system).map_err(|it| case.located(it))?)
 }
 
 /// Changes of the points of a case in a folder, in the order of its mesh file, K.
@@ -299,8 +299,8 @@ fn the_last_section_holds() {
         (ControlKind::Temperature, 80.0)
     );
     let strains = [5e-4, 5e-4, -8e-4, 2e-4].map(|strain| [strain, strain, 0.0]);
-    for (found, expected) in boundary.thermal_strain.of_plane().iter().zip(&strains) {
-        for (found, expected) in found.iter().zip(expected) {
+    for (found, expected) in boundary.thermal_strain.of_points().iter().zip(&strains) {
+        for (found, expected) in found.components().zip(expected) {
             assert!((found - expected).abs() < 1e-18);
         }
     }

@@ -3,7 +3,7 @@
 use anyhow::Context;
 use ligament::body::Origin;
 use ligament::run::Solution;
-use ligament_analysis::Bonds;
+use ligament_analysis::interface::StressReading;
 use ligament_model::BondsLeft;
 use ligament_model::thermal::ThermalStrain;
 
@@ -85,8 +85,11 @@ fn read(solution: &Solution) -> anyhow::Result<Reading> {
     let state = &solution.outcome.state;
     let deformations = system.deformations(&state.intact, &state.displacement, ThermalStrain::NONE);
     let bonds = BondsLeft::whole(&state.intact);
-    let virial = system.virial_stresses(bonds, &deformations);
-    let tractions = system.tractions(bonds, &deformations);
+    let stresses = |reading| system.stresses(reading, bonds, &deformations).values;
+    let virial = stresses(StressReading::Virial);
+    let (virial, _) = virial.as_chunks::<3>();
+    let tractions = stresses(StressReading::Traction);
+    let (tractions, _) = tractions.as_chunks::<4>();
     let hoop = |node: u32, [xx, yy, xy]: [f64; 3]| {
         let [x, y] = mesh.positions[node as usize];
         let [s, c] = [y, x].map(|it| it / x.hypot(y));

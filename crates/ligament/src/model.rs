@@ -16,6 +16,7 @@ use ligament_model::failure::Criteria;
 use ligament_model::portion::{Exchange, Portion};
 use ligament_model::{
     Absence, AbsentBond, BondSet, BondStiffness, BondSystem, EnergyRatio, FixedFields, PointCloud,
+    System,
 };
 
 use crate::body::{Body, Origin};
@@ -41,7 +42,7 @@ where
     /// Setup that the model was built from.
     pub setup: Setup<D>,
     /// Points and corrected bonds.
-    pub system: Arc<<Dim as Dimension<D>>::System>,
+    pub system: Arc<dyn System<D>>,
     /// Fields that an analysis does not change.
     pub fixed: FixedFields,
     /// Report on the domain correction, where there was one.
@@ -166,7 +167,7 @@ impl Model {
             counts: BondCounts::new(&system.cloud, &system.bonds, &fixed.absent),
             correction: correction.report,
             setup,
-            system: Arc::new(system),
+            system: system.with_elements(),
             fixed,
             criteria: Arc::new(criteria),
         })

@@ -8,13 +8,13 @@ use std::sync::Arc;
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::{
-    Attempt, Bonds, Control, ControlKind, Equilibrium, ProportionalLoading, State, Unbalanced,
+    Attempt, Control, ControlKind, Equilibrium, ProportionalLoading, State, Unbalanced,
 };
 use ligament_model::correction::patch::{self, CellForces};
 use ligament_model::layout::Layout;
 use ligament_model::moduli::EngineeringConstants;
 use ligament_model::uniform_strain::{self, UniformStrains};
-use ligament_model::{BondSystem, Elasticity, Plane};
+use ligament_model::{Elasticity, Plane, System};
 use thiserror::Error;
 
 pub use crate::space::patch_test::{SolidPatchTest, solid_patch_test};
@@ -117,12 +117,12 @@ fn of_whole_body(model: &Model) -> Result<PatchTest, Untested> {
     }
     let forces = cell_forces(setup, &system.cloud, &material_of_cell(setup)?);
     let displacements = displacements(setup, system, &forces)?;
-    let strains = UniformStrains::measure(system, &forces, &displacements);
+    let strains = UniformStrains::measure(&**system, &forces, &displacements);
     let strains = strains.ok_or(Untested::Degenerate)?;
     let [a, b] = system.bonds.ends[strains.bond].map(|end| system.cloud.positions[end as usize]);
     let origin = system.cloud.origin;
     Ok(PatchTest {
-        constants: constants(setup, system, &strains),
+        constants: constants(setup, &**system, &strains),
         scatter: strains.scatter,
         largest: strains.largest,
         place: [0, 1].map(|axis| origin[axis] + 0.5 * (a[axis] + b[axis])),
@@ -132,11 +132,11 @@ fn of_whole_body(model: &Model) -> Result<PatchTest, Untested> {
 /// Displacements of the free body under the forces of each of the strains, shape (3, n_degrees_of_freedom), over their size.
 fn displacements(
     setup: &Setup,
-    system: &Arc<BondSystem>,
+    system: &Arc<dyn System<2>>,
     forces: &CellForces,
 ) -> Result<[Vec<f64>; 3], Untested> {
     let [along_x, along_y, in_shear] =
-        uniform_strain::loads(system, forces).map(|force| free_loading(system.layout(), force));
+        uniform_strain::loads(&**system, forces).map(|force| free_loading(system.layout(), force));
     let problem = Problem {
         system: system.clone(),
         criteria: Arc::default(),
@@ -176,7 +176,7 @@ pub(crate) fn free_loading(layout: Layout, force: Vec<f64>) -> Arc<ProportionalL
 }
 
 /// The constants of a body of one material, along the axes of that.
-fn constants(setup: &Setup, system: &BondSystem, strains: &UniformStrains) -> Option<Constants> {
+fn constants(setup: &Setup, system: &dyn System<2>, strains: &UniformStrains) -> Option<Constants> {
     let [region] = setup.materials.as_slice() else {
         return None;
     };

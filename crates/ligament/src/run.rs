@@ -42,7 +42,7 @@ where
     pub fn solve(self, observer: &mut (dyn Observer + Send)) -> Result<Solution<D>, Error> {
         on_threads(self.threads, || {
             let model = Model::build(self, &mut ())?;
-            let loading = Loading::new(&model.setup, &model.system)?;
+            let loading = Loading::new(&model.setup, &*model.system)?;
             let problem = loading.problem(&model.system, &model.criteria);
             let outcome = follow(&problem, &model.setup.analysis, observer)?;
             Ok(Solution {
@@ -64,7 +64,7 @@ where
         };
         on_threads(self.threads, || {
             let model = Model::build(self, &mut ())?;
-            let vibration = Vibration::new(&model.setup, &model.system)?;
+            let vibration = Vibration::new(&model.setup, &*model.system)?;
             let analysis = ModalAnalysis::new(&vibration.problem(&model.system), settings)?;
             Ok(analysis.find()?)
         })?

@@ -131,7 +131,10 @@ fn require_whole(
 }
 
 /// Refuses bonds whose stiffness is no number that equations can be made of.
-pub(crate) fn require_numbers(body: &dyn Body, system: &BondSystem) -> Result<(), SetupError> {
+pub(crate) fn require_numbers<const D: usize>(
+    body: &dyn Body<D>,
+    system: &BondSystem<D>,
+) -> Result<(), SetupError> {
     require_rigidities(body, &system.cloud, &system.rigidities, &system.bonds.ends)
 }
 
@@ -182,6 +185,7 @@ pub(crate) fn require_rigidities<const D: usize>(
         axial,
         shear,
         rotational,
+        ..
     } = rigidities;
     let is_wrong = |bond: &usize| {
         let mut all = [axial, shear, rotational].into_iter().map(|it| it[*bond]);

@@ -181,7 +181,7 @@ where
     let load = quantity(first.point.reaction, units.force);
     let moved = quantity(first.point.displacement, units.displacement);
     entry(out, name, format!("{at}: {load} at {moved}"))?;
-    let cloud = Dim::cloud(&model.system);
+    let cloud = &model.system.cloud;
     let ends = cloud
         .numbering
         .ordered(model.system.ends()[first.bond as usize]);

@@ -36,7 +36,7 @@ pub(super) fn check<const D: usize>(
 where
     Dim: Dimension<D> + Told<D>,
 {
-    let loading = Loading::new(&model.setup, &model.system);
+    let loading = Loading::new(&model.setup, &*model.system);
     let mut loading = loading.map_err(|it| case.located(it))?;
     loading.solver.memory = memory::for_factor(case, &*model.system);
     let problem = loading.problem(&model.system, &model.criteria);
@@ -157,7 +157,7 @@ where
     let squares =
         (body.positions()[point as usize].iter().zip(position)).map(|(p, q)| (p - q).powi(2));
     let distance = squares.sum::<f64>().sqrt();
-    if distance <= Dim::cloud(&model.system).slack(point) {
+    if distance <= model.system.cloud.slack(point) {
         return words;
     }
     let unit = model.setup.units().displacement;

@@ -111,7 +111,7 @@ where
     if let Some(folder) = fields {
         std::fs::create_dir_all(folder)?;
         let path = folder.join(FIELDS);
-        let (grid, cloud) = (model.body().grid(), Dim::cloud(&model.system));
+        let (grid, cloud) = (model.body().grid(), &model.system.cloud);
         point_grid(&path, &grid, &cloud.volumes, &cloud.spacing, &model.fixed)?;
         writeln!(out, "fields written to {}", path.display())?;
     }

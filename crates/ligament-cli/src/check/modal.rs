@@ -26,7 +26,7 @@ pub(super) fn check<const D: usize>(
 where
     Dim: Dimension<D> + Told<D>,
 {
-    let vibration = Vibration::new(&model.setup, &model.system);
+    let vibration = Vibration::new(&model.setup, &*model.system);
     let vibration = vibration.map_err(|error| case.located(error))?;
     let problem = vibration.problem(&model.system);
     let analysis = match extent {

@@ -49,7 +49,7 @@ fn write_materials<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io:
 where
     Dim: Dimension<D>,
 {
-    let cloud = Dim::cloud(&model.system);
+    let cloud = &model.system.cloud;
     writeln!(out, "materials")?;
     for (index, material) in model.setup.materials().iter().enumerate() {
         let volume: f64 = (0..cloud.len())

@@ -2,16 +2,14 @@
 
 use ligament_model::element::BondDeformation;
 use ligament_model::element::beam::BeamBond;
-use ligament_model::element::pair::{Pair, PairKinematics};
-use ligament_model::element::spring::SpringBond;
+use ligament_model::element::pair::measured;
 use ligament_model::failure::{AfterLimit, Measure, Softened};
 use ligament_output::Error;
 use ligament_output::results::stored::{
     Motions, StoredBreak, StoredCriterion, StoredRun, StoredStep,
 };
 
-use super::space;
-use super::strains::{Strains, without_heat};
+use super::strains::Strains;
 use ligament::units::Units;
 use ligament_plot::stored_loading::StoredLoading;
 
@@ -118,10 +116,7 @@ impl Lives {
             for life in &mut lives.of_bonds {
                 life.deformation.push(match &strains {
                     Some(strains) => strains.deformation(life.pair, &motions),
-                    None if run.model.in_space => {
-                        space::deformed(life.ends, (life.length, life.direction), &motions)
-                    }
-                    None => life.deformed(&motions),
+                    None => life.deformed(run, &motions),
                 });
             }
         }
@@ -187,27 +182,24 @@ impl Life {
         })
     }
 
-    /// The deformation in the plane for the motions of all points, without what the temperature gives it. The points of springs do not
-    /// turn, so that this holds for them as well.
-    fn deformed(&self, motions: &Motions) -> BondDeformation {
-        let pair = Pair {
-            ends: self.ends,
-            bond: BeamBond {
-                springs: SpringBond {
-                    length: self.length,
-                    direction: [self.direction[0], self.direction[1]],
-                    axial_rigidity: 0.0,
-                    shear_rigidity: 0.0,
-                },
-                rotational_rigidity: 0.0,
-            },
-        };
-        let [a, b] = self.ends.map(|end| {
-            let [x, y, _] = motions.displacement[end as usize];
-            [x, y, motions.rotation[end as usize][2]]
+    /// What criteria measure of the bond for the motions of all points, without what the temperature gives it.
+    fn deformed(&self, run: &StoredRun, motions: &Motions) -> BondDeformation {
+        let moved = self.ends.map(|end| {
+            let end = end as usize;
+            (motions.displacement[end], motions.rotation[end])
         });
-        let whole = pair.bond.deformation(&a, &b);
-        without_heat(whole, &pair, self.ends, motions)
+        let free = (!motions.thermal_strain.is_empty())
+            .then(|| motions.thermal_strain.times(1.0).of_bond::<3>(self.ends));
+        let [x, y, z] = self.direction;
+        if run.model.in_space {
+            let bond = BeamBond::without_stiffness(self.length, [x, y, z]);
+            let ends = moved.map(|([u, v, w], [a, b, c])| [u, v, w, a, b, c]);
+            measured(&bond, ends, free.as_ref())
+        } else {
+            let bond = BeamBond::without_stiffness(self.length, [x, y]);
+            let ends = moved.map(|([u, v, _], [.., turn])| [u, v, turn]);
+            measured(&bond, ends, free.map(|it| it.resized()).as_ref())
+        }
     }
 
     /// What follows from all moments.

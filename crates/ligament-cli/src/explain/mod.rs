@@ -6,7 +6,6 @@
 mod files;
 mod life;
 mod report;
-mod space;
 mod strains;
 mod words;
 

@@ -9,6 +9,7 @@ use ligament_output::results::stored::{Motions, StoredRun};
 /// The bonds of a stored lattice, and which of them are unbroken.
 pub(super) struct Strains {
     bonds: BondSet,
+    rigidities: Rigidities,
     elements: ImaginaryElements,
     /// Step in which each bond broke, shape (n_bonds).
     broke_in: Vec<Option<usize>>,
@@ -54,9 +55,12 @@ impl Strains {
             entries: [0.0; 6],
             first_share: 0.5,
         };
-        let stiffness = vec![none; bonds.len()];
-        let elements = ImaginaryElements::new(&bonds, positions, stiffness);
+        let elements = ImaginaryElements::new(&bonds, positions);
         Some(Self {
+            rigidities: Rigidities {
+                strain: vec![none; bonds.len()],
+                ..Rigidities::default()
+            },
             broke_in: breakages(run, &bonds),
             intact: vec![true; bonds.len()],
             elements,
@@ -81,25 +85,14 @@ impl Strains {
     /// The deformation of a bond, without what the temperature gives it.
     pub(super) fn deformation(&self, bond: usize, motions: &Motions) -> BondDeformation {
         let in_plane: Vec<[f64; 2]> = motions.displacement.iter().map(|u| [u[0], u[1]]).collect();
-        let none = Rigidities::default();
-        let element = (self.elements).element(&self.bonds, &none, &self.intact, bond);
+        let element = (self.elements).element(&self.bonds, &self.rigidities, &self.intact, bond);
         let whole = element.deformation(in_plane.as_flattened());
-        without_heat(whole, &element, self.bonds.ends[bond], motions)
+        if motions.thermal_strain.is_empty() {
+            return whole;
+        }
+        let free = motions.thermal_strain.times(1.0);
+        whole.less(&element.deformation_in(&free.of_bond(self.bonds.ends[bond])))
     }
-}
-
-/// A deformation of a bond between two points without what the temperature gives it.
-pub(super) fn without_heat<const M: usize>(
-    whole: BondDeformation,
-    element: &impl Element<M>,
-    ends: [u32; 2],
-    motions: &Motions,
-) -> BondDeformation {
-    if motions.thermal_strain.is_empty() {
-        return whole;
-    }
-    let [a, b] = ends.map(|end| motions.thermal_strain.of_plane()[end as usize]);
-    whole.less(&element.deformation_in([0, 1, 2].map(|k| 0.5 * (a[k] + b[k]))))
 }
 
 /// Step in which each bond broke, shape (n_bonds).

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
+use crate::tensor::dot;
 use crate::portion::{Exchange, Partition, Portion, largest};
 pub(crate) use precision::precision_of_coordinates;
 
@@ -49,22 +50,24 @@ pub struct PointCloud<const D: usize = 2> {
 /// A point of the search tree, with its number.
 pub(crate) type NumberedPoint<const D: usize = 2> = GeomWithData<[f64; D], u32>;
 
-impl PointCloud {
-    /// Sides of the cell that a point stands for, m: dx, dy on a lattice; on a mesh those of the square with the point's area,
-    /// sqrt(V/t) twice.
-    pub fn cell_size(&self, point: u32) -> [f64; 2] {
-        self.lattice_cell
-            .unwrap_or_else(|| [(self.volumes[point as usize] / self.thickness).sqrt(); 2])
-    }
-
-    /// Squared radius of gyration of a point's cell about its centre, (dx^2 + dy^2)/12, m^2.
-    pub fn squared_gyration(&self, point: u32) -> f64 {
-        let [dx, dy] = self.cell_size(point);
-        (dx * dx + dy * dy) / 12.0
-    }
-}
-
 impl<const D: usize> PointCloud<D> {
+    /// Sides of the cell that a point stands for, m: those of a lattice; on a mesh those of the square with the point's area, sqrt(V/t)
+    /// twice, or in space of the cube with its volume.
+    pub fn cell_size(&self, point: u32) -> [f64; D] {
+        let volume = self.volumes[point as usize] / self.thickness;
+        self.lattice_cell.unwrap_or(match D {
+            2 => [volume.sqrt(); D],
+            _ => [volume.cbrt(); D],
+        })
+    }
+
+    /// Squared radius of gyration of a point's cell about its centre, m^2: in the plane (dx^2 + dy^2)/12, in space the mean over the axes,
+    /// (dx^2 + dy^2 + dz^2)/18.
+    pub fn squared_gyration(&self, point: u32) -> f64 {
+        let sides = self.cell_size(point);
+        dot(sides, sides) / (6 * D) as f64
+    }
+
     /// Number of points.
     pub fn len(&self) -> usize {
         self.positions.len()

@@ -28,6 +28,7 @@ use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use super::{Block, BondDeformation, Element, Elements, Remaining, Rigidities, Term};
 use crate::bonds::{BondSet, Incidence};
 use crate::layout::Component;
+use crate::tensor::SymTensor;
 pub use class::BondClass;
 pub(super) use quotients::{Axis, Quotient, Quotients};
 pub use surroundings::Surroundings;
@@ -47,11 +48,20 @@ pub struct StrainStiffness {
     pub first_share: f64,
 }
 
-/// The elements of a lattice, ready to be asked for with the intact bonds.
+impl StrainStiffness {
+    /// Share of the energy of the bond that belongs to its first or its second end.
+    pub(crate) fn share(&self, is_first: bool) -> f64 {
+        if is_first {
+            self.first_share
+        } else {
+            1.0 - self.first_share
+        }
+    }
+}
+
+/// The elements of a lattice; the stiffness D of each bond stands among the rigidities.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImaginaryElements {
-    /// Stiffness D of each bond, shape (n_bonds), J.
-    pub stiffness: Vec<StrainStiffness>,
     /// Positions whose differences the strains have in their denominators, shape (n_points), m.
     pub positions: Vec<[f64; 2]>,
     /// The bonds that support the element of each bond.
@@ -63,8 +73,8 @@ pub struct ImaginaryElements {
 }
 
 impl ImaginaryElements {
-    /// The elements of bonds on a lattice, with stiffnesses D (n_bonds) and positions (n_points).
-    pub fn new(bonds: &BondSet, positions: Vec<[f64; 2]>, stiffness: Vec<StrainStiffness>) -> Self {
+    /// The elements of bonds on a lattice with positions (n_points).
+    pub fn new(bonds: &BondSet, positions: Vec<[f64; 2]>) -> Self {
         let surroundings = Surroundings::from_bonds(bonds);
         let whole = vec![true; bonds.len()];
         let gradient =
@@ -88,14 +98,13 @@ impl ImaginaryElements {
         Self {
             neighbours: Incidence::from_pairs(of_points, positions.len()),
             couplings,
-            stiffness,
             surroundings,
             positions,
         }
     }
 }
 
-impl Elements<2> for ImaginaryElements {
+impl Elements<2, 2> for ImaginaryElements {
     const COMPONENTS: [Component; 2] = [Component::X, Component::Y];
 
     type Element = ImaginaryElement;
@@ -104,7 +113,7 @@ impl Elements<2> for ImaginaryElements {
     fn element(
         &self,
         bonds: &BondSet,
-        _: &Rigidities,
+        rigidities: &Rigidities,
         intact: &[bool],
         bond: usize,
     ) -> ImaginaryElement {
@@ -113,7 +122,7 @@ impl Elements<2> for ImaginaryElements {
         ImaginaryElement {
             gradient,
             stiffness: if is_supported {
-                self.stiffness[bond].entries
+                rigidities.strain[bond].entries
             } else {
                 [0.0; 6]
             },
@@ -124,18 +133,13 @@ impl Elements<2> for ImaginaryElements {
         true
     }
 
-    fn some_negative(&self, _: &Rigidities) -> bool {
-        let mut matrices = self.stiffness.iter().map(|it| matrix(it.entries));
+    fn some_negative(&self, rigidities: &Rigidities) -> bool {
+        let mut matrices = rigidities.strain.iter().map(|it| matrix(it.entries));
         matrices.any(|matrix| matrix.cholesky().is_none())
     }
 
-    fn share(&self, bonds: &BondSet, bond: u32, point: u32) -> f64 {
-        let first_share = self.stiffness[bond as usize].first_share;
-        if bonds.ends[bond as usize][0] == point {
-            first_share
-        } else {
-            1.0 - first_share
-        }
+    fn share(&self, bonds: &BondSet, rigidities: &Rigidities, bond: u32, point: u32) -> f64 {
+        rigidities.strain[bond as usize].share(bonds.ends[bond as usize][0] == point)
     }
 
     fn leaning(&self, bonds: &[u32]) -> Vec<u32> {
@@ -289,7 +293,9 @@ impl ImaginaryElement {
     }
 }
 
-impl Element<2> for ImaginaryElement {
+impl Element<2, 2> for ImaginaryElement {
+    type Deformation = BondDeformation;
+
     #[inline]
     fn weakened(self, remaining: &Remaining) -> Self {
         // D has no parts of its own for stretch and shear.
@@ -313,11 +319,11 @@ impl Element<2> for ImaginaryElement {
     }
 
     #[inline]
-    fn deformation_in(&self, strain: [f64; 3]) -> BondDeformation {
+    fn deformation_in(&self, strain: &SymTensor<2>) -> BondDeformation {
         if self.gradient.count == 0 {
             return BondDeformation::default();
         }
-        BondDeformation::of_strain(strain)
+        BondDeformation::of_strain([strain.at(0, 0), strain.at(1, 1), 2.0 * strain.at(0, 1)])
     }
 
     #[inline]
@@ -338,8 +344,8 @@ impl Element<2> for ImaginaryElement {
     }
 
     /// D S: the gradient is exact for linear fields.
-    fn dyad(&self, deformation: &BondDeformation) -> [f64; 3] {
-        self.stress(deformation)
+    fn dyad(&self, deformation: &BondDeformation) -> SymTensor<2> {
+        SymTensor::from_components(&self.stress(deformation))
     }
 
     /// One term for each eigenvalue of D.

@@ -2,11 +2,13 @@
 //!
 //! | element | a point has | couples | deformation of a bond | laws |
 //! |---|---|---|---|---|
-//! | [`beam`] | two displacements and a rotation | its two ends | stretch, shear less the mean rotation, relative rotation | micropolar ones |
-//! | [`spring`] | two displacements | its two ends | stretch, shear | `bbpd`, `pds` |
+//! | [`beam`] | displacements and rotations | its two ends | stretch, shear less the mean rotation, relative rotation | micropolar ones |
+//! | [`spring`] | displacements | its two ends | stretch, shear | `bbpd`, `pds` |
 //! | [`imaginary`] | two displacements | up to six points of a lattice | the strains of a small rectangle around it | `mbb-pd` |
 //! | [`true_strain`] | the same | the same | the same, over distances after the deformation | `mbb-pd` |
 //! | [`pairwise`] | the same | the same, with forces on two ends | the same as the first | `mbb-pd` as printed |
+//!
+//! The first two are there in the plane and in space, where shear and relative rotation are vectors, the others in the plane.
 //!
 //! A law chooses the rigidities and knows no kinematics; an element knows nothing of laws. Elements know as a type how many
 //! components M the motion of a point has, and arrays over degrees of freedom have as many a point.
@@ -19,8 +21,11 @@ pub mod spring;
 pub mod true_strain;
 
 use crate::bonds::{BondSet, Incidence};
+use crate::deformation::Deformation;
 use crate::layout::{Component, Layout};
 use crate::portion::Portion;
+use crate::tensor::SymTensor;
+use imaginary::StrainStiffness;
 
 /// Kinematics of the bonds of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -136,6 +141,8 @@ pub struct Rigidities {
     pub shear: Vec<f64>,
     /// Omega alpha V_A V_B k_theta, shape (n_bonds), J.
     pub rotational: Vec<f64>,
+    /// Stiffness over the strains of imaginary elements, shape (n_bonds), J; empty for others.
+    pub strain: Vec<StrainStiffness>,
 }
 
 impl Rigidities {
@@ -221,18 +228,18 @@ impl Remaining {
     }
 }
 
-/// The elements of all bonds, between points with M components: what makes the element of a bond from the bonds that are left.
-pub trait Elements<const M: usize>: Sync {
+/// The elements of all bonds in D dimensions, between points with M components: what makes the element of a bond from the bonds that are left.
+pub trait Elements<const D: usize, const M: usize>: std::fmt::Debug + Send + Sync + 'static {
     /// Components of the motion of a point.
     const COMPONENTS: [Component; M];
 
     /// Element of a bond.
-    type Element: Element<M>;
+    type Element: Element<D, M>;
 
     /// The element of a bond while the bonds marked in `intact` (n_bonds) are unbroken.
     fn element(
         &self,
-        bonds: &BondSet,
+        bonds: &BondSet<D>,
         rigidities: &Rigidities,
         intact: &[bool],
         bond: usize,
@@ -257,7 +264,13 @@ pub trait Elements<const M: usize>: Sync {
     }
 
     /// Share of the energy of a bond that belongs to one of its ends.
-    fn share(&self, _bonds: &BondSet, _bond: u32, _point: u32) -> f64 {
+    fn share(
+        &self,
+        _bonds: &BondSet<D>,
+        _rigidities: &Rigidities,
+        _bond: u32,
+        _point: u32,
+    ) -> f64 {
         0.5
     }
 
@@ -273,32 +286,39 @@ pub trait Elements<const M: usize>: Sync {
     }
 }
 
+/// Deformation of the element of a bond.
+pub type DeformationOf<const D: usize, const M: usize, E> =
+    <<E as Elements<D, M>>::Element as Element<D, M>>::Deformation;
+
 /// What every element does. Loops over all bonds take the element as a type and ask for it once, not bond by bond.
-pub trait Element<const M: usize>:
+pub trait Element<const D: usize, const M: usize>:
     Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static
 {
+    /// Deformation of the bond.
+    type Deformation: Deformation;
+
     /// The element with its rigidities times what is left of them.
     fn weakened(self, remaining: &Remaining) -> Self;
 
     /// Deformation for the motions of all points, shape (M n_points), m and rad.
-    fn deformation(&self, motions: &[f64]) -> BondDeformation;
+    fn deformation(&self, motions: &[f64]) -> Self::Deformation;
 
-    /// Deformation in a uniform strain (eps_xx, eps_yy, gamma_xy) without rotations.
-    fn deformation_in(&self, strain: [f64; 3]) -> BondDeformation;
+    /// Deformation in a uniform strain without rotations.
+    fn deformation_in(&self, strain: &SymTensor<D>) -> Self::Deformation;
 
     /// 1/2 u^T K u', J, for two deformations of the same bond.
-    fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64;
+    fn mutual_energy(&self, one: &Self::Deformation, other: &Self::Deformation) -> f64;
 
     /// Adds the internal forces and moments K u on the points that the element couples, N and N m.
-    fn forces(&self, deformation: &BondDeformation, add: impl FnMut(u32, [f64; M]));
+    fn forces(&self, deformation: &Self::Deformation, add: impl FnMut(u32, [f64; M]));
 
     /// Internal forces at the ends A and B of a bond of two points, N and N m; None for one that couples others as well.
-    fn end_forces(&self, _deformation: &BondDeformation) -> Option<[[f64; M]; 2]> {
+    fn end_forces(&self, _deformation: &Self::Deformation) -> Option<[[f64; M]; 2]> {
         None
     }
 
-    /// Sum over the points of internal force (x) position, its symmetric part (xx, yy, xy), J.
-    fn dyad(&self, deformation: &BondDeformation) -> [f64; 3];
+    /// Sum over the points of internal force (x) position, its symmetric part, J.
+    fn dyad(&self, deformation: &Self::Deformation) -> SymTensor<D>;
 
     /// K as a sum of rigidity g g^T; the rows g are given by degree of freedom.
     fn terms(&self) -> Vec<Term>;

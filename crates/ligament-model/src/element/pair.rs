@@ -4,36 +4,68 @@ use std::marker::PhantomData;
 
 use super::{Block, BondDeformation, Element, Elements, Remaining, Rigidities, Term};
 use crate::bonds::BondSet;
+use crate::deformation::Deformation;
 use crate::layout::Component;
+use crate::tensor::SymTensor;
 
-/// The kinematics of a bond between two points with M components.
-pub trait PairKinematics<const M: usize>:
+/// The kinematics of a bond in D dimensions between two points with M components.
+pub trait PairKinematics<const D: usize, const M: usize>:
     Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static
 {
     /// Components of the motion of a point.
     const COMPONENTS: [Component; M];
 
+    /// Deformation of the bond.
+    type Deformation: Deformation;
+
     /// The kinematics of a bond.
-    fn new(bonds: &BondSet, rigidities: &Rigidities, bond: usize) -> Self;
+    fn new(bonds: &BondSet<D>, rigidities: &Rigidities, bond: usize) -> Self;
 
     /// With the rigidities times what is left of them.
     fn weakened(self, remaining: &Remaining) -> Self;
 
-    /// Length l, m, and direction cosines (a, b) from A to B.
-    fn geometry(&self) -> (f64, [f64; 2]);
+    /// Length l, m, and unit vector n from A to B.
+    fn geometry(&self) -> (f64, [f64; D]);
 
     /// Deformation for the motions of the ends A and B, shape (M) each.
-    fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> BondDeformation;
+    fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> Self::Deformation;
+
+    /// Deformation in a uniform strain eps without rotations: s = n . eps n, and the shear deformation is the rest of eps n.
+    fn deformation_in(&self, strain: &SymTensor<D>) -> Self::Deformation;
 
     /// 1/2 u^T K u', J, for two deformations of the same bond.
-    fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64;
+    fn mutual_energy(&self, one: &Self::Deformation, other: &Self::Deformation) -> f64;
 
     /// Internal forces and moments K u at the ends A and B, N and N m.
-    fn end_forces(&self, deformation: &BondDeformation) -> [[f64; M]; 2];
+    fn end_forces(&self, deformation: &Self::Deformation) -> [[f64; M]; 2];
 
-    /// K as a sum of rigidity g g^T over the M ways in which the bond deforms; the rows g take the motions of A and B to the
-    /// size of each: (s, gamma) or (s, gamma, theta_rel).
-    fn modes(&self) -> [(f64, [[f64; M]; 2]); M];
+    /// K as a sum of rigidity g g^T over the ways in which the bond deforms; the rows g take the motions of A and B to the size of each.
+    fn modes(&self) -> impl Iterator<Item = (f64, [[f64; M]; 2])>;
+
+    /// Block of K with the rows of one end (0 for A, 1 for B) and the columns of another.
+    fn block(&self, rows: usize, columns: usize) -> Block<M> {
+        let mut block = [[0.0; M]; M];
+        for (rigidity, gradient) in self.modes() {
+            for (sums, row) in block.iter_mut().zip(gradient[rows]) {
+                for (sum, column) in sums.iter_mut().zip(gradient[columns]) {
+                    *sum += rigidity * row * column;
+                }
+            }
+        }
+        block
+    }
+}
+
+/// What criteria measure of a bond for the motions of its ends A and B, without what a strain that the temperature gives makes of it.
+pub fn measured<const D: usize, const M: usize>(
+    bond: &impl PairKinematics<D, M>,
+    ends: [[f64; M]; 2],
+    free: Option<&SymTensor<D>>,
+) -> BondDeformation {
+    let [a, b] = &ends;
+    let whole = bond.deformation(a, b);
+    let free = free.map(|strain| bond.deformation_in(strain));
+    free.map_or(whole, |free| whole.less(&free)).measured()
 }
 
 /// The elements of bonds that couple their ends.
@@ -46,7 +78,7 @@ impl<B> Default for Pairs<B> {
     }
 }
 
-impl<const M: usize, B: PairKinematics<M>> Elements<M> for Pairs<B> {
+impl<const D: usize, const M: usize, B: PairKinematics<D, M>> Elements<D, M> for Pairs<B> {
     const COMPONENTS: [Component; M] = B::COMPONENTS;
 
     type Element = Pair<B>;
@@ -54,7 +86,7 @@ impl<const M: usize, B: PairKinematics<M>> Elements<M> for Pairs<B> {
     #[inline(always)]
     fn element(
         &self,
-        bonds: &BondSet,
+        bonds: &BondSet<D>,
         rigidities: &Rigidities,
         _: &[bool],
         bond: usize,
@@ -67,7 +99,7 @@ impl<const M: usize, B: PairKinematics<M>> Elements<M> for Pairs<B> {
 
     fn turns_freely(&self) -> bool {
         // Without rotations of the points a bond takes that of the body for a shear.
-        B::COMPONENTS.contains(&Component::Rotation)
+        B::COMPONENTS.iter().any(|it| it.is_rotation())
     }
 }
 
@@ -81,7 +113,9 @@ pub struct Pair<B> {
 }
 
 // The sweeps over all bonds are these functions: the compiler left some as calls, which cost them a fifth more time.
-impl<const M: usize, B: PairKinematics<M>> Element<M> for Pair<B> {
+impl<const D: usize, const M: usize, B: PairKinematics<D, M>> Element<D, M> for Pair<B> {
+    type Deformation = B::Deformation;
+
     #[inline(always)]
     fn weakened(self, remaining: &Remaining) -> Self {
         Self {
@@ -91,44 +125,39 @@ impl<const M: usize, B: PairKinematics<M>> Element<M> for Pair<B> {
     }
 
     #[inline(always)]
-    fn deformation(&self, motions: &[f64]) -> BondDeformation {
+    fn deformation(&self, motions: &[f64]) -> B::Deformation {
         let [a, b] = self.ends.map(|end| M * end as usize);
         self.bond
             .deformation(&motions[a..a + M], &motions[b..b + M])
     }
 
-    /// s = a^2 eps_xx + b^2 eps_yy + a b gamma_xy, gamma = a b (eps_yy - eps_xx) + (a^2 - b^2) gamma_xy/2.
     #[inline(always)]
-    fn deformation_in(&self, [xx, yy, xy]: [f64; 3]) -> BondDeformation {
-        let (_, [a, b]) = self.bond.geometry();
-        let stretch = a * a * xx + b * b * yy + a * b * xy;
-        let shear = a * b * (yy - xx) + 0.5 * (a * a - b * b) * xy;
-        BondDeformation::new([stretch, shear, 0.0])
+    fn deformation_in(&self, strain: &SymTensor<D>) -> B::Deformation {
+        self.bond.deformation_in(strain)
     }
 
     #[inline(always)]
-    fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64 {
+    fn mutual_energy(&self, one: &B::Deformation, other: &B::Deformation) -> f64 {
         self.bond.mutual_energy(one, other)
     }
 
     #[inline(always)]
-    fn forces(&self, deformation: &BondDeformation, mut add: impl FnMut(u32, [f64; M])) {
+    fn forces(&self, deformation: &B::Deformation, mut add: impl FnMut(u32, [f64; M])) {
         let [at_a, at_b] = self.bond.end_forces(deformation);
         add(self.ends[0], at_a);
         add(self.ends[1], at_b);
     }
 
     #[inline(always)]
-    fn end_forces(&self, deformation: &BondDeformation) -> Option<[[f64; M]; 2]> {
+    fn end_forces(&self, deformation: &B::Deformation) -> Option<[[f64; M]; 2]> {
         Some(self.bond.end_forces(deformation))
     }
 
-    fn dyad(&self, deformation: &BondDeformation) -> [f64; 3] {
+    fn dyad(&self, deformation: &B::Deformation) -> SymTensor<D> {
         let (length, direction) = self.bond.geometry();
         let [_, at_b] = self.bond.end_forces(deformation);
-        let (f_x, f_y) = (at_b[0], at_b[1]);
-        let [xi_x, xi_y] = direction.map(|cosine| cosine * length);
-        [f_x * xi_x, f_y * xi_y, 0.5 * (f_x * xi_y + f_y * xi_x)]
+        let force = std::array::from_fn(|axis| at_b[axis]);
+        SymTensor::dyad(force, direction.map(|cosine| cosine * length))
     }
 
     fn terms(&self) -> Vec<Term> {
@@ -138,28 +167,16 @@ impl<const M: usize, B: PairKinematics<M>> Element<M> for Pair<B> {
             let entries = entries.filter(|(_, value)| *value != 0.0);
             (rigidity, entries.collect())
         };
-        self.bond.modes().into_iter().map(term).collect()
+        self.bond.modes().map(term).collect()
     }
 
     /// Blocks of K = Omega alpha V_A V_B R^T B L D B^T R (NHPD eq. 9).
     fn upper_blocks(&self, point: u32, mut add: impl FnMut(u32, Block<M>)) {
-        let column_end = usize::from(self.ends[1] == point);
-        let modes = self.bond.modes();
-        for (row_end, &other) in self
-            .ends
-            .iter()
-            .enumerate()
-            .filter(|(_, end)| **end <= point)
-        {
-            let mut block = [[0.0; M]; M];
-            for (rigidity, gradient) in &modes {
-                for (sums, row) in block.iter_mut().zip(gradient[row_end]) {
-                    for (sum, column) in sums.iter_mut().zip(gradient[column_end]) {
-                        *sum += rigidity * row * column;
-                    }
-                }
+        let columns = usize::from(self.ends[1] == point);
+        for (rows, &other) in self.ends.iter().enumerate() {
+            if other <= point {
+                add(other, self.bond.block(rows, columns));
             }
-            add(other, block);
         }
     }
 }

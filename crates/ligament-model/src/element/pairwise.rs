@@ -16,6 +16,7 @@ use super::imaginary::{BondClass, ImaginaryElement, ImaginaryElements};
 use super::{Block, BondDeformation, Element, Elements, Remaining, Rigidities, Term};
 use crate::bonds::{BondSet, Incidence};
 use crate::layout::Component;
+use crate::tensor::SymTensor;
 
 /// The elements of a lattice with the printed forces.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +29,7 @@ pub struct PairwiseElements {
     pub spacing: [f64; 2],
 }
 
-impl Elements<2> for PairwiseElements {
+impl Elements<2, 2> for PairwiseElements {
     const COMPONENTS: [Component; 2] = ImaginaryElements::COMPONENTS;
 
     type Element = PairwiseElement;
@@ -66,8 +67,8 @@ impl Elements<2> for PairwiseElements {
         self.lattice.some_negative(rigidities)
     }
 
-    fn share(&self, bonds: &BondSet, bond: u32, point: u32) -> f64 {
-        self.lattice.share(bonds, bond, point)
+    fn share(&self, bonds: &BondSet, rigidities: &Rigidities, bond: u32, point: u32) -> f64 {
+        self.lattice.share(bonds, rigidities, bond, point)
     }
 
     fn leaning(&self, bonds: &[u32]) -> Vec<u32> {
@@ -142,7 +143,9 @@ fn greatest_common_divisor(one: u32, other: u32) -> u32 {
     }
 }
 
-impl Element<2> for PairwiseElement {
+impl Element<2, 2> for PairwiseElement {
+    type Deformation = BondDeformation;
+
     fn weakened(self, remaining: &Remaining) -> Self {
         Self {
             strains: self.strains.weakened(remaining),
@@ -156,7 +159,7 @@ impl Element<2> for PairwiseElement {
     }
 
     #[inline]
-    fn deformation_in(&self, strain: [f64; 3]) -> BondDeformation {
+    fn deformation_in(&self, strain: &SymTensor<2>) -> BondDeformation {
         self.strains.deformation_in(strain)
     }
 
@@ -177,9 +180,8 @@ impl Element<2> for PairwiseElement {
         add(self.ends[1], [x, y]);
     }
 
-    fn dyad(&self, deformation: &BondDeformation) -> [f64; 3] {
-        let ([f_x, f_y], [x, y]) = (self.force(deformation), self.offset);
-        [f_x * x, f_y * y, 0.5 * (f_x * y + f_y * x)]
+    fn dyad(&self, deformation: &BondDeformation) -> SymTensor<2> {
+        SymTensor::dyad(self.force(deformation), self.offset)
     }
 
     /// Terms of the energy form: the forces have none.

@@ -8,49 +8,40 @@ use super::pairwise::PairwiseElements;
 use super::spring::SpringBond;
 use super::true_strain::TrueStrainElements;
 use super::*;
+use crate::tensor::{minus, norm};
 
 /// Points of a square lattice with four a side, which stands turned and off the origin only where elements may.
 const SIDE: usize = 4;
 
 /// A set of elements with its bonds: every pair up to two spacings apart.
-struct Body<E, const M: usize> {
-    positions: Vec<[f64; 2]>,
-    bonds: BondSet,
+struct Body<const D: usize, const M: usize, E> {
+    positions: Vec<[f64; D]>,
+    bonds: BondSet<D>,
     rigidities: Rigidities,
     elements: E,
 }
 
-fn positions(angle: f64) -> Vec<[f64; 2]> {
+fn positions<const D: usize>(angle: f64) -> Vec<[f64; D]> {
     let (sin, cos) = f64::sin_cos(angle);
     let place = |number: usize| {
         let [x, y] = [number % SIDE, number / SIDE].map(|it| 0.35 * it as f64);
-        [2.0 + cos * x - sin * y, -1.0 + sin * x + cos * y]
+        // Rows and columns have equal coordinates to the last bit where they are not turned.
+        let [x, y] = match angle {
+            0.0 => [x, y],
+            _ => [2.0 + cos * x - sin * y, -1.0 + sin * x + cos * y],
+        };
+        let place = [x, y, 0.17 * (number % 3) as f64];
+        std::array::from_fn(|axis| place[axis])
     };
-    // Rows and columns have equal coordinates to the last bit.
-    if angle == 0.0 {
-        let at = |it: usize| 0.35 * it as f64;
-        return (0..SIDE * SIDE)
-            .map(|it| [at(it % SIDE), at(it / SIDE)])
-            .collect();
-    }
     (0..SIDE * SIDE).map(place).collect()
 }
 
-fn bonds(positions: &[[f64; 2]]) -> BondSet {
-    let offset = |[a, b]: [usize; 2]| [0, 1].map(|axis| positions[b][axis] - positions[a][axis]);
+fn bonds<const D: usize>(positions: &[[f64; D]]) -> BondSet<D> {
+    let offset = |[a, b]: [usize; 2]| minus(positions[b], positions[a]);
     let pairs = (0..positions.len()).flat_map(|a| (a + 1..positions.len()).map(move |b| [a, b]));
-    let near: Vec<[usize; 2]> = pairs
-        .filter(|&pair| {
-            let [x, y] = offset(pair);
-            x.hypot(y) < 0.8
-        })
-        .collect();
+    let near: Vec<[usize; 2]> = pairs.filter(|&pair| norm(offset(pair)) < 0.8).collect();
     let ends: Vec<[u32; 2]> = near.iter().map(|pair| pair.map(|it| it as u32)).collect();
-    let length: Vec<f64> = near
-        .iter()
-        .map(|&pair| offset(pair))
-        .map(|[x, y]| x.hypot(y))
-        .collect();
+    let length: Vec<f64> = near.iter().map(|&pair| norm(offset(pair))).collect();
     let direction = near.iter().zip(&length);
     BondSet {
         incidence: Incidence::new(&ends, positions.len()),
@@ -64,11 +55,11 @@ fn bonds(positions: &[[f64; 2]]) -> BondSet {
     }
 }
 
-fn body<E: Elements<M>, const M: usize>(
+fn body<const D: usize, const M: usize, E: Elements<D, M>>(
     angle: f64,
     shear_sign: f64,
-    elements: impl Fn(&BondSet, &[[f64; 2]]) -> E,
-) -> Body<E, M> {
+    elements: impl Fn(&BondSet<D>, &[[f64; D]]) -> E,
+) -> Body<D, M, E> {
     let positions = positions(angle);
     let bonds = bonds(&positions);
     let varied = |size: f64| {
@@ -76,11 +67,16 @@ fn body<E: Elements<M>, const M: usize>(
             .map(|it| size * (1.0 + 0.1 * (it % 7) as f64))
             .collect()
     };
+    let strain = StrainStiffness {
+        entries: [5.0, 1.5, 0.3, 4.0, -0.2, 2.0],
+        first_share: 0.5,
+    };
     Body {
         rigidities: Rigidities {
             axial: varied(5.0),
             shear: varied(3.0 * shear_sign),
             rotational: varied(0.2 * shear_sign),
+            strain: vec![strain; bonds.len()],
         },
         elements: elements(&bonds, &positions),
         positions,
@@ -89,11 +85,7 @@ fn body<E: Elements<M>, const M: usize>(
 }
 
 fn lattice(bonds: &BondSet, positions: &[[f64; 2]]) -> ImaginaryElements {
-    let stiffness = StrainStiffness {
-        entries: [5.0, 1.5, 0.3, 4.0, -0.2, 2.0],
-        first_share: 0.5,
-    };
-    ImaginaryElements::new(bonds, positions.to_vec(), vec![stiffness; bonds.len()])
+    ImaginaryElements::new(bonds, positions.to_vec())
 }
 
 /// What an element promises beside symmetry and translations.
@@ -115,19 +107,21 @@ const ALL: Promise = Promise {
 
 /// The table: a row an element, with the check that goes over all its bonds.
 fn for_every_element(mut check: impl Check) {
+    let springs_turn = Promise {
+        turns: false,
+        ..ALL
+    };
     let pairs = |_: &BondSet, _: &[[f64; 2]]| Pairs::<BeamBond>::default();
     check.check("beam", &body(0.6, 1.0, pairs), ALL);
     check.check("beam, negative shear", &body(0.6, -1.0, pairs), ALL);
     let springs = |_: &BondSet, _: &[[f64; 2]]| Pairs::<SpringBond>::default();
-    check.check(
-        "spring",
-        &body(0.6, 1.0, springs),
-        Promise {
-            turns: false,
-            ..ALL
-        },
-    );
+    check.check("spring", &body(0.6, 1.0, springs), springs_turn);
     check.check("central spring", &body(0.6, 0.0, springs), ALL);
+    let pairs = |_: &BondSet<3>, _: &[[f64; 3]]| Pairs::<BeamBond<3>>::default();
+    check.check("beam in space", &body(0.6, 1.0, pairs), ALL);
+    let springs = |_: &BondSet<3>, _: &[[f64; 3]]| Pairs::<SpringBond<3>>::default();
+    check.check("spring in space", &body(0.6, 1.0, springs), springs_turn);
+    check.check("central spring in space", &body(0.6, 0.0, springs), ALL);
     check.check("imaginary", &body(0.0, 1.0, lattice), ALL);
     let true_strains = |bonds: &BondSet, positions: &[[f64; 2]]| TrueStrainElements {
         lattice: lattice(bonds, positions),
@@ -151,15 +145,15 @@ fn for_every_element(mut check: impl Check) {
 }
 
 trait Check {
-    fn check<E: Elements<M>, const M: usize>(
+    fn check<const D: usize, const M: usize, E: Elements<D, M>>(
         &mut self,
         name: &str,
-        body: &Body<E, M>,
+        body: &Body<D, M, E>,
         promise: Promise,
     );
 }
 
-impl<E: Elements<M>, const M: usize> Body<E, M> {
+impl<const D: usize, const M: usize, E: Elements<D, M>> Body<D, M, E> {
     fn element(&self, bond: usize) -> E::Element {
         let intact = vec![true; self.bonds.len()];
         self.elements
@@ -178,19 +172,20 @@ impl<E: Elements<M>, const M: usize> Body<E, M> {
 
     /// A rigid motion moves a point by translation + rotation x position, and turns it by the rotation.
     fn rigid(&self, translation: [f64; 2], rotation: f64) -> Vec<f64> {
-        let at = |p: &[f64; 2]| {
+        let at = |p: &[f64; D]| {
             let [x, y] = translation;
             E::COMPONENTS.map(|component| match component {
                 Component::X => x - rotation * p[1],
                 Component::Y => y + rotation * p[0],
-                _ => rotation,
+                Component::Z | Component::RotationX | Component::RotationY => 0.0,
+                Component::Rotation | Component::RotationZ => rotation,
             })
         };
         self.positions.iter().flat_map(at).collect()
     }
 }
 
-fn force<E: Element<M>, const M: usize>(element: &E, u: &[f64]) -> Vec<f64> {
+fn force<const D: usize, const M: usize, E: Element<D, M>>(element: &E, u: &[f64]) -> Vec<f64> {
     let mut force = vec![0.0; u.len()];
     element.forces(&element.deformation(u), |point, values| {
         for (component, value) in values.into_iter().enumerate() {
@@ -219,10 +214,10 @@ struct RigidMotions;
 
 impl Check for RigidMotions {
     /// Rounding of forces of size 50 bounds a zero at 1e-12.
-    fn check<E: Elements<M>, const M: usize>(
+    fn check<const D: usize, const M: usize, E: Elements<D, M>>(
         &mut self,
         name: &str,
-        body: &Body<E, M>,
+        body: &Body<D, M, E>,
         promise: Promise,
     ) {
         for bond in 0..body.bonds.len() {
@@ -249,10 +244,10 @@ fn rigid_motions_cost_nothing() {
 struct Balance;
 
 impl Check for Balance {
-    fn check<E: Elements<M>, const M: usize>(&mut self, name: &str, body: &Body<E, M>, _: Promise) {
+    fn check<const D: usize, const M: usize, E: Elements<D, M>>(&mut self, name: &str, body: &Body<D, M, E>, _: Promise) {
         for bond in 0..body.bonds.len() {
             let found = force(&body.element(bond), &body.unknowns());
-            for component in 0..2 {
+            for component in 0..D {
                 let of_points = found.iter().skip(component).step_by(M);
                 let sum: f64 = of_points.sum();
                 assert!(sum.abs() < 1e-14 * found.len() as f64, "{name}: {sum:e}");
@@ -270,10 +265,10 @@ fn forces_are_in_balance() {
 struct Derivatives;
 
 impl Check for Derivatives {
-    fn check<E: Elements<M>, const M: usize>(
+    fn check<const D: usize, const M: usize, E: Elements<D, M>>(
         &mut self,
         name: &str,
-        body: &Body<E, M>,
+        body: &Body<D, M, E>,
         promise: Promise,
     ) {
         let u = body.unknowns();
@@ -310,9 +305,9 @@ impl Check for Derivatives {
 }
 
 /// The blocks of the assembly are those of the stiffness.
-fn assert_blocks<E: Elements<M>, const M: usize>(
+fn assert_blocks<const D: usize, const M: usize, E: Elements<D, M>>(
     name: &str,
-    body: &Body<E, M>,
+    body: &Body<D, M, E>,
     element: &E::Element,
     stiffness: &[Vec<f64>],
 ) {
@@ -348,7 +343,7 @@ fn energy_does_not_depend_on_the_orientation() {
     let energies = |angle: f64| {
         let (sin, cos) = f64::sin_cos(angle - 0.4);
         let both = |turn: &dyn Fn(&[f64]) -> Vec<f64>| {
-            let beams = body(angle, 1.0, |_, _| Pairs::<BeamBond>::default());
+            let beams = body(angle, 1.0, |_, _: &[[f64; 2]]| Pairs::<BeamBond>::default());
             let springs = body(angle, 1.0, |_, _| Pairs::<SpringBond>::default());
             let u = turn(&beams.unknowns());
             let beam = beams.element(7);

@@ -13,6 +13,7 @@ use super::imaginary::{Axis, ImaginaryElement, ImaginaryElements, Quotients};
 use super::{Block, BondDeformation, Element, Elements, Remaining, Rigidities, Term};
 use crate::bonds::{BondSet, Incidence};
 use crate::layout::Component;
+use crate::tensor::SymTensor;
 
 /// One bond with its surroundings as they are left.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,7 +31,7 @@ pub struct TrueStrainElements {
     pub lattice: ImaginaryElements,
 }
 
-impl Elements<2> for TrueStrainElements {
+impl Elements<2, 2> for TrueStrainElements {
     const COMPONENTS: [Component; 2] = ImaginaryElements::COMPONENTS;
 
     type Element = TrueStrainElement;
@@ -67,8 +68,8 @@ impl Elements<2> for TrueStrainElements {
         self.lattice.some_negative(rigidities)
     }
 
-    fn share(&self, bonds: &BondSet, bond: u32, point: u32) -> f64 {
-        self.lattice.share(bonds, bond, point)
+    fn share(&self, bonds: &BondSet, rigidities: &Rigidities, bond: u32, point: u32) -> f64 {
+        self.lattice.share(bonds, rigidities, bond, point)
     }
 
     fn leaning(&self, bonds: &[u32]) -> Vec<u32> {
@@ -80,7 +81,9 @@ impl Elements<2> for TrueStrainElements {
     }
 }
 
-impl Element<2> for TrueStrainElement {
+impl Element<2, 2> for TrueStrainElement {
+    type Deformation = BondDeformation;
+
     #[inline]
     fn weakened(self, remaining: &Remaining) -> Self {
         Self {
@@ -111,7 +114,7 @@ impl Element<2> for TrueStrainElement {
     }
 
     #[inline]
-    fn deformation_in(&self, strain: [f64; 3]) -> BondDeformation {
+    fn deformation_in(&self, strain: &SymTensor<2>) -> BondDeformation {
         self.small.deformation_in(strain)
     }
 
@@ -125,7 +128,7 @@ impl Element<2> for TrueStrainElement {
         self.small.forces(deformation, add);
     }
 
-    fn dyad(&self, deformation: &BondDeformation) -> [f64; 3] {
+    fn dyad(&self, deformation: &BondDeformation) -> SymTensor<2> {
         self.small.dyad(deformation)
     }
 

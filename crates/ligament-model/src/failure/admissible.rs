@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::along_line::{EVERYWHERE, Interval};
 use super::criterion::{Criteria, Criterion};
 use super::measure::Measure;
-use crate::deformation::{Deformations, SpaceDeformation};
+use crate::deformation::{Deformation, Deformations, SpaceDeformation};
 use crate::element::BondDeformation;
 
 /// Bonds that make a task worth while.
@@ -47,19 +47,17 @@ impl AlongLine for SpaceDeformation {
 }
 
 impl Criteria {
-    /// The first criterion whose measure is not known along lines of bonds in the plane, for some bond.
-    pub fn unknown_along_lines(&self) -> Option<&Criterion> {
+    /// The first criterion whose measure is not known along lines of bonds in D dimensions, for some bond.
+    pub fn unknown_along_lines<const D: usize>(&self) -> Option<&Criterion> {
         let is_unknown = |it: &&Criterion| {
             let mut bonds = 0..it.limit.len();
-            it.crack_at_points.is_some()
-                || bonds.any(|bond| !it.measure.is_known_along_lines(it.coefficients(bond)))
+            let is_known = |bond| match D {
+                2 => it.measure.is_known_along_lines(it.coefficients(bond)),
+                _ => it.measure.is_known_along_lines_in_space(),
+            };
+            it.crack_at_points.is_some() || bonds.any(|bond| !is_known(bond))
         };
         self.list.iter().find(is_unknown)
-    }
-
-    /// The first criterion whose measure is not known along lines of bonds in space.
-    pub fn unknown_along_lines_in_space(&self) -> Option<&Criterion> {
-        (self.list.iter()).find(|it| !it.measure.is_known_along_lines_in_space())
     }
 
     /// The t, within `reach`, for which no criterion breaks an intact bond with the deformation `here` + t `slopes`; None where some
@@ -70,11 +68,12 @@ impl Criteria {
         [here, slopes]: [&Deformations; 2],
         reach: Interval,
     ) -> Option<Interval> {
-        if here.vectors().is_empty() {
-            let line = [here.measured(), slopes.measured()];
-            return self.admissible_along(intact, line, reach);
+        let line = [here, slopes];
+        if SpaceDeformation::of_bonds(here).is_empty() {
+            self.admissible_along(intact, line.map(BondDeformation::of_bonds), reach)
+        } else {
+            self.admissible_along(intact, line.map(SpaceDeformation::of_bonds), reach)
         }
-        self.admissible_along(intact, [here.vectors(), slopes.vectors()], reach)
     }
 
     fn admissible_along<D: AlongLine>(

@@ -61,6 +61,7 @@ fn square_of_shear([here, slope]: [&SpaceDeformation; 2], q: f64) -> Quadratic {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::deformation::Deformation;
 
     /// Closed forms against a search along the line in fine steps, for lines that open, close, slide and turn.
     #[test]

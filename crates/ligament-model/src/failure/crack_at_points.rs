@@ -49,7 +49,7 @@ impl CrackAtPoints {
     /// The energies in a mode for the bonds of a lattice.
     pub fn new(mode: Mode, basis: &Basis<'_>) -> Self {
         let (bonds, cloud) = (&basis.system.bonds, &basis.system.cloud);
-        let stiffness: &[_] = (basis.system.kinematics.lattice()).map_or(&[], |it| &it.stiffness);
+        let stiffness: &[_] = &basis.system.rigidities.strain;
         let [dx, dy] = basis.lattice.spacing;
         let area = 2.0 * dx * basis.lattice.thickness;
         let of_bond = |((direction, &length), density): ((&[f64; 2], &f64), SymmetricEntries)| {

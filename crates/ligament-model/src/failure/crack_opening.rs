@@ -21,7 +21,6 @@
 use super::criterion::{Criteria, Criterion};
 use super::measure::Weakened;
 use crate::element::BondDeformation;
-use crate::interface::Bonds;
 use crate::system::BondSystem;
 
 /// Distance of the ends of a bond across a crack, over that of points, below which the crack passes the bond by.
@@ -49,7 +48,7 @@ impl CrackEnergy {
         among: &[bool],
         normal: [f64; 2],
     ) -> Option<Self> {
-        if system.kinematics.kind().has_strains() {
+        if system.element.has_strains() {
             return None;
         }
         let (mut energy, mut across, mut unbroken) = (0.0, 0.0, 0.0);
@@ -70,7 +69,7 @@ impl CrackEnergy {
                 None => unbroken += met,
             }
         }
-        let marked = among.iter().zip(system.volumes());
+        let marked = among.iter().zip(&system.cloud.volumes);
         let volume: f64 = marked
             .filter(|(is, _)| **is)
             .map(|(_, volume)| volume)

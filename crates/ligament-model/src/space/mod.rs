@@ -17,29 +17,15 @@
 //! | micromoduli | [`law`] |
 //! | factors alpha and Omega | [`correction`] |
 //! | failure criteria with their limits | [`criteria`] |
-//! | kinematics of a bond | [`element`] |
-//! | what the equations are made of | [`system`] |
 
-mod answers;
-mod change;
 pub mod cloud;
 pub mod correction;
 pub mod criteria;
-pub mod element;
 pub mod lattice;
 pub mod law;
-mod mass;
 pub mod outline;
 pub mod parts;
 pub mod precrack;
 mod predicates;
-mod product;
-mod rigid_motions;
 pub mod shape;
-pub mod stress;
-mod sweep;
-pub mod system;
 pub mod uniform_strain;
-
-pub use element::SolidElement;
-pub use system::SolidSystem;

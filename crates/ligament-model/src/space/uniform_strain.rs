@@ -3,8 +3,7 @@
 use nalgebra::{Matrix6, Vector6};
 
 use super::correction::patch::{SolidCellForces, force_in};
-use super::system::SolidSystem;
-use crate::interface::Bonds;
+use crate::system::System;
 use crate::material::Isotropic;
 use crate::thermal::ThermalStrain;
 use crate::uniform_strain::excess_in;
@@ -50,7 +49,7 @@ impl SolidUniformStrains {
     /// The strains that displacements, shape (6, n_degrees_of_freedom), give to the bonds under forces of size one. None without bonds
     /// or where the forces do no work on some uniform strain.
     pub fn measure(
-        system: &SolidSystem,
+        system: &dyn System<3>,
         forces: &SolidCellForces,
         displacements: &[Vec<f64>; 6],
     ) -> Option<Self> {
@@ -106,7 +105,7 @@ impl SolidUniformStrains {
 
 /// Forces and moments on all degrees of freedom in the six uniform strains, shape (6, n_degrees_of_freedom), N and N m: those of the
 /// cells, and what bonds across an interface have more than in the softer material, as in the [plane](crate::uniform_strain::loads).
-pub fn loads(system: &SolidSystem, forces: &SolidCellForces) -> [Vec<f64>; 6] {
+pub fn loads(system: &dyn System<3>, forces: &SolidCellForces) -> [Vec<f64>; 6] {
     let layout = system.layout();
     STRAINS.map(|strain| {
         let mut loads = excess_across(system, strain);
@@ -122,7 +121,7 @@ pub fn loads(system: &SolidSystem, forces: &SolidCellForces) -> [Vec<f64>; 6] {
 
 /// What bonds across an interface exert on their ends in a uniform strain more than in the softer material, shape
 /// (n_degrees_of_freedom).
-fn excess_across(system: &SolidSystem, [xx, yy, zz, xy, xz, yz]: [f64; 6]) -> Vec<f64> {
+fn excess_across(system: &dyn System<3>, [xx, yy, zz, xy, xz, yz]: [f64; 6]) -> Vec<f64> {
     let rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
     let layout = system.layout();
     excess_in(system, &system.beyond_correction, |intact, mut motions| {
@@ -139,7 +138,7 @@ fn excess_across(system: &SolidSystem, [xx, yy, zz, xy, xz, yz]: [f64; 6]) -> Ve
 /// The strains a_l of affine motions on which all six forces do the work that they do on displacements u_l: sum over m of
 /// (F_k . e_m x) a_ml = F_k . u_l.
 fn mean_strains(
-    system: &SolidSystem,
+    system: &dyn System<3>,
     forces: &SolidCellForces,
     displacements: &[Vec<f64>; 6],
 ) -> Option<Matrix6<f64>> {
@@ -179,7 +178,7 @@ fn projected([a, b, c]: [f64; 3]) -> [f64; 6] {
 }
 
 /// Displacement of a point.
-fn motion(system: &SolidSystem, displacement: &[f64], point: u32) -> [f64; 3] {
+fn motion(system: &dyn System<3>, displacement: &[f64], point: u32) -> [f64; 3] {
     let own = &displacement[system.layout().range(point)];
     [own[0], own[1], own[2]]
 }

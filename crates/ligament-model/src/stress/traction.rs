@@ -8,18 +8,25 @@ use rstar::{AABB, RTree};
 
 use crate::cloud::PointCloud;
 use crate::contact::ClosedPair;
-use crate::element::{BondDeformation, Element, Elements};
-use crate::system::{BondSystem, BondsLeft, Typed};
+use crate::element::{DeformationOf, Element, Elements};
+use crate::system::{BondSystem, BondsLeft, ElementSystem};
+use crate::tensor::minus;
 
-/// Stresses of the planes with normal x (xx, yx) and with normal y (yy, xy), Pa; the first letter is the force's direction.
-pub type Tractions = [f64; 4];
+/// Names of the components of a traction: on the planes with each normal along an axis the stress along the normal, then those across it;
+/// the first letter is the direction of the force.
+pub fn names<const D: usize>() -> &'static [&'static str] {
+    match D {
+        2 => &["xx", "yx", "yy", "xy"],
+        _ => &["xx", "yx", "zx", "yy", "xy", "zy", "zz", "xz", "yz"],
+    }
+}
 
-impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
-    /// Traction at every point on the planes with normal x and with normal y, shape (n_points).
+impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
+    /// Traction at every point on the planes with a normal along each axis, shape (n_points, D D), in the order of [`names`], Pa.
     ///
-    /// The planes of a point are segments of width w_i = sqrt(V_i/t), the point in their middle, and the mean is taken of those
-    /// that lie up to w_i/2 before and behind it: together they sweep a square of the point's own area. A bond stands for a band
-    /// of matter between its points, as wide as their planes in the mean. With the area a_i that the band and the square of point
+    /// The planes of a point are segments, in space squares, of width w_i = (V_i/t)^(1/D), the point in their middle, and the mean is taken of those
+    /// that lie up to w_i/2 before and behind it: together they sweep a square, in space a cube, of the point's own size. A bond stands for a band
+    /// of matter between its points, as wide as their planes in the mean. With the size a_i that the band and the square of point
     /// i have in common, the extent d of the band along the normal and its force f, the traction of i is the sum over the bonds of
     ///
     /// t_i = f a_i d / (V_i sum_j a_j),
@@ -32,90 +39,92 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
     ///
     /// Bonds within a plane do not cross it and do not count, nor do elements that couple more than two points: their forces go through no line.
     pub(crate) fn tractions(
-        self,
+        &self,
         bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
-    ) -> Vec<Tractions> {
-        let squares = Squares::from_cloud(&self.system.cloud);
-        let on_planes = |normal| self.through_planes(bonds, deformations, &squares, normal);
-        let (with_x, with_y) = rayon::join(|| on_planes(0), || on_planes(1));
-        let of_point = |([xx, yx], [xy, yy]): ([f64; 2], [f64; 2])| [xx, yx, yy, xy];
-        with_x.into_iter().zip(with_y).map(of_point).collect()
-    }
-
-    /// Traction along x and y on the planes of each point with the given normal (0: x, 1: y), Pa.
-    fn through_planes(
-        self,
-        bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
-        squares: &Squares,
-        normal: usize,
-    ) -> Vec<[f64; 2]> {
-        let system = self.system;
-        let mut planes = Planes::new(&system.cloud, squares, normal);
-        for (bond, deformation) in deformations.iter().enumerate() {
-            let Some(element) = self.left(bonds, bond) else {
-                continue;
-            };
+        deformations: &[DeformationOf<D, M, E>],
+    ) -> Vec<f64> {
+        let pull = |bond: usize| {
+            let element = self.left(bonds, bond)?;
             // The end force is what holds the end in place against the bond: the bond pulls the other way.
-            let Some([at_a, _]) = element.end_forces(deformation) else {
-                continue;
-            };
-            planes.share_out(system.bonds.ends[bond], [-at_a[0], -at_a[1]]);
-        }
-        planes.tractions()
+            let [at_a, _] = element.end_forces(&deformations[bond])?;
+            let force = std::array::from_fn(|axis| -at_a[axis]);
+            Some((self.system.bonds.ends[bond], force))
+        };
+        let pulls = || (0..deformations.len()).filter_map(pull);
+        through_planes(&self.system.cloud, pulls)
     }
 }
 
-impl BondSystem {
-    /// Adds the tractions of closed pairs to those of the bonds, shape (n_points, 4), Pa.
+impl<const D: usize> BondSystem<D> {
+    /// Adds the tractions of closed pairs to those of the bonds, shape (n_points, D D), Pa.
     pub(crate) fn add_contact_tractions(&self, closed: &[ClosedPair], tractions: &mut [f64]) {
         if closed.is_empty() {
             return;
         }
-        let squares = Squares::from_cloud(&self.cloud);
-        let on_planes = |normal| {
-            let mut planes = Planes::new(&self.cloud, &squares, normal);
-            for it in closed {
-                let force = it.pair.normal.map(|component| it.force() * component);
-                planes.share_out(it.pair.ends, force);
-            }
-            planes.tractions()
+        let pull = |it: &ClosedPair| {
+            let force = std::array::from_fn(|axis| it.force() * it.pair.normal[axis]);
+            (it.pair.ends, force)
         };
-        let of_points = on_planes(0).into_iter().zip(on_planes(1));
-        for (sums, ([xx, yx], [xy, yy])) in tractions.chunks_mut(4).zip(of_points) {
-            for (sum, value) in sums.iter_mut().zip([xx, yx, yy, xy]) {
-                *sum += value;
-            }
+        let of_contact = through_planes(&self.cloud, || closed.iter().map(pull));
+        for (sum, value) in tractions.iter_mut().zip(of_contact) {
+            *sum += value;
         }
     }
 }
 
+/// Tractions of all points, shape (n_points, D D), from the forces with which the second ends of bonds pull at the first.
+fn through_planes<const D: usize, I: Iterator<Item = ([u32; 2], [f64; D])>>(
+    cloud: &PointCloud<D>,
+    pulls: impl Fn() -> I + Sync,
+) -> Vec<f64> {
+    let squares = Squares::from_cloud(cloud);
+    let mut of_normals = vec![Vec::new(); D];
+    rayon::scope(|scope| {
+        for (normal, tractions) in of_normals.iter_mut().enumerate() {
+            let (pulls, squares) = (&pulls, &squares);
+            scope.spawn(move |_| {
+                let mut planes = Planes::new(cloud, squares, normal);
+                pulls().for_each(|(ends, force)| planes.share_out(ends, force));
+                *tractions = planes.tractions();
+            });
+        }
+    });
+    let of_point = |point: usize| {
+        let of_normals = of_normals.iter().enumerate();
+        of_normals.flat_map(move |(normal, tractions): (usize, &Vec<[f64; D]>)| {
+            let across = (0..D).filter(move |axis| *axis != normal);
+            let axes = std::iter::once(normal).chain(across);
+            axes.map(move |axis| tractions[point][axis])
+        })
+    };
+    (0..cloud.len()).flat_map(of_point).collect()
+}
+
 /// Forces through the planes of one normal at all points.
-struct Planes<'a> {
-    cloud: &'a PointCloud,
-    squares: &'a Squares,
-    /// 0: x, 1: y.
+struct Planes<'a, const D: usize> {
+    cloud: &'a PointCloud<D>,
+    squares: &'a Squares<D>,
+    /// Axis of the normal.
     normal: usize,
     /// Sums of force times extent, shape (n_points), N m.
-    sums: Vec<[f64; 2]>,
-    /// Points along the way of a bond, and areas in common.
+    sums: Vec<[f64; D]>,
+    /// Points along the way of a bond, and sizes in common.
     crossed: Vec<(usize, f64)>,
 }
 
-impl<'a> Planes<'a> {
-    fn new(cloud: &'a PointCloud, squares: &'a Squares, normal: usize) -> Self {
+impl<'a, const D: usize> Planes<'a, D> {
+    fn new(cloud: &'a PointCloud<D>, squares: &'a Squares<D>, normal: usize) -> Self {
         Self {
             cloud,
             squares,
             normal,
-            sums: vec![[0.0; 2]; cloud.len()],
+            sums: vec![[0.0; D]; cloud.len()],
             crossed: Vec::new(),
         }
     }
 
     /// Shares the force with which the second end pulls at the first out among the points on the way.
-    fn share_out(&mut self, ends: [u32; 2], force: [f64; 2]) {
+    fn share_out(&mut self, ends: [u32; 2], force: [f64; D]) {
         let Self {
             cloud,
             squares,
@@ -130,37 +139,37 @@ impl<'a> Planes<'a> {
             normal: *normal,
         };
         for point in squares.within(band.reach(squares.largest_width)) {
-            let area = band.area_within(cloud.positions[point], squares.width[point]);
-            if area > 0.0 {
-                crossed.push((point, area));
+            let size = band.size_within(cloud.positions[point], squares.width[point]);
+            if size > 0.0 {
+                crossed.push((point, size));
             }
         }
-        let area: f64 = crossed.iter().map(|(_, area)| area).sum();
+        let size: f64 = crossed.iter().map(|(_, size)| size).sum();
         // What lies before the plane pulls at what lies behind it: the extent has the sign for that.
         let force = force.map(|component| component * band.extent());
         for (point, part) in crossed.drain(..) {
             for (sum, component) in sums[point].iter_mut().zip(force) {
-                *sum += component * (part / area);
+                *sum += component * (part / size);
             }
         }
     }
 
     /// The tractions, shape (n_points), Pa.
-    fn tractions(&self) -> Vec<[f64; 2]> {
-        let over_volume = |(sum, volume): (&[f64; 2], &f64)| sum.map(|value| value / volume);
+    fn tractions(&self) -> Vec<[f64; D]> {
+        let over_volume = |(sum, volume): (&[f64; D], &f64)| sum.map(|value| value / volume);
         let sums = self.sums.iter();
         sums.zip(&self.cloud.volumes).map(over_volume).collect()
     }
 }
 
 /// The matter of a bond on its way through planes of one normal.
-struct Band {
-    ends: [[f64; 2]; 2],
+struct Band<const D: usize> {
+    ends: [[f64; D]; 2],
     width: f64,
     normal: usize,
 }
 
-impl Band {
+impl<const D: usize> Band<D> {
     /// From the first end to the second along the normal, m.
     fn extent(&self) -> f64 {
         let [a, b] = self.ends.map(|end| end[self.normal]);
@@ -168,68 +177,86 @@ impl Band {
     }
 
     /// The box of the points whose squares it may cross, for squares up to a width.
-    fn reach(&self, largest_width: f64) -> [[f64; 2]; 2] {
+    fn reach(&self, largest_width: f64) -> [[f64; D]; 2] {
         let margin = |axis: usize| {
             let of_band = if axis == self.normal { 0.0 } else { self.width };
             0.5 * (of_band + largest_width)
         };
         let [a, b] = self.ends;
         [
-            [0, 1].map(|axis| a[axis].min(b[axis]) - margin(axis)),
-            [0, 1].map(|axis| a[axis].max(b[axis]) + margin(axis)),
+            std::array::from_fn(|axis| a[axis].min(b[axis]) - margin(axis)),
+            std::array::from_fn(|axis| a[axis].max(b[axis]) + margin(axis)),
         ]
     }
 
-    /// Area that the band has in common with the square of a point, m^2.
-    fn area_within(&self, point: [f64; 2], width: f64) -> f64 {
-        let along = 1 - self.normal;
+    /// Area that the band has in common with the square of a point, m^2; in space the volume in common with its cube, m^3.
+    fn size_within(&self, point: [f64; D], width: f64) -> f64 {
         let half = 0.5 * width;
-        let [n_a, n_b] = self.ends.map(|end| end[self.normal] - point[self.normal]);
-        let [c_a, c_b] = self.ends.map(|end| end[along] - point[along]);
+        let [from, to] = self.ends.map(|end| minus(end, point));
+        let [n_a, n_b] = [from[self.normal], to[self.normal]];
         let (first, last) = (n_a.min(n_b).max(-half), n_a.max(n_b).min(half));
         if first >= last {
             return 0.0;
         }
-        let overlap = |place: f64| {
-            let middle = c_a + (c_b - c_a) * ((place - n_a) / (n_b - n_a));
-            let upper = (middle + 0.5 * self.width).min(half);
-            (upper - (middle - 0.5 * self.width).max(-half)).max(0.0)
+        let across = || (0..D).filter(|axis| *axis != self.normal);
+        // Common size of the cross sections of the band and the square at a place along the normal.
+        let overlap = |place: f64| -> f64 {
+            let of_axis = |axis: usize| {
+                let (c_a, c_b) = (from[axis], to[axis]);
+                let middle = c_a + (c_b - c_a) * ((place - n_a) / (n_b - n_a));
+                let upper = (middle + 0.5 * self.width).min(half);
+                (upper - (middle - 0.5 * self.width).max(-half)).max(0.0)
+            };
+            across().map(of_axis).product()
         };
-        // It is linear between the places where an edge of the band passes an edge of the square.
+        // Along each axis it is linear between the places where an edge of the band passes an edge of the square.
         let (sum, difference) = (0.5 * (self.width + width), 0.5 * (self.width - width));
-        let passing = |offset: f64| {
-            let place = n_a + (n_b - n_a) * ((offset - c_a) / (c_b - c_a));
-            if c_a == c_b {
-                first
-            } else {
-                place.clamp(first, last)
-            }
-        };
-        let [a, b, c, d] = [-sum, -difference, difference, sum].map(passing);
-        let mut places = [first, a, b, c, d, last];
+        let mut places = [last; 10];
+        places[0] = first;
+        let passing = across().flat_map(|axis| {
+            let (c_a, c_b) = (from[axis], to[axis]);
+            [-sum, -difference, difference, sum].map(|offset| {
+                let place = n_a + (n_b - n_a) * ((offset - c_a) / (c_b - c_a));
+                if c_a == c_b {
+                    first
+                } else {
+                    place.clamp(first, last)
+                }
+            })
+        });
+        for (place, passing) in places[1..].iter_mut().zip(passing) {
+            *place = passing;
+        }
         places.sort_by(f64::total_cmp);
         let pieces = places.windows(2);
         pieces
-            .map(|ends| 0.5 * (ends[1] - ends[0]) * (overlap(ends[0]) + overlap(ends[1])))
+            .map(|ends| {
+                let [a, b] = [ends[0], ends[1]];
+                match D {
+                    2 => 0.5 * (b - a) * (overlap(a) + overlap(b)),
+                    // Simpson's rule is exact for the product of two linear functions.
+                    _ => (b - a) * (overlap(a) + 4.0 * overlap(0.5 * (a + b)) + overlap(b)) / 6.0,
+                }
+            })
             .sum()
     }
 }
 
-/// The squares of the points, and a tree to find those near a bond.
-struct Squares {
-    /// Width sqrt(V/t) of each, shape (n_points), m.
+/// The squares of the points, in space cubes, and a tree to find those near a bond.
+struct Squares<const D: usize> {
+    /// Width (V/t)^(1/D) of each, shape (n_points), m.
     width: Vec<f64>,
     largest_width: f64,
-    middles: RTree<GeomWithData<[f64; 2], u32>>,
+    middles: RTree<GeomWithData<[f64; D], u32>>,
 }
 
-impl Squares {
-    fn from_cloud(cloud: &PointCloud) -> Self {
-        let width: Vec<f64> = cloud
-            .volumes
-            .iter()
-            .map(|volume| (volume / cloud.thickness).sqrt())
-            .collect();
+impl<const D: usize> Squares<D> {
+    fn from_cloud(cloud: &PointCloud<D>) -> Self {
+        let width = |volume: &f64| match D {
+            2 => (volume / cloud.thickness).sqrt(),
+            _ => volume.cbrt(),
+        };
+        let width: Vec<f64> = cloud.volumes.iter().map(width).collect();
         let numbered = (0..).zip(&cloud.positions);
         let middles = numbered.map(|(point, &position)| GeomWithData::new(position, point));
         Self {
@@ -240,7 +267,7 @@ impl Squares {
     }
 
     /// The points in a box, in the order of the tree, which depends on the points alone.
-    fn within(&self, [lower, upper]: [[f64; 2]; 2]) -> impl Iterator<Item = usize> + '_ {
+    fn within(&self, [lower, upper]: [[f64; D]; 2]) -> impl Iterator<Item = usize> + '_ {
         let found = self
             .middles
             .locate_in_envelope(AABB::from_corners(lower, upper));

@@ -2,19 +2,18 @@
 
 use rayon::prelude::*;
 
-use crate::element::{BondDeformation, Element, Elements};
-use crate::system::{BondsLeft, Typed};
+use crate::element::{DeformationOf, Element, Elements};
+use crate::interface::Bonds;
+use crate::system::{BondsLeft, ElementSystem};
+use crate::tensor::SymTensor;
 
-/// Stresses xx, yy and xy, Pa.
-pub type SymmetricStress = [f64; 3];
-
-impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
+impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     /// Virial stress of every point, shape (n_points).
     pub(crate) fn virial_stresses(
-        self,
+        &self,
         bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
-    ) -> Vec<SymmetricStress> {
+        deformations: &[DeformationOf<D, M, E>],
+    ) -> Vec<SymTensor<D>> {
         (0..self.system.cloud.len() as u32)
             .into_par_iter()
             .map(|point| self.virial_stress(bonds, deformations, point))
@@ -33,23 +32,20 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
     /// is given, sigma_xy = (f_x xi_y + f_y xi_x)/2. At the outline half of the neighbours is missing; that a correction makes up
     /// for the energy does not make the stress on a free side zero.
     pub(crate) fn virial_stress(
-        self,
+        &self,
         bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
+        deformations: &[DeformationOf<D, M, E>],
         point: u32,
-    ) -> SymmetricStress {
-        let system = self.system;
-        let mut sum = [0.0; 3];
-        for &bond in system.bonds.incidence.at(point) {
+    ) -> SymTensor<D> {
+        let mut sum = SymTensor::ZERO;
+        for &bond in self.system.bonds.incidence.at(point) {
             let Some(element) = self.left(bonds, bond as usize) else {
                 continue;
             };
-            let share = self.elements.share(&system.bonds, bond, point);
             let dyad = element.dyad(&deformations[bond as usize]);
-            for (sum, part) in sum.iter_mut().zip(dyad) {
-                *sum += share * part;
-            }
+            sum = sum.plus(&dyad.scaled(self.share(bond, point)));
         }
-        sum.map(|value| value / system.cloud.volumes[point as usize])
+        let volume = self.system.cloud.volumes[point as usize];
+        sum.map(|value| value / volume)
     }
 }

@@ -1,158 +1,132 @@
-//! What a bond system answers to the equations: one dispatch to the type of its elements a call.
+//! What a bond system answers to the equations.
 
-use super::{BondSystem, BondsLeft, Kinematics, Typed};
 use ligament_mesh::Numbering;
 
+use super::contact::Moved;
+use super::{BondSystem, BondsLeft, ElementSystem};
 use crate::bonds::Incidence;
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
-use crate::deformation::Deformations;
-use crate::element::{BondDeformation, Element, Elements, Remaining, Term};
+use crate::deformation::{Deformation, Deformations};
+use crate::element::{BondDeformation, DeformationOf, Element, Elements, Remaining, Term};
 use crate::failure::{Criteria, Criterion};
 use crate::interface::{
     Bonds, CentralMotions, CoupledPoints, PointStiffness, StressReading, Stresses,
 };
 use crate::layout::Component;
 use crate::portion::{Portion, any};
-use crate::rigid_motions::{FreeMotion, RigidMotions, Turn};
+use crate::rigid_motions::{self, FreeMotion, RigidMotions, Turn};
+use crate::stress::traction;
 use crate::sweep::BondSweep;
+use crate::tensor::SymTensor;
 use crate::thermal::ThermalStrain;
 
-/// Evaluates an expression with the elements of a bond system as a type.
-macro_rules! typed {
-    ($system:expr, $typed:ident => $value:expr) => {{
-        let system: &BondSystem = $system;
-        match &system.kinematics {
-            Kinematics::Beam(elements) => {
-                let $typed = Typed::new(system, elements);
-                $value
-            }
-            Kinematics::Spring(elements) => {
-                let $typed = Typed::new(system, elements);
-                $value
-            }
-            Kinematics::Imaginary(elements) => {
-                let $typed = Typed::new(system, elements);
-                $value
-            }
-            Kinematics::TrueStrain(elements) => {
-                let $typed = Typed::new(system, elements);
-                $value
-            }
-            Kinematics::Pairwise(elements) => {
-                let $typed = Typed::new(system, elements);
-                $value
-            }
-        }
-    }};
-}
-
-impl Bonds for BondSystem {
+impl<const D: usize, const M: usize, E: Elements<D, M>> Bonds for ElementSystem<D, M, E> {
     fn n_points(&self) -> usize {
-        self.cloud.len()
+        self.system.cloud.len()
     }
 
     fn numbering(&self) -> &Numbering {
-        &self.cloud.numbering
+        &self.system.cloud.numbering
     }
 
     fn portion(&self) -> Option<&Portion> {
-        self.cloud.portion.as_ref()
+        self.system.cloud.portion.as_ref()
     }
 
     fn components(&self) -> &'static [Component] {
-        typed!(self, it => it.components())
+        &E::COMPONENTS
     }
 
     fn strain_names(&self) -> &'static [&'static str] {
-        self.kinematics.kind().strain_names()
+        self.system.element.strain_names()
     }
 
     fn ends(&self) -> &[[u32; 2]] {
-        &self.bonds.ends
+        &self.system.bonds.ends
     }
 
     fn incidence(&self) -> &Incidence {
-        &self.bonds.incidence
+        &self.system.bonds.incidence
     }
 
     fn elements_at_points(&self) -> &Incidence {
-        let couplings = typed!(self, it => it.elements.couplings());
-        couplings.map_or(&self.bonds.incidence, |[elements, _]| elements)
+        let couplings = self.elements.couplings();
+        couplings.map_or(&self.system.bonds.incidence, |[elements, _]| elements)
     }
 
     fn coupled_points(&self) -> CoupledPoints<'_> {
-        let of_elements = typed!(self, it => it.elements.couplings()).map(|[_, points]| points);
-        match of_elements.or(self.faces.coupled()) {
+        let of_elements = self.elements.couplings().map(|[_, points]| points);
+        match of_elements.or(self.system.faces.coupled()) {
             Some(points) => CoupledPoints {
                 lists: points,
                 ends: None,
             },
             None => CoupledPoints {
-                lists: &self.bonds.incidence,
-                ends: Some(&self.bonds.ends),
+                lists: &self.system.bonds.incidence,
+                ends: Some(&self.system.bonds.ends),
             },
         }
     }
 
     fn volumes(&self) -> &[f64] {
-        &self.cloud.volumes
+        &self.system.cloud.volumes
     }
 
     fn spacing(&self) -> &[f64] {
-        &self.cloud.spacing
+        &self.system.cloud.spacing
     }
 
     fn horizons(&self) -> &[f64] {
-        &self.bonds.horizon
+        &self.system.bonds.horizon
     }
 
     fn weights(&self) -> &[f64] {
-        &self.weight
+        &self.system.weight
     }
 
     fn share(&self, bond: u32, point: u32) -> f64 {
-        typed!(self, it => it.elements.share(&self.bonds, bond, point))
+        self.elements.share(&self.system.bonds, &self.system.rigidities, bond, point)
     }
 
     fn is_linear(&self) -> bool {
-        typed!(self, it => it.elements.is_linear())
+        self.elements.is_linear()
     }
 
     fn has_energy(&self) -> bool {
-        typed!(self, it => it.elements.has_energy())
+        self.elements.has_energy()
     }
 
     fn all_positive(&self) -> bool {
-        let mut of_springs = self.rigidities.of_springs();
+        let mut of_springs = self.system.rigidities.of_springs();
         !any(self.portion(), !of_springs.all(|&rigidity| rigidity > 0.0))
     }
 
     fn some_negative(&self) -> bool {
-        let here = typed!(self, it => it.elements.some_negative(&self.rigidities));
+        let here = self.elements.some_negative(&self.system.rigidities);
         any(self.portion(), here)
     }
 
     fn some_negative_shear(&self) -> bool {
-        let mut shear = self.rigidities.shear.iter();
+        let mut shear = self.system.rigidities.shear.iter();
         any(self.portion(), shear.any(|&rigidity| rigidity < 0.0))
     }
 
     fn resisted(&self) -> Vec<bool> {
         let (layout, portion) = (self.layout(), self.portion());
-        self.rigidities.resisted(&self.bonds.ends, layout, portion)
+        self.system.rigidities.resisted(&self.system.bonds.ends, layout, portion)
     }
 
     fn point_stiffness(&self) -> Vec<PointStiffness> {
-        PointStiffness::of_bonds(&self.rigidities, &self.bonds, self.portion())
+        PointStiffness::of_bonds(&self.system.rigidities, &self.system.bonds, self.portion())
     }
 
     fn extent(&self) -> f64 {
-        self.cloud.extent()
+        self.system.cloud.extent()
     }
 
     fn halve(&self, points: &mut [u32]) {
-        self.cloud.halve(points);
+        self.system.cloud.halve(points);
     }
 
     fn holds(
@@ -161,7 +135,7 @@ impl Bonds for BondSystem {
         is_fixed: &dyn Fn(usize) -> bool,
         can_hold: &dyn Fn(usize) -> bool,
     ) -> Vec<usize> {
-        let in_file = self.cloud.numbering.sorted(points);
+        let in_file = self.system.cloud.numbering.sorted(points);
         self.rigid_motions(&in_file)
             .holds(&in_file, is_fixed, can_hold)
     }
@@ -181,39 +155,27 @@ impl Bonds for BondSystem {
     }
 
     fn rigid_shapes(&self, points: &[u32]) -> Vec<Vec<f64>> {
-        let (layout, positions) = (self.layout(), &self.cloud.positions);
-        RigidMotions::in_plane(layout, positions, points, Turn::OfPointsAlong).shapes(points)
+        let (layout, positions) = (self.layout(), &self.system.cloud.positions);
+        RigidMotions::new(layout, positions, points, Turn::OfPointsAlong).shapes(points)
     }
 
     fn motions_about_centre(&self, masses: &[f64]) -> CentralMotions {
+        let cloud = &self.system.cloud;
         let total: f64 = masses.iter().sum();
-        let middle = [0, 1].map(|axis| {
-            let weighted = masses.iter().zip(&self.cloud.positions);
+        let middle: [f64; D] = std::array::from_fn(|axis| {
+            let weighted = masses.iter().zip(&cloud.positions);
             weighted.map(|(mass, p)| mass * p[axis]).sum::<f64>() / total
         });
-        let motion = |of_point: &dyn Fn([f64; 2]) -> [f64; 3]| -> Vec<f64> {
-            let from_middle = |p: &[f64; 2]| [p[0] - middle[0], p[1] - middle[1]];
-            let components = self.components();
-            let positions = self.cloud.positions.iter();
-            let moved = positions.map(|p| of_point(from_middle(p)));
-            moved
-                .flat_map(|motion| components.iter().map(move |it| motion[*it as usize]))
-                .collect()
-        };
         CentralMotions {
-            centre: [0, 1]
-                .map(|axis| middle[axis] + self.cloud.origin[axis])
-                .to_vec(),
-            motions: vec![
-                motion(&|_| [1.0, 0.0, 0.0]),
-                motion(&|_| [0.0, 1.0, 0.0]),
-                motion(&|[x, y]| [-y, x, 1.0]),
-            ],
+            centre: (middle.iter().zip(cloud.origin))
+                .map(|(middle, origin)| middle + origin)
+                .collect(),
+            motions: rigid_motions::columns(self.layout(), &cloud.positions, middle),
         }
     }
 
     fn motions_of_strain(&self) -> Vec<Vec<f64>> {
-        self.cloud.motions_of_strain(self.components().len())
+        self.system.cloud.motions_of_strain(self.components().len())
     }
 
     fn deformations(
@@ -222,7 +184,7 @@ impl Bonds for BondSystem {
         displacement: &[f64],
         expansion: ThermalStrain<'_>,
     ) -> Deformations {
-        typed!(self, it => it.deformations(intact, displacement, expansion))
+        self.deformations(intact, displacement, expansion)
     }
 
     fn measured(
@@ -231,8 +193,11 @@ impl Bonds for BondSystem {
         displacement: &[f64],
         bonds: &[u32],
     ) -> Vec<BondDeformation> {
-        let bonds = bonds.iter().map(|&bond| bond as usize);
-        typed!(self, it => bonds.map(|bond| it.whole(intact, bond).deformation(displacement)).collect())
+        let of_bond = |&bond: &u32| {
+            let element = self.whole(intact, bond as usize);
+            element.deformation(displacement).measured()
+        };
+        bonds.iter().map(of_bond).collect()
     }
 
     fn forces(
@@ -241,7 +206,7 @@ impl Bonds for BondSystem {
         deformations: Deformations,
         expansion: ThermalStrain<'_>,
     ) -> BondSweep {
-        typed!(self, it => it.forces(bonds, deformations, expansion))
+        self.forces(bonds, deformations, expansion)
     }
 
     fn mutual_energy(
@@ -251,7 +216,8 @@ impl Bonds for BondSystem {
         remaining: &Remaining,
         [one, other]: [&Deformations; 2],
     ) -> f64 {
-        typed!(self, it => it.whole(intact, bond).weakened(remaining).mutual_energy(&one[bond], &other[bond]))
+        let element = self.whole(intact, bond).weakened(remaining);
+        element.mutual_energy(&of_bonds(one)[bond], &of_bonds(other)[bond])
     }
 
     fn stored_energy(
@@ -261,15 +227,26 @@ impl Bonds for BondSystem {
         remaining: &Remaining,
         measured: &BondDeformation,
     ) -> f64 {
-        typed!(self, it => it.whole(intact, bond).weakened(remaining).mutual_energy(measured, measured))
+        let deformation = Deformation::with_measures(measured);
+        let element = self.whole(intact, bond).weakened(remaining);
+        element.mutual_energy(&deformation, &deformation)
     }
 
     fn energy_density(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> f64 {
-        typed!(self, it => it.energy_density(bonds, deformations, point))
+        let deformations: &[DeformationOf<D, M, E>] = of_bonds(deformations);
+        let family = self.system.bonds.incidence.at(point).iter();
+        let shares = family.filter_map(|&bond| {
+            let element = self.left(bonds, bond as usize)?;
+            let deformation = &deformations[bond as usize];
+            let energy = element.mutual_energy(deformation, deformation);
+            Some(self.share(bond, point) * energy)
+        });
+        shares.sum::<f64>() / self.system.cloud.volumes[point as usize]
     }
 
     fn stress(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> Vec<f64> {
-        typed!(self, it => it.virial_stress(bonds, deformations, point).to_vec())
+        let stress = self.virial_stress(bonds, of_bonds(deformations), point);
+        stress.components().collect()
     }
 
     fn stresses(
@@ -278,14 +255,18 @@ impl Bonds for BondSystem {
         bonds: BondsLeft<'_>,
         deformations: &Deformations,
     ) -> Stresses {
+        let deformations = of_bonds(deformations);
         match reading {
-            StressReading::Virial => Stresses {
-                names: &["xx", "yy", "xy"],
-                values: self.virial_stresses(bonds, deformations).into_flattened(),
-            },
+            StressReading::Virial => {
+                let stresses = self.virial_stresses(bonds, deformations);
+                Stresses {
+                    names: SymTensor::<D>::NAMES,
+                    values: stresses.iter().flat_map(SymTensor::components).collect(),
+                }
+            }
             StressReading::Traction => Stresses {
-                names: &["xx", "yx", "yy", "xy"],
-                values: self.tractions(bonds, deformations).into_flattened(),
+                names: traction::names::<D>(),
+                values: self.tractions(bonds, deformations),
             },
         }
     }
@@ -297,15 +278,25 @@ impl Bonds for BondSystem {
         crossing: &[(u32, bool)],
         component: Component,
     ) -> f64 {
-        typed!(self, it => it.force_through(bonds, deformations, crossing, component))
+        let deformations: &[DeformationOf<D, M, E>] = of_bonds(deformations);
+        let Some(place) = E::COMPONENTS.iter().position(|it| *it == component) else {
+            return 0.0;
+        };
+        let pulls = crossing.iter().filter_map(|&(bond, first_is_near)| {
+            let element = self.left(bonds, bond as usize)?;
+            let forces = element.end_forces(&deformations[bond as usize])?;
+            // The end force is what holds the end in place against the bond: the bond pulls the other way.
+            Some(-forces[usize::from(!first_is_near)][place])
+        });
+        pulls.sum()
     }
 
     fn faces_close(&self) -> bool {
-        self.faces.close()
+        self.system.faces.close()
     }
 
     fn contact_pairs(&self, intact: &[bool]) -> Vec<ContactPair> {
-        BondSystem::contact_pairs(self, intact)
+        self.system.contact_pairs(self.layout(), intact)
     }
 
     fn overlap(
@@ -319,7 +310,12 @@ impl Bonds for BondSystem {
         if self.faces_close() {
             return None;
         }
-        self.largest_overlap(intact, displacement, expansion, beyond, asked)
+        let moved = Moved {
+            layout: self.layout(),
+            motions: displacement,
+            expansion,
+        };
+        self.system.largest_overlap(intact, moved, beyond, asked)
     }
 
     fn add_contact_stresses(
@@ -328,126 +324,23 @@ impl Bonds for BondSystem {
         closed: &[ClosedPair],
         stresses: &mut Stresses,
     ) {
-        self.add_stresses_of_contact(reading, closed, &mut stresses.values);
+        self.system.add_stresses_of_contact(reading, closed, &mut stresses.values);
     }
 
     fn unknown_along_lines<'c>(&self, criteria: &'c Criteria) -> Option<&'c Criterion> {
-        criteria.unknown_along_lines()
+        criteria.unknown_along_lines::<D>()
     }
 
     fn energy_at_limit(&self, criterion: &Criterion, bond: usize) -> f64 {
-        criterion.energy_at_limit(&self.rigidities, bond)
+        criterion.energy_at_limit(&self.system.rigidities, bond)
     }
 
     fn terms(&self, intact: &[bool], bond: usize, remaining: &Remaining) -> Vec<Term> {
-        typed!(self, it => it.whole(intact, bond).weakened(remaining).terms().to_vec())
+        self.whole(intact, bond).weakened(remaining).terms()
     }
 
     fn add_blocks(&self, bonds: BondsLeft<'_>, point: u32, lower: &[u32], blocks: &mut [f64]) {
-        typed!(self, it => it.add_blocks(bonds, point, lower, blocks));
-    }
-
-    fn multiply(&self, bonds: BondsLeft<'_>, motions: &[f64], forces: &mut [f64]) {
-        typed!(self, it => it.multiply(bonds, motions, forces));
-    }
-
-    fn add_derivatives(&self, intact: &[bool], add: &mut dyn FnMut(usize, usize, f64)) {
-        typed!(self, it => {
-            for bond in 0..self.bonds.len() {
-                it.whole(intact, bond).derivatives(&mut *add);
-            }
-        });
-    }
-
-    fn changed(
-        &self,
-        left: BondsLeft<'_>,
-        displacement: &[f64],
-        expansion: ThermalStrain<'_>,
-        bonds: &[u32],
-    ) -> Box<dyn ChangedElements> {
-        typed!(self, it => it.changed(left, displacement, expansion, bonds))
-    }
-}
-
-impl BondSystem {
-    /// The rigid motions of some points that their bonds let be free.
-    fn rigid_motions(&self, points: &[u32]) -> RigidMotions<'_, 2, 3> {
-        let mut bonds = points
-            .iter()
-            .flat_map(|&point| self.bonds.incidence.at(point));
-        let resist = bonds.any(|&bond| self.rigidities.resist_rotations(bond as usize));
-        let resist = any(self.portion(), resist);
-        let turn_points = self.components().contains(&Component::Rotation);
-        let turn = match (resist, typed!(self, it => it.elements.turns_freely())) {
-            (true, true) if turn_points => Turn::OfPointsAlong,
-            (true, false) => Turn::Costly,
-            (false, _) | (true, true) => Turn::OfPositions,
-        };
-        RigidMotions::in_plane(self.layout(), &self.cloud.positions, points, turn)
-    }
-
-    /// Virial stress of every point, xx, yy and xy, shape (n_points), Pa.
-    pub fn virial_stresses(
-        &self,
-        bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
-    ) -> Vec<crate::stress::virial::SymmetricStress> {
-        typed!(self, it => it.virial_stresses(bonds, deformations))
-    }
-
-    /// Traction at every point on the planes with normal x and with normal y, shape (n_points), Pa.
-    pub fn tractions(
-        &self,
-        bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
-    ) -> Vec<crate::stress::traction::Tractions> {
-        typed!(self, it => it.tractions(bonds, deformations))
-    }
-}
-
-impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
-    fn components(self) -> &'static [Component] {
-        &E::COMPONENTS
-    }
-
-    fn energy_density(
-        self,
-        bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
-        point: u32,
-    ) -> f64 {
-        let family = self.system.bonds.incidence.at(point).iter();
-        let shares = family.filter_map(|&bond| {
-            let element = self.left(bonds, bond as usize)?;
-            let deformation = &deformations[bond as usize];
-            let energy = element.mutual_energy(deformation, deformation);
-            Some(self.elements.share(&self.system.bonds, bond, point) * energy)
-        });
-        shares.sum::<f64>() / self.system.cloud.volumes[point as usize]
-    }
-
-    fn force_through(
-        self,
-        bonds: BondsLeft<'_>,
-        deformations: &[BondDeformation],
-        crossing: &[(u32, bool)],
-        component: Component,
-    ) -> f64 {
-        let pulls = crossing.iter().filter_map(|&(bond, first_is_near)| {
-            let element = self.left(bonds, bond as usize)?;
-            let forces = element.end_forces(&deformations[bond as usize])?;
-            // The end force is what holds the end in place against the bond: the bond pulls the other way.
-            let place = E::COMPONENTS.iter().position(|it| *it == component)?;
-            Some(-forces[usize::from(!first_is_near)][place])
-        });
-        pulls.sum()
-    }
-
-    fn add_blocks(self, bonds: BondsLeft<'_>, point: u32, lower: &[u32], blocks: &mut [f64]) {
-        let elements = self.elements.couplings().map(|[elements, _]| elements);
-        let elements = elements.unwrap_or(&self.system.bonds.incidence);
-        for &bond in elements.at(point) {
+        for &bond in self.elements_at_points().at(point) {
             let Some(element) = self.left(bonds, bond as usize) else {
                 continue;
             };
@@ -466,5 +359,50 @@ impl<const M: usize, E: Elements<M>> Typed<'_, E, M> {
                 }
             });
         }
+    }
+
+    fn multiply(&self, bonds: BondsLeft<'_>, motions: &[f64], forces: &mut [f64]) {
+        self.multiply(bonds, motions, forces);
+    }
+
+    fn add_derivatives(&self, intact: &[bool], add: &mut dyn FnMut(usize, usize, f64)) {
+        for bond in 0..self.system.bonds.len() {
+            self.whole(intact, bond).derivatives(&mut *add);
+        }
+    }
+
+    fn changed(
+        &self,
+        left: BondsLeft<'_>,
+        displacement: &[f64],
+        expansion: ThermalStrain<'_>,
+        bonds: &[u32],
+    ) -> Box<dyn ChangedElements> {
+        self.changed(left, displacement, expansion, bonds)
+    }
+}
+
+/// Deformations of all bonds as their elements have them, shape (n_bonds).
+fn of_bonds<B: Deformation>(deformations: &Deformations) -> &[B] {
+    B::of_bonds(deformations)
+}
+
+impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
+    /// The rigid motions of some points that their bonds let be free.
+    fn rigid_motions(&self, points: &[u32]) -> RigidMotions<'_, D> {
+        let BondSystem {
+            bonds, rigidities, ..
+        } = &self.system;
+        let mut bonds = (points.iter()).flat_map(|&point| bonds.incidence.at(point));
+        let resist = bonds.any(|&bond| rigidities.resist_rotations(bond as usize));
+        let resist = any(self.portion(), resist);
+        let turn_points = E::COMPONENTS.iter().any(|it| it.is_rotation());
+        let turn = match (resist, self.elements.turns_freely()) {
+            (true, true) if turn_points => Turn::OfPointsAlong,
+            (true, false) => Turn::Costly,
+            (false, _) | (true, true) => Turn::OfPositions,
+        };
+        let positions = &self.system.cloud.positions;
+        RigidMotions::new(self.layout(), positions, points, turn)
     }
 }

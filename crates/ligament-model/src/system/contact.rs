@@ -4,153 +4,152 @@ use std::borrow::Cow;
 
 use super::BondSystem;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
+use crate::crack_axis::AxisSum;
 use crate::ghosts::Ghosts;
-use crate::interface::{Bonds, StressReading};
-use crate::layout::Component;
+use crate::interface::StressReading;
+use crate::layout::{Component, Layout};
 use crate::portion::{any, counts};
+use crate::tensor::{SymTensor, cross, dot, minus, norm};
 use crate::thermal::ThermalStrain;
 
 /// Cosine of the angle between a broken bond and the normal of the crack below which the bond is no pair: it lies along the
 /// crack, and on which side of it an end lies is chance. The bonds beyond hold less than 1 % of the traction across.
 const ALONG_THE_CRACK: f64 = 0.3;
 
-impl BondSystem {
+/// Motions of the points of a body.
+#[derive(Clone, Copy)]
+pub(crate) struct Moved<'a> {
+    /// Degrees of freedom of the points.
+    pub(crate) layout: Layout,
+    /// Motions, shape (n_degrees_of_freedom), m and rad.
+    pub(crate) motions: &'a [f64],
+    /// Strains that the temperature gives.
+    pub(crate) expansion: ThermalStrain<'a>,
+}
+
+impl<const D: usize> BondSystem<D> {
     /// The pairs across cracks while the bonds marked in `intact` (n_bonds) are unbroken: broken bonds and then cut ones, in their
     /// order.
     ///
     /// The normal of a pre-crack is known. That of a crack that grew is the principal direction of sum e (x) e over the broken
     /// bonds at both ends of a pair and at the points that these lead to, where a cut bond counts with its normal. It changes
     /// only where bonds break.
-    pub fn contact_pairs(&self, intact: &[bool]) -> Vec<ContactPair> {
+    pub(crate) fn contact_pairs(&self, layout: Layout, intact: &[bool]) -> Vec<ContactPair> {
         let (bonds, cut) = (&self.bonds, self.faces.cut());
         let broken: Vec<usize> = (0..intact.len()).filter(|&bond| !intact[bond]).collect();
         let around = self.crack_directions(&broken);
         let of_broken = broken.iter().filter_map(|&bond| {
             let ends = bonds.ends[bond];
             let [a, b] = ends.map(|end| around[end as usize]);
-            let normal = principal([a[0] + b[0], a[1] + b[1]], bonds.direction[bond]);
+            let normal = a.plus(b).axis_towards(bonds.direction[bond]);
             let of_bond = |all: &[f64]| all.get(bond).copied().unwrap_or_default();
             let rigidities = [&self.rigidities.axial, &self.rigidities.shear];
             let rigidities = rigidities.map(|all| of_bond(all));
-            let pair = self.contact_pair(bond as u32, ends, normal, rigidities);
+            let pair = self.contact_pair(layout, bond as u32, ends, normal, rigidities);
             (dot(normal, bonds.direction[bond]) >= ALONG_THE_CRACK).then_some(pair)
         });
         let numbered = (bonds.len() as u32..).zip(cut);
         let of_cut = numbered.map(|(number, it)| {
-            self.contact_pair(number, it.ends, it.normal, [it.axial, it.shear])
+            self.contact_pair(layout, number, it.ends, it.normal, [it.axial, it.shear])
         });
         of_broken.chain(of_cut).collect()
     }
 
-    /// Sums over the parted pairs of each point and of the points that they lead to, shape (n_points), of the doubled angle of
-    /// their directions: (e_x^2 - e_y^2, 2 e_x e_y).
-    fn crack_directions(&self, broken: &[usize]) -> Vec<[f64; 2]> {
+    /// Sums over the parted pairs of each point and of the points that they lead to of their directions, shape (n_points).
+    fn crack_directions(&self, broken: &[usize]) -> Vec<AxisSum<D>> {
         let (bonds, n_points) = (&self.bonds, self.cloud.len());
         let of_broken = broken.iter();
         let of_broken = of_broken.map(|&bond| (bonds.ends[bond], bonds.direction[bond]));
         let of_cut = self.faces.cut().iter().map(|it| (it.ends, it.normal));
         let parted = || of_broken.clone().chain(of_cut.clone());
-        let mut own = vec![[0.0; 2]; n_points];
-        for (ends, [x, y]) in parted() {
+        let mut own = vec![AxisSum::default(); n_points];
+        for (ends, direction) in parted() {
             for end in ends {
-                let sum = &mut own[end as usize];
-                *sum = [sum[0] + x * x - y * y, sum[1] + 2.0 * x * y];
+                own[end as usize].add(direction);
             }
         }
         let seen = parted().flat_map(|(ends, _)| ends);
-        let ghosts = self.portion().map(|it| Ghosts::new(it, seen));
-        let complete = |sums: &mut Vec<[f64; 2]>| {
-            if let Some(ghosts) = &ghosts {
-                ghosts.tell(sums.as_flattened_mut(), 2);
-            }
+        let ghosts = self.cloud.portion.as_ref().map(|it| Ghosts::new(it, seen));
+        let complete = |sums: &mut Vec<AxisSum<D>>| {
+            let Some(ghosts) = &ghosts else {
+                return;
+            };
+            let mut values: Vec<f64> = sums.iter().flat_map(|it| it.values()).collect();
+            ghosts.tell(&mut values, AxisSum::<D>::N_VALUES);
+            *sums = (values.chunks(AxisSum::<D>::N_VALUES))
+                .map(AxisSum::from_values)
+                .collect();
         };
         complete(&mut own);
         let mut around = own.clone();
         for ([a, b], _) in parted() {
             for (at, of) in [(a, b), (b, a)] {
-                let of = own[of as usize];
-                let sum = &mut around[at as usize];
-                *sum = [sum[0] + of[0], sum[1] + of[1]];
+                around[at as usize] = around[at as usize].plus(own[of as usize]);
             }
         }
         complete(&mut around);
         around
     }
 
-    /// The pair of two points with a normal and the axial and shear rigidities of their bond.
+    /// The pair of two points with a number, a normal and the axial and shear rigidities of their bond.
     fn contact_pair(
         &self,
+        layout: Layout,
         number: u32,
         ends: [u32; 2],
-        normal: [f64; 2],
+        normal: [f64; D],
         [axial, shear]: [f64; 2],
     ) -> ContactPair {
         let [a, b] = ends.map(|end| self.cloud.positions[end as usize]);
-        let way = [b[0] - a[0], b[1] - a[1]];
-        let length = dot(way, way).sqrt();
-        let (across, along) = (
-            dot(way, normal) / length,
-            (way[0] * normal[1] - way[1] * normal[0]) / length,
-        );
+        let way = minus(b, a);
+        let length = norm(way);
+        let turned = cross(in_space(way), in_space(normal));
+        let (across, along) = (dot(way, normal) / length, norm(turned) / length);
         let resisted = axial * across * across + shear * along * along;
         ContactPair {
             number,
             ends,
-            normal,
+            normal: in_space(normal),
             stiffness: resisted.max(0.0) / (length * length),
-            spread: [
-                normal[0] * way[0],
-                normal[1] * way[1],
-                0.5 * (normal[0] * way[1] + normal[1] * way[0]),
-            ],
-            row: self.row_of_gap(ends, normal, -0.5 * length * along),
+            spread: SymTensor::dyad(in_space(normal), in_space(way)),
+            row: row_of_gap(
+                layout,
+                ends,
+                in_space(normal),
+                turned.map(|it| -0.5 * length * (it / length)),
+            ),
         }
-    }
-
-    /// Degrees of freedom of two points with their factors: the normal, and `of_rotations` where points turn.
-    fn row_of_gap(&self, ends: [u32; 2], normal: [f64; 2], of_rotations: f64) -> [(u32, f64); 6] {
-        let layout = self.layout();
-        let mut row = [(0, 0.0); 6];
-        let entries = ends.into_iter().zip([-1.0, 1.0]).flat_map(|(end, sign)| {
-            let factors = [sign * normal[0], sign * normal[1], of_rotations];
-            let components = Component::ALL.into_iter().zip(factors);
-            components.filter_map(move |(component, factor)| {
-                Some((layout.degree_of_freedom(end, component)? as u32, factor))
-            })
-        });
-        for (place, entry) in row.iter_mut().zip(entries) {
-            *place = entry;
-        }
-        row
     }
 
     /// The pair whose faces have passed through each other farthest, beyond a depth (m), of the points that are asked for (n_points).
     pub(super) fn largest_overlap(
         &self,
         intact: &[bool],
-        motions: &[f64],
-        expansion: ThermalStrain<'_>,
+        moved: Moved<'_>,
         beyond: f64,
         asked: &[bool],
     ) -> Option<Overlap> {
+        let Moved {
+            layout,
+            motions,
+            expansion,
+        } = moved;
+        let portion = self.cloud.portion.as_ref();
         let is_asked = |ends: [u32; 2]| ends.iter().all(|&end| asked[end as usize]);
-        let layout = self.layout();
         let approaches = |bond: usize| {
-            let [a, b] = self.bonds.ends[bond];
-            let along = [Component::X, Component::Y].map(|component| {
-                layout.value(b, component, motions) - layout.value(a, component, motions)
-            });
+            let [a, b] = self.bonds.ends[bond].map(|end| layout.range(end).start);
+            let along: [f64; D] = std::array::from_fn(|axis| motions[b + axis] - motions[a + axis]);
             dot(along, self.bonds.direction[bond]) < 0.0 && dot(along, along) > beyond * beyond
         };
         let has_cut = !self.faces.cut().is_empty();
         let broken = || (0..intact.len()).filter(|&bond| !intact[bond]);
         // Normals of cracks that grew are not worth while where nothing comes nearer.
-        if !any(self.portion(), has_cut || broken().any(approaches)) {
+        if !any(portion, has_cut || broken().any(approaches)) {
             return None;
         }
-        let pairs = self.contact_pairs(intact);
+        let pairs = self.contact_pairs(layout, intact);
         let mut motions = Cow::Borrowed(motions);
-        if let Some(portion) = self.portion() {
+        if let Some(portion) = portion {
             // Cut bonds lead to points that intact ones need not lead to.
             let ghosts = Ghosts::new(portion, pairs.iter().flat_map(|it| it.ends));
             ghosts.tell(motions.to_mut(), layout.components.len());
@@ -164,7 +163,7 @@ impl BondSystem {
             });
         let beyond = overlaps.filter(|it| it.depth > beyond);
         let larger = |most: Overlap, it: Overlap| if it.depth > most.depth { it } else { most };
-        let Some(portion) = self.portion() else {
+        let Some(portion) = portion else {
             return beyond.reduce(larger);
         };
         let counted = beyond.filter(|it| counts(Some(portion), it.ends));
@@ -189,11 +188,13 @@ impl BondSystem {
     ) {
         match reading {
             StressReading::Virial => {
+                let n_components = SymTensor::<D>::NAMES.len();
                 for it in closed {
                     for end in it.pair.ends {
                         let share = it.virial_share(self.cloud.volumes[end as usize]);
-                        let of_point = &mut stresses[share.len() * end as usize..];
-                        for (stress, part) in of_point.iter_mut().zip(share) {
+                        let share = share.resized::<D>();
+                        let of_point = &mut stresses[n_components * end as usize..];
+                        for (stress, part) in of_point.iter_mut().zip(share.components()) {
                             *stress += part;
                         }
                     }
@@ -204,24 +205,31 @@ impl BondSystem {
     }
 }
 
-/// The axis of a sum of doubled angles, on the side of a direction; the direction itself where no axis leads.
-fn principal([cosine, sine]: [f64; 2], direction: [f64; 2]) -> [f64; 2] {
-    let size = cosine.hypot(sine);
-    if size == 0.0 {
-        return direction;
-    }
-    let (x, y) = (
-        (0.5 * (1.0 + cosine / size)).max(0.0).sqrt(),
-        (0.5 * (1.0 - cosine / size)).max(0.0).sqrt(),
-    );
-    let axis = [x, y.copysign(sine)];
-    if dot(axis, direction) < 0.0 {
-        [-axis[0], -axis[1]]
-    } else {
-        axis
-    }
+/// A vector of the plane or of space as one of space.
+fn in_space<const D: usize>(vector: [f64; D]) -> [f64; 3] {
+    [0, 1, 2].map(|axis| if axis < D { vector[axis] } else { 0.0 })
 }
 
-fn dot(one: [f64; 2], other: [f64; 2]) -> f64 {
-    one[0] * other[0] + one[1] * other[1]
+/// Degrees of freedom of two points with their factors in the gap: the normal, and `of_rotations` where points turn.
+fn row_of_gap(
+    layout: Layout,
+    ends: [u32; 2],
+    normal: [f64; 3],
+    of_rotations: [f64; 3],
+) -> [(u32, f64); 12] {
+    let mut row = [(0, 0.0); 12];
+    let entries = ends.into_iter().zip([-1.0, 1.0]).flat_map(|(end, sign)| {
+        let components = layout.components.iter().zip(layout.range(end));
+        components.map(move |(component, dof)| {
+            let factor = match component {
+                Component::X | Component::Y | Component::Z => sign * normal[component.in_space()],
+                _ => of_rotations[component.in_space() - 3],
+            };
+            (dof as u32, factor)
+        })
+    });
+    for (place, entry) in row.iter_mut().zip(entries) {
+        *place = entry;
+    }
+    row
 }

@@ -6,6 +6,7 @@ use ligament_analysis::fields;
 use ligament_analysis::history::View;
 use ligament_analysis::interface::{StressReading, Stresses};
 use ligament_analysis::{Component, Layout};
+use ligament_model::tensor::SymTensor;
 use ligament_model::ghosts::Ghosts;
 use ligament_model::portion::Portion;
 use ligament_model::{BodyGrid, Canvas, FixedFields};
@@ -17,6 +18,20 @@ use crate::vtu::Field;
 
 /// Field of the strain (eps_xx, eps_yy, gamma_xy; in space eps_xx, eps_yy, eps_zz, gamma_xy, gamma_xz, gamma_yz) that the temperature would make without stress.
 pub(super) const THERMAL_STRAIN: &str = "thermal_strain";
+
+/// Names of the components of that strain in files.
+pub(super) fn thermal_strain_names(in_space: bool) -> &'static [&'static str] {
+    if in_space {
+        &["xx", "yy", "zz", "xy", "xz", "yz"]
+    } else {
+        SymTensor::<2>::NAMES
+    }
+}
+
+/// Place of a component among those of a strain in space.
+pub(super) fn place_of(component: &str) -> Option<usize> {
+    (SymTensor::<3>::NAMES.iter()).position(|name| *name == component)
+}
 
 /// Field of the rotations of the points.
 const ROTATION: &str = "rotation";
@@ -250,9 +265,15 @@ impl Heat {
         let load_factor = view.state.load_factor;
         let strain = view.loads.thermal_strain(load_factor);
         let of_points = (0..view.system.n_points()).filter(|_| !strain.is_none());
+        let names = thermal_strain_names(view.system.layout().is_in_space());
+        let of_point = |point: usize| {
+            let strains: Vec<f64> = strain.of_point(point).engineering().collect();
+            let places = names.iter().filter_map(|name| place_of(name));
+            places.map(move |place| strains[place])
+        };
         Self {
             change: view.loads.temperature_change(load_factor),
-            strain: of_points.flat_map(|point| strain.at_point(point)).collect(),
+            strain: of_points.flat_map(of_point).collect(),
         }
     }
 
@@ -262,10 +283,8 @@ impl Heat {
             fields.push(Field::scalar("temperature_change", &self.change));
         }
         if !self.strain.is_empty() {
-            let names: &[&str] = match self.strain.len() / self.change.len().max(1) {
-                6 => &["xx", "yy", "zz", "xy", "xz", "yz"],
-                _ => &["xx", "yy", "xy"],
-            };
+            let in_space = self.strain.len() == 6 * self.change.len();
+            let names = thermal_strain_names(in_space);
             fields.push(Field::components(THERMAL_STRAIN, names, &self.strain));
         }
         fields

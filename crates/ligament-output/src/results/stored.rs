@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 
 use ligament_analysis::{BondDeformation, ElementKind};
 use ligament_model::Absence;
+use ligament_model::tensor::SymTensor;
 use ligament_model::thermal::FreeStrains;
 
 use super::model_file::{COEFFICIENTS, model_file};
 use super::outputs::{OutputKind, kind_of, numbered_files, require_results};
-use super::point_fields::THERMAL_STRAIN;
+use super::point_fields::{THERMAL_STRAIN, place_of, thermal_strain_names};
 use super::tables::told;
 use crate::csv::read::{Row, Sheet};
 use crate::vtu::read::VtuFile;
@@ -217,12 +218,24 @@ impl StoredRun {
         Ok(Some(Motions {
             displacement: displacement.as_chunks().0.to_vec(),
             rotation,
-            thermal_strain: match self.model.in_space {
-                true => FreeStrains::in_space(thermal.as_chunks().0.to_vec()),
-                false => FreeStrains::in_plane(thermal.as_chunks().0.to_vec()),
-            },
+            thermal_strain: free_strains(self.model.in_space, &thermal),
         }))
     }
+}
+
+/// Strains of the points from the values of their components in a file.
+fn free_strains(in_space: bool, values: &[f64]) -> FreeStrains {
+    let names = thermal_strain_names(in_space);
+    let of_point = |values: &[f64]| {
+        let mut strains = [0.0; 6];
+        for (name, value) in names.iter().zip(values) {
+            if let Some(place) = place_of(name) {
+                strains[place] = *value;
+            }
+        }
+        SymTensor::<3>::from_engineering(&strains)
+    };
+    FreeStrains::new(values.chunks(names.len()).map(of_point))
 }
 
 fn require_run(folder: &Path) -> Result<(), Error> {

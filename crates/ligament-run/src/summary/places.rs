@@ -45,7 +45,7 @@ impl BondEvent {
     where
         Dim: Dimension<D>,
     {
-        let cloud = Dim::cloud(&model.system);
+        let cloud = &model.system.cloud;
         let ends = cloud.numbering.ordered(first.ends);
         let [a, b] = ends.map(|end| cloud.positions[end as usize]);
         let criteria = model.criteria.list.iter().map(|it| it.name);

@@ -2,7 +2,7 @@
 
 use anyhow::Context;
 use ligament_analysis::{Bonds, Component};
-use ligament_model::system::BondSystem;
+use ligament_model::system::System;
 use ligament_output::vtu::Cell;
 use ligament_plot::picture::maps::{MappedBody, Maps};
 
@@ -42,7 +42,7 @@ pub(super) enum Quantity {
 
 impl Motion {
     /// The motion of a lattice by the values of all its degrees of freedom.
-    pub(super) fn of_lattice(system: &BondSystem, of_all: &[f64]) -> anyhow::Result<Self> {
+    pub(super) fn of_lattice(system: &dyn System<2>, of_all: &[f64]) -> anyhow::Result<Self> {
         let (cloud, layout) = (&system.cloud, system.layout());
         let [spacing, _] = cloud.lattice_cell.context("the body is no lattice")?;
         let points = 0..cloud.len() as u32;

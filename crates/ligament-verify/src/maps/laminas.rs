@@ -60,7 +60,7 @@ fn stretched(angle: f64, has_hole: bool) -> anyhow::Result<Motion> {
         trial = trial.set("lattice.remove", Vec::<f64>::new());
     }
     let solution = trial.solve()?;
-    let motion = Motion::of_lattice(&solution.model.system, &solution.outcome.state.displacement)?;
+    let motion = Motion::of_lattice(&*solution.model.system, &solution.outcome.state.displacement)?;
     Ok(motion.without_rigid_motion())
 }
 
@@ -70,7 +70,7 @@ fn modes(angle: f64) -> anyhow::Result<Vec<Motion>> {
         .set("material.angle", angle.to_radians());
     let system = trial.model()?.system;
     let modes = in_named_order(trial.modes()?, |it| it.participation[ALONG])?;
-    let modes = modes.map(|mode| Motion::of_lattice(&system, &mode.shape));
+    let modes = modes.map(|mode| Motion::of_lattice(&*system, &mode.shape));
     modes.into_iter().collect()
 }
 

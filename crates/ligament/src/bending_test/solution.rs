@@ -94,9 +94,8 @@ struct Solver {
 }
 
 impl Solver {
-    fn new<const D: usize, S>(system: Arc<S>, strip: &Strip<D>) -> Result<Self, Untested>
+    fn new<const D: usize>(system: Arc<dyn Bonds>, strip: &Strip<D>) -> Result<Self, Untested>
     where
-        S: Bonds + 'static,
         Dim: Dimension<D>,
     {
         let layout = system.layout();

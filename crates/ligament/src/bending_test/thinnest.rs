@@ -64,7 +64,7 @@ where
     if sides > most_sides {
         return Err(Untested::ManySides { sides });
     }
-    let cloud = Dim::cloud(&model.system);
+    let cloud = &model.system.cloud;
     let around = |values: &[f64], [one, other]: [&Facet<D>; 2]| {
         let corners = one.corners.iter().chain(&other.corners);
         corners.map(|&corner| values[corner as usize]).sum::<f64>() / (2 * D) as f64

@@ -3,7 +3,7 @@
 use ligament_analysis::{
     BoundaryError, Component, Control, ControlKind, Layout, ProportionalLoading,
 };
-use ligament_model::{Bonds, PointCloud};
+use ligament_model::{Bonds, LumpedMass, PointCloud};
 
 use super::places::Places;
 use super::temperature::{Heating, heating};
@@ -348,7 +348,7 @@ where
         };
         let materials = self.setup.materials.iter().enumerate();
         let densities: Vec<f64> = materials.map(density).collect::<Result<_, _>>()?;
-        let mass = Dim::masses(self.cloud, &densities).mass;
+        let mass = LumpedMass::new(self.cloud, &densities).mass;
         Ok((points.iter().map(|&point| (point, mass[point as usize]))).collect())
     }
 

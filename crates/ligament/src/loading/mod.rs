@@ -14,7 +14,7 @@ use ligament_analysis::driver::Problem;
 use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::solver::SolverSettings;
 use ligament_analysis::{LoadProgram, ProportionalLoading, StagedLoading};
-use ligament_model::Bonds;
+use ligament_model::System;
 use ligament_model::failure::Criteria;
 use ligament_model::portion::{self, Portion};
 
@@ -50,12 +50,12 @@ impl Loading {
     /// each other, or a couple acts on nothing.
     pub fn new<const D: usize>(
         setup: &Setup<D>,
-        system: &<Dim as Dimension<D>>::System,
+        system: &dyn System<D>,
     ) -> Result<Self, SetupError>
     where
         Dim: Dimension<D>,
     {
-        let cloud = Dim::cloud(system);
+        let cloud = &system.cloud;
         let boundary = boundary(setup, cloud, Acting::All)?;
         couples_have_stiffness(setup, &boundary, system)?;
         let places = Places { setup, cloud };
@@ -77,7 +77,7 @@ impl Loading {
     }
 
     /// The problem that it makes of the bonds and their failure criteria.
-    pub fn problem(&self, system: &Arc<impl Bonds + 'static>, criteria: &Arc<Criteria>) -> Problem {
+    pub fn problem<const D: usize>(&self, system: &Arc<dyn System<D>>, criteria: &Arc<Criteria>) -> Problem {
         let loads: Arc<dyn LoadProgram> = match &self.staged {
             None => self.boundary.clone(),
             Some(staged) => staged.clone(),

@@ -1,7 +1,7 @@
 //! Probes of a setup on the points of its model.
 
 use ligament_analysis::probe;
-use ligament_model::{BondSet, Horizons, PointCloud};
+use ligament_model::{BondSet, Horizons, PointCloud, System};
 
 use crate::setup::{Dim, Dimension, Probe, Reading, Setup};
 
@@ -12,12 +12,12 @@ const EVERYWHERE: f64 = 1e120;
 pub(super) fn on<const D: usize>(
     probe: &Probe<D>,
     setup: &Setup<D>,
-    system: &<Dim as Dimension<D>>::System,
+    system: &dyn System<D>,
 ) -> probe::Probe
 where
     Dim: Dimension<D>,
 {
-    let shares = |position: [f64; D]| shares(position, setup, Dim::cloud(system));
+    let shares = |position: [f64; D]| shares(position, setup, &system.cloud);
     let reading = match probe.reading {
         Reading::Between {
             positions,

@@ -6,7 +6,7 @@ use ligament_analysis::{
     Component, Layout, LoadCourse, MotionControl, Part, PartControl, Probe, Programme,
     ProportionalLoading, StagedLoading,
 };
-use ligament_model::Bonds;
+use ligament_model::System;
 
 use super::boundary::{Acting, boundary};
 use super::restraints::restrained;
@@ -49,7 +49,7 @@ where
 /// If two loads prescribe a motion of a point.
 pub(super) fn staged<const D: usize>(
     setup: &Setup<D>,
-    system: &<Dim as Dimension<D>>::System,
+    system: &dyn System<D>,
     probes: &[Probe],
 ) -> Result<Option<StagedLoading>, SetupError>
 where
@@ -64,7 +64,7 @@ where
     let of_temperature = temperature.map(|_| Acting::Temperature);
     let loads: Vec<ProportionalLoading> = (of_loads.chain(of_temperature))
         .map(|acting| {
-            let loading = boundary(setup, Dim::cloud(system), acting)?;
+            let loading = boundary(setup, &system.cloud, acting)?;
             restrained(setup, system, loading, acting)
         })
         .collect::<Result<_, SetupError>>()?;

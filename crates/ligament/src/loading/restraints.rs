@@ -1,7 +1,7 @@
 //! Springs, inclined rollers and platens of a setup on the points of its body.
 
 use ligament_analysis::{ProportionalLoading, Restraint, Restraints};
-use ligament_model::Bonds;
+use ligament_model::System;
 
 use super::boundary::Acting;
 use super::places::Places;
@@ -15,7 +15,7 @@ const RIGID: f64 = 1e6;
 /// A loading with the components of the bonds alone and the restraints of a setup; far ends move where their loads act.
 pub(super) fn restrained<const D: usize>(
     setup: &Setup<D>,
-    system: &<Dim as Dimension<D>>::System,
+    system: &dyn System<D>,
     loading: ProportionalLoading,
     acting: Acting,
 ) -> Result<ProportionalLoading, SetupError>
@@ -27,7 +27,7 @@ where
     if !is_restrained && !setup.loads.iter().any(Load::is_restraint) {
         return Ok(loading);
     }
-    let cloud = Dim::cloud(system);
+    let cloud = &system.cloud;
     let mut restraining = Restraining {
         places: Places { setup, cloud },
         system,
@@ -61,7 +61,7 @@ where
     Dim: Dimension<D>,
 {
     places: Places<'a, D>,
-    system: &'a <Dim as Dimension<D>>::System,
+    system: &'a dyn System<D>,
     /// Stiffness at each point that counts as rigid, shape (n_points), N/m.
     rigid: Vec<f64>,
     list: Vec<Restraint>,

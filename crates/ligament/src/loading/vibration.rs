@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ligament_analysis::modal::ModalProblem;
 use ligament_analysis::solver::SolverSettings;
 use ligament_analysis::{Component, Supports};
-use ligament_model::{Bonds, LumpedMass};
+use ligament_model::{LumpedMass, System};
 
 use super::places::Places;
 use crate::error::{Field, SetupError};
@@ -30,7 +30,7 @@ impl Vibration {
     /// If a name of the setup is not in the body.
     pub fn new<const D: usize>(
         setup: &Setup<D>,
-        system: &<Dim as Dimension<D>>::System,
+        system: &dyn System<D>,
     ) -> Result<Self, SetupError>
     where
         Dim: Dimension<D>,
@@ -39,13 +39,13 @@ impl Vibration {
         let densities: Vec<f64> = materials.filter_map(|it| it.material.density).collect();
         Ok(Self {
             supports: Arc::new(supports(setup, system)?),
-            mass: Arc::new(Dim::masses(Dim::cloud(system), &densities)),
+            mass: Arc::new(LumpedMass::new(&system.cloud, &densities)),
             solver: setup.solver,
         })
     }
 
     /// The problem that it makes of the bonds.
-    pub fn problem(&self, system: &Arc<impl Bonds + 'static>) -> ModalProblem {
+    pub fn problem<const D: usize>(&self, system: &Arc<dyn System<D>>) -> ModalProblem {
         ModalProblem {
             system: system.clone(),
             mass: self.mass.clone(),
@@ -58,12 +58,12 @@ impl Vibration {
 /// The supports on the points.
 fn supports<const D: usize>(
     setup: &Setup<D>,
-    system: &<Dim as Dimension<D>>::System,
+    system: &dyn System<D>,
 ) -> Result<Supports, SetupError>
 where
     Dim: Dimension<D>,
 {
-    let cloud = Dim::cloud(system);
+    let cloud = &system.cloud;
     let places = Places { setup, cloud };
     let mut supports = Supports::none(system.layout());
     for (index, support) in setup.supports.iter().enumerate() {

@@ -5,10 +5,8 @@ use std::fmt::Debug;
 use ligament_analysis::Component;
 use ligament_model::bonds::precrack::{self, PreCrack};
 use ligament_model::space::law::stability::NegativeShear;
-use ligament_model::thermal::FreeStrains;
-use ligament_model::{
-    BondSet, BondSystem, Bonds, Isotropic, LumpedMass, Material, Plane, PointCloud,
-};
+use ligament_model::tensor::SymTensor;
+use ligament_model::{BondSet, BondSystem, Isotropic, Material, Plane, PointCloud};
 
 use super::law::Law;
 use super::section::Section;
@@ -25,9 +23,6 @@ pub trait Dimension<const D: usize>: 'static {
 
     /// What a point stands for across the body.
     type Section: Debug + Clone + Copy + PartialEq + Send + Sync;
-
-    /// Points and bonds.
-    type System: Bonds + 'static;
 
     /// The usual section.
     const SECTION: Self::Section;
@@ -56,11 +51,8 @@ pub trait Dimension<const D: usize>: 'static {
     /// Whether a temperature widens the section by what it does across it.
     fn widens(section: &Self::Section) -> bool;
 
-    /// The points of a system.
-    fn cloud(system: &Self::System) -> &PointCloud<D>;
-
     /// Bonds through a section of a probe, and whether their first end lies on its left or, in space, behind it.
-    fn crossing(system: &Self::System, section: [[f64; D]; 2]) -> Vec<(u32, bool)>;
+    fn crossing(system: &BondSystem<D>, section: [[f64; D]; 2]) -> Vec<(u32, bool)>;
 
     /// For each of some pairs of points, whether the pre-cracks of a body part them, shape (n_bonds).
     fn parted(
@@ -72,21 +64,12 @@ pub trait Dimension<const D: usize>: 'static {
     /// Directions of length one across a direction of length one.
     fn across(direction: [f64; D]) -> Vec<[f64; D]>;
 
-    /// Components of the strain of a material for one kelvin without stress, with the constants that the law makes of it; none without a
-    /// coefficient.
-    fn free_strain(section: &Self::Section, law: &Law, material: &Material) -> Option<Vec<f64>>;
-
-    /// Strains of the points (n_points) from their components, of which there are three in the plane.
-    fn free_strains(components: Vec<[f64; 6]>) -> FreeStrains;
-
-    /// Masses from the densities of the materials (n_materials), kg/m^3.
-    fn masses(cloud: &PointCloud<D>, densities: &[f64]) -> LumpedMass;
+    /// Strain of a material for one kelvin without stress, with the constants that the law makes of it; none without a coefficient.
+    fn free_strain(section: &Self::Section, law: &Law, material: &Material) -> Option<SymTensor<D>>;
 }
 
 impl Dimension<2> for Dim {
     type PreCrack = PreCrack;
-
-    type System = BondSystem;
 
     type Section = Section;
 
@@ -113,10 +96,6 @@ impl Dimension<2> for Dim {
         *state == Plane::Strain
     }
 
-    fn cloud(system: &BondSystem) -> &PointCloud {
-        &system.cloud
-    }
-
     fn crossing(system: &BondSystem, [start, end]: [[f64; 2]; 2]) -> Vec<(u32, bool)> {
         let (faces, cloud) = (&system.faces, &system.cloud);
         let cut = faces.cut().iter().filter(|_| faces.close());
@@ -141,22 +120,9 @@ impl Dimension<2> for Dim {
         Section::Plane { state, .. }: &Section,
         law: &Law,
         material: &Material,
-    ) -> Option<Vec<f64>> {
+    ) -> Option<SymTensor<2>> {
         let elasticity = law.effective_elasticity(material, *state);
-        Some(
-            material
-                .expansion?
-                .free_strain(&elasticity, *state)
-                .to_vec(),
-        )
-    }
-
-    fn free_strains(components: Vec<[f64; 6]>) -> FreeStrains {
-        let in_plane = components.into_iter().map(|[xx, yy, xy, ..]| [xx, yy, xy]);
-        FreeStrains::in_plane(in_plane.collect())
-    }
-
-    fn masses(cloud: &PointCloud, densities: &[f64]) -> LumpedMass {
-        LumpedMass::new(cloud, densities)
+        let strains = material.expansion?.free_strain(&elasticity, *state);
+        Some(SymTensor::from_engineering(&strains))
     }
 }

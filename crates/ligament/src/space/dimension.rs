@@ -1,12 +1,11 @@
 //! What a setup has in space.
 
 use ligament_analysis::Component;
-use ligament_model::space::SolidSystem;
 use ligament_model::space::law::bbpd;
 use ligament_model::space::law::stability::NegativeShear;
 use ligament_model::space::precrack::cut_bonds;
-use ligament_model::thermal::FreeStrains;
-use ligament_model::{BondSet, Bonds, LumpedMass, Material, PointCloud};
+use ligament_model::tensor::{SymTensor, cross};
+use ligament_model::{BondSet, BondSystem, Material, PointCloud};
 
 use super::formulation::shear_form;
 use super::precrack::{SolidCrack, surfaces};
@@ -18,8 +17,6 @@ impl Dimension<3> for Dim {
 
     /// A point of a solid stands for a volume alone.
     type Section = ();
-
-    type System = SolidSystem;
 
     const SECTION: () = ();
 
@@ -48,12 +45,8 @@ impl Dimension<3> for Dim {
         false
     }
 
-    fn cloud(system: &SolidSystem) -> &PointCloud<3> {
-        &system.cloud
-    }
-
     /// Bonds whose ends lie on either side of the plane; a point on the plane lies beyond it.
-    fn crossing(system: &SolidSystem, [point, before]: [[f64; 3]; 2]) -> Vec<(u32, bool)> {
+    fn crossing(system: &BondSystem<3>, [point, before]: [[f64; 3]; 2]) -> Vec<(u32, bool)> {
         let cloud = &system.cloud;
         let [point, before] = [point, before].map(|it| cloud.local(it));
         let is_before = |end: u32| {
@@ -62,7 +55,7 @@ impl Dimension<3> for Dim {
                 (0..3).map(|axis| (position[axis] - point[axis]) * (before[axis] - point[axis]));
             along.sum::<f64>() > 0.0
         };
-        let bonds = system.ends().iter().enumerate();
+        let bonds = system.bonds.ends.iter().enumerate();
         bonds
             .filter_map(|(bond, ends)| {
                 let [first, second] = ends.map(is_before);
@@ -93,24 +86,8 @@ impl Dimension<3> for Dim {
     }
 
     /// Isotropic materials widen alike along all axes.
-    fn free_strain((): &(), _: &Law, material: &Material) -> Option<Vec<f64>> {
+    fn free_strain((): &(), _: &Law, material: &Material) -> Option<SymTensor<3>> {
         let [along, _] = material.expansion?.in_plane;
-        Some(vec![along, along, along, 0.0, 0.0, 0.0])
+        Some(SymTensor::isotropic(along))
     }
-
-    fn free_strains(components: Vec<[f64; 6]>) -> FreeStrains {
-        FreeStrains::in_space(components)
-    }
-
-    fn masses(cloud: &PointCloud<3>, densities: &[f64]) -> LumpedMass {
-        LumpedMass::in_space(cloud, densities)
-    }
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }

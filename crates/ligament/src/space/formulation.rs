@@ -12,9 +12,8 @@ use ligament_model::space::correction::{
 };
 use ligament_model::space::criteria::{self, NoSolidLimit, SolidBasis};
 use ligament_model::space::law::{ShearForm, bbpd, calibration, mppd, nhpd, pds};
-use ligament_model::space::{SolidElement, SolidSystem};
 use ligament_model::{
-    BondStiffness, ElementKind, EnergyRatio, FixedFields, Horizons, Isotropic, Plane, PointCloud,
+    BondStiffness, BondSystem, EnergyRatio, FixedFields, Horizons, Isotropic, Plane, PointCloud,
 };
 
 use crate::body::Origin;
@@ -31,14 +30,6 @@ pub(super) struct SolidFormulation<'a> {
     material_of_cell: &'a [u32],
     /// Elastic constants that the law makes of those of each material, shape (n_materials).
     constants: Vec<Isotropic>,
-}
-
-/// Kinematics of the bonds of a law.
-pub(super) fn element(law: &Law) -> SolidElement {
-    match law.element() {
-        ElementKind::Beam => SolidElement::Beam,
-        _ => SolidElement::Spring,
-    }
 }
 
 /// Form of the shear stiffness of a law whose points turn; none of others.
@@ -158,7 +149,7 @@ impl<'a> SolidFormulation<'a> {
             Surface::Patch(settings) => {
                 let forces = cell_forces(self.setup, self.cloud, self.material_of_cell);
                 let points = (self.cloud, &forces);
-                let element = element(&self.setup.law);
+                let element = self.setup.law.element();
                 let axial = || match self.setup.of_one_material() {
                     None => stiffness.axial.clone(),
                     Some(setup) => {
@@ -213,7 +204,7 @@ pub(super) fn cell_forces(
 /// after the limit.
 pub(super) fn criteria(
     setup: &Setup<3>,
-    system: &SolidSystem,
+    system: &BondSystem<3>,
     fixed: &FixedFields,
 ) -> Result<Criteria, SetupError> {
     if !setup.analysis.is_fracture() {

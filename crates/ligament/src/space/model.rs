@@ -5,17 +5,16 @@ use std::sync::Arc;
 use ligament_model::bonds::hole::bonds_across;
 use ligament_model::bonds::parts::LatticeCells;
 use ligament_model::correction::Correction;
-use ligament_model::space::SolidSystem;
 use ligament_model::space::outline::{Surface, bonds_outside, spacing_inside};
 use ligament_model::space::parts::Tetrahedra;
 use ligament_model::space::precrack::{SolidPreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::{
-    Absence, AbsentBond, BondSet, BondStiffness, EnergyRatio, FixedFields, PointCloud,
+    Absence, AbsentBond, BondSet, BondStiffness, BondSystem, EnergyRatio, FixedFields, PointCloud,
 };
 
 use super::formulation::{self, SolidFormulation};
 use super::precrack::surfaces;
-use super::soundness::{forbid_overlap, require_connected, require_distinct, require_numbers};
+use super::soundness::{forbid_overlap, require_connected, require_distinct};
 use crate::body::Origin;
 use crate::counts::{self, BondCounts};
 use crate::error::SetupError;
@@ -25,7 +24,7 @@ use crate::model::{
     warnings, with_cut,
 };
 use crate::setup::{Dim, Setup};
-use crate::soundness::require_factors;
+use crate::soundness::{require_factors, require_numbers};
 use crate::stage::{Finding, StageWatcher, stage};
 
 impl Discretises<3> for Dim {
@@ -84,7 +83,7 @@ impl Model<3> {
             counts: BondCounts::new(&system.cloud, &system.bonds, &fixed.absent),
             correction: correction.report,
             setup,
-            system: Arc::new(system),
+            system: system.with_elements(),
             fixed,
             criteria: Arc::new(criteria),
         })
@@ -186,12 +185,12 @@ fn bond_system(
     bonds: BondSet<3>,
     stiffness: BondStiffness,
     correction: &Correction,
-) -> Result<SolidSystem, SetupError> {
-    let element = formulation::element(&setup.law);
+) -> Result<BondSystem<3>, SetupError> {
+    let element = setup.law.element();
     let (alpha, omega) = (&correction.length_factor, &correction.domain_factor);
     let factors = (omega.as_slice(), stiffness.axial.as_slice());
     require_factors(&*setup.body, &cloud, factors, &bonds.ends)?;
-    let system = SolidSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega);
+    let system = BondSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega);
     require_numbers(&*setup.body, &system)?;
     Ok(system)
 }

@@ -4,9 +4,8 @@
 use std::sync::Arc;
 
 use ligament_analysis::driver::Problem;
-use ligament_analysis::{Attempt, Bonds, Equilibrium, ProportionalLoading, State};
-use ligament_model::Isotropic;
-use ligament_model::space::SolidSystem;
+use ligament_analysis::{Attempt, Equilibrium, ProportionalLoading, State};
+use ligament_model::{Isotropic, System};
 use ligament_model::space::correction::patch::SolidCellForces;
 use ligament_model::space::uniform_strain::{self, SolidConstants, SolidUniformStrains};
 
@@ -56,7 +55,7 @@ fn of_whole_body(model: &Model<3>) -> Result<SolidPatchTest, Untested> {
     }
     let forces = cell_forces(setup, &system.cloud, &material_of_cell(setup)?);
     let displacements = displacements(setup, system, &forces)?;
-    let strains = SolidUniformStrains::measure(system, &forces, &displacements);
+    let strains = SolidUniformStrains::measure(&**system, &forces, &displacements);
     let strains = strains.ok_or(Untested::Degenerate)?;
     let [a, b] = system.bonds.ends[strains.bond].map(|end| system.cloud.positions[end as usize]);
     let origin = system.cloud.origin;
@@ -75,11 +74,11 @@ fn of_whole_body(model: &Model<3>) -> Result<SolidPatchTest, Untested> {
 /// Displacements of the free body under the forces of each of the strains, shape (6, n_degrees_of_freedom), over their size.
 fn displacements(
     setup: &Setup<3>,
-    system: &Arc<SolidSystem>,
+    system: &Arc<dyn System<3>>,
     forces: &SolidCellForces,
 ) -> Result<[Vec<f64>; 6], Untested> {
     let loads: [Arc<ProportionalLoading>; 6] =
-        uniform_strain::loads(system, forces).map(|force| free_loading(system.layout(), force));
+        uniform_strain::loads(&**system, forces).map(|force| free_loading(system.layout(), force));
     let problem = Problem {
         system: system.clone(),
         criteria: Arc::default(),

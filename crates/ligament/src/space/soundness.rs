@@ -1,14 +1,12 @@
 //! Whether points and bonds in space are fit for a computation.
 
-use ligament_model::element::Rigidities;
-use ligament_model::space::SolidSystem;
 use ligament_model::space::outline::Surface;
 use ligament_model::{BondSet, Horizons, PointCloud};
 
 use crate::body::{Body, Origin};
 use crate::error::{Fault, Field, SetupError, Torn};
 use crate::setup::{Horizon, Setup};
-use crate::soundness::{DISTINCT, Parts, require_neighbours, require_rigidities};
+use crate::soundness::{DISTINCT, Parts, require_neighbours};
 
 /// Refuses cells that lie in others.
 pub(super) fn forbid_overlap(body: &dyn Body<3>, outline: &Surface) -> Result<(), SetupError> {
@@ -97,12 +95,6 @@ pub(super) fn require_connected(
         },
     };
     Err(Field::whole("horizon").error(Fault::Torn(Box::new(torn))))
-}
-
-/// Refuses bonds whose stiffness is no number that equations can be made of.
-pub(super) fn require_numbers(body: &dyn Body<3>, system: &SolidSystem) -> Result<(), SetupError> {
-    let rigidities: &Rigidities = &system.rigidities;
-    require_rigidities(body, &system.cloud, rigidities, &system.bonds.ends)
 }
 
 #[cfg(test)]

@@ -126,7 +126,7 @@ fn goes_on_from_every_moment(setup: Setup, analysis: &Analysis) -> usize {
         ..Recorder::default()
     };
     let model = Model::build(setup, &mut ()).unwrap();
-    let loading = Loading::new(&model.setup, &model.system).unwrap();
+    let loading = Loading::new(&model.setup, &*model.system).unwrap();
     let problem = loading.problem(&model.system, &model.criteria);
     let mut whole = recorder();
     let outcome = follow(&problem, analysis, &mut whole).unwrap();
@@ -197,7 +197,7 @@ fn the_exact_path_after_a_preload_is_that_of_a_search() {
     const PARTS: u32 = 400;
     let setup = plate(Analysis::Event(event()), preloaded(None));
     let model = Model::build(setup, &mut ()).unwrap();
-    let loading = Loading::new(&model.setup, &model.system).unwrap();
+    let loading = Loading::new(&model.setup, &*model.system).unwrap();
     let problem = loading.problem(&model.system, &model.criteria);
     let mut path = Recorder::default();
     follow(&problem, &model.setup.analysis, &mut path).unwrap();

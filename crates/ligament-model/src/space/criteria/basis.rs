@@ -3,13 +3,13 @@
 use crate::failure::basis::{LimitEnds, weakest};
 use crate::material::{Isotropic, Material};
 use crate::scatter::Factors;
-use crate::space::SolidSystem;
+use crate::system::BondSystem;
 
 /// Body, materials and law, from which criteria make the limits of the bonds.
 #[derive(Debug, Clone)]
 pub struct SolidBasis<'a> {
     /// The bonds.
-    pub system: &'a SolidSystem,
+    pub system: &'a BondSystem<3>,
     /// Points whose bonds never fail, shape (n_points).
     pub no_fail: &'a [bool],
     /// The materials.
@@ -33,7 +33,7 @@ impl SolidBasis<'_> {
     /// The smallest of the values of the materials (n_materials) that have a share in an end of each bond or that it crosses, and
     /// infinity where the bond never fails, shape (n_bonds).
     pub fn weakest(&self, of_materials: &[f64]) -> Vec<f64> {
-        let SolidSystem { cloud, bonds, .. } = self.system;
+        let BondSystem { cloud, bonds, .. } = self.system;
         weakest(cloud, bonds, self.no_fail, of_materials)
     }
 

@@ -3,7 +3,7 @@
 use super::basis::SolidBasis;
 use crate::failure::{Choice, Limits};
 use crate::material::Isotropic;
-use crate::space::SolidSystem;
+use crate::system::BondSystem;
 use crate::space::law::calibration::bulk_modulus;
 
 /// Critical stretches of brittle bonds (n_bonds); a bond has the mean bulk modulus and the mean length of its ends.
@@ -42,7 +42,7 @@ pub fn critical_stretch(fracture_energy: f64, bulk_modulus: f64, mean_length: f6
 }
 
 /// Mean lengths h = sum_B w l/sum_B w of the bonds of each point with the weights w = Omega alpha V_B k_n l, shape (n_points), m.
-pub fn mean_lengths(system: &SolidSystem) -> Vec<f64> {
+pub fn mean_lengths(system: &BondSystem<3>) -> Vec<f64> {
     let of_point = |point: u32| {
         let (mut sum, mut weights) = (0.0, 0.0);
         for &bond in system.bonds.incidence.at(point) {

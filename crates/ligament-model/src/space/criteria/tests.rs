@@ -5,7 +5,8 @@ use crate::failure::{KINDS as IN_PLANE, Measure, Unfit};
 use crate::horizon::Horizons;
 use crate::material::{Isotropic, Material};
 use crate::space::law::{ShearForm, nhpd, pds};
-use crate::space::{SolidElement, SolidSystem};
+use crate::element::ElementKind;
+use crate::system::BondSystem;
 
 const YOUNG: f64 = 30e9;
 
@@ -19,7 +20,7 @@ fn material(poisson: f64) -> Material {
 }
 
 /// A block of a cubic lattice with the spacing 1, from 0 to `size` - 1 along each axis.
-fn block(size: [i32; 3], horizon: f64, poisson: f64, element: SolidElement) -> SolidSystem {
+fn block(size: [i32; 3], horizon: f64, poisson: f64, element: ElementKind) -> BondSystem<3> {
     let [nx, ny, nz] = size;
     let mut positions = Vec::new();
     for i in 0..nx {
@@ -37,15 +38,15 @@ fn block(size: [i32; 3], horizon: f64, poisson: f64, element: SolidElement) -> S
         poisson,
     }];
     let stiffness = match element {
-        SolidElement::Beam => nhpd::stiffness(&bonds, &cloud, &materials, ShearForm::Constant),
-        SolidElement::Spring => pds::stiffness(&bonds, &cloud, &materials),
+        ElementKind::Beam => nhpd::stiffness(&bonds, &cloud, &materials, ShearForm::Constant),
+        _ => pds::stiffness(&bonds, &cloud, &materials),
     };
     let ones = vec![1.0; bonds.len()];
-    SolidSystem::new(cloud, bonds, element, stiffness, ones.clone(), &ones)
+    BondSystem::new(cloud, bonds, element, stiffness, ones.clone(), &ones)
 }
 
 fn basis<'a>(
-    system: &'a SolidSystem,
+    system: &'a BondSystem<3>,
     materials: &'a [Material],
     no_fail: &'a [bool],
 ) -> SolidBasis<'a> {
@@ -66,7 +67,7 @@ fn basis<'a>(
 #[test]
 fn splitting_a_block_takes_the_fracture_energy() {
     let size = [12, 13, 13];
-    let system = block(size, 3.0, 0.25, SolidElement::Spring);
+    let system = block(size, 3.0, 0.25, ElementKind::Spring);
     let materials = [material(0.25)];
     let no_fail = vec![false; system.cloud.len()];
     let limits = fracture_energy::critical_stretches(&basis(&system, &materials, &no_fail));
@@ -104,7 +105,7 @@ fn splitting_a_block_takes_the_fracture_energy() {
 /// two points of volume V, half of which belongs to each.
 #[test]
 fn strength_is_an_energy() {
-    let system = block([4, 4, 4], 2.0, 0.2, SolidElement::Beam);
+    let system = block([4, 4, 4], 2.0, 0.2, ElementKind::Beam);
     let materials = [material(0.2)];
     let mut no_fail = vec![false; system.cloud.len()];
     no_fail[0] = true;
@@ -158,7 +159,7 @@ fn the_gain_of_a_crack_that_opens() {
 /// Strains of a bar under its strength F: F/E along it, sliding F (1 + nu)/(2 E) at 45 degrees.
 #[test]
 fn limits_of_a_bar() {
-    let system = block([4, 4, 4], 2.0, 0.2, SolidElement::Beam);
+    let system = block([4, 4, 4], 2.0, 0.2, ElementKind::Beam);
     let materials = [material(0.2)];
     let no_fail = vec![false; system.cloud.len()];
     let basis = basis(&system, &materials, &no_fail);
@@ -180,7 +181,7 @@ fn limits_of_a_bar() {
 /// a straight fall ends at that many s_0.
 #[test]
 fn softening_takes_the_fracture_energy() {
-    let system = block([5, 5, 5], 2.0, 0.2, SolidElement::Beam);
+    let system = block([5, 5, 5], 2.0, 0.2, ElementKind::Beam);
     let materials = [Material {
         tensile_strength: Some(1e3),
         ..material(0.2)

@@ -3,6 +3,7 @@
 mod field;
 mod table;
 
+use ligament_model::tensor::SymTensor;
 use ligament_model::thermal::FreeStrains;
 
 use super::places::Places;
@@ -193,11 +194,11 @@ where
     Dim: Dimension<D>,
 {
     let (setup, cloud) = (places.setup, places.cloud);
-    let per_kelvin: Vec<Option<Vec<f64>>> = (setup.materials.iter())
+    let per_kelvin: Vec<Option<SymTensor<D>>> = (setup.materials.iter())
         .map(|it| Dim::free_strain(&setup.section, &setup.law, &it.material))
         .collect();
     let at_point = |(point, &change): (usize, &f64)| {
-        let mut strain = [0.0; 6];
+        let mut strain = SymTensor::ZERO;
         if change == 0.0 {
             return Ok(strain);
         }
@@ -218,12 +219,10 @@ where
                     .part("expansion")
                     .error(fault));
             };
-            for (total, per_kelvin) in strain.iter_mut().zip(per_kelvin) {
-                *total += share * per_kelvin * change;
-            }
+            strain = strain.plus(&per_kelvin.map(|it| share * it * change));
         }
         Ok(strain)
     };
     let strains = change.iter().enumerate().map(at_point);
-    Ok(Dim::free_strains(strains.collect::<Result<_, _>>()?))
+    Ok(FreeStrains::new(strains.collect::<Result<Vec<_>, _>>()?))
 }

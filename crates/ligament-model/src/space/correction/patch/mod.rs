@@ -19,7 +19,7 @@ use crate::correction::patch::aggregates::Aggregates;
 use crate::correction::patch::dual::{self, Factors};
 use crate::correction::patch::equations::Equations;
 use crate::law::BondStiffness;
-use crate::space::SolidElement;
+use crate::element::ElementKind;
 use solid::SolidEquations;
 
 /// The correction of bonds with uncorrected factors alpha (n_bonds) on points with the forces of their cells: Omega = q_n/alpha, and
@@ -28,19 +28,19 @@ use solid::SolidEquations;
 pub fn correct(
     bonds: &BondSet<3>,
     (cloud, forces): (&PointCloud<3>, &SolidCellForces),
-    element: SolidElement,
+    element: ElementKind,
     stiffness: &BondStiffness,
     (alpha, nearest_to): (Vec<f64>, &[f64]),
     settings: &Settings,
 ) -> Correction {
     let weight = settings.moment_weight;
     let factors = match element {
-        SolidElement::Beam => {
+        ElementKind::Beam => {
             let equations =
                 SolidEquations::<18>::new(bonds, cloud, forces, stiffness, nearest_to, weight);
             minimise(&equations, cloud, settings)
         }
-        SolidElement::Spring => {
+        ElementKind::Spring | ElementKind::Imaginary | ElementKind::TrueStrain | ElementKind::Pairwise => {
             let equations =
                 SolidEquations::<13>::new(bonds, cloud, forces, stiffness, nearest_to, weight);
             minimise(&equations, cloud, settings)

@@ -66,7 +66,7 @@ struct Case {
     correction: Correction,
 }
 
-fn corrected(mesh: &SolidMesh, horizon: f64, element: SolidElement) -> Case {
+fn corrected(mesh: &SolidMesh, horizon: f64, element: ElementKind) -> Case {
     let of_cells = vec![0; mesh.cells.len()];
     let cloud = PointCloud::from_solid_mesh(mesh, &of_cells, 1);
     let bonds = BondSet::search(&cloud, &Horizons::unified(horizon, cloud.len()));
@@ -148,7 +148,7 @@ impl Case {
 /// the report has, but for the scales.
 #[test]
 fn uniform_strains_become_equilibria() {
-    let case = corrected(&mesh(7), 2.7, SolidElement::Beam);
+    let case = corrected(&mesh(7), 2.7, ElementKind::Beam);
     let left = case.left(|bond| case.factors(bond)[0], |bond| case.factors(bond)[1]);
     let before = case.left(|_| 1.0, |_| 1.0);
     let ratio = |which| case.root_mean_square(which, &left) / case.root_mean_square(which, &before);
@@ -203,7 +203,7 @@ fn a_turned_body_has_the_same_factors() {
         (*x, *y) = (one.1 * *x - one.0 * *y, one.0 * *x + one.1 * *y);
         (*y, *z) = (two.1 * *y - two.0 * *z, two.0 * *y + two.1 * *z);
     }
-    let [straight, turned] = [straight, turned].map(|it| corrected(&it, 2.7, SolidElement::Beam));
+    let [straight, turned] = [straight, turned].map(|it| corrected(&it, 2.7, ElementKind::Beam));
     assert_eq!(straight.bonds.ends, turned.bonds.ends);
     for bond in 0..straight.bonds.len() {
         for (one, other) in straight.factors(bond).into_iter().zip(turned.factors(bond)) {
@@ -223,7 +223,7 @@ fn threads_change_no_bit() {
             .num_threads(threads)
             .build()
             .unwrap();
-        pool.install(|| corrected(&mesh, 1.9, SolidElement::Spring).correction)
+        pool.install(|| corrected(&mesh, 1.9, ElementKind::Spring).correction)
     });
     assert_eq!(one, two);
 }

@@ -1,5 +1,8 @@
 use super::*;
 use crate::bonds::Incidence;
+use crate::deformation::Deformation;
+use crate::element::Element;
+use crate::element::pair::Pair;
 
 /// A bond from the origin along a direction, with axial, shear and rotational rigidity.
 fn bond(along: [f64; 3], [axial, shear, rotational]: [f64; 3]) -> (BondSet<3>, Rigidities) {
@@ -17,32 +20,27 @@ fn bond(along: [f64; 3], [axial, shear, rotational]: [f64; 3]) -> (BondSet<3>, R
         axial: vec![axial],
         shear: vec![shear],
         rotational: vec![rotational],
+        strain: Vec::new(),
     };
     (bonds, rigidities)
 }
 
-fn beam(along: [f64; 3], rigidities: [f64; 3]) -> BeamBond {
+fn beam(along: [f64; 3], rigidities: [f64; 3]) -> BeamBond<3> {
     let (bonds, rigidities) = bond(along, rigidities);
     BeamBond::new(&bonds, &rigidities, 0)
 }
 
 /// K from the blocks, shape (2 M, 2 M).
-fn from_blocks<const M: usize, B: SolidKinematics<M>>(bond: &B) -> Vec<Vec<f64>> {
-    let [own, coupling] = bond.blocks();
-    let far = bond.far_block();
-    let entry = |row: usize, column: usize| match (row < M, column < M) {
-        (true, true) => own[row][column],
-        (true, false) => coupling[row][column - M],
-        (false, true) => coupling[column][row - M],
-        (false, false) => far[row - M][column - M],
-    };
+fn from_blocks<const M: usize, B: PairKinematics<3, M>>(bond: &B) -> Vec<Vec<f64>> {
+    let block = |row: usize, column: usize| bond.block(row / M, column / M);
+    let entry = |row: usize, column: usize| block(row, column)[row % M][column % M];
     (0..2 * M)
         .map(|row| (0..2 * M).map(|column| entry(row, column)).collect())
         .collect()
 }
 
 /// K from the end forces for motions of size one, shape (2 M, 2 M), transposed.
-fn from_forces<const M: usize, B: SolidKinematics<M>>(bond: &B) -> Vec<Vec<f64>> {
+fn from_forces<const M: usize, B: PairKinematics<3, M>>(bond: &B) -> Vec<Vec<f64>> {
     (0..2 * M)
         .map(|column| {
             let mut motions = vec![0.0; 2 * M];
@@ -54,7 +52,7 @@ fn from_forces<const M: usize, B: SolidKinematics<M>>(bond: &B) -> Vec<Vec<f64>>
 }
 
 /// K as the sum of its terms, shape (2 M, 2 M).
-fn from_modes<const M: usize, B: SolidKinematics<M>>(bond: &B) -> Vec<Vec<f64>> {
+fn from_modes<const M: usize, B: PairKinematics<3, M>>(bond: &B) -> Vec<Vec<f64>> {
     let mut sum = vec![vec![0.0; 2 * M]; 2 * M];
     for (rigidity, row) in bond.modes() {
         let row = row.as_flattened();
@@ -146,12 +144,12 @@ fn blocks_forces_and_terms_are_one_stiffness() {
         let beam = beam(along, rigidities);
         assert_close(&from_blocks(&beam), &from_forces(&beam), 1e-14);
         assert_close(&from_blocks(&beam), &from_modes(&beam), 1e-14);
-        assert_eq!(beam.modes().len(), 6);
+        assert_eq!(beam.modes().count(), 6);
         let (bonds, rigidities) = bond(along, rigidities);
-        let spring = SpringBond::new(&bonds, &rigidities, 0);
+        let spring = SpringBond::<3>::new(&bonds, &rigidities, 0);
         assert_close(&from_blocks(&spring), &from_forces(&spring), 1e-14);
         assert_close(&from_blocks(&spring), &from_modes(&spring), 1e-14);
-        assert_eq!(spring.modes().len(), 3);
+        assert_eq!(spring.modes().count(), 3);
     }
 }
 
@@ -203,7 +201,7 @@ fn rigid_motions_deform_no_beam() {
     assert!(deformation.stretch.abs() < 1e-14 && size(deformation.shear) < 1e-14);
     assert_eq!(deformation.rotation, [0.0; 3]);
     let (bonds, rigidities) = bond(along, [5.0, 2.0, 0.0]);
-    let spring = SpringBond::new(&bonds, &rigidities, 0).deformation(&a[..3], &b[..3]);
+    let spring = SpringBond::<3>::new(&bonds, &rigidities, 0).deformation(&a[..3], &b[..3]);
     let across = cross(omega, bonds.direction[0]);
     assert!((size(spring.shear) - size(across)).abs() < 1e-14);
 }
@@ -222,12 +220,14 @@ fn uniform_strains() {
     ];
     let end_b = [moved[0], moved[1], moved[2], 0.0, 0.0, 0.0];
     let expected = beam.deformation(&[0.0; 6], &end_b);
-    let found = beam.deformation_in([xx, yy, zz, xy, xz, yz]);
+    let strain = SymTensor::from_engineering(&[xx, yy, xy, zz, xz, yz]);
+    let found = beam.deformation_in(&strain);
     let off = expected.less(&found).measured();
     assert!(off.strains().iter().all(|it| it.abs() < 1e-15), "{off:?}");
-    let work: f64 = (beam.dyad(&found).iter())
-        .zip([xx, yy, xy, zz, xz, yz])
-        .map(|(stress, strain)| stress * strain)
-        .sum();
+    let pair = Pair {
+        ends: [0, 1],
+        bond: beam,
+    };
+    let work = pair.dyad(&found).contracted(&strain);
     assert!((work / (2.0 * beam.mutual_energy(&found, &found)) - 1.0).abs() < 1e-14);
 }

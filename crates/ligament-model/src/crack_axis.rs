@@ -1,0 +1,91 @@
+//! The normal of a crack from the directions of the bonds that it broke.
+
+use nalgebra::Matrix3;
+
+use crate::tensor::{ORDER, SymTensor, dot};
+
+/// The sum of e (x) e over directions e, which have no sign; in the plane as that of the doubled angles, e_x^2 - e_y^2 and 2 e_x e_y.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct AxisSum<const D: usize> {
+    values: [f64; 6],
+}
+
+impl<const D: usize> AxisSum<D> {
+    /// Number of values of a sum.
+    pub(crate) const N_VALUES: usize = if D == 2 { 2 } else { ORDER.len() };
+
+    /// Adds a direction.
+    pub(crate) fn add(&mut self, direction: [f64; D]) {
+        if let [x, y] = direction.as_slice() {
+            self.values[0] = self.values[0] + x * x - y * y;
+            self.values[1] += 2.0 * x * y;
+            return;
+        }
+        let dyad = SymTensor::dyad(direction, direction);
+        for (sum, value) in self.values.iter_mut().zip(dyad.components()) {
+            *sum += value;
+        }
+    }
+
+    /// The sum of two sums.
+    pub(crate) fn plus(self, other: Self) -> Self {
+        Self {
+            values: std::array::from_fn(|place| self.values[place] + other.values[place]),
+        }
+    }
+
+    /// The values.
+    pub(crate) fn values(self) -> impl Iterator<Item = f64> {
+        self.values.into_iter().take(Self::N_VALUES)
+    }
+
+    /// The sum with given values.
+    pub(crate) fn from_values(values: &[f64]) -> Self {
+        let mut sum = Self::default();
+        for (value, given) in sum.values.iter_mut().zip(values) {
+            *value = *given;
+        }
+        sum
+    }
+
+    /// The axis that most directions are near to, on the side of a direction; the direction itself where no axis leads.
+    pub(crate) fn axis_towards(self, direction: [f64; D]) -> [f64; D] {
+        let axis = match D {
+            2 => self.axis_in_plane(),
+            _ => self.axis_in_space(),
+        };
+        let Some(axis) = axis else {
+            return direction;
+        };
+        let axis = std::array::from_fn(|place| axis[place]);
+        if dot(axis, direction) < 0.0 {
+            axis.map(|component| -component)
+        } else {
+            axis
+        }
+    }
+
+    fn axis_in_plane(self) -> Option<[f64; 3]> {
+        let [cosine, sine, ..] = self.values;
+        let size = cosine.hypot(sine);
+        let (x, y) = (
+            (0.5 * (1.0 + cosine / size)).max(0.0).sqrt(),
+            (0.5 * (1.0 - cosine / size)).max(0.0).sqrt(),
+        );
+        (size != 0.0).then_some([x, y.copysign(sine), 0.0])
+    }
+
+    /// The eigenvector of the largest eigenvalue, if that is the only one of its size.
+    fn axis_in_space(self) -> Option<[f64; 3]> {
+        let tensor = SymTensor::<3>::from_components(&self.values);
+        let matrix = Matrix3::from_fn(|row, column| tensor.at(row, column));
+        let eigen = matrix.symmetric_eigen();
+        let mut order = [0, 1, 2];
+        order.sort_by(|&one, &other| eigen.eigenvalues[other].total_cmp(&eigen.eigenvalues[one]));
+        let [largest, next, _] = order.map(|place| eigen.eigenvalues[place]);
+        // Below it the axis is one of rounding.
+        const LEADS: f64 = 1e-9;
+        let axis = eigen.eigenvectors.column(order[0]);
+        (largest - next > LEADS * largest).then(|| [axis[0], axis[1], axis[2]])
+    }
+}
