@@ -166,7 +166,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> Body<D, M, E> {
 
     /// Some motions of all points, of the size of small strains.
     fn unknowns(&self) -> Vec<f64> {
-        let some = |it: usize| 1e-3 * ((7 * it + 3) % 13) as f64 - 4e-3;
+        let some = |it: usize| 4e-4 * ((it * it + 7 * it) % 23) as f64 - 4e-3;
         (0..self.n()).map(some).collect()
     }
 
