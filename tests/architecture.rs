@@ -9,15 +9,21 @@ use verification::repository;
 use crate::metadata::metadata;
 
 /// Each crate and the crates of this workspace that it depends on.
-pub(crate) const ARROWS: [(&str, &[&str]); 15] = [
+pub(crate) const ARROWS: [(&str, &[&str]); 16] = [
     ("ligament-mesh", &[]),
     ("ligament-linalg", &[]),
     ("ligament-model", &["ligament-mesh"]),
+    ("ligament-post", &["ligament-mesh", "ligament-model"]),
     ("ligament-analysis", &["ligament-linalg", "ligament-model"]),
     ("ligament-petsc", &["ligament-analysis"]),
     (
         "ligament-output",
-        &["ligament-analysis", "ligament-mesh", "ligament-model"],
+        &[
+            "ligament-analysis",
+            "ligament-mesh",
+            "ligament-model",
+            "ligament-post",
+        ],
     ),
     (
         "ligament",
@@ -49,6 +55,7 @@ pub(crate) const ARROWS: [(&str, &[&str]); 15] = [
             "ligament-mesh",
             "ligament-model",
             "ligament-output",
+            "ligament-post",
         ],
     ),
     ("ligament-report", &["ligament-output", "ligament-plot"]),
@@ -62,22 +69,8 @@ pub(crate) const ARROWS: [(&str, &[&str]); 15] = [
             "ligament-model",
             "ligament-output",
             "ligament-plot",
+            "ligament-post",
             "ligament-run",
-        ],
-    ),
-    (
-        "ligament-verify",
-        &[
-            "ligament",
-            "ligament-analysis",
-            "ligament-case",
-            "ligament-linalg",
-            "ligament-mesh",
-            "ligament-model",
-            "ligament-output",
-            "ligament-plot",
-            "ligament-run",
-            "ligament-study",
         ],
     ),
     (
@@ -91,10 +84,27 @@ pub(crate) const ARROWS: [(&str, &[&str]); 15] = [
             "ligament-output",
             "ligament-petsc",
             "ligament-plot",
+            "ligament-post",
             "ligament-report",
             "ligament-run",
             "ligament-study",
-            "ligament-verify",
+        ],
+    ),
+    (
+        "ligament-verify",
+        &[
+            "ligament",
+            "ligament-analysis",
+            "ligament-case",
+            "ligament-cli",
+            "ligament-linalg",
+            "ligament-mesh",
+            "ligament-model",
+            "ligament-output",
+            "ligament-plot",
+            "ligament-post",
+            "ligament-run",
+            "ligament-study",
         ],
     ),
     (
@@ -116,7 +126,7 @@ pub(crate) const ARROWS: [(&str, &[&str]); 15] = [
 
 /// Packages that few crates may use, in their tests too: texts of cases and records, the command line, errors for people.
 const RESERVED: [(&str, &[&str]); 13] = [
-    ("clap", &["ligament-cli"]),
+    ("clap", &["ligament-cli", "ligament-verify"]),
     ("clap_complete", &["ligament-cli"]),
     ("indicatif", &["ligament-run", "ligament-study"]),
     (

@@ -12,7 +12,7 @@
 use std::f64::consts::PI;
 
 use ligament_model::Canvas;
-use ligament_model::crack::{CrackEnd, CrackLine, Faces, Part, crack_lines};
+use ligament_post::crack::{CrackEnd, CrackLine, Faces, Part, crack_lines};
 use verification::{meshes, repository};
 
 const SPACING: f64 = 2e-3;

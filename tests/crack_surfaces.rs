@@ -4,10 +4,8 @@
 
 use std::collections::HashSet;
 
-use ligament_model::surfaces::{
-    CrackSurface, Link, Links, Tetrahedra, crack_surface, opened_cells,
-};
 use ligament_model::{BodyGrid, Canvas};
+use ligament_post::surfaces::{CrackSurface, Link, Links, Tetrahedra, crack_surface, opened_cells};
 use verification::solids::{block, boxes};
 
 /// The surface where all edges that a function parts are cut; `pre` of them before the first load.

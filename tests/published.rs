@@ -1,4 +1,4 @@
-//! The fast subset of `ligament verify`: values of the papers, computed by the functions of `ligament run`.
+//! The fast subset of `ligament-verify`: values of the papers, computed by the functions of `ligament run`.
 #![allow(clippy::unwrap_used)]
 
 use ligament_output::csv::read::records;

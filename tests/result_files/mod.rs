@@ -21,7 +21,7 @@ use ligament_cli::check::{self, Extent};
 use ligament_model::Bonds;
 use ligament_model::failure::Criteria;
 use ligament_model::failure::frictional::Calibration;
-use ligament_model::yielding::field::{families, interior};
+use ligament_post::yielding::field::families;
 use ligament_run::model::{Model, build_model};
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::run;
@@ -178,7 +178,7 @@ impl Case {
                 let at = |_: u32| Strain::of_the_figures(poisson)[k].stretches;
                 let found = families(system, &criteria, at);
                 let name = |what: &str| format!("{criterion}_{}_{what}", strain.name);
-                let values = |of: fn(&ligament_model::yielding::field::FamilyYield) -> f64| {
+                let values = |of: fn(&ligament_post::yielding::field::FamilyYield) -> f64| {
                     let found = found.iter();
                     let values = found.map(move |it| it.as_ref().map_or(f64::NAN, of));
                     values.map(|it| if it.is_finite() { it } else { f64::NAN })
@@ -189,7 +189,7 @@ impl Case {
                 fields.reals(&name("least_strain"), values(|it| it.least_load));
             }
         }
-        let inside = interior(system, &model.body().rim(), &model.fixed.precrack_share);
+        let inside = model.interior(&model.body().rim());
         fields.integers("interior", inside.iter().map(|&it| i64::from(it)));
         let sizes = (0..system.cloud.len() as u32).map(|it| system.bonds.incidence.at(it).len());
         fields.integers("bonds", sizes.map(|it| it as i64));

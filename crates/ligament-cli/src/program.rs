@@ -13,24 +13,32 @@ use crate::{Cli, ranks, terminal};
 /// Does what the arguments ask for, the name of the program first, and gives the exit code; `program` is the command that calls
 /// this program, for runs that it starts as processes of their own.
 pub fn execute(arguments: &[OsString], program: &[OsString]) -> ExitCode {
+    parse_and_execute(arguments, |cli: Cli| cli.execute(program))
+}
+
+/// Reads the arguments of a program, its name first, does what they ask for, prints the error where that fails, and gives the exit code.
+pub fn parse_and_execute<A: Parser>(
+    arguments: &[OsString],
+    execute: impl FnOnce(A) -> anyhow::Result<ExitCode>,
+) -> ExitCode {
     // Where the system refuses, a file that is too large ends the program as it would without this.
     let _ = report_large_files();
-    let code = answer(arguments, program);
+    let code = match A::try_parse_from(arguments) {
+        Ok(read) => conclude(execute(read)),
+        Err(told) => {
+            // Help and versions are told as errors, too.
+            let _ = told.print();
+            u8::try_from(told.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from)
+        }
+    };
     // Where the program is a part of another one nobody else writes what is left of a line.
     let _ = io::stdout().flush();
     code
 }
 
-fn answer(arguments: &[OsString], program: &[OsString]) -> ExitCode {
-    let cli = match Cli::try_parse_from(arguments) {
-        Ok(cli) => cli,
-        Err(told) => {
-            // Help and versions are told as errors, too.
-            let _ = told.print();
-            return u8::try_from(told.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from);
-        }
-    };
-    let (code, error) = match cli.execute(program) {
+/// The exit code of what was done, or failed: that is printed.
+fn conclude(done: anyhow::Result<ExitCode>) -> ExitCode {
+    let (code, error) = match done {
         Ok(code) => (code, None),
         Err(error) if is_closed_pipe(&error) => (ExitCode::SUCCESS, None),
         Err(error) => (code_of(&error), Some(error)),

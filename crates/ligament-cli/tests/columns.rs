@@ -392,7 +392,7 @@ fn of_verification(names: &mut Names, wrong: &mut Vec<String>) {
     let summary = header(&folder.join("verification.csv"));
     names.insert("LABEL", summary[3..].iter().cloned().collect());
     compare(
-        "verification.csv of `ligament verify`",
+        "verification.csv of `ligament-verify`",
         &[summary],
         names,
         wrong,
@@ -406,5 +406,5 @@ fn of_verification(names: &mut Names, wrong: &mut Vec<String>) {
         .iter()
         .flat_map(|it| it.iter().take_while(|it| *it != "known"));
     names.insert("LABEL", labels.cloned().collect());
-    compare("The tables of `ligament verify`", &headers, names, wrong);
+    compare("The tables of `ligament-verify`", &headers, names, wrong);
 }

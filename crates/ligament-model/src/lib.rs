@@ -12,7 +12,6 @@
 //! | failure criteria with their limits | [`Criteria`](failure::Criteria) | [`failure`] |
 //! | what the equations are made of | [`BondSystem`] | [`system`] |
 //! | masses, for modes | [`LumpedMass`] | [`mass`] |
-//! | cracks as lines | [`CrackLine`](crack::CrackLine) | [`crack`] |
 //!
 //! All quantities are in SI units. No matrices, no files and no printing here. Equations carry the key of their source, such
 //! as NHPD or MPPD: `docs/references.md` lists the papers.
@@ -23,7 +22,6 @@ pub mod cloud;
 pub mod contact;
 pub mod correction;
 mod crack_axis;
-pub mod crack;
 pub mod deformation;
 pub mod element;
 pub mod failure;
@@ -44,13 +42,11 @@ pub mod scatter;
 pub mod shape;
 pub mod space;
 pub mod stress;
-pub mod surfaces;
 pub mod sweep;
 pub mod system;
 pub mod tensor;
 pub mod thermal;
 pub mod uniform_strain;
-pub mod yielding;
 
 pub use bonds::{BondSet, Incidence};
 pub use cloud::PointCloud;

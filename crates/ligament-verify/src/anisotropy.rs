@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use anyhow::Context;
 use ligament_model::failure::Criteria;
-use ligament_model::yielding::field::{Distribution, families, interior, mean_error};
-use ligament_model::yielding::{Family, PrincipalStretches, lattice};
+use ligament_post::yielding::field::{Distribution, families, mean_error};
+use ligament_post::yielding::{Family, PrincipalStretches, lattice};
 
 use super::experiment::{Experiment, Findings};
 use super::published::published;
@@ -142,7 +142,7 @@ fn anisotropy(
         "strength" => model.criteria.clone(),
         other => Arc::new(uniform(other, system.bonds.len())?),
     };
-    let is_interior = interior(system, &model.body().rim(), &model.fixed.precrack_share);
+    let is_interior = model.interior(&model.body().rim());
     let yields = families(system, &criteria, |_| strains);
     let inside: Vec<u32> = (0..)
         .zip(&is_interior)

@@ -1,6 +1,6 @@
 //! Where a crack starts, how far it reaches and how it lies, read from the bonds that broke and the damage that they leave.
 //!
-//! Apart from the lines of [`ligament_model::crack`]: published tables and the page of the papers were measured by points with much damage,
+//! Apart from the lines of [`ligament_post::crack`]: published tables and the page of the papers were measured by points with much damage,
 //! which also show cracks that branch, crush or stay shorter than a horizon, where lines leave such parts out.
 
 use ligament::Model;

@@ -1,4 +1,4 @@
-//! `ligament verify`: runs the published cases and compares, entry by entry.
+//! The program `ligament-verify`: runs the published cases and compares, entry by entry.
 //!
 //! | Module | Holds |
 //! |--------|-------|
@@ -8,7 +8,7 @@
 //! | `disk`, `poisson`, ... | the experiments, a file each |
 //! | [`finite_elements`] | classical elasticity, which the papers compare their lattices with |
 //! | `papers` | the papers' tables and figures, and which table of ours compares each |
-//! | [`report`], [`tally`] | console, the page of the papers, the long report, CSV and SVG |
+//! | `report`, [`tally`] | console, the page of the papers, the long report, CSV and SVG |
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
@@ -17,9 +17,10 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use ligament_output::folder::{Kind, ResultFolder};
-
+use clap::Parser;
 use ligament::suggestion::hint;
+use ligament_cli::commands::output;
+use ligament_output::folder::{Kind, ResultFolder};
 
 mod anisotropy;
 mod bars;
@@ -51,7 +52,7 @@ mod poisson;
 mod printed;
 mod published;
 mod readings;
-pub mod report;
+mod report;
 mod ring;
 mod slots;
 mod softening;
@@ -101,16 +102,41 @@ pub static EXPERIMENTS: [Experiment; 25] = [
     disk_modes::EXPERIMENT,
 ];
 
-/// A request to `ligament verify`: the experiments, and where to write.
-#[derive(Debug, Clone, PartialEq)]
+const EXAMPLES: &str = "\
+Examples:
+  ligament-verify                    everything: results/verification/README.md
+  ligament-verify disk --fast        one experiment, and of it what the tests run
+  ligament-verify --list             the experiments
+
+The exit code is 1 if a value that should agree does not.";
+
+/// Published values beside those that Ligament computes.
+///
+/// Runs cases of the papers that the models are from, and prints for every known value what this
+/// program computes, the difference, and whether that is as it should be; known misprints with
+/// their reasons. Writes the same as Markdown, CSV and plots (SVG).
+#[derive(Debug, Parser)]
+#[command(name = "ligament-verify", version, after_help = EXAMPLES)]
 pub struct Request {
-    /// Names of experiments; none for all.
+    /// Experiments to run [default: all]
+    #[arg(value_name = "NAME")]
     pub names: Vec<String>,
-    /// All entries, or the fast subset.
-    pub extent: Extent,
-    /// Folder of the report.
+    /// List the experiments with their sources, and run none
+    #[arg(long)]
+    pub list: bool,
+    /// Run the subset that the tests run
+    #[arg(long)]
+    pub fast: bool,
+    /// Folder for the report
+    #[arg(
+        long,
+        alias = "output", value_parser = output::folder(),
+        value_name = "DIR",
+        default_value = "results/verification"
+    )]
     pub out: PathBuf,
-    /// Whether an earlier report there may be replaced.
+    /// Replace an earlier report in the folder
+    #[arg(long)]
     pub force: bool,
 }
 
@@ -135,13 +161,20 @@ pub enum VerifyError {
     },
 }
 
-/// Runs experiments, tells of each as it is done, and writes the report.
+/// Lists the experiments; or runs some, prints their tables as each is done, and writes the report.
 ///
 /// # Errors
 ///
 /// If a name is not known, the folder cannot be used, an experiment cannot be run, or, with the report written, an
 /// entry fails.
 pub fn verify(request: &Request, screen: &mut dyn Write) -> anyhow::Result<()> {
+    if request.list {
+        return Ok(console::list(screen, &EXPERIMENTS)?);
+    }
+    let extent = match request.fast {
+        true => Extent::Fast,
+        false => Extent::Full,
+    };
     let chosen = select(&request.names)?;
     let folder =
         ResultFolder::create_marked(&request.out, Kind::marked(files::SUMMARY), request.force)?;
@@ -149,13 +182,13 @@ pub fn verify(request: &Request, screen: &mut dyn Write) -> anyhow::Result<()> {
     let mut done = Vec::new();
     for experiment in chosen {
         console::announce(screen, experiment)?;
-        let findings = experiment.run(request.extent)?;
+        let findings = experiment.run(extent)?;
         console::tell(screen, &findings)?;
         files::write(&folder, &findings)?;
         summary.append(experiment, &Tally::from_findings(&findings))?;
         done.push((experiment, findings));
     }
-    folder.write_text("README.md", &page::text(&done, request.extent)?)?;
+    folder.write_text("README.md", &page::text(&done, extent)?)?;
     folder.write_text("report.md", &markdown::text(&done))?;
     folder.finish()?;
     let all: Tally = done

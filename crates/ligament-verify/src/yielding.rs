@@ -2,7 +2,7 @@
 
 use anyhow::Context;
 use ligament_model::failure::{Calibration, Choice, frictional, sliding, stretch};
-use ligament_model::yielding::{Family, PrincipalStretches, lattice, printed_orientations};
+use ligament_post::yielding::{Family, PrincipalStretches, lattice, printed_orientations};
 
 use super::experiment::{Experiment, Findings};
 use super::published::{Published, published};

@@ -1,7 +1,6 @@
 //! Energy that a crack through a model spends under its criteria, beside the fracture energy that the material is given.
 
 use ligament_model::failure::crack_opening::CrackEnergy;
-use ligament_model::yielding::field::interior;
 
 use crate::model::Model;
 
@@ -20,7 +19,7 @@ pub fn crack_energies(model: &Model, material: usize) -> Option<[CrackEnergy; 2]
     let is_mixed = |point| cloud.shares(point)[material] < 1.0 - 3.0 * f64::EPSILON;
     let is_excluded = |(point, on_rim)| on_rim || model.fixed.no_fail[point] || is_mixed(point);
     let excluded: Vec<bool> = rim.map(is_excluded).collect();
-    let whole = interior(&model.system, &excluded, &model.fixed.precrack_share);
+    let whole = model.interior(&excluded);
     let along = |normal| CrackEnergy::of_opening(&model.system, &model.criteria, &whole, normal);
     Some([along([1.0, 0.0])?, along([0.0, 1.0])?])
 }

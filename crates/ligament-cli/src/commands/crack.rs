@@ -4,7 +4,6 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use ligament_model::surfaces::CrackSurface;
 use ligament_output::quantity::{place, quantity};
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::solid_cracks::{SolidCracks, has_solid};
@@ -12,6 +11,7 @@ use ligament_output::results::steps::{StepChoice, StepName};
 use ligament_output::results::{
     CRACK_FILES, SURFACE_FILES, write_cracks, write_series, write_surface,
 };
+use ligament_post::surfaces::CrackSurface;
 
 use ligament_plot::picture::{IsosurfaceRequest, write_isosurfaces};
 

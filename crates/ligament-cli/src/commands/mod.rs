@@ -10,7 +10,7 @@ mod inspect;
 mod mesh;
 mod new;
 mod numbers;
-mod output;
+pub mod output;
 mod plot;
 mod profile;
 mod repeat;
@@ -20,7 +20,6 @@ mod run;
 mod schema;
 mod stiffness;
 mod sweep;
-mod verify;
 mod yielding;
 
 use std::ffi::OsString;
@@ -47,7 +46,6 @@ pub use run::RunArgs;
 pub use schema::SchemaArgs;
 pub use stiffness::StiffnessArgs;
 pub use sweep::SweepArgs;
-pub use verify::VerifyArgs;
 pub use yielding::YieldArgs;
 
 /// Peridynamics of bodies in the plane and in space: mesh in, cracks out.
@@ -187,13 +185,6 @@ pub enum Command {
     /// of the error and loci (SVG), or fields (VTU).
     #[command(after_help = yielding::EXAMPLES)]
     Yield(YieldArgs),
-    /// Run the published cases and compare with their printed values
-    ///
-    /// Runs cases of the papers that the models are from, and prints for every known value what this
-    /// program computes, the difference, and whether that is as it should be; known misprints with
-    /// their reasons. Writes the same as Markdown, CSV and plots (SVG).
-    #[command(after_help = verify::EXAMPLES)]
-    Verify(VerifyArgs),
     /// Print the JSON schema of a case file, for editors
     ///
     /// With it an editor completes keys and words, shows their descriptions, units and defaults, and marks
@@ -229,7 +220,6 @@ impl Cli {
             Command::New(args) => args.execute(),
             Command::Stiffness(args) => args.execute(),
             Command::Yield(args) => args.execute(),
-            Command::Verify(args) => args.execute(),
             Command::Schema(args) => args.execute(),
             Command::Completions(args) => args.execute(Self::command()),
         };

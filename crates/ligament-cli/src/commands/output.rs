@@ -16,7 +16,7 @@ pub(super) fn file() -> impl TypedValueParser<Value = PathBuf> {
 }
 
 /// A folder to write.
-pub(super) fn folder() -> impl TypedValueParser<Value = PathBuf> {
+pub fn folder() -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().try_map(|path| match path == Path::new(STANDARD_OUTPUT) {
         true => Err("the results are a folder, which standard output cannot take: name one"),
         false => Ok(path),

@@ -37,7 +37,6 @@ fn help_teaches_every_command() {
         "new",
         "stiffness",
         "yield",
-        "verify",
         "schema",
         "completions",
         "Examples:",
@@ -56,7 +55,6 @@ fn help_teaches_every_command() {
         "new",
         "stiffness",
         "yield",
-        "verify",
         "schema",
         "completions",
     ] {
@@ -283,68 +281,6 @@ fn a_file_that_is_no_mesh_is_refused() {
     );
     assert!(
         stderr(&output).contains("\n  because: "),
-        "{}",
-        stderr(&output)
-    );
-}
-
-#[test]
-fn verify_lists_its_experiments_and_knows_no_others() {
-    let output = ligament(["verify", "--list"]);
-    assert_eq!(output.status.code(), Some(0));
-    assert!(
-        stdout(&output)
-            .lines()
-            .any(|line| line.starts_with("disk ") && line.contains("eq. 22"))
-    );
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("report");
-    let output = ligament([
-        "verify".as_ref(),
-        "disc".as_ref(),
-        "--out".as_ref(),
-        out.as_os_str(),
-    ]);
-    assert_eq!(output.status.code(), Some(1));
-    let message = "error: no experiment `disc`; did you mean `disk`?";
-    assert!(stderr(&output).starts_with(message), "{}", stderr(&output));
-    assert!(!out.exists(), "nothing is written");
-}
-
-/// A report is written once; an earlier one is replaced only if that is asked for, and results of a run never.
-#[test]
-fn a_verification_writes_its_report() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("report");
-    let verify = |more: &[&str]| {
-        let words = ["verify", "poisson", "--fast", "--out"].map(OsStr::new);
-        ligament(
-            words
-                .into_iter()
-                .chain([out.as_os_str()])
-                .chain(more.iter().map(OsStr::new)),
-        )
-    };
-    let output = verify(&[]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(stdout(&output).contains("within tolerance"));
-    for file in [
-        "README.md",
-        "verification.csv",
-        "poisson-mesh.csv",
-        "poisson-mesh.svg",
-    ] {
-        assert!(out.join(file).is_file(), "{file}");
-    }
-    let output = verify(&[]);
-    assert_eq!(output.status.code(), Some(1));
-    assert!(stderr(&output).contains("--force"), "{}", stderr(&output));
-    assert_eq!(verify(&["--force"]).status.code(), Some(0));
-    fs::rename(out.join("verification.csv"), out.join("case.resolved.toml")).unwrap();
-    let output = verify(&["--force"]);
-    assert_eq!(output.status.code(), Some(1));
-    assert!(
-        stderr(&output).contains("no verification.csv"),
         "{}",
         stderr(&output)
     );

@@ -9,8 +9,8 @@
 use std::path::Path;
 
 use ligament_analysis::energy_release::{GrowthState, ReleaseRates, release_rates};
-use ligament_model::crack::CrackLine;
 use ligament_model::raised;
+use ligament_post::crack::CrackLine;
 
 use super::cracks::{CrackRecord, StoredCracks};
 use crate::Error;

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use ligament_analysis::history::StepRecord;
 use ligament_mesh::Cell;
-use ligament_model::crack::{CrackLine, Faces, Part, crack_lines};
 use ligament_model::{BodyGrid, Canvas};
+use ligament_post::crack::{CrackLine, Faces, Part, crack_lines};
 
 use super::outputs::{OutputKind, Outputs, cut_pairs};
 use super::softening_table;

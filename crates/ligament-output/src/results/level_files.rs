@@ -7,7 +7,7 @@
 use std::path::Path;
 
 use ligament_model::Canvas;
-use ligament_model::surfaces::{LevelSet, Tetrahedra, level_set};
+use ligament_post::surfaces::{LevelSet, Tetrahedra, level_set};
 
 use super::solid_body::SolidBody;
 use crate::Error;

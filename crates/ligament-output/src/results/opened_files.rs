@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use ligament_model::Canvas;
-use ligament_model::surfaces::opened_cells;
+use ligament_post::surfaces::opened_cells;
 
 use super::solid_cracks::SolidCracks;
 use crate::vtu::read::VtuFile;

@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
-use ligament_model::surfaces::{CrackSurface, Link, Links, Tetrahedra, crack_surface};
+use ligament_post::surfaces::{CrackSurface, Link, Links, Tetrahedra, crack_surface};
 
 use super::cracks::{CrackRecord, Moment, broken_pairs, grown, softened_pairs};
 use super::outputs::{OutputKind, Outputs, bonded_pairs, cut_pairs};

@@ -14,7 +14,7 @@
 use std::path::Path;
 
 use ligament_analysis::energy_release::{GrowthState, ReleaseRates, release_rates};
-use ligament_model::surfaces::CrackSurface;
+use ligament_post::surfaces::CrackSurface;
 
 use super::cracks::CrackRecord;
 use super::opened_files::{has_cells, write_opened};

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use ligament_model::yielding::PrincipalStretches;
+use ligament_post::yielding::PrincipalStretches;
 
 use super::diagrams::{Comparison, PATHS};
 use super::subject::Subject;

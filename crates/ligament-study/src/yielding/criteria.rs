@@ -4,8 +4,8 @@ use std::str::FromStr;
 
 use ligament_model::failure::frictional::{self, Calibration, Friction};
 use ligament_model::failure::{Criteria, Criterion, Measure, sliding, stretch};
-use ligament_model::yielding::{Family, PrincipalStretches, Worst, margin, printed_orientations};
 use ligament_model::{Isotropic, Plane};
+use ligament_post::yielding::{Family, PrincipalStretches, Worst, margin, printed_orientations};
 
 use super::error::YieldError;
 use ligament::suggestion::hint;

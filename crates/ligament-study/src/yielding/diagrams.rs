@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use ligament_model::yielding::PrincipalStretches;
-use ligament_model::yielding::locus::{LocusPoint, bond_locus, principal_locus};
 use ligament_output::csv::{Table, Value};
 use ligament_output::folder::ResultFolder;
+use ligament_post::yielding::PrincipalStretches;
+use ligament_post::yielding::locus::{LocusPoint, bond_locus, principal_locus};
 
 use super::request::SUMMARY;
 use super::subject::{Strain, Subject};

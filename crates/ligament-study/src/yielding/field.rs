@@ -3,12 +3,12 @@
 use std::io::Write;
 
 use ligament_model::failure::Criteria;
-use ligament_model::yielding::field::{Distribution, FamilyYield, families, interior};
-use ligament_model::yielding::lattice;
 use ligament_output::csv::{Table, Value};
 use ligament_output::folder::ResultFolder;
 use ligament_output::results::write_points;
 use ligament_output::vtu::Field;
+use ligament_post::yielding::field::{Distribution, FamilyYield, families};
+use ligament_post::yielding::lattice;
 
 use super::error::YieldError;
 use super::of_case::{criteria, model, poisson};
@@ -43,7 +43,7 @@ fn draw_here(request: &Request, case: &CaseFile, screen: &mut dyn Write) -> anyh
     let model = model(case)?;
     let system = &model.system;
     let poisson = poisson(request, &model)?;
-    let is_interior = interior(system, &model.body().rim(), &model.fixed.precrack_share);
+    let is_interior = model.interior(&model.body().rim());
     let sizes: Vec<i64> = (0..system.cloud.len() as u32)
         .map(|point| system.bonds.incidence.at(point).len() as i64)
         .collect();

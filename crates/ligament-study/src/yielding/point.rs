@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use ligament_model::yielding::lattice;
+use ligament_post::yielding::lattice;
 
 use super::console;
 use super::diagrams::{self, Comparison};

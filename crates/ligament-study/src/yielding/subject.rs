@@ -3,7 +3,7 @@
 use ligament_model::BondSystem;
 use ligament_model::failure::softening::brittle;
 use ligament_model::failure::{AfterLimit, Criteria, Criterion};
-use ligament_model::yielding::{Family, PrincipalStretches, Worst, lattice};
+use ligament_post::yielding::{Family, PrincipalStretches, Worst, lattice};
 
 use super::criteria::{Combination, Strengths};
 use super::error::YieldError;

@@ -8,7 +8,7 @@ use super::Printable;
 use crate::experiment::{Experiment, Findings};
 
 /// Lists all experiments on the console.
-pub fn list(console: &mut dyn Write, experiments: &[Experiment]) -> io::Result<()> {
+pub(crate) fn list(console: &mut dyn Write, experiments: &[Experiment]) -> io::Result<()> {
     for Experiment {
         name,
         title,

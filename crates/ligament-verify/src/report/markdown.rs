@@ -57,7 +57,7 @@ pub(crate) fn text(done: &[(&Experiment, Findings)]) -> String {
 const INTRODUCTION: &str = "\
 # The long report
 
-Every table of `ligament verify`, entry by entry; [README.md](README.md) has the short one, and what the verdicts mean. Each
+Every table of `ligament-verify`, entry by entry; [README.md](README.md) has the short one, and what the verdicts mean. Each
 table is also a CSV file here, with all digits. The cases named below can be run by themselves; what an entry changes in
 them is its labels, such as `--set material.poisson=0.1 --set model.law=pds`.
 ";

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::entry::Standing;
 use super::table::{Row, Table};
 
-pub mod console;
+pub(super) mod console;
 pub(super) mod files;
 pub(super) mod markdown;
 pub(super) mod page;

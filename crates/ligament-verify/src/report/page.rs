@@ -60,7 +60,7 @@ pub(crate) fn text(done: &[(&Experiment, Findings)], extent: Extent) -> anyhow::
 const INTRODUCTION: &str = "\
 # Verification
 
-Written by `ligament verify`: what stands in five papers, and what this version of the program computes for it by the
+Written by `ligament-verify`: what stands in five papers, and what this version of the program computes for it by the
 functions of `ligament run`. Behind this page is the [long report](report.md), with every entry, the reasons, and the cases
 to run.
 

@@ -3,12 +3,12 @@
 use std::collections::{BTreeMap, HashMap};
 
 use ligament_mesh::SolidCell;
-use ligament_model::surfaces::{Links, Tetrahedra, level_set, opened_cells};
 use ligament_model::{Canvas, box_corners};
 use ligament_output::FieldLocation;
 use ligament_output::results::solid_body::SolidBody;
 use ligament_output::results::solid_cracks::SolidCracks;
 use ligament_output::vtu::read::VtuFile;
+use ligament_post::surfaces::{Links, Tetrahedra, level_set, opened_cells};
 
 use super::outline::{outer_faces, sharp_edges};
 use super::{Scene, Section};

@@ -7,8 +7,9 @@
 //! a model does, the error of frictional sliding depends on the path strongly
 //! ([`Family::error`](super::Family::error)).
 
+use ligament_model::failure::frictional::Friction;
+
 use super::{PrincipalStretches, Worst, printed_orientations};
-use crate::failure::frictional::Friction;
 
 /// The strain s_0t of the paper's tables; the measure depends on it.
 pub const PAPER_STRAIN: f64 = 0.1;

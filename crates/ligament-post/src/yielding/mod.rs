@@ -27,7 +27,7 @@ pub mod theory;
 
 pub use family::{Family, Worst};
 
-use crate::element::BondDeformation;
+use ligament_model::element::BondDeformation;
 
 /// A uniform strain by its principal stretches; the axis of the second is a quarter turn ahead of that of the first.
 #[derive(Debug, Clone, Copy, PartialEq)]

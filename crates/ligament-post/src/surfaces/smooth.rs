@@ -2,6 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use ligament_model::tensor::{dot, norm};
+
 use super::measures::area_vector;
 use super::surface::CrackSurface;
 
@@ -43,7 +45,7 @@ impl CrackSurface {
                     return [0, 1, 2].map(|axis| place[axis] + way[axis]);
                 }
                 let normal = normal(&self.places, &triangles_of[number]);
-                let ahead: f64 = (0..3).map(|axis| normal[axis] * way[axis]).sum();
+                let ahead = dot(normal, way);
                 [0, 1, 2].map(|axis| place[axis] + ahead * normal[axis])
             };
             self.places = self.places.iter().enumerate().map(moved).collect();
@@ -94,11 +96,10 @@ fn normal(places: &[[f64; 3]], triangles: &[[u32; 3]]) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for triangle in triangles {
         let area = area_vector(places, *triangle);
-        let along: f64 = (0..3).map(|axis| sum[axis] * area[axis]).sum();
-        let sign = if along < 0.0 { -1.0 } else { 1.0 };
+        let sign = if dot(sum, area) < 0.0 { -1.0 } else { 1.0 };
         sum = [0, 1, 2].map(|axis| sum[axis] + sign * area[axis]);
     }
-    let length = (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]).sqrt();
+    let length = norm(sum);
     if length > 0.0 {
         sum.map(|it| it / length)
     } else {

@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use ligament_model::tensor::{dot, minus};
+
 use super::loose::settled;
 use super::sides::{Links, sides};
 use super::surface::CrackSurface;
@@ -75,7 +77,7 @@ impl Finder<'_> {
                 .map(|of| self.place(corners, of, sides))
                 .collect();
             let triangles = match *places.as_slice() {
-                [a, b, c, d] if self.length([b, d]) < self.length([a, c]) => {
+                [a, b, c, d] if self.squared_length([b, d]) < self.squared_length([a, c]) => {
                     vec![[a, b, d], [b, c, d]]
                 }
                 [a, b, c, d] => vec![[a, b, c], [a, c, d]],
@@ -100,9 +102,10 @@ impl Finder<'_> {
         cut.peek().is_some() && cut.all(|link| link == Link::PreCrack)
     }
 
-    fn length(&self, [a, b]: [u32; 2]) -> f64 {
-        let [p, q] = [a, b].map(|it| self.surface.places[it as usize]);
-        (0..3).map(|axis| (q[axis] - p[axis]).powi(2)).sum()
+    fn squared_length(&self, ends: [u32; 2]) -> f64 {
+        let [p, q] = ends.map(|it| self.surface.places[it as usize]);
+        let way = minus(q, p);
+        dot(way, way)
     }
 
     /// The place in the middle of some corners of a tetrahedron.

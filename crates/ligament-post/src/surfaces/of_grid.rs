@@ -1,8 +1,9 @@
 //! The tetrahedra of a body.
 
+use ligament_model::{BodyGrid, Canvas};
+
 use super::lattice;
 use super::tetrahedra::Tetrahedra;
-use crate::grid::{BodyGrid, Canvas};
 
 impl Tetrahedra {
     /// The tetrahedra of a body; none in the plane, and of boxes that do not fit together.

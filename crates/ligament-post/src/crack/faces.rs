@@ -3,8 +3,7 @@
 use std::collections::HashMap;
 
 use ligament_mesh::Cell;
-
-use crate::grid::Canvas;
+use ligament_model::Canvas;
 
 /// The faces between the cells of neighbouring points, which cover a body.
 ///

@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-use nalgebra::{Matrix3, SymmetricEigen};
+use ligament_model::tensor::{cross, dot, minus, norm};
+use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
 use super::surface::CrackSurface;
 
@@ -31,8 +32,7 @@ pub struct BestPlane {
 impl CrackSurface {
     /// Area of a triangle, m^2.
     pub fn area_of(&self, triangle: usize) -> f64 {
-        let [x, y, z] = area_vector(&self.places, self.triangles[triangle]);
-        (x * x + y * y + z * z).sqrt()
+        norm(area_vector(&self.places, self.triangles[triangle]))
     }
 
     /// Area of all but pre-cracks, m^2.
@@ -88,8 +88,7 @@ impl CrackSurface {
         let mut spread = Matrix3::<f64>::zeros();
         for triangle in grown() {
             let weight = self.area_of(triangle) / area;
-            let at = middle(triangle);
-            let from = nalgebra::Vector3::from([0, 1, 2].map(|axis| at[axis] - centre[axis]));
+            let from = Vector3::from(minus(middle(triangle), centre));
             spread += weight * from * from.transpose();
         }
         let eigen = SymmetricEigen::new(spread);
@@ -101,13 +100,7 @@ impl CrackSurface {
         );
         let normal = normal.map(|it| it * largest.signum());
         let places = grown().flat_map(|it| self.triangles[it]);
-        let distances = places.map(|it| {
-            let at = self.places[it as usize];
-            (0..3)
-                .map(|axis| (at[axis] - centre[axis]) * normal[axis])
-                .sum::<f64>()
-                .abs()
-        });
+        let distances = places.map(|it| dot(minus(self.places[it as usize], centre), normal).abs());
         Some(BestPlane {
             centre,
             normal,
@@ -119,12 +112,7 @@ impl CrackSurface {
 /// Half of the vector product of two sides of a triangle: its area along its normal.
 pub(super) fn area_vector(places: &[[f64; 3]], triangle: [u32; 3]) -> [f64; 3] {
     let [a, b, c] = triangle.map(|it| places[it as usize]);
-    let [p, q] = [b, c].map(|it| [0, 1, 2].map(|axis| it[axis] - a[axis]));
-    [
-        0.5 * (p[1] * q[2] - p[2] * q[1]),
-        0.5 * (p[2] * q[0] - p[0] * q[2]),
-        0.5 * (p[0] * q[1] - p[1] * q[0]),
-    ]
+    cross(minus(b, a), minus(c, a)).map(|it| 0.5 * it)
 }
 
 /// The surface with its triangles turned alike over edges of two, and with its parts.

@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
+use ligament_model::element::BondDeformation;
 use rayon::prelude::*;
 
 use super::{Family, PrincipalStretches};
-use crate::element::BondDeformation;
 
 /// Distance from zero, over that of the nearest point, beyond which a locus is open: rounding makes no more of
 /// parallel lines.
@@ -85,9 +85,10 @@ pub fn bond_locus(family: &Family<'_>, count: u32) -> Vec<[f64; 2]> {
 
 #[cfg(test)]
 mod tests {
+    use ligament_model::failure::frictional::Friction;
+    use ligament_model::failure::{Criteria, Criterion, Measure};
+
     use super::*;
-    use crate::failure::frictional::Friction;
-    use crate::failure::{Criteria, Criterion, Measure};
     use crate::yielding::lattice::directions;
 
     fn uniform(list: &[(Measure, f64, f64)], n_bonds: usize) -> Criteria {

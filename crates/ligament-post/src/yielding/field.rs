@@ -1,10 +1,10 @@
 //! The anisotropy of every family of a body.
 
+use ligament_model::failure::Criteria;
+use ligament_model::system::BondSystem;
 use rayon::prelude::*;
 
 use super::{Family, PrincipalStretches, Worst};
-use crate::failure::Criteria;
-use crate::system::BondSystem;
 
 /// First yield of the family of a point under a strain: the effect of the directions and limits of its bonds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,22 +47,6 @@ pub fn mean_error(
     let errors: Vec<Option<f64>> = points.par_iter().map(error).collect();
     let count = errors.iter().flatten().count();
     (count > 0).then(|| errors.iter().flatten().sum::<f64>() / count as f64)
-}
-
-/// Marks the points whose families the rim of the body leaves whole (n_points): neither they nor a neighbour are
-/// marked in `on_rim` (n_points), and pre-cracks cut none of their bonds (`cut_share`, n_points).
-pub fn interior(system: &BondSystem, on_rim: &[bool], cut_share: &[f64]) -> Vec<bool> {
-    let is_whole = |point: u32| {
-        let bonds = system.bonds.incidence.at(point);
-        let mut neighbours = bonds
-            .iter()
-            .map(|&bond| system.bonds.neighbour(bond, point));
-        let place = point as usize;
-        !on_rim[place]
-            && cut_share[place] == 0.0
-            && !neighbours.any(|neighbour| on_rim[neighbour as usize])
-    };
-    (0..system.cloud.len() as u32).map(is_whole).collect()
 }
 
 /// Mean, percentiles and the largest of some values.

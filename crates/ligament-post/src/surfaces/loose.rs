@@ -2,6 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
+use ligament_model::tensor::{minus, norm};
+
 use super::sides::{Link, Links};
 use super::tetrahedra::{EDGES, Tetrahedra};
 
@@ -99,9 +101,7 @@ fn side_of(
     let here = tetrahedra.nodes[own as usize];
     for (other, node) in near.iter().flat_map(places) {
         if other != point && !loose.contains(&other) {
-            let there = tetrahedra.nodes[node as usize];
-            let squares = (0..3).map(|axis| (there[axis] - here[axis]).powi(2));
-            let length = squares.sum::<f64>().sqrt();
+            let length = norm(minus(tetrahedra.nodes[node as usize], here));
             side.entry(other).or_insert(other);
             distance
                 .entry(other)

@@ -1,8 +1,9 @@
 //! Criteria in all directions: the bond that is worst for a criterion.
 
+use ligament_model::element::BondDeformation;
+use ligament_model::failure::Measure;
+
 use super::PrincipalStretches;
-use crate::element::BondDeformation;
-use crate::failure::Measure;
 
 /// Deformation of the bond, of bonds in all directions, at which a measure with the coefficient q is largest: in the worst of its
 /// [directions](Measure::worst_directions). Of the two signs of the sliding the positive one.

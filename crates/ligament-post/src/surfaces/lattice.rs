@@ -126,6 +126,8 @@ impl Nodes {
 
 #[cfg(test)]
 mod tests {
+    use ligament_model::tensor::{cross, dot, minus};
+
     use super::*;
 
     /// The tetrahedra of a block with a box missing in its corner fill all but the missing part, and those of a whole block fill it.
@@ -139,11 +141,8 @@ mod tests {
         let volume = |of: &Tetrahedra| -> f64 {
             let one = |it: &[u32; 4]| {
                 let [a, b, c, d] = it.map(|node| of.nodes[node as usize]);
-                let [b, c, d] = [b, c, d].map(|p| [0, 1, 2].map(|axis| p[axis] - a[axis]));
-                (b[0] * (c[1] * d[2] - c[2] * d[1])
-                    + b[1] * (c[2] * d[0] - c[0] * d[2])
-                    + b[2] * (c[0] * d[1] - c[1] * d[0]))
-                    / 6.0
+                let [b, c, d] = [b, c, d].map(|p| minus(p, a));
+                dot(b, cross(c, d)) / 6.0
             };
             assert!(of.corners.iter().all(|it| one(it) > 0.0));
             of.corners.iter().map(one).sum()

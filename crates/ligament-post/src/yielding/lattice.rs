@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::horizon::INCLUSION_TOLERANCE;
+use ligament_model::horizon::INCLUSION_TOLERANCE;
 
 /// Number of bonds of a point with a horizon of `ratio` m spacings: offsets (i, j) with 0 < i^2 + j^2 <= m^2.
 pub fn family_size(ratio: f64) -> usize {

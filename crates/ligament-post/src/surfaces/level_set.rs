@@ -68,6 +68,8 @@ fn is_turned(above: &[usize], below: &[usize]) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use ligament_model::tensor::{cross, dot, minus};
+
     use super::*;
 
     /// Triangles of every case look at the larger values.
@@ -91,14 +93,8 @@ mod tests {
             let gradient = [1, 2, 3].map(|node| values[node] - values[0]);
             for triangle in &found.triangles {
                 let [a, b, c] = triangle.map(at);
-                let [p, q] = [b, c].map(|it| [0, 1, 2].map(|axis| it[axis] - a[axis]));
-                let normal = [
-                    p[1] * q[2] - p[2] * q[1],
-                    p[2] * q[0] - p[0] * q[2],
-                    p[0] * q[1] - p[1] * q[0],
-                ];
-                let along: f64 = (0..3).map(|axis| normal[axis] * gradient[axis]).sum();
-                assert!(along > 0.0, "{case:04b}");
+                let normal = cross(minus(b, a), minus(c, a));
+                assert!(dot(normal, gradient) > 0.0, "{case:04b}");
             }
         }
     }

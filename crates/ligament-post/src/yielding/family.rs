@@ -2,11 +2,12 @@
 
 use std::f64::consts::PI;
 
+use ligament_model::element::BondDeformation;
+use ligament_model::failure::{Criteria, Criterion};
+use ligament_model::system::BondSystem;
+
 use super::PrincipalStretches;
 use super::theory::critical_deformation;
-use crate::element::BondDeformation;
-use crate::failure::{Criteria, Criterion};
-use crate::system::BondSystem;
 
 /// Orientations at which the search for the worst one begins: one in two degrees.
 const FIRST_ORIENTATIONS: usize = 90;
@@ -228,8 +229,9 @@ fn coefficient_of(criterion: &Criterion, bond: usize) -> f64 {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
+    use ligament_model::failure::Measure;
+
     use super::*;
-    use crate::failure::Measure;
     use crate::yielding::lattice::{directions, worst_misalignment};
     use crate::yielding::printed_orientations;
 
