@@ -223,12 +223,13 @@ fn moduli_are_those_of_the_infinite_lattice() {
 
 /// E, nu and G of the material whose constants in the plane are given: plane strain shows E/(1 - nu^2) and nu/(1 - nu).
 fn as_plane(plane: &str, constants: EngineeringConstants) -> [f64; 3] {
-    let (young, poisson) = (constants.young[0], constants.poisson);
+    let (young, poisson) = (constants.young[0], constants.poisson[0][1]);
+    let shear_modulus = constants.shear_modulus.at(0, 1);
     if plane == "stress" {
-        return [young, poisson, constants.shear_modulus];
+        return [young, poisson, shear_modulus];
     }
     let nu = poisson / (1.0 + poisson);
-    [young * (1.0 - nu * nu), nu, constants.shear_modulus]
+    [young * (1.0 - nu * nu), nu, shear_modulus]
 }
 
 /// Stresses of uniform strains on a lattice, two horizons from its sides, against Hooke's law in plane stress: 1 % of the largest

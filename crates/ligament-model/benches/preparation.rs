@@ -8,7 +8,7 @@ use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_mai
 use ligament_mesh::{Mesh, gmsh};
 use ligament_model::correction::length::length_factors;
 use ligament_model::correction::patch::Settings;
-use ligament_model::correction::{Continuum, StopRule, Sweeps, domain, patch};
+use ligament_model::correction::{StopRule, Sweeps, domain, patch};
 use ligament_model::failure::strength::{critical_energy, critical_stretches};
 use ligament_model::law::beam;
 use ligament_model::{
@@ -55,19 +55,16 @@ fn preparation(criterion: &mut Criterion) {
         let horizons = Horizons::from_spacing(&cloud.spacing, HORIZON_FACTOR);
         let bonds = BondSet::search(&cloud, &horizons);
         let stiffness = beam::stiffness(&bonds, &cloud, &[rock], plane);
-        let continuum = Continuum {
-            materials: &materials,
-            plane,
-        };
+        let continuum = Elasticity::Isotropic(rock).stiffness::<2>(plane);
+        let continuum = [continuum.unwrap()];
         let correct = || {
             let alpha = length_factors(&bonds, &cloud);
-            domain::iterate(&bonds, &cloud, &stiffness, alpha, continuum, SWEEPS)
+            domain::iterate(&bonds, &cloud, &stiffness, alpha, &continuum, SWEEPS)
         };
-        let constants = [rock.plane_stiffness(plane)];
         let patch = || {
             let points = patch::Points {
                 cloud: &cloud,
-                forces: patch::of_mesh(&mesh.cells, &cloud, &material_of_cell, &constants),
+                forces: patch::of_mesh(&mesh.cells, &cloud, &material_of_cell, continuum.to_vec()),
                 turn: true,
             };
             let alpha = length_factors(&bonds, &cloud);

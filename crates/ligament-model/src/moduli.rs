@@ -4,7 +4,9 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::element::imaginary::matrix;
 use crate::element::ElementKind;
+use crate::material::Stiffness;
 use crate::system::BondSystem;
+use crate::tensor::SymTensor;
 
 /// Stiffness C of the family of a point in x and y, (sigma_xx, sigma_yy, sigma_xy) = C (eps_xx, eps_yy, gamma_xy), Pa:
 ///
@@ -47,37 +49,52 @@ pub fn family_stiffness(system: &BondSystem, point: u32) -> Matrix3<f64> {
     stiffness / (2.0 * system.cloud.volumes[point as usize])
 }
 
-/// Engineering constants of a plane stiffness as plane stress would read them.
+/// Engineering constants of a stiffness along some axes; of one of the plane as plane stress would read them.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct EngineeringConstants {
-    /// Young's moduli along x and y, Pa.
-    pub young: [f64; 2],
-    /// Contraction along y under stress along x.
-    pub poisson: f64,
-    /// Shear modulus, Pa.
-    pub shear_modulus: f64,
+pub struct EngineeringConstants<const D: usize = 2> {
+    /// Young's moduli along the axes, Pa.
+    pub young: [f64; D],
+    /// Poisson's ratios -eps_b/eps_a under stress along a, as \[a\]\[b\]: contraction along b; -1 for b = a.
+    pub poisson: [[f64; D]; D],
+    /// Shear moduli, Pa, each between two axes; zero on the diagonal.
+    pub shear_modulus: SymTensor<D>,
 }
 
 impl EngineeringConstants {
-    /// The constants that belong to a stiffness (3, 3), Pa: reciprocals of the entries of its inverse. None where the
-    /// stiffness has no inverse.
+    /// The constants that belong to a stiffness of the plane (3, 3), Pa, along x and y: reciprocals of the entries of its inverse. None
+    /// where the stiffness has no inverse.
     pub fn from_stiffness(stiffness: Matrix3<f64>) -> Option<Self> {
-        Self::along(stiffness, 0.0)
+        let stiffness = Stiffness::from_column_slice(3, 3, stiffness.as_slice());
+        Self::along(stiffness, [[1.0, 0.0], [0.0, 1.0]])
     }
+}
 
-    /// The constants that belong to a stiffness (3, 3), Pa, along axes at an angle (rad) to x and y, which take their places.
-    pub fn along(stiffness: Matrix3<f64>, angle: f64) -> Option<Self> {
+impl<const D: usize> EngineeringConstants<D> {
+    /// The constants that belong to a stiffness, Pa, along axes at right angles, of which the unit vectors are given. None where the
+    /// stiffness has no inverse.
+    pub fn along(stiffness: Stiffness, axes: [[f64; D]; D]) -> Option<Self> {
         let compliance = stiffness.try_inverse()?;
-        let (s, c) = angle.sin_cos();
-        // Stresses of size one along the axes, and strains there from those in x and y.
-        let one = Vector3::new(c * c, s * s, c * s);
-        let two = Vector3::new(s * s, c * c, -c * s);
-        let shear = Vector3::new(-2.0 * c * s, 2.0 * c * s, c * c - s * s);
-        let strain = |along: Vector3<f64>, under: Vector3<f64>| along.dot(&(compliance * under));
+        // A stress of size one along an axis or between two, and what reads the strain there from engineering strains.
+        let stress = |i: usize, j: usize| {
+            let dyad = SymTensor::dyad(axes[i], axes[j]);
+            dyad.scaled(if i == j { 1.0 } else { 2.0 })
+        };
+        let strain = |read: SymTensor<D>, stress: SymTensor<D>| -> f64 {
+            let rows = read.components().enumerate().map(|(row, read)| {
+                let stresses = stress.components().enumerate();
+                let strain: f64 = stresses.map(|(k, it)| compliance[(row, k)] * it).sum();
+                read * strain
+            });
+            rows.sum()
+        };
+        let under = |a: usize, b: usize| strain(stress(b, b), stress(a, a));
         Some(Self {
-            young: [1.0 / strain(one, one), 1.0 / strain(two, two)],
-            poisson: -strain(two, one) / strain(one, one),
-            shear_modulus: 1.0 / strain(shear, shear),
+            young: std::array::from_fn(|a| 1.0 / under(a, a)),
+            poisson: std::array::from_fn(|a| std::array::from_fn(|b| -under(a, b) / under(a, a))),
+            shear_modulus: SymTensor::from_fn(|a, b| match a == b {
+                true => 0.0,
+                false => 1.0 / strain(stress(a, b), stress(a, b)),
+            }),
         })
     }
 }

@@ -1,25 +1,27 @@
 //! Uniform strains of a body: what its bonds make of the forces that its cells give them.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::DMatrix;
 
-use crate::correction::patch::CellForces;
-use crate::deformation::Deformations;
-use crate::element::Remaining;
-use crate::interface::Bonds;
-use crate::layout::Component;
+use crate::cloud::PointCloud;
+use crate::correction::patch::{CellForces, uniform_strains};
+use crate::layout::Layout;
+use crate::material::Stiffness;
 use crate::moduli::EngineeringConstants;
 use crate::system::{BondsLeft, System};
-use crate::tensor::SymTensor;
-use crate::thermal::{FreeStrains, ThermalStrain};
+use crate::tensor::{SymTensor, dot, minus};
+use crate::thermal::ThermalStrain;
 
-/// The strains of a free body under the forces of the three uniform strains of [`CellForces`], which have the size one.
+const ROOT: f64 = std::f64::consts::SQRT_2;
+
+/// The strains of a free body under the forces of the uniform strains of [`CellForces`], which have the size one, in the order of
+/// [`SymTensor`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct UniformStrains {
-    /// Mean strains of the body in the basis of the three, a column for each, shape (3, 3): those of the affine motion on which the
-    /// forces do the work that they do on the body. The unit matrix if the body is as stiff as its cells.
-    pub mean: Matrix3<f64>,
-    /// Root mean square over the bonds of what their stretch has more than in the mean strain, for each of the three.
-    pub scatter: [f64; 3],
+    /// Mean strains of the body in the basis of the uniform ones, a column for each, shape (n_strains, n_strains): those of the affine
+    /// motion on which the forces do the work that they do on the body. The unit matrix if the body is as stiff as its cells.
+    pub mean: DMatrix<f64>,
+    /// Root mean square over the bonds of what their stretch has more than in the mean strain, for each of the strains.
+    pub scatter: Vec<f64>,
     /// The most that the stretch of a bond has more in some uniform strain of size one.
     pub largest: f64,
     /// The bond that has it.
@@ -27,24 +29,35 @@ pub struct UniformStrains {
 }
 
 impl UniformStrains {
-    /// The strains that displacements, shape (3, n_degrees_of_freedom), give to the bonds under forces of size one. None without bonds
-    /// or where the forces do no work on some uniform strain.
-    pub fn measure(
-        system: &dyn System<2>,
-        forces: &CellForces,
-        displacements: &[Vec<f64>; 3],
+    /// The strains that displacements, shape (n_strains, n_degrees_of_freedom), give to the bonds under forces of size one. None
+    /// without bonds or where the forces do no work on some uniform strain.
+    pub fn measure<const D: usize>(
+        system: &dyn System<D>,
+        forces: &CellForces<D>,
+        displacements: &[Vec<f64>],
     ) -> Option<Self> {
-        let mean = mean_strains(system, forces, displacements)?;
-        let bonds = &system.bonds;
-        let mut squares = [0.0; 3];
+        let (bonds, layout) = (&system.bonds, system.layout());
+        let mean = mean_strains(&system.cloud, layout, forces, displacements)?;
+        let mut squares = vec![0.0; displacements.len()];
         let (mut largest, mut place) = (-1.0, None);
-        for (bond, (&ends, &[a, b])) in bonds.ends.iter().zip(&bonds.direction).enumerate() {
-            let uniform = mean.tr_mul(&Vector3::from(projected([a, b])));
+        for (bond, (&ends, &n)) in bonds.ends.iter().zip(&bonds.direction).enumerate() {
+            // Stretches of a bond of this direction in the strains.
+            let projected = |&[i, j]: &[usize; 2]| match i == j {
+                true => n[i] * n[j],
+                false => ROOT * n[i] * n[j],
+            };
+            let projected = SymTensor::<D>::COMPONENTS.iter().map(projected);
             let mut all = 0.0;
             for (k, displacement) in displacements.iter().enumerate() {
-                let [[x0, y0], [x1, y1]] = ends.map(|end| motion(system, displacement, end));
-                let stretch = (a * (x1 - x0) + b * (y1 - y0)) / bonds.length[bond];
-                let square = (stretch - uniform[k]).powi(2);
+                let column = mean.column(k);
+                let uniform: f64 = column
+                    .iter()
+                    .zip(projected.clone())
+                    .map(|(a, b)| a * b)
+                    .sum();
+                let [from, to] = ends.map(|end| motion(layout, displacement, end));
+                let stretch = dot(n, minus(to, from)) / bonds.length[bond];
+                let square = (stretch - uniform).powi(2);
                 squares[k] += square;
                 all += square;
             }
@@ -52,110 +65,107 @@ impl UniformStrains {
                 (largest, place) = (all, Some(bond));
             }
         }
+        let scatter = squares.iter().map(|sum| (sum / bonds.len() as f64).sqrt());
         Some(Self {
             mean,
-            scatter: squares.map(|sum| (sum / bonds.len() as f64).sqrt()),
+            scatter: scatter.collect(),
             largest: largest.sqrt(),
             bond: place?,
         })
     }
 
-    /// Elastic constants of the body along axes at an angle (rad) to x and y, with cells of a stiffness over (eps_xx, eps_yy,
-    /// gamma_xy), Pa, that is the same in all of them.
-    pub fn constants(&self, stiffness: &Matrix3<f64>, angle: f64) -> Option<EngineeringConstants> {
-        // From tensors of size one to gamma_xy.
-        let scale = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, std::f64::consts::SQRT_2));
-        let answer = scale * self.mean * scale.try_inverse()?;
-        EngineeringConstants::along(stiffness * answer.try_inverse()?, angle)
+    /// Elastic constants of the body along axes at right angles, of which the unit vectors are given, with cells of a stiffness, Pa, that is
+    /// the same in all of them.
+    pub fn constants<const D: usize>(
+        &self,
+        stiffness: &Stiffness,
+        axes: [[f64; D]; D],
+    ) -> Option<EngineeringConstants<D>> {
+        // From tensors of size one to engineering strains.
+        let places = SymTensor::<D>::COMPONENTS.iter();
+        let sizes = places
+            .map(|[i, j]| if i == j { 1.0 } else { ROOT })
+            .collect();
+        let scale = DMatrix::from_diagonal(&nalgebra::DVector::<f64>::from_vec(sizes));
+        let answer = &scale * &self.mean * scale.try_inverse()?;
+        EngineeringConstants::along(stiffness * answer.try_inverse()?, axes)
     }
 }
 
-/// Forces and moments on all degrees of freedom in the three uniform strains, shape (3, n_degrees_of_freedom), N and N m: those of the
-/// cells, and what bonds across an interface have more than in the softer material.
+/// Forces and moments on all degrees of freedom in each of the uniform strains, shape (n_strains, n_degrees_of_freedom), N and N m: those of
+/// the cells, and what bonds across an interface have more than in the softer material.
 ///
 /// In a uniform strain the tractions jump at an interface. The cells give the jump to the points on it, as far as bonds across are bonds of
 /// the softer material, which is how they are corrected. As two halves in series they pull their ends by more, and that part of the jump
 /// belongs to their ends.
-pub fn loads(system: &dyn System<2>, forces: &CellForces) -> [Vec<f64>; 3] {
+pub fn loads<const D: usize>(
+    system: &dyn System<D>,
+    forces: &CellForces<D>,
+) -> Vec<Vec<f64>> {
     let layout = system.layout();
-    let basis = [
-        [1.0, 0.0, 0.0],
-        [0.0, 1.0, 0.0],
-        [0.0, 0.0, std::f64::consts::SQRT_2],
-    ];
-    std::array::from_fn(|k| {
-        let mut loads = excess_across(system, basis[k]);
-        for (point, forces) in (0..).zip(forces) {
-            for (component, force) in [Component::X, Component::Y].into_iter().zip(forces[k]) {
-                let dof = layout.degree_of_freedom(point, component);
-                dof.into_iter().for_each(|dof| loads[dof] += force);
+    let of_strain = |(k, strain): (usize, SymTensor<D>)| {
+        let mut loads = excess_across(system, &strain);
+        for (point, forces) in (0..).zip(forces.of_points()) {
+            let own = &mut loads[layout.range(point)];
+            for (load, force) in own.iter_mut().zip(forces[k]) {
+                *load += force;
             }
         }
         loads
-    })
+    };
+    uniform_strains().enumerate().map(of_strain).collect()
 }
 
-/// What bonds across an interface exert on their ends in a uniform strain (eps_xx, eps_yy, gamma_xy) more than in the softer material,
-/// shape (n_degrees_of_freedom).
-fn excess_across(system: &dyn System<2>, strain: [f64; 3]) -> Vec<f64> {
-    // An expansion without a motion is the strain with the opposite sign.
-    let strain = SymTensor::<2>::from_engineering(&strain.map(|it| -it));
-    let strains = FreeStrains::new(vec![strain; system.cloud.len()]);
-    let expansion = strains.times(1.0);
-    excess_in(system, &system.beyond_correction, |intact, at_rest| {
-        system.deformations(intact, &at_rest, expansion)
-    })
-}
-
-/// What bonds exert on their ends by a part of their rigidities (n_bonds; none without an interface), shape (n_degrees_of_freedom).
-/// `deformed` makes deformations of the intact bonds and the motions of a body at rest.
-pub(crate) fn excess_in(
-    system: &dyn Bonds,
-    part: &[Remaining],
-    deformed: impl FnOnce(&[bool], Vec<f64>) -> Deformations,
+/// What bonds across an interface exert on their ends in a uniform strain more than in the softer material, shape
+/// (n_degrees_of_freedom).
+fn excess_across<const D: usize>(
+    system: &dyn System<D>,
+    strain: &SymTensor<D>,
 ) -> Vec<f64> {
-    let at_rest = vec![0.0; system.layout().n_degrees_of_freedom()];
-    if part.is_empty() {
-        return at_rest;
+    let (cloud, beyond) = (&system.cloud, &system.beyond_correction);
+    let layout = system.layout();
+    let mut motions = vec![0.0; layout.n_degrees_of_freedom()];
+    if beyond.is_empty() {
+        return motions;
     }
-    let intact = vec![true; part.len()];
+    // The motion of the strain itself about the middle of the body.
+    for (point, &position) in (0..).zip(&cloud.positions) {
+        motions[layout.range(point)][..D].copy_from_slice(&strain.times(position));
+    }
+    let intact = vec![true; beyond.len()];
     let left = BondsLeft {
         intact: &intact,
-        remaining: part,
+        remaining: beyond,
     };
-    let deformations = deformed(&intact, at_rest);
+    let deformations = system.deformations(&intact, &motions, ThermalStrain::NONE);
     let sweep = system.forces(left, deformations, ThermalStrain::NONE);
     sweep.internal.values
 }
 
-/// The strains a_l of affine motions on which all three forces do the work that they do on displacements u_l: sum over m of
+/// The strains a_l of affine motions on which all forces do the work that they do on displacements u_l: sum over m of
 /// (F_k . e_m x) a_ml = F_k . u_l.
-fn mean_strains(
-    system: &dyn System<2>,
-    forces: &CellForces,
-    displacements: &[Vec<f64>; 3],
-) -> Option<Matrix3<f64>> {
-    let half = std::f64::consts::FRAC_1_SQRT_2;
-    let (mut of_strains, mut of_body) = (Matrix3::<f64>::zeros(), Matrix3::<f64>::zeros());
-    for (point, (forces, &[x, y])) in (0..).zip(forces.iter().zip(&system.cloud.positions)) {
-        let affine = [[x, 0.0], [0.0, y], [half * y, half * x]];
-        for (k, [along, across]) in forces.iter().enumerate() {
-            for l in 0..3 {
-                let [u, v] = motion(system, &displacements[l], point);
-                of_body[(k, l)] += along * u + across * v;
-                of_strains[(k, l)] += along * affine[l][0] + across * affine[l][1];
+fn mean_strains<const D: usize>(
+    cloud: &PointCloud<D>,
+    layout: Layout,
+    forces: &CellForces<D>,
+    displacements: &[Vec<f64>],
+) -> Option<DMatrix<f64>> {
+    let strains: Vec<SymTensor<D>> = uniform_strains().collect();
+    let mut of_strains = DMatrix::<f64>::zeros(strains.len(), strains.len());
+    let mut of_body = of_strains.clone();
+    for (point, (forces, &position)) in (0..).zip(forces.of_points().zip(&cloud.positions)) {
+        for (k, &force) in forces.iter().enumerate() {
+            for (l, strain) in strains.iter().enumerate() {
+                of_body[(k, l)] += dot(force, motion(layout, &displacements[l], point));
+                of_strains[(k, l)] += dot(force, strain.times(position));
             }
         }
     }
     Some(of_strains.try_inverse()? * of_body)
 }
 
-/// Stretch of a bond of this direction in the three strains.
-fn projected([a, b]: [f64; 2]) -> [f64; 3] {
-    [a * a, b * b, std::f64::consts::SQRT_2 * a * b]
-}
-
-fn motion(system: &dyn System<2>, displacement: &[f64], point: u32) -> [f64; 2] {
-    let layout = system.layout();
-    [Component::X, Component::Y].map(|component| layout.value(point, component, displacement))
+/// Displacement of a point.
+fn motion<const D: usize>(layout: Layout, displacement: &[f64], point: u32) -> [f64; D] {
+    let own = &displacement[layout.range(point)];
+    std::array::from_fn(|axis| own[axis])
 }

@@ -38,8 +38,8 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
             let constants = constants(labels, nu, &mut memory)?;
             Ok(match labels.text("constant")? {
                 "E" => constants.young[0] / YOUNG,
-                "G" => constants.shear_modulus * 2.0 * (1.0 + nu) / YOUNG,
-                _ => constants.poisson,
+                "G" => constants.shear_modulus.at(0, 1) * 2.0 * (1.0 + nu) / YOUNG,
+                _ => constants.poisson[0][1],
             })
         })
     };

@@ -123,8 +123,8 @@ fn read(test: &PatchTest, of: &str) -> anyhow::Result<f64> {
             let ratio = |axis: usize| constants.body.young[axis] / constants.material.young[axis];
             further_from_one(ratio(0), ratio(1))
         }
-        "nu" => constants()?.body.poisson,
-        _ => PERCENT * test.scatter.into_iter().fold(0.0, f64::max),
+        "nu" => constants()?.body.poisson[0][1],
+        _ => PERCENT * test.scatter.iter().copied().fold(0.0, f64::max),
     })
 }
 

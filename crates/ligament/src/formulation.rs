@@ -3,16 +3,16 @@
 use ligament_model::bonds::BondSet;
 use ligament_model::correction::patch::CellForces;
 use ligament_model::correction::{
-    Continuum, Correction, domain, length, partial_volume, patch, surface,
+    Correction, domain, energy_ratios, length, partial_volume, patch, surface,
 };
 use ligament_model::failure::crack_energies::{Components, Lattice};
 use ligament_model::failure::{self, Basis, Criteria};
 use ligament_model::law::rotational::{self, RotationalScale};
 use ligament_model::law::{bbpd, bbpd_conical, beam, calibration, mbb_pd, mppd, orthotropic, pds};
-use ligament_model::material::milder;
+use ligament_model::material::{Stiffness, milder};
 use ligament_model::{
-    BondStiffness, BondSystem, Elasticity, ElementKind, FixedFields, Horizons, Isotropic, Material,
-    Plane, PointCloud,
+    BondStiffness, BondSystem, Elasticity, ElementKind, EnergyRatio, FixedFields, Horizons,
+    Isotropic, Material, Plane, PointCloud,
 };
 
 use crate::body::Origin;
@@ -139,18 +139,24 @@ impl<'a> Formulation<'a> {
         between.corrected(bonds, &stiffness, alpha)
     }
 
+    /// Energies of the points in uniform strains over the continuum's, of bonds with a stiffness in which the correction has its part.
+    pub(crate) fn energy_ratios(
+        &self,
+        bonds: &BondSet,
+        stiffness: &BondStiffness,
+        correction: &Correction,
+    ) -> Vec<EnergyRatio> {
+        let continuum = continuum(self.setup);
+        energy_ratios(bonds, self.cloud, stiffness, correction, &continuum)
+    }
+
     /// The correction of bonds between the materials of the setup.
     fn corrected(&self, bonds: &BondSet, stiffness: &BondStiffness, alpha: Vec<f64>) -> Correction {
         let (setup, cloud) = (self.setup, self.cloud);
         match setup.correction.surface {
             Surface::Domain(iteration) => {
                 let sweeps = iteration.sweeps(bonds.count(cloud));
-                let (materials, plane) = (setup.materials(), setup.plane());
-                let continuum = Continuum {
-                    materials: &materials,
-                    plane,
-                };
-                domain::iterate(bonds, cloud, stiffness, alpha, continuum, sweeps)
+                domain::iterate(bonds, cloud, stiffness, alpha, &continuum(setup), sweeps)
             }
             Surface::Patch(settings) => {
                 let points = patch::Points {
@@ -180,17 +186,33 @@ impl<'a> Formulation<'a> {
     }
 }
 
+/// Stiffness of each material (n_materials), Pa.
+fn continuum(setup: &Setup) -> Vec<Stiffness> {
+    let elasticity = setup.materials.iter().map(|it| it.material.elasticity);
+    let plane = setup.plane();
+    (elasticity.filter_map(|it| it.stiffness::<2>(plane))).collect()
+}
+
+/// Stiffness of each material with the constants that the law makes of its own (n_materials), Pa.
+pub(crate) fn stiffness(setup: &Setup) -> Vec<Stiffness> {
+    let (law, plane) = (setup.law, setup.plane());
+    let elasticity = setup.materials.iter();
+    let elasticity = elasticity.map(|it| effective_elasticity(&it.material, &law, plane));
+    (elasticity.filter_map(|it| it.stiffness::<2>(plane))).collect()
+}
+
 /// Forces of uniform strains on the points of a cloud, as the cells of the body know them, with the constants that the law makes of
 /// those of each cell's material (n_cells).
-pub fn cell_forces(setup: &Setup, cloud: &PointCloud, material_of_cell: &[u32]) -> CellForces {
-    let plane = setup.plane();
-    let elasticity = setup.materials.iter();
-    let elasticity = elasticity.map(|it| effective_elasticity(&it.material, &setup.law, plane));
-    let stiffness: Vec<_> = elasticity.map(|it| it.plane_stiffness(plane)).collect();
+pub(crate) fn cell_forces(
+    setup: &Setup,
+    cloud: &PointCloud,
+    material_of_cell: &[u32],
+) -> CellForces {
+    let stiffness = stiffness(setup);
     match setup.body.origin() {
         Origin::Lattice(lattice) => patch::of_lattice(lattice, cloud, material_of_cell, &stiffness),
-        Origin::Mesh(mesh) => patch::of_mesh(&mesh.cells, cloud, material_of_cell, &stiffness),
-        _ => patch::of_mesh(&[], cloud, material_of_cell, &stiffness),
+        Origin::Mesh(mesh) => patch::of_mesh(&mesh.cells, cloud, material_of_cell, stiffness),
+        _ => patch::of_mesh(&[], cloud, material_of_cell, stiffness),
     }
 }
 

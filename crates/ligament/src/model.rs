@@ -9,10 +9,10 @@ use ligament_model::bonds::outline::{bonds_outside, spacing_inside};
 use ligament_model::bonds::parts::{LatticeCells, PlaneCells};
 use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::contact::Faces;
-use ligament_model::correction::{
-    Continuum, Correction, CorrectionReport, StrainMode, energy_ratios,
-};
+use ligament_model::correction::patch::CellForces;
+use ligament_model::correction::{Correction, CorrectionReport};
 use ligament_model::failure::Criteria;
+use ligament_model::material::Stiffness;
 use ligament_model::portion::{Exchange, Portion};
 use ligament_model::{
     Absence, AbsentBond, BondSet, BondStiffness, BondSystem, EnergyRatio, FixedFields, PointCloud,
@@ -106,11 +106,30 @@ where
     ///
     /// If a field of the setup is wrong.
     fn model(setup: Setup<D>, watcher: &mut dyn StageWatcher) -> Result<Model<D>, SetupError>;
+
+    /// Forces of uniform strains on the points of a cloud, as the cells of the body know them, with the constants that the law makes of
+    /// those of each cell's material (n_cells).
+    fn cell_forces(
+        setup: &Setup<D>,
+        cloud: &PointCloud<D>,
+        material_of_cell: &[u32],
+    ) -> CellForces<D>;
+
+    /// Stiffness of each material with the constants that the law makes of its own (n_materials), Pa.
+    fn stiffness(setup: &Setup<D>) -> Vec<Stiffness>;
 }
 
 impl Discretises<2> for Dim {
     fn model(setup: Setup, watcher: &mut dyn StageWatcher) -> Result<Model, SetupError> {
         Model::in_plane(setup, watcher)
+    }
+
+    fn cell_forces(setup: &Setup, cloud: &PointCloud, material_of_cell: &[u32]) -> CellForces {
+        formulation::cell_forces(setup, cloud, material_of_cell)
+    }
+
+    fn stiffness(setup: &Setup) -> Vec<Stiffness> {
+        formulation::stiffness(setup)
     }
 }
 
@@ -414,24 +433,15 @@ fn correct(formulation: &Formulation<'_>, bonds: BondSet, is_cut: &[bool]) -> Co
 
 /// Some bonds with their stiffness and correction, and no faces.
 fn of_bonds(formulation: &Formulation<'_>, bonds: BondSet) -> Corrected {
-    let Formulation { setup, cloud, .. } = *formulation;
     let alpha = formulation.alpha(&bonds);
     let stiffness = formulation.stiffness(&bonds, &alpha);
     let correction = formulation.correction(&bonds, &stiffness, alpha);
     let stiffness = stiffness.with_shear(&correction.shear_ratio);
-    let (materials, plane) = (setup.materials(), setup.plane());
-    let continuum = Continuum {
-        materials: &materials,
-        plane,
-    };
-    let ratios = energy_ratios(&bonds, cloud, &stiffness, &correction, continuum);
-    let named = StrainMode::ALL.into_iter().zip(ratios);
-    let energy_ratios = named.map(|(strain, ratios)| strain.named(ratios));
     Corrected {
+        energy_ratios: formulation.energy_ratios(&bonds, &stiffness, &correction),
         bonds,
         stiffness,
         correction,
-        energy_ratios: energy_ratios.collect(),
         faces: Faces::default(),
     }
 }

@@ -10,49 +10,46 @@ use ligament_analysis::driver::Problem;
 use ligament_analysis::{
     Attempt, Control, ControlKind, Equilibrium, ProportionalLoading, State, Unbalanced,
 };
-use ligament_model::correction::patch::{self, CellForces};
+use ligament_model::Elasticity;
+use ligament_model::correction::patch::CellForces;
 use ligament_model::layout::Layout;
 use ligament_model::moduli::EngineeringConstants;
 use ligament_model::uniform_strain::{self, UniformStrains};
-use ligament_model::{Elasticity, Plane, System};
 use thiserror::Error;
-
-pub use crate::space::patch_test::{SolidPatchTest, solid_patch_test};
 
 use crate::body::Origin;
 use crate::error::SetupError;
-use crate::formulation::{cell_forces, effective_elasticity};
 use crate::loading::material_of_cell;
-use crate::model::Model;
+use crate::model::{Discretises, Model};
 use crate::run::Unobserved;
-use crate::setup::{ELASTIC_ENERGY_TOLERANCE, Setup};
+use crate::setup::{Dim, Dimension, ELASTIC_ENERGY_TOLERANCE, Setup};
 
 /// Strains that the body is given: so small that strains over distances after the deformation are none others.
 pub(crate) const SIZE: f64 = 1e-6;
 
 /// What a body makes of uniform strains.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PatchTest {
+pub struct PatchTest<const D: usize = 2> {
     /// Elastic constants; none of a body of several materials, which strains uniformly under no uniform stress.
-    pub constants: Option<Constants>,
-    /// Root mean square over the bonds of what their strain has more than the mean strain of the body, over the size of that, for
-    /// uniform strains along x, along y and in shear.
-    pub scatter: [f64; 3],
+    pub constants: Option<Constants<D>>,
+    /// Root mean square over the bonds of what their strain has more than the mean strain of the body, over the size of that, for uniform
+    /// strains along x, along y, in shear in xy, and in space along z, in xz and in yz.
+    pub scatter: Vec<f64>,
     /// The most that the strain of a bond has more in some uniform strain, over the size of that.
     pub largest: f64,
     /// Middle of the bond that has it, m.
-    pub place: [f64; 2],
+    pub place: [f64; D],
 }
 
 /// Elastic constants of a body, and those of its material as the law has them.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Constants {
+pub struct Constants<const D: usize = 2> {
     /// Angle from x to the first axis of the material, along which the constants are, rad; none without axes.
     pub angle: Option<f64>,
     /// Constants of the body.
-    pub body: EngineeringConstants,
+    pub body: EngineeringConstants<D>,
     /// Constants of the material.
-    pub material: EngineeringConstants,
+    pub material: EngineeringConstants<D>,
 }
 
 /// Why a body has no patch test.
@@ -99,7 +96,10 @@ pub enum Untested {
 /// # Errors
 ///
 /// If the body has no cells, or the free body no equilibrium.
-pub fn patch_test(model: &Model) -> Result<PatchTest, Untested> {
+pub fn patch_test<const D: usize>(model: &Model<D>) -> Result<PatchTest<D>, Untested>
+where
+    Dim: Dimension<D> + Discretises<D>,
+{
     if model.cut_bonds() == 0 {
         return of_whole_body(model);
     }
@@ -110,37 +110,45 @@ pub fn patch_test(model: &Model) -> Result<PatchTest, Untested> {
     of_whole_body(&Model::build(setup, &mut ())?)
 }
 
-fn of_whole_body(model: &Model) -> Result<PatchTest, Untested> {
+fn of_whole_body<const D: usize>(model: &Model<D>) -> Result<PatchTest<D>, Untested>
+where
+    Dim: Dimension<D> + Discretises<D>,
+{
     let Model { setup, system, .. } = model;
     if matches!(setup.body.origin(), Origin::Points) {
         return Err(Untested::NoCells);
     }
-    let forces = cell_forces(setup, &system.cloud, &material_of_cell(setup)?);
-    let displacements = displacements(setup, system, &forces)?;
+    let (cloud, bonds) = (&system.cloud, &system.bonds);
+    let forces = Dim::cell_forces(setup, cloud, &material_of_cell(setup)?);
+    let loads = uniform_strain::loads(&**system, &forces);
+    let displacements = displacements(model, loads)?;
     let strains = UniformStrains::measure(&**system, &forces, &displacements);
     let strains = strains.ok_or(Untested::Degenerate)?;
-    let [a, b] = system.bonds.ends[strains.bond].map(|end| system.cloud.positions[end as usize]);
-    let origin = system.cloud.origin;
+    let [a, b] = bonds.ends[strains.bond].map(|end| cloud.positions[end as usize]);
     Ok(PatchTest {
-        constants: constants(setup, &**system, &strains),
+        constants: constants(setup, &forces, &strains),
         scatter: strains.scatter,
         largest: strains.largest,
-        place: [0, 1].map(|axis| origin[axis] + 0.5 * (a[axis] + b[axis])),
+        place: std::array::from_fn(|axis| cloud.origin[axis] + 0.5 * (a[axis] + b[axis])),
     })
 }
 
-/// Displacements of the free body under the forces of each of the strains, shape (3, n_degrees_of_freedom), over their size.
-fn displacements(
-    setup: &Setup,
-    system: &Arc<dyn System<2>>,
-    forces: &CellForces,
-) -> Result<[Vec<f64>; 3], Untested> {
-    let [along_x, along_y, in_shear] =
-        uniform_strain::loads(&**system, forces).map(|force| free_loading(system.layout(), force));
+/// Displacements of the free body under the forces of each of the strains, shape (n_strains, n_degrees_of_freedom), over their size.
+fn displacements<const D: usize>(
+    Model { setup, system, .. }: &Model<D>,
+    forces: Vec<Vec<f64>>,
+) -> Result<Vec<Vec<f64>>, Untested>
+where
+    Dim: Dimension<D>,
+{
+    let loads = forces.into_iter();
+    let loads: Vec<_> = loads
+        .map(|force| free_loading(system.layout(), force))
+        .collect();
     let problem = Problem {
         system: system.clone(),
         criteria: Arc::default(),
-        loads: along_x.clone(),
+        loads: loads[0].clone(),
         solver: setup.solver,
         probes: Arc::default(),
     };
@@ -148,15 +156,15 @@ fn displacements(
     let mut state = State::fresh(&**system);
     state.load_factor = SIZE;
     let nothing = equilibrium.break_bonds(&mut state, &[]);
-    let mut found = [const { Vec::new() }; 3];
-    for (loading, found) in [along_x, along_y, in_shear].into_iter().zip(&mut found) {
+    let mut found = Vec::new();
+    for loading in loads {
         equilibrium.load_with(loading);
         state.displacement.fill(0.0);
         let attempt = equilibrium.balance(&mut state, &nothing, &mut Unobserved);
         if let Attempt::Unbalanced(reason) = attempt.map_err(ligament_analysis::SetupError::from)? {
             return Err(Untested::Unbalanced(reason));
         }
-        *found = state.displacement.iter().map(|it| it / SIZE).collect();
+        found.push(state.displacement.iter().map(|it| it / SIZE).collect());
     }
     Ok(found)
 }
@@ -176,38 +184,64 @@ pub(crate) fn free_loading(layout: Layout, force: Vec<f64>) -> Arc<ProportionalL
 }
 
 /// The constants of a body of one material, along the axes of that.
-fn constants(setup: &Setup, system: &dyn System<2>, strains: &UniformStrains) -> Option<Constants> {
-    let [region] = setup.materials.as_slice() else {
+fn constants<const D: usize>(
+    setup: &Setup<D>,
+    forces: &CellForces<D>,
+    strains: &UniformStrains,
+) -> Option<Constants<D>>
+where
+    Dim: Dimension<D> + Discretises<D>,
+{
+    let ([region], [stiffness]) = (setup.materials.as_slice(), forces.stiffness.as_slice()) else {
         return None;
     };
-    let plane = setup.plane();
-    let elasticity = effective_elasticity(&region.material, &setup.law, plane);
+    let elasticity = region.material.elasticity;
     let angle = match elasticity {
         Elasticity::Orthotropic(material) => Some(material.angle),
         Elasticity::Isotropic(_) | Elasticity::Anisotropic(_) => None,
     };
-    let along = angle.unwrap_or_default();
-    let stiffness = elasticity.plane_stiffness(plane);
-    let of_tractions = match setup.body.origin() {
-        Origin::Lattice(lattice) => patch::stiffness_of_lattice(lattice, &system.cloud, &stiffness),
-        _ => stiffness,
+    let axes = axes(angle.unwrap_or_default());
+    // In plane strain a temperature widens the section.
+    let is_strain = elasticity.isotropic().is_some() && Dim::widens(&setup.section);
+    let read = |constants| match is_strain {
+        true => out_of_plane_strain(constants),
+        false => constants,
     };
-    let read = |constants: EngineeringConstants| match (elasticity, plane) {
-        (Elasticity::Isotropic(_), Plane::Strain) => out_of_plane_strain(constants),
-        _ => constants,
-    };
+    let of_material = Dim::stiffness(setup).pop()?;
     Some(Constants {
         angle,
-        body: read(strains.constants(&of_tractions, along)?),
-        material: read(EngineeringConstants::along(stiffness, along)?),
+        body: read(strains.constants(stiffness, axes)?),
+        material: read(EngineeringConstants::along(of_material, axes)?),
     })
 }
 
+/// Unit vectors of the axes of a material at an angle (rad) from x towards y.
+fn axes<const D: usize>(angle: f64) -> [[f64; D]; D] {
+    let (s, c) = angle.sin_cos();
+    let turn = |row: usize, column: usize| match (row, column) {
+        (0, 0) | (1, 1) => c,
+        (0, 1) => s,
+        (1, 0) => -s,
+        _ => f64::from(u8::from(row == column)),
+    };
+    std::array::from_fn(|row| std::array::from_fn(|column| turn(row, column)))
+}
+
 /// E and nu from E/(1 - nu^2) and nu/(1 - nu), with which the equations of plane stress describe plane strain.
-fn out_of_plane_strain(constants: EngineeringConstants) -> EngineeringConstants {
-    let poisson = constants.poisson / (1.0 + constants.poisson);
+fn out_of_plane_strain<const D: usize>(
+    constants: EngineeringConstants<D>,
+) -> EngineeringConstants<D> {
+    let mut poisson = constants.poisson;
+    for (a, ratios) in poisson.iter_mut().enumerate() {
+        for (b, ratio) in ratios.iter_mut().enumerate() {
+            if a != b {
+                *ratio /= 1.0 + *ratio;
+            }
+        }
+    }
+    let of_first = poisson[0][1];
     EngineeringConstants {
-        young: constants.young.map(|it| it * (1.0 - poisson * poisson)),
+        young: constants.young.map(|it| it * (1.0 - of_first * of_first)),
         poisson,
         ..constants
     }

@@ -13,7 +13,6 @@ mod model;
 mod patch_test;
 mod restraints;
 mod sections;
-mod solid_patch_test;
 mod told;
 
 use std::io::{self, Write};
@@ -87,7 +86,7 @@ where
         }
         _ => loading::check(case, extent, model, &mut stages, out)?,
     };
-    Dim::patch_test(out, extent, model, &mut stages)?;
+    patch_test::write(out, extent, model, &mut stages)?;
     let too_stiff = bending_test::write(out, extent, model, &mut stages)?;
     write_stages(out, stages.done())?;
     let intact = vec![true; model.system.ends().len()];

@@ -2,33 +2,45 @@
 
 use std::io::{self, Write};
 
+use ligament::Model;
+use ligament::model::Discretises;
 use ligament::patch_test::{Constants, PatchTest, patch_test};
+use ligament::setup::{Dim, Dimension};
+use ligament_model::tensor::SymTensor;
 use ligament_output::quantity::{place, quantity};
-use ligament_run::model::Model;
 use ligament_run::stages::Stages;
 
 use super::Extent;
 use super::entry::entry;
 
-/// Points of a body up to which the test is done unasked: at 10,000 points of thirty bonds it takes a second or two, several times what
-/// all else of a check does, at 100,000 half a minute and 3 GB.
-const MOST_POINTS: usize = 20_000;
+/// Points of a body up to which the test is done unasked, in the plane and in space: at 10,000 points of thirty bonds it takes a second or
+/// two, several times what all else of a check does, at 100,000 half a minute and 3 GB.
+const MOST_POINTS: [usize; 2] = [20_000, 2_000];
+
+/// What it takes, in the plane and in space.
+const COST: [&str; 2] = ["a factor of the matrix", "six solutions"];
+
+/// Names of the axes.
+const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Writes the elastic constants of the free body, and how far its bonds are from uniform strains.
-pub(super) fn write(
+pub(super) fn write<const D: usize>(
     out: &mut dyn Write,
     extent: Extent,
-    model: &Model,
+    model: &Model<D>,
     stages: &mut Stages,
-) -> io::Result<()> {
+) -> io::Result<()>
+where
+    Dim: Dimension<D> + Discretises<D>,
+{
     if extent == Extent::Model {
         return Ok(());
     }
     writeln!(out, "free body under uniform stress")?;
-    let points = model.system.cloud.len();
-    if extent == Extent::Matrix && points > MOST_POINTS {
+    let (most, cost) = (MOST_POINTS[D - 2], COST[D - 2]);
+    if extent == Extent::Matrix && model.system.cloud.len() > most {
         let words = format!(
-            "it takes a factor of the matrix, and the body has more than {MOST_POINTS} points; ask with --patch-test"
+            "it takes {cost}, and the body has more than {most} points; ask with --patch-test"
         );
         return entry(out, "not computed", words);
     }
@@ -41,7 +53,7 @@ pub(super) fn write(
     }
 }
 
-fn write_test(out: &mut dyn Write, test: &PatchTest) -> io::Result<()> {
+fn write_test<const D: usize>(out: &mut dyn Write, test: &PatchTest<D>) -> io::Result<()> {
     match &test.constants {
         Some(constants) => write_constants(out, constants)?,
         None => entry(
@@ -50,9 +62,17 @@ fn write_test(out: &mut dyn Write, test: &PatchTest) -> io::Result<()> {
             "none: several materials do not strain uniformly under a uniform stress",
         )?,
     }
-    let percent = test.scatter.map(|it| format!("{:.2}", 100.0 * it));
+    // Along the axes, then in shear.
+    let places = SymTensor::<D>::COMPONENTS.iter().zip(&test.scatter);
+    let (along, in_shear): (Vec<_>, Vec<_>) = places.partition(|([i, j], _)| i == j);
+    let all = along.iter().chain(&in_shear);
+    let percent: Vec<String> = all.map(|(_, it)| format!("{:.2}", 100.0 * *it)).collect();
+    let strains = match D {
+        2 => "along x, along y, in shear",
+        _ => "along x, y, z, in shear xy, xz, yz",
+    };
     let words = format!(
-        "off the mean strain by {} % rms (along x, along y, in shear), at most {:.1} % at {}",
+        "off the mean strain by {} % rms ({strains}), at most {:.1} % at {}",
         percent.join(", "),
         100.0 * test.largest,
         place(&test.place)
@@ -60,34 +80,51 @@ fn write_test(out: &mut dyn Write, test: &PatchTest) -> io::Result<()> {
     entry(out, "strains of the bonds", words)
 }
 
-fn write_constants(out: &mut dyn Write, constants: &Constants) -> io::Result<()> {
+fn write_constants<const D: usize>(
+    out: &mut dyn Write,
+    constants: &Constants<D>,
+) -> io::Result<()> {
     let Constants {
         angle,
         body,
         material,
     } = constants;
     let modulus = |found: f64, given: f64| {
-        format!(
-            "{} ({:+.2} %)",
-            quantity(found, "Pa"),
-            100.0 * (found / given - 1.0)
-        )
+        let more = 100.0 * (found / given - 1.0);
+        format!("{} ({more:+.2} %)", quantity(found, "Pa"))
     };
-    let [one, two] = [0, 1].map(|axis| modulus(body.young[axis], material.young[axis]));
-    let [first, second] = match angle {
-        None => ["x", "y"],
-        Some(_) => ["axis 1", "axis 2"],
+    let axis = |axis: usize| match angle {
+        None => AXES[axis].to_owned(),
+        Some(_) => format!("axis {}", axis + 1),
     };
-    entry(
-        out,
-        "Young's modulus",
-        format!("{one} along {first}, {two} along {second}"),
-    )?;
-    let poisson = format!("{:.4} for {:.4}", body.poisson, material.poisson);
-    entry(out, "Poisson's ratio", poisson)?;
-    entry(
-        out,
-        "shear modulus",
-        modulus(body.shear_modulus, material.shear_modulus),
-    )
+    let young = (0..D).map(|it| {
+        let modulus = modulus(body.young[it], material.young[it]);
+        format!("{modulus} along {}", axis(it))
+    });
+    let young: Vec<String> = young.collect();
+    entry(out, "Young's modulus", young.join(", "))?;
+    let given = material.poisson[0][1];
+    let pairs = (0..D).flat_map(|a| (0..D).map(move |b| (a, b)));
+    let ratios = pairs.filter(|(a, b)| a != b);
+    let ratios = ratios.map(|(a, b)| format!("{:.4}", body.poisson[a][b]));
+    let ratios: Vec<String> = ratios.collect();
+    let words = match D {
+        2 => format!("{} for {given:.4}", ratios[0]),
+        _ => format!(
+            "{} in xy, xz, yx, yz, zx, zy for {given:.4}",
+            ratios.join(", ")
+        ),
+    };
+    entry(out, "Poisson's ratio", words)?;
+    let places = SymTensor::<D>::COMPONENTS.iter().filter(|[i, j]| i != j);
+    let moduli = places.map(|&[i, j]| {
+        let shear_modulus = body.shear_modulus.at(i, j);
+        let modulus = modulus(shear_modulus, material.shear_modulus.at(i, j));
+        match D {
+            2 => modulus,
+            _ => format!("{modulus} in {}{}", AXES[i], AXES[j]),
+        }
+    });
+    let moduli: Vec<String> = moduli.collect();
+    entry(out, "shear modulus", moduli.join(", "))
 }

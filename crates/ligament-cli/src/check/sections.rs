@@ -1,4 +1,4 @@
-//! Sections, cracks and patch tests in the words of the plane and of space.
+//! Sections and cracks in the words of the plane and of space.
 
 use std::io::{self, Write};
 
@@ -6,10 +6,9 @@ use ligament::formulation::constants;
 use ligament::setup::Dim;
 use ligament::{Model, Setup};
 use ligament_model::Material;
-use ligament_run::stages::Stages;
 
 use super::told::Told;
-use super::{Extent, criteria, model, patch_test, solid_patch_test};
+use super::{criteria, model};
 
 impl Told<2> for Dim {
     fn section(out: &mut dyn Write, model: &Model) -> io::Result<()> {
@@ -25,15 +24,6 @@ impl Told<2> for Dim {
     fn cracks(out: &mut dyn Write, model: &Model) -> io::Result<()> {
         criteria::write_cracks(out, model)
     }
-
-    fn patch_test(
-        out: &mut dyn Write,
-        extent: Extent,
-        model: &Model,
-        stages: &mut Stages,
-    ) -> anyhow::Result<()> {
-        Ok(patch_test::write(out, extent, model, stages)?)
-    }
 }
 
 impl Told<3> for Dim {
@@ -47,14 +37,5 @@ impl Told<3> for Dim {
 
     fn cracks(_: &mut dyn Write, _: &Model<3>) -> io::Result<()> {
         Ok(())
-    }
-
-    fn patch_test(
-        out: &mut dyn Write,
-        extent: Extent,
-        model: &Model<3>,
-        stages: &mut Stages,
-    ) -> anyhow::Result<()> {
-        Ok(solid_patch_test::write(out, extent, model, stages)?)
     }
 }

@@ -5,9 +5,6 @@ use std::io::{self, Write};
 use ligament::setup::{Dim, Dimension};
 use ligament::{Model, Setup};
 use ligament_model::Material;
-use ligament_run::stages::Stages;
-
-use super::extent::Extent;
 
 /// Words on a model in D dimensions that another dimension has not.
 pub(super) trait Told<const D: usize>
@@ -22,12 +19,4 @@ where
 
     /// Writes what cracks spend, and what varies at random.
     fn cracks(out: &mut dyn Write, model: &Model<D>) -> io::Result<()>;
-
-    /// Writes how stiff the body is as discretised.
-    fn patch_test(
-        out: &mut dyn Write,
-        extent: Extent,
-        model: &Model<D>,
-        stages: &mut Stages,
-    ) -> anyhow::Result<()>;
 }

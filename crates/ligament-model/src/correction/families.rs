@@ -3,7 +3,6 @@
 use rayon::prelude::*;
 
 use super::members::{BLOCK, Members};
-use super::strain_mode::StrainMode;
 use super::sweeps::SweptFamilies;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
@@ -12,46 +11,44 @@ use crate::cloud::PointCloud;
 const LANES: usize = 4;
 
 /// The families of own points along the curve; `rank` is the place of a point in the order of the sweeps.
-pub(super) struct Families<'a> {
-    coefficients: Coefficients<'a>,
+pub(super) struct Families<'a, const D: usize> {
+    coefficients: Coefficients<'a, D>,
     /// Omega of each member.
     domain_factor: Vec<f64>,
-    /// e_A of the continuum along x and y of own points, by rank, J/m^3.
-    target: Vec<[f64; 2]>,
-    /// e_A/etil_A along x and y of the points, by rank.
-    ratios: Vec<[f64; 2]>,
+    /// e_A of the continuum along the axes of own points, by rank, J/m^3.
+    target: Vec<[f64; D]>,
+    /// e_A/etil_A along the axes of the points, by rank.
+    ratios: Vec<[f64; D]>,
     /// The ratios before the last sweep, by rank.
-    before: Vec<[f64; 2]>,
+    before: Vec<[f64; D]>,
 }
 
 /// What a sweep multiplies the factors with: the members of the families, and arrays over them.
-struct Coefficients<'a> {
-    members: Members<'a>,
-    /// a^2.
-    along_x: Vec<f64>,
-    /// b^2.
-    along_y: Vec<f64>,
-    /// 1/4 V_B times the bond's density under a strain of size one along x and along y, J/m^3.
-    energy: Vec<[f64; 2]>,
+struct Coefficients<'a, const D: usize> {
+    members: Members<'a, D>,
+    /// Squares of the direction cosines along each axis.
+    squares: [Vec<f64>; D],
+    /// 1/4 V_B times the bond's density under a strain of size one along each axis, J/m^3.
+    energy: Vec<[f64; D]>,
 }
 
-impl<'a> Families<'a> {
+impl<'a, const D: usize> Families<'a, D> {
     /// The families with all factors 1.
     ///
-    /// `density(mode, bond)` is alpha (k_n s^2 + k_t gamma^2) l under a strain of size one, `targets` (2, n_points) the
+    /// `density(axis, bond)` is alpha (k_n s^2 + k_t |gamma|^2) l under a strain of size one along an axis, `targets` (D, n_points) the
     /// energy densities e_A of the continuum.
     pub(super) fn new(
-        bonds: &'a BondSet,
-        cloud: &'a PointCloud,
-        density: impl Fn(StrainMode, usize) -> f64 + Sync,
-        targets: &[Vec<f64>; 2],
+        bonds: &'a BondSet<D>,
+        cloud: &'a PointCloud<D>,
+        density: impl Fn(usize, usize) -> f64 + Sync,
+        targets: &[Vec<f64>; D],
     ) -> Self {
         let coefficients = Coefficients::new(bonds, cloud, density);
         let domain_factor = vec![1.0; coefficients.energy.len()];
-        let at = |point: u32| [0, 1].map(|axis| targets[axis][point as usize]);
+        let at = |point: u32| std::array::from_fn(|axis| targets[axis][point as usize]);
         let own = coefficients.members.seats.own().iter();
-        let target: Vec<[f64; 2]> = own.map(|&point| at(point)).collect();
-        let mut ratios = vec![[0.0; 2]; coefficients.members.seats.all().len()];
+        let target: Vec<[f64; D]> = own.map(|&point| at(point)).collect();
+        let mut ratios = vec![[0.0; D]; coefficients.members.seats.all().len()];
         let own = ratios.par_iter_mut().zip(&target).enumerate();
         own.for_each(|(rank, (ratios, &target))| {
             let factors = &domain_factor[coefficients.members.family(rank)];
@@ -68,7 +65,7 @@ impl<'a> Families<'a> {
     }
 }
 
-impl SweptFamilies for Families<'_> {
+impl<const D: usize> SweptFamilies for Families<'_, D> {
     fn sweep(&mut self) -> f64 {
         std::mem::swap(&mut self.ratios, &mut self.before);
         let (coefficients, before, target) = (&self.coefficients, &self.before, &self.target);
@@ -112,23 +109,22 @@ impl SweptFamilies for Families<'_> {
     }
 }
 
-impl<'a> Coefficients<'a> {
+impl<'a, const D: usize> Coefficients<'a, D> {
     fn new(
-        bonds: &'a BondSet,
-        cloud: &'a PointCloud,
-        density: impl Fn(StrainMode, usize) -> f64 + Sync,
+        bonds: &'a BondSet<D>,
+        cloud: &'a PointCloud<D>,
+        density: impl Fn(usize, usize) -> f64 + Sync,
     ) -> Self {
         let members = Members::new(bonds, cloud);
-        let along =
-            |axis: usize| members.values(|_, bond| bonds.direction[bond as usize][axis].powi(2));
-        let energy = members.values(|point, bond| {
+        let squares = std::array::from_fn(|axis| {
+            members.values(0.0, |_, bond| bonds.direction[bond as usize][axis].powi(2))
+        });
+        let energy = members.values([0.0; D], |point, bond| {
             let quarter = 0.25 * cloud.volumes[bonds.neighbour(bond, point) as usize];
-            [StrainMode::UniaxialX, StrainMode::UniaxialY]
-                .map(|mode| quarter * density(mode, bond as usize))
+            std::array::from_fn(|axis| quarter * density(axis, bond as usize))
         });
         Self {
-            along_x: along(0),
-            along_y: along(1),
+            squares,
             energy,
             members,
         }
@@ -138,60 +134,71 @@ impl<'a> Coefficients<'a> {
     fn update(
         &self,
         rank: usize,
-        ratios: &[[f64; 2]],
+        ratios: &[[f64; D]],
         factors: &mut [f64],
         change: &mut [f64; LANES],
     ) {
         let (family, own) = (self.members.family(rank), ratios[rank]);
         let (neighbours, last_neighbours) = self.members.neighbour[family.clone()].as_chunks();
-        let (along_x, last_along_x) = self.along_x[family.clone()].as_chunks();
-        let (along_y, last_along_y) = self.along_y[family].as_chunks();
+        let squares: [_; D] =
+            std::array::from_fn(|axis| self.squares[axis][family.clone()].as_chunks());
         let (factors, last_factors) = factors.as_chunks_mut();
-        let members = neighbours.iter().zip(along_x).zip(along_y).zip(factors);
-        for (((neighbours, aa), bb), factors) in members {
-            update_members(own, ratios, neighbours, [aa, bb], factors, change);
+        for (k, (neighbours, factors)) in neighbours.iter().zip(factors).enumerate() {
+            let squares = squares.map(|(chunks, _)| &chunks[k]);
+            update_members(own, ratios, neighbours, squares, factors, change);
         }
-        let members = (last_neighbours.iter().zip(last_along_x))
-            .zip(last_along_y)
-            .zip(last_factors);
-        for (((&neighbour, &aa), &bb), factor) in members {
-            let (factor, [change, ..]) = (std::array::from_mut(factor), &mut *change);
-            let change = std::array::from_mut(change);
-            update_members(own, ratios, &[neighbour], [&[aa], &[bb]], factor, change);
+        let [change, ..] = change;
+        let change = std::array::from_mut(change);
+        for (k, (&neighbour, factor)) in last_neighbours.iter().zip(last_factors).enumerate() {
+            let (squares, factor) = (
+                squares.map(|(_, last)| std::array::from_ref(&last[k])),
+                std::array::from_mut(factor),
+            );
+            update_members(own, ratios, &[neighbour], squares, factor, change);
         }
     }
 
-    /// e_A/etil_A along x and y of a point, with the trial energy density of NHPD eq. 12.
-    fn energy_ratios(&self, rank: usize, factors: &[f64], target: [f64; 2]) -> [f64; 2] {
+    /// e_A/etil_A along the axes of a point, with the trial energy density of NHPD eq. 12.
+    fn energy_ratios(&self, rank: usize, factors: &[f64], target: [f64; D]) -> [f64; D] {
         let members = self.energy[self.members.family(rank)].iter().zip(factors);
-        let trial = members.fold([0.0; 2], |[x, y], (density, omega)| {
-            [x + omega * density[0], y + omega * density[1]]
-        });
-        [target[0] / trial[0], target[1] / trial[1]]
+        let mut trial = [0.0; D];
+        for (density, omega) in members {
+            (0..D).for_each(|axis| trial[axis] += omega * density[axis]);
+        }
+        std::array::from_fn(|axis| target[axis] / trial[axis])
     }
 }
 
 /// NHPD eq. 13 for some members of a family, from the ratios of the point itself and of all.
 ///
 /// With q = 2 p, the sum of the ratios of both ends, Omega/sqrt((a/p_x)^2 + (b/p_y)^2) is
-/// Omega q_x q_y / (2 sqrt(a^2 q_y^2 + b^2 q_x^2)).
+/// Omega q_x q_y / (2 sqrt(a^2 q_y^2 + b^2 q_x^2)), and with a third axis Omega q_x q_y q_z over
+/// 2 sqrt((a q_y q_z)^2 + (b q_x q_z)^2 + (c q_x q_y)^2).
 #[inline(always)]
-fn update_members<const N: usize>(
-    own: [f64; 2],
-    ratios: &[[f64; 2]],
+fn update_members<const D: usize, const N: usize>(
+    own: [f64; D],
+    ratios: &[[f64; D]],
     neighbours: &[u32; N],
-    [along_x, along_y]: [&[f64; N]; 2],
+    along: [&[f64; N]; D],
     factors: &mut [f64; N],
     change: &mut [f64; N],
 ) {
-    let (mut q_x, mut q_y) = ([0.0; N], [0.0; N]);
+    let mut q = [[0.0; N]; D];
     for k in 0..N {
         let other = ratios[neighbours[k] as usize];
-        (q_x[k], q_y[k]) = (own[0] + other[0], own[1] + other[1]);
+        (0..D).for_each(|axis| q[axis][k] = own[axis] + other[axis]);
     }
     for k in 0..N {
-        let squares = along_x[k] * (q_y[k] * q_y[k]) + along_y[k] * (q_x[k] * q_x[k]);
-        let factor = factors[k] * (0.5 * q_x[k] * q_y[k]) / squares.sqrt();
+        // The product of q along the other axes.
+        let others = |axis: usize| match D {
+            2 => q[1 - axis][k],
+            _ => q[usize::from(axis == 0)][k] * q[2 - usize::from(axis == 2)][k],
+        };
+        let mut squares = along[0][k] * (others(0) * others(0));
+        for axis in 1..D {
+            squares += along[axis][k] * (others(axis) * others(axis));
+        }
+        let factor = factors[k] * (0.5 * q[0][k] * others(0)) / squares.sqrt();
         change[k] += (factor - factors[k]).abs();
         factors[k] = factor;
     }

@@ -15,7 +15,7 @@ pub(crate) const BLOCK: usize = 1024;
 
 /// The bonds seen from their points: each stands in the family of either end that is an own point. `rank` is the place of a point in the
 /// order of the sweeps.
-pub(crate) struct Members<'a, const D: usize = 2> {
+pub(crate) struct Members<'a, const D: usize> {
     bonds: &'a BondSet<D>,
     cloud: &'a PointCloud<D>,
     pub(crate) seats: Seats<'a>,
@@ -43,8 +43,9 @@ impl<'a, const D: usize> Members<'a, D> {
             starts,
             neighbour: Vec::new(),
         };
-        members.neighbour =
-            members.values(|point, bond| ranks[bonds.neighbour(bond, point) as usize]);
+        members.neighbour = members.values(0, |point, bond| {
+            ranks[bonds.neighbour(bond, point) as usize]
+        });
         members
     }
 
@@ -69,12 +70,13 @@ impl<'a, const D: usize> Members<'a, D> {
         self.starts[rank]..self.starts[rank + 1]
     }
 
-    /// A value of each member, from its point and its bond.
-    pub(crate) fn values<T: Clone + Default + Send>(
+    /// A value of each member, from its point and its bond, in the place of a first one.
+    pub(crate) fn values<T: Clone + Send>(
         &self,
+        first: T,
         value: impl Fn(u32, u32) -> T + Sync,
     ) -> Vec<T> {
-        let mut values = vec![T::default(); self.starts[self.n_points()]];
+        let mut values = vec![first; self.starts[self.n_points()]];
         self.over_blocks(&mut values, |rank, values| {
             let point = self.seats.own()[rank];
             for (slot, &bond) in values.iter_mut().zip(self.bonds.incidence.at(point)) {

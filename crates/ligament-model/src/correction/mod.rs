@@ -11,15 +11,15 @@
 pub mod domain;
 mod families;
 pub mod length;
-pub(crate) mod members;
+mod members;
 pub mod partial_volume;
 pub mod patch;
-pub(crate) mod seats;
+mod seats;
 mod strain_mode;
 pub mod surface;
-pub(crate) mod sweeps;
+mod sweeps;
 
-pub use domain::{Continuum, energy_ratios};
+pub use domain::energy_ratios;
 pub use strain_mode::StrainMode;
 pub use sweeps::{StopRule, Sweeps};
 
@@ -74,7 +74,7 @@ pub struct DomainReport {
     pub converged: bool,
     /// Sum over the bonds of |change of Omega| in the last sweep.
     pub last_change: f64,
-    /// Largest |e_x/e - 1| and |e_y/e - 1| over the points after the last sweep.
+    /// Largest |e_x/e - 1|, and along the other axes, over the points after the last sweep.
     pub largest_residual: f64,
 }
 

@@ -10,11 +10,17 @@ use crate::cloud::PointCloud;
 /// alpha = 1 for l <= H - dx/2, (H + dx/2 - l)/dx for H - dx/2 < l <= H, with the bond horizon H;
 ///
 /// 1/2 where the centre of the cell lies on the horizon. On a mesh dx is the mean over both ends of the side of a square with
-/// the point's area.
-pub fn partial_volume_factors(bonds: &BondSet, cloud: &PointCloud) -> Vec<f64> {
-    let side = |point: u32| {
-        let [dx, dy] = cloud.cell_size(point);
-        0.5 * (dx + dy)
+/// the point's area, in space of a cube with its volume; on a lattice it is the mean side of a cell.
+pub fn partial_volume_factors<const D: usize>(
+    bonds: &BondSet<D>,
+    cloud: &PointCloud<D>,
+) -> Vec<f64> {
+    let side = |point: u32| match cloud.lattice_cell {
+        Some(sides) => sides.iter().sum::<f64>() / D as f64,
+        None => {
+            let size = cloud.volumes[point as usize] / cloud.thickness;
+            if D == 2 { size.sqrt() } else { size.cbrt() }
+        }
     };
     (&bonds.ends, &bonds.length, &bonds.horizon)
         .into_par_iter()

@@ -10,12 +10,12 @@ use crate::horizon::Horizons;
 
 /// Factors lambda (n_bonds), MPPD section 2:
 ///
-/// lambda_AB = (V0_A + V0_B)/(V(H_A) + V(H_B)), V0 = pi h^2 t, V(H_A) = sum over B of alpha V_B (without A itself)
+/// lambda_AB = (V0_A + V0_B)/(V(H_A) + V(H_B)), V0 = pi h^2 t, in space 4/3 pi h^3, V(H_A) = sum over B of alpha V_B (without A itself)
 ///
 /// with the factors alpha (n_bonds). With one horizon for all points V0_A + V0_B is the paper's 2 V0.
-pub fn surface_factors(
-    bonds: &BondSet,
-    cloud: &PointCloud,
+pub fn surface_factors<const D: usize>(
+    bonds: &BondSet<D>,
+    cloud: &PointCloud<D>,
     horizons: &Horizons,
     length_factor: &[f64],
 ) -> Vec<f64> {
@@ -25,7 +25,11 @@ pub fn surface_factors(
             length_factor[bond as usize] * cloud.volumes[bonds.neighbour(bond, point) as usize]
         });
         let radius = horizons.radius[point as usize];
-        [PI * radius * radius * cloud.thickness, present.sum()]
+        let whole = match D {
+            2 => PI * radius * radius * cloud.thickness,
+            _ => 4.0 / 3.0 * PI * radius.powi(3),
+        };
+        [whole, present.sum()]
     });
     bonds
         .ends

@@ -1,8 +1,13 @@
 //! Elastic constants of the plane.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{DMatrix, Matrix3, Vector3};
 
 use super::anisotropic::Anisotropic;
+use crate::tensor::SymTensor;
+
+/// Stiffness C in the plane or in space, Pa: the stresses are C times the engineering strains (eps_ii, gamma_ij), both in the order of
+/// [`SymTensor`]; shape (3, 3) or (6, 6).
+pub type Stiffness = DMatrix<f64>;
 
 /// State of the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -66,6 +71,26 @@ impl Elasticity {
             Self::Orthotropic(material) => material.plane_stiffness(plane),
             Self::Anisotropic(material) => material.stiffness,
         }
+    }
+
+    /// The stiffness in the plane in its state, or for D = 3 in space; none in space of a material that is known in the plane alone.
+    pub fn stiffness<const D: usize>(&self, plane: Plane) -> Option<Stiffness> {
+        if D == 2 {
+            let stiffness = self.plane_stiffness(plane);
+            return Some(Stiffness::from_column_slice(3, 3, stiffness.as_slice()));
+        }
+        let Isotropic { young, poisson } = self.isotropic()?;
+        let shear = 0.5 * young / (1.0 + poisson);
+        let bulk = 2.0 * shear * poisson / (1.0 - 2.0 * poisson);
+        let places = SymTensor::<D>::COMPONENTS;
+        let of_places = |row: usize, column: usize| {
+            let ([i, j], [k, l]) = (places[row], places[column]);
+            let is_volume = i == j && k == l;
+            let coupling = if is_volume { bulk } else { 0.0 };
+            let size = if i == j { 2.0 } else { 1.0 };
+            coupling + if row == column { size * shear } else { 0.0 }
+        };
+        Some(Stiffness::from_fn(places.len(), places.len(), of_places))
     }
 
     /// The isotropic constants, if the material is isotropic.

@@ -1,6 +1,7 @@
 //! Bodies in space: what differs there from the plane.
 //!
-//! Points, bonds and horizons are those of [`cloud`](crate::cloud) and [`bonds`](crate::bonds) with three coordinates. A bond in space has a
+//! Points, bonds, horizons and corrections are those of [`cloud`](crate::cloud), [`bonds`](crate::bonds) and
+//! [`correction`](crate::correction) with three coordinates. A bond in space has a
 //! stretch s and two vectors, the shear gamma and the relative rotation dphi of its ends:
 //!
 //! s = n . du/l, gamma = P du/l - phi x n, dphi = phi_B - phi_A, E = 1/2 Omega alpha V_A V_B (k_n l s^2 + k_t l |gamma|^2 + k_theta |dphi|^2)
@@ -15,11 +16,9 @@
 //! | bonds out of a mesh | [`outline`] |
 //! | pre-cracks | [`precrack`] |
 //! | micromoduli | [`law`] |
-//! | factors alpha and Omega | [`correction`] |
 //! | failure criteria with their limits | [`criteria`] |
 
 pub mod cloud;
-pub mod correction;
 pub mod criteria;
 pub mod lattice;
 pub mod law;
@@ -28,4 +27,3 @@ pub mod parts;
 pub mod precrack;
 mod predicates;
 pub mod shape;
-pub mod uniform_strain;

@@ -1,7 +1,7 @@
 //! Shapes in space: holes of a lattice, and the parts of a body that its sets are.
 
-use crate::tensor::{dot, minus, norm};
 use crate::shape::Region;
+use crate::tensor::{dot, minus, norm};
 
 /// A closed region of space.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,10 +5,9 @@ use ligament_analysis::probe::PointField;
 use ligament_model::Elasticity;
 use ligament_model::law::rotational::RotationalScale;
 
-use crate::body::Origin;
 use crate::error::{Field, SetupError};
 use crate::setup::check::contradiction;
-use crate::setup::{Action, Checks, Dim, Law, Reading, Setup, Surface};
+use crate::setup::{Action, Checks, Dim, Law, Reading, Setup};
 
 type Checked = Result<(), SetupError>;
 
@@ -33,12 +32,6 @@ impl Setup<3> {
             let reason =
                 "faces that close are known in the plane alone so far: leave `closing` out";
             return contradiction(Field::whole("closing"), reason);
-        }
-        let is_patch = matches!(self.correction.surface, Surface::Patch(_));
-        if is_patch && matches!(self.body.origin(), Origin::SolidLattice(_)) {
-            let reason = "the patch correction of solids takes the cells of a mesh, and not yet those of a lattice: take a mesh, or \
-                          `Surface::Domain`, `Surface::Volume` or `Surface::None`";
-            return contradiction(Field::whole("correction").part("surface"), reason);
         }
         Ok(())
     }

@@ -1,19 +1,18 @@
 //! The formulation that a setup chooses in space: law, calibration and corrections of the bonds.
 
 use ligament_model::bonds::BondSet;
-use ligament_model::correction::patch::reference;
-use ligament_model::correction::{Correction, length};
+use ligament_model::correction::patch::{self, CellForces};
+use ligament_model::correction::{
+    Correction, domain, energy_ratios, length, partial_volume, surface,
+};
 use ligament_model::failure::Criteria;
 use ligament_model::law::rotational::{self, RotationalScale};
-use ligament_model::material::milder;
-use ligament_model::space::correction::patch::{self, SolidCellForces};
-use ligament_model::space::correction::{
-    SolidStrainMode, axes, energy_ratios, partial_volume, surface,
-};
+use ligament_model::material::{Stiffness, milder};
 use ligament_model::space::criteria::{self, NoSolidLimit, SolidBasis};
 use ligament_model::space::law::{ShearForm, bbpd, calibration, mppd, nhpd, pds};
 use ligament_model::{
-    BondStiffness, BondSystem, EnergyRatio, FixedFields, Horizons, Isotropic, Plane, PointCloud,
+    BondStiffness, BondSystem, Elasticity, ElementKind, EnergyRatio, FixedFields, Horizons, Isotropic, Plane,
+    PointCloud,
 };
 
 use crate::body::Origin;
@@ -140,16 +139,19 @@ impl<'a> SolidFormulation<'a> {
         match self.setup.correction.surface {
             Surface::Domain(iteration) => {
                 let sweeps = iteration.sweeps(bonds.count(self.cloud));
-                axes::iterate(bonds, self.cloud, stiffness, alpha, &self.constants, sweeps)
+                let continuum = of_constants(&self.constants);
+                domain::iterate(bonds, self.cloud, stiffness, alpha, &continuum, sweeps)
             }
             Surface::Volume => {
                 let factors = surface::surface_factors(bonds, self.cloud, self.horizons, &alpha);
                 Correction::fixed(alpha, factors)
             }
             Surface::Patch(settings) => {
-                let forces = cell_forces(self.setup, self.cloud, self.material_of_cell);
-                let points = (self.cloud, &forces);
-                let element = self.setup.law.element();
+                let points = patch::Points {
+                    cloud: self.cloud,
+                    forces: cell_forces(self.setup, self.cloud, self.material_of_cell),
+                    turn: self.setup.law.element() == ElementKind::Beam,
+                };
                 let axial = || match self.setup.of_one_material() {
                     None => stiffness.axial.clone(),
                     Some(setup) => {
@@ -161,25 +163,35 @@ impl<'a> SolidFormulation<'a> {
                         of_one_material.stiffness(bonds, &alpha).axial
                     }
                 };
-                let nearest_to = reference(settings.reference, bonds, self.cloud, &alpha, axial);
-                let factors = (alpha, nearest_to.as_slice());
-                patch::correct(bonds, points, element, stiffness, factors, &settings)
+                let reference = settings.reference;
+                let nearest_to = patch::reference(reference, bonds, self.cloud, &alpha, axial);
+                patch::correct(bonds, &points, stiffness, (alpha, &nearest_to), &settings)
             }
             Surface::None => Correction::fixed(alpha, vec![1.0; bonds.len()]),
         }
     }
 
-    /// Energies of the points in uniform strains over the continuum's.
+    /// Energies of the points in uniform strains over the continuum's, of bonds with a stiffness in which the correction has its part.
     pub(super) fn energy_ratios(
         &self,
         bonds: &BondSet<3>,
         stiffness: &BondStiffness,
         correction: &Correction,
     ) -> Vec<EnergyRatio> {
-        let ratios = energy_ratios(bonds, self.cloud, stiffness, correction, &self.constants);
-        let named = SolidStrainMode::ALL.into_iter().zip(ratios);
-        named.map(|(strain, ratios)| strain.named(ratios)).collect()
+        let continuum = of_constants(&self.constants);
+        energy_ratios(bonds, self.cloud, stiffness, correction, &continuum)
     }
+}
+
+/// Stiffness of each material (n_materials) from its constants, Pa.
+fn of_constants(constants: &[Isotropic]) -> Vec<Stiffness> {
+    let elasticity = constants.iter().copied().map(Elasticity::Isotropic);
+    (elasticity.filter_map(|it| it.stiffness::<3>(Plane::Strain))).collect()
+}
+
+/// Stiffness of each material with the constants that the law makes of its own (n_materials), Pa.
+pub(super) fn stiffness(setup: &Setup<3>) -> Vec<Stiffness> {
+    of_constants(&constants(setup))
 }
 
 /// Forces of uniform strains on the points of a cloud, as the cells of the body know them, with the constants that the law makes of
@@ -188,12 +200,17 @@ pub(super) fn cell_forces(
     setup: &Setup<3>,
     cloud: &PointCloud<3>,
     material_of_cell: &[u32],
-) -> SolidCellForces {
-    let cells = match setup.body.origin() {
-        Origin::SolidMesh(mesh) => mesh.cells.as_slice(),
-        _ => &[],
-    };
-    patch::of_solid_mesh(cells, cloud, material_of_cell, &constants(setup))
+) -> CellForces<3> {
+    let stiffness = stiffness(setup);
+    match setup.body.origin() {
+        Origin::SolidLattice(lattice) => {
+            patch::of_lattice(lattice, cloud, material_of_cell, &stiffness)
+        }
+        Origin::SolidMesh(mesh) => {
+            patch::of_solid_mesh(&mesh.cells, cloud, material_of_cell, stiffness)
+        }
+        _ => patch::of_solid_mesh(&[], cloud, material_of_cell, stiffness),
+    }
 }
 
 /// Failure criteria on the bonds; none in an analysis without fracture. Bonds of points marked in `fixed.no_fail` (n_points) never fail.

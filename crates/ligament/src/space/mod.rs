@@ -5,7 +5,6 @@ mod check;
 mod dimension;
 mod formulation;
 mod model;
-pub(crate) mod patch_test;
 mod precrack;
 mod soundness;
 

@@ -5,6 +5,8 @@ use std::sync::Arc;
 use ligament_model::bonds::hole::bonds_across;
 use ligament_model::bonds::parts::LatticeCells;
 use ligament_model::correction::Correction;
+use ligament_model::correction::patch::CellForces;
+use ligament_model::material::Stiffness;
 use ligament_model::space::outline::{Surface, bonds_outside, spacing_inside};
 use ligament_model::space::parts::Tetrahedra;
 use ligament_model::space::precrack::{SolidPreCrack, count_touched_bonds, cut_bonds};
@@ -30,6 +32,18 @@ use crate::stage::{Finding, StageWatcher, stage};
 impl Discretises<3> for Dim {
     fn model(setup: Setup<3>, watcher: &mut dyn StageWatcher) -> Result<Model<3>, SetupError> {
         Model::in_space(setup, watcher)
+    }
+
+    fn cell_forces(
+        setup: &Setup<3>,
+        cloud: &PointCloud<3>,
+        material_of_cell: &[u32],
+    ) -> CellForces<3> {
+        formulation::cell_forces(setup, cloud, material_of_cell)
+    }
+
+    fn stiffness(setup: &Setup<3>) -> Vec<Stiffness> {
+        formulation::stiffness(setup)
     }
 }
 
@@ -226,11 +240,11 @@ fn of_bonds(formulation: &SolidFormulation<'_>, bonds: BondSet<3>) -> Corrected 
     let alpha = formulation.alpha(&bonds);
     let stiffness = formulation.stiffness(&bonds, &alpha);
     let correction = formulation.correction(&bonds, &stiffness, alpha);
-    let energy_ratios = formulation.energy_ratios(&bonds, &stiffness, &correction);
+    let stiffness = stiffness.with_shear(&correction.shear_ratio);
     Corrected {
+        energy_ratios: formulation.energy_ratios(&bonds, &stiffness, &correction),
         bonds,
-        stiffness: stiffness.with_shear(&correction.shear_ratio),
+        stiffness,
         correction,
-        energy_ratios,
     }
 }

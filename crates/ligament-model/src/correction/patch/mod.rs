@@ -17,75 +17,82 @@
 //! | file | of the correction |
 //! |---|---|
 //! | `forces.rs`, `lattice_forces.rs` | f of meshes and of lattices |
-//! | `equations.rs`, `plane.rs` | G, as sums over the bonds; its rows in the plane |
+//! | `equations.rs`, `rows.rs`, `harmonics.rs` | G, as sums over the bonds; its rows, and the waves that they are made of |
 //! | `reference.rs` | the factors that it departs from |
 //! | `pairs.rs` | the order in which sums go over the bonds |
 //! | `dual.rs` | the way to the factors by Newton steps |
 //! | `newton.rs` | the direction of such a step |
 //! | `aggregates.rs` | its long waves |
 //!
+//! In the plane a point has 6 equations of forces and 2 of moments, in space 13 and 5. A box of tetrahedra with a horizon factor of 3 meets
+//! them everywhere, with one of 2 there are fewer factors than equations: then the report says how much is left, and a larger horizon or the
+//! [correction of energies](super::domain) is the better choice.
+//!
 //! Related: micromoduli of a family fitted to the stiffness, point by point (Prakash 2019); weights of each point that are exact
 //! for polynomials (Trask 2019), for which w_AB and w_BA differ, so that there is neither an energy nor a symmetric stiffness.
 
-pub(crate) mod aggregates;
-pub(crate) mod dual;
-pub(crate) mod equations;
+mod aggregates;
+mod dual;
+mod equations;
 mod forces;
+mod harmonics;
 mod lattice_forces;
 mod newton;
-pub(crate) mod pairs;
-mod plane;
+mod pairs;
 mod reference;
+mod rows;
 mod settings;
 
 pub use dual::Report;
-pub use forces::{CellForces, Points, of_mesh};
-pub use lattice_forces::{of_lattice, stiffness_of_lattice};
+pub(crate) use forces::uniform_strains;
+pub use forces::{CellForces, Points, of_mesh, of_solid_mesh};
+pub use lattice_forces::of_lattice;
 pub use reference::{Reference, reference};
 pub use settings::Settings;
 
 use super::{Correction, CorrectionReport};
 use crate::bonds::BondSet;
-use crate::cloud::PointCloud;
 use crate::law::BondStiffness;
 use aggregates::Aggregates;
 use dual::Factors;
 use equations::Equations;
-use plane::PlaneEquations;
+use rows::Rows;
 
 /// The correction of bonds with uncorrected factors alpha (n_bonds): Omega = q_n/alpha, and beside it what shear and rotation have
 /// more, q_t/q_n. The factors q are those nearest to given ones times one number for the body (n_bonds).
-pub fn correct(
-    bonds: &BondSet,
-    points: &Points<'_>,
+pub fn correct<const D: usize>(
+    bonds: &BondSet<D>,
+    points: &Points<'_, D>,
     stiffness: &BondStiffness,
     (alpha, nearest_to): (Vec<f64>, &[f64]),
     settings: &Settings,
 ) -> Correction {
-    let weight = settings.moment_weight;
-    let factors = if points.turn {
-        let equations = PlaneEquations::<8>::new(bonds, points, stiffness, nearest_to, weight);
-        minimise(&equations, points.cloud, settings)
-    } else {
-        let equations = PlaneEquations::<6>::new(bonds, points, stiffness, nearest_to, weight);
-        minimise(&equations, points.cloud, settings)
+    let factors = match (D, points.turn) {
+        (2, false) => nearest::<D, 6>,
+        (2, true) => nearest::<D, 8>,
+        (_, false) => nearest::<D, 13>,
+        (_, true) => nearest::<D, 18>,
     };
-    factors.correction(alpha)
+    factors(bonds, points, stiffness, nearest_to, settings).correction(alpha)
 }
 
-fn minimise<const N: usize>(
-    equations: &PlaneEquations<'_, N>,
-    cloud: &PointCloud,
+/// The factors nearest to given ones (n_bonds) of N equations a point.
+fn nearest<const D: usize, const N: usize>(
+    bonds: &BondSet<D>,
+    points: &Points<'_, D>,
+    stiffness: &BondStiffness,
+    nearest_to: &[f64],
     settings: &Settings,
 ) -> Factors {
-    let seats = &equations.pairs().seats;
-    let aggregates = Aggregates::new(cloud, seats, PlaneEquations::<N>::FORCES);
-    dual::minimise(equations, aggregates, settings)
+    let weight = settings.moment_weight;
+    let rows = Rows::<D, N>::new(bonds, points, stiffness, nearest_to, weight);
+    let aggregates = Aggregates::new(points.cloud, &rows.pairs().seats, Rows::<D, N>::FORCES);
+    dual::minimise(&rows, aggregates, settings)
 }
 
 impl Factors {
     /// The correction of bonds with uncorrected factors alpha (n_bonds).
-    pub(crate) fn correction(self, alpha: Vec<f64>) -> Correction {
+    fn correction(self, alpha: Vec<f64>) -> Correction {
         let omega = self.axial.iter().zip(&alpha);
         let ratio = self.shear.iter().zip(&self.axial);
         Correction {
@@ -96,3 +103,7 @@ impl Factors {
         }
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+mod tests;

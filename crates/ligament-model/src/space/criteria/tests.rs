@@ -110,12 +110,13 @@ fn strength_is_an_energy() {
     let mut no_fail = vec![false; system.cloud.len()];
     no_fail[0] = true;
     let limits = strength::critical_stretches(&basis(&system, &materials, &no_fail));
-    let mode = crate::space::correction::SolidStrainMode::UniaxialX;
+    let [mode, ..] = crate::correction::StrainMode::<3>::uniaxial();
     let isotropic = Isotropic {
         young: YOUNG,
         poisson: 0.2,
     };
-    let energy = mode.energy(&isotropic) * (3e6 / YOUNG).powi(2);
+    let stiffness = crate::Elasticity::Isotropic(isotropic).stiffness::<3>(crate::Plane::Strain);
+    let energy = mode.energy(&stiffness.unwrap()) * (3e6 / YOUNG).powi(2);
     assert!((strength::critical_energy(&isotropic, 3e6) / energy - 1.0).abs() < 1e-14);
     for (bond, &limit) in limits.iter().enumerate() {
         if system.bonds.ends[bond].contains(&0) {

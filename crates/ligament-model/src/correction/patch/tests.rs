@@ -1,8 +1,9 @@
 use ligament_mesh::{SolidCell, SolidMesh};
 
 use super::*;
-use crate::Isotropic;
+use crate::cloud::PointCloud;
 use crate::horizon::Horizons;
+use crate::material::{Elasticity, Isotropic, Plane, Stiffness};
 use crate::space::law::{ShearForm, nhpd};
 use crate::tensor::{cross, dot, minus, norm};
 
@@ -10,6 +11,14 @@ const MATERIAL: Isotropic = Isotropic {
     young: 3.0,
     poisson: 0.2,
 };
+
+/// Lame's constants lambda and mu.
+const LAME: [f64; 2] = [3.0 * 0.2 / (1.2 * 0.6), 0.5 * 3.0 / 1.2];
+
+fn stiffness() -> Vec<Stiffness> {
+    let stiffness = Elasticity::Isotropic(MATERIAL).stiffness::<3>(Plane::Strain);
+    stiffness.into_iter().collect()
+}
 
 /// A cube of n^3 nodes one apart, moved by up to a tenth without a pattern, in six tetrahedra a cell.
 fn mesh(n: u32) -> SolidMesh {
@@ -61,59 +70,48 @@ fn mesh(n: u32) -> SolidMesh {
 struct Case {
     cloud: PointCloud<3>,
     bonds: BondSet<3>,
-    forces: SolidCellForces,
+    forces: CellForces<3>,
     stiffness: BondStiffness,
     correction: Correction,
 }
 
-fn corrected(mesh: &SolidMesh, horizon: f64, element: ElementKind) -> Case {
+fn corrected(mesh: &SolidMesh, horizon: f64, turn: bool) -> Case {
     let of_cells = vec![0; mesh.cells.len()];
     let cloud = PointCloud::from_solid_mesh(mesh, &of_cells, 1);
     let bonds = BondSet::search(&cloud, &Horizons::unified(horizon, cloud.len()));
-    let forces = of_solid_mesh(&mesh.cells, &cloud, &of_cells, &[MATERIAL]);
+    let forces = of_solid_mesh(&mesh.cells, &cloud, &of_cells, stiffness());
     let stiffness = nhpd::stiffness(&bonds, &cloud, &[MATERIAL], ShearForm::Constant);
     let alpha = vec![1.0; bonds.len()];
-    let points = (&cloud, &forces);
+    let points = Points {
+        cloud: &cloud,
+        forces: forces.clone(),
+        turn,
+    };
     let settings = Settings::DEFAULT;
     let nearest_to = alpha.clone();
-    let factors = (alpha, nearest_to.as_slice());
-    let correction = correct(&bonds, points, element, &stiffness, factors, &settings);
+    let correction = correct(&bonds, &points, &stiffness, (alpha, &nearest_to), &settings);
     Case {
-        cloud,
         bonds,
         forces,
         stiffness,
         correction,
+        cloud,
     }
 }
-
-const HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
-
-/// Six strains orthonormal as tensors, xx, yy, zz, xy, xz, yz.
-const STRAINS: [[f64; 6]; 6] = [
-    [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
-    [0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
-    [0.0, 0.0, 0.0, HALF, 0.0, 0.0],
-    [0.0, 0.0, 0.0, 0.0, HALF, 0.0],
-    [0.0, 0.0, 0.0, 0.0, 0.0, HALF],
-];
 
 impl Case {
     /// Sums over the strains of the squares of the force and of the moment that given factors leave at each point, from the sheet's
     /// formulas for a bond and the stress of the continuum.
     fn left(&self, axial: impl Fn(usize) -> f64, shear: impl Fn(usize) -> f64) -> Vec<[f64; 2]> {
         let mut all = vec![[0.0; 2]; self.cloud.len()];
-        for strain in STRAINS {
-            let [xx, yy, zz, xy, xz, yz] = strain;
-            let rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-            let mut sums: Vec<[[f64; 3]; 2]> = (self.forces.iter())
-                .map(|forces| [force_in(forces, strain).map(|it| -it), [0.0; 3]])
+        for (number, strain) in uniform_strains::<3>().enumerate() {
+            let mut sums: Vec<[[f64; 3]; 2]> = (self.forces.of_points())
+                .map(|forces| [forces[number].map(|it| -it), [0.0; 3]])
                 .collect();
             for (bond, &[a, b]) in self.bonds.ends.iter().enumerate() {
                 let (n, length) = (self.bonds.direction[bond], self.bonds.length[bond]);
                 let weight = self.cloud.volumes[a as usize] * self.cloud.volumes[b as usize];
-                let along = rows.map(|row| dot(row, n));
+                let along = strain.times(n);
                 let stretch = dot(n, along);
                 let gamma = [0, 1, 2].map(|k| along[k] - stretch * n[k]);
                 let normal = weight * axial(bond) * self.stiffness.axial[bond] * stretch;
@@ -148,7 +146,7 @@ impl Case {
 /// the report has, but for the scales.
 #[test]
 fn uniform_strains_become_equilibria() {
-    let case = corrected(&mesh(7), 2.7, ElementKind::Beam);
+    let case = corrected(&mesh(7), 2.7, true);
     let left = case.left(|bond| case.factors(bond)[0], |bond| case.factors(bond)[1]);
     let before = case.left(|_| 1.0, |_| 1.0);
     let ratio = |which| case.root_mean_square(which, &left) / case.root_mean_square(which, &before);
@@ -162,7 +160,6 @@ fn uniform_strains_become_equilibria() {
         .as_ref()
         .and_then(|it| it.patch())
         .unwrap();
-    let lame = forces::lame(&MATERIAL);
     let volume: f64 = case.cloud.volumes.iter().sum();
     let of_bond = |bond: usize| {
         let [a, b] = case.bonds.ends[bond].map(|end| case.cloud.volumes[end as usize]);
@@ -172,7 +169,7 @@ fn uniform_strains_become_equilibria() {
         let [axial, shear] = of_bond(bond);
         case.bonds.length[bond] * (axial + shear)
     });
-    let factor = volume * (3.0 * lame[0] + 12.0 * lame[1]) / of_bonds.sum::<f64>();
+    let factor = volume * (3.0 * LAME[0] + 12.0 * LAME[1]) / of_bonds.sum::<f64>();
     let mut squares = vec![[0.0; 2]; case.cloud.len()];
     for (bond, ends) in case.bonds.ends.iter().enumerate() {
         let [axial, shear] = of_bond(bond).map(|it| factor * it * it);
@@ -203,7 +200,7 @@ fn a_turned_body_has_the_same_factors() {
         (*x, *y) = (one.1 * *x - one.0 * *y, one.0 * *x + one.1 * *y);
         (*y, *z) = (two.1 * *y - two.0 * *z, two.0 * *y + two.1 * *z);
     }
-    let [straight, turned] = [straight, turned].map(|it| corrected(&it, 2.7, ElementKind::Beam));
+    let [straight, turned] = [straight, turned].map(|it| corrected(&it, 2.7, true));
     assert_eq!(straight.bonds.ends, turned.bonds.ends);
     for bond in 0..straight.bonds.len() {
         for (one, other) in straight.factors(bond).into_iter().zip(turned.factors(bond)) {
@@ -223,7 +220,7 @@ fn threads_change_no_bit() {
             .num_threads(threads)
             .build()
             .unwrap();
-        pool.install(|| corrected(&mesh, 1.9, ElementKind::Spring).correction)
+        pool.install(|| corrected(&mesh, 1.9, false).correction)
     });
     assert_eq!(one, two);
 }
@@ -239,10 +236,12 @@ fn cells_give_tractions() {
         .for_each(|it| *it = it.round());
     let of_cells = vec![0; mesh.cells.len()];
     let cloud = PointCloud::from_solid_mesh(&mesh, &of_cells, 1);
-    let forces = of_solid_mesh(&mesh.cells, &cloud, &of_cells, &[MATERIAL]);
+    let forces = of_solid_mesh(&mesh.cells, &cloud, &of_cells, stiffness());
     let mut side = [0.0; 3];
-    for (forces, position) in forces.iter().zip(&mesh.positions) {
-        let force = force_in(forces, [1.0, 0.0, 0.0, 0.5, 0.0, 0.0]);
+    for (forces, position) in forces.of_points().zip(&mesh.positions) {
+        // eps_xx = 1 and gamma_xy = 1.
+        let half = std::f64::consts::FRAC_1_SQRT_2;
+        let force = minus(forces[0], forces[2].map(|it| -half * it));
         if position.iter().all(|it| (1.0..=3.0).contains(it)) {
             assert!(norm(force) < 1e-14);
         }
@@ -250,7 +249,7 @@ fn cells_give_tractions() {
             side = minus(side, force.map(|it| -it));
         }
     }
-    let [lambda, mu] = forces::lame(&MATERIAL);
+    let [lambda, mu] = LAME;
     // Nine nodes inside the side, of one square each.
     let expected = [lambda + 2.0 * mu, mu, 0.0].map(|it| 9.0 * it);
     assert!(norm(minus(side, expected)) < 1e-12, "{side:?} {expected:?}");
