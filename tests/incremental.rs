@@ -810,9 +810,8 @@ fn nested_dissection_of_degenerate_clouds() {
         for rods in [&chain[..], &[]] {
             let truss = Truss::new(&places, rods, ControlKind::Force, 0);
             let system = truss.system.clone().with_elements();
-            let unknowns = Unknowns::all_but(&*system, |dof| {
-                truss.boundary.prescribed[dof].is_some()
-            });
+            let unknowns =
+                Unknowns::all_but(&*system, |dof| truss.boundary.prescribed[dof].is_some());
             // Without a bond no rotation has a stiffness.
             assert!(unknowns.len() >= 2 * n as usize);
             assert_permutation(&*system, &unknowns);

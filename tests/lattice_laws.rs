@@ -12,8 +12,8 @@ use ligament_run::run;
 use tempfile::TempDir;
 use verification::bench::{self, Bench};
 use verification::numbers::{by_point, deviation, of_all, relative_error};
-use verification::table::Table;
 use verification::stresses::{tractions, virial};
+use verification::table::Table;
 
 /// 12 x 8 cells of 5 mm around the origin, held at the left and pulled aslant at the right.
 const PLATE: &str = r#"

@@ -3,9 +3,9 @@
 
 use ligament_analysis::solver::{Method, SolverChoice, Unfit, points_of_aggregate};
 use ligament_analysis::{Attempt, Equilibrium, SetupError};
+use ligament_model::ElementKind;
 use ligament_model::law::rotational::RotationalStiffness;
 use ligament_model::material::Isotropic;
-use ligament_model::ElementKind;
 use ligament_model::space::law::{ShearForm, mppd, nhpd, pds};
 use ligament_model::{BondSet, BondStiffness, PointCloud};
 use rayon::ThreadPoolBuilder;

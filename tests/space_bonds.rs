@@ -22,8 +22,8 @@ use ligament_model::space::law::{ShearForm, calibration, nhpd, pds};
 use ligament_model::tensor::SymTensor;
 use ligament_model::thermal::{FreeStrains, ThermalStrain};
 use ligament_model::{
-    BondSet, BondSystem, BondsLeft, Elasticity, ElementKind, Horizons, Isotropic, Plane, PointCloud,
-    System,
+    BondSet, BondSystem, BondsLeft, Elasticity, ElementKind, Horizons, Isotropic, Plane,
+    PointCloud, System,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -320,7 +320,8 @@ fn a_bar_has_the_modulus_of_its_material() {
     assert!(off.fold(0.0, f64::max) < 1e-4);
     let omega = &correction.domain_factor;
     let alpha = correction.length_factor.clone();
-    let system = BondSystem::new(cloud, bonds, ElementKind::Beam, stiffness, alpha, omega).with_elements();
+    let system =
+        BondSystem::new(cloud, bonds, ElementKind::Beam, stiffness, alpha, omega).with_elements();
     let positions = system.cloud.positions.clone();
     let volume: f64 = system.cloud.volumes.iter().sum();
     let problem = problem(

@@ -7,11 +7,11 @@ use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::{Component, ControlKind, fields};
 use ligament_case::case::StressField;
+use ligament_model::thermal::FreeStrains;
 use ligament_model::{Absence, Bonds};
 use ligament_run::model::Model;
 use verification::numbers::by_point;
 use verification::stresses;
-use ligament_model::thermal::FreeStrains;
 
 use super::bodies::Canvas;
 use super::expected::{Entry, Expected, Place, Rows};

@@ -10,8 +10,8 @@ use ligament_analysis::unknowns::Component;
 use ligament_analysis::{Layout, SolverSettings};
 use ligament_model::contact::Faces;
 use ligament_model::deformation::Room;
-use ligament_model::element::Rigidities;
 use ligament_model::element::ElementKind;
+use ligament_model::element::Rigidities;
 use ligament_model::failure::{Criteria, Criterion, Measure};
 use ligament_model::{BondSet, BondSystem, Horizons, PointCloud};
 

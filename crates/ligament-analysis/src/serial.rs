@@ -5,8 +5,8 @@
 
 use std::time::Duration;
 
-use ligament_model::tensor::SymTensor;
 use ligament_model::element::{BondDeformation, Remaining};
+use ligament_model::tensor::SymTensor;
 use thiserror::Error;
 
 /// Bytes that end too early, or are none of the value that is to be read.

@@ -34,7 +34,7 @@ fn preparation(criterion: &mut Criterion) {
         young: 15e9,
         poisson: 0.21,
     };
-    let materials = [Material {
+    let _materials = [Material {
         name: "rock".to_owned(),
         elasticity: Elasticity::Isotropic(rock),
         tensile_strength: Some(3.81e6),

@@ -263,14 +263,18 @@ mod tests {
         };
         let room = Room::default();
         let here = SpaceDeformation::written(&room, 1, |all| all[0] = deformation(1.0, 3.0, 0.0));
-        let slopes = SpaceDeformation::written(&room, 1, |all| all[0] = deformation(-1.0, 0.0, 2.0));
+        let slopes =
+            SpaceDeformation::written(&room, 1, |all| all[0] = deformation(-1.0, 0.0, 2.0));
         let ahead = here.ahead(&slopes, 2.0);
         assert_eq!(ahead[0], BondDeformation::new([-1.0, 5.0, 5.0]));
         assert_eq!(
             ahead.scaled(-2.0)[0],
             BondDeformation::new([2.0, 10.0, 10.0])
         );
-        assert_eq!(SpaceDeformation::of_bonds(&ahead)[0], deformation(-1.0, 3.0, 4.0));
+        assert_eq!(
+            SpaceDeformation::of_bonds(&ahead)[0],
+            deformation(-1.0, 3.0, 4.0)
+        );
     }
 
     /// Deformations are written into the memory of those that are gone, and never into that of others of another number.

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::element::imaginary::matrix;
 use crate::element::ElementKind;
+use crate::element::imaginary::matrix;
 use crate::material::Stiffness;
 use crate::system::BondSystem;
 use crate::tensor::SymTensor;
@@ -36,8 +36,7 @@ pub fn family_stiffness(system: &BondSystem, point: u32) -> Matrix3<f64> {
         let [a, b] = system.bonds.direction[bond];
         let stretch = Vector3::new(a * a, b * b, a * b);
         let shear = Vector3::new(-a * b, a * b, 0.5 * (a * a - b * b));
-        let (axial_rigidity, shear_rigidity) =
-            (rigidities.axial[bond], rigidities.shear[bond]);
+        let (axial_rigidity, shear_rigidity) = (rigidities.axial[bond], rigidities.shear[bond]);
         stiffness += axial_rigidity * stretch * stretch.transpose()
             + shear_rigidity * shear * shear.transpose();
         coupling -= shear_rigidity * shear;

@@ -89,9 +89,7 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
             [x, y] => x.hypot(*y),
             _ => norm(place),
         };
-        let radius = chosen()
-            .map(|p| size(minus(p, centre)))
-            .fold(0.0, f64::max);
+        let radius = chosen().map(|p| size(minus(p, centre))).fold(0.0, f64::max);
         Self {
             layout,
             positions,
@@ -439,7 +437,10 @@ mod tests {
         assert_eq!(holds_of_cube(Turn::Costly, &[]), 3);
         assert_eq!(holds_of_cube(Turn::Costly, &[0, 7, 14]), 0);
         assert_eq!(holds_of_cube(Turn::OfPointsAlong, &[0, 1, 2]), 3);
-        assert_eq!(holds_of_cube(Turn::OfPointsAlong, &[0, 1, 2, 42, 43, 44]), 1);
+        assert_eq!(
+            holds_of_cube(Turn::OfPointsAlong, &[0, 1, 2, 42, 43, 44]),
+            1
+        );
         assert_eq!(holds_of_cube(Turn::OfPointsAlong, &[0, 1, 2, 3, 4, 5]), 0);
         assert_eq!(holds_of_cube(Turn::OfPositions, &[0, 1, 2, 3, 4, 5]), 3);
     }

@@ -98,10 +98,7 @@ impl UniformStrains {
 /// In a uniform strain the tractions jump at an interface. The cells give the jump to the points on it, as far as bonds across are bonds of
 /// the softer material, which is how they are corrected. As two halves in series they pull their ends by more, and that part of the jump
 /// belongs to their ends.
-pub fn loads<const D: usize>(
-    system: &dyn System<D>,
-    forces: &CellForces<D>,
-) -> Vec<Vec<f64>> {
+pub fn loads<const D: usize>(system: &dyn System<D>, forces: &CellForces<D>) -> Vec<Vec<f64>> {
     let layout = system.layout();
     let of_strain = |(k, strain): (usize, SymTensor<D>)| {
         let mut loads = excess_across(system, &strain);
@@ -118,10 +115,7 @@ pub fn loads<const D: usize>(
 
 /// What bonds across an interface exert on their ends in a uniform strain more than in the softer material, shape
 /// (n_degrees_of_freedom).
-fn excess_across<const D: usize>(
-    system: &dyn System<D>,
-    strain: &SymTensor<D>,
-) -> Vec<f64> {
+fn excess_across<const D: usize>(system: &dyn System<D>, strain: &SymTensor<D>) -> Vec<f64> {
     let (cloud, beyond) = (&system.cloud, &system.beyond_correction);
     let layout = system.layout();
     let mut motions = vec![0.0; layout.n_degrees_of_freedom()];

@@ -10,8 +10,8 @@ use rayon::prelude::*;
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
-use crate::tensor::dot;
 use crate::portion::{Exchange, Partition, Portion, largest};
+use crate::tensor::dot;
 pub(crate) use precision::precision_of_coordinates;
 
 /// Material points with their volumes, nearest-neighbour distances and materials.

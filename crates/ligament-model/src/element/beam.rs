@@ -117,9 +117,8 @@ impl PairKinematics<2, 3> for BeamBond {
     /// take the motions of A and B to (s, gamma, theta_rel).
     fn modes(&self) -> impl Iterator<Item = (f64, [[f64; 3]; 2])> {
         let of_springs = self.springs.modes().zip([0.0, -0.5]);
-        let of_springs = of_springs.map(|((rigidity, gradient), turn)| {
-            (rigidity, gradient.map(|[x, y]| [x, y, turn]))
-        });
+        let of_springs = of_springs
+            .map(|((rigidity, gradient), turn)| (rigidity, gradient.map(|[x, y]| [x, y, turn])));
         let rotation = [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]];
         of_springs.chain([(self.rotational_rigidity, rotation)])
     }

@@ -229,7 +229,9 @@ impl Remaining {
 }
 
 /// The elements of all bonds in D dimensions, between points with M components: what makes the element of a bond from the bonds that are left.
-pub trait Elements<const D: usize, const M: usize>: std::fmt::Debug + Send + Sync + 'static {
+pub trait Elements<const D: usize, const M: usize>:
+    std::fmt::Debug + Send + Sync + 'static
+{
     /// Components of the motion of a point.
     const COMPONENTS: [Component; M];
 
@@ -264,13 +266,7 @@ pub trait Elements<const D: usize, const M: usize>: std::fmt::Debug + Send + Syn
     }
 
     /// Share of the energy of a bond that belongs to one of its ends.
-    fn share(
-        &self,
-        _bonds: &BondSet<D>,
-        _rigidities: &Rigidities,
-        _bond: u32,
-        _point: u32,
-    ) -> f64 {
+    fn share(&self, _bonds: &BondSet<D>, _rigidities: &Rigidities, _bond: u32, _point: u32) -> f64 {
         0.5
     }
 

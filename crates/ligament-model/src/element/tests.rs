@@ -244,7 +244,12 @@ fn rigid_motions_cost_nothing() {
 struct Balance;
 
 impl Check for Balance {
-    fn check<const D: usize, const M: usize, E: Elements<D, M>>(&mut self, name: &str, body: &Body<D, M, E>, _: Promise) {
+    fn check<const D: usize, const M: usize, E: Elements<D, M>>(
+        &mut self,
+        name: &str,
+        body: &Body<D, M, E>,
+        _: Promise,
+    ) {
         for bond in 0..body.bonds.len() {
             let found = force(&body.element(bond), &body.unknowns());
             for component in 0..D {

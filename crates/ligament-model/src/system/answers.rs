@@ -86,7 +86,8 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> Bonds for ElementSystem<
     }
 
     fn share(&self, bond: u32, point: u32) -> f64 {
-        self.elements.share(&self.system.bonds, &self.system.rigidities, bond, point)
+        self.elements
+            .share(&self.system.bonds, &self.system.rigidities, bond, point)
     }
 
     fn is_linear(&self) -> bool {
@@ -114,7 +115,9 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> Bonds for ElementSystem<
 
     fn resisted(&self) -> Vec<bool> {
         let (layout, portion) = (self.layout(), self.portion());
-        self.system.rigidities.resisted(&self.system.bonds.ends, layout, portion)
+        self.system
+            .rigidities
+            .resisted(&self.system.bonds.ends, layout, portion)
     }
 
     fn point_stiffness(&self) -> Vec<PointStiffness> {
@@ -324,7 +327,8 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> Bonds for ElementSystem<
         closed: &[ClosedPair],
         stresses: &mut Stresses,
     ) {
-        self.system.add_stresses_of_contact(reading, closed, &mut stresses.values);
+        self.system
+            .add_stresses_of_contact(reading, closed, &mut stresses.values);
     }
 
     fn unknown_along_lines<'c>(&self, criteria: &'c Criteria) -> Option<&'c Criterion> {

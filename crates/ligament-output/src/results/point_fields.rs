@@ -6,9 +6,9 @@ use ligament_analysis::fields;
 use ligament_analysis::history::View;
 use ligament_analysis::interface::{StressReading, Stresses};
 use ligament_analysis::{Component, Layout};
-use ligament_model::tensor::SymTensor;
 use ligament_model::ghosts::Ghosts;
 use ligament_model::portion::Portion;
+use ligament_model::tensor::SymTensor;
 use ligament_model::{BodyGrid, Canvas, FixedFields};
 
 use super::grid::{fixed_fields, write_grid};

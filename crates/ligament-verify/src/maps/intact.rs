@@ -72,7 +72,10 @@ fn beside(
 ) -> anyhow::Result<[(String, Motion); 2]> {
     let trial = template.trial().set("material.poisson", ratio);
     let solution = trial.solve()?;
-    let lattice = Motion::of_lattice(&*solution.model.system, &solution.outcome.state.displacement)?;
+    let lattice = Motion::of_lattice(
+        &*solution.model.system,
+        &solution.outcome.state.displacement,
+    )?;
     Ok([
         ("finite elements".to_owned(), elements),
         ("MBB-PD".to_owned(), lattice),

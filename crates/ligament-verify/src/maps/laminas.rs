@@ -60,7 +60,10 @@ fn stretched(angle: f64, has_hole: bool) -> anyhow::Result<Motion> {
         trial = trial.set("lattice.remove", Vec::<f64>::new());
     }
     let solution = trial.solve()?;
-    let motion = Motion::of_lattice(&*solution.model.system, &solution.outcome.state.displacement)?;
+    let motion = Motion::of_lattice(
+        &*solution.model.system,
+        &solution.outcome.state.displacement,
+    )?;
     Ok(motion.without_rigid_motion())
 }
 

@@ -48,10 +48,7 @@ impl Loading {
     ///
     /// If a name of the setup is not in the body, a probe is off it or reads nothing, supports and loads contradict
     /// each other, or a couple acts on nothing.
-    pub fn new<const D: usize>(
-        setup: &Setup<D>,
-        system: &dyn System<D>,
-    ) -> Result<Self, SetupError>
+    pub fn new<const D: usize>(setup: &Setup<D>, system: &dyn System<D>) -> Result<Self, SetupError>
     where
         Dim: Dimension<D>,
     {
@@ -77,7 +74,11 @@ impl Loading {
     }
 
     /// The problem that it makes of the bonds and their failure criteria.
-    pub fn problem<const D: usize>(&self, system: &Arc<dyn System<D>>, criteria: &Arc<Criteria>) -> Problem {
+    pub fn problem<const D: usize>(
+        &self,
+        system: &Arc<dyn System<D>>,
+        criteria: &Arc<Criteria>,
+    ) -> Problem {
         let loads: Arc<dyn LoadProgram> = match &self.staged {
             None => self.boundary.clone(),
             Some(staged) => staged.clone(),

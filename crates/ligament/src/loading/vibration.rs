@@ -28,10 +28,7 @@ impl Vibration {
     /// # Errors
     ///
     /// If a name of the setup is not in the body.
-    pub fn new<const D: usize>(
-        setup: &Setup<D>,
-        system: &dyn System<D>,
-    ) -> Result<Self, SetupError>
+    pub fn new<const D: usize>(setup: &Setup<D>, system: &dyn System<D>) -> Result<Self, SetupError>
     where
         Dim: Dimension<D>,
     {

@@ -65,7 +65,8 @@ pub trait Dimension<const D: usize>: 'static {
     fn across(direction: [f64; D]) -> Vec<[f64; D]>;
 
     /// Strain of a material for one kelvin without stress, with the constants that the law makes of it; none without a coefficient.
-    fn free_strain(section: &Self::Section, law: &Law, material: &Material) -> Option<SymTensor<D>>;
+    fn free_strain(section: &Self::Section, law: &Law, material: &Material)
+    -> Option<SymTensor<D>>;
 }
 
 impl Dimension<2> for Dim {

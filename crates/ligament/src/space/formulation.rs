@@ -11,8 +11,8 @@ use ligament_model::material::{Stiffness, milder};
 use ligament_model::space::criteria::{self, NoSolidLimit, SolidBasis};
 use ligament_model::space::law::{ShearForm, bbpd, calibration, mppd, nhpd, pds};
 use ligament_model::{
-    BondStiffness, BondSystem, Elasticity, ElementKind, EnergyRatio, FixedFields, Horizons, Isotropic, Plane,
-    PointCloud,
+    BondStiffness, BondSystem, Elasticity, ElementKind, EnergyRatio, FixedFields, Horizons,
+    Isotropic, Plane, PointCloud,
 };
 
 use crate::body::Origin;

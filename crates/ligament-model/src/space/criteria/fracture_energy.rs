@@ -3,8 +3,8 @@
 use super::basis::SolidBasis;
 use crate::failure::{Choice, Limits};
 use crate::material::Isotropic;
-use crate::system::BondSystem;
 use crate::space::law::calibration::bulk_modulus;
+use crate::system::BondSystem;
 
 /// Critical stretches of brittle bonds (n_bonds); a bond has the mean bulk modulus and the mean length of its ends.
 pub fn critical_stretches(basis: &SolidBasis<'_>) -> Vec<f64> {

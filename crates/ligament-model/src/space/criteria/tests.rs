@@ -1,11 +1,11 @@
 use super::*;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
+use crate::element::ElementKind;
 use crate::failure::{KINDS as IN_PLANE, Measure, Unfit};
 use crate::horizon::Horizons;
 use crate::material::{Isotropic, Material};
 use crate::space::law::{ShearForm, nhpd, pds};
-use crate::element::ElementKind;
 use crate::system::BondSystem;
 
 const YOUNG: f64 = 30e9;

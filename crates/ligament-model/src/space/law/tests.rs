@@ -2,12 +2,12 @@ use super::*;
 use crate::bonds::{BondSet, Incidence};
 use crate::cloud::PointCloud;
 use crate::deformation::SpaceDeformation;
-use crate::element::{Remaining, Rigidities};
-use crate::law::BondStiffness;
-use crate::law::rotational::RotationalStiffness;
 use crate::element::beam::BeamBond;
 use crate::element::pair::PairKinematics;
 use crate::element::spring::SpringBond;
+use crate::element::{Remaining, Rigidities};
+use crate::law::BondStiffness;
+use crate::law::rotational::RotationalStiffness;
 use crate::tensor::SymTensor;
 
 const MATERIAL: Isotropic = Isotropic {
@@ -121,7 +121,11 @@ fn energies_are_those_of_the_isotropic_body() {
     let mppd = mppd::stiffness(&bonds, &cloud, &materials, RotationalStiffness::Decaying);
     for strain in STRAINS {
         let expected = elastic(&MATERIAL, strain);
-        let spring = energy(&pds, |_| 1.0, |it: &SpringBond<3>| it.deformation_in(&tensor(strain)));
+        let spring = energy(
+            &pds,
+            |_| 1.0,
+            |it: &SpringBond<3>| it.deformation_in(&tensor(strain)),
+        );
         let beam = |stiffness| {
             energy(
                 stiffness,
@@ -143,7 +147,11 @@ fn central_forces_have_a_poisson_s_ratio_of_a_quarter() {
     let bbpd = bbpd::stiffness(&bonds, &cloud, &[MATERIAL]);
     for strain in STRAINS {
         let expected = elastic(&bbpd::central(&MATERIAL), strain);
-        let found = energy(&bbpd, |_| 1.0, |it: &SpringBond<3>| it.deformation_in(&tensor(strain)));
+        let found = energy(
+            &bbpd,
+            |_| 1.0,
+            |it: &SpringBond<3>| it.deformation_in(&tensor(strain)),
+        );
         assert!((found / expected - 1.0).abs() < ROUNDING, "{strain:?}");
     }
     let quarter = Isotropic {
