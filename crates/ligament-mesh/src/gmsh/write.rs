@@ -4,8 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write};
 
 use crate::group::Group;
-use crate::mesh::Mesh;
-use crate::solid::SolidMesh;
+use crate::mesh::{Mesh, SolidMesh};
 
 /// The text of a Gmsh file (4.1, ASCII) of a mesh, from which [`parse`](super::parse) makes an equal mesh: nodes with their
 /// tags and all digits, cells in their order, and groups with their names, numbers and dimensions, also where an element is

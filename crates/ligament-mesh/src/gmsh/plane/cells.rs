@@ -5,7 +5,7 @@ use super::super::cursor::Cursor;
 use super::super::element_type::Shape;
 use super::super::error::GmshError;
 use super::super::records::{Element, Records};
-use crate::cell::Cell;
+use crate::cell::{Cell, MeshCell};
 use crate::overlap::first_covering;
 
 /// Twice the area of a triangle, as a part of its longest side times the mesh size, that counts as none.

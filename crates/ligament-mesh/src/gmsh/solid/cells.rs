@@ -4,6 +4,7 @@ use super::super::cursor::Cursor;
 use super::super::element_type::Shape;
 use super::super::error::GmshError;
 use super::super::records::{Element, Records};
+use crate::cell::MeshCell;
 use crate::solid::SolidCell;
 
 /// Volume between the edges at a corner of a cell, as a part of the cube of its longest edge, below which the cell is flat.

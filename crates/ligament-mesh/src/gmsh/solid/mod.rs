@@ -9,8 +9,9 @@ use super::error::GmshError;
 use super::records::Records;
 use super::{fields, groups};
 use crate::group::Group;
+use crate::mesh::SolidMesh;
 use crate::overlap::first_covering;
-use crate::solid::{Faces, SolidCell, SolidMesh};
+use crate::solid::{Faces, SolidCell};
 
 /// Makes the solid mesh of the records, or refuses them.
 pub(super) fn assemble(cursor: &Cursor<'_>, records: &Records) -> Result<SolidMesh, GmshError> {
