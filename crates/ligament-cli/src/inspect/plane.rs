@@ -18,8 +18,7 @@ pub(super) fn write(out: &mut dyn Write, mesh: &Mesh) -> io::Result<()> {
     let triangles = mesh.cells.iter().filter(is_triangle).count();
     let (cells, quadrangles) = (mesh.cells.len(), mesh.cells.len() - triangles);
     let corners = bounding_box(&mesh.positions);
-    let lengths = (mesh.edges().into_iter())
-        .map(|it| edge_length(&mesh.positions, it));
+    let lengths = (mesh.edges().into_iter()).map(|it| edge_length(&mesh.positions, it));
     let mut line = |name: &str, value: String| entry(out, NAMES, name, value);
     line("nodes", mesh.positions.len().to_string())?;
     let kinds = format!("{triangles} triangles, {quadrangles} quadrangles");

@@ -98,6 +98,19 @@ impl<const D: usize> BondSet<D> {
     }
 }
 
+/// First of the bonds of which each point is the first end, and behind the last point the number of all, from the ends in the order of
+/// [`BondSet`].
+fn first_bonds(ends: &[[u32; 2]], n_points: usize) -> Vec<usize> {
+    let mut first = vec![0; n_points + 1];
+    for [end, _] in ends {
+        first[*end as usize + 1] += 1;
+    }
+    for point in 0..n_points {
+        first[point + 1] += first[point];
+    }
+    first
+}
+
 impl Incidence {
     /// The bonds of each point, from the ends in the order of [`BondSet`].
     pub(crate) fn new(ends: &[[u32; 2]], n_points: usize) -> Self {

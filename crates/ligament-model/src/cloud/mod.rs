@@ -1,7 +1,7 @@
-//! Material points, from a mesh (`mesh.rs`), a regular lattice ([`lattice`]) or arrays (`points.rs`).
+//! Material points, from a mesh (`lumping.rs`), a regular lattice ([`lattice`]) or arrays (`points.rs`).
 
 pub mod lattice;
-pub(crate) mod mesh;
+pub(crate) mod lumping;
 mod points;
 mod precision;
 
@@ -10,8 +10,9 @@ use rayon::prelude::*;
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
+use crate::geometry::bounding_box;
 use crate::portion::{Exchange, Partition, Portion, largest};
-pub(crate) use precision::precision_of_coordinates;
+use crate::tensor::{minus, norm};
 
 /// Material points with their volumes, nearest-neighbour distances and materials.
 ///
@@ -136,7 +137,7 @@ impl<const D: usize> PointCloud<D> {
 
     /// Takes a position of the case to the coordinates of [`PointCloud::positions`].
     pub fn local(&self, position: [f64; D]) -> [f64; D] {
-        std::array::from_fn(|axis| position[axis] - self.origin[axis])
+        minus(position, self.origin)
     }
 
     /// Shares of the materials in the volume of a point, shape (n_materials).
@@ -200,29 +201,16 @@ impl<const D: usize> PointCloud<D> {
 
     /// Diagonal of the box around all points, m.
     pub(crate) fn extent(&self) -> f64 {
-        let square = |axis: usize| {
-            let (lowest, highest) = (self.positions.iter())
-                .map(|position| position[axis])
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-                    (low.min(x), high.max(x))
-                });
-            (highest - lowest).powi(2)
-        };
-        (0..D).map(square).sum::<f64>().sqrt()
+        let [lower, upper] = bounding_box(self.positions.iter().copied());
+        norm(minus(upper, lower))
     }
 
     /// Orders some points so that the first half of them lies on one side of the second along the axis in which they reach farthest (the
     /// first of several), with ties to the smaller number.
     pub(crate) fn halve(&self, points: &mut [u32]) {
-        let extent = |axis: usize| {
-            let (lowest, highest) = (points.iter())
-                .map(|&point| self.positions[point as usize][axis])
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-                    (low.min(x), high.max(x))
-                });
-            highest - lowest
-        };
-        let extents: [f64; D] = std::array::from_fn(extent);
+        let positions = points.iter().map(|&it| self.positions[it as usize]);
+        let [lower, upper] = bounding_box(positions);
+        let extents = minus(upper, lower);
         let axis = (0..D)
             .rev()
             .max_by(|one, other| extents[*one].total_cmp(&extents[*other]));
@@ -284,25 +272,8 @@ pub(crate) fn search_tree<const D: usize>(positions: &[[f64; D]]) -> RTree<Numbe
     )
 }
 
-/// The middle of the smallest box around some positions, m.
-pub(crate) fn middle_of_bounding_box<const D: usize>(positions: &[[f64; D]]) -> [f64; D] {
-    std::array::from_fn(|axis| {
-        let (lower, upper) = positions
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(lower, upper), p| {
-                (lower.min(p[axis]), upper.max(p[axis]))
-            });
-        if lower <= upper {
-            0.5 * (lower + upper)
-        } else {
-            0.0
-        }
-    })
-}
-
 /// Distance of two points, m; the same bits whichever comes first.
 #[inline]
 pub(crate) fn distance<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
-    let squares = a.iter().zip(&b).map(|(a, b)| (b - a).powi(2));
-    squares.sum::<f64>().sqrt()
+    norm(minus(b, a))
 }

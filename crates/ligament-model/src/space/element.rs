@@ -8,11 +8,11 @@
 //! The first is a beam of Euler and Bernoulli with EA = k_n, EI = k_theta l = d and a torsional stiffness GJ = d where k_t = 12 d/l^2, as in
 //! textbooks, without a frame of its own.
 
-use crate::tensor::{cross, dot, tangents};
 use crate::bonds::BondSet;
 use crate::deformation::SpaceDeformation;
 use crate::element::{Remaining, Rigidities};
 use crate::layout::Component;
+use crate::tensor::{cross, dot, tangents};
 
 /// Kinematics of the bonds of a body in space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

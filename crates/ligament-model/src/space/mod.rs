@@ -11,9 +11,6 @@
 //!
 //! | stage | module |
 //! |---|---|
-//! | points of solid meshes and of lattices | [`cloud`], [`lattice`] |
-//! | bonds out of a mesh | [`outline`] |
-//! | pre-cracks | [`precrack`] |
 //! | micromoduli | [`law`] |
 //! | factors alpha and Omega | [`correction`] |
 //! | failure criteria with their limits | [`criteria`] |
@@ -22,20 +19,13 @@
 
 mod answers;
 mod change;
-pub mod cloud;
 pub mod correction;
 pub mod criteria;
 pub mod element;
-pub mod lattice;
 pub mod law;
 mod mass;
-pub mod outline;
-pub mod parts;
-pub mod precrack;
-mod predicates;
 mod product;
 mod rigid_motions;
-pub mod shape;
 pub mod stress;
 mod sweep;
 pub mod system;

@@ -2,11 +2,11 @@
 
 use super::element::SolidElement;
 use super::system::SolidSystem;
-use crate::tensor::dot;
 use crate::interface::{Bonds, CentralMotions};
 use crate::layout::Component;
 use crate::portion::any;
 use crate::rigid_motions::{RigidMotions, Turn};
+use crate::tensor::dot;
 
 impl SolidSystem {
     /// The rigid motions of some points that their bonds let be free.

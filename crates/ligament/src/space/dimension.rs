@@ -1,10 +1,10 @@
 //! What a setup has in space.
 
 use ligament_analysis::Component;
+use ligament_model::bonds::precrack::cut_bonds;
 use ligament_model::space::SolidSystem;
 use ligament_model::space::law::bbpd;
 use ligament_model::space::law::stability::NegativeShear;
-use ligament_model::space::precrack::cut_bonds;
 use ligament_model::thermal::FreeStrains;
 use ligament_model::{BondSet, Bonds, LumpedMass, Material, PointCloud};
 

@@ -1,8 +1,9 @@
 //! Whether points and bonds in space are fit for a computation.
 
+use ligament_mesh::MeshCell;
+use ligament_model::bonds::outline::{Outline, SolidOutline};
 use ligament_model::element::Rigidities;
 use ligament_model::space::SolidSystem;
-use ligament_model::space::outline::Surface;
 use ligament_model::{BondSet, Horizons, PointCloud};
 
 use crate::body::{Body, Origin};
@@ -11,7 +12,7 @@ use crate::setup::{Horizon, Setup};
 use crate::soundness::{DISTINCT, Parts, require_neighbours, require_rigidities};
 
 /// Refuses cells that lie in others.
-pub(super) fn forbid_overlap(body: &dyn Body<3>, outline: &Surface) -> Result<(), SetupError> {
+pub(super) fn forbid_overlap(body: &dyn Body<3>, outline: &SolidOutline) -> Result<(), SetupError> {
     let Some([from, to]) = outline.first_crossing() else {
         return Ok(());
     };
@@ -191,8 +192,8 @@ mod tests {
                 ],
                 ..SolidMesh::default()
             };
-            let cloud = PointCloud::from_solid_mesh(&mesh, &[0, 0], 1);
-            let outline = Surface::new(&mesh.cells, &cloud);
+            let cloud = PointCloud::from_mesh(&mesh, 1.0, &[0, 0], 1);
+            let outline = SolidOutline::of_cells(&mesh.cells, &cloud);
             forbid_overlap(&SolidMeshBody::from(mesh), &outline)
         };
         let fault = *fault_at(0.4).unwrap_err().fault;
