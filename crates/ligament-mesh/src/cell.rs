@@ -2,6 +2,9 @@
 
 /// What meshes and points ask a cell in D dimensions for.
 pub trait MeshCell<const D: usize>: Copy + Sync {
+    /// The corner nodes of the cell.
+    fn corners(&self) -> &[u32];
+
     /// The corner nodes of the cell, to be renumbered.
     fn corners_mut(&mut self) -> &mut [u32];
 
@@ -96,6 +99,10 @@ impl Cell {
 }
 
 impl MeshCell<2> for Cell {
+    fn corners(&self) -> &[u32] {
+        self.corners()
+    }
+
     fn corners_mut(&mut self) -> &mut [u32] {
         match self {
             Cell::Triangle(corners) => corners,

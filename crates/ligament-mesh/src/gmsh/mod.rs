@@ -18,12 +18,14 @@
 
 mod arrays;
 mod assembly;
+mod cells;
 mod cursor;
 mod element_type;
 mod error;
 mod fields;
 mod groups;
 mod kind;
+mod nodes;
 mod plane;
 mod records;
 mod sections;

@@ -169,6 +169,10 @@ impl SolidCell {
 }
 
 impl MeshCell<3> for SolidCell {
+    fn corners(&self) -> &[u32] {
+        self.corners()
+    }
+
     fn corners_mut(&mut self) -> &mut [u32] {
         match self {
             SolidCell::Tetrahedron(corners) => corners,
