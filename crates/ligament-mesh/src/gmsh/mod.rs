@@ -38,7 +38,7 @@ mod write;
 pub use arrays::{Element, assemble};
 pub use error::{GmshError, Place};
 pub use kind::holds_solid;
-pub use write::{write, write_solid};
+pub use write::write;
 
 use crate::any_mesh::AnyMesh;
 use crate::mesh::Mesh;

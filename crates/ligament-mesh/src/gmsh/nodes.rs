@@ -35,8 +35,8 @@ pub(super) fn check_plane(cursor: &Cursor<'_>, nodes: &[Node], size: f64) -> Res
     }
 }
 
-/// Two nodes nearer than half the tolerance along each axis of a mesh of this dimension, the first in the file first, if there are any; no two
-/// farther apart than all of it.
+/// Two nodes nearer than half the tolerance along each axis of a mesh of this dimension, if there are any, and no two farther apart than
+/// all of it: the first in the file first.
 pub(super) fn coincident(nodes: &[Node], size: f64, dimension: usize) -> Option<[&Node; 2]> {
     let width = COINCIDENCE * size;
     let lowest = |axis: usize| {

@@ -221,7 +221,7 @@ fn what_is_written_is_read_back() {
         "pyramids-41.msh",
     ] {
         let mesh = read(name);
-        let written = gmsh::write_solid(&mesh);
+        let written = gmsh::write(&mesh);
         let expected = AnyMesh::Solid(SolidMesh {
             remarks: Vec::new(),
             fields: Vec::new(),

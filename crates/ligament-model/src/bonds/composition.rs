@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
-use super::first_bonds;
+use super::first::first_bonds;
 use super::parts::{Parts, Side};
 use super::retained::retained;
 use crate::cloud::PointCloud;

@@ -1,6 +1,7 @@
 //! Dual-horizon bonds: one record for each pair of points of which one lies in the horizon of the other.
 
 pub mod composition;
+mod first;
 pub mod hole;
 pub mod outline;
 pub mod parts;
@@ -96,19 +97,6 @@ impl<const D: usize> BondSet<D> {
             ..self
         }
     }
-}
-
-/// First of the bonds of which each point is the first end, and behind the last point the number of all, from the ends in the order of
-/// [`BondSet`].
-fn first_bonds(ends: &[[u32; 2]], n_points: usize) -> Vec<usize> {
-    let mut first = vec![0; n_points + 1];
-    for [end, _] in ends {
-        first[*end as usize + 1] += 1;
-    }
-    for point in 0..n_points {
-        first[point + 1] += first[point];
-    }
-    first
 }
 
 impl Incidence {

@@ -25,8 +25,8 @@ const HALVINGS: usize = 60;
 /// A sum of plane waves with random phases: values at places have the mean 0, the variance 1 and the correlation exp(-(r/L)^2) at the
 /// distance r.
 ///
-/// z(x) = sqrt(2/n) sum_j cos(k_j . x + phi_j) (Shinozuka and Jan 1972), with phases phi_j that are uniform over a turn. That correlation is
-/// the Fourier transform of the density of wave vectors k whose components are normal with the deviation sqrt(2)/L. Their lengths have the
+/// z(x) = sqrt(2/n) sum_j cos(k_j . x + phi_j) (Shinozuka and Jan 1972), with phases phi_j that are uniform over a turn. That correlation
+/// is the Fourier transform of the density of wave vectors k whose components are normal with the deviation sqrt(2)/L. Their lengths have the
 /// distribution of Rayleigh, in space that of Maxwell, and are taken at the middles of n equally probable classes; their directions are an
 /// even sequence with a random start.
 #[derive(Debug, Clone)]

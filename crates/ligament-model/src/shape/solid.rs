@@ -132,8 +132,8 @@ impl SolidShape {
     }
 }
 
-/// Places along a way from `start` (0) to `start + way` (1), both across the axis of a cylinder, nearer to the axis than a radius; none where
-/// the first is not below the second.
+/// Places along a way from `start` (0) to `start + way` (1), both across the axis of a cylinder, nearer to the axis than a radius; none
+/// where the first is not below the second.
 fn within_radius(start: [f64; 3], way: [f64; 3], radius: f64) -> [f64; 2] {
     let square = dot(way, way);
     if square == 0.0 {

@@ -14,7 +14,8 @@ use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
-use super::{BondSet, Incidence, first_bonds};
+use super::first::first_bonds;
+use super::{BondSet, Incidence};
 use crate::cloud::lumping::shortest_edges;
 use crate::cloud::{PointCloud, distance, search_tree};
 use crate::geometry::bounding_box;

@@ -34,10 +34,10 @@ pub enum Ends {
     Included,
 }
 
-/// What cuts bonds: pieces of a line or of a surface, with their numbers from 0. Bonds are given by the positions of their ends, and all
-/// coordinates are those of the case or, once moved, of a cloud.
+/// Geometry of a pre-crack: the pieces of a line or of a surface, by their numbers from 0. Bonds are given by the positions of their ends,
+/// and all coordinates are those of the case or, once moved, of a cloud (m).
 pub trait Cut<const D: usize>: Sync + Sized {
-    /// The same with every position taken to another one.
+    /// The pre-crack with every position taken to another one.
     #[must_use]
     fn moved(&self, by: impl Fn([f64; D]) -> [f64; D]) -> Self;
 

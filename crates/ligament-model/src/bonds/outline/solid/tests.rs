@@ -2,6 +2,7 @@ use super::*;
 use crate::bonds::BondSet;
 use crate::bonds::outline::{bonds_outside, spacing_inside};
 use crate::horizon::Horizons;
+use crate::tensor::dot;
 use ligament_mesh::{MeshCell, SolidMesh};
 
 const N: u32 = 6;
@@ -99,12 +100,7 @@ fn turned(angle: f64) -> impl Fn([f64; 3]) -> [f64; 3] {
     let axis = [2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0];
     let (sin, cos) = angle.sin_cos();
     move |p: [f64; 3]| {
-        let along: f64 = (0..3).map(|k| axis[k] * p[k]).sum();
-        let across = [
-            axis[1] * p[2] - axis[2] * p[1],
-            axis[2] * p[0] - axis[0] * p[2],
-            axis[0] * p[1] - axis[1] * p[0],
-        ];
+        let (along, across) = (dot(axis, p), cross(axis, p));
         [0, 1, 2].map(|k| cos * p[k] + sin * across[k] + (1.0 - cos) * along * axis[k])
     }
 }
@@ -194,10 +190,6 @@ fn ball(p: [f64; 3]) -> [f64; 3] {
             0.0
         }
     })
-}
-
-fn norm(a: [f64; 3]) -> f64 {
-    a.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 #[test]
