@@ -12,7 +12,7 @@ use rstar::primitives::GeomWithData;
 
 use crate::geometry::bounding_box;
 use crate::portion::{Exchange, Partition, Portion, largest};
-use crate::tensor::{minus, norm};
+use crate::tensor::{dot, minus, norm};
 
 /// Material points with their volumes, nearest-neighbour distances and materials.
 ///
@@ -50,22 +50,23 @@ pub struct PointCloud<const D: usize = 2> {
 /// A point of the search tree, with its number.
 pub(crate) type NumberedPoint<const D: usize = 2> = GeomWithData<[f64; D], u32>;
 
-impl PointCloud {
-    /// Sides of the cell that a point stands for, m: dx, dy on a lattice; on a mesh those of the square with the point's area,
-    /// sqrt(V/t) twice.
-    pub fn cell_size(&self, point: u32) -> [f64; 2] {
-        self.lattice_cell
-            .unwrap_or_else(|| [(self.volumes[point as usize] / self.thickness).sqrt(); 2])
-    }
-
-    /// Squared radius of gyration of a point's cell about its centre, (dx^2 + dy^2)/12, m^2.
-    pub fn squared_gyration(&self, point: u32) -> f64 {
-        let [dx, dy] = self.cell_size(point);
-        (dx * dx + dy * dy) / 12.0
-    }
-}
-
 impl<const D: usize> PointCloud<D> {
+    /// Sides of the cell that a point stands for, m: those of the cells of a lattice; on a mesh those of the square with the point's area
+    /// V/t, or of the cube with its volume.
+    pub fn cell_size(&self, point: u32) -> [f64; D] {
+        self.lattice_cell.unwrap_or_else(|| {
+            let size = self.volumes[point as usize] / self.thickness;
+            [if D == 2 { size.sqrt() } else { size.cbrt() }; D]
+        })
+    }
+
+    /// Squared radius of gyration of a point's cell about its centre, m^2: (dx^2 + dy^2)/12, and in space in the mean over the axes
+    /// (dx^2 + dy^2 + dz^2)/18.
+    pub fn squared_gyration(&self, point: u32) -> f64 {
+        let sides = self.cell_size(point);
+        dot(sides, sides) / (6 * D) as f64
+    }
+
     /// Number of points.
     pub fn len(&self) -> usize {
         self.positions.len()
