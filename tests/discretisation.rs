@@ -9,7 +9,7 @@ use ligament_mesh::{Cell, Mesh};
 use ligament_model::BondSet;
 use ligament_model::Horizons;
 use ligament_model::PointCloud;
-use ligament_model::bonds::outline::bonds_outside;
+use ligament_model::bonds::outline::{PlaneOutline, bonds_outside};
 use ligament_run::model::Model;
 use verification::bench::{Bench, domain};
 use verification::meshes;
@@ -136,7 +136,7 @@ fn rounded_coordinates_have_the_bonds_of_exact_ones() {
     let bonds_of = |mesh: &Mesh| {
         let cloud = cloud_of(mesh, 1.0);
         let found = BondSet::search(&cloud, &Horizons::from_spacing(&cloud.spacing, 3.0));
-        let leaves = bonds_outside(&mesh.cells, &found, &cloud);
+        let leaves = bonds_outside(&PlaneOutline::of_cells(&mesh.cells, &cloud), &found, &cloud);
         let inside = found.ends.into_iter().zip(leaves);
         inside.filter(|it| !it.1).map(|it| it.0).collect::<Vec<_>>()
     };

@@ -52,7 +52,7 @@ impl Target for Meshes {
         write_summary(&mut Vec::new(), Path::new("a.msh"), &mesh).unwrap();
         let text = match &mesh {
             AnyMesh::Plane(mesh) => gmsh::write(mesh),
-            AnyMesh::Solid(mesh) => gmsh::write_solid(mesh),
+            AnyMesh::Solid(mesh) => gmsh::write(mesh),
         };
         let again = gmsh::parse_any(text.as_bytes()).unwrap();
         assert_eq!(again.n_nodes(), mesh.n_nodes());

@@ -1,7 +1,6 @@
 //! A mesh of either kind.
 
-use crate::mesh::Mesh;
-use crate::solid::SolidMesh;
+use crate::mesh::{Mesh, SolidMesh};
 
 /// A mesh that is planar or solid.
 #[derive(Debug, Clone, PartialEq)]

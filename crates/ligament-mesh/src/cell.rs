@@ -1,4 +1,23 @@
-//! Planar cells, and faces of solid ones.
+//! What a cell is, planar cells, and faces of solid ones.
+
+/// What meshes and points ask a cell in D dimensions for.
+pub trait MeshCell<const D: usize>: Copy + Sync {
+    /// The corner nodes of the cell.
+    fn corners(&self) -> &[u32];
+
+    /// The corner nodes of the cell, to be renumbered.
+    fn corners_mut(&mut self) -> &mut [u32];
+
+    /// The edges of the cell, each once, from the lower to the higher node.
+    fn edges(&self) -> impl Iterator<Item = [u32; 2]> + use<Self, D>;
+
+    /// Area of the cell with the nodes at `positions`, m², or in space its volume, m³.
+    fn size(&self, positions: &[[f64; D]]) -> f64;
+
+    /// The corner nodes of the cell, each with its share of the size of the cell, which is the integral of its shape function: with these
+    /// the middle of mass stays where that of the cell is, if its faces are parallelograms or triangles.
+    fn shares(&self, positions: &[[f64; D]]) -> impl Iterator<Item = (u32, f64)>;
+}
 
 /// A planar cell given by its corner nodes (indices into the mesh's nodes), counter-clockwise; in space the face of a solid cell,
 /// whose corners stand counter-clockwise seen from its front.
@@ -25,14 +44,6 @@ impl Cell {
         sorted[..self.corners().len()].copy_from_slice(self.corners());
         sorted.sort_unstable();
         sorted
-    }
-
-    /// The corner nodes of the cell, to be renumbered or turned around.
-    pub(crate) fn corners_mut(&mut self) -> &mut [u32] {
-        match self {
-            Cell::Triangle(corners) => corners,
-            Cell::Quadrangle(corners) => corners,
-        }
     }
 
     /// The area of the cell with the nodes at `positions`, m²; negative where the corners stand clockwise.
@@ -84,6 +95,38 @@ impl Cell {
             Cell::Quadrangle([a, b, c, d]) => ([b, c, d], Some([b, d, a])),
         };
         std::iter::once(first).chain(second)
+    }
+}
+
+impl MeshCell<2> for Cell {
+    fn corners(&self) -> &[u32] {
+        self.corners()
+    }
+
+    fn corners_mut(&mut self) -> &mut [u32] {
+        match self {
+            Cell::Triangle(corners) => corners,
+            Cell::Quadrangle(corners) => corners,
+        }
+    }
+
+    fn edges(&self) -> impl Iterator<Item = [u32; 2]> + use<> {
+        let cell = *self;
+        let n = self.corners().len();
+        (0..n).map(move |place| {
+            let [a, b] = [place, (place + 1) % n].map(|place| cell.corners()[place]);
+            [a.min(b), a.max(b)]
+        })
+    }
+
+    fn size(&self, positions: &[[f64; 2]]) -> f64 {
+        self.area(positions)
+    }
+
+    /// A third of a triangle, a quarter of a quadrangle.
+    fn shares(&self, positions: &[[f64; 2]]) -> impl Iterator<Item = (u32, f64)> {
+        let share = self.area(positions) / self.corners().len() as f64;
+        self.corners().iter().map(move |&corner| (corner, share))
     }
 }
 

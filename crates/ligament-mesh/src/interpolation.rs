@@ -1,8 +1,8 @@
 //! Values between the nodes of a cell: the shares of its corners in a place.
 
 use crate::cell::Cell;
-use crate::mesh::Mesh;
-use crate::solid::{SolidCell, SolidMesh};
+use crate::mesh::{Mesh, SolidMesh};
+use crate::solid::SolidCell;
 
 /// Depth below the sides of a cell, over its height from them, to which a place beside the mesh belongs to it: a place on a round rim
 /// lies outside the straight sides between its nodes.

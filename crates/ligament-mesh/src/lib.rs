@@ -30,11 +30,11 @@ mod remark;
 mod solid;
 
 pub use any_mesh::AnyMesh;
-pub use cell::Cell;
+pub use cell::{Cell, MeshCell};
 pub use curve::along_hilbert_curve;
 pub use field::NodeField;
 pub use group::Group;
-pub use mesh::Mesh;
+pub use mesh::{Mesh, SolidMesh};
 pub use numbering::Numbering;
 pub use remark::Remark;
-pub use solid::{Faces, OffSurface, Side, SolidCell, SolidMesh};
+pub use solid::{Faces, OffSurface, Side, SolidCell};

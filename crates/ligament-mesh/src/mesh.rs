@@ -1,21 +1,22 @@
-//! What was meshed: nodes, planar cells and named groups.
+//! What was meshed: nodes, cells and named groups.
 
-use crate::cell::Cell;
+use crate::cell::{Cell, MeshCell};
 use crate::field::NodeField;
 use crate::group::Group;
 use crate::remark::Remark;
+use crate::solid::SolidCell;
 
-/// A planar mesh of triangles and quadrangles.
+/// A planar mesh of triangles and quadrangles, or in space a mesh of tetrahedra, hexahedra, prisms and pyramids.
 ///
 /// Only nodes that a cell uses are kept; they are numbered from zero in the order of the file.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Mesh {
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh<const D: usize = 2, C = Cell> {
     /// Tag of each node in the mesh file, shape (n_nodes).
     pub node_tags: Vec<u64>,
     /// Position of each node, shape (n_nodes), m.
-    pub positions: Vec<[f64; 2]>,
-    /// Cells, corners counter-clockwise, shape (n_cells).
-    pub cells: Vec<Cell>,
+    pub positions: Vec<[f64; D]>,
+    /// Cells, shape (n_cells): corners counter-clockwise, in space of positive volume.
+    pub cells: Vec<C>,
     /// Physical groups of every dimension, in the order of dimension, then number; none is empty.
     pub groups: Vec<Group>,
     /// Values at the nodes, in the order of the file.
@@ -24,13 +25,54 @@ pub struct Mesh {
     pub remarks: Vec<Remark>,
 }
 
+/// A mesh of tetrahedra, hexahedra, prisms and pyramids.
+pub type SolidMesh = Mesh<3, SolidCell>;
+
+impl<const D: usize, C> Default for Mesh<D, C> {
+    fn default() -> Self {
+        Self {
+            node_tags: Vec::new(),
+            positions: Vec::new(),
+            cells: Vec::new(),
+            groups: Vec::new(),
+            fields: Vec::new(),
+            remarks: Vec::new(),
+        }
+    }
+}
+
 impl Mesh {
     /// Area of all cells together, m².
     pub fn area(&self) -> f64 {
-        self.cells
-            .iter()
-            .map(|cell| cell.area(&self.positions))
-            .sum()
+        self.size()
+    }
+}
+
+impl SolidMesh {
+    /// Volume of all cells together, m³.
+    pub fn volume(&self) -> f64 {
+        self.size()
+    }
+}
+
+impl<const D: usize, C> Mesh<D, C> {
+    fn size(&self) -> f64
+    where
+        C: MeshCell<D>,
+    {
+        let sizes = self.cells.iter().map(|cell| cell.size(&self.positions));
+        sizes.sum()
+    }
+
+    /// The edges of all cells, each once, ascending.
+    pub fn edges(&self) -> Vec<[u32; 2]>
+    where
+        C: MeshCell<D>,
+    {
+        let mut edges: Vec<[u32; 2]> = self.cells.iter().flat_map(C::edges).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        edges
     }
 
     /// The first group of this name: the one of lowest dimension, then of lowest number.

@@ -5,12 +5,11 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::cell::Cell;
+use crate::cell::{Cell, MeshCell};
 use crate::curve::along_hilbert_curve;
 use crate::field::NodeField;
 use crate::group::Group;
 use crate::mesh::Mesh;
-use crate::solid::{SolidCell, SolidMesh};
 
 /// How the points of a body are numbered: as in its file, which is the default, or along a space-filling curve. A copy shares its lists.
 ///
@@ -125,16 +124,10 @@ impl Numbering {
     }
 
     /// Cells between the points as cells between the numbers of the file.
-    pub fn cells_in_file(&self, mut cells: Vec<Cell>) -> Vec<Cell> {
-        let corners = cells.iter_mut().map(Cell::corners_mut);
-        corners.for_each(|it| corners_in_file(self, it));
-        cells
-    }
-
-    /// Solid cells between the points as cells between the numbers of the file.
-    pub fn solid_cells_in_file(&self, mut cells: Vec<SolidCell>) -> Vec<SolidCell> {
-        let corners = cells.iter_mut().map(SolidCell::corners_mut);
-        corners.for_each(|it| corners_in_file(self, it));
+    pub fn cells_in_file<const D: usize, C: MeshCell<D>>(&self, mut cells: Vec<C>) -> Vec<C> {
+        for corner in cells.iter_mut().flat_map(C::corners_mut) {
+            *corner = self.in_file(*corner);
+        }
         cells
     }
 
@@ -159,7 +152,7 @@ impl Numbering {
         groups.into_iter().map(group).collect()
     }
 
-    fn renumber_cells(&self, cells: &mut [Cell]) {
+    fn renumber_cells<const D: usize, C: MeshCell<D>>(&self, cells: &mut [C]) {
         cells
             .iter_mut()
             .for_each(|it| self.renumber(it.corners_mut()));
@@ -177,12 +170,6 @@ impl Numbering {
     }
 }
 
-fn corners_in_file(numbering: &Numbering, corners: &mut [u32]) {
-    for corner in corners {
-        *corner = numbering.in_file(*corner);
-    }
-}
-
 /// Values, so many a row, in an order of the rows (n_rows).
 fn taken<T: Copy>(order: Option<&[u32]>, values: Vec<T>) -> Vec<T> {
     let Some(order) = order else {
@@ -193,31 +180,12 @@ fn taken<T: Copy>(order: Option<&[u32]>, values: Vec<T>) -> Vec<T> {
     order.iter().flat_map(row).copied().collect()
 }
 
-impl Mesh {
+impl<const D: usize, C: MeshCell<D>> Mesh<D, C> {
     /// The mesh with its nodes numbered along a curve; cells stay in the order of the file.
     pub fn along_curve(self) -> (Self, Numbering) {
         let numbering = Numbering::along_curve(&self.positions);
         let mut cells = self.cells;
         numbering.renumber_cells(&mut cells);
-        let mesh = Self {
-            node_tags: numbering.from_file(self.node_tags),
-            positions: numbering.from_file(self.positions),
-            cells,
-            groups: numbering.groups(self.groups),
-            fields: numbering.fields(self.fields),
-            remarks: self.remarks,
-        };
-        (mesh, numbering)
-    }
-}
-
-impl SolidMesh {
-    /// The mesh with its nodes numbered along a curve; cells stay in the order of the file.
-    pub fn along_curve(self) -> (Self, Numbering) {
-        let numbering = Numbering::along_curve(&self.positions);
-        let mut cells = self.cells;
-        let corners = cells.iter_mut().map(SolidCell::corners_mut);
-        corners.for_each(|it| numbering.renumber(it));
         let mesh = Self {
             node_tags: numbering.from_file(self.node_tags),
             positions: numbering.from_file(self.positions),

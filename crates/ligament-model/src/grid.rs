@@ -39,7 +39,7 @@ impl BodyGrid {
         let canvas = match self.canvas.clone() {
             Canvas::Between(cells) => Canvas::Between(numbering.cells_in_file(cells)),
             Canvas::Around(corners) => Canvas::Around(numbering.to_file(corners)),
-            Canvas::Solid(cells) => Canvas::Solid(numbering.solid_cells_in_file(cells)),
+            Canvas::Solid(cells) => Canvas::Solid(numbering.cells_in_file(cells)),
             Canvas::Boxes(boxes) => Canvas::Boxes(numbering.to_file(boxes)),
         };
         Self {

@@ -12,7 +12,7 @@ use ligament_analysis::ProportionalLoading;
 use ligament_analysis::driver::Outcome;
 use ligament_case::case::CaseFile;
 
-use ligament_model::{BodyGrid, BondSystem, Bonds, FixedFields};
+use ligament_model::{BodyGrid, BondSystem, FixedFields};
 use ligament_run::loading::write_rule;
 use ligament_run::memory;
 use ligament_run::provenance::Provenance;

@@ -10,7 +10,6 @@ use ligament_analysis::history::{Moment, Observer, ObserverError, Onward, StepRe
 use ligament_analysis::ranks::Together;
 use ligament_analysis::serial::Serial;
 use ligament_case::case::CaseFile;
-use ligament_model::Bonds;
 use ligament_output::folder::RESOLVED_CASE;
 use ligament_output::results::PieceWriter;
 

@@ -6,7 +6,6 @@ use std::process::{Command, Stdio};
 use ligament::Model;
 use ligament::setup::{Analysis, Dim, Dimension};
 use ligament_case::case::CaseFile;
-use ligament_model::Bonds;
 
 /// Bytes of a point in a file of fields, compressed, rounded up from the largest that was measured: a Brazilian disk of 846,
 /// 1273, 2998 and 4808 points took 109 a point before its load and up to 163, 159, 160 and 157 after it. The file of a regular

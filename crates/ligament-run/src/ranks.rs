@@ -8,7 +8,6 @@ use ligament::{Loading, Model};
 use ligament_analysis::ranks::Together;
 use ligament_analysis::serial::Serial;
 use ligament_case::case::{CaseFile, StressField};
-use ligament_model::Bonds;
 
 use crate::checkpoints::IsStopped;
 use crate::memory;

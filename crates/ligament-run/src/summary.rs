@@ -12,7 +12,7 @@ use ligament_analysis::balanced::Stability;
 use ligament_analysis::driver::{LoadPoint, Outcome, Rows};
 use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::history::StepRecord;
-use ligament_analysis::{Bonds, ProportionalLoading, Termination};
+use ligament_analysis::{ProportionalLoading, Termination};
 use ligament_output::quantity::{between, quantity};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ligament_analysis::ranks::Together;
 use ligament_mesh::Mesh;
 use ligament_model::bonds::hole::bonds_across;
-use ligament_model::bonds::outline::{bonds_outside, spacing_inside};
+use ligament_model::bonds::outline::{PlaneOutline, bonds_outside, spacing_inside};
 use ligament_model::bonds::parts::{LatticeCells, PlaneCells};
 use ligament_model::bonds::precrack::{PreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::contact::Faces;
@@ -250,8 +250,9 @@ fn all_points(setup: &Setup, material_of_cell: &[u32]) -> Result<PointCloud, Set
     if setup.bonds_through_voids || body.cells().is_empty() {
         return Ok(cloud);
     }
+    let outline = PlaneOutline::of_cells(body.cells(), &cloud);
     Ok(PointCloud {
-        spacing: spacing_inside(body.cells(), &cloud),
+        spacing: spacing_inside(&outline, body.cells(), &cloud),
         ..cloud
     })
 }
@@ -347,7 +348,7 @@ fn inside_body(setup: &Setup, bonds: BondSet, cloud: &PointCloud) -> (BondSet, V
     } else if setup.bonds_through_voids || cells.is_empty() {
         return (bonds, Vec::new());
     } else {
-        bonds_outside(cells, &bonds, cloud)
+        bonds_outside(&PlaneOutline::of_cells(cells, cloud), &bonds, cloud)
     };
     if !crosses.contains(&true) {
         return (bonds, Vec::new());

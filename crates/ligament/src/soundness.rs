@@ -1,6 +1,6 @@
 //! Whether points and bonds are fit for a computation: what no equation would tell.
 
-use ligament_model::bonds::outline::first_crossing;
+use ligament_model::bonds::outline::{Outline, PlaneOutline};
 use ligament_model::element::Rigidities;
 use ligament_model::{BondSet, BondSystem, Horizons, PointCloud};
 
@@ -16,7 +16,8 @@ pub(crate) const DISTINCT: f64 = 1e-5;
 
 /// Refuses cells that lie on others.
 pub(crate) fn forbid_overlap(body: &dyn Body, cloud: &PointCloud) -> Result<(), SetupError> {
-    let Some([from, to]) = first_crossing(body.cells(), cloud) else {
+    let outline = PlaneOutline::of_cells(body.cells(), cloud);
+    let Some([from, to]) = outline.first_crossing() else {
         return Ok(());
     };
     Err(Field::whole("body").error(Fault::Overlap {

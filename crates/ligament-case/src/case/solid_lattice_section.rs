@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use ligament::body::{SolidCellSet, SolidHole};
-use ligament_model::space::shape::SolidShape;
+use ligament_model::shape::SolidShape;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use ligament::body::{Body, Origin};
 use ligament_mesh::{Group, Mesh, SolidMesh};
 use ligament_model::Lattice;
-use ligament_model::space::lattice::SolidLattice;
+use ligament_model::cloud::lattice::SolidLattice;
 
 use ligament_output::quantity::{between, quantity};
 

@@ -14,7 +14,6 @@ use super::entry::{entry, megabytes};
 use ligament::Setup;
 use ligament::setup::{Dim, Dimension};
 use ligament_case::case::CaseFile;
-use ligament_model::Bonds;
 use ligament_run::memory;
 use ligament_run::model::Model;
 

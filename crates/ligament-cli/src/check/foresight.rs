@@ -9,7 +9,6 @@ use ligament_analysis::Equilibrium;
 use ligament_analysis::driver::{FirstFailure, Foretold, Problem};
 use ligament_analysis::history::{Notice, Observer, ObserverError, StepRecord, View};
 use ligament_case::case::CaseFile;
-use ligament_model::Bonds;
 use ligament_output::quantity::{four_digits, place, quantity};
 use ligament_run::memory;
 use ligament_run::model::Model;

@@ -27,7 +27,6 @@ use ligament::plausibility::notes;
 use ligament::run::on_threads;
 use ligament::setup::{Analysis, Dim, Dimension};
 use ligament_case::case::CaseFile;
-use ligament_model::Bonds;
 use ligament_run::disk;
 use ligament_run::model::{build_model, build_model_in_space};
 use ligament_run::progress::{Progress, ProgressMode};

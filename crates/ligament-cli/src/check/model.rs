@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use ligament::setup::{Dim, Dimension};
 use ligament_case::case::CaseFile;
-use ligament_model::{Bonds, Elasticity, Plane};
+use ligament_model::{Elasticity, Plane};
 use ligament_output::quantity::quantity;
 use ligament_run::model::Model;
 use ligament_run::summary::{Spread, correction_line, family, formulation_line, heading};

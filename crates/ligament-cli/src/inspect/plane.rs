@@ -1,6 +1,5 @@
 //! What is in a mesh of the plane.
 
-use std::collections::BTreeSet;
 use std::io::{self, Write};
 
 use ligament_case::mesh_file::bounding_box;
@@ -19,9 +18,7 @@ pub(super) fn write(out: &mut dyn Write, mesh: &Mesh) -> io::Result<()> {
     let triangles = mesh.cells.iter().filter(is_triangle).count();
     let (cells, quadrangles) = (mesh.cells.len(), mesh.cells.len() - triangles);
     let corners = bounding_box(&mesh.positions);
-    let lengths = edges(mesh)
-        .into_iter()
-        .map(|it| edge_length(&mesh.positions, it));
+    let lengths = (mesh.edges().into_iter()).map(|it| edge_length(&mesh.positions, it));
     let mut line = |name: &str, value: String| entry(out, NAMES, name, value);
     line("nodes", mesh.positions.len().to_string())?;
     let kinds = format!("{triangles} triangles, {quadrangles} quadrangles");
@@ -49,19 +46,6 @@ fn kind_and_size(group: &Group, mesh: &Mesh) -> (&'static str, String) {
             ("surface", quantity(area, "m^2"))
         }
     }
-}
-
-/// The edges of all cells, each once.
-fn edges(mesh: &Mesh) -> BTreeSet<[u32; 2]> {
-    let mut edges = BTreeSet::new();
-    for cell in &mesh.cells {
-        let corners = cell.corners();
-        for (index, &from) in corners.iter().enumerate() {
-            let to = corners[(index + 1) % corners.len()];
-            edges.insert([from.min(to), from.max(to)]);
-        }
-    }
-    edges
 }
 
 #[cfg(test)]

@@ -22,7 +22,7 @@ pub(super) fn write(out: &mut dyn Write, mesh: &SolidMesh) -> io::Result<()> {
         .map(|side| area(&side.face, &mesh.positions))
         .sum();
     let corners = bounding_box(&mesh.positions);
-    let edges = edges(mesh);
+    let edges = mesh.edges();
     let lengths = edges.iter().map(|&it| edge_length(&mesh.positions, it));
     let mut line = |name: &str, value: String| entry(out, NAMES, name, value);
     line("nodes", mesh.positions.len().to_string())?;
@@ -64,14 +64,6 @@ fn cells_in_words(cells: &[SolidCell]) -> String {
     });
     let of_shape: Vec<String> = of_shape.collect();
     format!("{} ({})", cells.len(), of_shape.join(", "))
-}
-
-/// The edges of all cells, each once.
-fn edges(mesh: &SolidMesh) -> Vec<[u32; 2]> {
-    let mut edges: Vec<[u32; 2]> = mesh.cells.iter().flat_map(SolidCell::edges).collect();
-    edges.sort_unstable();
-    edges.dedup();
-    edges
 }
 
 /// The shortest edge at each node, which a horizon factor multiplies where no nearer node is without an edge to it.

@@ -75,24 +75,6 @@ impl Assembly {
     }
 }
 
-/// Refuses two cells, by the numbers of their elements, of which one covers some of the other.
-pub(super) fn refuse_covering(
-    cursor: &Cursor<'_>,
-    records: &Records,
-    covering: Option<[usize; 2]>,
-) -> Result<(), GmshError> {
-    let Some([one, other]) = covering else {
-        return Ok(());
-    };
-    let [first, second] = [one.min(other), one.max(other)].map(|it| &records.elements[it]);
-    Err(GmshError::CoveringCells {
-        place: cursor.place(second.offset),
-        element: second.tag,
-        other: first.tag,
-        other_place: cursor.place(first.offset),
-    })
-}
-
 fn missing_node(cursor: &Cursor<'_>, element: &Element, node: u64) -> GmshError {
     GmshError::MissingNode {
         place: cursor.place(element.offset),

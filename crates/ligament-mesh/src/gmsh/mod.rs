@@ -18,12 +18,14 @@
 
 mod arrays;
 mod assembly;
+mod cells;
 mod cursor;
 mod element_type;
 mod error;
 mod fields;
 mod groups;
 mod kind;
+mod nodes;
 mod plane;
 mod records;
 mod sections;
@@ -36,7 +38,7 @@ mod write;
 pub use arrays::{Element, assemble};
 pub use error::{GmshError, Place};
 pub use kind::holds_solid;
-pub use write::{write, write_solid};
+pub use write::write;
 
 use crate::any_mesh::AnyMesh;
 use crate::mesh::Mesh;

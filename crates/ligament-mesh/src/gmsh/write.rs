@@ -3,43 +3,27 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write};
 
+use crate::cell::MeshCell;
 use crate::group::Group;
 use crate::mesh::Mesh;
-use crate::solid::SolidMesh;
 
-/// The text of a Gmsh file (4.1, ASCII) of a mesh, from which [`parse`](super::parse) makes an equal mesh: nodes with their
-/// tags and all digits, cells in their order, and groups with their names, numbers and dimensions, also where an element is
+/// The text of a Gmsh file (4.1, ASCII) of a planar or solid mesh, from which [`parse_any`](super::parse_any) makes an equal mesh: nodes
+/// with their tags and all digits, cells in their order, and groups with their names, numbers and dimensions, also where an element is
 /// in several.
 ///
 /// Elements that are in the same groups make an entity, as the format asks for. Fields and remarks are not written.
 ///
 /// # Panics
 ///
-/// If a cell or a group has a node, or a group a cell, that the mesh does not have.
-pub fn write(mesh: &Mesh) -> String {
-    let positions: Vec<[f64; 3]> = mesh.positions.iter().map(|&[x, y]| [x, y, 0.0]).collect();
-    let cells: Vec<&[u32]> = mesh.cells.iter().map(|cell| cell.corners()).collect();
+/// If a cell, a face or a group has a node, or a group a cell, that the mesh does not have.
+pub fn write<const D: usize, C: MeshCell<D>>(mesh: &Mesh<D, C>) -> String {
+    let raised = |position: &[f64; D]| [0, 1, 2].map(|axis| *position.get(axis).unwrap_or(&0.0));
+    let positions: Vec<[f64; 3]> = mesh.positions.iter().map(raised).collect();
+    let cells: Vec<&[u32]> = mesh.cells.iter().map(C::corners).collect();
     text_of(&Source {
-        dimension: 2,
+        dimension: D,
         node_tags: &mesh.node_tags,
         positions: &positions,
-        cells: &cells,
-        groups: &mesh.groups,
-    })
-}
-
-/// The text of a Gmsh file (4.1, ASCII) of a solid mesh, from which [`parse_any`](super::parse_any) makes an equal mesh, as
-/// [`write()`] does for a planar one.
-///
-/// # Panics
-///
-/// If a cell, a face or a group has a node, or a group a cell, that the mesh does not have.
-pub fn write_solid(mesh: &SolidMesh) -> String {
-    let cells: Vec<&[u32]> = mesh.cells.iter().map(|cell| cell.corners()).collect();
-    text_of(&Source {
-        dimension: 3,
-        node_tags: &mesh.node_tags,
-        positions: &mesh.positions,
         cells: &cells,
         groups: &mesh.groups,
     })

@@ -1,6 +1,6 @@
 //! Cells of a solid.
 
-use crate::cell::Cell;
+use crate::cell::{Cell, MeshCell};
 
 /// A solid cell given by its corner nodes (indices into the mesh's nodes), in the order of Gmsh.
 ///
@@ -94,16 +94,6 @@ impl SolidCell {
         }
     }
 
-    /// The corner nodes of the cell, to be renumbered or turned round.
-    pub(crate) fn corners_mut(&mut self) -> &mut [u32] {
-        match self {
-            SolidCell::Tetrahedron(corners) => corners,
-            SolidCell::Hexahedron(corners) => corners,
-            SolidCell::Prism(corners) => corners,
-            SolidCell::Pyramid(corners) => corners,
-        }
-    }
-
     /// Name of the shape.
     pub fn shape_name(&self) -> &'static str {
         match self {
@@ -138,22 +128,6 @@ impl SolidCell {
                 Some(Cell::Quadrangle(places.map(|place| corners[place])))
             }
         }
-    }
-
-    /// The edges of the cell, each once, from the lower to the higher node.
-    #[inline]
-    pub fn edges(&self) -> impl Iterator<Item = [u32; 2]> + use<> {
-        let cell = *self;
-        let edges = match self {
-            SolidCell::Tetrahedron(_) => EDGES_OF_TETRAHEDRON,
-            SolidCell::Hexahedron(_) => EDGES_OF_HEXAHEDRON,
-            SolidCell::Prism(_) => EDGES_OF_PRISM,
-            SolidCell::Pyramid(_) => EDGES_OF_PYRAMID,
-        };
-        edges.iter().map(move |places| {
-            let [a, b] = places.map(|place| cell.corners()[place]);
-            [a.min(b), a.max(b)]
-        })
     }
 
     /// The volume of the cell with the nodes at `positions`, m³; negative where it is turned inside out.
@@ -191,6 +165,54 @@ impl SolidCell {
             .faces()
             .filter(move |face| !face.corners().contains(&lowest));
         opposite.flat_map(move |face| face.triangles().map(move |[a, b, c]| [lowest, a, b, c]))
+    }
+}
+
+impl MeshCell<3> for SolidCell {
+    fn corners(&self) -> &[u32] {
+        self.corners()
+    }
+
+    fn corners_mut(&mut self) -> &mut [u32] {
+        match self {
+            SolidCell::Tetrahedron(corners) => corners,
+            SolidCell::Hexahedron(corners) => corners,
+            SolidCell::Prism(corners) => corners,
+            SolidCell::Pyramid(corners) => corners,
+        }
+    }
+
+    #[inline]
+    fn edges(&self) -> impl Iterator<Item = [u32; 2]> + use<> {
+        let cell = *self;
+        let edges = match self {
+            SolidCell::Tetrahedron(_) => EDGES_OF_TETRAHEDRON,
+            SolidCell::Hexahedron(_) => EDGES_OF_HEXAHEDRON,
+            SolidCell::Prism(_) => EDGES_OF_PRISM,
+            SolidCell::Pyramid(_) => EDGES_OF_PYRAMID,
+        };
+        edges.iter().map(move |places| {
+            let [a, b] = places.map(|place| cell.corners()[place]);
+            [a.min(b), a.max(b)]
+        })
+    }
+
+    fn size(&self, positions: &[[f64; 3]]) -> f64 {
+        self.volume(positions)
+    }
+
+    /// Equal parts of the volume but for pyramids, whose apex takes a quarter and whose other corners take 3/16 each. No share depends on
+    /// how nodes are numbered, as those of the tetrahedra that the cell may be split into do.
+    fn shares(&self, positions: &[[f64; 3]]) -> impl Iterator<Item = (u32, f64)> {
+        let parts: &[f64] = match self {
+            SolidCell::Tetrahedron(_) => &[0.25; 4],
+            SolidCell::Hexahedron(_) => &[0.125; 8],
+            SolidCell::Prism(_) => &[1.0 / 6.0; 6],
+            SolidCell::Pyramid(_) => &[0.1875, 0.1875, 0.1875, 0.1875, 0.25],
+        };
+        let volume = self.volume(positions);
+        let corners = self.corners().iter().zip(parts);
+        corners.map(move |(&corner, part)| (corner, part * volume))
     }
 }
 

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use thiserror::Error;
 
 use super::faces::Faces;
-use super::mesh::SolidMesh;
 use crate::cell::Cell;
+use crate::mesh::SolidMesh;
 
 /// A face that is none of the outline of the body, on which a pressure could act.
 #[derive(Debug, Clone, PartialEq, Error)]

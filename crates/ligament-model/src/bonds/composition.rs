@@ -8,9 +8,11 @@ use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
+use super::first::first_bonds;
+use super::parts::{Parts, Side};
 use super::retained::retained;
-use crate::bonds::parts::{Parts, Side};
 use crate::cloud::PointCloud;
+use crate::geometry::{bounding_box, boxes_meet};
 use crate::horizon::INCLUSION_TOLERANCE;
 
 /// Points along the curve that are asked for together whether there is more than one material near them.
@@ -139,10 +141,9 @@ impl<'a, const D: usize, P: Parts<D>> Ways<'a, D, P> {
             let [lower, upper] = parts.bounds(part);
             GeomWithData::new(Rectangle::from_corners(lower, upper), part as u32)
         });
-        let first = |point: usize| ends.partition_point(|it| (it[0] as usize) < point);
         Self {
             tree: RTree::bulk_load(bounds.collect()),
-            first_bond: (0..=cloud.len()).map(first).collect(),
+            first_bond: first_bonds(ends, cloud.len()),
             parts,
             ends,
             cloud,
@@ -156,15 +157,10 @@ impl<'a, const D: usize, P: Parts<D>> Ways<'a, D, P> {
 
     /// The box around some points and the bonds of which they are the first ends.
     fn around(&self, points: &[u32]) -> AABB<[f64; D]> {
-        let (mut lower, mut upper) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
         let others = points.iter().flat_map(|&point| self.own(point));
         let others = others.map(|bond| self.ends[bond][1]);
-        for point in points.iter().copied().chain(others) {
-            for (axis, x) in self.cloud.positions[point as usize].into_iter().enumerate() {
-                lower[axis] = lower[axis].min(x);
-                upper[axis] = upper[axis].max(x);
-            }
-        }
+        let all = points.iter().copied().chain(others);
+        let [lower, upper] = bounding_box(all.map(|it| self.cloud.positions[it as usize]));
         AABB::from_corners(lower, upper)
     }
 
@@ -241,12 +237,9 @@ impl<'a, const D: usize, P: Parts<D>> Ways<'a, D, P> {
 impl<const D: usize> Near<D> {
     /// Where a line is within the part, from 0 at its first end to 1 at its second; none where it passes it by.
     fn passed(&self, [start, end]: [[f64; D]; 2], slack: f64) -> Option<[f64; 2]> {
-        let [lower, upper] = self.bounds;
-        let is_beside = (0..D).any(|axis| {
-            let (least, most) = (start[axis].min(end[axis]), start[axis].max(end[axis]));
-            most + slack < lower[axis] || least - slack > upper[axis]
-        });
-        if is_beside {
+        let [lower, upper] = bounding_box([start, end]);
+        let around = [lower.map(|x| x - slack), upper.map(|x| x + slack)];
+        if !boxes_meet(around, self.bounds) {
             return None;
         }
         let [mut from, mut to] = [0.0_f64, 1.0];

@@ -1,6 +1,7 @@
 //! Dual-horizon bonds: one record for each pair of points of which one lies in the horizon of the other.
 
 pub mod composition;
+mod first;
 pub mod hole;
 pub mod outline;
 pub mod parts;

@@ -1,8 +1,10 @@
 //! Convex parts of a body, each of one material: cells of a mesh or of a lattice.
 
-use ligament_mesh::Cell;
+use ligament_mesh::{Cell, SolidCell};
 
 use crate::cloud::PointCloud;
+use crate::geometry::bounding_box;
+use crate::tensor::{cross, dot, minus, norm};
 
 /// A side of a convex part: a point on it and its outward normal, of length one.
 #[derive(Debug, Clone, Copy)]
@@ -13,18 +15,16 @@ pub struct Side<const D: usize> {
 
 impl<const D: usize> Side<D> {
     /// The side through a point with an outward normal of any length.
-    pub(crate) fn new(point: [f64; D], normal: [f64; D]) -> Self {
-        let length = normal.iter().map(|it| it * it).sum::<f64>().sqrt();
+    fn new(point: [f64; D], normal: [f64; D]) -> Self {
         Self {
             point,
-            normal: normal.map(|it| it / length),
+            normal: normal.map(|it| it / norm(normal)),
         }
     }
 
     /// Height of a position over the side, m; negative inside.
     pub(super) fn height(&self, position: [f64; D]) -> f64 {
-        let along = |axis: usize| (position[axis] - self.point[axis]) * self.normal[axis];
-        (0..D).map(along).sum()
+        dot(minus(position, self.point), self.normal)
     }
 }
 
@@ -69,7 +69,7 @@ impl Parts<2> for PlaneCells<'_> {
     }
 
     fn bounds(&self, part: usize) -> [[f64; 2]; 2] {
-        bounds(self.cells[part].corners(), &self.cloud.positions)
+        corner_box(self.cells[part].corners(), self.cloud)
     }
 
     fn sides(&self, part: usize) -> Vec<Side<2>> {
@@ -80,6 +80,54 @@ impl Parts<2> for PlaneCells<'_> {
             Side::new([x0, y0], [y1 - y0, x0 - x1])
         });
         edges.collect()
+    }
+}
+
+/// The tetrahedra that solid cells consist of, with their materials.
+#[derive(Debug, Clone)]
+pub struct Tetrahedra<'a> {
+    cloud: &'a PointCloud<3>,
+    corners: Vec<[u32; 4]>,
+    materials: Vec<u32>,
+}
+
+impl<'a> Tetrahedra<'a> {
+    /// The tetrahedra of cells with the index of the material of each (n_cells), between the points of a cloud at their nodes.
+    pub fn new(cells: &[SolidCell], cloud: &'a PointCloud<3>, material_of_cell: &[u32]) -> Self {
+        let of_cells = cells.iter().zip(material_of_cell);
+        let (corners, materials) = of_cells
+            .flat_map(|(cell, &material)| cell.tetrahedra().map(move |it| (it, material)))
+            .unzip();
+        Self {
+            cloud,
+            corners,
+            materials,
+        }
+    }
+}
+
+impl Parts<3> for Tetrahedra<'_> {
+    fn len(&self) -> usize {
+        self.corners.len()
+    }
+
+    fn material(&self, part: usize) -> u32 {
+        self.materials[part]
+    }
+
+    fn bounds(&self, part: usize) -> [[f64; 3]; 2] {
+        corner_box(&self.corners[part], self.cloud)
+    }
+
+    fn sides(&self, part: usize) -> Vec<Side<3>> {
+        let places = self.corners[part].map(|node| self.cloud.positions[node as usize]);
+        let opposite_to = |k: usize| {
+            let [p, q, r] = [1, 2, 3].map(|step| places[(k + step) % 4]);
+            let normal = cross(minus(q, p), minus(r, p));
+            let is_outward = dot(normal, minus(places[k], p)) < 0.0;
+            Side::new(p, normal.map(|it| if is_outward { it } else { -it }))
+        };
+        (0..4).map(opposite_to).collect()
     }
 }
 
@@ -123,13 +171,6 @@ impl<const D: usize> Parts<D> for LatticeCells<'_, D> {
 }
 
 /// Lower and upper corner of the box around some nodes, m.
-pub(crate) fn bounds<const D: usize>(nodes: &[u32], positions: &[[f64; D]]) -> [[f64; D]; 2] {
-    let (mut lower, mut upper) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
-    for &node in nodes {
-        for (axis, x) in positions[node as usize].into_iter().enumerate() {
-            lower[axis] = lower[axis].min(x);
-            upper[axis] = upper[axis].max(x);
-        }
-    }
-    [lower, upper]
+fn corner_box<const D: usize>(nodes: &[u32], cloud: &PointCloud<D>) -> [[f64; D]; 2] {
+    bounding_box(nodes.iter().map(|&node| cloud.positions[node as usize]))
 }

@@ -6,7 +6,9 @@ use rayon::prelude::*;
 
 use super::{BondSet, Composition, Incidence};
 use crate::cloud::{PointCloud, distance, search_tree};
+use crate::geometry::bounding_box;
 use crate::horizon::Horizons;
+use crate::tensor::minus;
 
 /// Points whose pairs are found by one thread in one go.
 const BLOCK: usize = 1024;
@@ -54,7 +56,7 @@ impl<const D: usize> BondSet<D> {
                 let [a, b] = pair.map(|point| cloud.positions[point as usize]);
                 let l = distance(a, b);
                 *length = l;
-                *direction = std::array::from_fn(|axis| (b[axis] - a[axis]) / l);
+                *direction = minus(b, a).map(|it| it / l);
                 *horizon = bond_horizon(pair, l, cloud, horizons);
             });
         let incidence = Incidence::new(&ends, cloud.len());
@@ -74,13 +76,8 @@ fn reaching<'a, const D: usize>(cloud: &'a PointCloud<D>, horizons: &Horizons) -
     let Some(portion) = &cloud.portion else {
         return Cow::Borrowed(&cloud.curve);
     };
-    let (mut lower, mut upper) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
-    for &point in portion.own() {
-        for (axis, x) in cloud.positions[point as usize].into_iter().enumerate() {
-            lower[axis] = lower[axis].min(x);
-            upper[axis] = upper[axis].max(x);
-        }
-    }
+    let own = portion.own().iter();
+    let [lower, upper] = bounding_box(own.map(|&it| cloud.positions[it as usize]));
     let reaches = |point: u32| {
         let position = cloud.positions[point as usize];
         let nearest = std::array::from_fn(|axis| position[axis].max(lower[axis]).min(upper[axis]));

@@ -1,7 +1,7 @@
-//! Material points, from a mesh (`mesh.rs`), a regular lattice ([`lattice`]) or arrays (`points.rs`).
+//! Material points, from a mesh (`lumping.rs`), a regular lattice ([`lattice`]) or arrays (`points.rs`).
 
 pub mod lattice;
-pub(crate) mod mesh;
+pub(crate) mod lumping;
 mod points;
 mod precision;
 
@@ -10,9 +10,9 @@ use rayon::prelude::*;
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
+use crate::geometry::bounding_box;
 use crate::portion::{Exchange, Partition, Portion, largest};
-use crate::tensor::dot;
-pub(crate) use precision::precision_of_coordinates;
+use crate::tensor::{dot, minus, norm};
 
 /// Material points with their volumes, nearest-neighbour distances and materials.
 ///
@@ -51,17 +51,16 @@ pub struct PointCloud<const D: usize = 2> {
 pub(crate) type NumberedPoint<const D: usize = 2> = GeomWithData<[f64; D], u32>;
 
 impl<const D: usize> PointCloud<D> {
-    /// Sides of the cell that a point stands for, m: those of a lattice; on a mesh those of the square with the point's area, sqrt(V/t)
-    /// twice, or in space of the cube with its volume.
+    /// Sides of the cell that a point stands for, m: those of the cells of a lattice; on a mesh those of the square with the point's area
+    /// V/t, or of the cube with its volume.
     pub fn cell_size(&self, point: u32) -> [f64; D] {
-        let volume = self.volumes[point as usize] / self.thickness;
-        self.lattice_cell.unwrap_or(match D {
-            2 => [volume.sqrt(); D],
-            _ => [volume.cbrt(); D],
+        self.lattice_cell.unwrap_or_else(|| {
+            let size = self.volumes[point as usize] / self.thickness;
+            [if D == 2 { size.sqrt() } else { size.cbrt() }; D]
         })
     }
 
-    /// Squared radius of gyration of a point's cell about its centre, m^2: in the plane (dx^2 + dy^2)/12, in space the mean over the axes,
+    /// Squared radius of gyration of a point's cell about its centre, m^2: (dx^2 + dy^2)/12, and in space in the mean over the axes
     /// (dx^2 + dy^2 + dz^2)/18.
     pub fn squared_gyration(&self, point: u32) -> f64 {
         let sides = self.cell_size(point);
@@ -139,7 +138,7 @@ impl<const D: usize> PointCloud<D> {
 
     /// Takes a position of the case to the coordinates of [`PointCloud::positions`].
     pub fn local(&self, position: [f64; D]) -> [f64; D] {
-        std::array::from_fn(|axis| position[axis] - self.origin[axis])
+        minus(position, self.origin)
     }
 
     /// Shares of the materials in the volume of a point, shape (n_materials).
@@ -203,29 +202,16 @@ impl<const D: usize> PointCloud<D> {
 
     /// Diagonal of the box around all points, m.
     pub(crate) fn extent(&self) -> f64 {
-        let square = |axis: usize| {
-            let (lowest, highest) = (self.positions.iter())
-                .map(|position| position[axis])
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-                    (low.min(x), high.max(x))
-                });
-            (highest - lowest).powi(2)
-        };
-        (0..D).map(square).sum::<f64>().sqrt()
+        let [lower, upper] = bounding_box(self.positions.iter().copied());
+        norm(minus(upper, lower))
     }
 
     /// Orders some points so that the first half of them lies on one side of the second along the axis in which they reach farthest (the
     /// first of several), with ties to the smaller number.
     pub(crate) fn halve(&self, points: &mut [u32]) {
-        let extent = |axis: usize| {
-            let (lowest, highest) = (points.iter())
-                .map(|&point| self.positions[point as usize][axis])
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-                    (low.min(x), high.max(x))
-                });
-            highest - lowest
-        };
-        let extents: [f64; D] = std::array::from_fn(extent);
+        let positions = points.iter().map(|&it| self.positions[it as usize]);
+        let [lower, upper] = bounding_box(positions);
+        let extents = minus(upper, lower);
         let axis = (0..D)
             .rev()
             .max_by(|one, other| extents[*one].total_cmp(&extents[*other]));
@@ -287,25 +273,8 @@ pub(crate) fn search_tree<const D: usize>(positions: &[[f64; D]]) -> RTree<Numbe
     )
 }
 
-/// The middle of the smallest box around some positions, m.
-pub(crate) fn middle_of_bounding_box<const D: usize>(positions: &[[f64; D]]) -> [f64; D] {
-    std::array::from_fn(|axis| {
-        let (lower, upper) = positions
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(lower, upper), p| {
-                (lower.min(p[axis]), upper.max(p[axis]))
-            });
-        if lower <= upper {
-            0.5 * (lower + upper)
-        } else {
-            0.0
-        }
-    })
-}
-
 /// Distance of two points, m; the same bits whichever comes first.
 #[inline]
 pub(crate) fn distance<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
-    let squares = a.iter().zip(&b).map(|(a, b)| (b - a).powi(2));
-    squares.sum::<f64>().sqrt()
+    norm(minus(b, a))
 }

@@ -2,7 +2,10 @@
 
 use ligament_mesh::{Numbering, along_hilbert_curve};
 
-use super::{PointCloud, search_tree};
+use super::precision::precision_of_coordinates;
+use super::{PointCloud, distance, search_tree};
+use crate::geometry::bounding_box;
+use crate::tensor::minus;
 
 impl<const D: usize> PointCloud<D> {
     /// The cloud of points at `positions` (n_points, m) with their volumes (n_points, m^3) and the index of the material of each
@@ -14,28 +17,10 @@ impl<const D: usize> PointCloud<D> {
         material_of_point: &[u32],
         n_materials: usize,
     ) -> Self {
-        let origin = super::middle_of_bounding_box(positions);
-        let precision = super::precision_of_coordinates(positions);
-        let positions: Vec<[f64; D]> = (positions.iter())
-            .map(|p| std::array::from_fn(|axis| p[axis] - origin[axis]))
-            .collect();
-        let mut material_shares = vec![0.0; positions.len() * n_materials];
-        for (point, &material) in material_of_point.iter().enumerate() {
-            material_shares[point * n_materials + material as usize] = 1.0;
-        }
         let mut cloud = Self {
-            curve: along_hilbert_curve(&positions),
-            positions,
-            precision,
-            origin,
-            thickness,
             volumes: volumes.to_vec(),
-            spacing: Vec::new(),
-            lattice_cell: None,
-            n_materials,
-            material_shares,
-            numbering: Numbering::default(),
-            portion: None,
+            material_shares: whole_shares(material_of_point, n_materials),
+            ..Self::at(positions, thickness, n_materials)
         };
         let tree = search_tree(&cloud.positions);
         cloud.spacing = cloud.over_points(|point| {
@@ -43,9 +28,43 @@ impl<const D: usize> PointCloud<D> {
             (tree.nearest_neighbor_iter_with_distance_2(position))
                 .find(|(neighbour, _)| neighbour.data != point)
                 .map_or(f64::INFINITY, |(neighbour, _)| {
-                    super::distance(position, *neighbour.geom())
+                    distance(position, *neighbour.geom())
                 })
         });
         cloud
     }
+
+    /// Points at `positions` (n_points, m) of the case, still without volumes, materials and spacing.
+    pub(super) fn at(positions: &[[f64; D]], thickness: f64, n_materials: usize) -> Self {
+        let [lower, upper] = bounding_box(positions.iter().copied());
+        let origin = std::array::from_fn(|axis| match lower[axis] <= upper[axis] {
+            true => 0.5 * (lower[axis] + upper[axis]),
+            false => 0.0,
+        });
+        let precision = precision_of_coordinates(positions);
+        let positions: Vec<[f64; D]> = positions.iter().map(|p| minus(*p, origin)).collect();
+        Self {
+            curve: along_hilbert_curve(&positions),
+            positions,
+            precision,
+            origin,
+            thickness,
+            volumes: Vec::new(),
+            spacing: Vec::new(),
+            lattice_cell: None,
+            n_materials,
+            material_shares: Vec::new(),
+            numbering: Numbering::default(),
+            portion: None,
+        }
+    }
+}
+
+/// Shares of the materials in the volumes of points (n_points, n_materials) that are all of one, by its index (n_points).
+pub(super) fn whole_shares(material_of_point: &[u32], n_materials: usize) -> Vec<f64> {
+    let mut shares = vec![0.0; material_of_point.len() * n_materials];
+    for (point, &material) in material_of_point.iter().enumerate() {
+        shares[point * n_materials + material as usize] = 1.0;
+    }
+    shares
 }

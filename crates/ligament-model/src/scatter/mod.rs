@@ -6,17 +6,15 @@
 //! (`random.rs`), and all functions but the four operations and the square root are those of the crate `libm`.
 
 mod distribution;
-mod gaussian;
-mod gaussian_in_space;
 mod random;
+mod waves;
 
 use ligament_mesh::Numbering;
 use rayon::prelude::*;
 
 pub use distribution::Distribution;
 
-use gaussian::RandomWaves;
-use gaussian_in_space::RandomWavesInSpace;
+use waves::RandomWaves;
 
 /// A property of the material that varies at random.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,47 +58,26 @@ pub struct Factors {
 }
 
 impl Scatter {
-    /// Factors at positions (n_points, 2), m, of points that are numbered so.
-    pub fn factors(&self, positions: &[[f64; 2]], numbering: &Numbering) -> Factors {
-        if self.correlation_length > 0.0 {
-            let waves = RandomWaves::new(self.seed, self.correlation_length);
-            return self.of_places(positions, |it| waves.at(it));
-        }
-        self.of_numbers(positions.len(), numbering)
-    }
-
-    /// Factors at positions in space (n_points, 3), m, of points that are numbered so.
-    pub fn factors_in_space(&self, positions: &[[f64; 3]], numbering: &Numbering) -> Factors {
-        if self.correlation_length > 0.0 {
-            let waves = RandomWavesInSpace::new(self.seed, self.correlation_length);
-            return self.of_places(positions, |it| waves.at(it));
-        }
-        self.of_numbers(positions.len(), numbering)
-    }
-
-    /// Factors from the normal value of each place.
-    fn of_places<const D: usize>(
+    /// Factors at positions (n_points), m, of points that are numbered so.
+    pub fn factors<const D: usize>(
         &self,
         positions: &[[f64; D]],
-        value: impl Fn([f64; D]) -> f64 + Sync,
+        numbering: &Numbering,
     ) -> Factors {
-        let factors = positions
-            .par_iter()
-            .map(|&it| self.distribution.factor(value(it)));
+        let at_points = if self.correlation_length > 0.0 {
+            let waves = RandomWaves::new(self.seed, self.correlation_length);
+            let positions = positions.par_iter();
+            positions
+                .map(|&it| self.distribution.factor(waves.at(it)))
+                .collect()
+        } else {
+            let in_file = (0..positions.len() as u32).map(|it| numbering.in_file(it).into());
+            let normal = in_file.map(|it: u64| random::normal(self.seed, it));
+            normal.map(|it| self.distribution.factor(it)).collect()
+        };
         Factors {
             of: self.of,
-            at_points: factors.collect(),
-        }
-    }
-
-    /// Factors from a normal value for each number of a point in the file.
-    fn of_numbers(&self, n_points: usize, numbering: &Numbering) -> Factors {
-        let points = (0..n_points as u32).map(|point| u64::from(numbering.in_file(point)));
-        let factors =
-            points.map(|point| self.distribution.factor(random::normal(self.seed, point)));
-        Factors {
-            of: self.of,
-            at_points: factors.collect(),
+            at_points,
         }
     }
 }

@@ -12,18 +12,8 @@
 //!
 //! | stage | module |
 //! |---|---|
-//! | points of solid meshes and of lattices | [`cloud`], [`lattice`] |
-//! | bonds out of a mesh | [`outline`] |
-//! | pre-cracks | [`precrack`] |
 //! | micromoduli | [`law`] |
 //! | failure criteria with their limits | [`criteria`] |
 
-pub mod cloud;
 pub mod criteria;
-pub mod lattice;
 pub mod law;
-pub mod outline;
-pub mod parts;
-pub mod precrack;
-mod predicates;
-pub mod shape;

@@ -2,7 +2,7 @@
 
 use ligament_model::correction::{CorrectionReport, DomainReport};
 use ligament_model::scatter::Scattered;
-use ligament_model::{Bonds, ElementKind};
+use ligament_model::ElementKind;
 use serde::Serialize;
 
 use ligament::Model;

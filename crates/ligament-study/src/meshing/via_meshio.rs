@@ -89,7 +89,7 @@ pub fn convert(request: &ConversionRequest) -> Result<Conversion, MeshingError> 
     let Handed { mesh, remarks } = handed.flatten().ok_or_else(failed)?;
     let text = match &mesh {
         AnyMesh::Plane(mesh) => gmsh::write(mesh),
-        AnyMesh::Solid(mesh) => gmsh::write_solid(mesh),
+        AnyMesh::Solid(mesh) => gmsh::write(mesh),
     };
     let mesh = gmsh::parse_any(text.as_bytes()).map_err(|error| MeshingError::UnusableSource {
         mesh: source.clone(),
@@ -346,7 +346,7 @@ mod tests {
         assert_eq!(mesh.groups[1].faces, [Cell::Triangle([0, 1, 4])]);
         assert_eq!(mesh.groups[2].edges, [[0, 4]]);
         // The pyramid hangs from its base: the reader turns it round.
-        let Ok(AnyMesh::Solid(read)) = gmsh::parse_any(gmsh::write_solid(&mesh).as_bytes()) else {
+        let Ok(AnyMesh::Solid(read)) = gmsh::parse_any(gmsh::write(&mesh).as_bytes()) else {
             panic!("a solid mesh");
         };
         assert_eq!(read.volume(), 1.0 / 3.0);

@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use ligament_mesh::{Cell, Mesh, NodeField, Numbering, SolidMesh};
-use ligament_model::space::lattice::SolidLattice;
+use ligament_model::cloud::lattice::SolidLattice;
 use ligament_model::{BodyGrid, Lattice, PointCloud, Shape};
 use thiserror::Error;
 

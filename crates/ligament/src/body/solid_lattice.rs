@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use ligament_model::space::lattice::SolidLattice;
-use ligament_model::space::shape::SolidShape;
+use ligament_model::cloud::lattice::SolidLattice;
+use ligament_model::shape::SolidShape;
 use ligament_model::{BodyGrid, Canvas, PointCloud};
 
 use super::cells::{self, CellSets, Cells, Hole, LatticeError, rim};

@@ -66,7 +66,7 @@ impl Body<3> for SolidMeshBody {
     fn cloud(&self, _: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<3> {
         PointCloud {
             numbering: self.numbering(),
-            ..PointCloud::from_solid_mesh(&self.mesh, material_of_cell, n_materials)
+            ..PointCloud::from_mesh(&self.mesh, 1.0, material_of_cell, n_materials)
         }
     }
 

@@ -1,9 +1,9 @@
 //! What a setup has in space.
 
 use ligament_analysis::Component;
+use ligament_model::bonds::precrack::cut_bonds;
 use ligament_model::space::law::bbpd;
 use ligament_model::space::law::stability::NegativeShear;
-use ligament_model::space::precrack::cut_bonds;
 use ligament_model::tensor::{SymTensor, cross};
 use ligament_model::{BondSet, BondSystem, Material, PointCloud};
 

@@ -3,13 +3,12 @@
 use std::sync::Arc;
 
 use ligament_model::bonds::hole::bonds_across;
-use ligament_model::bonds::parts::LatticeCells;
+use ligament_model::bonds::outline::{SolidOutline, bonds_outside, spacing_inside};
+use ligament_model::bonds::parts::{LatticeCells, Tetrahedra};
+use ligament_model::bonds::precrack::{SolidPreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::correction::Correction;
 use ligament_model::correction::patch::CellForces;
 use ligament_model::material::Stiffness;
-use ligament_model::space::outline::{Surface, bonds_outside, spacing_inside};
-use ligament_model::space::parts::Tetrahedra;
-use ligament_model::space::precrack::{SolidPreCrack, count_touched_bonds, cut_bonds};
 use ligament_model::{
     Absence, AbsentBond, BondSet, BondStiffness, BondSystem, EnergyRatio, FixedFields, PointCloud,
 };
@@ -74,8 +73,8 @@ impl Model<3> {
         });
         let report = correction.report.as_ref();
         watcher.found(&Finding::Correction(&setup.correction, report));
-        let scatter = (setup.scatter)
-            .map(|it| it.factors_in_space(setup.body.positions(), &setup.body.numbering()));
+        let scatter =
+            (setup.scatter).map(|it| it.factors(setup.body.positions(), &setup.body.numbering()));
         let fixed = FixedFields {
             horizon: horizons.radius,
             precrack_share: crossed.share,
@@ -109,7 +108,7 @@ impl Model<3> {
 fn points(
     setup: &Setup<3>,
     material_of_cell: &[u32],
-) -> Result<(PointCloud<3>, Option<Surface>), SetupError> {
+) -> Result<(PointCloud<3>, Option<SolidOutline>), SetupError> {
     let (cloud, outline) = all_points(setup, material_of_cell)?;
     let portion = portion_of(setup, &cloud);
     Ok((PointCloud { portion, ..cloud }, outline))
@@ -119,13 +118,13 @@ fn points(
 fn all_points(
     setup: &Setup<3>,
     material_of_cell: &[u32],
-) -> Result<(PointCloud<3>, Option<Surface>), SetupError> {
+) -> Result<(PointCloud<3>, Option<SolidOutline>), SetupError> {
     let body = &*setup.body;
     let cloud = body.cloud(1.0, material_of_cell, setup.materials.len());
     require_distinct(body, &cloud)?;
     match body.origin() {
         Origin::SolidMesh(mesh) if !setup.bonds_through_voids => {
-            let outline = Surface::new(&mesh.cells, &cloud);
+            let outline = SolidOutline::of_cells(&mesh.cells, &cloud);
             forbid_overlap(body, &outline)?;
             let spacing = spacing_inside(&outline, &mesh.cells, &cloud);
             Ok((PointCloud { spacing, ..cloud }, Some(outline)))
@@ -165,7 +164,7 @@ fn inside_body(
     setup: &Setup<3>,
     bonds: BondSet<3>,
     cloud: &PointCloud<3>,
-    outline: Option<Surface>,
+    outline: Option<SolidOutline>,
 ) -> (BondSet<3>, Vec<AbsentBond>) {
     let crosses = match (setup.body.origin(), outline) {
         (Origin::SolidLattice(lattice), _) => bonds_across(&lattice.holes, &bonds, cloud),

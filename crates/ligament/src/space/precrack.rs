@@ -1,8 +1,7 @@
 //! Cracks that are in a solid from the start.
 
 use ligament_mesh::{Cell, SolidMesh};
-use ligament_model::bonds::precrack::Ends;
-use ligament_model::space::precrack::SolidPreCrack;
+use ligament_model::bonds::precrack::{Ends, SolidPreCrack};
 
 use crate::body::{Body, Origin};
 use crate::error::{Fault, Field, SetupError};

@@ -1,6 +1,7 @@
 //! Whether points and bonds in space are fit for a computation.
 
-use ligament_model::space::outline::Surface;
+use ligament_mesh::MeshCell;
+use ligament_model::bonds::outline::{Outline, SolidOutline};
 use ligament_model::{BondSet, Horizons, PointCloud};
 
 use crate::body::{Body, Origin};
@@ -9,7 +10,7 @@ use crate::setup::{Horizon, Setup};
 use crate::soundness::{DISTINCT, Parts, require_neighbours};
 
 /// Refuses cells that lie in others.
-pub(super) fn forbid_overlap(body: &dyn Body<3>, outline: &Surface) -> Result<(), SetupError> {
+pub(super) fn forbid_overlap(body: &dyn Body<3>, outline: &SolidOutline) -> Result<(), SetupError> {
     let Some([from, to]) = outline.first_crossing() else {
         return Ok(());
     };
@@ -183,8 +184,8 @@ mod tests {
                 ],
                 ..SolidMesh::default()
             };
-            let cloud = PointCloud::from_solid_mesh(&mesh, &[0, 0], 1);
-            let outline = Surface::new(&mesh.cells, &cloud);
+            let cloud = PointCloud::from_mesh(&mesh, 1.0, &[0, 0], 1);
+            let outline = SolidOutline::of_cells(&mesh.cells, &cloud);
             forbid_overlap(&SolidMeshBody::from(mesh), &outline)
         };
         let fault = *fault_at(0.4).unwrap_err().fault;

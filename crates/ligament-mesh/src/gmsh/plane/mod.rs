@@ -1,13 +1,14 @@
 //! A planar mesh from the records of a file.
 
 mod cells;
-mod nodes;
 
 use super::assembly::Assembly;
+use super::cells::{Cells, check_covering, merge_repeated};
 use super::cursor::Cursor;
 use super::error::GmshError;
 use super::records::Records;
-use super::{fields, groups};
+use super::{fields, groups, nodes};
+use crate::cell::Cell;
 use crate::mesh::Mesh;
 
 /// Makes the planar mesh of the records, or refuses them.
@@ -23,25 +24,33 @@ pub(super) fn assemble(cursor: &Cursor<'_>, records: &Records) -> Result<Mesh, G
         return Err(GmshError::NoCells);
     }
     let assembly = Assembly::new(cursor, records, 2)?;
-    let size = nodes::check(cursor, &assembly.nodes)?;
+    let size = nodes::size(&assembly.nodes);
+    nodes::check_plane(cursor, &assembly.nodes, size)?;
+    if let Some([first, second]) = nodes::coincident(&assembly.nodes, size, 2) {
+        return Err(GmshError::CoincidentNodes {
+            place: cursor.place(second.offset),
+            tag: second.tag,
+            other: first.tag,
+            x: second.position[0],
+            y: second.position[1],
+        });
+    }
     let positions: Vec<_> = (assembly.nodes.iter())
         .map(|node| [node.position[0], node.position[1]])
         .collect();
-    let planar = cells::oriented(cursor, records, &assembly.corners, &positions, size)?;
-    let (planar, cell_of_element) = cells::merge_repeated(cursor, records, planar)?;
-    cells::check_overlap(cursor, records, &planar, &positions)?;
-    let higher_order = planar
-        .iter()
-        .filter(|cell| records.elements[cell.element].higher_order);
-    let mut remarks = assembly.remarks(higher_order.count());
+    let oriented = |element: &_, cell| cells::oriented(cursor, element, cell, &positions, size);
+    let planar = Cells::of_elements(cursor, records, &assembly.corners, cells::cell, oriented)?;
+    let (planar, cell_of_element) = merge_repeated(cursor, records, planar, positions.len())?;
+    cells::check_common_edges(cursor, records, &planar)?;
+    check_covering(cursor, records, &planar, &positions, Cell::triangles)?;
+    let mut remarks = assembly.remarks(planar.of_higher_order(records));
     let groups = groups::collect(records, &assembly, &cell_of_element, &mut remarks);
     let fields = fields::on_nodes(records, &assembly.by_tag, &assembly.numbers);
     let node_tags = assembly.nodes.iter().map(|node| node.tag).collect();
-    let cells = planar.into_iter().map(|planar| planar.cell).collect();
     Ok(Mesh {
         node_tags,
         positions,
-        cells,
+        cells: planar.cells,
         groups,
         fields,
         remarks,

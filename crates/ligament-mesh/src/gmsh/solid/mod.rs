@@ -1,31 +1,38 @@
 //! A solid mesh from the records of a file.
 
 mod cells;
-mod nodes;
 
-use super::assembly::{Assembly, DROPPED, refuse_covering};
+use super::assembly::{Assembly, DROPPED};
+use super::cells::{Cells, check_covering, merge_repeated};
 use super::cursor::Cursor;
 use super::error::GmshError;
 use super::records::Records;
-use super::{fields, groups};
+use super::{fields, groups, nodes};
 use crate::group::Group;
-use crate::overlap::first_covering;
-use crate::solid::{Faces, SolidCell, SolidMesh};
+use crate::mesh::SolidMesh;
+use crate::solid::{Faces, SolidCell};
 
 /// Makes the solid mesh of the records, or refuses them.
 pub(super) fn assemble(cursor: &Cursor<'_>, records: &Records) -> Result<SolidMesh, GmshError> {
     let assembly = Assembly::new(cursor, records, 3)?;
-    nodes::check_distinct(cursor, &assembly.nodes)?;
+    let size = nodes::size(&assembly.nodes);
+    if let Some([first, second]) = nodes::coincident(&assembly.nodes, size, 3) {
+        return Err(GmshError::CoincidentNodesInSpace {
+            place: cursor.place(second.offset),
+            tag: second.tag,
+            other: first.tag,
+            position: second.position,
+        });
+    }
     let positions: Vec<_> = assembly.nodes.iter().map(|node| node.position).collect();
-    let solid = cells::oriented(cursor, records, &assembly.corners, &positions)?;
-    let (solid, cell_of_element) = cells::merge_repeated(cursor, records, solid, positions.len())?;
-    let higher_order = solid.elements.iter();
-    let higher_order = higher_order.filter(|element| records.elements[**element].higher_order);
-    let mut remarks = assembly.remarks(higher_order.count());
+    let oriented = |element: &_, cell| cells::oriented(cursor, element, cell, &positions);
+    let solid = Cells::of_elements(cursor, records, &assembly.corners, cells::cell, oriented)?;
+    let (solid, cell_of_element) = merge_repeated(cursor, records, solid, positions.len())?;
+    let mut remarks = assembly.remarks(solid.of_higher_order(records));
     let groups = groups::collect(records, &assembly, &cell_of_element, &mut remarks);
     let faces = Faces::new(&solid.cells, positions.len());
     check_overlap(cursor, records, &solid, &faces)?;
-    check_covering(cursor, records, &solid, &positions)?;
+    check_covering(cursor, records, &solid, &positions, SolidCell::tetrahedra)?;
     check_faces(cursor, records, &assembly, &faces, &groups)?;
     let fields = fields::on_nodes(records, &assembly.by_tag, &assembly.numbers);
     Ok(SolidMesh {
@@ -42,32 +49,18 @@ pub(super) fn assemble(cursor: &Cursor<'_>, records: &Records) -> Result<SolidMe
 fn check_overlap(
     cursor: &Cursor<'_>,
     records: &Records,
-    solid: &cells::SolidCells,
+    solid: &Cells<SolidCell>,
     faces: &Faces<'_>,
 ) -> Result<(), GmshError> {
     let Some(pair) = faces.first_overlap() else {
         return Ok(());
     };
-    let [first, second] = pair.map(|cell| &records.elements[solid.elements[cell as usize]]);
+    let [first, second] = solid.elements_of(records, pair);
     Err(GmshError::OverlappingSolids {
         place: cursor.place(second.offset),
         element: second.tag,
         other: first.tag,
     })
-}
-
-/// Refuses cells that lie over each other without a common face.
-fn check_covering(
-    cursor: &Cursor<'_>,
-    records: &Records,
-    solid: &cells::SolidCells,
-    positions: &[[f64; 3]],
-) -> Result<(), GmshError> {
-    let corners: Vec<&[u32]> = solid.cells.iter().map(SolidCell::corners).collect();
-    let tetrahedra = |cell: usize| solid.cells[cell].tetrahedra();
-    let covering = first_covering(positions, &corners, tetrahedra);
-    let elements = covering.map(|pair| pair.map(|cell| solid.elements[cell as usize]));
-    refuse_covering(cursor, records, elements)
 }
 
 /// Refuses surface elements in a group that are faces of no cell: shells beside the solid, or a surface that was meshed anew.

@@ -77,7 +77,7 @@ struct Case {
 
 fn corrected(mesh: &SolidMesh, horizon: f64, turn: bool) -> Case {
     let of_cells = vec![0; mesh.cells.len()];
-    let cloud = PointCloud::from_solid_mesh(mesh, &of_cells, 1);
+    let cloud = PointCloud::from_mesh(mesh, 1.0, &of_cells, 1);
     let bonds = BondSet::search(&cloud, &Horizons::unified(horizon, cloud.len()));
     let forces = of_solid_mesh(&mesh.cells, &cloud, &of_cells, stiffness());
     let stiffness = nhpd::stiffness(&bonds, &cloud, &[MATERIAL], ShearForm::Constant);
@@ -235,7 +235,7 @@ fn cells_give_tractions() {
         .flatten()
         .for_each(|it| *it = it.round());
     let of_cells = vec![0; mesh.cells.len()];
-    let cloud = PointCloud::from_solid_mesh(&mesh, &of_cells, 1);
+    let cloud = PointCloud::from_mesh(&mesh, 1.0, &of_cells, 1);
     let forces = of_solid_mesh(&mesh.cells, &cloud, &of_cells, stiffness());
     let mut side = [0.0; 3];
     for (forces, position) in forces.of_points().zip(&mesh.positions) {

@@ -1,73 +1,47 @@
-//! Lumping: the nodes of a solid mesh become material points that carry the volume of its cells.
+//! Lumping: the nodes of a mesh become material points that carry the volume of its cells.
 
-use ligament_mesh::{Numbering, SolidCell, SolidMesh, along_hilbert_curve};
+use ligament_mesh::{Mesh, MeshCell};
 
-use crate::cloud::{
-    PointCloud, distance, middle_of_bounding_box, precision_of_coordinates, search_tree,
-};
+use super::{PointCloud, distance, search_tree};
 use crate::horizon::INCLUSION_TOLERANCE;
 
-impl PointCloud<3> {
-    /// Lumps the cells of a solid mesh: a cell's volume is shared among its corners, equally but for pyramids, whose apex takes a
-    /// quarter and whose other corners take 3/16 each.
+impl<const D: usize> PointCloud<D> {
+    /// Lumps the cells of a mesh: a cell's area times the thickness, or in space (thickness 1) its volume, is shared among its corners
+    /// (NHPD section 2.1; [`MeshCell::shares`]).
     ///
-    /// With these shares, which are the integrals of the shape functions, the middle of the masses stays where that of the cell is,
-    /// if its faces are parallelograms or triangles; and no share depends on how nodes are numbered, as those of the tetrahedra that
-    /// the cell may be split into do.
-    ///
-    /// `material_of_cell` (n_cells) holds the index of each cell's material. A point at an interface takes its share of volume from
-    /// the cells of either side.
-    pub fn from_solid_mesh(mesh: &SolidMesh, material_of_cell: &[u32], n_materials: usize) -> Self {
-        let origin = middle_of_bounding_box(&mesh.positions);
-        let positions: Vec<[f64; 3]> = (mesh.positions.iter())
-            .map(|p| [p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]])
-            .collect();
-        let mut material_volumes = vec![0.0; positions.len() * n_materials];
+    /// `material_of_cell` (n_cells) holds the index of each cell's material. A point at an interface takes its share
+    /// of volume from the cells of either side.
+    pub fn from_mesh<C: MeshCell<D>>(
+        mesh: &Mesh<D, C>,
+        thickness: f64,
+        material_of_cell: &[u32],
+        n_materials: usize,
+    ) -> Self {
+        let mut cloud = Self::at(&mesh.positions, thickness, n_materials);
+        let mut material_volumes = vec![0.0; cloud.len() * n_materials];
         for (cell, &material) in mesh.cells.iter().zip(material_of_cell) {
-            let volume = cell.volume(&positions);
-            for (&corner, share) in cell.corners().iter().zip(shares(cell)) {
+            for (corner, share) in cell.shares(&cloud.positions) {
                 material_volumes[corner as usize * n_materials + material as usize] +=
-                    share * volume;
+                    share * thickness;
             }
         }
-        let volumes: Vec<f64> = (material_volumes.chunks(n_materials))
-            .map(|shares| shares.iter().sum())
-            .collect();
-        let shares = material_volumes.iter().enumerate();
-        let material_shares = shares.map(|(k, volume)| volume / volumes[k / n_materials]);
-        let mut cloud = Self {
-            curve: along_hilbert_curve(&positions),
-            numbering: Numbering::default(),
-            portion: None,
-            material_shares: material_shares.collect(),
-            positions,
-            precision: precision_of_coordinates(&mesh.positions),
-            origin,
-            thickness: 1.0,
-            volumes,
-            spacing: Vec::new(),
-            lattice_cell: None,
-            n_materials,
-        };
+        let of_points = material_volumes.chunks(n_materials);
+        cloud.volumes = of_points.map(|volumes| volumes.iter().sum()).collect();
+        let numbered = material_volumes.iter().enumerate();
+        let share = |(k, volume): (usize, &f64)| volume / cloud.volumes[k / n_materials];
+        cloud.material_shares = numbered.map(share).collect();
         cloud.spacing = nearest_neighbour_distances(&cloud, &mesh.cells);
         cloud
     }
 }
 
-/// Shares of the corners in the volume of a cell.
-fn shares(cell: &SolidCell) -> &'static [f64] {
-    match cell {
-        SolidCell::Tetrahedron(_) => &[0.25; 4],
-        SolidCell::Hexahedron(_) => &[0.125; 8],
-        SolidCell::Prism(_) => &[1.0 / 6.0; 6],
-        SolidCell::Pyramid(_) => &[0.1875, 0.1875, 0.1875, 0.1875, 0.25],
-    }
-}
-
 /// Length of the shortest edge of a cell at each node, shape (n_points), m; infinite at nodes without a cell.
-pub(crate) fn shortest_edges(cloud: &PointCloud<3>, cells: &[SolidCell]) -> Vec<f64> {
+pub(crate) fn shortest_edges<const D: usize, C: MeshCell<D>>(
+    cloud: &PointCloud<D>,
+    cells: &[C],
+) -> Vec<f64> {
     let mut shortest = vec![f64::INFINITY; cloud.len()];
-    for ends in cells.iter().flat_map(SolidCell::edges) {
+    for ends in cells.iter().flat_map(C::edges) {
         let [from, to] = ends.map(|end| end as usize);
         let length = distance(cloud.positions[from], cloud.positions[to]);
         shortest[from] = length.min(shortest[from]);
@@ -77,7 +51,10 @@ pub(crate) fn shortest_edges(cloud: &PointCloud<3>, cells: &[SolidCell]) -> Vec<
 }
 
 /// Distance of each point to the nearest other one, m: sought no farther than the end of its shortest edge.
-fn nearest_neighbour_distances(cloud: &PointCloud<3>, cells: &[SolidCell]) -> Vec<f64> {
+fn nearest_neighbour_distances<const D: usize, C: MeshCell<D>>(
+    cloud: &PointCloud<D>,
+    cells: &[C],
+) -> Vec<f64> {
     let reach = shortest_edges(cloud, cells);
     let tree = search_tree(&cloud.positions);
     cloud.over_points(|point| {
@@ -93,6 +70,7 @@ fn nearest_neighbour_distances(cloud: &PointCloud<3>, cells: &[SolidCell]) -> Ve
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ligament_mesh::{SolidCell, SolidMesh};
 
     const CUBE: [[f64; 3]; 8] = [
         [10.0, 0.0, 0.0],
@@ -115,7 +93,7 @@ mod tests {
             ..SolidMesh::default()
         };
         let materials: Vec<u32> = (0..n_cells as u32).collect();
-        PointCloud::from_solid_mesh(&mesh, &materials, n_cells)
+        PointCloud::from_mesh(&mesh, 1.0, &materials, n_cells)
     }
 
     /// Volume and middle of mass of a brick and of the pyramid on it, by hand; the material of a shared corner is that of both.

@@ -7,7 +7,8 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use crate::space::predicates::above;
+use crate::geometry::{ascending, edges_of};
+use crate::predicates::above;
 use crate::tensor::{cross, dot, minus, norm};
 
 /// Cosine of the largest angle between two triangles of a round surface, 45 degrees.
@@ -62,7 +63,7 @@ impl<'a> Skin<'a> {
     fn new(triangles: Vec<[u32; 3]>, positions: &'a [[f64; 3]]) -> Self {
         let mut edges: HashMap<[u32; 2], Vec<usize>> = HashMap::with_capacity(2 * triangles.len());
         for (number, nodes) in triangles.iter().enumerate() {
-            for edge in edges_of(*nodes) {
+            for edge in edges_of(*nodes).map(ascending) {
                 edges.entry(edge).or_default().push(number);
             }
         }
@@ -142,7 +143,7 @@ impl<'a> Skin<'a> {
     fn turn(&mut self, dip: Dip) {
         let [p, q, r, s] = dip.nodes;
         for number in dip.triangles {
-            for edge in edges_of(self.triangles[number]) {
+            for edge in edges_of(self.triangles[number]).map(ascending) {
                 if let Some(at_edge) = self.edges.get_mut(&edge) {
                     at_edge.retain(|it| *it != number);
                 }
@@ -151,7 +152,7 @@ impl<'a> Skin<'a> {
         self.edges.remove(&ascending([p, q]));
         for (number, nodes) in dip.triangles.into_iter().zip([[r, p, s], [s, q, r]]) {
             self.triangles[number] = nodes;
-            for edge in edges_of(nodes) {
+            for edge in edges_of(nodes).map(ascending) {
                 self.edges.entry(edge).or_default().push(number);
             }
         }
@@ -164,12 +165,4 @@ fn from_edge(nodes: [u32; 3], edge: [u32; 2]) -> Option<[u32; 3]> {
     turns
         .into_iter()
         .find(|turned| ascending([turned[0], turned[1]]) == edge)
-}
-
-fn edges_of([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
-    [[a, b], [b, c], [c, a]].map(ascending)
-}
-
-fn ascending([a, b]: [u32; 2]) -> [u32; 2] {
-    [a.min(b), a.max(b)]
 }

@@ -1,6 +1,9 @@
 use super::*;
+use crate::bonds::BondSet;
+use crate::bonds::outline::{bonds_outside, spacing_inside};
 use crate::horizon::Horizons;
-use ligament_mesh::SolidMesh;
+use crate::tensor::dot;
+use ligament_mesh::{MeshCell, SolidMesh};
 
 const N: u32 = 6;
 
@@ -87,7 +90,7 @@ fn body(
         cells: cells.iter().map(renumbered).collect(),
         ..SolidMesh::default()
     };
-    let cloud = PointCloud::from_solid_mesh(&mesh, &vec![0; mesh.cells.len()], 1);
+    let cloud = PointCloud::from_mesh(&mesh, 1.0, &vec![0; mesh.cells.len()], 1);
     let bonds = BondSet::search(&cloud, &Horizons::unified(reach, cloud.len()));
     (cloud, mesh.cells, bonds)
 }
@@ -97,12 +100,7 @@ fn turned(angle: f64) -> impl Fn([f64; 3]) -> [f64; 3] {
     let axis = [2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0];
     let (sin, cos) = angle.sin_cos();
     move |p: [f64; 3]| {
-        let along: f64 = (0..3).map(|k| axis[k] * p[k]).sum();
-        let across = [
-            axis[1] * p[2] - axis[2] * p[1],
-            axis[2] * p[0] - axis[0] * p[2],
-            axis[0] * p[1] - axis[1] * p[0],
-        ];
+        let (along, across) = (dot(axis, p), cross(axis, p));
         [0, 1, 2].map(|k| cos * p[k] + sin * across[k] + (1.0 - cos) * along * axis[k])
     }
 }
@@ -132,7 +130,7 @@ fn bonds_agree_with_points_along_them() {
             let [p, origin] = [cloud.positions[point as usize], cloud.origin];
             back([0, 1, 2].map(|axis| p[axis] + origin[axis])).map(f64::round)
         };
-        let outside = bonds_outside(&Surface::new(&cells, &cloud), &bonds, &cloud);
+        let outside = bonds_outside(&SolidOutline::of_cells(&cells, &cloud), &bonds, &cloud);
         let mut count = 0;
         for (ends, &found) in bonds.ends.iter().zip(&outside) {
             let [a, b] = ends.map(grid);
@@ -155,7 +153,10 @@ fn bonds_agree_with_points_along_them() {
             "{count} of {} bonds leave the body",
             bonds.len()
         );
-        assert_eq!(Surface::new(&cells, &cloud).first_crossing(), None);
+        assert_eq!(
+            SolidOutline::of_cells(&cells, &cloud).first_crossing(),
+            None
+        );
     }
 }
 
@@ -168,7 +169,7 @@ fn a_whole_box_loses_nothing() {
     ] {
         let (cloud, cells, bonds) = body(cells(cut, |_| true), turned(angle), 3.2);
         assert!(
-            !bonds_outside(&Surface::new(&cells, &cloud), &bonds, &cloud).contains(&true),
+            !bonds_outside(&SolidOutline::of_cells(&cells, &cloud), &bonds, &cloud).contains(&true),
             "{cut:?}"
         );
     }
@@ -191,15 +192,11 @@ fn ball(p: [f64; 3]) -> [f64; 3] {
     })
 }
 
-fn norm(a: [f64; 3]) -> f64 {
-    a.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
 #[test]
 fn a_round_body_loses_nothing() {
     for cut in [Cut::Hexahedra, Cut::Prisms, Cut::Tetrahedra] {
         let (cloud, cells, bonds) = body(cells(cut, |_| true), ball, 0.9);
-        let outside = bonds_outside(&Surface::new(&cells, &cloud), &bonds, &cloud);
+        let outside = bonds_outside(&SolidOutline::of_cells(&cells, &cloud), &bonds, &cloud);
         let lost = outside.iter().filter(|it| **it).count();
         assert_eq!(lost, 0, "{cut:?} of {}", outside.len());
     }
@@ -212,7 +209,7 @@ fn a_cavity_parts_what_lies_across_it() {
     let is_inner = |cell: [u32; 3]| cell.iter().all(|it| (1..4).contains(it));
     for cut in [Cut::Hexahedra, Cut::Prisms, Cut::Tetrahedra] {
         let (cloud, cells, bonds) = body(cells(cut, |cell| !is_inner(cell)), ball, 0.9);
-        let outside = bonds_outside(&Surface::new(&cells, &cloud), &bonds, &cloud);
+        let outside = bonds_outside(&SolidOutline::of_cells(&cells, &cloud), &bonds, &cloud);
         let edges: std::collections::BTreeSet<[u32; 2]> =
             cells.iter().flat_map(SolidCell::edges).collect();
         let radius = |point: u32| norm(cloud.positions[point as usize]);
@@ -265,7 +262,7 @@ fn nothing_is_seen_across_a_slot() {
         narrow,
         1.5,
     );
-    let spacing = spacing_inside(&Surface::new(&cells, &cloud), &cells, &cloud);
+    let spacing = spacing_inside(&SolidOutline::of_cells(&cells, &cloud), &cells, &cloud);
     let is_at_slot = |point: usize| {
         let p = [0, 1, 2].map(|axis| cloud.positions[point][axis] + cloud.origin[axis]);
         p[0] < 1.5 && (1.9..2.2).contains(&p[2])
@@ -278,7 +275,7 @@ fn nothing_is_seen_across_a_slot() {
         assert!((cloud.spacing[point] - 0.1).abs() < 1e-12);
         assert!((spacing[point] - 1.0).abs() < 1e-12, "{}", spacing[point]);
     }
-    let outside = bonds_outside(&Surface::new(&cells, &cloud), &bonds, &cloud);
+    let outside = bonds_outside(&SolidOutline::of_cells(&cells, &cloud), &bonds, &cloud);
     let across = bonds
         .length
         .iter()
@@ -299,5 +296,9 @@ fn cells_through_each_other_are_noticed() {
         }
     };
     let (cloud, cells, _) = body(cells(Cut::Hexahedra, apart), moved, 1.1);
-    assert!(Surface::new(&cells, &cloud).first_crossing().is_some());
+    assert!(
+        SolidOutline::of_cells(&cells, &cloud)
+            .first_crossing()
+            .is_some()
+    );
 }

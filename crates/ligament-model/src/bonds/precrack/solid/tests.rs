@@ -1,6 +1,8 @@
 use super::*;
+use crate::bonds::precrack::{count_touched_bonds, cut_bonds, normals};
+use crate::cloud::lattice::SolidLattice;
 use crate::horizon::Horizons;
-use crate::space::lattice::SolidLattice;
+use crate::{BondSet, PointCloud};
 
 /// A lattice of 8 by 8 by 8 cells of side 1 around the origin, with bonds up to 2.1.
 fn lattice() -> (PointCloud<3>, BondSet<3>) {

@@ -1,6 +1,7 @@
-//! Shapes in space: holes of a lattice, and the parts of a body that its sets are.
+//! Shapes in space.
 
-use crate::shape::Region;
+use super::Region;
+use crate::geometry::distance_to;
 use crate::tensor::{dot, minus, norm};
 
 /// A closed region of space.
@@ -92,10 +93,7 @@ impl Region<3> for SolidShape {
     fn is_crossed_by(&self, a: [f64; 3], b: [f64; 3], slack: f64) -> bool {
         let way = minus(b, a);
         match self {
-            Self::Sphere { centre, radius } => is_open(
-                within_ball(minus(a, *centre), way, radius - slack),
-                [0.0, 1.0],
-            ),
+            Self::Sphere { centre, radius } => distance_to([a, b], *centre) < radius - slack,
             // A ball is convex, and so is a cylinder: a line leaves them nowhere if its ends do not.
             Self::OutsideSphere { centre, radius } => {
                 let is_out = |p| norm(minus(p, *centre)) > radius + slack;
@@ -110,7 +108,7 @@ impl Region<3> for SolidShape {
                 let (rise, drift) = in_cylinder(*ends, way);
                 let height = norm(minus(ends[1], ends[0]));
                 let between = between([slack, height - slack], start, rise);
-                is_open(within_ball(across, drift, radius - slack), between)
+                is_open(within_radius(across, drift, radius - slack), between)
             }
             Self::Box { lower, upper } => {
                 let sides = (0..3).map(|axis| {
@@ -134,9 +132,9 @@ impl SolidShape {
     }
 }
 
-/// Places along a way from `start` (0) to `start + way` (1) nearer to the origin than a radius; none where the first is not below
-/// the second.
-fn within_ball(start: [f64; 3], way: [f64; 3], radius: f64) -> [f64; 2] {
+/// Places along a way from `start` (0) to `start + way` (1), both across the axis of a cylinder, nearer to the axis than a radius; none
+/// where the first is not below the second.
+fn within_radius(start: [f64; 3], way: [f64; 3], radius: f64) -> [f64; 2] {
     let square = dot(way, way);
     if square == 0.0 {
         let is_in = norm(start) < radius;

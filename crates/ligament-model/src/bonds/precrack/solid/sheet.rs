@@ -3,8 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::UnfitCrack;
-use crate::shape::{cross as cross2, crosses_itself};
-use crate::space::predicates::above;
+use crate::bonds::precrack::Crossing;
+use crate::geometry::{ascending, bounding_box, distance_to, edges_of, flattened};
+use crate::predicates::{above, left};
+use crate::shape::crosses_itself;
 use crate::tensor::{cross, dot, minus, norm};
 
 /// Distance of a corner of a polygon from its plane, over the size of the polygon, that counts as none.
@@ -41,7 +43,7 @@ impl Sheet {
         }
         let triangles = turned_alike(triangles);
         let mut at_edge: BTreeMap<[u32; 2], usize> = BTreeMap::new();
-        for edge in triangles.iter().flat_map(|nodes| edges(*nodes)) {
+        for edge in triangles.iter().flat_map(|nodes| edges_of(*nodes)) {
             *at_edge.entry(ascending(edge)).or_default() += 1;
         }
         let is_inner = |edge: [u32; 2]| at_edge.get(&ascending(edge)).is_some_and(|n| *n > 1);
@@ -51,7 +53,7 @@ impl Sheet {
                 is_inner_point[end as usize] &= *count > 1;
             }
         }
-        let is_inner_edge = triangles.iter().map(|nodes| edges(*nodes).map(is_inner));
+        let is_inner_edge = triangles.iter().map(|nodes| edges_of(*nodes).map(is_inner));
         Ok(Self {
             is_inner_edge: is_inner_edge.collect(),
             points,
@@ -107,15 +109,13 @@ impl Sheet {
     }
 
     pub(super) fn bounds(&self, triangle: u32) -> [[f64; 3]; 2] {
-        let [a, b, c] = self.corners(triangle);
-        let pick = |pick: fn(f64, f64) -> f64| [0, 1, 2].map(|k| pick(pick(a[k], b[k]), c[k]));
-        [pick(f64::min), pick(f64::max)]
+        bounding_box(self.corners(triangle))
     }
 
     /// Where the line of a bond meets a triangle.
     fn contact(&self, triangle: u32, [a, b]: [[f64; 3]; 2]) -> Contact {
         let [p, q, r] = self.corners(triangle);
-        let sides = [[p, q], [q, r], [r, p]].map(|[from, to]| above(a, b, from, to));
+        let sides = edges_of([p, q, r]).map(|[from, to]| above(a, b, from, to));
         if sides.iter().any(|it| *it > 0.0) && sides.iter().any(|it| *it < 0.0) {
             return Contact::None;
         }
@@ -158,7 +158,7 @@ impl Sheet {
         let is_parted = (start >= 0.0) != (end >= 0.0);
         // Apart from each other, the nearest points are an end of the bond or on an edge of the triangle.
         (is_parted && self.contact(triangle, bond) != Contact::None)
-            || [[p, q], [q, r], [r, p]]
+            || edges_of([p, q, r])
                 .into_iter()
                 .any(|edge| gap(bond, edge) <= slack)
             || bond
@@ -166,21 +166,23 @@ impl Sheet {
                 .any(|point| height_over([p, q, r], point) <= slack)
     }
 
-    pub(super) fn crossing(&self, triangle: u32, [a, b]: [[f64; 3]; 2]) -> ([f64; 3], f64) {
+    pub(super) fn crossing(&self, triangle: u32, [a, b]: [[f64; 3]; 2]) -> Crossing<3> {
         let [p, q, r] = self.corners(triangle);
         let normal = cross(minus(q, p), minus(r, p));
-        let sides = [[p, q], [q, r], [r, p]].map(|[from, to]| above(a, b, from, to));
+        let sides = edges_of([p, q, r]).map(|[from, to]| above(a, b, from, to));
         let sum: f64 = sides.iter().sum();
         let least = sides
             .iter()
             .map(|it| it / sum)
             .fold(f64::INFINITY, f64::min);
-        let depth = if least.is_finite() {
-            least
-        } else {
-            f64::NEG_INFINITY
-        };
-        (normal.map(|it| it / norm(normal)), depth)
+        Crossing {
+            normal: normal.map(|it| it / norm(normal)),
+            depth: if least.is_finite() {
+                least
+            } else {
+                f64::NEG_INFINITY
+            },
+        }
     }
 }
 
@@ -199,7 +201,7 @@ enum Contact {
 fn turned_alike(mut triangles: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
     let mut at_edge: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
     for (number, nodes) in triangles.iter().enumerate() {
-        for edge in edges(*nodes) {
+        for edge in edges_of(*nodes) {
             at_edge.entry(ascending(edge)).or_default().push(number);
         }
     }
@@ -208,12 +210,12 @@ fn turned_alike(mut triangles: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
     while let Some(first) = left.pop_first() {
         open.push(first);
         while let Some(number) = open.pop() {
-            for edge in edges(triangles[number]) {
+            for edge in edges_of(triangles[number]) {
                 for &other in &at_edge[&ascending(edge)] {
                     if !left.remove(&other) {
                         continue;
                     }
-                    if edges(triangles[other]).contains(&edge) {
+                    if edges_of(triangles[other]).contains(&edge) {
                         triangles[other].swap(1, 2);
                     }
                     open.push(other);
@@ -228,11 +230,10 @@ fn turned_alike(mut triangles: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
 fn ears(corners: &[[f64; 2]]) -> Vec<[u32; 3]> {
     let n = corners.len();
     let doubled: f64 = (1..n - 1)
-        .map(|k| cross2(corners[0], corners[k], corners[k + 1]))
+        .map(|k| left(corners[0], corners[k], corners[k + 1]))
         .sum();
-    let turn = |a: usize, b: usize, c: usize| {
-        doubled.signum() * cross2(corners[a], corners[b], corners[c])
-    };
+    let turn =
+        |a: usize, b: usize, c: usize| doubled.signum() * left(corners[a], corners[b], corners[c]);
     let mut left: Vec<usize> = (0..n).collect();
     let mut triangles = Vec::new();
     while left.len() > 3 {
@@ -264,18 +265,6 @@ fn ears(corners: &[[f64; 2]]) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// A point by the two coordinates in which a surface of this normal is widest, right-handed about it or its opposite.
-fn flattened(point: [f64; 3], normal: [f64; 3]) -> [f64; 2] {
-    let [x, y, z] = normal.map(f64::abs);
-    if x >= y && x >= z {
-        [point[1], point[2]]
-    } else if y >= z {
-        [point[2], point[0]]
-    } else {
-        [point[0], point[1]]
-    }
-}
-
 /// Distance between two segments, m.
 fn gap([a, b]: [[f64; 3]; 2], [p, q]: [[f64; 3]; 2]) -> f64 {
     let (u, v, w) = (minus(b, a), minus(q, p), minus(a, p));
@@ -299,17 +288,10 @@ fn gap([a, b]: [[f64; 3]; 2], [p, q]: [[f64; 3]; 2]) -> f64 {
     ends.into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// Distance of a point from a segment, m.
-fn distance_to([p, q]: [[f64; 3]; 2], point: [f64; 3]) -> f64 {
-    let (way, from_start) = (minus(q, p), minus(point, p));
-    let place = (dot(from_start, way) / dot(way, way)).clamp(0.0, 1.0);
-    norm([0, 1, 2].map(|k| from_start[k] - place * way[k]))
-}
-
 /// Height of a point over or under a triangle, m; infinite where it stands over or under none of its points.
 fn height_over([p, q, r]: [[f64; 3]; 3], point: [f64; 3]) -> f64 {
     let normal = cross(minus(q, p), minus(r, p));
-    let is_over = [[p, q], [q, r], [r, p]]
+    let is_over = edges_of([p, q, r])
         .into_iter()
         .all(|[from, to]| dot(cross(minus(to, from), minus(point, from)), normal) >= 0.0);
     if is_over {
@@ -317,12 +299,4 @@ fn height_over([p, q, r]: [[f64; 3]; 3], point: [f64; 3]) -> f64 {
     } else {
         f64::INFINITY
     }
-}
-
-fn edges([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
-    [[a, b], [b, c], [c, a]]
-}
-
-fn ascending([a, b]: [u32; 2]) -> [u32; 2] {
-    [a.min(b), a.max(b)]
 }

@@ -1,20 +1,9 @@
-//! Plane shapes: holes of a lattice, and the parts of a body that its sets are.
+//! Shapes in the plane.
 
-use robust::{Coord, orient2d};
-
-/// A closed region of the plane or of space, by which cells are removed or gathered.
-pub trait Region<const D: usize>: Clone + Sync {
-    /// The region moved by a vector, m.
-    #[must_use]
-    fn moved(&self, by: [f64; D]) -> Self;
-
-    /// Whether a point lies in the region or on its rim, or no farther than `slack` outside of it (m).
-    fn contains(&self, point: [f64; D], slack: f64) -> bool;
-
-    /// Whether the straight line between two points meets the inside of the region deeper than `slack` (m): a line along the rim or one
-    /// that touches it does not.
-    fn is_crossed_by(&self, a: [f64; D], b: [f64; D], slack: f64) -> bool;
-}
+use super::Region;
+use crate::geometry::{bounding_box, distance_to, nearest_place, point_at};
+use crate::predicates::{left, meet, orientation};
+use crate::tensor::{dot, minus, norm};
 
 /// A closed region of the plane.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,11 +48,11 @@ impl Region<2> for Shape {
 
     fn is_crossed_by(&self, a: [f64; 2], b: [f64; 2], slack: f64) -> bool {
         match self {
-            Self::Circle { centre, .. } => self.depth(along(a, b, foot(a, b, *centre))) > slack,
+            Self::Circle { centre, radius } => distance_to([a, b], *centre) < radius - slack,
             // A disk is convex: a line leaves it nowhere if its ends do not.
             Self::Outside { .. } => self.depth(a).max(self.depth(b)) > slack,
             Self::Polygon(corners) => {
-                let [lower, upper] = bounding_box(corners);
+                let [lower, upper] = bounding_box(corners.iter().copied());
                 let misses = (0..2).any(|axis| {
                     a[axis].max(b[axis]) <= lower[axis] || a[axis].min(b[axis]) >= upper[axis]
                 });
@@ -84,8 +73,8 @@ impl Shape {
     fn is_crossed_near(&self, corners: &[[f64; 2]], a: [f64; 2], b: [f64; 2], slack: f64) -> bool {
         let mut places = vec![0.0, 1.0];
         for [p, q] in sides(corners) {
-            places.push(foot(a, b, p));
-            let (from, to) = (cross(p, q, a), cross(p, q, b));
+            places.push(nearest_place([a, b], p));
+            let (from, to) = (left(p, q, a), left(p, q, b));
             if (from < 0.0) != (to < 0.0) {
                 places.push((from / (from - to)).clamp(0.0, 1.0));
             }
@@ -93,18 +82,17 @@ impl Shape {
         places.sort_by(f64::total_cmp);
         places
             .windows(2)
-            .any(|piece| self.depth(along(a, b, 0.5 * (piece[0] + piece[1]))) > slack)
+            .any(|piece| self.depth(point_at([a, b], 0.5 * (piece[0] + piece[1]))) > slack)
     }
 
     /// Distance of a point to the rim, m; negative outside.
     fn depth(&self, point: [f64; 2]) -> f64 {
         match self {
-            Self::Circle { centre, radius } => radius - distance(*centre, point),
-            Self::Outside { centre, radius } => distance(*centre, point) - radius,
+            Self::Circle { centre, radius } => radius - norm(minus(point, *centre)),
+            Self::Outside { centre, radius } => norm(minus(point, *centre)) - radius,
             Self::Polygon(corners) => {
-                let to_rim = sides(corners)
-                    .map(|[p, q]| distance(along(p, q, foot(p, q, point)), point))
-                    .fold(f64::INFINITY, f64::min);
+                let to_sides = sides(corners).map(|side| distance_to(side, point));
+                let to_rim = to_sides.fold(f64::INFINITY, f64::min);
                 if is_inside(corners, point) {
                     to_rim
                 } else {
@@ -127,7 +115,7 @@ pub fn crosses_itself(corners: &[[f64; 2]]) -> bool {
             } else if first == 0 && second == last {
                 turns_back(r, s, q)
             } else {
-                meet(p, q, r, s)
+                meet([p, q], [r, s])
             }
         })
     })
@@ -135,49 +123,14 @@ pub fn crosses_itself(corners: &[[f64; 2]]) -> bool {
 
 /// Whether the way from p by q to r goes back on itself.
 fn turns_back(p: [f64; 2], q: [f64; 2], r: [f64; 2]) -> bool {
-    let ahead = (q[0] - p[0]) * (r[0] - q[0]) + (q[1] - p[1]) * (r[1] - q[1]);
-    orientation(p, q, r) == 0.0 && ahead <= 0.0
-}
-
-/// Whether two segments have a point in common, decided exactly.
-fn meet(p: [f64; 2], q: [f64; 2], r: [f64; 2], s: [f64; 2]) -> bool {
-    let boxes_meet = (0..2).all(|axis| {
-        p[axis].min(q[axis]) <= r[axis].max(s[axis]) && r[axis].min(s[axis]) <= p[axis].max(q[axis])
-    });
-    boxes_meet
-        && orientation(p, q, r) * orientation(p, q, s) <= 0.0
-        && orientation(r, s, p) * orientation(r, s, q) <= 0.0
-}
-
-/// Whether two segments have a point in common, or come no farther apart than `slack` (m).
-pub(crate) fn meet_within([p, q]: [[f64; 2]; 2], [r, s]: [[f64; 2]; 2], slack: f64) -> bool {
-    // Segments apart are nearest to each other at an end of one of them.
-    let is_near = |a, b, c| distance(along(a, b, foot(a, b, c)), c) <= slack;
-    meet(p, q, r, s) || is_near(p, q, r) || is_near(p, q, s) || is_near(r, s, p) || is_near(r, s, q)
-}
-
-/// Sign of the orientation of c seen from a to b, exact: positive on the left.
-pub(crate) fn orientation(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
-    let determinant = cross(a, b, c);
-    // Only the sign is exact; the product of two small determinants may underflow.
-    if determinant == 0.0 {
-        0.0
-    } else {
-        determinant.signum()
-    }
-}
-
-/// (b - a) x (c - a), with the right sign.
-pub(crate) fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
-    let coord = |p: [f64; 2]| Coord { x: p[0], y: p[1] };
-    orient2d(coord(a), coord(b), coord(c))
+    orientation(p, q, r) == 0.0 && dot(minus(q, p), minus(r, q)) <= 0.0
 }
 
 /// Whether a ray to the right crosses an odd number of sides.
 fn is_inside(corners: &[[f64; 2]], point: [f64; 2]) -> bool {
     let crossed = sides(corners).filter(|&[p, q]| {
         let [lower, upper] = if p[1] <= q[1] { [p, q] } else { [q, p] };
-        lower[1] <= point[1] && point[1] < upper[1] && cross(lower, upper, point) > 0.0
+        lower[1] <= point[1] && point[1] < upper[1] && left(lower, upper, point) > 0.0
     });
     crossed.count() % 2 == 1
 }
@@ -185,31 +138,6 @@ fn is_inside(corners: &[[f64; 2]], point: [f64; 2]) -> bool {
 fn sides(corners: &[[f64; 2]]) -> impl Iterator<Item = [[f64; 2]; 2]> {
     let next = corners.iter().cycle().skip(1);
     corners.iter().zip(next).map(|(&p, &q)| [p, q])
-}
-
-fn bounding_box(corners: &[[f64; 2]]) -> [[f64; 2]; 2] {
-    let bound = |pick: fn(f64, f64) -> f64| {
-        [0, 1].map(|axis| corners.iter().map(|p| p[axis]).fold(corners[0][axis], pick))
-    };
-    [bound(f64::min), bound(f64::max)]
-}
-
-/// Place of the point of the segment from a to b that is nearest to c: 0 at a, 1 at b.
-fn foot(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
-    let [x, y] = [b[0] - a[0], b[1] - a[1]];
-    let square = x * x + y * y;
-    if square == 0.0 {
-        return 0.0;
-    }
-    (((c[0] - a[0]) * x + (c[1] - a[1]) * y) / square).clamp(0.0, 1.0)
-}
-
-fn along(a: [f64; 2], b: [f64; 2], place: f64) -> [f64; 2] {
-    [0, 1].map(|axis| a[axis] + place * (b[axis] - a[axis]))
-}
-
-fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (b[0] - a[0]).hypot(b[1] - a[1])
 }
 
 #[cfg(test)]
@@ -286,7 +214,8 @@ mod tests {
         let mut crossed = 0;
         for &a in &places {
             for &b in &places {
-                let depths = (0..=400).map(|k| corner().depth(along(a, b, f64::from(k) / 400.0)));
+                let depths =
+                    (0..=400).map(|k| corner().depth(point_at([a, b], f64::from(k) / 400.0)));
                 let deepest = depths.fold(f64::NEG_INFINITY, f64::max);
                 let found = corner().is_crossed_by(a, b, 1e-9);
                 let near = if found { -0.02 } else { 1e-9 };

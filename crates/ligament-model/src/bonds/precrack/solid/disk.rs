@@ -1,6 +1,8 @@
 //! A crack in the form of a disk.
 
 use super::UnfitCrack;
+use crate::bonds::precrack::Crossing;
+use crate::geometry::{nearest_place, point_at};
 use crate::tensor::{cross, dot, minus, norm};
 
 /// A disk in space.
@@ -52,7 +54,7 @@ impl Disk {
     fn distance_of_crossing(&self, [a, b]: [[f64; 3]; 2]) -> Option<f64> {
         let [start, end] = [a, b].map(|point| dot(self.normal, minus(point, self.centre)));
         let place = start / (start - end);
-        let at = [0, 1, 2].map(|axis| a[axis] + place * (b[axis] - a[axis]) - self.centre[axis]);
+        let at = minus(point_at([a, b], place), self.centre);
         place.is_finite().then(|| norm(cross(self.normal, at)))
     }
 
@@ -77,11 +79,7 @@ impl Disk {
         let reach = self.radius + slack;
         let from_axis = |point: [f64; 3]| norm(cross(self.normal, minus(point, self.centre)));
         match bond.map(|point| self.height(point, slack)) {
-            [0.0, 0.0] => {
-                let (way, to_centre) = (minus(bond[1], bond[0]), minus(self.centre, bond[0]));
-                let place = (dot(to_centre, way) / dot(way, way)).clamp(0.0, 1.0);
-                from_axis([0, 1, 2].map(|axis| bond[0][axis] + place * way[axis])) <= reach
-            }
+            [0.0, 0.0] => from_axis(point_at(bond, nearest_place(bond, self.centre))) <= reach,
             [0.0, _] => from_axis(bond[0]) <= reach,
             [_, 0.0] => from_axis(bond[1]) <= reach,
             [start, end] => {
@@ -91,9 +89,12 @@ impl Disk {
         }
     }
 
-    pub(super) fn crossing(&self, bond: [[f64; 3]; 2]) -> ([f64; 3], f64) {
+    pub(super) fn crossing(&self, bond: [[f64; 3]; 2]) -> Crossing<3> {
         let depth = |distance| 1.0 - distance / self.radius;
         let crossed = self.distance_of_crossing(bond).map(depth);
-        (self.normal, crossed.unwrap_or(f64::NEG_INFINITY))
+        Crossing {
+            normal: self.normal,
+            depth: crossed.unwrap_or(f64::NEG_INFINITY),
+        }
     }
 }

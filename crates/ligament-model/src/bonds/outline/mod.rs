@@ -1,0 +1,213 @@
+//! The outline of a mesh: a bond whose straight line leaves the meshed body is none.
+//!
+//! Holes, slots, notches and re-entrant corners are what the cells leave free. The outline is the edges, or in space the faces, that one
+//! cell has alone. The rule, decided with exact orientation predicates: a bond stays in the body if it passes through no facet of the
+//! outline, and if it goes on into a cell, or along a side of one, from its first end and from every node and, in space, every edge of the
+//! outline on it. Along the outline, and past a corner or an edge that it only touches, it stays: what comes closer to a line or a plane
+//! than 1e-5 of the nearest distance of the bond's ends lies on it, or rounding would decide about bonds along a slanted side.
+
+mod plane;
+mod solid;
+
+use ligament_mesh::MeshCell;
+use rayon::prelude::*;
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+
+use super::first::first_bonds;
+use super::{BondSet, Incidence};
+use crate::cloud::lumping::shortest_edges;
+use crate::cloud::{PointCloud, distance, search_tree};
+use crate::geometry::bounding_box;
+use crate::horizon::INCLUSION_TOLERANCE;
+
+/// Points along the curve that are asked for together whether the outline is near: most of a body is far from it.
+const BLOCK: usize = 64;
+
+/// The outline of a mesh in the plane.
+pub type PlaneOutline = Facets<2, 3>;
+
+/// The outline of a mesh in space.
+pub type SolidOutline = Facets<3, 4>;
+
+/// The facets of an outline, edges or triangles, and the parts of cells at their nodes, triangles or tetrahedra (N = D + 1).
+#[derive(Debug)]
+pub struct Facets<const D: usize, const N: usize> {
+    positions: Vec<[f64; D]>,
+    /// Nodes of the facets, as a tree for searches by place.
+    tree: RTree<GeomWithData<Rectangle<[f64; D]>, [u32; D]>>,
+    /// Parts of cells at nodes of the outline.
+    parts: Vec<[u32; N]>,
+    /// Numbers of the parts at each node of the outline; none at the others.
+    parts_at: Incidence,
+}
+
+impl<const D: usize, const N: usize> Facets<D, N> {
+    /// The outline of these facets, with those of the parts of cells that have a node of it.
+    fn new(
+        facets: &[[u32; D]],
+        parts: impl Iterator<Item = [u32; N]>,
+        positions: &[[f64; D]],
+    ) -> Self {
+        let is_on_outline = marked(facets, positions.len());
+        let is_on = |node: &u32| is_on_outline[*node as usize];
+        let parts: Vec<[u32; N]> = parts.filter(|part| part.iter().any(is_on)).collect();
+        let numbered = (0..).zip(&parts);
+        let corners = numbered.flat_map(|(number, part)| part.map(|node| (node, number)));
+        let at_outline = corners.filter(|(node, _)| is_on(node));
+        let boxed = |&facet: &[u32; D]| {
+            let [lower, upper] = bounding_box(facet.map(|node| positions[node as usize]));
+            GeomWithData::new(Rectangle::from_corners(lower, upper), facet)
+        };
+        Self {
+            positions: positions.to_vec(),
+            tree: RTree::bulk_load(facets.iter().map(boxed).collect()),
+            parts_at: Incidence::from_pairs(at_outline, positions.len()),
+            parts,
+        }
+    }
+
+    fn at(&self, node: u32) -> [f64; D] {
+        self.positions[node as usize]
+    }
+
+    /// The parts of cells at a node, if it is one of the outline.
+    fn parts_at(&self, node: u32) -> impl Iterator<Item = [u32; N]> + Clone {
+        let numbers = self.parts_at.at(node).iter();
+        numbers.map(|&number| self.parts[number as usize])
+    }
+
+    /// Nodes of the facets that meet a box.
+    fn within(&self, [lower, upper]: [[f64; D]; 2]) -> impl Iterator<Item = [u32; D]> {
+        let around = AABB::from_corners(lower, upper);
+        let found = self.tree.locate_in_envelope_intersecting(around);
+        found.map(|facet| facet.data)
+    }
+
+    /// The nodes of an edge of the outline that passes through a facet, the first of them all.
+    fn first_edge_through(
+        &self,
+        is_passed: impl Fn([u32; D], [[f64; D]; 2]) -> bool,
+    ) -> Option<[u32; 2]> {
+        let facets = self.tree.iter().map(|facet| facet.data);
+        let edges = facets.flat_map(|nodes| (0..D).map(move |k| [nodes[k], nodes[(k + 1) % D]]));
+        let is_passing = |edge: &[u32; 2]| {
+            let ends = edge.map(|node| self.at(node));
+            self.within(bounding_box(ends))
+                .any(|facet| is_passed(facet, ends))
+        };
+        // Each edge stands there in both directions.
+        let once = edges.filter(|[from, to]| from < to);
+        once.filter(is_passing).min()
+    }
+}
+
+/// Marks of the nodes of some facets, shape (n_nodes).
+fn marked<const D: usize>(facets: &[[u32; D]], n_nodes: usize) -> Vec<bool> {
+    let mut is_marked = vec![false; n_nodes];
+    for &node in facets.as_flattened() {
+        is_marked[node as usize] = true;
+    }
+    is_marked
+}
+
+/// What bonds ask the outline of a mesh for.
+pub trait Outline<const D: usize>: Sync {
+    /// An edge or a triangle of the outline.
+    type Facet;
+
+    /// The facets that meet a box, given by its lowest and its highest corner (m).
+    fn facets_within(&self, bounds: [[f64; D]; 2]) -> impl Iterator<Item = Self::Facet>;
+
+    /// Whether the line between two nodes leaves the body, with all facets that it may meet.
+    fn is_left_by(&self, ends: [u32; 2], near: &[Self::Facet], slack: f64) -> bool;
+
+    /// The nodes of an edge that passes through a facet, the first of them all; none where cells do not overlap.
+    fn first_crossing(&self) -> Option<[u32; 2]>;
+}
+
+/// For each bond between nodes of a mesh, whether its straight line leaves the outline of the cells, shape (n_bonds).
+pub fn bonds_outside<const D: usize, O: Outline<D>>(
+    outline: &O,
+    bonds: &BondSet<D>,
+    cloud: &PointCloud<D>,
+) -> Vec<bool> {
+    let first = first_bonds(&bonds.ends, cloud.len());
+    let own = |point: u32| first[point as usize]..first[point as usize + 1];
+    let reach = |point: u32| {
+        let lengths = bonds.length[own(point)].iter();
+        lengths.copied().fold(0.0, f64::max)
+    };
+    let around = |points: &[u32]| {
+        bounding_box(points.iter().flat_map(|&point| {
+            let position = cloud.positions[point as usize];
+            box_around(position, reach(point))
+        }))
+    };
+    let leaves = |bond: usize, near: &[O::Facet]| {
+        let slack = cloud.slack_between(bonds.ends[bond]);
+        outline.is_left_by(bonds.ends[bond], near, slack)
+    };
+    let leaving = |point: u32| {
+        let around = box_around(cloud.positions[point as usize], reach(point));
+        let near: Vec<_> = outline.facets_within(around).collect();
+        own(point).filter(move |&bond| !near.is_empty() && leaves(bond, &near))
+    };
+    let of_points: Vec<usize> = (cloud.curve.par_chunks(BLOCK))
+        .filter(|block| outline.facets_within(around(block)).next().is_some())
+        .flat_map_iter(|block| block.iter().flat_map(|&point| leaving(point)))
+        .collect();
+    let mut outside = vec![false; bonds.len()];
+    for bond in of_points {
+        outside[bond] = true;
+    }
+    outside
+}
+
+/// Distance of each node of the mesh of `cells` to the nearest other one that it sees within their outline, shape (n_points), m.
+///
+/// Across a thin slot the nearest node of all may be much nearer; a horizon that follows it would reach nothing but the other side.
+pub fn spacing_inside<const D: usize, C: MeshCell<D>>(
+    outline: &impl Outline<D>,
+    cells: &[C],
+    cloud: &PointCloud<D>,
+) -> Vec<f64> {
+    let shortest = shortest_edges(cloud, cells);
+    let mut spacing = cloud.spacing.clone();
+    // What is nearer than the ends of all edges of cells may lie behind a void.
+    let may_be_parted: Vec<u32> = (0..cloud.len() as u32)
+        .filter(|&point| {
+            let shortest = shortest[point as usize];
+            shortest.is_finite() && spacing[point as usize] < shortest
+        })
+        .collect();
+    if may_be_parted.is_empty() {
+        return spacing;
+    }
+    let tree = search_tree(&cloud.positions);
+    let nearest = |&point: &u32| {
+        let (position, shortest) = (cloud.positions[point as usize], shortest[point as usize]);
+        let near: Vec<_> = outline
+            .facets_within(box_around(position, shortest))
+            .collect();
+        let is_seen = |other: u32, length: f64| {
+            !outline.is_left_by([point, other], &near, cloud.tolerance(point) * length)
+        };
+        tree.locate_within_distance(position, shortest * shortest)
+            .filter(|other| other.data != point)
+            .map(|other| (other.data, distance(position, *other.geom())))
+            .filter(|&(other, length)| is_seen(other, length))
+            .fold(shortest, |nearest, (_, length)| nearest.min(length))
+    };
+    let inside: Vec<f64> = may_be_parted.par_iter().map(nearest).collect();
+    for (&point, nearest) in may_be_parted.iter().zip(inside) {
+        spacing[point as usize] = nearest;
+    }
+    spacing
+}
+
+/// Lowest and highest corner of the box of what is no farther than `reach` (m) from a position along any axis.
+fn box_around<const D: usize>(position: [f64; D], reach: f64) -> [[f64; D]; 2] {
+    let reach = reach * (1.0 + INCLUSION_TOLERANCE);
+    [position.map(|x| x - reach), position.map(|x| x + reach)]
+}

@@ -1,0 +1,165 @@
+//! Pre-cracks and slots: polylines in the plane and surfaces in space that cut the bonds whose straight line they cross.
+//!
+//! The rule, decided with exact orientation predicates, with the rim of the crack (the ends of a polyline) excluded:
+//! - a point exactly on the crack counts as lying on its front: on the left of a polyline, seen along it, and on the side of a surface from
+//!   which its corners stand counter-clockwise;
+//! - a bond along a piece of the crack survives;
+//! - a bond that only touches the rim survives; one through an inner vertex or edge is cut. What is closed has no rim.
+//!
+//! With the rim included every bond is cut that has a point in common with the crack, whatever the point: one of the rim, an end of the
+//! bond, or a part of it along the crack. A point on the crack then loses all of its bonds. Bonds of a lattice pass exactly through such
+//! rims, but not their rounded coordinates: what comes closer than 1e-5 of the nearest distance of the bond's ends has a point in common.
+
+mod plane;
+mod solid;
+
+use rayon::prelude::*;
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+
+use super::BondSet;
+use crate::cloud::PointCloud;
+use crate::geometry::bounding_box;
+
+pub use plane::{PreCrack, crossing_bonds};
+pub use solid::{SolidPreCrack, UnfitCrack};
+
+/// Treatment of bonds that only touch a pre-crack.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Ends {
+    /// Only bonds that pass through the pre-crack are cut.
+    #[default]
+    Excluded,
+    /// Every bond that has a point in common with the pre-crack is cut.
+    Included,
+}
+
+/// Geometry of a pre-crack: the pieces of a line or of a surface, by their numbers from 0. Bonds are given by the positions of their ends,
+/// and all coordinates are those of the case or, once moved, of a cloud (m).
+pub trait Cut<const D: usize>: Sync + Sized {
+    /// The pre-crack with every position taken to another one.
+    #[must_use]
+    fn moved(&self, by: impl Fn([f64; D]) -> [f64; D]) -> Self;
+
+    /// Number of pieces.
+    fn n_pieces(&self) -> u32;
+
+    /// Lowest and highest corner of the box around a piece, m.
+    fn bounds(&self, piece: u32) -> [[f64; D]; 2];
+
+    /// Whether a piece cuts a bond; what is no farther apart than `slack` (m) touches.
+    fn cuts(&self, piece: u32, bond: [[f64; D]; 2], slack: f64) -> bool;
+
+    /// Whether the rim of a piece lies on a bond, between its ends.
+    fn touches(&self, piece: u32, bond: [[f64; D]; 2], slack: f64) -> bool;
+
+    /// Where the line of a bond meets a piece.
+    fn crossing(&self, piece: u32, bond: [[f64; D]; 2]) -> Crossing<D>;
+}
+
+/// A piece of a pre-crack where the line of a bond meets it.
+#[derive(Debug, Clone, Copy)]
+pub struct Crossing<const D: usize> {
+    /// Unit normal of the piece, from the first end of the bond to the second.
+    pub normal: [f64; D],
+    /// Distance from the rim of the piece, over its size; negative beyond it.
+    pub depth: f64,
+}
+
+/// Pre-cracks in the coordinates of a cloud, their pieces found by place.
+struct Pieces<const D: usize, C> {
+    cracks: Vec<C>,
+    /// Crack and piece.
+    tree: RTree<GeomWithData<Rectangle<[f64; D]>, [u32; 2]>>,
+}
+
+impl<const D: usize, C: Cut<D>> Pieces<D, C> {
+    fn new(cracks: &[C], cloud: &PointCloud<D>) -> Self {
+        let cracks = in_cloud(cracks, cloud);
+        let numbered = (0..).zip(&cracks);
+        let pieces = numbered.flat_map(|(number, crack)| {
+            (0..crack.n_pieces()).map(move |piece| {
+                let [lower, upper] = crack.bounds(piece);
+                GeomWithData::new(Rectangle::from_corners(lower, upper), [number, piece])
+            })
+        });
+        let tree = RTree::bulk_load(pieces.collect());
+        Self { cracks, tree }
+    }
+
+    /// Whether a question is true of a piece near a bond.
+    fn any(
+        &self,
+        cloud: &PointCloud<D>,
+        ends: [u32; 2],
+        question: impl Fn(&C, u32, [[f64; D]; 2], f64) -> bool,
+    ) -> bool {
+        let slack = cloud.slack_between(ends);
+        let bond = ends.map(|end| cloud.positions[end as usize]);
+        let [lower, upper] = bounding_box(bond);
+        let around = AABB::from_corners(lower.map(|x| x - slack), upper.map(|x| x + slack));
+        let mut near = self.tree.locate_in_envelope_intersecting(around);
+        near.any(|piece| {
+            let [crack, number] = piece.data;
+            question(&self.cracks[crack as usize], number, bond, slack)
+        })
+    }
+}
+
+/// Pre-cracks in the coordinates of a cloud.
+fn in_cloud<const D: usize, C: Cut<D>>(cracks: &[C], cloud: &PointCloud<D>) -> Vec<C> {
+    let local = cracks.iter().map(|crack| crack.moved(|it| cloud.local(it)));
+    local.collect()
+}
+
+/// For each bond, whether a pre-crack cuts it, shape (n_bonds).
+pub fn cut_bonds<const D: usize, C: Cut<D>>(
+    cracks: &[C],
+    bonds: &BondSet<D>,
+    cloud: &PointCloud<D>,
+) -> Vec<bool> {
+    if cracks.is_empty() {
+        return vec![false; bonds.len()];
+    }
+    let pieces = Pieces::new(cracks, cloud);
+    let ends = bonds.ends.par_iter();
+    ends.map(|&ends| pieces.any(cloud, ends, C::cuts)).collect()
+}
+
+/// Number of bonds that the pre-cracks leave whole although the rim of one lies on the bond, between its ends: where a polyline begins
+/// on the outline of a mesh, these are the bonds along the outline.
+pub fn count_touched_bonds<const D: usize, C: Cut<D>>(
+    cracks: &[C],
+    bonds: &BondSet<D>,
+    cloud: &PointCloud<D>,
+    is_cut: &[bool],
+) -> usize {
+    if cracks.is_empty() {
+        return 0;
+    }
+    let pieces = Pieces::new(cracks, cloud);
+    let whole = bonds.ends.par_iter().zip(is_cut).filter(|(_, cut)| !**cut);
+    let here =
+        whole.filter(|(ends, _)| cloud.counts(**ends) && pieces.any(cloud, **ends, C::touches));
+    cloud.total(here.count())
+}
+
+/// Unit normals of pre-cracks where they cut some bonds, from the first end to the second, shape (n_cut): of the piece that the bond
+/// crosses, and where it crosses several of the one that it meets farthest from a rim.
+pub fn normals<const D: usize, C: Cut<D>>(
+    cracks: &[C],
+    cut: &[[u32; 2]],
+    cloud: &PointCloud<D>,
+) -> Vec<[f64; D]> {
+    let cracks = in_cloud(cracks, cloud);
+    let of_bond = |ends: &[u32; 2]| {
+        let bond = ends.map(|end| cloud.positions[end as usize]);
+        let pieces = cracks
+            .iter()
+            .flat_map(|crack| (0..crack.n_pieces()).map(move |piece| crack.crossing(piece, bond)));
+        let best = pieces.reduce(|best, it| if it.depth > best.depth { it } else { best });
+        let along_x = || std::array::from_fn(|axis| if axis == 0 { 1.0 } else { 0.0 });
+        best.map_or_else(along_x, |it| it.normal)
+    };
+    cut.par_iter().map(of_bond).collect()
+}
