@@ -7,7 +7,7 @@ use ligament::{Fault, Field, Model, Setup, SetupError, Vibration};
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome, Mode};
 use ligament_analysis::{Component, Layout};
 use ligament_case::case::CaseFile;
-use ligament_model::{BodyGrid};
+use ligament_model::BodyGrid;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 

@@ -1,8 +1,8 @@
 //! The discrete model in numbers and words, whatever is then done with it.
 
+use ligament_model::ElementKind;
 use ligament_model::correction::{CorrectionReport, DomainReport};
 use ligament_model::scatter::Scattered;
-use ligament_model::ElementKind;
 use serde::Serialize;
 
 use ligament::Model;
