@@ -2,8 +2,8 @@
 //! energies over cycles. All against closed forms or the body without the crack.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use ligament_analysis::Component;
 use ligament_analysis::history::Notice;
-use ligament_analysis::{Bonds, Component};
 use ligament_model::contact::ContactPair;
 use ligament_model::thermal::ThermalStrain;
 use verification::bench::{Bench, Run};

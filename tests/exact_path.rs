@@ -5,7 +5,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use ligament_analysis::driver::{LoadPoint, StopRules};
-use ligament_analysis::{Bonds, Component, ControlKind, Termination, fields};
+use ligament_analysis::{Component, ControlKind, Termination, fields};
 use tempfile::TempDir;
 use verification::bench::{self, Bench, Run};
 use verification::meshes;

@@ -14,7 +14,6 @@ use ligament_analysis::driver::{Problem, StopRules, event};
 use ligament_analysis::history::BreakRecord;
 use ligament_analysis::{Component, Control, ControlKind, ProportionalLoading};
 use ligament_cli::check::{Extent, check};
-use ligament_model::Bonds;
 use ligament_model::failure::{Criteria, Criterion, KINDS, Measure};
 use ligament_model::thermal::ThermalStrain;
 use ligament_output::quantity::{four_digits, quantity};

@@ -6,7 +6,6 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use ligament_model::Bonds;
 use ligament_model::element::Remaining;
 use ligament_model::failure::crack_opening::CrackEnergy;
 use ligament_model::failure::fracture_energy::{critical_stretch, opening_modulus};

@@ -2,7 +2,6 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use ligament_analysis::LoadProgram;
-use ligament_model::Bonds;
 use verification::bench::Bench;
 use verification::numbers::{component, largest, relative_error};
 use verification::stresses::virial;

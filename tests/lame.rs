@@ -1,7 +1,6 @@
 //! Bodies under pressure against closed forms: Lame's ring on a mesh and on a lattice, and the same pressure all round.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::Bonds;
 use ligament_analysis::history::Notice;
 use verification::bench::{Bench, Run};
 use verification::numbers::{by_point, gradient, relative_error};

@@ -4,7 +4,6 @@
 
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
-use ligament_model::Bonds;
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};
 use ligament_model::thermal::ThermalStrain;
 use ligament_run::progress::ProgressMode;

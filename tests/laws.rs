@@ -4,9 +4,9 @@
 
 use ligament_analysis::state::BondsLeft;
 use ligament_analysis::{Component, internal};
+use ligament_model::ElementKind;
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};
 use ligament_model::thermal::ThermalStrain;
-use ligament_model::{Bonds, ElementKind};
 use verification::bench::{Bench, Run};
 use verification::numbers::{Random, by_point, deviation, largest, of_all, relative_error};
 use verification::problems::SQUARE;

@@ -6,7 +6,6 @@ use ligament_analysis::history::Notice;
 use ligament_analysis::internal::{self, BondSweep};
 use ligament_analysis::{Component, ControlKind, Termination, Unbalanced, gauges};
 use ligament_cli::check::{Extent, check};
-use ligament_model::Bonds;
 use ligament_model::thermal::ThermalStrain;
 use ligament_run::progress::ProgressMode;
 use verification::bench::{self, Bench, Run};

@@ -9,7 +9,6 @@ use ligament_analysis::internal::{self, BondSweep};
 use ligament_analysis::state::BondsLeft;
 use ligament_analysis::unknowns::Unknowns;
 use ligament_linalg::SymmetricMatrix;
-use ligament_model::Bonds;
 use ligament_model::element::imaginary::matrix;
 use ligament_model::thermal::ThermalStrain;
 use nalgebra::{DMatrix, Matrix3, Vector3};

@@ -7,7 +7,6 @@ use std::collections::BTreeSet;
 use ligament_analysis::Termination;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
-use ligament_model::Bonds;
 use ligament_model::thermal::ThermalStrain;
 use tempfile::TempDir;
 use verification::bench::Bench;

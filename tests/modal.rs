@@ -13,7 +13,6 @@ use ligament_analysis::modal::{
     Rotations,
 };
 use ligament_analysis::{Component, SolverSettings, Supports};
-use ligament_model::Bonds;
 use ligament_model::element::Remaining;
 use ligament_model::{BondSystem, LumpedMass};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};

@@ -9,7 +9,6 @@ use std::collections::BTreeMap;
 use ligament::model::Model;
 use ligament::prelude::*;
 use ligament::setup::Surface;
-use ligament_model::Bonds;
 use ligament_model::correction::CorrectionReport;
 use ligament_model::correction::patch::{Reference, Settings};
 use ligament_model::system::BondsLeft;

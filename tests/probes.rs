@@ -2,7 +2,6 @@
 #![allow(clippy::unwrap_used)]
 
 use ligament_analysis::probe::Reading;
-use ligament_model::Bonds;
 use verification::bench::Bench;
 use verification::numbers::relative_error;
 

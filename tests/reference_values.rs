@@ -8,7 +8,6 @@
 
 use ligament_analysis::Termination;
 use ligament_analysis::history::Notice;
-use ligament_model::Bonds;
 use ligament_model::thermal::ThermalStrain;
 use verification::bench::{Bench, Run, domain};
 use verification::numbers::{component, deviation, largest, relative_error, short};

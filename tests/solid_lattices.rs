@@ -2,7 +2,6 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use ligament::run::{Solution, Unobserved};
-use ligament_analysis::Bonds;
 use ligament_case::case::CaseFile;
 use ligament_model::thermal::ThermalStrain;
 use verification::numbers::relative_error;

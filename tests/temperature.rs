@@ -4,7 +4,6 @@
 
 use ligament_analysis::LoadProgram;
 use ligament_analysis::{ControlKind, internal};
-use ligament_model::Bonds;
 use ligament_model::Deformations;
 use verification::bench::{Bench, Run};
 use verification::numbers::{by_point, largest, relative_error};

@@ -5,7 +5,6 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
-use ligament_analysis::Bonds;
 use ligament_analysis::solver::Method;
 use ligament_model::BondsLeft;
 use verification::cylinders::{Torn, cylinder, pulled};

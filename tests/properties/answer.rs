@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use ligament::prelude::*;
-use ligament_analysis::Bonds;
 use ligament_analysis::history::{BreakRecord, ObserverError, StepRecord, View};
 use ligament_model::correction::CorrectionReport;
 use verification::numbers::{by_point, deviation, largest};

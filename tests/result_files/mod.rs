@@ -18,7 +18,6 @@ use ligament::Loading;
 use ligament::run::follow;
 use ligament_case::case::CaseFile;
 use ligament_cli::check::{self, Extent};
-use ligament_model::Bonds;
 use ligament_model::failure::Criteria;
 use ligament_model::failure::frictional::Calibration;
 use ligament_post::yielding::field::families;

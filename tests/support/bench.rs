@@ -10,7 +10,7 @@ use ligament_analysis::driver::{self, Outcome, Problem};
 use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::probe::Probe;
 use ligament_analysis::ranks::Together;
-use ligament_analysis::{Bonds, Component, ProportionalLoading, State};
+use ligament_analysis::{Component, ProportionalLoading, State};
 use ligament_case::case::CaseFile;
 use ligament_mesh::Mesh;
 use ligament_model::correction::{CorrectionReport, DomainReport};

@@ -7,8 +7,7 @@ use ligament_analysis::history::{Observer, ObserverError, StepRecord, View};
 use ligament_analysis::load_program::{Control, ControlKind};
 use ligament_analysis::solver::Method;
 use ligament_analysis::{
-    Attempt, Balanced, Bonds, Component, Equilibrium, Problem, ProportionalLoading, SolverSettings,
-    State,
+    Attempt, Balanced, Component, Equilibrium, Problem, ProportionalLoading, SolverSettings, State,
 };
 use ligament_model::material::Isotropic;
 use ligament_model::space::law::{ShearForm, nhpd};

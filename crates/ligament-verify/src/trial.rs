@@ -10,7 +10,7 @@ use ligament::run::{Solution, Unobserved};
 use ligament::{Model, Setup};
 use ligament_analysis::history::BreakRecord;
 use ligament_analysis::modal::Mode;
-use ligament_analysis::{Bonds, Component, Observer, Termination};
+use ligament_analysis::{Component, Observer, Termination};
 use ligament_mesh::gmsh;
 
 use ligament_case::case::CaseFile;

@@ -1,7 +1,7 @@
 //! The motion of a body, as it is compared and drawn.
 
 use anyhow::Context;
-use ligament_analysis::{Bonds, Component};
+use ligament_analysis::Component;
 use ligament_model::system::System;
 use ligament_output::vtu::Cell;
 use ligament_plot::picture::maps::{MappedBody, Maps};

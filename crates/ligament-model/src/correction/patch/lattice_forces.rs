@@ -193,7 +193,7 @@ mod tests {
     use crate::correction::patch::uniform_strains;
     use crate::material::{Elasticity, Isotropic, Plane};
     use crate::shape::Shape;
-    use crate::space::shape::SolidShape;
+    use crate::shape::SolidShape;
     use crate::tensor::dot;
 
     /// Work of the forces of one strain in the affine motion of another is that of the other in the one, and all forces and moments balance.
