@@ -12,7 +12,7 @@ use ligament_model::correction::{StopRule, Sweeps, domain, patch};
 use ligament_model::failure::strength::{critical_energy, critical_stretches};
 use ligament_model::law::beam;
 use ligament_model::{
-    BondSet, BondSystem, Elasticity, ElementKind, Horizons, Isotropic, Material, Plane, PointCloud,
+    BondSet, BondSystem, Elasticity, ElementKind, Horizons, Isotropic, Plane, PointCloud,
 };
 
 const HORIZON_FACTOR: f64 = 3.0;
@@ -34,17 +34,6 @@ fn preparation(criterion: &mut Criterion) {
         young: 15e9,
         poisson: 0.21,
     };
-    let _materials = [Material {
-        name: "rock".to_owned(),
-        elasticity: Elasticity::Isotropic(rock),
-        tensile_strength: Some(3.81e6),
-        compressive_strength: None,
-        fracture_energy: None,
-        fracture_energy_sliding: None,
-        mixed_mode_exponent: None,
-        density: None,
-        expansion: None,
-    }];
     let plane = Plane::Stress;
     let energies = [critical_energy(&rock, 3.81e6, plane)];
     for name in ["disk-2mm", "disk-1.5mm"] {
