@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex};
 
 use rayon::prelude::*;
 
-use crate::element::BondDeformation;
+use crate::element::bond_deformation::BondDeformation;
 use crate::tensor::{minus, norm};
 
 /// Deformation of a bond in space between the points A and B, with the unit vector n from A to B and the projection P = I - n n^T.

@@ -66,4 +66,5 @@ pub use mass::LumpedMass;
 pub use material::{Anisotropic, Elasticity, Expansion, Isotropic, Material, Orthotropic, Plane};
 pub use scatter::Scatter;
 pub use shape::Shape;
-pub use system::{BondSystem, BondsLeft, System};
+pub use system::elements::System;
+pub use system::{BondSystem, BondsLeft};

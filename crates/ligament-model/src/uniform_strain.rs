@@ -7,7 +7,8 @@ use crate::correction::patch::{CellForces, uniform_strains};
 use crate::layout::Layout;
 use crate::material::Stiffness;
 use crate::moduli::EngineeringConstants;
-use crate::system::{BondsLeft, System};
+use crate::system::BondsLeft;
+use crate::system::elements::System;
 use crate::tensor::{SymTensor, dot, minus};
 use crate::thermal::ThermalStrain;
 

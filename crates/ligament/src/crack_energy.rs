@@ -23,3 +23,18 @@ pub fn crack_energies(model: &Model, material: usize) -> Option<[CrackEnergy; 2]
     let along = |normal| CrackEnergy::of_opening(&model.system, &model.criteria, &whole, normal);
     Some([along([1.0, 0.0])?, along([0.0, 1.0])?])
 }
+
+impl Model {
+    /// Marks the points whose families are whole (n_points): neither they nor a neighbour are marked in `excluded` (n_points), such as the
+    /// [rim](Body::rim) of the body, and pre-cracks cut none of their bonds.
+    pub fn interior(&self, excluded: &[bool]) -> Vec<bool> {
+        let bonds = &self.system.bonds;
+        let is_whole = |point: u32| {
+            let mut family = bonds.incidence.at(point).iter();
+            !excluded[point as usize]
+                && self.fixed.precrack_share[point as usize] == 0.0
+                && !family.any(|&bond| excluded[bonds.neighbour(bond, point) as usize])
+        };
+        (0..self.system.cloud.len() as u32).map(is_whole).collect()
+    }
+}

@@ -218,21 +218,6 @@ where
     }
 }
 
-impl Model {
-    /// Marks the points whose families are whole (n_points): neither they nor a neighbour are marked in `excluded` (n_points), such as the
-    /// [rim](Body::rim) of the body, and pre-cracks cut none of their bonds.
-    pub fn interior(&self, excluded: &[bool]) -> Vec<bool> {
-        let bonds = &self.system.bonds;
-        let is_whole = |point: u32| {
-            let mut family = bonds.incidence.at(point).iter();
-            !excluded[point as usize]
-                && self.fixed.precrack_share[point as usize] == 0.0
-                && !family.any(|&bond| excluded[bonds.neighbour(bond, point) as usize])
-        };
-        (0..self.system.cloud.len() as u32).map(is_whole).collect()
-    }
-}
-
 /// The points of the body, with the index of the material of each cell (n_cells), and the part of this process in them.
 fn points(setup: &Setup, material_of_cell: &[u32]) -> Result<PointCloud, SetupError> {
     let cloud = all_points(setup, material_of_cell)?;

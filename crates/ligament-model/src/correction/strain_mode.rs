@@ -11,16 +11,16 @@ const UNIAXIAL: [[&str; 2]; 3] = [
     ["energy_ratio_z", "uniaxial z"],
 ];
 
-/// Those in the isotropic strain, in the plane and in space.
+/// Names and words of the energy ratio in the isotropic strain, in the plane and in space.
 const ISOTROPIC: [[&str; 2]; 2] = [
     ["energy_ratio_biaxial", "biaxial"],
     ["energy_ratio_hydrostatic", "hydrostatic"],
 ];
 
-/// Those in the shear strain of the plane.
+/// Name and words of the energy ratio in the shear strain of the plane.
 const SHEAR: [[&str; 2]; 1] = [["energy_ratio_shear", "shear"]];
 
-/// Those in the shear strains of space.
+/// Names and words of the energy ratios in the shear strains of space.
 const SHEARS: [[&str; 2]; 3] = [
     ["energy_ratio_shear_xy", "shear xy"],
     ["energy_ratio_shear_xz", "shear xz"],

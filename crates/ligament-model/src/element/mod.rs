@@ -14,10 +14,12 @@
 //! components M the motion of a point has, and arrays over degrees of freedom have as many a point.
 
 pub mod beam;
+pub mod bond_deformation;
 pub mod imaginary;
 pub mod pair;
 pub mod pairwise;
 pub mod spring;
+pub mod strain_stiffness;
 pub mod true_strain;
 
 use crate::bonds::{BondSet, Incidence};
@@ -25,7 +27,8 @@ use crate::deformation::Deformation;
 use crate::layout::{Component, Layout};
 use crate::portion::Portion;
 use crate::tensor::SymTensor;
-use imaginary::StrainStiffness;
+pub use bond_deformation::BondDeformation;
+use strain_stiffness::StrainStiffness;
 
 /// Kinematics of the bonds of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,76 +61,6 @@ impl ElementKind {
             Self::Imaginary | Self::TrueStrain | Self::Pairwise => {
                 &["strain_xx", "strain_xy", "strain_yy"]
             }
-        }
-    }
-}
-
-/// Deformation of a bond: the strains that its element has, in the order of [`ElementKind::strain_names`].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct BondDeformation {
-    strains: [f64; 3],
-}
-
-impl BondDeformation {
-    /// The deformation with strains in the order of their names: of a bond of two points stretch s, shear deformation gamma, rad,
-    /// and relative rotation theta_B - theta_A of the ends, rad; zero what it has not.
-    #[inline]
-    pub const fn new(strains: [f64; 3]) -> Self {
-        Self { strains }
-    }
-
-    /// The deformation of an imaginary element with the strains (S_xx, S_yy, S_xy).
-    #[inline]
-    pub const fn of_strain([xx, yy, xy]: [f64; 3]) -> Self {
-        Self {
-            strains: [xx, xy, yy],
-        }
-    }
-
-    /// Stretch s of a bond of two points.
-    #[inline]
-    pub fn stretch(&self) -> f64 {
-        self.strains[0]
-    }
-
-    /// Shear deformation gamma of a bond of two points, rad.
-    #[inline]
-    pub fn shear(&self) -> f64 {
-        self.strains[1]
-    }
-
-    /// Relative rotation theta_B - theta_A of the ends of a bond of two points, rad.
-    #[inline]
-    pub fn rotation(&self) -> f64 {
-        self.strains[2]
-    }
-
-    /// The strains (S_xx, S_yy, S_xy) of an imaginary element.
-    #[inline]
-    pub fn strain(&self) -> [f64; 3] {
-        let [xx, xy, yy] = self.strains;
-        [xx, yy, xy]
-    }
-
-    /// All strains in the order of their names.
-    #[inline]
-    pub fn strains(&self) -> [f64; 3] {
-        self.strains
-    }
-
-    /// A multiple of it.
-    #[inline]
-    pub fn scaled(&self, factor: f64) -> Self {
-        Self {
-            strains: self.strains.map(|strain| factor * strain),
-        }
-    }
-
-    /// What is left of it without another one.
-    #[inline]
-    pub fn less(&self, other: &Self) -> Self {
-        Self {
-            strains: std::array::from_fn(|place| self.strains[place] - other.strains[place]),
         }
     }
 }

@@ -224,7 +224,7 @@ mod tests {
         assert!(left.into_iter().all(|it| it.abs() < 1e-10));
     }
 
-    /// That is so whatever the sides of the body and its holes.
+    /// The sides of the body and its holes do not matter.
     #[test]
     fn the_forces_are_those_of_a_symmetric_stiffness() {
         let hole = Shape::rectangle([[0.004, 0.002], [0.009, 0.005]]);
