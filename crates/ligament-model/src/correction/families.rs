@@ -195,8 +195,8 @@ fn update_members<const D: usize, const N: usize>(
             _ => q[usize::from(axis == 0)][k] * q[2 - usize::from(axis == 2)][k],
         };
         let mut squares = along[0][k] * (others(0) * others(0));
-        for axis in 1..D {
-            squares += along[axis][k] * (others(axis) * others(axis));
+        for (axis, along) in along.iter().enumerate().skip(1) {
+            squares += along[k] * (others(axis) * others(axis));
         }
         let factor = factors[k] * (0.5 * q[0][k] * others(0)) / squares.sqrt();
         change[k] += (factor - factors[k]).abs();

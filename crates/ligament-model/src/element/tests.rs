@@ -220,6 +220,7 @@ impl Check for RigidMotions {
         body: &Body<D, M, E>,
         promise: Promise,
     ) {
+        let mut seen = 0.0_f64;
         for bond in 0..body.bonds.len() {
             let element = body.element(bond);
             let costs = |u: &[f64]| size(&force(&element, u));
@@ -231,8 +232,9 @@ impl Check for RigidMotions {
             let turned = costs(&body.rigid([0.3, -0.2], rotation));
             let tolerance = if promise.linear { 1e-12 } else { 1e-11 };
             assert_eq!(turned < tolerance, promise.turns, "{name}: {turned:e}");
-            assert!(costs(&body.unknowns()) > 1e-3, "the test must see forces");
+            seen = seen.max(costs(&body.unknowns()));
         }
+        assert!(seen > 1e-3, "the test must see forces");
     }
 }
 

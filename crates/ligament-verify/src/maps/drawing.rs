@@ -2,7 +2,7 @@
 
 use anyhow::Context;
 use ligament_analysis::Component;
-use ligament_model::system::System;
+use ligament_model::System;
 use ligament_output::vtu::Cell;
 use ligament_plot::picture::maps::{MappedBody, Maps};
 

@@ -116,7 +116,8 @@ fn strength_is_an_energy() {
         poisson: 0.2,
     };
     let stiffness = crate::Elasticity::Isotropic(isotropic).stiffness::<3>(crate::Plane::Strain);
-    let energy = mode.energy(&stiffness.unwrap()) * (3e6 / YOUNG).powi(2);
+    let energy = mode.energy(&stiffness.expect("isotropic materials have a stiffness in space"))
+        * (3e6 / YOUNG).powi(2);
     assert!((strength::critical_energy(&isotropic, 3e6) / energy - 1.0).abs() < 1e-14);
     for (bond, &limit) in limits.iter().enumerate() {
         if system.bonds.ends[bond].contains(&0) {
