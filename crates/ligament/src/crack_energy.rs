@@ -26,7 +26,7 @@ pub fn crack_energies(model: &Model, material: usize) -> Option<[CrackEnergy; 2]
 
 impl Model {
     /// Marks the points whose families are whole (n_points): neither they nor a neighbour are marked in `excluded` (n_points), such as the
-    /// [rim](Body::rim) of the body, and pre-cracks cut none of their bonds.
+    /// [rim](crate::Body::rim) of the body, and pre-cracks cut none of their bonds.
     pub fn interior(&self, excluded: &[bool]) -> Vec<bool> {
         let bonds = &self.system.bonds;
         let is_whole = |point: u32| {
