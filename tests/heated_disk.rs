@@ -2,9 +2,10 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use ligament_analysis::LoadProgram;
+use ligament_model::interface::StressReading;
 use verification::bench::Bench;
 use verification::numbers::{component, largest, relative_error};
-use verification::stresses::virial;
+use verification::stresses::of_reading;
 
 const ALPHA: f64 = 23e-6; // 1/K
 
@@ -96,7 +97,7 @@ fn hot_disks_are_those_of_thermoelasticity() {
         let expansion = bench.boundary.thermal_strain(state.load_factor);
         let system = &*bench.model.system;
         let deformations = system.deformations(&state.intact, motion, expansion);
-        let stress = virial::<3>(system, state.bonds(), &deformations);
+        let stress = of_reading::<3>(StressReading::Virial, system, state.bonds(), &deformations);
         let mut ratios = Vec::new();
         for (p, [xx, yy, xy]) in positions.iter().zip(&stress) {
             let r = p[0].hypot(p[1]);

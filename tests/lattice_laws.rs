@@ -4,6 +4,7 @@
 
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
+use ligament_model::interface::StressReading;
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};
 use ligament_model::thermal::ThermalStrain;
 use ligament_run::progress::ProgressMode;
@@ -11,7 +12,7 @@ use ligament_run::run;
 use tempfile::TempDir;
 use verification::bench::{self, Bench};
 use verification::numbers::{by_point, deviation, of_all, relative_error};
-use verification::stresses::{tractions, virial};
+use verification::stresses::of_reading;
 use verification::table::Table;
 
 /// 12 x 8 cells of 5 mm around the origin, held at the left and pulled aslant at the right.
@@ -264,8 +265,10 @@ fn uniform_strains_of_a_lattice_have_the_stress_of_the_continuum() {
             let deformations =
                 internal::sweep(system, BondsLeft::whole(&intact), &u, ThermalStrain::NONE)
                     .deformations;
-            let virial = virial(system, BondsLeft::whole(&intact), &deformations);
-            let traction = tractions(system, BondsLeft::whole(&intact), &deformations);
+            let left = BondsLeft::whole(&intact);
+            let virial = of_reading(StressReading::Virial, system, left, &deformations);
+            let traction: Vec<[f64; 4]> =
+                of_reading(StressReading::Traction, system, left, &deformations);
             let largest: f64 = expected
                 .iter()
                 .fold(0.0, |most: f64, value| most.max(value.abs()));

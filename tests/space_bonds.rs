@@ -14,12 +14,13 @@ use ligament_analysis::{
     Component, Control, ControlKind, Equilibrium, Problem, ProportionalLoading, SolverSettings,
     State, Unknowns, assembly, gauges, internal,
 };
+use ligament_model::contact::Faces;
 use ligament_model::correction::length::length_factors;
 use ligament_model::correction::{StopRule, Sweeps, domain};
 use ligament_model::failure::{Criteria, Criterion, Measure};
 use ligament_model::interface::StressReading;
 use ligament_model::space::law::{ShearForm, calibration, nhpd, pds};
-use ligament_model::tensor::SymTensor;
+use ligament_model::tensor::{SymTensor, cross, dot, minus};
 use ligament_model::thermal::{FreeStrains, ThermalStrain};
 use ligament_model::{
     BondSet, BondSystem, BondsLeft, Elasticity, ElementKind, Horizons, Isotropic, Plane,
@@ -364,6 +365,21 @@ fn a_bar_has_the_modulus_of_its_material() {
             .iter()
             .all(|&it| mean(it).abs() < 1e-9 * mean(3))
     );
+    // Tractions share out the same forces, so that their symmetric part has the same mean.
+    let tractions = system.stresses(StressReading::Traction, state.bonds(), &sweep.deformations);
+    let names = ["xx", "yx", "zx", "yy", "xy", "zy", "zz", "xz", "yz"];
+    assert_eq!(tractions.names, names);
+    let of_traction = |name: &str| {
+        let place = names.iter().position(|it| *it == name).unwrap();
+        let of_points = tractions.values.chunks(9).map(|it| it[place]);
+        of_points.sum::<f64>() / volume
+    };
+    for (place, name) in stresses.names.iter().enumerate() {
+        let turned: String = name.chars().rev().collect();
+        let off = 0.5 * (of_traction(name) + of_traction(&turned)) - mean(place);
+        // Rounding of sums over some ten thousand bonds.
+        assert!(off.abs() < 1e-12 * mean(3), "{name}: {off:e}");
+    }
     // And so is the force through its middle, between two layers.
     let crossing: Vec<(u32, bool)> = (0..)
         .zip(&system.bonds.ends)
@@ -501,4 +517,51 @@ fn breakages_in_place_are_those_of_a_new_factor() {
     };
     let (stored, work, released) = energies(&in_place);
     assert!(((stored + released) / work - 1.0).abs() < 1e-9);
+}
+
+/// The gap of two points across a crack does not see that the body moves and turns as a whole; a uniform strain opens it by l n . eps e, and
+/// closes it by as much where it is the strain of a temperature.
+#[test]
+fn gaps_in_space_are_those_of_the_faces() {
+    let cloud = lattice([4, 4, 4], |_| true);
+    let bonds = BondSet::<3>::search(&cloud, &Horizons::unified(2.0, cloud.len()));
+    let materials = material(0.2);
+    let stiffness = nhpd::stiffness(&bonds, &cloud, &materials, ShearForm::Constant);
+    let ones = vec![1.0; bonds.len()];
+    let faces = Faces::closing(Vec::new(), &bonds);
+    let element = ElementKind::Beam;
+    let system = BondSystem::new(cloud, bonds, element, stiffness, ones.clone(), &ones);
+    let system = system.with_faces(faces).with_elements();
+    let positions = &system.cloud.positions;
+    let is_upper = |end: u32| positions[end as usize][2] > 0.0;
+    let is_parted = |ends: &[u32; 2]| is_upper(ends[0]) != is_upper(ends[1]);
+    let intact: Vec<bool> = system.bonds.ends.iter().map(|it| !is_parted(it)).collect();
+    let pairs = system.contact_pairs(&intact);
+    assert!(pairs.len() > 16, "{}", pairs.len());
+    let motions = |of_point: &dyn Fn([f64; 3]) -> [f64; 6]| -> Vec<f64> {
+        positions.iter().flat_map(|p| of_point(*p)).collect()
+    };
+    let turn = [0.3, -0.2, 0.5];
+    let [a, b, c] = turn;
+    let rigid = motions(&|place| {
+        let [x, y, z] = cross(turn, place);
+        [1.0 + x, y - 2.0, z + 0.5, a, b, c]
+    });
+    let strain = SymTensor::<3>::from_components(&[0.1, -0.2, 0.3, 0.4, -0.5, 0.6]);
+    let strained = motions(&|place| {
+        let [x, y, z] = strain.times(place);
+        [x, y, z, 0.0, 0.0, 0.0]
+    });
+    let thermal = FreeStrains::new(vec![strain; positions.len()]);
+    for pair in pairs {
+        let [from, to] = pair.ends.map(|end| positions[end as usize]);
+        let opened = dot(pair.normal, strain.times(minus(to, from)));
+        let [at_rest, open] = [&rigid, &strained].map(|it| pair.gap(it, ThermalStrain::NONE));
+        let grown = pair.growth(thermal.times(1.0));
+        // Rounding of a few products of numbers up to 3.
+        for (found, expected) in [(at_rest, 0.0), (open, opened), (grown, opened)] {
+            assert!((found - expected).abs() < 1e-14, "{found} for {expected}");
+        }
+        assert!(pair.stiffness > 0.0 && pair.normal[2].abs() > 0.9);
+    }
 }

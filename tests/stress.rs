@@ -5,11 +5,12 @@ use ligament::warning::Warning;
 use ligament_analysis::internal;
 use ligament_analysis::state::BondsLeft;
 use ligament_mesh::Mesh;
+use ligament_model::interface::StressReading;
 use ligament_model::thermal::ThermalStrain;
 use verification::bench::{self, Bench, Run};
 use verification::meshes;
 use verification::numbers::{Random, largest, relative_error};
-use verification::stresses::{tractions, virial};
+use verification::stresses::of_reading;
 
 /// Plate 0.2 x 0.1 m, 2 cm thick, of 1543 irregular points; each test brings its loads along.
 const PLATE: &str = r#"
@@ -36,8 +37,8 @@ fn stresses(bench: &Bench, intact: &[bool], u: &[f64]) -> (Vec<[f64; 3]>, Vec<[f
         internal::sweep(system, BondsLeft::whole(intact), u, ThermalStrain::NONE).deformations;
     let left = BondsLeft::whole(intact);
     (
-        virial(system, left, &deformations),
-        tractions(system, left, &deformations),
+        of_reading(StressReading::Virial, system, left, &deformations),
+        of_reading(StressReading::Traction, system, left, &deformations),
     )
 }
 

@@ -8,6 +8,7 @@ use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecor
 use ligament_analysis::{Component, ControlKind, fields};
 use ligament_case::case::StressField;
 use ligament_model::Absence;
+use ligament_model::interface::StressReading;
 use ligament_model::thermal::FreeStrains;
 use ligament_run::model::Model;
 use verification::numbers::by_point;
@@ -248,11 +249,21 @@ impl<'a> Recorder<'a> {
             fields_of.components("thermal_strain", ["xx", "yy", "xy"], strains);
         }
         if self.stress.contains(&StressField::Virial) {
-            let stress = stresses::virial(system, state.bonds(), &balanced.deformations);
+            let stress = stresses::of_reading::<3>(
+                StressReading::Virial,
+                system,
+                state.bonds(),
+                &balanced.deformations,
+            );
             fields_of.components("stress_virial", ["xx", "yy", "xy"], stress);
         }
         if self.stress.contains(&StressField::Traction) {
-            let stress = stresses::tractions(system, state.bonds(), &balanced.deformations);
+            let stress = stresses::of_reading::<4>(
+                StressReading::Traction,
+                system,
+                state.bonds(),
+                &balanced.deformations,
+            );
             fields_of.components("stress_traction", ["xx", "yx", "yy", "xy"], stress);
         }
         fields_of.fixed(self.model);

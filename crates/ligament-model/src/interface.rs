@@ -202,11 +202,6 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     /// Components of the virial stress of a point, Pa.
     fn stress(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> Vec<f64>;
 
-    /// Readings of the forces of the bonds as stresses that there are.
-    fn stress_readings(&self) -> &'static [StressReading] {
-        &[StressReading::Virial, StressReading::Traction]
-    }
-
     /// Stress of every point in one reading of the forces of the bonds.
     fn stresses(
         &self,

@@ -21,7 +21,6 @@ pub mod change;
 pub mod cloud;
 pub mod contact;
 pub mod correction;
-mod crack_axis;
 pub mod deformation;
 pub mod element;
 pub mod failure;

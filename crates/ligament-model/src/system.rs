@@ -2,6 +2,7 @@
 
 mod answers;
 mod contact;
+mod crack_axis;
 pub mod elements;
 
 use rayon::prelude::*;

@@ -6,7 +6,7 @@
 //! Rotations are counter-clockwise. With them the shear row of B reads [0, -1, -l/2, 0, 1, -l/2]/l; the signs +l/2 of
 //! the printed eq. 3 belong to clockwise rotations.
 
-use super::pair::PairKinematics;
+use super::pair::{PairBond, PairKinematics};
 use super::spring::SpringBond;
 use super::{Block, BondDeformation, Remaining, Rigidities};
 use crate::bonds::BondSet;
@@ -37,21 +37,28 @@ impl<const D: usize> BeamBond<D> {
             rotational_rigidity: 0.0,
         }
     }
+}
 
+impl<const D: usize> PairBond<D> for BeamBond<D> {
     #[inline(always)]
-    fn of_bond(bonds: &BondSet<D>, rigidities: &Rigidities, bond: usize) -> Self {
+    fn new(bonds: &BondSet<D>, rigidities: &Rigidities, bond: usize) -> Self {
         Self {
-            springs: SpringBond::of_bond(bonds, rigidities, bond),
+            springs: SpringBond::new(bonds, rigidities, bond),
             rotational_rigidity: rigidities.rotational[bond],
         }
     }
 
     #[inline(always)]
-    fn with_remaining(self, remaining: &Remaining) -> Self {
+    fn weakened(self, remaining: &Remaining) -> Self {
         Self {
-            springs: self.springs.with_remaining(remaining),
+            springs: self.springs.weakened(remaining),
             rotational_rigidity: remaining.rotational * self.rotational_rigidity,
         }
+    }
+
+    #[inline(always)]
+    fn geometry(&self) -> (f64, [f64; D]) {
+        self.springs.geometry()
     }
 }
 
@@ -59,21 +66,6 @@ impl PairKinematics<2, 3> for BeamBond {
     const COMPONENTS: [Component; 3] = [Component::X, Component::Y, Component::Rotation];
 
     type Deformation = BondDeformation;
-
-    #[inline]
-    fn new(bonds: &BondSet, rigidities: &Rigidities, bond: usize) -> Self {
-        Self::of_bond(bonds, rigidities, bond)
-    }
-
-    #[inline]
-    fn weakened(self, remaining: &Remaining) -> Self {
-        self.with_remaining(remaining)
-    }
-
-    #[inline]
-    fn geometry(&self) -> (f64, [f64; 2]) {
-        self.springs.geometry()
-    }
 
     /// Deformation for the motions [u_x, u_y, theta] of the ends A and B (NHPD eqs 2, 3):
     ///
@@ -162,21 +154,6 @@ impl PairKinematics<3, 6> for BeamBond<3> {
     const COMPONENTS: [Component; 6] = Component::IN_SPACE;
 
     type Deformation = SpaceDeformation;
-
-    #[inline(always)]
-    fn new(bonds: &BondSet<3>, rigidities: &Rigidities, bond: usize) -> Self {
-        Self::of_bond(bonds, rigidities, bond)
-    }
-
-    #[inline]
-    fn weakened(self, remaining: &Remaining) -> Self {
-        self.with_remaining(remaining)
-    }
-
-    #[inline]
-    fn geometry(&self) -> (f64, [f64; 3]) {
-        self.springs.geometry()
-    }
 
     /// Deformation for the displacements and rotations of the ends: s = n . du/l, gamma = P du/l - 1/2 (phi_A + phi_B) x n,
     /// dphi = phi_B - phi_A.

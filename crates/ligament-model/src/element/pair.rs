@@ -8,24 +8,27 @@ use crate::deformation::Deformation;
 use crate::layout::Component;
 use crate::tensor::SymTensor;
 
-/// The kinematics of a bond in D dimensions between two points with M components.
-pub trait PairKinematics<const D: usize, const M: usize>:
+/// Geometry and rigidities of a bond of two points in D dimensions.
+pub trait PairBond<const D: usize>:
     Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static
 {
+    /// The bond of a number.
+    fn new(bonds: &BondSet<D>, rigidities: &Rigidities, bond: usize) -> Self;
+
+    /// The bond with its rigidities times what is left of them.
+    fn weakened(self, remaining: &Remaining) -> Self;
+
+    /// Length l, m, and unit vector n from A to B.
+    fn geometry(&self) -> (f64, [f64; D]);
+}
+
+/// The kinematics of a bond in D dimensions between two points with M components.
+pub trait PairKinematics<const D: usize, const M: usize>: PairBond<D> {
     /// Components of the motion of a point.
     const COMPONENTS: [Component; M];
 
     /// Deformation of the bond.
     type Deformation: Deformation;
-
-    /// The kinematics of a bond.
-    fn new(bonds: &BondSet<D>, rigidities: &Rigidities, bond: usize) -> Self;
-
-    /// With the rigidities times what is left of them.
-    fn weakened(self, remaining: &Remaining) -> Self;
-
-    /// Length l, m, and unit vector n from A to B.
-    fn geometry(&self) -> (f64, [f64; D]);
 
     /// Deformation for the motions of the ends A and B, shape (M) each.
     fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> Self::Deformation;

@@ -3,7 +3,7 @@
 //! Its shear deformation does not know a rotation of the whole body from a shear: where its shear rigidity is not zero, a
 //! rigid rotation costs energy.
 
-use super::pair::PairKinematics;
+use super::pair::{PairBond, PairKinematics};
 use super::{Block, BondDeformation, Remaining, Rigidities};
 use crate::bonds::BondSet;
 use crate::deformation::SpaceDeformation;
@@ -23,10 +23,9 @@ pub struct SpringBond<const D: usize = 2> {
     pub shear_rigidity: f64,
 }
 
-impl<const D: usize> SpringBond<D> {
-    /// The springs of a bond.
+impl<const D: usize> PairBond<D> for SpringBond<D> {
     #[inline(always)]
-    pub(super) fn of_bond(bonds: &BondSet<D>, rigidities: &Rigidities, bond: usize) -> Self {
+    fn new(bonds: &BondSet<D>, rigidities: &Rigidities, bond: usize) -> Self {
         Self {
             length: bonds.length[bond],
             direction: bonds.direction[bond],
@@ -35,14 +34,18 @@ impl<const D: usize> SpringBond<D> {
         }
     }
 
-    /// The springs with their rigidities times what is left of them.
     #[inline(always)]
-    pub(super) fn with_remaining(self, remaining: &Remaining) -> Self {
+    fn weakened(self, remaining: &Remaining) -> Self {
         Self {
             axial_rigidity: remaining.axial * self.axial_rigidity,
             shear_rigidity: remaining.shear * self.shear_rigidity,
             ..self
         }
+    }
+
+    #[inline(always)]
+    fn geometry(&self) -> (f64, [f64; D]) {
+        (self.length, self.direction)
     }
 }
 
@@ -50,21 +53,6 @@ impl PairKinematics<2, 2> for SpringBond {
     const COMPONENTS: [Component; 2] = [Component::X, Component::Y];
 
     type Deformation = BondDeformation;
-
-    #[inline]
-    fn new(bonds: &BondSet, rigidities: &Rigidities, bond: usize) -> Self {
-        Self::of_bond(bonds, rigidities, bond)
-    }
-
-    #[inline]
-    fn weakened(self, remaining: &Remaining) -> Self {
-        self.with_remaining(remaining)
-    }
-
-    #[inline]
-    fn geometry(&self) -> (f64, [f64; 2]) {
-        (self.length, self.direction)
-    }
 
     /// Deformation for the displacements of the ends A and B:
     ///
@@ -161,21 +149,6 @@ impl PairKinematics<3, 3> for SpringBond<3> {
     const COMPONENTS: [Component; 3] = [Component::X, Component::Y, Component::Z];
 
     type Deformation = SpaceDeformation;
-
-    #[inline(always)]
-    fn new(bonds: &BondSet<3>, rigidities: &Rigidities, bond: usize) -> Self {
-        Self::of_bond(bonds, rigidities, bond)
-    }
-
-    #[inline]
-    fn weakened(self, remaining: &Remaining) -> Self {
-        self.with_remaining(remaining)
-    }
-
-    #[inline]
-    fn geometry(&self) -> (f64, [f64; 3]) {
-        (self.length, self.direction)
-    }
 
     /// Deformation for the displacements of the ends: s = n . du/l, gamma = P du/l.
     #[inline(always)]

@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 
 use super::BondSystem;
+use super::crack_axis::AxisSum;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
-use crate::crack_axis::AxisSum;
 use crate::ghosts::Ghosts;
 use crate::interface::StressReading;
 use crate::layout::{Component, Layout};

@@ -220,6 +220,7 @@ mod tests {
         }
         let size = work.norm();
         assert!((&work - work.transpose()).norm() < 1e-12 * size, "{work}");
+        // The terms of these sums are at most 1e-3: rounding leaves far less of them, a part that is missing far more.
         let left = sums.as_flattened().iter().chain(&totals).flatten();
         assert!(left.into_iter().all(|it| it.abs() < 1e-10));
     }
