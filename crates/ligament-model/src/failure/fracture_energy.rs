@@ -3,8 +3,8 @@
 use super::basis::Basis;
 use super::kind::{FRACTURE_ENERGY, Kind, Limits, TENSILE_STRENGTH};
 use super::measure::Measure;
-use crate::law::beam::axial_constant;
-use crate::material::{Isotropic, Plane};
+use crate::law::constants;
+use crate::material::{Isotropic, Plane, Space};
 use crate::system::BondSystem;
 
 /// Stretch, from the fracture energy.
@@ -117,7 +117,7 @@ pub fn critical_stretch(fracture_energy: f64, opening_modulus: f64, mean_length:
 /// Opening modulus M = t integral_0^H k_n l^2 dl of a material, Pa: 2 E/(pi (1 - nu)) in plane stress,
 /// 2 E/(pi (1 + nu)(1 - 2 nu)) in plane strain. All laws have it, with the Poisson's ratio that they give the material.
 pub fn opening_modulus(material: &Isotropic, plane: Plane) -> f64 {
-    axial_constant(material, plane, 1.0) / 3.0
+    constants::axial(material, Space::Plane(plane), 1.0) / 3.0
 }
 
 /// Mean lengths h = sum_B w l / sum_B w of the bonds of each point with the weights w = Omega alpha V_B k_n l, shape (n_points), m.

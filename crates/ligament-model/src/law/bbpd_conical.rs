@@ -2,29 +2,30 @@
 //! 2).
 
 use super::bbpd::central;
-use super::beam::axial_constant;
-use super::{BondStiffness, Densities};
+use super::{BondStiffness, Densities, constants};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
-use crate::material::{Isotropic, Plane};
+use crate::material::{Isotropic, Space};
 
 /// Stiffness densities of every bond: k_n alone,
 ///
-/// k_n = c (1 - l/H) with c = 36 E / (pi t H^3) in plane stress, 192 E / (5 pi t H^3) in plane strain (N/m^6),
+/// k_n = c (1 - l/H) with c = 36 E / (pi t H^3) in plane stress, 192 E / (5 pi t H^3) in plane strain, 60 E / (pi H^4) in space (N/m^6),
 ///
-/// four times the constant micromodulus of [`super::bbpd`]: the integral of (1 - l/H) l^2 is a fourth of that of l^2. Bonds as long
-/// as the horizon carry nothing. Poisson's ratio is 1/3 or 1/4, as for [`super::bbpd`].
-pub fn stiffness(
-    bonds: &BondSet,
-    cloud: &PointCloud,
+/// D + 2 times the constant micromodulus of [`super::bbpd`]: the integral of (1 - l/H) l^D over the horizon is that part of the integral of
+/// l^D. Bonds as long as the horizon carry nothing. Poisson's ratio is 1/3 or 1/4, as for [`super::bbpd`].
+pub fn stiffness<const D: usize>(
+    bonds: &BondSet<D>,
+    cloud: &PointCloud<D>,
     materials: &[Isotropic],
-    plane: Plane,
+    space: Space,
 ) -> BondStiffness {
-    let constant =
-        |material| [4.0 * axial_constant(&central(material, plane), plane, cloud.thickness)];
+    let constant = |material| {
+        let constant = constants::axial(&central(material, space), space, cloud.thickness);
+        [(D + 2) as f64 * constant]
+    };
     let constants: Vec<[f64; 1]> = materials.iter().map(constant).collect();
     BondStiffness::from_constants(bonds, cloud, &constants, |[c], bond| Densities {
-        axial: c / bond.horizon.powi(3) * (1.0 - bond.length / bond.horizon).max(0.0),
+        axial: c / bond.horizon.powi(D as i32 + 1) * (1.0 - bond.length / bond.horizon).max(0.0),
         shear: 0.0,
         rotational: 0.0,
     })

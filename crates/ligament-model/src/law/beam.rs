@@ -1,66 +1,62 @@
 //! The beam-like bond (Gerstle 2007, in the form of MPPD), which is also the law of NHPD eq. 6.
 
-use std::f64::consts::PI;
-
-use super::{BondStiffness, CENTRAL_FORCE_TOLERANCE, Densities};
+use super::{BondStiffness, Densities, constants};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
-use crate::material::{Isotropic, Plane};
+use crate::material::{Isotropic, Space};
 
-/// Stiffness densities of every bond, NHPD eq. 6, OMPPD eq. 22:
+/// Shear stiffness k_t of a bond over its length.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ShearForm {
+    /// The same k_t for all lengths, that of [`super::pds`]. With a factor alpha that depends on the length, the ratio of shear to stretch
+    /// stays right: NHPD's form in space.
+    Constant,
+    /// k_t = 12 d/l^2, as a beam of Euler and Bernoulli has: NHPD's form in the plane. In space NHPD's factor alpha, which falls with the
+    /// length, makes the shear of the body 1.16 times too strong: nu = .2 becomes .192.
+    Falling,
+}
+
+impl ShearForm {
+    /// The form of NHPD's law.
+    pub fn of_nhpd(space: Space) -> Self {
+        match space {
+            Space::Plane(_) => Self::Falling,
+            Space::Solid => Self::Constant,
+        }
+    }
+}
+
+/// Stiffness densities of every bond, NHPD eq. 6, OMPPD eq. 22, in space our own:
 ///
-/// k_n = c, k_t = 12 d / l^2, k_theta = d / l, with the bond horizon H, the thickness t and
+/// k_n = c, k_t = 12 d / l^2 or constant by its form, k_theta = d / l, with the constants c (N/m^6) and d (N/m^4) of the
+/// [table](super::constants).
 ///
-/// | | c (N/m^6) | d (N/m^4) |
-/// |---|---|---|
-/// | plane stress | 6 E / (pi t H^3 (1 - nu)) | E (1 - 3 nu) / (6 pi t H (1 - nu^2)) |
-/// | plane strain | 6 E / (pi t H^3 (1 - 2 nu)(1 + nu)) | E (1 - 4 nu) / (6 pi t H (1 - 2 nu)(1 + nu)) |
-///
-/// `d` is negative for nu > 1/3 (plane stress) or nu > 1/4 (plane strain).
-pub fn stiffness(
-    bonds: &BondSet,
-    cloud: &PointCloud,
+/// d is negative above the Poisson's ratio of central forces. A uniform strain does not see k_theta, which in space bending and torsion share:
+/// with k_phi = g/l for torsion the energy of a uniform curvature chi is (pi H^4/60) ((g - d)(tr^2 chi + chi : chi^T) + (g + 4 d) chi : chi),
+/// and g = d leaves chi : chi alone.
+pub fn stiffness<const D: usize>(
+    bonds: &BondSet<D>,
+    cloud: &PointCloud<D>,
     materials: &[Isotropic],
-    plane: Plane,
+    space: Space,
+    form: ShearForm,
 ) -> BondStiffness {
-    // c H^3 and d H do not depend on the bond.
-    let constants: Vec<[f64; 2]> = materials
-        .iter()
-        .map(|material| {
-            let bending = bending_constant(material, plane, cloud.thickness);
-            [axial_constant(material, plane, cloud.thickness), bending]
-        })
-        .collect();
-    BondStiffness::from_constants(bonds, cloud, &constants, |[c, d], bond| {
+    // What does not depend on the bond.
+    let constant = |material| {
+        [constants::axial, constants::bending, constants::shear]
+            .map(|of| of(material, space, cloud.thickness))
+    };
+    let constants: Vec<[f64; 3]> = materials.iter().map(constant).collect();
+    BondStiffness::from_constants(bonds, cloud, &constants, |[c, d, shear], bond| {
         let (l, h) = (bond.length, bond.horizon);
-        let d = d / h;
+        let d = d / h.powi(D as i32 - 1);
         Densities {
-            axial: c / h.powi(3),
-            shear: 12.0 * d / l.powi(2),
+            axial: c / h.powi(D as i32 + 1),
+            shear: match form {
+                ShearForm::Constant => shear / h.powi(D as i32 + 1),
+                ShearForm::Falling => 12.0 * d / l.powi(2),
+            },
             rotational: d / l,
         }
     })
-}
-
-/// c H^3, N/m^3.
-pub(crate) fn axial_constant(material: &Isotropic, plane: Plane, thickness: f64) -> f64 {
-    let Isotropic { young, poisson } = *material;
-    let reduction = match plane {
-        Plane::Stress => 1.0 - poisson,
-        Plane::Strain => (1.0 - 2.0 * poisson) * (1.0 + poisson),
-    };
-    6.0 * young / (PI * thickness * reduction)
-}
-
-/// d H, N/m^3.
-pub(super) fn bending_constant(material: &Isotropic, plane: Plane, thickness: f64) -> f64 {
-    let Isotropic { young, poisson } = *material;
-    let (distance_to_central, reduction) = match plane {
-        Plane::Stress => (1.0 - 3.0 * poisson, 1.0 - poisson * poisson),
-        Plane::Strain => (1.0 - 4.0 * poisson, (1.0 - 2.0 * poisson) * (1.0 + poisson)),
-    };
-    if distance_to_central.abs() < CENTRAL_FORCE_TOLERANCE {
-        return 0.0;
-    }
-    young * distance_to_central / (6.0 * PI * thickness * reduction)
 }

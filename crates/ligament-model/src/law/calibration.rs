@@ -1,6 +1,6 @@
 //! Discrete calibration: sums over the families of the points in place of the integrals over a full circle.
 //!
-//! The integrals know neither the lattice nor the surface. Here the energies of uniform strains decide, as the bonds of a point
+//! The integrals (in space over a full ball) know neither the lattice nor the surface. Here the energies of uniform strains decide, as the bonds of a point
 //! give them: that of equal strains along x and y, and that of a shear in the mean over its directions.
 //!
 //! A lattice is not isotropic, and stays so: the beam form with m = 3 and nu = 0 has E, nu and G/G_0 of 0.964, 0.036
@@ -12,31 +12,44 @@ use rayon::prelude::*;
 use super::BondStiffness;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
-use crate::material::{Isotropic, Plane};
+use crate::material::{Isotropic, Space};
 
-/// Scales the densities of a law in the plane so that every point has the right energy, with the factors alpha (n_bonds).
+/// Scales the densities of a law so that every point has the right energy, with the factors alpha (n_bonds).
 ///
-/// With (k_n, k_t) of the law a strain eps along x and y costs a point 1/4 sum alpha V_B l k_n eps^2 (MPPD eq. 33 in sums), which
+/// In the plane, with (k_n, k_t) of the law a strain eps along x and y costs a point 1/4 sum alpha V_B l k_n eps^2 (MPPD eq. 33 in sums), which
 /// should be (C_11 + C_12) eps^2; a shear gamma costs 1/32 sum alpha V_B l (k_n + k_t) gamma^2 in the mean over its directions,
 /// which should be G/2 gamma^2. So
 ///
 /// q_n = 4 (C_11 + C_12) / sum(alpha V_B l k_n), q_t = (16 G - 4 (C_11 + C_12)) / sum(alpha V_B l k_t)
 ///
-/// are the factors of a point. `materials` are those that the law makes of the given ones.
-pub fn calibrated(
+/// are the factors of a point. In space a strain eps in all directions costs 1/4 sum alpha V_B l k_n eps^2, which should be 9/2 K eps^2, and a
+/// strain e without change of volume, in the mean over its directions, 1/4 sum alpha V_B l (2/15 k_n + 1/5 k_t) e : e, which should be
+/// G e : e. So there
+///
+/// q_n = 18 K/sum(alpha V_B l k_n), q_t = (20 G - 12 K)/sum(alpha V_B l k_t).
+///
+/// `materials` are those that the law makes of the given ones.
+pub fn calibrated<const D: usize>(
     stiffness: BondStiffness,
     length_factor: &[f64],
-    bonds: &BondSet,
-    cloud: &PointCloud,
+    bonds: &BondSet<D>,
+    cloud: &PointCloud<D>,
     materials: &[Isotropic],
-    plane: Plane,
+    space: Space,
 ) -> BondStiffness {
-    let of_planes = materials.iter().map(|it| it.plane_stiffness(plane));
-    let targets = of_planes.map(|c| {
-        let bulk = 4.0 * (c[(0, 0)] + c[(0, 1)]);
-        [bulk, 16.0 * c[(2, 2)] - bulk]
-    });
-    scaled_to(targets, stiffness, length_factor, bonds, cloud)
+    let target = |it: &Isotropic| match space {
+        Space::Plane(plane) => {
+            let c = it.plane_stiffness(plane);
+            let bulk = 4.0 * (c[(0, 0)] + c[(0, 1)]);
+            [bulk, 16.0 * c[(2, 2)] - bulk]
+        }
+        Space::Solid => {
+            let bulk = 18.0 * it.bulk_modulus();
+            let shear = 10.0 * it.young / (1.0 + it.poisson);
+            [bulk, shear - bulk * 12.0 / 18.0]
+        }
+    };
+    scaled_to(materials.iter().map(target), stiffness, length_factor, bonds, cloud)
 }
 
 /// Scales the densities of a law so that the sums of alpha V_B l k_n and of alpha V_B l k_t over the bonds of a point are the targets
@@ -44,7 +57,7 @@ pub fn calibrated(
 ///
 /// A bond takes the mean of the factors of its ends. Points near a surface have smaller sums and larger factors: there is nothing
 /// left for a surface correction.
-pub(crate) fn scaled_to<const D: usize>(
+fn scaled_to<const D: usize>(
     targets: impl Iterator<Item = [f64; 2]>,
     stiffness: BondStiffness,
     length_factor: &[f64],

@@ -6,22 +6,24 @@
 //! | [`bbpd_conical`] | k_n that falls with the length | spring |
 //! | [`pds`] | k_n, constant k_t | spring |
 //! | [`mppd`] | those of [`pds`] and k_theta | beam |
-//! | [`beam`] | k_n, k_t = 12 d/l^2, k_theta = d/l: MPPD's beam form, and NHPD's law | beam |
+//! | [`beam`] | k_n, k_t = 12 d/l^2 or constant, k_theta = d/l: MPPD's beam form, and NHPD's law | beam |
 //! | [`orthotropic`] | k_n and k_t that depend on the direction, k_theta | beam |
 //! | [`mbb_pd`] | a matrix over the strains of a small rectangle | imaginary |
 //!
-//! They come from integrals over a full circle; [`calibration`] puts sums over the families of the points in their place.
+//! They come from integrals over a full circle, in space over a full ball; [`calibration`] puts sums over the families of the points in their place.
 
 pub mod bbpd;
 pub mod bbpd_conical;
 pub mod beam;
 pub mod calibration;
+pub(crate) mod constants;
 mod materials;
 pub mod mbb_pd;
 pub mod mppd;
 pub mod orthotropic;
 pub mod pds;
 pub mod rotational;
+pub mod stability;
 
 use nalgebra::Matrix3;
 use rayon::prelude::*;
@@ -242,6 +244,9 @@ fn some_retained<T>(values: Vec<T>, keep: &[bool]) -> Vec<T> {
 pub(crate) fn bulk_stiffness(plane: &Matrix3<f64>) -> f64 {
     plane[(0, 0)] + plane[(1, 1)] + 2.0 * plane[(0, 1)]
 }
+
+#[cfg(test)]
+mod ball_tests;
 
 #[cfg(test)]
 mod tests {

@@ -1,36 +1,35 @@
 //! Bonds that resist stretch and shear, without rotations of the points (PDS; MPPD section 2.1).
 
-use super::beam::{axial_constant, bending_constant};
-use super::{BondStiffness, Densities};
+use super::{BondStiffness, Densities, constants};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
-use crate::material::{Isotropic, Plane};
+use crate::material::{Isotropic, Space};
 
-/// Stiffness densities of every bond, MPPD eqs 7 and 21 (OMPPD eqs 54 to 57):
+/// Stiffness densities of every bond, MPPD eqs 7 and 21 (OMPPD eqs 54 to 57); in space our own:
 ///
 /// | | k_n (N/m^6) | k_t (N/m^6) |
 /// |---|---|---|
 /// | plane stress | 6 E / (pi t H^3 (1 - nu)) | 6 E (1 - 3 nu) / (pi t H^3 (1 - nu^2)) |
 /// | plane strain | 6 E / (pi t H^3 (1 + nu)(1 - 2 nu)) | 6 E (1 - 4 nu) / (pi t H^3 (1 + nu)(1 - 2 nu)) |
-pub fn stiffness(
-    bonds: &BondSet,
-    cloud: &PointCloud,
+/// | space | 6 E / (pi H^4 (1 - 2 nu)) | 6 E (1 - 4 nu) / (pi H^4 (1 + nu)(1 - 2 nu)) |
+///
+/// Energies of all uniform strains are those of the isotropic body. In space a rigid rotation omega costs 2 (mu - lambda) |omega|^2 a
+/// volume, with Lame's mu and lambda: the law is stable for nu < 1/4, though not objective, and a free body is ill-posed above.
+pub fn stiffness<const D: usize>(
+    bonds: &BondSet<D>,
+    cloud: &PointCloud<D>,
     materials: &[Isotropic],
-    plane: Plane,
+    space: Space,
 ) -> BondStiffness {
-    let constants: Vec<[f64; 2]> = materials
-        .iter()
-        .map(|material| {
-            // k_t H^3 is 36 times the d H of the beam form: their integrals of k_t l^2 are the same.
-            let shear = 36.0 * bending_constant(material, plane, cloud.thickness);
-            [axial_constant(material, plane, cloud.thickness), shear]
-        })
-        .collect();
+    let constant = |material| {
+        [constants::axial, constants::shear].map(|of| of(material, space, cloud.thickness))
+    };
+    let constants: Vec<[f64; 2]> = materials.iter().map(constant).collect();
     BondStiffness::from_constants(bonds, cloud, &constants, |[axial, shear], bond| {
-        let volume = bond.horizon.powi(3);
+        let power = bond.horizon.powi(D as i32 + 1);
         Densities {
-            axial: axial / volume,
-            shear: shear / volume,
+            axial: axial / power,
+            shear: shear / power,
             rotational: 0.0,
         }
     })

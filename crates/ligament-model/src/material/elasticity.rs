@@ -19,6 +19,21 @@ pub enum Plane {
     Strain,
 }
 
+/// The space in which a body deforms.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Space {
+    /// A plane.
+    Plane(Plane),
+    /// Three dimensions.
+    Solid,
+}
+
+impl From<Plane> for Space {
+    fn from(plane: Plane) -> Self {
+        Self::Plane(plane)
+    }
+}
+
 /// Elastic constants.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Elasticity {
@@ -135,12 +150,17 @@ impl Isotropic {
         }
     }
 
-    /// Poisson's ratio at which the bonds' shear stiffness vanishes: 1/3 in plane stress, 1/4 in plane strain.
-    pub fn central_force_poisson(plane: Plane) -> f64 {
-        match plane {
-            Plane::Stress => 1.0 / 3.0,
-            Plane::Strain => 0.25,
+    /// Poisson's ratio at which the bonds' shear stiffness vanishes: 1/3 in plane stress, 1/4 in plane strain and in space.
+    pub fn central_force_poisson(space: impl Into<Space>) -> f64 {
+        match space.into() {
+            Space::Plane(Plane::Stress) => 1.0 / 3.0,
+            Space::Plane(Plane::Strain) | Space::Solid => 0.25,
         }
+    }
+
+    /// Bulk modulus K = E/(3 (1 - 2 nu)), Pa.
+    pub fn bulk_modulus(&self) -> f64 {
+        self.young / (3.0 * (1.0 - 2.0 * self.poisson))
     }
 }
 

@@ -12,8 +12,6 @@
 //!
 //! | stage | module |
 //! |---|---|
-//! | micromoduli | [`law`] |
 //! | failure criteria with their limits | [`criteria`] |
 
 pub mod criteria;
-pub mod law;

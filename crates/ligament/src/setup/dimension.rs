@@ -4,9 +4,10 @@ use std::fmt::Debug;
 
 use ligament_analysis::Component;
 use ligament_model::bonds::precrack::{self, PreCrack};
-use ligament_model::space::law::stability::NegativeShear;
+use ligament_model::law::stability::NegativeShear;
+use ligament_model::material::Space;
 use ligament_model::tensor::SymTensor;
-use ligament_model::{BondSet, BondSystem, Isotropic, Material, Plane, PointCloud};
+use ligament_model::{BondSet, BondSystem, Material, Plane, PointCloud};
 
 use super::law::Law;
 use super::section::Section;
@@ -39,17 +40,14 @@ pub trait Dimension<const D: usize>: 'static {
     /// Horizon factor from which on bodies meet the equations of the patch correction.
     const PATCH_FACTOR: f64;
 
-    /// Poisson's ratio of bonds that only resist stretch.
-    fn central_poisson(section: &Self::Section) -> f64;
+    /// The space of a body with a section.
+    fn space(section: &Self::Section) -> Space;
 
     /// What a Poisson's ratio above that of central forces means in space, with the horizon over the distance of the points; None in the
     /// plane.
     fn negative_shear(_law: &Law, _poisson: f64, _horizon_factor: f64) -> Option<NegativeShear> {
         None
     }
-
-    /// Whether a temperature widens the section by what it does across it.
-    fn widens(section: &Self::Section) -> bool;
 
     /// Bonds through a section of a probe, and whether their first end lies on its left or, in space, behind it.
     fn crossing(system: &BondSystem<D>, section: [[f64; D]; 2]) -> Vec<(u32, bool)>;
@@ -89,12 +87,8 @@ impl Dimension<2> for Dim {
 
     const PATCH_FACTOR: f64 = 3.0;
 
-    fn central_poisson(Section::Plane { state, .. }: &Section) -> f64 {
-        Isotropic::central_force_poisson(*state)
-    }
-
-    fn widens(Section::Plane { state, .. }: &Section) -> bool {
-        *state == Plane::Strain
+    fn space(Section::Plane { state, .. }: &Section) -> Space {
+        Space::Plane(*state)
     }
 
     fn crossing(system: &BondSystem, [start, end]: [[f64; 2]; 2]) -> Vec<(u32, bool)> {

@@ -2,12 +2,11 @@
 
 use ligament_analysis::Component;
 use ligament_model::bonds::precrack::cut_bonds;
-use ligament_model::space::law::bbpd;
-use ligament_model::space::law::stability::NegativeShear;
+use ligament_model::law::stability::NegativeShear;
+use ligament_model::material::Space;
 use ligament_model::tensor::{SymTensor, cross};
 use ligament_model::{BondSet, BondSystem, Material, PointCloud};
 
-use super::formulation::shear_form;
 use super::precrack::{SolidCrack, surfaces};
 use crate::body::Body;
 use crate::setup::{Dim, Dimension, Law};
@@ -33,16 +32,12 @@ impl Dimension<3> for Dim {
     /// At 2 tetrahedra leave 3 %, at 2.5 and at 3 less than 1 %.
     const PATCH_FACTOR: f64 = 2.5;
 
-    fn central_poisson((): &()) -> f64 {
-        bbpd::POISSON
+    fn space((): &()) -> Space {
+        Space::Solid
     }
 
     fn negative_shear(law: &Law, poisson: f64, horizon_factor: f64) -> Option<NegativeShear> {
-        Some(NegativeShear::new(poisson, shear_form(law), horizon_factor))
-    }
-
-    fn widens((): &()) -> bool {
-        false
+        Some(NegativeShear::new(poisson, law.shear_form(Space::Solid), horizon_factor))
     }
 
     /// Bonds whose ends lie on either side of the plane; a point on the plane lies beyond it.

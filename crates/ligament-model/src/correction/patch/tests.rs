@@ -4,7 +4,8 @@ use super::*;
 use crate::cloud::PointCloud;
 use crate::horizon::Horizons;
 use crate::material::{Elasticity, Isotropic, Plane, Stiffness};
-use crate::space::law::{ShearForm, nhpd};
+use crate::law::beam::{self, ShearForm};
+use crate::material::Space;
 use crate::tensor::{cross, dot, minus, norm};
 
 const MATERIAL: Isotropic = Isotropic {
@@ -80,7 +81,7 @@ fn corrected(mesh: &SolidMesh, horizon: f64, turn: bool) -> Case {
     let cloud = PointCloud::from_mesh(mesh, 1.0, &of_cells, 1);
     let bonds = BondSet::search(&cloud, &Horizons::unified(horizon, cloud.len()));
     let forces = of_solid_mesh(&mesh.cells, &cloud, &of_cells, stiffness());
-    let stiffness = nhpd::stiffness(&bonds, &cloud, &[MATERIAL], ShearForm::Constant);
+    let stiffness = beam::stiffness(&bonds, &cloud, &[MATERIAL], Space::Solid, ShearForm::Constant);
     let alpha = vec![1.0; bonds.len()];
     let points = Points {
         cloud: &cloud,

@@ -3,14 +3,13 @@
 use super::basis::SolidBasis;
 use crate::failure::{Choice, Limits};
 use crate::material::Isotropic;
-use crate::space::law::calibration::bulk_modulus;
 use crate::system::BondSystem;
 
 /// Critical stretches of brittle bonds (n_bonds); a bond has the mean bulk modulus and the mean length of its ends.
 pub fn critical_stretches(basis: &SolidBasis<'_>) -> Vec<f64> {
     let system = basis.system;
     let energy = basis.weakest(&basis.each(|_, material| material.fracture_energy));
-    let moduli = basis.each(|constants, _| Some(bulk_modulus(constants)));
+    let moduli = basis.each(|constants, _| Some(constants.bulk_modulus()));
     let lengths = mean_lengths(system);
     let modulus = |end: u32| system.cloud.mean_property(end as usize, &moduli);
     let of_bonds = energy.into_iter().zip(&system.bonds.ends);

@@ -5,8 +5,8 @@
 
 use std::fmt;
 
-use super::ShearForm;
-use super::bbpd::POISSON;
+use super::beam::ShearForm;
+use crate::material::{Isotropic, Space};
 
 /// Poisson's ratio from which irregular free bodies of micropolar bonds lose stability, by the form of the shear stiffness and the
 /// horizon over the spacing (measured on irregular balls of 121 and 661 points: negative eigenvalues beyond one a rotation).
@@ -53,22 +53,23 @@ impl fmt::Display for NegativeShear {
             poisson,
             unstable_from,
         } = self;
+        let central = Isotropic::central_force_poisson(Space::Solid);
         write!(
             formatter,
-            "Poisson's ratio {poisson} is above {POISSON}: bonds in space then resist shear and rotation with negative stiffnesses, \
+            "Poisson's ratio {poisson} is above {central}: bonds in space then resist shear and rotation with negative stiffnesses, \
              "
         )?;
         match unstable_from {
             None => write!(
                 formatter,
                 "and without rotations of the points a rigid rotation gives energy away, so that a free body is ill-posed; take \
-                 law = \"nhpd\", or a Poisson's ratio of at most {POISSON}"
+                 law = \"nhpd\", or a Poisson's ratio of at most {central}"
             ),
             Some(from) if poisson >= from => write!(
                 formatter,
                 "and irregular bodies of this horizon lose their stability from about {from}: the stiffness is checked before the \
                  first breakage, and results are not to be trusted where it fails; take a constant shear stiffness (stable to about \
-                 0.3 with a horizon_factor up to 3), a smaller horizon_factor or a Poisson's ratio of at most {POISSON}"
+                 0.3 with a horizon_factor up to 3), a smaller horizon_factor or a Poisson's ratio of at most {central}"
             ),
             Some(from) => write!(
                 formatter,
