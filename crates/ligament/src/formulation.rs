@@ -11,9 +11,7 @@ use ligament_model::law::beam::ShearForm;
 use ligament_model::law::rotational::{self, RotationalScale};
 use ligament_model::law::{bbpd, bbpd_conical, beam, calibration, mbb_pd, mppd, orthotropic, pds};
 use ligament_model::material::{Stiffness, milder};
-use ligament_model::space::criteria::{
-    NoSolidLimit, SolidBasis, criteria as solid_criteria,
-};
+use ligament_model::space::criteria::{NoSolidLimit, SolidBasis, criteria as solid_criteria};
 use ligament_model::{
     BondStiffness, BondSystem, Elasticity, ElementKind, EnergyRatio, FixedFields, Horizons,
     Isotropic, PointCloud,
@@ -176,17 +174,33 @@ impl<'a, const D: usize> Formulation<'a, D> {
     }
 
     /// The correction of bonds between the materials of the setup.
-    fn corrected(&self, bonds: &BondSet<D>, stiffness: &BondStiffness, alpha: Vec<f64>) -> Correction {
+    fn corrected(
+        &self,
+        bonds: &BondSet<D>,
+        stiffness: &BondStiffness,
+        alpha: Vec<f64>,
+    ) -> Correction {
         let (setup, cloud) = (self.setup, self.cloud);
         match setup.correction.surface {
             Surface::Domain(iteration) => {
                 let sweeps = iteration.sweeps(bonds.count(cloud));
-                domain::iterate(bonds, cloud, stiffness, alpha, &stiffness_of_materials(setup), sweeps)
+                domain::iterate(
+                    bonds,
+                    cloud,
+                    stiffness,
+                    alpha,
+                    &stiffness_of_materials(setup),
+                    sweeps,
+                )
             }
             Surface::Patch(settings) => {
                 let points = patch::Points {
                     cloud,
-                    forces: setup.body.cell_forces(cloud, self.material_of_cell, stiffness_of_materials(setup)),
+                    forces: setup.body.cell_forces(
+                        cloud,
+                        self.material_of_cell,
+                        stiffness_of_materials(setup),
+                    ),
                     turn: setup.law.element() == ElementKind::Beam,
                 };
                 let axial = || match setup.of_one_material() {

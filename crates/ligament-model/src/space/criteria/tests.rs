@@ -4,10 +4,10 @@ use crate::cloud::PointCloud;
 use crate::element::ElementKind;
 use crate::failure::{KINDS as IN_PLANE, Measure, Unfit};
 use crate::horizon::Horizons;
-use crate::material::{Isotropic, Material};
 use crate::law::beam::{self, ShearForm};
 use crate::law::pds;
 use crate::material::Space;
+use crate::material::{Isotropic, Material};
 use crate::system::BondSystem;
 
 const YOUNG: f64 = 30e9;
@@ -40,7 +40,13 @@ fn block(size: [i32; 3], horizon: f64, poisson: f64, element: ElementKind) -> Bo
         poisson,
     }];
     let stiffness = match element {
-        ElementKind::Beam => beam::stiffness(&bonds, &cloud, &materials, Space::Solid, ShearForm::Constant),
+        ElementKind::Beam => beam::stiffness(
+            &bonds,
+            &cloud,
+            &materials,
+            Space::Solid,
+            ShearForm::Constant,
+        ),
         _ => pds::stiffness(&bonds, &cloud, &materials, Space::Solid),
     };
     let ones = vec![1.0; bonds.len()];
