@@ -147,10 +147,10 @@ fn halves_of_a_lattice_at_any_ratio() {
     let n = 40_u32;
     let side = LENGTH / f64::from(n);
     let sets = [
-        ("left", CellSet::Left(1)),
-        ("right", CellSet::Right(1)),
-        ("left-half", CellSet::Left(n / 2)),
-        ("right-half", CellSet::Right(n / 2)),
+        ("left", CellSet::left(1)),
+        ("right", CellSet::right(1)),
+        ("left-half", CellSet::left(n / 2)),
+        ("right-half", CellSet::right(n / 2)),
     ];
     let sets = sets.map(|(name, set)| (name.to_owned(), set)).into();
     let full = Law::MbbPd {

@@ -200,8 +200,8 @@ fn a_bar_is_as_stiff_as_its_material() {
         assert!((ratio - 1.0).abs() < 2e-3, "{law:?} {state:?}: {ratio}");
     }
     let sets = [
-        ("left".to_owned(), CellSet::Left(1)),
-        ("right".to_owned(), CellSet::Right(1)),
+        ("left".to_owned(), CellSet::left(1)),
+        ("right".to_owned(), CellSet::right(1)),
     ];
     let lattice = LatticeBody::new([40, 20], [0.005; 2], [0.0; 2], &[], &sets.into()).unwrap();
     // The points are the centres of the cells: the gauge ends there.

@@ -223,10 +223,10 @@ impl Specimen {
         let corner = [0, 1].map(|axis| corners[0][axis].min(corners[1][axis]));
         let side = |(name, normal): (&str, [f64; 2])| {
             let set = match image.turned(normal).map(|it| it as i32) {
-                [-1, _] => CellSet::Left(1),
-                [1, _] => CellSet::Right(1),
-                [_, -1] => CellSet::Bottom(1),
-                _ => CellSet::Top(1),
+                [-1, _] => CellSet::left(1),
+                [1, _] => CellSet::right(1),
+                [_, -1] => CellSet::bottom(1),
+                _ => CellSet::top(1),
             };
             (name.to_owned(), set)
         };

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use ligament::body::{Body, LatticeBody, LatticeError, MeshBody, SolidLatticeBody, SolidMeshBody};
-use ligament::setup::{Dim, Dimension, Setup, TemperatureChange};
+use ligament::setup::{Setup, TemperatureChange};
 use ligament::stage::{StageWatcher, stage};
 use ligament_mesh::AnyMesh;
 
@@ -82,10 +82,7 @@ impl CaseFile {
     }
 
     /// A setup with the tables of temperatures that the case names.
-    fn with_tables<const D: usize>(&self, mut setup: Setup<D>) -> Result<Setup<D>, CaseError>
-    where
-        Dim: Dimension<D>,
-    {
+    fn with_tables<const D: usize>(&self, mut setup: Setup<D>) -> Result<Setup<D>, CaseError> {
         for (index, section) in self.case.temperatures.iter().enumerate() {
             if let Some(file) = &section.file {
                 let rows = temperature_table::rows_of::<D>(file);

@@ -1,5 +1,7 @@
 //! What was meshed: nodes, cells and named groups.
 
+use std::collections::BTreeMap;
+
 use crate::cell::{Cell, MeshCell};
 use crate::field::NodeField;
 use crate::group::Group;
@@ -73,6 +75,23 @@ impl<const D: usize, C> Mesh<D, C> {
         edges.sort_unstable();
         edges.dedup();
         edges
+    }
+
+    /// Length that each node of some edges stands for, m, ascending by the nodes: half of each edge.
+    pub fn lengths_at_nodes(&self, edges: &[[u32; 2]]) -> Vec<(u32, f64)> {
+        let mut edges: Vec<[u32; 2]> = edges.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        let mut lengths: BTreeMap<u32, f64> = BTreeMap::new();
+        for edge in edges {
+            let [p, q] = edge.map(|node| self.positions[node as usize]);
+            let along = p.iter().zip(&q).map(|(from, to)| to - from);
+            let half = 0.5 * along.fold(0.0, f64::hypot);
+            for node in edge {
+                *lengths.entry(node).or_default() += half;
+            }
+        }
+        lengths.into_iter().collect()
     }
 
     /// The first group of this name: the one of lowest dimension, then of lowest number.

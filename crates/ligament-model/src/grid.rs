@@ -71,8 +71,10 @@ impl Canvas {
 }
 
 /// Positions in the plane as ones in space with z = 0.
-pub fn raised(positions: &[[f64; 2]]) -> Vec<[f64; 3]> {
-    positions.iter().map(|&[x, y]| [x, y, 0.0]).collect()
+pub fn raised<const D: usize>(positions: &[[f64; D]]) -> Vec<[f64; 3]> {
+    let coordinate = |position: &[f64; D], axis: usize| position.get(axis).copied();
+    let raised = |it| std::array::from_fn(|axis| coordinate(it, axis).unwrap_or(0.0));
+    positions.iter().map(raised).collect()
 }
 
 /// Corners of a box between its lowest and its highest corner, in the order of a hexahedron.

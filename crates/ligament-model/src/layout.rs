@@ -35,6 +35,14 @@ impl Component {
         Self::RotationZ,
     ];
 
+    /// All components in so many dimensions, in their order at a point.
+    pub const fn in_dimensions(dimensions: usize) -> &'static [Self] {
+        match dimensions {
+            2 => &Self::ALL,
+            _ => &Self::IN_SPACE,
+        }
+    }
+
     /// Whether the component is an angle.
     #[inline]
     pub fn is_rotation(self) -> bool {

@@ -22,6 +22,7 @@ pub mod cloud;
 pub mod contact;
 pub mod correction;
 pub mod deformation;
+pub mod dimension;
 pub mod element;
 pub mod failure;
 pub mod fixed;

@@ -39,6 +39,18 @@ pub fn norm<const D: usize>(a: [f64; D]) -> f64 {
     dot(a, a).sqrt()
 }
 
+/// Unit vectors at right angles to a unit vector: one in the plane, turned to its left, and two in space ([`tangents`]).
+pub fn directions_across<const D: usize>(n: [f64; D]) -> Vec<[f64; D]> {
+    match D {
+        2 => vec![std::array::from_fn(|axis| if axis == 0 { -n[1] } else { n[0] })],
+        _ => {
+            let tangents = tangents(std::array::from_fn(|axis| n[axis]));
+            let resized = |it: [f64; 3]| std::array::from_fn(|axis| it[axis]);
+            tangents.map(resized).to_vec()
+        }
+    }
+}
+
 /// Two unit vectors at right angles to a unit vector n and to each other, right-handed with it: n x t_1 = t_2. The first comes from the
 /// axis to which n is least inclined, the first of equals.
 pub fn tangents(n: [f64; 3]) -> [[f64; 3]; 2] {

@@ -2,7 +2,7 @@
 
 use ligament::model::Discretises;
 use ligament::run::on_threads;
-use ligament::setup::{Analysis, Dim, Dimension};
+use ligament::setup::{Analysis};
 use ligament::{Fault, Field, Model, Setup, SetupError, Vibration};
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome, Mode};
 use ligament_analysis::{Component, Layout};
@@ -87,10 +87,7 @@ fn find(case: &Case) -> Result<Found, Failure> {
     found.map_err(|error| Failure::Other(error.into()))?
 }
 
-fn find_here<const D: usize>(case: &CaseFile, setup: Setup<D>) -> Result<Found, Failure>
-where
-    Dim: Discretises<D> + Dimension<D>,
-{
+fn find_here<const D: usize>(case: &CaseFile, setup: Setup<D>) -> Result<Found, Failure> {
     let Analysis::Modal(settings) = setup.analysis else {
         let fault = Fault::OtherAnalysis {
             found: setup.analysis.name(),

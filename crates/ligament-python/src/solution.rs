@@ -6,7 +6,6 @@ use std::time::Duration;
 
 use ligament::model::Discretises;
 use ligament::run::{follow, on_threads};
-use ligament::setup::{Dim, Dimension};
 use ligament::{Loading, Model, Setup};
 use ligament_analysis::ProportionalLoading;
 use ligament_analysis::driver::Outcome;
@@ -152,10 +151,7 @@ fn solve_here<const D: usize>(
     setup: Setup<D>,
     progress: Sender<Progress>,
     stop: &Stop,
-) -> Result<Solved, Failure>
-where
-    Dim: Discretises<D> + Dimension<D>,
-{
+) -> Result<Solved, Failure> {
     let mut stages = Stages::default();
     memory::foresee_model(case, &setup).map_err(|it| Failure::Other(it.into()))?;
     let rule = write_rule(case, &setup.analysis);
@@ -210,10 +206,7 @@ fn summary<const D: usize>(
     (model, boundary): (&Model<D>, &ProportionalLoading),
     (outcome, kept): (&Outcome, &Kept),
     stages: &Stages,
-) -> Result<String, Failure>
-where
-    Dim: Dimension<D>,
-{
+) -> Result<String, Failure> {
     let provenance = Provenance::of_inputs(ligament_cli::BUILD, Vec::new());
     let told = (provenance, kept.notices.clone(), kept.first);
     let summary = Summary::new(case, model, boundary, outcome, told, stages.done());

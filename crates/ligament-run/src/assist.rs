@@ -4,7 +4,7 @@
 use anyhow::{Context, ensure};
 use ligament::Model;
 use ligament::run::{follow, on_threads, restore, resume as resume_run};
-use ligament::setup::{Analysis, Dim, Dimension};
+use ligament::setup::{Analysis};
 use ligament_analysis::Termination;
 use ligament_analysis::history::{Moment, Observer, ObserverError, Onward, StepRecord, View};
 use ligament_analysis::ranks::Together;
@@ -110,10 +110,7 @@ fn compute<const D: usize>(
     model: &Model<D>,
     (ranks, is_stopped): (Together, IsStopped<'_>),
     begin: &Begin,
-) -> anyhow::Result<()>
-where
-    Dim: Dimension<D>,
-{
+) -> anyhow::Result<()> {
     let analysis = &model.setup.analysis;
     if matches!(analysis, Analysis::Modal(_)) {
         return Ok(());

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use ligament::Model;
-use ligament::setup::{Analysis, Dim, Dimension};
+use ligament::setup::{Analysis};
 use ligament_case::case::CaseFile;
 
 /// Bytes of a point in a file of fields, compressed, rounded up from the largest that was measured: a Brazilian disk of 846,
@@ -29,10 +29,7 @@ pub struct FieldsOnDisk {
 
 impl FieldsOnDisk {
     /// The room that the fields of a case take.
-    pub fn new<const D: usize>(case: &CaseFile, model: &Model<D>) -> Self
-    where
-        Dim: Dimension<D>,
-    {
+    pub fn new<const D: usize>(case: &CaseFile, model: &Model<D>) -> Self {
         let output = &case.case.output;
         let every = output.fields_every.unwrap_or_default() as usize;
         let bonds = if output.bonds {

@@ -2,7 +2,7 @@
 
 use anyhow::Context;
 use ligament::run::{follow, resume};
-use ligament::setup::{Analysis, Dim, Dimension};
+use ligament::setup::{Analysis};
 use ligament::{Loading, Model};
 use ligament_analysis::driver::Restored;
 use ligament_case::case::{CaseFile, StressField};
@@ -22,10 +22,7 @@ use crate::watch::Watch;
 pub(crate) const SUMMARY: &str = "summary.json";
 
 /// A body under loads, and the folder of its results.
-pub(crate) struct LoadedBody<'a, const D: usize>
-where
-    Dim: Dimension<D>,
-{
+pub(crate) struct LoadedBody<'a, const D: usize> {
     pub(crate) case: &'a CaseFile,
     pub(crate) model: &'a Model<D>,
     pub(crate) loading: &'a Loading,
@@ -41,10 +38,7 @@ pub(crate) struct Kept {
     pub(crate) notices: Vec<String>,
 }
 
-impl<const D: usize> LoadedBody<'_, D>
-where
-    Dim: Dimension<D>,
-{
+impl<const D: usize> LoadedBody<'_, D> {
     /// Follows the loads from the unloaded body on or from what was kept, and writes all results into the folder.
     pub(crate) fn follow(
         &self,

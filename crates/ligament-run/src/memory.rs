@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use ligament::model::sharing;
-use ligament::setup::{Dim, Dimension, ELASTIC_ENERGY_TOLERANCE, Horizon, Setup};
+use ligament::setup::{ELASTIC_ENERGY_TOLERANCE, Horizon, Setup};
 use ligament_analysis::Equilibrium;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::ranks::Together;
@@ -124,10 +124,7 @@ pub fn foresee_lattice(
 /// # Errors
 ///
 /// With both numbers.
-pub fn foresee_model<const D: usize>(case: &CaseFile, setup: &Setup<D>) -> Result<(), TooLarge>
-where
-    Dim: Dimension<D>,
-{
+pub fn foresee_model<const D: usize>(case: &CaseFile, setup: &Setup<D>) -> Result<(), TooLarge> {
     let positions = setup.body.positions();
     let points = positions.len() as f64;
     // Volume of a ball of radius 1 in so many dimensions.

@@ -4,7 +4,6 @@ pub use ligament::Model;
 use ligament::Setup;
 use ligament::model::Discretises;
 use ligament::run::on_threads;
-use ligament::setup::{Dim, Dimension};
 use ligament::stage::{Finding, StageWatcher};
 use ligament::warning::of_virial_stress;
 use ligament_analysis::ranks::Together;
@@ -117,10 +116,7 @@ fn build<const D: usize>(
     ranks: Option<Together>,
     (stages, progress): (&mut Stages, &Progress),
     read: fn(&CaseFile, &mut dyn StageWatcher) -> anyhow::Result<Setup<D>>,
-) -> anyhow::Result<Model<D>>
-where
-    Dim: Dimension<D> + Discretises<D>,
-{
+) -> anyhow::Result<Model<D>> {
     let mut preparation = Preparation { stages, progress };
     let tasks_before = tasks_of_others();
     let mut setup = read(case, &mut preparation)?;

@@ -13,7 +13,6 @@ use crate::provenance::Provenance;
 use crate::stages::Stages;
 use crate::summary::ModalSummary;
 use ligament::Model;
-use ligament::setup::{Dim, Dimension};
 use ligament_case::case::CaseFile;
 
 /// Finds the modes of a model and writes them into a new folder.
@@ -23,10 +22,7 @@ pub(crate) fn find_modes<const D: usize>(
     (model, provenance): (&Model<D>, Provenance),
     create: impl FnOnce() -> Result<ResultFolder, ligament_output::Error>,
     mut stages: Stages,
-) -> anyhow::Result<ModalSummary>
-where
-    Dim: Dimension<D>,
-{
+) -> anyhow::Result<ModalSummary> {
     let vibration = Vibration::new(&model.setup, &*model.system);
     let vibration = vibration.map_err(|error| case.located(error))?;
     let problem = vibration.problem(&model.system);

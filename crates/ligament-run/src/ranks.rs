@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::ensure;
-use ligament::setup::{Dim, Dimension};
 use ligament::{Loading, Model};
 use ligament_analysis::ranks::Together;
 use ligament_analysis::serial::Serial;
@@ -17,10 +16,7 @@ pub(crate) fn loading<const D: usize>(
     case: &CaseFile,
     model: &Model<D>,
     ranks: Option<Together>,
-) -> anyhow::Result<Loading>
-where
-    Dim: Dimension<D>,
-{
+) -> anyhow::Result<Loading> {
     ensure!(
         !case.case.output.bonds || model.system.portion().is_none(),
         "output.bonds: several processes write no file of the bonds as lines; run the case with one process, or leave the key out"

@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{Context, bail, ensure};
 use ligament::Model;
 use ligament::run::{on_threads, restore};
-use ligament::setup::{Analysis, Dim, Dimension};
+use ligament::setup::{Analysis};
 use ligament_analysis::driver::Problem;
 use ligament_analysis::ranks::Together;
 use ligament_analysis::serial::Serial;
@@ -95,10 +95,7 @@ impl Request<'_> {
         found: Option<(Checkpoint, SoFar)>,
         (folder, mut stages, mut progress): (ResultFolder, Stages, Progress),
         case: &CaseFile,
-    ) -> anyhow::Result<Report>
-    where
-        Dim: Dimension<D>,
-    {
+    ) -> anyhow::Result<Report> {
         let loading = loading(case, model, self.ranks)?;
         let problem = loading.problem(&model.system, &model.criteria);
         let solution = found.as_ref().map(|(checkpoint, _)| &checkpoint.solution);

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use ligament::run::on_threads;
-use ligament::setup::{Analysis, Dim, Dimension};
+use ligament::setup::{Analysis};
 use ligament_analysis::ranks::Together;
 use ligament_output::folder::ResultFolder;
 
@@ -125,10 +125,7 @@ impl Request<'_> {
         model: &Model<D>,
         stages: Stages,
         mut progress: Progress,
-    ) -> anyhow::Result<Report>
-    where
-        Dim: Dimension<D>,
-    {
+    ) -> anyhow::Result<Report> {
         for warning in &model.warnings {
             progress.stage(&format!("warning: {warning}"));
         }
@@ -153,10 +150,7 @@ fn follow_loads<const D: usize>(
     model: &Model<D>,
     mut stages: Stages,
     mut progress: Progress,
-) -> anyhow::Result<Summary>
-where
-    Dim: Dimension<D>,
-{
+) -> anyhow::Result<Summary> {
     let case = request.case;
     let loading = loading(case, model, request.ranks)?;
     if request.ranks.is_none() {

@@ -21,7 +21,6 @@ use crate::end::{End, UP_TO_THERE};
 use crate::provenance::Provenance;
 use crate::stages::Stage;
 use ligament::Model;
-use ligament::setup::{Dim, Dimension};
 use ligament::units::Units;
 use ligament_case::case::CaseFile;
 
@@ -174,10 +173,7 @@ fn is_false(value: &bool) -> bool {
 }
 
 /// Why a run ended, in words, with points by their tags and places.
-pub(crate) fn ending<const D: usize>(outcome: &Outcome, model: &Model<D>) -> String
-where
-    Dim: Dimension<D>,
-{
+pub(crate) fn ending<const D: usize>(outcome: &Outcome, model: &Model<D>) -> String {
     let body = model.body();
     outcome.termination.words(&|point| body.place(point))
 }
@@ -197,10 +193,7 @@ impl Summary {
         outcome: &Outcome,
         (provenance, notices, first): (Provenance, Vec<String>, FirstBonds),
         stages: &[Stage],
-    ) -> Self
-    where
-        Dim: Dimension<D>,
-    {
+    ) -> Self {
         let history = &outcome.history;
         let without_equilibrium = outcome.is_without_equilibrium();
         let loaded = |point: Option<LoadPoint>| {

@@ -2,7 +2,6 @@
 
 use std::time::Instant;
 
-use ligament::setup::{Dim, Dimension};
 use ligament::{Body, Setup};
 use ligament_analysis::Termination;
 use ligament_analysis::first_bonds::FirstBonds;
@@ -33,10 +32,7 @@ pub(crate) struct Watch<'a, const D: usize> {
     closing: bool,
 }
 
-impl<'a, const D: usize> Watch<'a, D>
-where
-    Dim: Dimension<D>,
-{
+impl<'a, const D: usize> Watch<'a, D> {
     /// Watches the run of a setup with a writer, checkpoints and a progress display; it goes on with some notices.
     pub(crate) fn new(
         (writer, checkpoints): (ResultWriter<'a>, Checkpoints<'a>),
@@ -75,10 +71,7 @@ where
     }
 }
 
-impl<const D: usize> Observer for Watch<'_, D>
-where
-    Dim: Dimension<D>,
-{
+impl<const D: usize> Observer for Watch<'_, D> {
     fn round(
         &mut self,
         step: usize,

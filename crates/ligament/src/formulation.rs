@@ -1,41 +1,44 @@
 //! The formulation that a setup chooses: law, calibration and corrections of the bonds.
 
 use ligament_model::bonds::BondSet;
-use ligament_model::correction::patch::CellForces;
 use ligament_model::correction::{
     Correction, domain, energy_ratios, length, partial_volume, patch, surface,
 };
+use ligament_model::dimension::cast_ref;
 use ligament_model::failure::crack_energies::{Components, Lattice};
 use ligament_model::failure::{self, Basis, Criteria};
+use ligament_model::law::beam::ShearForm;
 use ligament_model::law::rotational::{self, RotationalScale};
 use ligament_model::law::{bbpd, bbpd_conical, beam, calibration, mbb_pd, mppd, orthotropic, pds};
 use ligament_model::material::{Stiffness, milder};
+use ligament_model::space::criteria::{
+    NoSolidLimit, SolidBasis, criteria as solid_criteria,
+};
 use ligament_model::{
     BondStiffness, BondSystem, Elasticity, ElementKind, EnergyRatio, FixedFields, Horizons,
-    Isotropic, Material, Plane, PointCloud,
+    Isotropic, PointCloud,
 };
 
-use crate::body::Origin;
-use crate::error::{Field, SetupError};
+use crate::error::{Fault, Field, SetupError};
 use crate::plausibility;
 use crate::setup::{Alpha, Calibration, Form, Law, Setup, Surface};
 
 /// Law, calibration and corrections of a setup on the points of its body.
 #[derive(Debug, Clone, Copy)]
-pub struct Formulation<'a> {
+pub struct Formulation<'a, const D: usize = 2> {
     /// The setup.
-    pub setup: &'a Setup,
+    pub setup: &'a Setup<D>,
     /// Points of the body.
-    pub cloud: &'a PointCloud,
+    pub cloud: &'a PointCloud<D>,
     horizons: &'a Horizons,
     material_of_cell: &'a [u32],
 }
 
-impl<'a> Formulation<'a> {
+impl<'a, const D: usize> Formulation<'a, D> {
     /// The formulation for points with their horizons, on cells with the index of the material of each (n_cells).
     pub fn new(
-        setup: &'a Setup,
-        cloud: &'a PointCloud,
+        setup: &'a Setup<D>,
+        cloud: &'a PointCloud<D>,
         horizons: &'a Horizons,
         material_of_cell: &'a [u32],
     ) -> Self {
@@ -48,7 +51,7 @@ impl<'a> Formulation<'a> {
     }
 
     /// Factors alpha of the bonds, shape (n_bonds).
-    pub fn alpha(&self, bonds: &BondSet) -> Vec<f64> {
+    pub fn alpha(&self, bonds: &BondSet<D>) -> Vec<f64> {
         match self.setup.correction.alpha {
             Alpha::None => vec![1.0; bonds.len()],
             Alpha::PartialVolume => partial_volume::partial_volume_factors(bonds, self.cloud),
@@ -57,38 +60,60 @@ impl<'a> Formulation<'a> {
     }
 
     /// Stiffness densities of the bonds with factors alpha (n_bonds).
-    pub fn stiffness(&self, bonds: &BondSet, alpha: &[f64]) -> BondStiffness {
+    ///
+    /// # Panics
+    ///
+    /// Panics for a law that does not exist in the dimension of the body.
+    pub fn stiffness(&self, bonds: &BondSet<D>, alpha: &[f64]) -> BondStiffness {
         let (setup, cloud) = (self.setup, self.cloud);
-        let (plane, law) = (setup.plane(), setup.law);
+        let (space, law) = (setup.space(), setup.law);
         let materials = setup.materials.iter();
         let elasticity: Vec<Elasticity> = materials.map(|it| it.material.elasticity).collect();
         let isotropic: Vec<Isotropic> = elasticity
             .iter()
             .filter_map(Elasticity::isotropic)
             .collect();
+        let in_plane = || {
+            let both = cast_ref::<_, BondSet>(bonds).zip(cast_ref::<_, PointCloud>(cloud));
+            both.expect("laws are checked to exist in the dimension of the body")
+        };
         let stiffness = match law {
-            Law::Nhpd | Law::MppdBeam { .. } => beam::stiffness(bonds, cloud, &isotropic, plane),
-            Law::Bbpd { .. } => bbpd::stiffness(bonds, cloud, &isotropic, plane),
-            Law::BbpdConical { .. } => bbpd_conical::stiffness(bonds, cloud, &isotropic, plane),
-            Law::Pds { .. } => pds::stiffness(bonds, cloud, &isotropic, plane),
+            Law::Nhpd => {
+                let form = ShearForm::of_nhpd(space);
+                beam::stiffness(bonds, cloud, &isotropic, space, form)
+            }
+            Law::MppdBeam { .. } => {
+                beam::stiffness(bonds, cloud, &isotropic, space, ShearForm::Falling)
+            }
+            Law::Bbpd { .. } => bbpd::stiffness(bonds, cloud, &isotropic, space),
+            Law::BbpdConical { .. } => bbpd_conical::stiffness(bonds, cloud, &isotropic, space),
+            Law::Pds { .. } => pds::stiffness(bonds, cloud, &isotropic, space),
             Law::Mppd {
                 rotational_stiffness,
                 ..
-            } => mppd::stiffness(bonds, cloud, &isotropic, plane, rotational_stiffness),
+            } => mppd::stiffness(bonds, cloud, &isotropic, space, rotational_stiffness),
             Law::Orthotropic {
-                rotational_stiffness,
-            } => orthotropic::stiffness(bonds, cloud, &elasticity, plane, rotational_stiffness),
-            Law::MbbPd {
-                form: Form::Rows, ..
-            } => mbb_pd::rows::stiffness(bonds, cloud, &elasticity, plane),
-            Law::MbbPd { .. } => mbb_pd::stiffness(bonds, cloud, &elasticity, plane),
+                rotational_stiffness: rotational,
+            } => {
+                let (bonds, cloud) = in_plane();
+                orthotropic::stiffness(bonds, cloud, &elasticity, space.plane(), rotational)
+            }
+            Law::MbbPd { form, .. } => {
+                let (bonds, cloud) = in_plane();
+                match form {
+                    Form::Rows => mbb_pd::rows::stiffness(bonds, cloud, &elasticity, space.plane()),
+                    Form::Full | Form::Pairwise => {
+                        mbb_pd::stiffness(bonds, cloud, &elasticity, space.plane())
+                    }
+                }
+            }
         };
         let stiffness = match law.calibration() {
             Some(Calibration::Discrete) => {
                 let effective: Vec<Isotropic> = (setup.materials.iter())
-                    .filter_map(|it| constants(&it.material, &law, plane))
+                    .filter_map(|it| law.constants(&it.material, space))
                     .collect();
-                calibration::calibrated(stiffness, alpha, bonds, cloud, &effective, plane)
+                calibration::calibrated(stiffness, alpha, bonds, cloud, &effective, space)
             }
             Some(Calibration::Integral) | None => stiffness,
         };
@@ -99,7 +124,7 @@ impl<'a> Formulation<'a> {
     fn with_rotational_scale(
         &self,
         stiffness: BondStiffness,
-        bonds: &BondSet,
+        bonds: &BondSet<D>,
         alpha: &[f64],
         elasticity: &[Elasticity],
     ) -> BondStiffness {
@@ -121,7 +146,7 @@ impl<'a> Formulation<'a> {
     /// The correction of bonds with stiffness densities and factors alpha (n_bonds), found between [milder] materials.
     pub fn correction(
         &self,
-        bonds: &BondSet,
+        bonds: &BondSet<D>,
         stiffness: &BondStiffness,
         alpha: Vec<f64>,
     ) -> Correction {
@@ -142,26 +167,26 @@ impl<'a> Formulation<'a> {
     /// Energies of the points in uniform strains over the continuum's, of bonds with a stiffness in which the correction has its part.
     pub(crate) fn energy_ratios(
         &self,
-        bonds: &BondSet,
+        bonds: &BondSet<D>,
         stiffness: &BondStiffness,
         correction: &Correction,
     ) -> Vec<EnergyRatio> {
-        let continuum = continuum(self.setup);
+        let continuum = stiffness_of_materials(self.setup);
         energy_ratios(bonds, self.cloud, stiffness, correction, &continuum)
     }
 
     /// The correction of bonds between the materials of the setup.
-    fn corrected(&self, bonds: &BondSet, stiffness: &BondStiffness, alpha: Vec<f64>) -> Correction {
+    fn corrected(&self, bonds: &BondSet<D>, stiffness: &BondStiffness, alpha: Vec<f64>) -> Correction {
         let (setup, cloud) = (self.setup, self.cloud);
         match setup.correction.surface {
             Surface::Domain(iteration) => {
                 let sweeps = iteration.sweeps(bonds.count(cloud));
-                domain::iterate(bonds, cloud, stiffness, alpha, &continuum(setup), sweeps)
+                domain::iterate(bonds, cloud, stiffness, alpha, &stiffness_of_materials(setup), sweeps)
             }
             Surface::Patch(settings) => {
                 let points = patch::Points {
                     cloud,
-                    forces: cell_forces(setup, cloud, self.material_of_cell),
+                    forces: setup.body.cell_forces(cloud, self.material_of_cell, stiffness_of_materials(setup)),
                     turn: setup.law.element() == ElementKind::Beam,
                 };
                 let axial = || match setup.of_one_material() {
@@ -186,60 +211,29 @@ impl<'a> Formulation<'a> {
     }
 }
 
-/// Stiffness of each material (n_materials), Pa.
-fn continuum(setup: &Setup) -> Vec<Stiffness> {
-    let elasticity = setup.materials.iter().map(|it| it.material.elasticity);
-    let plane = setup.plane();
-    (elasticity.filter_map(|it| it.stiffness::<2>(plane))).collect()
-}
-
 /// Stiffness of each material with the constants that the law makes of its own (n_materials), Pa.
-pub(crate) fn stiffness(setup: &Setup) -> Vec<Stiffness> {
-    let (law, plane) = (setup.law, setup.plane());
-    let elasticity = setup.materials.iter();
-    let elasticity = elasticity.map(|it| effective_elasticity(&it.material, &law, plane));
-    (elasticity.filter_map(|it| it.stiffness::<2>(plane))).collect()
-}
-
-/// Forces of uniform strains on the points of a cloud, as the cells of the body know them, with the constants that the law makes of
-/// those of each cell's material (n_cells).
-pub(crate) fn cell_forces(
-    setup: &Setup,
-    cloud: &PointCloud,
-    material_of_cell: &[u32],
-) -> CellForces {
-    let stiffness = stiffness(setup);
-    match setup.body.origin() {
-        Origin::Lattice(lattice) => patch::of_lattice(lattice, cloud, material_of_cell, &stiffness),
-        Origin::Mesh(mesh) => patch::of_mesh(&mesh.cells, cloud, material_of_cell, stiffness),
-        _ => patch::of_mesh(&[], cloud, material_of_cell, stiffness),
-    }
-}
-
-/// Elasticity of a material with the constants that a law makes of its own.
-pub fn effective_elasticity(material: &Material, law: &Law, plane: Plane) -> Elasticity {
-    law.effective_elasticity(material, plane)
-}
-
-/// Elastic constants that a law makes of a material, see [`Law::constants`].
-pub fn constants(material: &Material, law: &Law, plane: Plane) -> Option<Isotropic> {
-    law.constants(material, plane)
+pub(crate) fn stiffness_of_materials<const D: usize>(setup: &Setup<D>) -> Vec<Stiffness> {
+    let (law, space) = (setup.law, setup.space());
+    let materials = setup.materials.iter();
+    let elasticity = materials.map(|it| law.effective_elasticity(&it.material, space));
+    (elasticity.filter_map(|it| it.stiffness::<D>(space.plane()))).collect()
 }
 
 /// Failure criteria on the bonds; none in an analysis without fracture. Bonds of points marked in `fixed.no_fail` (n_points) never fail.
 ///
 /// # Errors
 ///
-/// If the strengths of a material leave a criterion without a limit, or its fracture energy leaves nothing after the limit.
-pub fn criteria(
-    setup: &Setup,
-    system: &BondSystem,
+/// If a criterion does not exist in the dimension of the body, the strengths of a material leave a criterion without a limit, or its
+/// fracture energy leaves nothing after the limit.
+pub fn criteria<const D: usize>(
+    setup: &Setup<D>,
+    system: &BondSystem<D>,
     fixed: &FixedFields,
 ) -> Result<Criteria, SetupError> {
     if !setup.analysis.is_fracture() {
         return Ok(Criteria::default());
     }
-    let (materials, plane) = (setup.materials(), setup.plane());
+    let (materials, space) = (setup.materials(), setup.space());
     let spacing = (system.cloud.spacing.iter().copied()).fold(f64::INFINITY, f64::min);
     let own_rows = matches!(
         setup.law,
@@ -248,13 +242,37 @@ pub fn criteria(
             ..
         }
     );
+    let constants: Vec<Option<Isotropic>> = (materials.iter())
+        .map(|it| setup.law.constants(it, space))
+        .collect();
+    let field = |place: usize| Field::element("criteria", place);
+    if let Some(system) = cast_ref::<_, BondSystem<3>>(system) {
+        let basis = SolidBasis {
+            system,
+            no_fail: &fixed.no_fail,
+            materials: &materials,
+            constants: constants.into_iter().flatten().collect(),
+            scatter: fixed.scatter.as_ref(),
+        };
+        let criteria = solid_criteria(&setup.criteria, &basis);
+        return criteria.map_err(|(place, reason)| match reason {
+            NoSolidLimit::NoLimit(no_limit) => {
+                field(place).error(plausibility::without_limit(setup, no_limit))
+            }
+            NoSolidLimit::PlaneOnly(reason) => {
+                let reason = Fault::Contradiction(reason.to_string().into());
+                field(place).part("kind").error(reason)
+            }
+        });
+    }
+    let Some(system) = cast_ref::<_, BondSystem>(system) else {
+        return Ok(Criteria::default());
+    };
     let basis = Basis {
         system,
         no_fail: &fixed.no_fail,
-        plane,
-        constants: (materials.iter())
-            .map(|it| constants(it, &setup.law, plane))
-            .collect(),
+        plane: setup.plane(),
+        constants,
         materials: &materials,
         lattice: Lattice {
             spacing: system.cloud.cell_size(0),
@@ -269,6 +287,6 @@ pub fn criteria(
         scatter: fixed.scatter.as_ref(),
     };
     failure::criteria(&setup.criteria, &basis).map_err(|(place, no_limit)| {
-        Field::element("criteria", place).error(plausibility::without_limit(setup, no_limit))
+        field(place).error(plausibility::without_limit(setup, no_limit))
     })
 }

@@ -10,7 +10,7 @@ use ligament_analysis::driver::Problem;
 use ligament_analysis::{
     Attempt, Control, ControlKind, Equilibrium, ProportionalLoading, State, Unbalanced,
 };
-use ligament_model::Elasticity;
+use ligament_model::{Elasticity, Plane};
 use ligament_model::correction::patch::CellForces;
 use ligament_model::layout::Layout;
 use ligament_model::moduli::EngineeringConstants;
@@ -20,9 +20,10 @@ use thiserror::Error;
 use crate::body::Origin;
 use crate::error::SetupError;
 use crate::loading::material_of_cell;
-use crate::model::{Discretises, Model};
+use crate::formulation::stiffness_of_materials;
+use crate::model::Model;
 use crate::run::Unobserved;
-use crate::setup::{Dim, Dimension, ELASTIC_ENERGY_TOLERANCE, Setup};
+use crate::setup::{ELASTIC_ENERGY_TOLERANCE, Setup};
 
 /// Strains that the body is given: so small that strains over distances after the deformation are none others.
 pub(crate) const SIZE: f64 = 1e-6;
@@ -96,10 +97,7 @@ pub enum Untested {
 /// # Errors
 ///
 /// If the body has no cells, or the free body no equilibrium.
-pub fn patch_test<const D: usize>(model: &Model<D>) -> Result<PatchTest<D>, Untested>
-where
-    Dim: Dimension<D> + Discretises<D>,
-{
+pub fn patch_test<const D: usize>(model: &Model<D>) -> Result<PatchTest<D>, Untested> {
     if model.cut_bonds() == 0 {
         return of_whole_body(model);
     }
@@ -110,16 +108,14 @@ where
     of_whole_body(&Model::build(setup, &mut ())?)
 }
 
-fn of_whole_body<const D: usize>(model: &Model<D>) -> Result<PatchTest<D>, Untested>
-where
-    Dim: Dimension<D> + Discretises<D>,
-{
+fn of_whole_body<const D: usize>(model: &Model<D>) -> Result<PatchTest<D>, Untested> {
     let Model { setup, system, .. } = model;
     if matches!(setup.body.origin(), Origin::Points) {
         return Err(Untested::NoCells);
     }
     let (cloud, bonds) = (&system.cloud, &system.bonds);
-    let forces = Dim::cell_forces(setup, cloud, &material_of_cell(setup)?);
+    let stiffness = stiffness_of_materials(setup);
+    let forces = (setup.body).cell_forces(cloud, &material_of_cell(setup)?, stiffness);
     let loads = uniform_strain::loads(&**system, &forces);
     let displacements = displacements(model, loads)?;
     let strains = UniformStrains::measure(&**system, &forces, &displacements);
@@ -137,10 +133,7 @@ where
 fn displacements<const D: usize>(
     Model { setup, system, .. }: &Model<D>,
     forces: Vec<Vec<f64>>,
-) -> Result<Vec<Vec<f64>>, Untested>
-where
-    Dim: Dimension<D>,
-{
+) -> Result<Vec<Vec<f64>>, Untested> {
     let loads = forces.into_iter();
     let loads: Vec<_> = loads
         .map(|force| free_loading(system.layout(), force))
@@ -188,10 +181,7 @@ fn constants<const D: usize>(
     setup: &Setup<D>,
     forces: &CellForces<D>,
     strains: &UniformStrains,
-) -> Option<Constants<D>>
-where
-    Dim: Dimension<D> + Discretises<D>,
-{
+) -> Option<Constants<D>> {
     let ([region], [stiffness]) = (setup.materials.as_slice(), forces.stiffness.as_slice()) else {
         return None;
     };
@@ -202,12 +192,12 @@ where
     };
     let axes = axes(angle.unwrap_or_default());
     // In plane strain a temperature widens the section.
-    let is_strain = elasticity.isotropic().is_some() && Dim::widens(&setup.section);
+    let is_strain = elasticity.isotropic().is_some() && setup.space() == Plane::Strain.into();
     let read = |constants| match is_strain {
         true => out_of_plane_strain(constants),
         false => constants,
     };
-    let of_material = Dim::stiffness(setup).pop()?;
+    let of_material = stiffness_of_materials(setup).pop()?;
     Some(Constants {
         angle,
         body: read(strains.constants(stiffness, axes)?),

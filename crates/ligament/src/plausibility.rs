@@ -7,7 +7,7 @@ use ligament_model::{Elasticity, Material, PointCloud};
 use crate::body::Body;
 use crate::error::Fault;
 use crate::implausible::{Implausible, LARGEST_STRAIN, LEAST_ENERGY, Note};
-use crate::setup::{Action, Analysis, Dim, Dimension, Setup};
+use crate::setup::{Action, Analysis, Setup};
 
 /// Young's modulus that no solid body has which is computed with small strains, Pa: one in GPa was taken for one in Pa.
 const SOFTEST: f64 = 1e6;
@@ -19,10 +19,7 @@ const LIGHTEST: f64 = 10.0;
 const LONGEST: f64 = 10.0;
 
 /// What is rare in a setup, and meant as a rule.
-pub fn notes<const D: usize>(setup: &Setup<D>) -> Vec<Note>
-where
-    Dim: Dimension<D>,
-{
+pub fn notes<const D: usize>(setup: &Setup<D>) -> Vec<Note> {
     let materials = setup.materials.iter().map(|it| &it.material);
     let auxetic = materials.filter_map(|material| {
         let poisson = match &material.elasticity {
@@ -44,10 +41,7 @@ pub(crate) fn of_model<const D: usize>(
     cloud: &PointCloud<D>,
     criteria: &Criteria,
     idle: Vec<usize>,
-) -> Vec<Implausible>
-where
-    Dim: Dimension<D>,
-{
+) -> Vec<Implausible> {
     let mut found: Vec<Implausible> = Vec::new();
     for region in &setup.materials {
         found.extend(of_constants(&region.material, &setup.analysis));
@@ -71,10 +65,7 @@ where
 }
 
 /// The fault of bonds that get no limit in a setup, with a constant that is hardly ever meant, if there is one.
-pub(crate) fn without_limit<const D: usize>(setup: &Setup<D>, reason: NoLimit) -> Fault
-where
-    Dim: Dimension<D>,
-{
+pub(crate) fn without_limit<const D: usize>(setup: &Setup<D>, reason: NoLimit) -> Fault {
     let materials = setup.materials.iter();
     let mut causes = materials.flat_map(|it| of_constants(&it.material, &setup.analysis));
     let cause = causes.next().map(Box::new);
@@ -212,10 +203,7 @@ fn of_limits<const D: usize>(cloud: &PointCloud<D>, criteria: &Criteria) -> Vec<
 }
 
 /// Angles of more than a turn: of materials, of criteria, and of loads that turn points.
-fn of_angles<const D: usize>(setup: &Setup<D>) -> Vec<Implausible>
-where
-    Dim: Dimension<D>,
-{
+fn of_angles<const D: usize>(setup: &Setup<D>) -> Vec<Implausible> {
     let mut angles: Vec<(String, f64)> = Vec::new();
     for region in &setup.materials {
         if let Elasticity::Orthotropic(it) = &region.material.elasticity {

@@ -3,7 +3,7 @@
 pub use ligament_analysis::modal::{ModalOutcome, ModalSettings};
 pub use ligament_analysis::{Component, Observer};
 pub use ligament_mesh::{Mesh, gmsh};
-pub use ligament_model::bonds::precrack::{Ends, PreCrack};
+pub use ligament_model::bonds::precrack::Ends;
 pub use ligament_model::failure::Choice;
 pub use ligament_model::failure::strength::STRENGTH;
 pub use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
@@ -14,7 +14,7 @@ pub use crate::error::{Error, Fault, Field, SetupError};
 pub use crate::model::Model;
 pub use crate::run::{Solution, Unobserved};
 pub use crate::setup::{
-    Action, Analysis, Calibration, Correction, Course, Displacement, Form, Horizon, Law, Load,
-    MaterialRegion, Place, Probe, Profile, Reading, Section, Setup, Stage, Strains, Support,
+    Action, Analysis, Calibration, Correction, Course, CrackShape, Displacement, Form, Horizon, Law, Load,
+    MaterialRegion, Place, PreCrack, Probe, Profile, Reading, Section, Setup, Stage, Strains, Support,
     Temperature, TemperatureChange, event, stepped,
 };

@@ -12,15 +12,12 @@ use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 
 use crate::error::{Error, Fault, Field};
 use crate::loading::{Loading, Vibration};
-use crate::model::{Discretises, Model};
-use crate::setup::{Analysis, Dim, Dimension, Setup};
+use crate::model::Model;
+use crate::setup::{Analysis, Setup};
 
 /// What a setup of loads comes to.
 #[derive(Debug)]
-pub struct Solution<const D: usize = 2>
-where
-    Dim: Dimension<D>,
-{
+pub struct Solution<const D: usize = 2> {
     /// The discrete model.
     pub model: Model<D>,
     /// Probes; their values stand in the records of the outcome, in this order.
@@ -29,10 +26,7 @@ where
     pub outcome: Outcome,
 }
 
-impl<const D: usize> Setup<D>
-where
-    Dim: Dimension<D> + Discretises<D>,
-{
+impl<const D: usize> Setup<D> {
     /// Builds the model and follows the loads on the threads of the setup: the elastic solution, or the breaking of bonds up to the
     /// end of the loading or of the body.
     ///

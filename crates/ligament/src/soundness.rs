@@ -1,10 +1,10 @@
 //! Whether points and bonds are fit for a computation: what no equation would tell.
 
-use ligament_model::bonds::outline::{Outline, PlaneOutline};
 use ligament_model::element::Rigidities;
+use ligament_model::tensor::{minus, norm};
 use ligament_model::{BondSet, BondSystem, Horizons, PointCloud};
 
-use crate::body::Body;
+use crate::body::{Body, BodyOutline};
 use crate::error::{Fault, Field, SetupError, Torn};
 use crate::setup::{Horizon, Setup};
 
@@ -12,11 +12,13 @@ use crate::setup::{Horizon, Setup};
 ///
 /// Double nodes of exports in single precision lie up to 1e-7 of the body's size apart, 1e-5 of cells of a hundredth of it. Of two
 /// points nearer than this one bond would be 1e5 times as stiff as all others.
-pub(crate) const DISTINCT: f64 = 1e-5;
+const DISTINCT: f64 = 1e-5;
 
 /// Refuses cells that lie on others.
-pub(crate) fn forbid_overlap(body: &dyn Body, cloud: &PointCloud) -> Result<(), SetupError> {
-    let outline = PlaneOutline::of_cells(body.cells(), cloud);
+pub(crate) fn forbid_overlap<const D: usize>(
+    body: &dyn Body<D>,
+    outline: &dyn BodyOutline<D>,
+) -> Result<(), SetupError> {
     let Some([from, to]) = outline.first_crossing() else {
         return Ok(());
     };
@@ -26,19 +28,21 @@ pub(crate) fn forbid_overlap(body: &dyn Body, cloud: &PointCloud) -> Result<(), 
     }))
 }
 
-/// Refuses points that nearly coincide, measured by the side of the square of their area.
-pub(crate) fn require_distinct(body: &dyn Body, cloud: &PointCloud) -> Result<(), SetupError> {
-    let size = |point: usize| (cloud.volumes[point] / cloud.thickness).sqrt();
+/// Refuses points that nearly coincide, measured by the side of the square of their area, in space of the cube of their volume.
+pub(crate) fn require_distinct<const D: usize>(
+    body: &dyn Body<D>,
+    cloud: &PointCloud<D>,
+) -> Result<(), SetupError> {
+    let size = |point: usize| match D {
+        2 => (cloud.volumes[point] / cloud.thickness).sqrt(),
+        _ => cloud.volumes[point].cbrt(),
+    };
     let is_near = |&point: &usize| cloud.spacing[point] < DISTINCT * size(point);
     let mut in_file = (0..cloud.len() as u32).map(|it| cloud.numbering.point(it) as usize);
     let Some(point) = in_file.find(is_near) else {
         return Ok(());
     };
-    let from = cloud.positions[point];
-    let distance = |other: &usize| {
-        let to = cloud.positions[*other];
-        (to[0] - from[0]).hypot(to[1] - from[1])
-    };
+    let distance = |other: &usize| norm(minus(cloud.positions[*other], cloud.positions[point]));
     let others = (0..cloud.len()).filter(|other| *other != point);
     let other = others.min_by(|one, other| distance(one).total_cmp(&distance(other)));
     let other = other.unwrap_or(point);
@@ -50,7 +54,7 @@ pub(crate) fn require_distinct(body: &dyn Body, cloud: &PointCloud) -> Result<()
 }
 
 /// Refuses points that have no neighbour at all: no correction gives them a stiffness.
-pub(crate) fn require_neighbours<const D: usize>(
+fn require_neighbours<const D: usize>(
     body: &dyn Body<D>,
     cloud: &PointCloud<D>,
     bonds: &BondSet<D>,
@@ -67,65 +71,46 @@ pub(crate) fn require_neighbours<const D: usize>(
     Err(Field::whole("horizon").error(fault))
 }
 
-/// Refuses bonds that leave points alone, or a body of cells in more parts than it has.
-pub(crate) fn require_connected(
-    setup: &Setup,
-    cloud: &PointCloud,
+/// Refuses bonds that leave points alone, or a body of cells in more parts than it has: edges of its cells are longer than the horizons.
+pub(crate) fn require_connected<const D: usize>(
+    setup: &Setup<D>,
+    cloud: &PointCloud<D>,
     horizons: &Horizons,
-    bonds: &BondSet,
-) -> Result<(), SetupError> {
-    require_neighbours(&*setup.body, cloud, bonds)?;
-    require_whole(setup, cloud, horizons, bonds)
-}
-
-/// Refuses bonds that leave a body of cells in more parts than it has: sides of its cells are longer than the horizons.
-fn require_whole(
-    setup: &Setup,
-    cloud: &PointCloud,
-    horizons: &Horizons,
-    bonds: &BondSet,
+    bonds: &BondSet<D>,
 ) -> Result<(), SetupError> {
     let body = &*setup.body;
-    let corners = body.cells().iter().map(|cell| cell.corners());
-    let sides = corners.flat_map(|it| (0..it.len()).map(|k| [it[k], it[(k + 1) % it.len()]]));
+    require_neighbours(body, cloud, bonds)?;
     let parts = Parts::of_bonds(cloud, bonds);
-    // A side whose ends hang together in the body, but not by its bonds.
-    let length = |&[from, to]: &[u32; 2]| {
-        let [from, to] = [from, to].map(|it| cloud.positions[it as usize]);
-        (to[0] - from[0]).hypot(to[1] - from[1])
+    if parts.count() == 1 {
+        return Ok(());
+    }
+    let along = |[from, to]: [u32; 2]| -> [f64; D] {
+        minus(cloud.positions[to as usize], cloud.positions[from as usize]).map(f64::abs)
     };
-    let radius = |&[from, to]: &[u32; 2]| {
-        let [from, to] = [from, to].map(|it| horizons.radius[it as usize]);
-        from.max(to)
-    };
-    let torn = sides
-        .filter(|ends| parts.part(ends[0]) != parts.part(ends[1]) && length(ends) > radius(ends));
-    let Some(worst) = torn.max_by(|one, other| {
-        (length(one) / radius(one)).total_cmp(&(length(other) / radius(other)))
-    }) else {
+    let length = |ends: [u32; 2]| norm(along(ends));
+    let radius =
+        |[from, to]: [u32; 2]| horizons.radius[from as usize].max(horizons.radius[to as usize]);
+    let excess = |ends: &[u32; 2]| length(*ends) / radius(*ends);
+    let edges = body.edges();
+    let torn = (edges.iter().copied())
+        .filter(|ends| parts.part(ends[0]) != parts.part(ends[1]) && excess(ends) > 1.0);
+    let Some(worst) = torn.max_by(|one, other| excess(one).total_cmp(&excess(other))) else {
         return Ok(());
     };
-    let of_mesh = Parts::new(
-        cloud.len(),
-        body.cells().iter().flat_map(|cell| {
-            let corners = cell.corners();
-            corners.iter().map(|&it| [corners[0], it])
-        }),
-    );
-    let [from, to] = worst.map(|it| cloud.positions[it as usize]);
-    let excess = length(&worst) / radius(&worst);
     let torn = Torn {
         parts: parts.count(),
-        of_body: of_mesh.count(),
+        of_body: Parts::new(cloud.len(), edges.iter().copied()).count(),
         places: worst.map(|it| body.place(it)),
-        along: (0..2)
-            .map(|axis| (to[axis] - from[axis]).abs() / length(&worst))
-            .collect(),
-        length: length(&worst),
-        horizon: radius(&worst),
+        along: along(worst).map(|it| it / length(worst)).to_vec(),
+        length: length(worst),
+        horizon: radius(worst),
         remedy: match setup.horizon {
-            Horizon::Factor(factor) => format!("a horizon factor above {:.2}", factor * excess),
-            Horizon::Length(length) => format!("a horizon above {:.4e} m", length * excess),
+            Horizon::Factor(factor) => {
+                format!("a horizon factor above {:.2}", factor * excess(&worst))
+            }
+            Horizon::Length(length) => {
+                format!("a horizon above {:.4e} m", length * excess(&worst))
+            }
         },
     };
     Err(Field::whole("horizon").error(Fault::Torn(Box::new(torn))))
@@ -176,7 +161,7 @@ fn first_of<const D: usize>(
 }
 
 /// Refuses rigidities of bonds between some ends (n_bonds) that are no numbers to make equations of.
-pub(crate) fn require_rigidities<const D: usize>(
+fn require_rigidities<const D: usize>(
     body: &dyn Body<D>,
     cloud: &PointCloud<D>,
     rigidities: &Rigidities,
@@ -207,13 +192,13 @@ pub(crate) fn require_rigidities<const D: usize>(
 }
 
 /// Points that hang together by pairs.
-pub(crate) struct Parts {
+struct Parts {
     /// The first point of the part of each point.
     first: Vec<u32>,
 }
 
 impl Parts {
-    pub(crate) fn new(n_points: usize, pairs: impl Iterator<Item = [u32; 2]>) -> Self {
+    fn new(n_points: usize, pairs: impl Iterator<Item = [u32; 2]>) -> Self {
         let mut first: Vec<u32> = (0..n_points as u32).collect();
         let root = |first: &mut [u32], mut point: u32| {
             while first[point as usize] != point {
@@ -233,7 +218,7 @@ impl Parts {
     }
 
     /// Points of a body that hang together by its bonds.
-    pub(crate) fn of_bonds<const D: usize>(cloud: &PointCloud<D>, bonds: &BondSet<D>) -> Self {
+    fn of_bonds<const D: usize>(cloud: &PointCloud<D>, bonds: &BondSet<D>) -> Self {
         let known = Self::new(cloud.len(), bonds.ends.iter().copied());
         let Some(portion) = &cloud.portion else {
             return known;
@@ -248,14 +233,110 @@ impl Parts {
         Self::new(cloud.len(), all.map(|pair| pair.map(|it| it as u32)))
     }
 
-    pub(crate) fn part(&self, point: u32) -> u32 {
+    fn part(&self, point: u32) -> u32 {
         self.first[point as usize]
     }
 
-    pub(crate) fn count(&self) -> usize {
+    fn count(&self) -> usize {
         let firsts = self.first.iter().enumerate();
         firsts
             .filter(|(point, first)| *point == **first as usize)
             .count()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ligament_mesh::{SolidCell, SolidMesh};
+    use ligament_model::Material;
+
+    use super::*;
+    use crate::body::SolidMeshBody;
+    use crate::setup::Law;
+
+    /// Two bricks of different heights on each other.
+    fn tower(z: [f64; 3], factor: f64) -> (Setup<3>, PointCloud<3>) {
+        let layer = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
+        let mesh = SolidMesh {
+            node_tags: (1..=12).collect(),
+            positions: z.map(layer).concat(),
+            cells: vec![
+                SolidCell::Hexahedron([0, 1, 2, 3, 4, 5, 6, 7]),
+                SolidCell::Hexahedron([4, 5, 6, 7, 8, 9, 10, 11]),
+            ],
+            ..SolidMesh::default()
+        };
+        let body = SolidMeshBody::from(mesh);
+        let cloud = body.cloud(1.0, &[0, 0], 1);
+        let material = Material::isotropic(1e9, 0.2);
+        let mut setup = Setup::new(body, material, Law::Nhpd);
+        setup.horizon = Horizon::Factor(factor);
+        (setup, cloud)
+    }
+
+    #[test]
+    fn long_edges_tear_a_body() {
+        let fault_at = |factor: f64| {
+            let (setup, cloud) = tower([0.0, 1.0, 4.0], factor);
+            let horizons = setup.horizon.of_points(&cloud);
+            let bonds = BondSet::search(&cloud, &horizons);
+            require_connected(&setup, &cloud, &horizons, &bonds)
+        };
+        let Fault::Torn(found) = *fault_at(1.5).unwrap_err().fault else {
+            panic!("another fault");
+        };
+        assert_eq!((found.parts, found.of_body), (2, 1));
+        assert_eq!((found.length, found.horizon), (3.0, 1.5));
+        assert_eq!(fault_at(3.0), Ok(()));
+    }
+
+    #[test]
+    fn nearly_coincident_points_are_found() {
+        let fault_at = |z: f64| {
+            let (setup, cloud) = tower([0.0, 1.0, z], 3.0);
+            require_distinct(&*setup.body, &cloud)
+        };
+        let error = fault_at(1.0 + 2e-6).unwrap_err();
+        let Fault::NearPoints {
+            places,
+            distance,
+            size,
+        } = *error.fault
+        else {
+            panic!("another fault");
+        };
+        assert!(places[0].starts_with("node 5 ") && places[1].starts_with("node 9 "));
+        // The height is a difference of numbers near 1, the size that of half a brick for each of two cells.
+        assert!((distance - 2e-6).abs() < 1e-15 && (size - 0.5).abs() < 1e-5);
+        assert_eq!(fault_at(1.01), Ok(()));
+    }
+
+    /// Two bricks without a common node; the second begins at this height, and beside the first in x and y.
+    #[test]
+    fn bricks_in_each_other_are_found() {
+        let fault_at = |z: f64| {
+            let brick = |[x, y, z]: [f64; 3]| {
+                let corner = |right: f64, back: f64, up: f64| [x + right, y + back, z + up];
+                let layer = |up: f64| {
+                    [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(a, b)| corner(a, b, up))
+                };
+                [layer(0.0), layer(1.0)].concat()
+            };
+            let mesh = SolidMesh {
+                node_tags: (1..=16).collect(),
+                positions: [brick([0.0; 3]), brick([0.5, 0.3, z])].concat(),
+                cells: vec![
+                    SolidCell::Hexahedron([0, 1, 2, 3, 4, 5, 6, 7]),
+                    SolidCell::Hexahedron([8, 9, 10, 11, 12, 13, 14, 15]),
+                ],
+                ..SolidMesh::default()
+            };
+            let cloud = PointCloud::from_mesh(&mesh, 1.0, &[0, 0], 1);
+            let outline = SolidOutline::of_cells(&mesh.cells, &cloud);
+            forbid_overlap(&SolidMeshBody::from(mesh), &outline)
+        };
+        let fault = *fault_at(0.4).unwrap_err().fault;
+        assert!(matches!(fault, Fault::Overlap { .. }), "{fault}");
+        assert_eq!(fault_at(1.1), Ok(()));
     }
 }

@@ -1,6 +1,6 @@
 //! Units of the force-displacement curve.
 
-use crate::setup::{Action, Dim, Dimension, Setup};
+use crate::setup::{Action, Setup};
 
 /// Units of the axes of the force-displacement curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,10 +32,7 @@ impl Units {
     }
 }
 
-impl<const D: usize> Setup<D>
-where
-    Dim: Dimension<D>,
-{
+impl<const D: usize> Setup<D> {
     /// Units of the displacement and the force in the history, which are those of the load of the curve, or of the temperature.
     pub fn units(&self) -> Units {
         let load = self.curve_load();

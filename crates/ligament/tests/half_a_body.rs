@@ -14,9 +14,9 @@ fn plate(columns: u32, left: f64) -> Setup {
         },
     };
     let sets = [
-        ("left", CellSet::Left(1)),
-        ("bottom", CellSet::Bottom(2)),
-        ("top", CellSet::Top(2)),
+        ("left", CellSet::left(1)),
+        ("bottom", CellSet::bottom(2)),
+        ("top", CellSet::top(2)),
     ];
     let sets = sets.map(|(name, set)| (name.to_owned(), set)).into();
     let body = LatticeBody::new([columns, 60], [0.002; 2], [left, 0.0], &[hole], &sets).unwrap();

@@ -211,10 +211,10 @@ impl CellSet {
         }
         let inside = |shape: Option<Shape>| shape.map(body::CellSet::Inside);
         let sets = [
-            ("bottom", self.bottom.map(body::CellSet::Bottom)),
-            ("top", self.top.map(body::CellSet::Top)),
-            ("left", self.left.map(body::CellSet::Left)),
-            ("right", self.right.map(body::CellSet::Right)),
+            ("bottom", self.bottom.map(body::CellSet::bottom)),
+            ("top", self.top.map(body::CellSet::top)),
+            ("left", self.left.map(body::CellSet::left)),
+            ("right", self.right.map(body::CellSet::right)),
             ("box", inside(self.r#box.map(Shape::from))),
             ("circle", inside(self.circle.map(Shape::from))),
             ("polygon", inside(self.polygon.clone().map(Shape::from))),

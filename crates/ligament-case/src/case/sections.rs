@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use ligament::body::{Body, LatticeBody, MeshBody, SolidLatticeBody, SolidMeshBody};
 use ligament::implausible::Implausible;
-use ligament::setup::{self, Dim, Dimension, Section, Setup};
+use ligament::setup::{self, Section, Setup};
 use ligament_mesh::{Mesh, SolidMesh};
 use ligament_model::Plane;
 use schemars::JsonSchema;
@@ -260,10 +260,7 @@ impl Case {
         body: Arc<dyn Body<D>>,
         section: <Dim as Dimension<D>>::Section,
         precracks: Vec<<Dim as Dimension<D>>::PreCrack>,
-    ) -> Result<Setup<D>, KeyFault>
-    where
-        Dim: Dimension<D>,
-    {
+    ) -> Result<Setup<D>, KeyFault> {
         let law = self.model.law.0;
         let criteria = self.fracture.iter().filter_map(|it| it.criteria.as_deref());
         self.check_across_sections()?;

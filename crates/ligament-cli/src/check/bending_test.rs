@@ -6,7 +6,7 @@ use ligament::Model;
 use ligament::bending_test::{
     BendingTest, MOST_SIDES, Meshed, Section, THICK, TOO_STIFF, bending_test, thinnest_section,
 };
-use ligament::setup::{Dim, Dimension, Law, Surface};
+use ligament::setup::{Law, Surface};
 use ligament_output::quantity::{place, quantity};
 use ligament_run::stages::Stages;
 
@@ -19,17 +19,14 @@ pub(super) fn write<const D: usize>(
     extent: Extent,
     model: &Model<D>,
     stages: &mut Stages,
-) -> io::Result<Option<String>>
-where
-    Dim: Dimension<D> + Meshed<D>,
-{
+) -> io::Result<Option<String>> {
     if extent == Extent::Model {
         return Ok(None);
     }
     writeln!(out, "strip at the thinnest section, bent")?;
     let (most_points, most_sides) = match extent {
         Extent::PatchTest => (usize::MAX, usize::MAX),
-        _ => (Dim::MOST_POINTS, MOST_SIDES),
+        _ => (most_points::<D>(), MOST_SIDES),
     };
     let section = match stages.time("section", || thinnest_section(model, most_sides)) {
         Ok(section) => section,
@@ -84,10 +81,7 @@ fn times(stiffness: f64) -> String {
     }
 }
 
-fn warning<const D: usize>(model: &Model<D>, section: &Section<D>, test: &BendingTest) -> String
-where
-    Dim: Dimension<D>,
-{
+fn warning<const D: usize>(model: &Model<D>, section: &Section<D>, test: &BendingTest) -> String {
     let across = section.thickness / section.spacing;
     let torsion = test
         .torsion

@@ -3,7 +3,6 @@
 use std::io::{self, Write};
 
 use ligament::crack_energy::crack_energies;
-use ligament::setup::{Dim, Dimension};
 use ligament_model::Material;
 use ligament_model::failure::crack_opening::CrackEnergy;
 use ligament_model::failure::{Choice, Criterion, Measure};
@@ -13,13 +12,9 @@ use ligament_run::model::Model;
 use ligament_run::summary::{ScatterSummary, Spread};
 
 use super::entry::entry;
-use super::told::Told;
 
 /// Writes the criteria with their limits over the bonds.
-pub(super) fn write<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()>
-where
-    Dim: Dimension<D> + Told<D>,
-{
+pub(super) fn write<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()> {
     if model.setup.criteria.is_empty() {
         return Ok(());
     }
@@ -32,7 +27,7 @@ where
             write_energy(out, model, criterion)?;
         }
     }
-    Dim::cracks(out, model)?;
+    write_cracks(out, model)?;
     write_scatter(out, model)
 }
 
@@ -111,10 +106,7 @@ fn spent_words([x, y]: [f64; 2], given: Option<f64>) -> String {
 }
 
 /// Writes what varies at random: limits of bonds above have its factors.
-fn write_scatter<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()>
-where
-    Dim: Dimension<D>,
-{
+fn write_scatter<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()> {
     let (Some(scatter), Some(summary)) = (model.setup.scatter, ScatterSummary::new(model)) else {
         return Ok(());
     };
@@ -176,10 +168,7 @@ fn write_energy<const D: usize>(
     out: &mut dyn Write,
     model: &Model<D>,
     criterion: &Criterion,
-) -> io::Result<()>
-where
-    Dim: Dimension<D> + Told<D>,
-{
+) -> io::Result<()> {
     // Bonds across the bar may come to their limit before those along it.
     let at_most = match criterion.measure {
         Measure::Energy => "at most ",
@@ -188,7 +177,7 @@ where
     let setup = &model.setup;
     // The weaker material decides at interfaces, so that limits belong to a material only where there is one.
     if let [region] = setup.materials.as_slice()
-        && let Some(young) = Dim::young(setup, &region.material)
+        && let Some(constants) = setup.law.constants(&region.material, setup.space())
         && let Some(limits) =
             Range::over(criterion.limit.iter().copied().filter(|it| it.is_finite()))
     {

@@ -12,7 +12,6 @@ use ligament_analysis::stiffness::Stiffness;
 
 use super::entry::{entry, megabytes};
 use ligament::Setup;
-use ligament::setup::{Dim, Dimension};
 use ligament_case::case::CaseFile;
 use ligament_run::memory;
 use ligament_run::model::Model;
@@ -23,10 +22,7 @@ pub(super) fn write<const D: usize>(
     case: &CaseFile,
     model: &Model<D>,
     equilibrium: &Equilibrium,
-) -> anyhow::Result<()>
-where
-    Dim: Dimension<D>,
-{
+) -> anyhow::Result<()> {
     match (equilibrium.stiffness(), equilibrium.choice()) {
         (Some(stiffness), _) => write_with_matrix(out, case, model, stiffness),
         (None, SolverChoice::Iterative(choice)) => {
@@ -42,10 +38,7 @@ pub(super) fn write_with_matrix<const D: usize>(
     case: &CaseFile,
     model: &Model<D>,
     stiffness: &Stiffness,
-) -> anyhow::Result<()>
-where
-    Dim: Dimension<D>,
-{
+) -> anyhow::Result<()> {
     let symbolic = stiffness.symbolic();
     let matrix = symbolic.pattern().n_entries();
     let factor = symbolic.n_factor_values();
@@ -70,10 +63,7 @@ fn write_iteration<const D: usize>(
     case: &CaseFile,
     model: &Model<D>,
     (unknowns, choice): (usize, &IterativeChoice),
-) -> anyhow::Result<()>
-where
-    Dim: Dimension<D>,
-{
+) -> anyhow::Result<()> {
     let IterativeChoice {
         reason,
         tolerance,
@@ -99,10 +89,7 @@ fn write_memory<const D: usize>(
     case: &CaseFile,
     model: &Model<D>,
     stiffness: Option<&Stiffness>,
-) -> io::Result<()>
-where
-    Dim: Dimension<D>,
-{
+) -> io::Result<()> {
     let bytes = memory::of_equations(&*model.system, stiffness);
     entry(out, "estimated memory", megabytes(bytes as f64))?;
     if let Some(there) = memory::allowed(case) {
@@ -118,10 +105,7 @@ fn write_choice<const D: usize>(
     out: &mut dyn Write,
     setup: &Setup<D>,
     choice: &DirectChoice,
-) -> io::Result<()>
-where
-    Dim: Dimension<D>,
-{
+) -> io::Result<()> {
     if choice.unsymmetric {
         return entry(
             out,
@@ -156,10 +140,7 @@ where
     entry(out, "threads", rayon::current_num_threads())
 }
 
-fn ordering_reason<const D: usize>(model: &Model<D>) -> String
-where
-    Dim: Dimension<D>,
-{
+fn ordering_reason<const D: usize>(model: &Model<D>) -> String {
     if model.setup.solver.ordering.is_some() {
         return "as the case says".to_owned();
     }

@@ -4,7 +4,6 @@ use std::io::{self, Write};
 
 use ligament::Loading;
 use ligament::foresight::{foretell, refuse};
-use ligament::setup::{Dim, Dimension};
 use ligament_analysis::Equilibrium;
 use ligament_analysis::driver::{FirstFailure, Foretold, Problem};
 use ligament_analysis::history::{Notice, Observer, ObserverError, StepRecord, View};
@@ -41,10 +40,7 @@ pub(super) fn write<const D: usize>(
     loading: &Loading,
     equilibrium: Option<Equilibrium>,
     stages: &mut Stages,
-) -> anyhow::Result<Vec<String>>
-where
-    Dim: Dimension<D> + Told<D>,
-{
+) -> anyhow::Result<Vec<String>> {
     let problem = loading.problem(&model.system, &model.criteria);
     let analysis = &model.setup.analysis;
     refuse(&problem, analysis).map_err(|it| case.explained(it))?;
@@ -107,10 +103,7 @@ fn write_foretold<const D: usize>(
     model: &Model<D>,
     problem: &Problem,
     foretold: &Foretold,
-) -> io::Result<()>
-where
-    Dim: Dimension<D>,
-{
+) -> io::Result<()> {
     let stage = |part: usize| {
         let course = problem.loads.course();
         course.map(|it| format!("stage `{}`", it.programme.stage_name(part)))
@@ -159,10 +152,7 @@ fn write_first<const D: usize>(
     model: &Model<D>,
     first: &FirstFailure,
     stage: Option<String>,
-) -> io::Result<()>
-where
-    Dim: Dimension<D>,
-{
+) -> io::Result<()> {
     let criterion = &model.criteria.list[first.criterion];
     let name = match criterion.after.is_brittle() {
         true => "first breakage",

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use ligament::Loading;
 use ligament::setup::{
-    Analysis, Dim, Dimension, ELASTIC_ENERGY_TOLERANCE, Reading as Given, Setup,
+    Analysis, ELASTIC_ENERGY_TOLERANCE, Reading as Given, Setup,
 };
 use ligament::units::Units;
 use ligament_analysis::gauges;
@@ -32,10 +32,7 @@ pub(super) fn check<const D: usize>(
     model: &Model<D>,
     stages: &mut Stages,
     out: &mut dyn Write,
-) -> anyhow::Result<Vec<String>>
-where
-    Dim: Dimension<D> + Told<D>,
-{
+) -> anyhow::Result<Vec<String>> {
     let loading = Loading::new(&model.setup, &*model.system);
     let mut loading = loading.map_err(|it| case.located(it))?;
     loading.solver.memory = memory::for_factor(case, &*model.system);
@@ -69,10 +66,7 @@ fn write_room<const D: usize>(
     out: &mut dyn Write,
     case: &CaseFile,
     model: &Model<D>,
-) -> io::Result<()>
-where
-    Dim: Dimension<D>,
-{
+) -> io::Result<()> {
     let fields = FieldsOnDisk::new(case, model);
     let of_one = megabytes(fields.of_one);
     let Some((most, all)) = fields.most.zip(fields.all()) else {
@@ -99,10 +93,7 @@ fn write_boundary<const D: usize>(
     out: &mut dyn Write,
     model: &Model<D>,
     loading: &Loading,
-) -> io::Result<()>
-where
-    Dim: Dimension<D>,
-{
+) -> io::Result<()> {
     let body = model.body();
     writeln!(out, "supports and loads")?;
     for group in &loading.boundary.groups {
@@ -144,10 +135,7 @@ where
 }
 
 /// The points that a probe reads: those of a cell around its position, or the nearest one and how far it is.
-fn place_words<const D: usize>(model: &Model<D>, place: &Shares, position: [f64; D]) -> String
-where
-    Dim: Dimension<D>,
-{
+fn place_words<const D: usize>(model: &Model<D>, place: &Shares, position: [f64; D]) -> String {
     let body = model.body();
     let [(point, _)] = place[..] else {
         let labels: Vec<String> = place.iter().map(|(point, _)| body.label(*point)).collect();
@@ -164,10 +152,7 @@ where
     format!("{words}, {} from the position", quantity(distance, unit))
 }
 
-fn write_loading<const D: usize>(out: &mut dyn Write, setup: &Setup<D>) -> io::Result<()>
-where
-    Dim: Dimension<D>,
-{
+fn write_loading<const D: usize>(out: &mut dyn Write, setup: &Setup<D>) -> io::Result<()> {
     let steps = setup.n_steps().unwrap_or(0);
     let stages: Vec<&str> = setup.stages.iter().map(|it| it.name.as_str()).collect();
     if !stages.is_empty() {

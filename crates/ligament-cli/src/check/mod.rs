@@ -25,7 +25,7 @@ use ligament::Model;
 use ligament::bending_test::Meshed;
 use ligament::plausibility::notes;
 use ligament::run::on_threads;
-use ligament::setup::{Analysis, Dim, Dimension};
+use ligament::setup::{Analysis};
 use ligament_case::case::CaseFile;
 use ligament_run::disk;
 use ligament_run::model::{build_model, build_model_in_space};
@@ -74,10 +74,7 @@ fn tell<const D: usize>(
     fields: Option<&Path>,
     (model, mut stages): (&Model<D>, Stages),
     out: &mut dyn Write,
-) -> anyhow::Result<()>
-where
-    Dim: Dimension<D> + Meshed<D> + Told<D>,
-{
+) -> anyhow::Result<()> {
     let noticed = match model.setup.analysis {
         Analysis::Modal(settings) => {
             modal::check(case, settings, extent, model, &mut stages, out)?;

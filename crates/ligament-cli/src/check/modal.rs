@@ -3,7 +3,6 @@
 use std::io::Write;
 
 use ligament::Vibration;
-use ligament::setup::{Dim, Dimension};
 use ligament_analysis::modal::{ModalAnalysis, ModalSettings, Rotations};
 
 use super::body::write_group;
@@ -22,10 +21,7 @@ pub(super) fn check<const D: usize>(
     model: &Model<D>,
     stages: &mut Stages,
     out: &mut dyn Write,
-) -> anyhow::Result<()>
-where
-    Dim: Dimension<D> + Told<D>,
-{
+) -> anyhow::Result<()> {
     let vibration = Vibration::new(&model.setup, &*model.system);
     let vibration = vibration.map_err(|error| case.located(error))?;
     let problem = vibration.problem(&model.system);

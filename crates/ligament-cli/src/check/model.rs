@@ -2,7 +2,6 @@
 
 use std::io::{self, Write};
 
-use ligament::setup::{Dim, Dimension};
 use ligament_case::case::CaseFile;
 use ligament_model::{Elasticity, Plane};
 use ligament_output::quantity::quantity;
@@ -10,7 +9,6 @@ use ligament_run::model::Model;
 use ligament_run::summary::{Spread, correction_line, family, formulation_line, heading};
 
 use super::entry::{entry, spread};
-use super::told::Told;
 use super::{body, criteria};
 
 /// Writes what is known before supports and loads.
@@ -18,14 +16,11 @@ pub(super) fn write<const D: usize>(
     out: &mut dyn Write,
     case: &CaseFile,
     model: &Model<D>,
-) -> anyhow::Result<()>
-where
-    Dim: Dimension<D> + Told<D>,
-{
+) -> anyhow::Result<()> {
     writeln!(out, "{}", heading(&case.case.title))?;
     let volume = model.system.volumes().iter().sum();
     body::write(out, model.body(), volume)?;
-    Dim::section(out, model)?;
+    write_section(out, model)?;
     write_materials(out, model)?;
     write_bonds(out, model)?;
     criteria::write(out, model)?;
@@ -45,10 +40,7 @@ pub(super) fn write_section(out: &mut dyn Write, model: &Model) -> io::Result<()
     )
 }
 
-fn write_materials<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()>
-where
-    Dim: Dimension<D>,
-{
+fn write_materials<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()> {
     let cloud = &model.system.cloud;
     writeln!(out, "materials")?;
     for (index, material) in model.setup.materials().iter().enumerate() {
@@ -114,10 +106,7 @@ fn constants(elasticity: &Elasticity) -> String {
     }
 }
 
-fn write_bonds<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()>
-where
-    Dim: Dimension<D>,
-{
+fn write_bonds<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()> {
     let (system, fixed) = (&model.system, &model.fixed);
     let over = |values: &[f64]| Spread::over(values.iter().copied());
     writeln!(out, "bonds")?;
@@ -142,10 +131,7 @@ where
     spread(out, "correction factor", over(&fixed.domain_factor), "-")
 }
 
-fn write_energy_ratios<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()>
-where
-    Dim: Dimension<D>,
-{
+fn write_energy_ratios<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()> {
     writeln!(out, "strain energy of the points over the continuum's")?;
     for ratios in &model.fixed.energy_ratios {
         let Spread { min, mean, max } = Spread::over(ratios.at_points.iter().copied());

@@ -5,7 +5,6 @@ use std::io::{self, Write};
 use ligament::Model;
 use ligament::model::Discretises;
 use ligament::patch_test::{Constants, PatchTest, patch_test};
-use ligament::setup::{Dim, Dimension};
 use ligament_model::tensor::SymTensor;
 use ligament_output::quantity::{place, quantity};
 use ligament_run::stages::Stages;
@@ -29,10 +28,7 @@ pub(super) fn write<const D: usize>(
     extent: Extent,
     model: &Model<D>,
     stages: &mut Stages,
-) -> io::Result<()>
-where
-    Dim: Dimension<D> + Discretises<D>,
-{
+) -> io::Result<()> {
     if extent == Extent::Model {
         return Ok(());
     }

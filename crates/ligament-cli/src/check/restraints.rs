@@ -2,17 +2,14 @@
 
 use std::io::{self, Write};
 
-use ligament::setup::{Dim, Dimension, Load, Setup, Support};
+use ligament::setup::{Load, Setup, Support};
 
 use ligament_output::quantity::quantity;
 
 use super::entry::entry;
 
 /// Writes what each support holds or resists, and which loads go through springs or a platen.
-pub(super) fn write<const D: usize>(out: &mut dyn Write, setup: &Setup<D>) -> io::Result<()>
-where
-    Dim: Dimension<D>,
-{
+pub(super) fn write<const D: usize>(out: &mut dyn Write, setup: &Setup<D>) -> io::Result<()> {
     for (index, support) in setup.supports.iter().enumerate() {
         let name = format!("{} holds", support.name(index));
         entry(out, &name, of_support(support).join(", "))?;

@@ -68,34 +68,6 @@ impl SolidMesh {
         areas.into_iter().collect()
     }
 
-    /// Length that each node of some edges stands for, m, ascending by the nodes: half of each edge.
-    pub fn lengths_at_nodes(&self, edges: &[[u32; 2]]) -> Vec<(u32, f64)> {
-        let mut edges: Vec<[u32; 2]> = edges.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
-        edges.sort_unstable();
-        edges.dedup();
-        let mut lengths: BTreeMap<u32, f64> = BTreeMap::new();
-        for edge in edges {
-            let [p, q] = edge.map(|node| self.positions[node as usize]);
-            let squares = (0..3).map(|axis| (q[axis] - p[axis]).powi(2));
-            let half = 0.5 * squares.sum::<f64>().sqrt();
-            for node in edge {
-                *lengths.entry(node).or_default() += half;
-            }
-        }
-        lengths.into_iter().collect()
-    }
-
-    /// Marks of the nodes on the outline, those of faces that one cell has alone, shape (n_nodes).
-    pub fn is_on_outline(&self) -> Vec<bool> {
-        let mut marked = vec![false; self.positions.len()];
-        for side in Faces::new(&self.cells, self.positions.len()).outer() {
-            for &node in side.face.corners() {
-                marked[node as usize] = true;
-            }
-        }
-        marked
-    }
-
     fn off_surface(&self, face: &Cell, cells: usize) -> OffSurface {
         let corners = face.corners();
         let mean = |axis: usize| {

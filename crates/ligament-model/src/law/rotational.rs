@@ -104,16 +104,16 @@ pub fn scaled(mut stiffness: BondStiffness, factor: f64) -> BondStiffness {
     stiffness
 }
 
-/// Densities with the k_theta, in proportion to a profile q(l), of materials that have the characteristic length l_b (m) in bending:
+/// Densities of bonds in the plane with the k_theta, in proportion to a profile q(l), of materials that have the characteristic length l_b (m) in bending:
 ///
 /// k_theta = 2 gamma q(l) / (pi t M), M = integral of q l^3 over the horizon,
 ///
 /// so that the micro-rotations of a uniform curvature chi cost gamma chi^2/2. Bonds without shear stiffness get none: nothing would
 /// hold the rotations of the points to their displacements.
-pub fn with_cosserat_length(
+pub fn with_cosserat_length<const D: usize>(
     stiffness: BondStiffness,
-    bonds: &BondSet,
-    cloud: &PointCloud,
+    bonds: &BondSet<D>,
+    cloud: &PointCloud<D>,
     (materials, plane): (&[Elasticity], Plane),
     (profile, length): (Profile, f64),
 ) -> BondStiffness {
@@ -138,15 +138,15 @@ pub fn with_cosserat_length(
     }
 }
 
-/// Factors of the k_theta of bonds for which the sums over the families, in place of the integral, make the micro-rotations of a
+/// Factors of the k_theta of bonds in the plane for which the sums over the families, in place of the integral, make the micro-rotations of a
 /// uniform curvature cost what the `moduli` of the materials (n_materials, N) say, in the mean over its directions:
 ///
 /// q = 4 gamma / sum(alpha V_B k_theta l^2) at a point, the mean of its ends' for a bond.
-pub fn calibrated(
+pub fn calibrated<const D: usize>(
     mut stiffness: BondStiffness,
     length_factor: &[f64],
-    bonds: &BondSet,
-    cloud: &PointCloud,
+    bonds: &BondSet<D>,
+    cloud: &PointCloud<D>,
     moduli: &[f64],
 ) -> BondStiffness {
     let rotational = &stiffness.rotational;

@@ -28,6 +28,16 @@ pub enum Space {
     Solid,
 }
 
+impl Space {
+    /// State of the plane of the body; sections of a solid are in plane strain.
+    pub fn plane(self) -> Plane {
+        match self {
+            Self::Plane(plane) => plane,
+            Self::Solid => Plane::Strain,
+        }
+    }
+}
+
 impl From<Plane> for Space {
     fn from(plane: Plane) -> Self {
         Self::Plane(plane)

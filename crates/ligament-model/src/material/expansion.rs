@@ -1,6 +1,7 @@
 //! Thermal expansion.
 
-use super::elasticity::{Elasticity, Plane};
+use super::elasticity::{Elasticity, Plane, Space};
+use crate::tensor::SymTensor;
 
 /// Coefficients of linear thermal expansion, 1/K.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,6 +21,26 @@ impl Expansion {
         }
     }
 
+    /// Strain of a body that a change of temperature by one kelvin makes without any stress, 1/K: [in the plane](Self::plane_strain), and in
+    /// space alpha along all axes.
+    ///
+    /// # Panics
+    ///
+    /// Panics in plane strain if the constants across the plane are missing.
+    pub fn free_strain<const D: usize>(
+        &self,
+        elasticity: &Elasticity,
+        space: Space,
+    ) -> SymTensor<D> {
+        match space {
+            Space::Plane(plane) => {
+                let strains = self.plane_strain(elasticity, plane);
+                SymTensor::<2>::from_engineering(&strains).resized()
+            }
+            Space::Solid => SymTensor::isotropic(self.in_plane[0]),
+        }
+    }
+
     /// Strain (eps_xx, eps_yy, gamma_xy) that a change of temperature by one kelvin makes without any stress in the plane,
     /// 1/K. In the axes of the material it is
     ///
@@ -32,7 +53,7 @@ impl Expansion {
     /// # Panics
     ///
     /// Panics in plane strain if the constants across the plane are missing.
-    pub fn free_strain(&self, elasticity: &Elasticity, plane: Plane) -> [f64; 3] {
+    pub fn plane_strain(&self, elasticity: &Elasticity, plane: Plane) -> [f64; 3] {
         const NEEDED: &str = "plane strain needs the constants across the plane";
         let (minor, angle) = match elasticity {
             // The constants are those of the plane, whichever it is.
@@ -106,14 +127,14 @@ mod tests {
         let in_plane = stiffness.fixed_view::<2, 2>(0, 0).into_owned();
         let free = in_plane.try_inverse().unwrap() * -held.fixed_rows::<2>(0).into_owned();
         let elasticity = Elasticity::Orthotropic(LAMINA);
-        let [xx, yy, xy] = EXPANSION.free_strain(&elasticity, Plane::Strain);
+        let [xx, yy, xy] = EXPANSION.plane_strain(&elasticity, Plane::Strain);
         for psi in [0.0_f64, 0.7, 1.9] {
             let (s, c) = (LAMINA.angle + psi).sin_cos();
             let extension = xx * c * c + yy * s * s + xy * s * c;
             let expected = free[0] * psi.cos().powi(2) + free[1] * psi.sin().powi(2);
             assert!((extension - expected).abs() < 1e-14 * 30e-6);
         }
-        let [xx, yy, _] = EXPANSION.free_strain(&elasticity, Plane::Stress);
+        let [xx, yy, _] = EXPANSION.plane_strain(&elasticity, Plane::Stress);
         assert!((xx + yy - 29e-6).abs() < 1e-14 * 30e-6);
     }
 
@@ -135,7 +156,7 @@ mod tests {
         let expansion = Expansion::uniform(20e-6);
         for elasticity in [isotropic, as_orthotropic] {
             for (plane, expected) in [(Plane::Stress, 20e-6), (Plane::Strain, 26e-6)] {
-                let [xx, yy, xy] = expansion.free_strain(&elasticity, plane);
+                let [xx, yy, xy] = expansion.plane_strain(&elasticity, plane);
                 for (found, expected) in [(xx, expected), (yy, expected), (xy, 0.0)] {
                     assert!((found - expected).abs() < 1e-15 * 26e-6 * 4.0);
                 }

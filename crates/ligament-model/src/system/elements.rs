@@ -4,6 +4,7 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use super::{BondSystem, ElementSystem};
+use crate::dimension::cast;
 use crate::element::beam::BeamBond;
 use crate::element::imaginary::ImaginaryElements;
 use crate::element::pair::Pairs;
@@ -24,47 +25,51 @@ impl<const D: usize> BondSystem<D> {
     }
 }
 
-impl BondSystem<2> {
-    /// The system in the plane with the elements of its bonds.
-    pub fn with_elements(self) -> Arc<dyn System<2>> {
-        let lattice = || ImaginaryElements::new(&self.bonds, self.cloud.positions.clone());
-        match self.element {
-            ElementKind::Beam => self.typed(Pairs::<BeamBond<2>>::default()),
-            ElementKind::Spring => self.typed(Pairs::<SpringBond<2>>::default()),
-            ElementKind::Imaginary => {
-                let lattice = lattice();
-                self.typed(lattice)
-            }
-            ElementKind::TrueStrain => {
-                let lattice = lattice();
-                self.typed(TrueStrainElements { lattice })
-            }
-            ElementKind::Pairwise => {
-                let elements = PairwiseElements {
-                    lattice: lattice(),
-                    row_factors: mbb_pd::pairwise::row_factors(&self.bonds, &self.cloud),
-                    spacing: self.cloud.cell_size(0),
-                };
-                self.typed(elements)
-            }
-        }
-    }
-}
-
-impl BondSystem<3> {
-    /// The system in space with the elements of its bonds.
+impl<const D: usize> BondSystem<D> {
+    /// The system with the elements of its bonds.
     ///
     /// # Panics
     ///
-    /// Panics for elements of the plane: no law that is there in space has them.
-    pub fn with_elements(self) -> Arc<dyn System<3>> {
-        match self.element {
-            ElementKind::Beam => self.typed(Pairs::<BeamBond<3>>::default()),
-            ElementKind::Spring => self.typed(Pairs::<SpringBond<3>>::default()),
-            ElementKind::Imaginary | ElementKind::TrueStrain | ElementKind::Pairwise => {
-                panic!("imaginary elements are rectangles in the plane")
-            }
+    /// Panics for elements that are not defined in the dimension of the body.
+    pub fn with_elements(self) -> Arc<dyn System<D>> {
+        let system = match D {
+            2 => cast(self).and_then(in_plane).and_then(cast),
+            _ => cast(self).and_then(in_space).and_then(cast),
+        };
+        system.expect("laws are checked to exist in the dimension of the body")
+    }
+}
+
+fn in_plane(system: BondSystem) -> Option<Arc<dyn System<2>>> {
+    let lattice = || ImaginaryElements::new(&system.bonds, system.cloud.positions.clone());
+    Some(match system.element {
+        ElementKind::Beam => system.typed(Pairs::<BeamBond<2>>::default()),
+        ElementKind::Spring => system.typed(Pairs::<SpringBond<2>>::default()),
+        ElementKind::Imaginary => {
+            let lattice = lattice();
+            system.typed(lattice)
         }
+        ElementKind::TrueStrain => {
+            let lattice = lattice();
+            system.typed(TrueStrainElements { lattice })
+        }
+        ElementKind::Pairwise => {
+            let elements = PairwiseElements {
+                lattice: lattice(),
+                row_factors: mbb_pd::pairwise::row_factors(&system.bonds, &system.cloud),
+                spacing: system.cloud.cell_size(0),
+            };
+            system.typed(elements)
+        }
+    })
+}
+
+/// Imaginary elements are rectangles in the plane.
+fn in_space(system: BondSystem<3>) -> Option<Arc<dyn System<3>>> {
+    match system.element {
+        ElementKind::Beam => Some(system.typed(Pairs::<BeamBond<3>>::default())),
+        ElementKind::Spring => Some(system.typed(Pairs::<SpringBond<3>>::default())),
+        ElementKind::Imaginary | ElementKind::TrueStrain | ElementKind::Pairwise => None,
     }
 }
 

@@ -11,7 +11,6 @@ use crate::provenance::Provenance;
 use crate::stages::Stage;
 use crate::summary::{ModelSummary, SolverSummary, StabilitySummary, heading};
 use ligament::Model;
-use ligament::setup::{Dim, Dimension};
 use ligament_case::case::CaseFile;
 
 /// All numbers of a modal analysis.
@@ -71,10 +70,7 @@ impl ModalSummary {
         outcome: &ModalOutcome,
         provenance: Provenance,
         stages: &[Stage],
-    ) -> Self
-    where
-        Dim: Dimension<D>,
-    {
+    ) -> Self {
         let moving = &outcome.moving;
         let summary = |(index, mode): (usize, &Mode)| ModeSummary {
             mode: index + 1,

@@ -6,7 +6,7 @@ use ligament_model::scatter::Scattered;
 use serde::Serialize;
 
 use ligament::Model;
-use ligament::setup::{Alpha, Calibration, Correction, Dim, Dimension, Form, Open, Setup, Surface};
+use ligament::setup::{Alpha, Calibration, Correction, Form, Open, Setup, Surface};
 use ligament_case::case::{CaseFile, Word};
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
 
@@ -104,10 +104,7 @@ pub fn heading(title: &str) -> &str {
 
 impl ModelSummary {
     /// Collects the numbers.
-    pub fn new<const D: usize>(case: &CaseFile, model: &Model<D>) -> Self
-    where
-        Dim: Dimension<D>,
-    {
+    pub fn new<const D: usize>(case: &CaseFile, model: &Model<D>) -> Self {
         Self {
             title: case.case.title.clone(),
             version: env!("CARGO_PKG_VERSION"),
@@ -127,10 +124,7 @@ impl ModelSummary {
 
 impl ScatterSummary {
     /// What varies at random in a model.
-    pub fn new<const D: usize>(model: &Model<D>) -> Option<Self>
-    where
-        Dim: Dimension<D>,
-    {
+    pub fn new<const D: usize>(model: &Model<D>) -> Option<Self> {
         let factors = &model.fixed.scatter.as_ref()?.at_points;
         let scatter = model.setup.scatter?;
         let factor = Spread::over(factors.iter().copied());
@@ -158,19 +152,13 @@ impl Spread {
 }
 
 /// Law and corrections of the bonds, in words.
-fn formulation_words<const D: usize>(model: &Model<D>) -> String
-where
-    Dim: Dimension<D>,
-{
+fn formulation_words<const D: usize>(model: &Model<D>) -> String {
     let correction = correction_line(&model.setup.correction, model.correction.as_ref());
     format!("{}; {correction}", formulation_line(&model.setup))
 }
 
 /// Numbers of bonds of the points.
-pub fn family<const D: usize>(model: &Model<D>) -> Spread
-where
-    Dim: Dimension<D>,
-{
+pub fn family<const D: usize>(model: &Model<D>) -> Spread {
     let [min, max] = model.counts.of_points.map(|it| it as f64);
     Spread {
         min,
@@ -181,10 +169,7 @@ where
 
 impl CorrectionSummary {
     /// The correction of a model.
-    pub fn new<const D: usize>(model: &Model<D>) -> Self
-    where
-        Dim: Dimension<D>,
-    {
+    pub fn new<const D: usize>(model: &Model<D>) -> Self {
         let report = model.correction.as_ref();
         let domain = report.and_then(CorrectionReport::domain);
         let patch = report.and_then(CorrectionReport::patch);
@@ -208,10 +193,7 @@ impl CorrectionSummary {
 }
 
 /// The law of the bonds, in a line.
-pub fn formulation_line<const D: usize>(setup: &Setup<D>) -> String
-where
-    Dim: Dimension<D>,
-{
+pub fn formulation_line<const D: usize>(setup: &Setup<D>) -> String {
     let mut law = setup.law;
     let (name, element) = (law.name(), law.element());
     let Open {

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use ligament::Model;
-use ligament::setup::{Dim, Dimension};
 use ligament_analysis::driver::Outcome;
 use ligament_analysis::first_bonds::FirstBond;
 use ligament_analysis::history::StepRecord;
@@ -41,10 +40,7 @@ pub type Resultant = BTreeMap<&'static str, f64>;
 
 impl BondEvent {
     /// What happened to a bond of a model.
-    pub(super) fn new<const D: usize>(model: &Model<D>, first: &FirstBond) -> Self
-    where
-        Dim: Dimension<D>,
-    {
+    pub(super) fn new<const D: usize>(model: &Model<D>, first: &FirstBond) -> Self {
         let cloud = &model.system.cloud;
         let ends = cloud.numbering.ordered(first.ends);
         let [a, b] = ends.map(|end| cloud.positions[end as usize]);

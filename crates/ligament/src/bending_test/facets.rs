@@ -3,8 +3,8 @@
 //! By the divergence of x, x_i x and x_i x_j x integrals over a body with flat sides of normal N (with the area as its length) are sums over these:
 //! D V = sum p . N, (D + 1) int x_i = sum (p . N) m_i, (D + 2) int x_i x_j = sum (p . N) m_ij with the means m over a side, p any point of it.
 
-use super::meshed::{Meshed, Tensor};
-use crate::setup::{Dim, Dimension, Setup};
+use super::strip::Tensor;
+use crate::setup::{Setup};
 
 /// A flat side of the outline with D corners.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,16 +18,13 @@ pub(crate) struct Facet<const D: usize> {
 }
 
 /// The sides of the outline of a body.
-pub(super) fn of_body<const D: usize>(setup: &Setup<D>) -> Vec<Facet<D>>
-where
-    Dim: Dimension<D> + Meshed<D>,
-{
+pub(super) fn of_body<const D: usize>(setup: &Setup<D>) -> Vec<Facet<D>> {
     let positions = setup.body.positions();
-    let sides = Dim::sides(setup).into_iter();
+    let sides = setup.body.outer_sides().into_iter();
     sides
         .map(|corners| {
             let places = corners.map(|corner| positions[corner as usize]);
-            let area = Dim::area(places);
+            let area = area(places);
             Facet {
                 corners,
                 places,
@@ -35,6 +32,22 @@ where
             }
         })
         .collect()
+}
+
+/// Area of a side times its outward normal, m^(D - 1).
+pub(super) fn area<const D: usize>(places: [[f64; D]; D]) -> [f64; D] {
+    let along = |corner: usize| minus(places[corner], places[0]);
+    let edge = along(1);
+    match D {
+        2 => std::array::from_fn(|axis| if axis == 0 { edge[1] } else { -edge[0] }),
+        _ => {
+            let other = along(2);
+            std::array::from_fn(|axis| {
+                let [next, last] = [(axis + 1) % D, (axis + 2) % D];
+                0.5 * (edge[next] * other[last] - edge[last] * other[next])
+            })
+        }
+    }
 }
 
 impl<const D: usize> Facet<D> {

@@ -14,16 +14,10 @@
 //! as stiff as the continuum.
 
 mod facets;
-mod meshed;
 mod part;
-mod plane;
 mod solution;
 mod strip;
 mod thinnest;
 
-pub(crate) use facets::minus;
-pub use meshed::Meshed;
-pub(crate) use meshed::Tensor;
-pub(crate) use part::Kept;
-pub use solution::{BendingTest, THICK, TOO_STIFF, bending_test};
+pub use solution::{BendingTest, most_points, THICK, TOO_STIFF, bending_test};
 pub use thinnest::{MOST_SIDES, Section, thinnest_section};

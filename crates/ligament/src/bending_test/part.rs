@@ -3,40 +3,14 @@
 use std::sync::Arc;
 
 use crate::body::Body;
-use crate::setup::{Analysis, Dim, Dimension, Setup};
-
-/// The nodes that a part of a mesh keeps, ascending.
-pub(crate) struct Kept(Vec<u32>);
-
-impl Kept {
-    /// The corners of cells.
-    pub(crate) fn nodes(cells: impl Iterator<Item = Vec<u32>>) -> Self {
-        let mut nodes: Vec<u32> = cells.flatten().collect();
-        nodes.sort_unstable();
-        nodes.dedup();
-        Self(nodes)
-    }
-
-    /// What the kept nodes have of values at all of them.
-    pub(crate) fn taken<T: Copy>(&self, values: &[T]) -> Vec<T> {
-        self.0.iter().map(|&node| values[node as usize]).collect()
-    }
-
-    /// Corners of a kept cell among the kept nodes.
-    pub(crate) fn renumbered<const N: usize>(&self, corners: [u32; N]) -> [u32; N] {
-        corners.map(|corner| self.0.partition_point(|&node| node < corner) as u32)
-    }
-}
+use crate::setup::{Analysis, Setup};
 
 /// A setup on a part of its body, free and whole, of one of its materials.
 pub(crate) fn free<const D: usize>(
     setup: &Setup<D>,
     body: Arc<dyn Body<D>>,
     material: usize,
-) -> Setup<D>
-where
-    Dim: Dimension<D>,
-{
+) -> Setup<D> {
     let mut region = setup.materials[material].clone();
     region.group = None;
     Setup {

@@ -1,12 +1,20 @@
 //! A strip of a body at a section, free and of one material.
 
+use ligament_model::tensor::{SymTensor, directions_across};
+
 use super::facets::{self, Facet, dot, mean, minus, second_moments, size, volume_and_middle};
-use super::meshed::{LinearStress, Meshed, Tensor};
 use super::part::free;
 use super::thinnest::Section;
 use crate::error::SetupError;
+use crate::formulation::stiffness_of_materials;
 use crate::loading::material_of_cell;
-use crate::setup::{Dim, Dimension, Setup};
+use crate::setup::Setup;
+
+/// A stress (Pa) or a strain.
+pub(super) type Tensor<const D: usize> = [[f64; D]; D];
+
+/// A stress that is linear in the position from the middle of a strip: its growth along each coordinate, Pa/m.
+pub(super) type LinearStress<const D: usize> = [Tensor<D>; D];
 
 /// Length of a strip over its thickness and its horizon together: its middle half is half of both away from the ends.
 const LENGTH: f64 = 4.0;
@@ -15,10 +23,7 @@ const LENGTH: f64 = 4.0;
 const HALF_HEIGHT: f64 = 0.75;
 
 /// A strip of a body.
-pub(super) struct Strip<const D: usize>
-where
-    Dim: Dimension<D>,
-{
+pub(super) struct Strip<const D: usize> {
     pub(super) setup: Setup<D>,
     facets: Vec<Facet<D>>,
     second: Tensor<D>,
@@ -32,17 +37,14 @@ where
     pub(super) beside: Option<[f64; D]>,
 }
 
-impl<const D: usize> Strip<D>
-where
-    Dim: Dimension<D> + Meshed<D>,
-{
+impl<const D: usize> Strip<D> {
     /// The cells around a section that hang together, of the material at its middle.
     ///
     /// # Errors
     ///
     /// If the groups of the materials are wrong.
     pub(super) fn cut(setup: &Setup<D>, section: &Section<D>) -> Result<Self, SetupError> {
-        let cells = Dim::cells(setup);
+        let cells = setup.body.corners();
         let reach = 0.5 * LENGTH * (section.thickness + section.horizon);
         let positions = setup.body.positions();
         let is_inside = |place: [f64; D]| {
@@ -66,7 +68,7 @@ where
         let is_whole = connected.len() == cells.len();
         let part = match is_whole {
             true => setup.body.clone(),
-            false => Dim::part(setup, &connected),
+            false => (setup.body.part(&connected)).unwrap_or_else(|| setup.body.clone()),
         };
         let strip = Self::new(free(setup, part, material), section);
         let is_whole = is_whole && setup.materials.len() == 1;
@@ -129,7 +131,7 @@ where
     ///
     /// On a flat side the mean of N_P sigma over it is the sum of sigma at its corners, that of P twice, over D (D + 1).
     pub(super) fn forces(&self, stress: &LinearStress<D>) -> Vec<[f64; D]> {
-        let width = Dim::width(&self.setup);
+        let width = self.setup.thickness();
         let mut forces = vec![[0.0; D]; self.setup.body.positions().len()];
         for facet in &self.facets {
             let tractions = facet
@@ -152,7 +154,7 @@ where
     pub(super) fn displacement(&self, stress: &LinearStress<D>) -> Option<Vec<[f64; D]>> {
         let mut growth = [[[0.0; D]; D]; D];
         for (growth, stress) in growth.iter_mut().zip(stress) {
-            *growth = Dim::strain(&self.setup, stress)?;
+            *growth = strain(&self.setup, stress)?;
         }
         let places = self.places();
         let reach = places.iter().map(|it| dot(*it, self.along).abs());
@@ -211,11 +213,28 @@ where
     pub(super) fn largest_strain(&self, stress: &LinearStress<D>) -> Option<f64> {
         let mut largest = 0.0_f64;
         for place in self.facets.iter().flat_map(|it| it.places) {
-            let strain = Dim::strain(&self.setup, &at(stress, place))?;
+            let strain = strain(&self.setup, &at(stress, place))?;
             largest = largest.max(strain.iter().map(|row| dot(*row, *row)).sum::<f64>().sqrt());
         }
         Some(largest)
     }
+}
+
+/// Strains of the first material of a setup, as its law has it, under a stress (Pa).
+fn strain<const D: usize>(setup: &Setup<D>, stress: &Tensor<D>) -> Option<Tensor<D>> {
+    let stiffness = stiffness_of_materials(setup).into_iter().next()?;
+    let stress = SymTensor::<D>::from_fn(|row, column| stress[row][column]);
+    let stress: Vec<f64> = stress.components().collect();
+    let compliance = stiffness.try_inverse()?;
+    let component = |row: usize| {
+        let products = stress.iter().enumerate();
+        products.map(|(k, it)| compliance[(row, k)] * it).sum()
+    };
+    let strain: Vec<f64> = (0..stress.len()).map(component).collect();
+    let strain = SymTensor::<D>::from_engineering(&strain);
+    Some(std::array::from_fn(|row| {
+        std::array::from_fn(|column| strain.at(row, column))
+    }))
 }
 
 /// Takes its share of other motions out of motions.
@@ -246,11 +265,8 @@ fn product<const D: usize>(tensor: &Tensor<D>, a: [f64; D], b: [f64; D]) -> f64 
 }
 
 /// The direction across another in which a body is longest, and in space the one across both.
-fn principal<const D: usize>(second: &Tensor<D>, across: [f64; D]) -> ([f64; D], Option<[f64; D]>)
-where
-    Dim: Dimension<D>,
-{
-    match Dim::across(across)[..] {
+fn principal<const D: usize>(second: &Tensor<D>, across: [f64; D]) -> ([f64; D], Option<[f64; D]>) {
+    match directions_across(across)[..] {
         [one, other] => {
             let [xx, yy] = [one, other].map(|it| product(second, it, it));
             let angle = 0.5 * (2.0 * product(second, one, other)).atan2(xx - yy);

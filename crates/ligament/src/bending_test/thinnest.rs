@@ -3,10 +3,8 @@
 use rayon::prelude::*;
 
 use super::facets::{self, Facet, dot, mean, minus, size};
-use super::meshed::Meshed;
 use crate::model::Model;
 use crate::patch_test::Untested;
-use crate::setup::{Dim, Dimension};
 
 /// Sides of an outline up to which its thinnest section is found in a second or two: each is asked where the ways from all others end.
 pub const MOST_SIDES: usize = 20_000;
@@ -54,10 +52,7 @@ impl<const D: usize> Section<D> {
 pub fn thinnest_section<const D: usize>(
     model: &Model<D>,
     most_sides: usize,
-) -> Result<Section<D>, Untested>
-where
-    Dim: Dimension<D> + Meshed<D>,
-{
+) -> Result<Section<D>, Untested> {
     let setup = &model.setup;
     let facets = facets::of_body(setup);
     let sides = facets.len();
@@ -102,10 +97,7 @@ fn way_through<const D: usize>(
     facets: &[Facet<D>],
     from: [f64; D],
     direction: [f64; D],
-) -> Option<(f64, &Facet<D>)>
-where
-    Dim: Dimension<D> + Meshed<D>,
-{
+) -> Option<(f64, &Facet<D>)> {
     let mut found: Option<(f64, &Facet<D>)> = None;
     for facet in facets {
         let rate = dot(direction, facet.area);
@@ -125,14 +117,11 @@ where
 }
 
 /// Whether a place in the plane of a side lies on it: none of the sides with the place for a corner is turned round.
-fn is_on<const D: usize>(facet: &Facet<D>, place: [f64; D]) -> bool
-where
-    Dim: Dimension<D> + Meshed<D>,
-{
+fn is_on<const D: usize>(facet: &Facet<D>, place: [f64; D]) -> bool {
     let slack = -SLACK * dot(facet.area, facet.area);
     (0..D).all(|corner| {
         let mut places = facet.places;
         places[corner] = place;
-        dot(Dim::area(places), facet.area) >= slack
+        dot(facets::area(places), facet.area) >= slack
     })
 }

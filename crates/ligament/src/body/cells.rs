@@ -24,6 +24,28 @@ pub enum Cells<const D: usize, S> {
     Inside(S),
 }
 
+impl Cells<2, Shape> {
+    /// So many rows from the bottom.
+    pub fn bottom(rows: u32) -> Self {
+        Self::AtSide([0, -1], rows)
+    }
+
+    /// So many rows from the top.
+    pub fn top(rows: u32) -> Self {
+        Self::AtSide([0, 1], rows)
+    }
+
+    /// So many columns from the left.
+    pub fn left(columns: u32) -> Self {
+        Self::AtSide([-1, 0], columns)
+    }
+
+    /// So many columns from the right.
+    pub fn right(columns: u32) -> Self {
+        Self::AtSide([1, 0], columns)
+    }
+}
+
 /// Why a lattice is no body.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum LatticeError {

@@ -1,10 +1,13 @@
 //! What a computation needs to know of a body.
 
 use std::fmt::Debug;
+use std::sync::Arc;
 
 use ligament_mesh::{Cell, Mesh, NodeField, Numbering, SolidMesh};
 use ligament_model::cloud::lattice::SolidLattice;
-use ligament_model::{BodyGrid, Lattice, PointCloud, Shape};
+use ligament_model::correction::patch::CellForces;
+use ligament_model::material::Stiffness;
+use ligament_model::{BodyGrid, BondSet, Lattice, PointCloud};
 use thiserror::Error;
 
 use crate::coordinates::coordinates;
@@ -45,6 +48,18 @@ pub enum Origin<'a> {
     SolidLattice(&'a SolidLattice),
     /// Arrays of points.
     Points,
+}
+
+/// The outline of a meshed body, which bonds do not leave.
+pub trait BodyOutline<const D: usize> {
+    /// The nodes of an edge that passes through a side of the outline, the first of them all; none where cells do not overlap.
+    fn first_crossing(&self) -> Option<[u32; 2]>;
+
+    /// Distance of each node to the nearest other one that it sees within the outline, shape (n_points), m.
+    fn spacing(&self, cloud: &PointCloud<D>) -> Vec<f64>;
+
+    /// For each bond, whether its straight line leaves the outline, shape (n_bonds).
+    fn is_left_by(&self, bonds: &BondSet<D>, cloud: &PointCloud<D>) -> Vec<bool>;
 }
 
 /// A body as a computation sees it: points, groups and outline, whatever the points come from.
@@ -111,15 +126,54 @@ pub trait Body<const D: usize = 2>: Debug + Send + Sync {
     /// If an edge of the group is none of the outline.
     fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; D])>, OffOutline>;
 
-    /// Cells of a meshed body, whose points are their corners; empty for others.
-    fn cells(&self) -> &[Cell] {
-        &[]
+    /// Faces of the surface groups of a name; none of bodies without a mesh.
+    fn faces_of(&self, _group: &str) -> Option<Vec<Cell>> {
+        None
     }
 
-    /// Holes across which there is no bond.
-    fn holes(&self) -> &[Shape] {
-        &[]
+    /// Corners of the cells of a meshed body, shape (n_cells, corners); empty for others.
+    fn corners(&self) -> Vec<&[u32]> {
+        Vec::new()
     }
+
+    /// Edges of the cells of a meshed body; empty for others.
+    fn edges(&self) -> Vec<[u32; 2]> {
+        Vec::new()
+    }
+
+    /// Corners of the sides that one cell of a meshed body has alone, in an order that tells inside from outside; empty for others.
+    fn outer_sides(&self) -> Vec<[u32; D]> {
+        Vec::new()
+    }
+
+    /// A body of some of the cells (ascending) of a meshed one, without its groups; none of others.
+    fn part(&self, _cells: &[usize]) -> Option<Arc<dyn Body<D>>> {
+        None
+    }
+
+    /// The outline of a meshed body with its nodes at the points of a cloud; none of others.
+    fn outline(&self, _cloud: &PointCloud<D>) -> Option<Box<dyn BodyOutline<D> + '_>> {
+        None
+    }
+
+    /// For each bond, whether a hole of a lattice is between its ends, shape (n_bonds); empty where there is no hole.
+    fn crosses_holes(&self, _bonds: &BondSet<D>, _cloud: &PointCloud<D>) -> Vec<bool> {
+        Vec::new()
+    }
+
+    /// Bonds followed through cells with the index of the material of each (n_cells); as they are where there are no cells.
+    fn composed(&self, bonds: BondSet<D>, _cloud: &PointCloud<D>, _materials: &[u32]) -> BondSet<D> {
+        bonds
+    }
+
+    /// Forces of uniform strains on the points of a cloud, as the cells of the body know them, with the stiffness of each material
+    /// (n_materials, Pa) and the index of that of each cell (n_cells).
+    fn cell_forces(
+        &self,
+        cloud: &PointCloud<D>,
+        material_of_cell: &[u32],
+        stiffness: Vec<Stiffness>,
+    ) -> CellForces<D>;
 
     /// Values at the points that the file of the body brings along.
     fn fields(&self) -> &[NodeField] {

@@ -2,47 +2,31 @@
 
 use std::collections::BTreeMap;
 
-use ligament_model::{BodyGrid, Canvas, Lattice, PointCloud, Shape, raised};
+use ligament_model::bonds::hole::bonds_across;
+use ligament_model::bonds::parts::LatticeCells;
+use ligament_model::cloud::lattice::Lattice;
+use ligament_model::correction::patch::{self, CellForces};
+use ligament_model::material::Stiffness;
+use ligament_model::shape::{Shape, SolidShape};
+use ligament_model::{BodyGrid, BondSet, PointCloud, raised};
 
 use super::cells::{self, CellSets, Cells, Hole, LatticeError, rim};
 use super::interface::{Body, OffOutline, Origin};
+use super::lattice_cells::LatticeShape;
 
 /// A body with a point at the centre of each cell of a lattice, and named sets of its cells.
 #[derive(Debug)]
-pub struct LatticeBody {
-    lattice: Lattice,
-    positions: Vec<[f64; 2]>,
-    sets: CellSets<2>,
+pub struct LatticeBody<const D: usize = 2, S = Shape> {
+    lattice: Lattice<D, S>,
+    /// Positions of the points, shape (n_points), m.
+    positions: Vec<[f64; D]>,
+    sets: CellSets<D>,
 }
 
-/// A set of cells.
-#[derive(Debug, Clone, PartialEq)]
-pub enum CellSet {
-    /// So many rows from the bottom.
-    Bottom(u32),
-    /// So many rows from the top.
-    Top(u32),
-    /// So many columns from the left.
-    Left(u32),
-    /// So many columns from the right.
-    Right(u32),
-    /// Cells whose centre lies in a shape.
-    Inside(Shape),
-}
+/// A box of equal cells in space.
+pub type SolidLatticeBody = LatticeBody<3, SolidShape>;
 
-impl CellSet {
-    fn cells(&self) -> Cells<2, Shape> {
-        match self {
-            Self::Bottom(rows) => Cells::AtSide([0, -1], *rows),
-            Self::Top(rows) => Cells::AtSide([0, 1], *rows),
-            Self::Left(columns) => Cells::AtSide([-1, 0], *columns),
-            Self::Right(columns) => Cells::AtSide([1, 0], *columns),
-            Self::Inside(shape) => Cells::Inside(shape.clone()),
-        }
-    }
-}
-
-impl LatticeBody {
+impl<const D: usize, S: LatticeShape<D>> LatticeBody<D, S> {
     /// A lattice with named sets of cells and the holes that took cells from it, in the order of its own; named holes are groups
     /// too, unless a set has their name.
     ///
@@ -50,14 +34,14 @@ impl LatticeBody {
     ///
     /// If nothing is left of the lattice, or a set or the rim of a named hole has no cell.
     pub fn new(
-        size: [u32; 2],
-        spacing: [f64; 2],
-        corner: [f64; 2],
-        holes: &[Hole],
-        named: &BTreeMap<String, CellSet>,
+        size: [u32; D],
+        spacing: [f64; D],
+        corner: [f64; D],
+        holes: &[Hole<S>],
+        named: &BTreeMap<String, Cells<D, S>>,
     ) -> Result<Self, LatticeError> {
         let (lattice, positions) = cells::lattice(size, spacing, corner, holes)?;
-        let named = named.iter().map(|(name, set)| (name.clone(), set.cells()));
+        let named = named.iter().map(|(name, set)| (name.clone(), set.clone()));
         Ok(Self {
             sets: CellSets::new(&lattice, holes, named)?,
             positions,
@@ -66,12 +50,12 @@ impl LatticeBody {
     }
 }
 
-impl Body for LatticeBody {
+impl<const D: usize, S: LatticeShape<D>> Body<D> for LatticeBody<D, S> {
     fn origin(&self) -> Origin<'_> {
-        Origin::Lattice(&self.lattice)
+        S::origin(&self.lattice)
     }
 
-    fn positions(&self) -> &[[f64; 2]] {
+    fn positions(&self) -> &[[f64; D]] {
         &self.positions
     }
 
@@ -88,7 +72,7 @@ impl Body for LatticeBody {
         self.lattice.cells.len()
     }
 
-    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud {
+    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D> {
         PointCloud::from_lattice(&self.lattice, thickness, material_of_cell, n_materials)
     }
 
@@ -111,19 +95,51 @@ impl Body for LatticeBody {
 
     /// The side of a cell spread over the rows or columns of the set.
     fn lengths_of(&self, group: &str) -> Vec<(u32, f64)> {
-        self.sets.parts_of_side(group)
+        match D {
+            2 => self.sets.parts_of_side(group),
+            _ => Vec::new(),
+        }
     }
 
-    fn shares_at(&self, position: [f64; 2]) -> Option<Vec<(u32, f64)>> {
+    /// The side of a cell spread over the layers of the set.
+    fn areas_of(&self, group: &str) -> Vec<(u32, f64)> {
+        match D {
+            2 => Vec::new(),
+            _ => self.sets.parts_of_side(group),
+        }
+    }
+
+    fn shares_at(&self, position: [f64; D]) -> Option<Vec<(u32, f64)>> {
         self.lattice.shares_at(position)
     }
 
-    fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; 2])>, OffOutline> {
+    fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; D])>, OffOutline> {
         Ok(self.sets.outline(group, &self.lattice))
     }
 
-    fn holes(&self) -> &[Shape] {
-        &self.lattice.holes
+    fn crosses_holes(&self, bonds: &BondSet<D>, cloud: &PointCloud<D>) -> Vec<bool> {
+        match self.lattice.holes.is_empty() {
+            true => Vec::new(),
+            false => bonds_across(&self.lattice.holes, bonds, cloud),
+        }
+    }
+
+    fn composed(&self, bonds: BondSet<D>, cloud: &PointCloud<D>, materials: &[u32]) -> BondSet<D> {
+        let cells = LatticeCells {
+            cloud,
+            size: self.lattice.spacing,
+            materials,
+        };
+        bonds.through(&cells, cloud)
+    }
+
+    fn cell_forces(
+        &self,
+        cloud: &PointCloud<D>,
+        material_of_cell: &[u32],
+        stiffness: Vec<Stiffness>,
+    ) -> CellForces<D> {
+        patch::of_lattice(&self.lattice, cloud, material_of_cell, &stiffness)
     }
 
     fn rim(&self) -> Vec<bool> {
@@ -131,17 +147,12 @@ impl Body for LatticeBody {
     }
 
     fn grid(&self) -> BodyGrid {
-        let half = self.lattice.spacing.map(|side| 0.5 * side);
-        let corners = |[x, y]: &[f64; 2]| {
-            [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
-                .map(|[right, up]| [x + right * half[0], y + up * half[1]])
-        };
         BodyGrid {
             numbering: self.numbering(),
             positions: raised(&self.positions),
             tags: (1..=self.positions.len() as i64).collect(),
             tagged: self.tagged(),
-            canvas: Canvas::Around(self.positions.iter().map(corners).collect()),
+            canvas: S::canvas(&self.positions, self.lattice.spacing.map(|side| 0.5 * side)),
         }
     }
 }

@@ -1,43 +1,35 @@
 //! A meshed body: points at the nodes, physical groups.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
-use ligament_mesh::{Cell, Group, Mesh, NodeField, Numbering};
-use ligament_model::{BodyGrid, Canvas, PointCloud, raised};
+use ligament_mesh::{Cell, Group, Mesh, NodeField, Numbering, SolidCell};
+use ligament_model::bonds::outline::{bonds_outside, spacing_inside};
+use ligament_model::correction::patch::CellForces;
+use ligament_model::material::Stiffness;
+use ligament_model::{BodyGrid, BondSet, PointCloud, raised};
 
-use super::interface::{Body, OffOutline, Origin};
+use super::interface::{Body, BodyOutline, OffOutline, Origin};
+use super::mesh_cells::BodyCell;
 
 /// A body with a point at each node of a mesh, by the names of its physical groups.
 #[derive(Debug)]
-pub struct MeshBody {
+pub struct MeshBody<const D: usize = 2, C = Cell> {
     /// The mesh, its nodes numbered along a curve.
-    mesh: Mesh,
+    mesh: Mesh<D, C>,
     numbering: Numbering,
 }
 
-impl From<Mesh> for MeshBody {
-    fn from(mesh: Mesh) -> Self {
+/// A body meshed with solid cells.
+pub type SolidMeshBody = MeshBody<3, SolidCell>;
+
+impl<const D: usize, C: BodyCell<D>> From<Mesh<D, C>> for MeshBody<D, C> {
+    fn from(mesh: Mesh<D, C>) -> Self {
         let (mesh, numbering) = mesh.along_curve();
         Self { mesh, numbering }
     }
 }
 
-impl MeshBody {
-    /// For each edge of a cell, by its nodes in ascending order, how many cells have it, and the nodes in the order in which the
-    /// last of these cells, on their left, goes along it.
-    fn edges_of_cells(&self) -> BTreeMap<[u32; 2], (usize, [u32; 2])> {
-        let mut edges = BTreeMap::new();
-        for cell in &self.mesh.cells {
-            let corners = cell.corners();
-            let next = corners.iter().cycle().skip(1);
-            for (&from, &to) in corners.iter().zip(next) {
-                let edge = edges.entry(ascending([from, to])).or_insert((0, [0; 2]));
-                *edge = (edge.0 + 1, [from, to]);
-            }
-        }
-        edges
-    }
-
+impl<const D: usize, C: BodyCell<D>> MeshBody<D, C> {
     /// Union of what the groups of a name hold, whatever their dimension, ascending; `None` where there is no such group.
     fn union<T: Copy + Ord>(&self, name: &str, held: fn(&Group) -> &[T]) -> Option<Vec<T>> {
         let mut groups = self.mesh.groups_named(name).peekable();
@@ -47,14 +39,40 @@ impl MeshBody {
         all.dedup();
         Some(all)
     }
+
+    /// Sides of cells that are held by the groups of a name.
+    fn of_groups<T: Copy>(&self, name: &str, held: fn(&Group) -> &[T]) -> Vec<T> {
+        let groups = self.mesh.groups_named(name);
+        groups.flat_map(held).copied().collect()
+    }
 }
 
-impl Body for MeshBody {
-    fn origin(&self) -> Origin<'_> {
-        Origin::Mesh(&self.mesh)
+/// The outline of a mesh, with its cells.
+struct MeshOutline<'a, const D: usize, C: BodyCell<D>> {
+    outline: C::Outline,
+    cells: &'a [C],
+}
+
+impl<const D: usize, C: BodyCell<D>> BodyOutline<D> for MeshOutline<'_, D, C> {
+    fn first_crossing(&self) -> Option<[u32; 2]> {
+        ligament_model::bonds::outline::Outline::first_crossing(&self.outline)
     }
 
-    fn positions(&self) -> &[[f64; 2]] {
+    fn spacing(&self, cloud: &PointCloud<D>) -> Vec<f64> {
+        spacing_inside(&self.outline, self.cells, cloud)
+    }
+
+    fn is_left_by(&self, bonds: &BondSet<D>, cloud: &PointCloud<D>) -> Vec<bool> {
+        bonds_outside(&self.outline, bonds, cloud)
+    }
+}
+
+impl<const D: usize, C: BodyCell<D>> Body<D> for MeshBody<D, C> {
+    fn origin(&self) -> Origin<'_> {
+        C::origin(&self.mesh)
+    }
+
+    fn positions(&self) -> &[[f64; D]] {
         &self.mesh.positions
     }
 
@@ -74,7 +92,7 @@ impl Body for MeshBody {
         self.mesh.cells.len()
     }
 
-    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud {
+    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D> {
         PointCloud {
             numbering: self.numbering(),
             ..PointCloud::from_mesh(&self.mesh, thickness, material_of_cell, n_materials)
@@ -100,74 +118,98 @@ impl Body for MeshBody {
 
     /// Half of the edges of a curve group at each of its nodes.
     fn lengths_of(&self, group: &str) -> Vec<(u32, f64)> {
-        let mut lengths = BTreeMap::new();
-        for edge in self.mesh.groups_named(group).flat_map(|group| &group.edges) {
-            let [p, q] = edge.map(|node| self.mesh.positions[node as usize]);
-            for &node in edge {
-                *lengths.entry(node).or_insert(0.0) += 0.5 * (q[0] - p[0]).hypot(q[1] - p[1]);
-            }
-        }
-        lengths.into_iter().collect()
+        let edges = self.of_groups(group, |it| &it.edges);
+        self.mesh.lengths_at_nodes(&edges)
+    }
+
+    /// Parts of the faces of a surface group at each of their nodes.
+    fn areas_of(&self, group: &str) -> Vec<(u32, f64)> {
+        C::areas_at_nodes(&self.mesh, &self.of_groups(group, |it| &it.faces))
+    }
+
+    fn faces_of(&self, group: &str) -> Option<Vec<Cell>> {
+        Some(self.of_groups(group, |it| &it.faces))
     }
 
     fn around(&self, point: u32) -> Vec<u32> {
-        let corners = self.mesh.cells.iter().map(Cell::corners);
+        let corners = self.mesh.cells.iter().map(C::corners);
         let around = corners.filter(|it| it.contains(&point));
         around.flatten().copied().collect()
     }
 
-    fn cells(&self) -> &[Cell] {
-        &self.mesh.cells
+    fn corners(&self) -> Vec<&[u32]> {
+        self.mesh.cells.iter().map(C::corners).collect()
+    }
+
+    fn edges(&self) -> Vec<[u32; 2]> {
+        self.mesh.cells.iter().flat_map(C::edges).collect()
+    }
+
+    fn outer_sides(&self) -> Vec<[u32; D]> {
+        C::outer_sides(&self.mesh.cells, self.mesh.positions.len())
+    }
+
+    /// A body of the nodes of the cells, without groups.
+    fn part(&self, cells: &[usize]) -> Option<Arc<dyn Body<D>>> {
+        let cells = cells.iter().map(|&cell| self.mesh.cells[cell]);
+        let mut nodes: Vec<u32> = (cells.clone())
+            .flat_map(|cell| cell.corners().to_vec())
+            .collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let renumbered = |mut cell: C| {
+            for corner in cell.corners_mut() {
+                *corner = nodes.partition_point(|node| node < corner) as u32;
+            }
+            cell
+        };
+        let of_nodes = nodes.iter().map(|&node| node as usize);
+        let part = Mesh {
+            node_tags: of_nodes.clone().map(|it| self.mesh.node_tags[it]).collect(),
+            positions: of_nodes.map(|it| self.mesh.positions[it]).collect(),
+            cells: cells.map(renumbered).collect(),
+            ..Mesh::default()
+        };
+        Some(Arc::new(Self::from(part)))
+    }
+
+    fn outline(&self, cloud: &PointCloud<D>) -> Option<Box<dyn BodyOutline<D> + '_>> {
+        let cells = self.mesh.cells.as_slice();
+        let outline = C::outline(cells, cloud);
+        Some(Box::new(MeshOutline { outline, cells }))
+    }
+
+    fn composed(&self, bonds: BondSet<D>, cloud: &PointCloud<D>, materials: &[u32]) -> BondSet<D> {
+        C::composed(bonds, &self.mesh.cells, cloud, materials)
+    }
+
+    fn cell_forces(
+        &self,
+        cloud: &PointCloud<D>,
+        material_of_cell: &[u32],
+        stiffness: Vec<Stiffness>,
+    ) -> CellForces<D> {
+        C::forces(&self.mesh.cells, cloud, material_of_cell, stiffness)
     }
 
     fn fields(&self) -> &[NodeField] {
         &self.mesh.fields
     }
 
-    fn shares_at(&self, position: [f64; 2]) -> Option<Vec<(u32, f64)>> {
-        self.mesh.shares_at(position)
+    fn shares_at(&self, position: [f64; D]) -> Option<Vec<(u32, f64)>> {
+        C::shares_at(&self.mesh, position)
     }
 
-    /// Half of the normal of each edge, away from its one cell, at each of its nodes.
-    fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; 2])>, OffOutline> {
-        let groups = self.mesh.groups_named(group);
-        let edges: BTreeSet<[u32; 2]> = groups
-            .flat_map(|group| &group.edges)
-            .map(|&edge| ascending(edge))
-            .collect();
-        if edges.is_empty() {
-            return Ok(Vec::new());
-        }
-        let of_cells = self.edges_of_cells();
-        let mut normals = BTreeMap::new();
-        for edge in edges {
-            let (cells, along) = of_cells.get(&edge).copied().unwrap_or((0, edge));
-            let [p, q] = along.map(|node| self.mesh.positions[node as usize]);
-            if cells != 1 {
-                return Err(OffOutline {
-                    side: "edge",
-                    nodes: edge.map(|node| self.tag(node)).to_vec(),
-                    middle: (0..2).map(|axis| 0.5 * (p[axis] + q[axis])).collect(),
-                    cells,
-                });
-            }
-            // Corners stand counter-clockwise: the outside is on the right.
-            let half = [0.5 * (q[1] - p[1]), 0.5 * (p[0] - q[0])];
-            for node in edge {
-                let sum = normals.entry(node).or_insert([0.0; 2]);
-                *sum = [0, 1].map(|axis| sum[axis] + half[axis]);
-            }
-        }
-        Ok(normals.into_iter().collect())
+    /// Parts of the outward normal of each side of a cell on the outline at each of its nodes.
+    fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; D])>, OffOutline> {
+        C::outward(&self.mesh, &self.mesh.groups_named(group).collect::<Vec<_>>())
     }
 
-    /// The nodes of edges that one cell has alone.
+    /// The nodes of sides that one cell has alone.
     fn rim(&self) -> Vec<bool> {
         let mut marked = vec![false; self.mesh.positions.len()];
-        let edges = self.edges_of_cells();
-        let outer = edges.iter().filter(|(_, (cells, _))| *cells == 1);
-        for node in outer.flat_map(|(edge, _)| edge) {
-            marked[*node as usize] = true;
+        for &node in self.outer_sides().as_flattened() {
+            marked[node as usize] = true;
         }
         marked
     }
@@ -183,11 +225,7 @@ impl Body for MeshBody {
             positions: raised(&self.mesh.positions),
             tags: self.mesh.node_tags.iter().map(|&tag| tag as i64).collect(),
             tagged: self.tagged(),
-            canvas: Canvas::Between(self.mesh.cells.clone()),
+            canvas: C::canvas(&self.mesh.cells),
         }
     }
-}
-
-fn ascending([a, b]: [u32; 2]) -> [u32; 2] {
-    [a.min(b), a.max(b)]
 }

@@ -3,15 +3,24 @@
 mod cells;
 mod interface;
 mod lattice;
+mod lattice_cells;
 mod mesh;
+mod mesh_cells;
 mod points;
-mod solid_lattice;
-mod solid_mesh;
+
+use ligament_model::shape::SolidShape;
 
 pub use cells::{Cells, Hole, LatticeError};
-pub use interface::{Body, OffOutline, Origin};
-pub use lattice::{CellSet, LatticeBody};
-pub use mesh::MeshBody;
+pub use interface::{Body, BodyOutline, OffOutline, Origin};
+pub use lattice::{LatticeBody, SolidLatticeBody};
+pub use mesh::{MeshBody, SolidMeshBody};
 pub use points::{Points, PointsError};
-pub use solid_lattice::{SolidCellSet, SolidHole, SolidLatticeBody};
-pub use solid_mesh::SolidMeshBody;
+
+/// Cells that make a set of a lattice in the plane.
+pub type CellSet = Cells<2, ligament_model::Shape>;
+
+/// Cells that make a set of a box.
+pub type SolidCellSet = Cells<3, SolidShape>;
+
+/// A hole of a box.
+pub type SolidHole = Hole<SolidShape>;

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use ligament_model::{BodyGrid, Canvas, Numbering, PointCloud};
+use ligament_model::correction::patch::CellForces;
+use ligament_model::material::Stiffness;
+use ligament_model::{BodyGrid, Canvas, Numbering, PointCloud, raised};
 use thiserror::Error;
 
 use super::interface::{Body, OffOutline, Origin};
@@ -187,6 +189,16 @@ impl<const D: usize> Body<D> for Points<D> {
         self.points_of(group)
     }
 
+    /// No force: arrays have no cells.
+    fn cell_forces(
+        &self,
+        cloud: &PointCloud<D>,
+        _: &[u32],
+        stiffness: Vec<Stiffness>,
+    ) -> CellForces<D> {
+        CellForces::none(cloud.len(), stiffness)
+    }
+
     fn lengths_of(&self, _: &str) -> Vec<(u32, f64)> {
         Vec::new()
     }
@@ -202,9 +214,7 @@ impl<const D: usize> Body<D> for Points<D> {
 
     /// A square of its area, in space a cube of its volume, around each point.
     fn grid(&self) -> BodyGrid {
-        let coordinate = |position: &[f64; D], axis: usize| position.get(axis).copied();
-        let raised = |it| std::array::from_fn(|axis| coordinate(it, axis).unwrap_or(0.0));
-        let positions: Vec<[f64; 3]> = self.positions.iter().map(raised).collect();
+        let positions = raised(&self.positions);
         let around = positions.iter().zip(&self.sizes);
         let canvas = if D == 2 {
             let square = |([x, y, _], area): (&[f64; 3], &f64)| {

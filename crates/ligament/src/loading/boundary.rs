@@ -9,7 +9,7 @@ use super::places::Places;
 use super::temperature::{Heating, heating};
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::{
-    Action, Couple, Dim, Dimension, Displacement, Load, MaterialRegion, Place, Profile, Setup,
+    Action, Couple, Displacement, Load, MaterialRegion, Place, Profile, Setup,
 };
 
 /// Forces along the axes and couples about them, or their directions, in the order of the components of the dimension: three in the
@@ -33,15 +33,12 @@ pub(super) fn boundary<const D: usize>(
     setup: &Setup<D>,
     cloud: &PointCloud<D>,
     acting: Acting,
-) -> Result<ProportionalLoading, SetupError>
-where
-    Dim: Dimension<D>,
-{
+) -> Result<ProportionalLoading, SetupError> {
     let places = Places { setup, cloud };
     let heating = heating(&places)?;
     let all = Layout {
         n_points: cloud.len(),
-        components: Dim::COMPONENTS,
+        components: Component::in_dimensions(D),
     };
     let mut boundary = ProportionalLoading::new(all, places.control(heating.as_ref())?);
     let is_heated = matches!(acting, Acting::All | Acting::Temperature);
@@ -59,13 +56,13 @@ where
         boundary.report_group(
             &support.name(index),
             points,
-            vec![0.0; Dim::COMPONENTS.len()],
+            vec![0.0; Component::in_dimensions(D).len()],
         );
     }
     for (index, load) in setup.loads.iter().enumerate() {
         let field = Field::element("loads", index);
         let points = places.points(field, &load.place)?;
-        let mut total = vec![0.0; Dim::COMPONENTS.len()];
+        let mut total = vec![0.0; Component::in_dimensions(D).len()];
         if acting != Acting::All && acting != Acting::Load(index) {
             boundary.report_group(&load.name, points, total);
             continue;
@@ -79,7 +76,7 @@ where
             }
         }
         for (point, force) in places.forces(field, load, &points)?.at_points {
-            for ((&component, value), sum) in Dim::COMPONENTS.iter().zip(force).zip(&mut total) {
+            for ((&component, value), sum) in Component::in_dimensions(D).iter().zip(force).zip(&mut total) {
                 boundary.add_force(point, component, value);
                 *sum += value;
             }
@@ -94,16 +91,13 @@ pub(super) fn couples_have_stiffness<const D: usize>(
     setup: &Setup<D>,
     boundary: &ProportionalLoading,
     system: &dyn Bonds,
-) -> Result<(), SetupError>
-where
-    Dim: Dimension<D>,
-{
+) -> Result<(), SetupError> {
     let is_couple = |it: &Load<D>| matches!(it.action, Action::Moment(_) | Action::BodyCouple(_));
     let Some(load) = setup.loads.iter().position(is_couple) else {
         return Ok(());
     };
     let (bonds, resisted) = (system.layout(), system.resisted());
-    let rotations = || Dim::COMPONENTS.iter().filter(|it| it.is_rotation());
+    let rotations = || Component::in_dimensions(D).iter().filter(|it| it.is_rotation());
     let is_idle = |&point: &u32| {
         rotations().any(|&rotation| {
             let [given, turned] =
@@ -132,10 +126,7 @@ struct Given {
     size: f64,
 }
 
-impl<const D: usize> Places<'_, D>
-where
-    Dim: Dimension<D>,
-{
+impl<const D: usize> Places<'_, D> {
     /// Prescribes a component times a factor for each point.
     fn prescribe(
         &self,
@@ -196,7 +187,7 @@ where
         let (kind, (points, shape)) = match motion {
             Some(motion) => {
                 let direction = motion.map(|value| value / magnitude);
-                let direction = &direction[..Dim::COMPONENTS.len()];
+                let direction = &direction[..Component::in_dimensions(D).len()];
                 let shape = factors
                     .iter()
                     .flat_map(|factor| direction.iter().map(move |cosine| factor * cosine));
@@ -204,7 +195,7 @@ where
             }
             None => {
                 let (points, forces): (Vec<u32>, Vec<Wrench>) = given.at_points.into_iter().unzip();
-                let values = forces.iter().flat_map(|it| &it[..Dim::COMPONENTS.len()]);
+                let values = forces.iter().flat_map(|it| &it[..Component::in_dimensions(D).len()]);
                 let shares = values.map(|value| value / magnitude);
                 (ControlKind::Force, (points, shares.collect()))
             }
@@ -385,10 +376,7 @@ fn force_alone<const D: usize>(force: &[f64; D]) -> Wrench {
 }
 
 /// A couple without a force: in the plane about z alone.
-fn couple_alone<const D: usize>(couple: &Couple) -> Wrench
-where
-    Dim: Dimension<D>,
-{
+fn couple_alone<const D: usize>(couple: &Couple) -> Wrench {
     let about = |component: &Component| match component {
         Component::RotationX => couple.about[0],
         Component::RotationY => couple.about[1],
@@ -399,10 +387,7 @@ where
 }
 
 /// What the axis of a curve takes of prescribed motions: the displacements, or the rotations where these are zero.
-fn motion<const D: usize>(given: &Displacement) -> Wrench
-where
-    Dim: Dimension<D>,
-{
+fn motion<const D: usize>(given: &Displacement) -> Wrench {
     let is_turned = (given.components()).all(|(it, value)| it.is_rotation() || value == 0.0);
     let value = |component: &Component| {
         let mut values = given.components();
@@ -413,11 +398,8 @@ where
     of_components::<D>(value)
 }
 
-fn of_components<const D: usize>(value: impl Fn(&Component) -> f64) -> Wrench
-where
-    Dim: Dimension<D>,
-{
-    let components = Dim::COMPONENTS;
+fn of_components<const D: usize>(value: impl Fn(&Component) -> f64) -> Wrench {
+    let components = Component::in_dimensions(D);
     std::array::from_fn(|place| components.get(place).map_or(0.0, &value))
 }
 

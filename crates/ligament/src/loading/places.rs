@@ -3,22 +3,16 @@
 use ligament_model::PointCloud;
 
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{Dim, Dimension, Place, Reading, Setup};
+use crate::setup::{Place, Reading, Setup};
 
 /// A setup and the points of its body, to look places up in.
 #[derive(Clone, Copy)]
-pub(super) struct Places<'a, const D: usize>
-where
-    Dim: Dimension<D>,
-{
+pub(super) struct Places<'a, const D: usize> {
     pub(super) setup: &'a Setup<D>,
     pub(super) cloud: &'a PointCloud<D>,
 }
 
-impl<const D: usize> Places<'_, D>
-where
-    Dim: Dimension<D>,
-{
+impl<const D: usize> Places<'_, D> {
     /// Points of the place of a field, ascending.
     pub(super) fn points(&self, field: Field, place: &Place<D>) -> Result<Vec<u32>, SetupError> {
         let field = field.part("place");
@@ -93,10 +87,7 @@ where
 pub fn no_fail<const D: usize>(
     setup: &Setup<D>,
     cloud: &PointCloud<D>,
-) -> Result<Vec<bool>, SetupError>
-where
-    Dim: Dimension<D>,
-{
+) -> Result<Vec<bool>, SetupError> {
     let places = Places { setup, cloud };
     let mut marked = vec![false; cloud.len()];
     for (index, place) in setup.no_fail.iter().enumerate() {
@@ -108,10 +99,7 @@ where
 }
 
 /// Index of the material of each cell, shape (n_cells): every cell must have exactly one.
-pub fn material_of_cell<const D: usize>(setup: &Setup<D>) -> Result<Vec<u32>, SetupError>
-where
-    Dim: Dimension<D>,
-{
+pub fn material_of_cell<const D: usize>(setup: &Setup<D>) -> Result<Vec<u32>, SetupError> {
     let n_cells = setup.body.n_cells();
     let mut material_of_cell = vec![None; n_cells];
     for (index, region) in setup.materials.iter().enumerate() {
@@ -140,10 +128,7 @@ fn cells_of_group<const D: usize>(
     setup: &Setup<D>,
     field: Field,
     group: &str,
-) -> Result<Vec<u32>, SetupError>
-where
-    Dim: Dimension<D>,
-{
+) -> Result<Vec<u32>, SetupError> {
     let cells = setup.body.cells_of(group);
     let cells = cells.ok_or_else(|| field.error(unknown_group(setup, group)))?;
     if cells.is_empty() {
@@ -153,10 +138,7 @@ where
     Ok(cells)
 }
 
-fn unknown_group<const D: usize>(setup: &Setup<D>, name: &str) -> Fault
-where
-    Dim: Dimension<D>,
-{
+fn unknown_group<const D: usize>(setup: &Setup<D>, name: &str) -> Fault {
     Fault::UnknownName {
         what: setup.body.group_kind(),
         found: name.to_owned(),

@@ -1,9 +1,13 @@
 //! Probes of a setup on the points of its model.
 
 use ligament_analysis::probe;
-use ligament_model::{BondSet, Horizons, PointCloud, System};
+use ligament_model::bonds::precrack::{crossing_bonds, cut_bonds};
+use ligament_model::dimension::cast_ref;
+use ligament_model::tensor::{dot, minus};
+use ligament_model::{BondSet, BondSystem, Horizons, PointCloud, System};
 
-use crate::setup::{Dim, Dimension, Probe, Reading, Setup};
+use crate::precracks::cracks;
+use crate::setup::{Probe, Reading, Setup};
 
 /// A horizon that reaches farther than coordinates of meshes may, m.
 const EVERYWHERE: f64 = 1e120;
@@ -13,10 +17,7 @@ pub(super) fn on<const D: usize>(
     probe: &Probe<D>,
     setup: &Setup<D>,
     system: &dyn System<D>,
-) -> probe::Probe
-where
-    Dim: Dimension<D>,
-{
+) -> probe::Probe {
     let shares = |position: [f64; D]| shares(position, setup, &system.cloud);
     let reading = match probe.reading {
         Reading::Between {
@@ -31,7 +32,7 @@ where
             field,
         },
         Reading::Section { line, component } => probe::Reading::SectionForce {
-            bonds: Dim::crossing(system, line),
+            bonds: crossing(system, line),
             component: component.displacement(),
         },
     };
@@ -47,10 +48,7 @@ fn shares<const D: usize>(
     position: [f64; D],
     setup: &Setup<D>,
     cloud: &PointCloud<D>,
-) -> Vec<(u32, f64)>
-where
-    Dim: Dimension<D>,
-{
+) -> Vec<(u32, f64)> {
     let nearest = || vec![(cloud.nearest_point(position), 1.0)];
     let Some(shares) = setup.body.shares_at(position) else {
         return nearest();
@@ -66,7 +64,9 @@ where
     let n = places.len();
     let few = PointCloud::from_points(&places, &vec![1.0; n], 1.0, &vec![0; n], 1);
     let pairs = BondSet::search(&few, &Horizons::unified(EVERYWHERE, n));
-    let parted = Dim::parted((&*setup.body, setup.precracks.as_slice()), &pairs, &few);
+    // What is wrong with a surface was told when the model was made.
+    let cracks = cracks(&*setup.body, &setup.precracks).unwrap_or_default();
+    let parted = cut_bonds(&cracks, &pairs, &few);
     if !parted.contains(&true) {
         return shares;
     }
@@ -76,4 +76,23 @@ where
     best.map_or_else(nearest, |((ends, _), _)| {
         vec![(shares[ends[1] as usize - 1].0, 1.0)]
     })
+}
+
+/// Bonds through a line of the plane, or through a plane of space given by a point and one before it, and whether their first end lies on
+/// its left or behind it; a point on the plane lies beyond it. Bonds that pre-cracks cut count where faces close.
+fn crossing<const D: usize>(system: &BondSystem<D>, [start, end]: [[f64; D]; 2]) -> Vec<(u32, bool)> {
+    let (faces, cloud) = (&system.faces, &system.cloud);
+    let cut = faces.cut().iter().filter(|_| faces.close());
+    let ends = system.bonds.ends.iter().copied();
+    let ends = ends.chain(cut.map(|it| it.ends));
+    if let Some(cloud) = cast_ref::<_, PointCloud>(cloud) {
+        let [start, end] = [start, end].map(|it| std::array::from_fn(|axis| it[axis]));
+        return crossing_bonds(ends, cloud, start, end);
+    }
+    let [point, before] = [start, end].map(|it| cloud.local(it));
+    let normal = minus(before, point);
+    let is_before = |end: u32| dot(minus(cloud.positions[end as usize], point), normal) > 0.0;
+    let sides = ends.map(|ends| ends.map(is_before));
+    let crossing = (0..).zip(sides).filter(|(_, [first, second])| first != second);
+    crossing.map(|(bond, [_, second])| (bond, second)).collect()
 }

@@ -11,15 +11,12 @@ use ligament_model::System;
 use super::boundary::{Acting, boundary};
 use super::restraints::restrained;
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{self, Analysis, Dim, Dimension, Quantity, Setup, Stage};
+use crate::setup::{self, Analysis, Quantity, Setup, Stage};
 
 /// Shares of a stage that are nearer to each other are one.
 const SAME: f64 = 1e-9;
 
-impl<const D: usize> Setup<D>
-where
-    Dim: Dimension<D>,
-{
+impl<const D: usize> Setup<D> {
     /// Index of the load that is the axis of the force-displacement curve; None for the temperature.
     pub(crate) fn curve_load(&self) -> Option<usize> {
         match &self.curve {
@@ -51,10 +48,7 @@ pub(super) fn staged<const D: usize>(
     setup: &Setup<D>,
     system: &dyn System<D>,
     probes: &[Probe],
-) -> Result<Option<StagedLoading>, SetupError>
-where
-    Dim: Dimension<D>,
-{
+) -> Result<Option<StagedLoading>, SetupError> {
     if setup.stages.is_empty() {
         return Ok(None);
     }
@@ -82,10 +76,7 @@ where
 }
 
 /// The parts of all stages with what controls them.
-fn controlled_parts<const D: usize>(setup: &Setup<D>, layout: Layout, probes: &[Probe]) -> Vec<Part>
-where
-    Dim: Dimension<D>,
-{
+fn controlled_parts<const D: usize>(setup: &Setup<D>, layout: Layout, probes: &[Probe]) -> Vec<Part> {
     let mut parts = parts(setup);
     for part in &mut parts {
         let control = setup.stages[part.stage].control.as_ref();
@@ -113,10 +104,7 @@ fn motion(of: &[(String, f64)], end: f64, layout: Layout, probes: &[Probe]) -> M
 }
 
 /// The parts of all stages, without what controls them.
-fn parts<const D: usize>(setup: &Setup<D>) -> Vec<Part>
-where
-    Dim: Dimension<D>,
-{
+fn parts<const D: usize>(setup: &Setup<D>) -> Vec<Part> {
     let names = setup.factor_names();
     let mut parts = Vec::new();
     let mut factors = vec![0.0; names.len()];
@@ -167,10 +155,7 @@ fn moved_by_one<const D: usize>(
     setup: &Setup<D>,
     layout: Layout,
     loads: &[ProportionalLoading],
-) -> Result<(), SetupError>
-where
-    Dim: Dimension<D>,
-{
+) -> Result<(), SetupError> {
     for dof in 0..layout.n_degrees_of_freedom() {
         let moves = |load: &usize| loads[*load].prescribed[dof].is_some_and(|it| it != 0.0);
         let mut movers = (0..loads.len()).filter(moves);

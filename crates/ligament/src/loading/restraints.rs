@@ -1,12 +1,13 @@
 //! Springs, inclined rollers and platens of a setup on the points of its body.
 
-use ligament_analysis::{ProportionalLoading, Restraint, Restraints};
+use ligament_analysis::{Component, ProportionalLoading, Restraint, Restraints};
 use ligament_model::System;
+use ligament_model::tensor::directions_across;
 
 use super::boundary::Acting;
 use super::places::Places;
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{Action, Dim, Dimension, Load, Setup, Support};
+use crate::setup::{Action, Load, Setup, Support};
 
 /// Stiffness of inclined rollers and platens over that of a point against its neighbours: they give way by one in this of what the bonds
 /// of a point do, and a force loses no more digits than it can spare.
@@ -18,10 +19,7 @@ pub(super) fn restrained<const D: usize>(
     system: &dyn System<D>,
     loading: ProportionalLoading,
     acting: Acting,
-) -> Result<ProportionalLoading, SetupError>
-where
-    Dim: Dimension<D>,
-{
+) -> Result<ProportionalLoading, SetupError> {
     let loading = loading.reduced(system.layout());
     let is_restrained = setup.supports.iter().any(Support::is_restraint);
     if !is_restrained && !setup.loads.iter().any(Load::is_restraint) {
@@ -56,10 +54,7 @@ where
 }
 
 /// Restraints so far.
-struct Restraining<'a, const D: usize>
-where
-    Dim: Dimension<D>,
-{
+struct Restraining<'a, const D: usize> {
     places: Places<'a, D>,
     system: &'a dyn System<D>,
     /// Stiffness at each point that counts as rigid, shape (n_points), N/m.
@@ -69,10 +64,7 @@ where
     driving: Vec<f64>,
 }
 
-impl<const D: usize> Restraining<'_, D>
-where
-    Dim: Dimension<D>,
-{
+impl<const D: usize> Restraining<'_, D> {
     fn support(&mut self, field: Field, support: &Support<D>) -> Result<(), SetupError> {
         let points = self.places.points(field, &support.place)?;
         let shares = self.places.shares(&support.place, &points);
@@ -198,7 +190,7 @@ where
     /// The ways in which some points may tilt about their middle across a direction: one in the plane, two in space, which share nothing.
     fn tilts(&self, points: &[u32], direction: [f64; D]) -> Vec<Tilt> {
         let mut tilts: Vec<Tilt> = Vec::new();
-        for across in Dim::across(direction) {
+        for across in directions_across(direction) {
             let place = |&point: &u32| {
                 let position = self.places.cloud.positions[point as usize].iter();
                 position.zip(across).map(|(x, cosine)| x * cosine).sum()
@@ -224,7 +216,7 @@ where
         let layout = self.system.layout();
         let mut far_ends = vec![0.0; self.driving.len()];
         for (&point, factor) in points.iter().zip(factors) {
-            for (component, value) in Dim::COMPONENTS.iter().zip(motion) {
+            for (component, value) in Component::in_dimensions(D).iter().zip(motion) {
                 if let Some(dof) = layout.degree_of_freedom(point, *component) {
                     far_ends[dof] = factor * value;
                 }
@@ -242,7 +234,7 @@ where
     /// The displacement of a point along a direction times a factor: its degrees of freedom with their parts in it.
     fn along(&self, direction: [f64; D], point: u32, factor: f64) -> Vec<(u32, f64)> {
         let layout = self.system.layout();
-        let parts = Dim::COMPONENTS.iter().copied().zip(direction);
+        let parts = Component::in_dimensions(D).iter().copied().zip(direction);
         let parts = parts.filter(|(_, cosine)| *cosine != 0.0);
         let part = |(component, cosine)| {
             let dof = layout.degree_of_freedom(point, component)?;

@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 use std::fmt::Debug;
 
+use ligament_analysis::Component;
 use ligament_model::correction::patch;
-use ligament_model::{Anisotropic, Elasticity, Isotropic, Material, Orthotropic};
+use ligament_model::{Anisotropic, Elasticity, Isotropic, Material, Orthotropic, Plane};
 
-use super::dimension::{Dim, Dimension};
 use super::{
     Action, Alpha, Analysis, Calibration, CorrectionDomain, Couple, Horizon, Law, Load, Place,
 };
@@ -16,32 +16,13 @@ use crate::error::{Fault, Field, SetupError};
 
 pub(super) type Checked = Result<(), SetupError>;
 
-/// What a setup is checked for in D dimensions alone.
-pub trait Checks<const D: usize>
-where
-    Dim: Dimension<D>,
-{
-    /// Checks what a setup has in these dimensions alone.
-    ///
-    /// # Errors
-    ///
-    /// If a field is out of range, missing, or does not go with another.
-    fn check(setup: &Setup<D>) -> Result<(), SetupError>;
-}
-
-impl<const D: usize> Setup<D>
-where
-    Dim: Dimension<D>,
-{
+impl<const D: usize> Setup<D> {
     /// Checks that the fields of the setup make sense and go together. Groups are looked up when the model is built.
     ///
     /// # Errors
     ///
     /// If a field is out of range, missing, or does not go with another.
-    pub fn check(&self) -> Checked
-    where
-        Dim: Checks<D>,
-    {
+    pub fn check(&self) -> Checked {
         match self.horizon {
             Horizon::Factor(factor) => require(
                 factor >= 1.0 && factor.is_finite(),
@@ -60,7 +41,7 @@ where
         }
         self.check_criteria()?;
         self.check_scatter()?;
-        Dim::check(self)?;
+        self.check_dimension()?;
         self.check_correction()?;
         self.check_load_factors()?;
         self.check_stages()?;
@@ -117,7 +98,7 @@ where
             return contradiction(elasticity, reason);
         }
         // Six constants are those of the plane whichever it is, and so is what the temperature does to it.
-        if matches!(material.elasticity, Elasticity::Anisotropic(_)) || !Dim::widens(&self.section)
+        if matches!(material.elasticity, Elasticity::Anisotropic(_)) || self.space() != Plane::Strain.into()
         {
             return Ok(());
         }
@@ -343,10 +324,7 @@ fn check_anisotropic(field: Field, constants: &Anisotropic) -> Checked {
 const NOT_IDLE: &str = "other than 0, or the load does nothing";
 
 /// A load does something, along a curve where it is spread along one.
-fn check_load<const D: usize>(field: Field, load: &Load<D>) -> Checked
-where
-    Dim: Dimension<D>,
-{
+fn check_load<const D: usize>(field: Field, load: &Load<D>) -> Checked {
     if let Some(profile) = load.profile {
         require(
             profile.one != profile.zero,
@@ -367,7 +345,7 @@ where
         | Action::Acceleration(vector)
             if vector == [0.0; D] =>
         {
-            return contradiction(action, Dim::IDLE_VECTOR);
+            return contradiction(action, idle_vector::<D>());
         }
         Action::Moment(couple) | Action::BodyCouple(couple) => {
             require_couple::<D>(action, couple)?;
@@ -410,12 +388,17 @@ fn require_couple<const D: usize>(action: Field, Couple { about }: Couple) -> Ch
     }
 }
 
+/// What is wrong with a vector of zeros.
+fn idle_vector<const D: usize>() -> &'static str {
+    match D {
+        2 => "this load does nothing: neither `x` nor `y` is given a value",
+        _ => "this load does nothing: none of `x`, `y` and `z` is given a value",
+    }
+}
+
 /// What is wrong with a displacement without a component.
-fn no_component<const D: usize>() -> String
-where
-    Dim: Dimension<D>,
-{
-    let names = Dim::COMPONENTS.iter().map(|it| format!("`{}`", it.name()));
+fn no_component<const D: usize>() -> String {
+    let names = Component::in_dimensions(D).iter().map(|it| format!("`{}`", it.name()));
     format!(
         "needs one of {} or more",
         names.collect::<Vec<_>>().join(", ")

@@ -1,14 +1,10 @@
 //! What may control a stage, and what it goes together with.
 
 use super::check::{Checked, contradiction, require};
-use super::dimension::{Dim, Dimension};
 use super::{Analysis, Control, Course, Quantity, Setup, Stage};
 use crate::error::{Fault, Field};
 
-impl<const D: usize> Setup<D>
-where
-    Dim: Dimension<D>,
-{
+impl<const D: usize> Setup<D> {
     pub(super) fn check_control(&self, field: Field, stage: &Stage, control: &Control) -> Checked {
         let part = field.part("control");
         match &control.quantity {

@@ -1,15 +1,11 @@
 //! What stages must be, and what they go together with.
 
 use super::check::{Checked, contradiction, require, require_unique};
-use super::dimension::{Dim, Dimension};
 use super::stage::TEMPERATURE;
 use super::{Analysis, Course, Setup, Stage};
 use crate::error::{Fault, Field};
 
-impl<const D: usize> Setup<D>
-where
-    Dim: Dimension<D>,
-{
+impl<const D: usize> Setup<D> {
     pub(super) fn check_stages(&self) -> Checked {
         let name = self.curve.as_deref();
         if let Some(name) = name.filter(|name| !self.factor_names().iter().any(|it| it == name)) {

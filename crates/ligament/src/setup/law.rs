@@ -1,8 +1,10 @@
 //! The bond law, with what each law leaves open.
 
 use ligament_model::law::bbpd;
+use ligament_model::law::beam::ShearForm;
 use ligament_model::law::rotational::{Profile, RotationalStiffness};
-use ligament_model::{Elasticity, ElementKind, Isotropic, Material, Plane};
+use ligament_model::material::Space;
+use ligament_model::{Elasticity, ElementKind, Isotropic, Material};
 
 /// A bond law with its open choices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -225,21 +227,46 @@ impl Law {
         matches!(self, Self::Bbpd { .. } | Self::BbpdConical { .. })
     }
 
-    /// Elastic constants that the law makes of a material in the plane: Young's modulus with the Poisson's ratio of central forces where the
-    /// law knows no other. None for a material with axes.
-    pub fn constants(&self, material: &Material, plane: Plane) -> Option<Isotropic> {
+    /// Elastic constants that the law makes of a material: Young's modulus with the Poisson's ratio of central forces where the law knows no
+    /// other. None for a material with axes.
+    pub fn constants(&self, material: &Material, space: Space) -> Option<Isotropic> {
         let given = material.elasticity.isotropic()?;
         Some(if self.fixes_poisson() {
-            bbpd::central(&given, plane)
+            bbpd::central(&given, space)
         } else {
             given
         })
     }
 
-    /// Elasticity of a material in the plane with the constants that the law makes of its own.
-    pub fn effective_elasticity(&self, material: &Material, plane: Plane) -> Elasticity {
-        let constants = self.constants(material, plane);
+    /// Elasticity of a material with the constants that the law makes of its own.
+    pub fn effective_elasticity(&self, material: &Material, space: Space) -> Elasticity {
+        let constants = self.constants(material, space);
         constants.map_or(material.elasticity, Elasticity::Isotropic)
+    }
+
+    /// Whether the law exists in a space.
+    pub fn exists_in(&self, space: Space) -> bool {
+        match self {
+            Self::Nhpd
+            | Self::Bbpd { .. }
+            | Self::BbpdConical { .. }
+            | Self::Pds { .. }
+            | Self::Mppd { .. }
+            | Self::MppdBeam { .. } => true,
+            Self::Orthotropic { .. } | Self::MbbPd { .. } => matches!(space, Space::Plane(_)),
+        }
+    }
+
+    /// Form of the shear stiffness over the length of bonds between points that turn; none between others.
+    pub fn shear_form(&self, space: Space) -> Option<ShearForm> {
+        match self {
+            Self::Nhpd => Some(ShearForm::of_nhpd(space)),
+            Self::MppdBeam { .. } => Some(ShearForm::Falling),
+            Self::Mppd { .. } | Self::Orthotropic { .. } => Some(ShearForm::Constant),
+            Self::Bbpd { .. } | Self::BbpdConical { .. } | Self::Pds { .. } | Self::MbbPd { .. } => {
+                None
+            }
+        }
     }
 
     /// Kinematics of its bonds.

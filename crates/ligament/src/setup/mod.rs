@@ -3,13 +3,13 @@
 mod analysis;
 pub(crate) mod check;
 mod check_control;
-mod check_plane;
+mod check_dimension;
 mod check_stages;
 mod closing;
 mod conditions;
 mod correction;
-mod dimension;
 mod law;
+mod precrack;
 mod probe;
 mod restraint;
 mod rotation;
@@ -23,20 +23,20 @@ use std::sync::Arc;
 use ligament_analysis::SolverSettings;
 use ligament_model::failure::Choice;
 use ligament_model::law::rotational::RotationalScale;
+use ligament_model::material::Space;
 use ligament_model::{Elasticity, Horizons, Isotropic, Material, Plane, PointCloud, Scatter};
 
 use crate::body::Body;
 use crate::implausible::Implausible;
 
 pub use analysis::{Analysis, ELASTIC_ENERGY_TOLERANCE, event, modal, stepped};
-pub use check::Checks;
 pub use conditions::{
     Action, Axis, Couple, Displacement, Load, Place, Profile, SpringStiffness, Support,
     begins_as_formula,
 };
 pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
-pub use dimension::{Dim, Dimension};
 pub use law::{Calibration, Form, Law, Open, Strains};
+pub use precrack::{CrackShape, PreCrack};
 pub use probe::{Probe, Reading};
 pub use section::Section;
 pub use stage::{Control, Course, Quantity, Stage};
@@ -48,14 +48,11 @@ pub use temperature::{Sample, Temperature, TemperatureChange};
 /// Lengths are in metres, forces in newtons, all else in SI units. Positions are in the coordinates of the body.
 /// [`Setup::new`] fills in what need not be said; every field can be set afterwards.
 #[derive(Debug, Clone)]
-pub struct Setup<const D: usize = 2>
-where
-    Dim: Dimension<D>,
-{
+pub struct Setup<const D: usize = 2> {
     /// Points with their groups: from a mesh, a lattice or arrays.
     pub body: Arc<dyn Body<D>>,
-    /// Section of a body in the plane: what a point stands for across it.
-    pub section: <Dim as Dimension<D>>::Section,
+    /// Section of the body.
+    pub section: Section,
     /// Materials: one without a group for the whole body, or one for each of some groups.
     pub materials: Vec<MaterialRegion>,
     /// Bond law.
@@ -69,7 +66,7 @@ where
     /// Corrections of the bonds.
     pub correction: Correction,
     /// Cracks that are there from the start.
-    pub precracks: Vec<<Dim as Dimension<D>>::PreCrack>,
+    pub precracks: Vec<PreCrack>,
     /// Whether the faces of pre-cracks and of broken bonds carry pressure again where they close; of laws whose points turn.
     pub closing: bool,
     /// Parts of the body where bonds never fail.
@@ -119,16 +116,13 @@ pub enum Horizon {
     Length(f64),
 }
 
-impl<const D: usize> Setup<D>
-where
-    Dim: Dimension<D>,
-{
+impl<const D: usize> Setup<D> {
     /// The elastic analysis of a body of one material, horizon factor 3 and the correction of the law's paper; nothing holds it and nothing
     /// loads it yet. A body in the plane is in plane stress and 1 m thick.
     pub fn new(body: impl Body<D> + 'static, material: Material, law: Law) -> Self {
         Self {
             body: Arc::new(body),
-            section: Dim::SECTION,
+            section: Section::usual::<D>(),
             materials: vec![MaterialRegion {
                 group: None,
                 material,
@@ -190,17 +184,20 @@ where
     }
 }
 
-impl Setup {
-    /// State of the plane.
-    pub fn plane(&self) -> Plane {
-        let Section::Plane { state, .. } = self.section;
-        state
+impl<const D: usize> Setup<D> {
+    /// The space in which the body deforms.
+    pub fn space(&self) -> Space {
+        self.section.space()
     }
 
-    /// Thickness of the body, m.
+    /// State of the plane; plane strain in a solid.
+    pub fn plane(&self) -> Plane {
+        self.space().plane()
+    }
+
+    /// Thickness of the body, m; 1 of a solid.
     pub fn thickness(&self) -> f64 {
-        let Section::Plane { thickness, .. } = self.section;
-        thickness
+        self.section.thickness()
     }
 }
 

@@ -2,7 +2,6 @@
 
 use super::check::{Checked, contradiction, positive};
 use super::conditions::axis_along;
-use super::dimension::{Dim, Dimension};
 use super::{Action, Analysis, Form, Law, Load, Setup, Support};
 use crate::error::Field;
 
@@ -28,10 +27,7 @@ impl<const D: usize> Load<D> {
     }
 }
 
-impl<const D: usize> Setup<D>
-where
-    Dim: Dimension<D>,
-{
+impl<const D: usize> Setup<D> {
     pub(super) fn check_restraints(&self) -> Checked {
         for (index, support) in self.supports.iter().enumerate() {
             let field = Field::element("supports", index);

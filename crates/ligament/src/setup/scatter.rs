@@ -4,13 +4,9 @@ use ligament_model::scatter::{Distribution, Scattered};
 
 use super::Setup;
 use super::check::{Checked, contradiction, require};
-use super::dimension::{Dim, Dimension};
 use crate::error::Field;
 
-impl<const D: usize> Setup<D>
-where
-    Dim: Dimension<D>,
-{
+impl<const D: usize> Setup<D> {
     /// Factors are positive, and some criterion feels them.
     pub(super) fn check_scatter(&self) -> Checked {
         let Some(scatter) = self.scatter else {

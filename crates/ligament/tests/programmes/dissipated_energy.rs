@@ -13,7 +13,7 @@ const FRACTURE_ENERGY: f64 = 100.0;
 
 /// A bar of 30 by 8 cells of 1 mm, 1 m thick, that two notches leave 4 mm of, pulled by 0.2 mm at its right end.
 fn bar(law: softening::Law, analysis: Analysis, stage: Stage) -> Setup {
-    let sets = [("left", CellSet::Left(2)), ("right", CellSet::Right(2))];
+    let sets = [("left", CellSet::left(2)), ("right", CellSet::right(2))];
     let sets = sets.map(|(name, set)| (name.to_owned(), set)).into();
     let body = LatticeBody::new([30, 8], [0.001; 2], [0.0; 2], &[], &sets).unwrap();
     let mut material = Material::isotropic(30e9, 0.2);

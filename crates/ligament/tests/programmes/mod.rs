@@ -29,10 +29,10 @@ fn plate(analysis: Analysis, stages: Vec<Stage>) -> Setup {
         },
     };
     let sets = [
-        ("left", CellSet::Left(1)),
-        ("right", CellSet::Right(1)),
-        ("bottom", CellSet::Bottom(1)),
-        ("top", CellSet::Top(1)),
+        ("left", CellSet::left(1)),
+        ("right", CellSet::right(1)),
+        ("bottom", CellSet::bottom(1)),
+        ("top", CellSet::top(1)),
     ];
     let sets = sets.map(|(name, set)| (name.to_owned(), set)).into();
     let body = LatticeBody::new([12, 12], [0.01; 2], [0.0; 2], &[hole], &sets).unwrap();

@@ -42,7 +42,7 @@ pub(crate) fn uniform_strains<const D: usize>() -> impl Iterator<Item = SymTenso
 
 impl<const D: usize> CellForces<D> {
     /// No forces on some points, of materials with a stiffness.
-    pub(super) fn none(n_points: usize, stiffness: Vec<Stiffness>) -> Self {
+    pub fn none(n_points: usize, stiffness: Vec<Stiffness>) -> Self {
         Self {
             values: vec![[0.0; D]; SymTensor::<D>::COMPONENTS.len() * n_points],
             stiffness,

@@ -8,7 +8,7 @@ use ligament_model::thermal::FreeStrains;
 
 use super::places::Places;
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{Dim, Dimension, Place, Temperature, TemperatureChange};
+use crate::setup::{Place, Temperature, TemperatureChange};
 
 /// A body that is heated or cooled, at load factor 1.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,10 +31,7 @@ enum Change {
 ///
 /// A temperature holds on the whole body, the cells of a group, or the points of a box or curve; of those that reach, the last
 /// one holds. A point with cells of several groups has the mean by its volume in them.
-pub(super) fn heating<const D: usize>(places: &Places<'_, D>) -> Result<Option<Heating>, SetupError>
-where
-    Dim: Dimension<D>,
-{
+pub(super) fn heating<const D: usize>(places: &Places<'_, D>) -> Result<Option<Heating>, SetupError> {
     let (sections, cloud) = (&places.setup.temperatures, places.cloud);
     if sections.is_empty() {
         return Ok(None);
@@ -75,10 +72,7 @@ impl Reach {
     fn over<const D: usize>(
         places: &Places<'_, D>,
         sections: &[Temperature<D>],
-    ) -> Result<Self, SetupError>
-    where
-        Dim: Dimension<D>,
-    {
+    ) -> Result<Self, SetupError> {
         let (body, cloud) = (&places.setup.body, places.cloud);
         let mut of_cell = vec![0; body.n_cells()];
         let mut of_point = vec![0; cloud.len()];
@@ -117,10 +111,7 @@ impl Reach {
     }
 }
 
-impl<const D: usize> Places<'_, D>
-where
-    Dim: Dimension<D>,
-{
+impl<const D: usize> Places<'_, D> {
     fn change(&self, index: usize, section: &Temperature<D>) -> Result<Change, SetupError> {
         let field = Field::element("temperatures", index);
         let body = &*self.setup.body;
@@ -165,10 +156,7 @@ impl Missing {
         &self,
         places: &Places<'_, D>,
         changes: &[Change],
-    ) -> Result<(), SetupError>
-    where
-        Dim: Dimension<D>,
-    {
+    ) -> Result<(), SetupError> {
         let Some((section, point, count)) = self.first else {
             return Ok(());
         };
@@ -189,13 +177,14 @@ impl Missing {
 fn thermal_strain<const D: usize>(
     places: &Places<'_, D>,
     change: &[f64],
-) -> Result<FreeStrains, SetupError>
-where
-    Dim: Dimension<D>,
-{
+) -> Result<FreeStrains, SetupError> {
     let (setup, cloud) = (places.setup, places.cloud);
     let per_kelvin: Vec<Option<SymTensor<D>>> = (setup.materials.iter())
-        .map(|it| Dim::free_strain(&setup.section, &setup.law, &it.material))
+        .map(|it| {
+            let elasticity = setup.law.effective_elasticity(&it.material, setup.space());
+            let expansion = it.material.expansion?;
+            Some(expansion.free_strain(&elasticity, setup.space()))
+        })
         .collect();
     let at_point = |(point, &change): (usize, &f64)| {
         let mut strain = SymTensor::ZERO;

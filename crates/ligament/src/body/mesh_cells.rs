@@ -1,0 +1,219 @@
+//! Cells of a meshed body in the plane and in space: what their geometry has apart.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Debug;
+
+use ligament_mesh::{Cell, Faces, Group, Mesh, MeshCell, SolidCell, SolidMesh};
+use ligament_model::bonds::outline::{Outline, PlaneOutline, SolidOutline};
+use ligament_model::bonds::parts::{PlaneCells, Tetrahedra};
+use ligament_model::correction::patch::{self, CellForces};
+use ligament_model::material::Stiffness;
+use ligament_model::{BondSet, Canvas, PointCloud};
+
+use super::interface::{OffOutline, Origin};
+
+/// Geometry of the cells of a meshed body in D dimensions.
+pub trait BodyCell<const D: usize>: MeshCell<D> + Debug + Send + 'static {
+    /// The outline of a body of such cells.
+    type Outline: Outline<D>;
+
+    /// A mesh as the origin of a body.
+    fn origin(mesh: &Mesh<D, Self>) -> Origin<'_>;
+
+    /// The outline of some cells between the points of a cloud.
+    fn outline(cells: &[Self], cloud: &PointCloud<D>) -> Self::Outline;
+
+    /// Bonds followed through cells with the index of the material of each (n_cells).
+    fn composed(
+        bonds: BondSet<D>,
+        cells: &[Self],
+        cloud: &PointCloud<D>,
+        materials: &[u32],
+    ) -> BondSet<D>;
+
+    /// Forces of uniform strains on the points of a cloud, with the index of the material of each cell (n_cells).
+    fn forces(
+        cells: &[Self],
+        cloud: &PointCloud<D>,
+        material_of_cell: &[u32],
+        stiffness: Vec<Stiffness>,
+    ) -> CellForces<D>;
+
+    /// Corners of the sides that one cell has alone, edges with the cell on their left or triangles seen from outside counter-clockwise.
+    fn outer_sides(cells: &[Self], n_points: usize) -> Vec<[u32; D]>;
+
+    /// Outward normals of the sides of some groups times their lengths, in space their areas, in parts at their nodes.
+    ///
+    /// # Errors
+    ///
+    /// If a side of the groups is none of the outline.
+    fn outward(
+        mesh: &Mesh<D, Self>,
+        groups: &[&Group],
+    ) -> Result<Vec<(u32, [f64; D])>, OffOutline>;
+
+    /// Area of some faces in parts at their nodes, m^2; none in the plane.
+    fn areas_at_nodes(mesh: &Mesh<D, Self>, faces: &[Cell]) -> Vec<(u32, f64)>;
+
+    /// Nodes and their shares in a value at a position (m), by the cell around it.
+    fn shares_at(mesh: &Mesh<D, Self>, position: [f64; D]) -> Option<Vec<(u32, f64)>>;
+
+    /// The cells as result files show them.
+    fn canvas(cells: &[Self]) -> Canvas;
+}
+
+impl BodyCell<2> for Cell {
+    type Outline = PlaneOutline;
+
+    fn origin(mesh: &Mesh) -> Origin<'_> {
+        Origin::Mesh(mesh)
+    }
+
+    fn outline(cells: &[Self], cloud: &PointCloud) -> PlaneOutline {
+        PlaneOutline::of_cells(cells, cloud)
+    }
+
+    fn composed(bonds: BondSet, cells: &[Self], cloud: &PointCloud, materials: &[u32]) -> BondSet {
+        let cells = PlaneCells {
+            cells,
+            cloud,
+            materials,
+        };
+        bonds.through(&cells, cloud)
+    }
+
+    fn forces(
+        cells: &[Self],
+        cloud: &PointCloud,
+        material_of_cell: &[u32],
+        stiffness: Vec<Stiffness>,
+    ) -> CellForces {
+        patch::of_mesh(cells, cloud, material_of_cell, stiffness)
+    }
+
+    fn outer_sides(cells: &[Self], _: usize) -> Vec<[u32; 2]> {
+        let edges = edges_of(cells).into_values();
+        edges
+            .filter(|(n_cells, _)| *n_cells == 1)
+            .map(|(_, edge)| edge)
+            .collect()
+    }
+
+    /// Half of the normal of each edge at each of its nodes.
+    fn outward(mesh: &Mesh, groups: &[&Group]) -> Result<Vec<(u32, [f64; 2])>, OffOutline> {
+        let edges = groups.iter().flat_map(|group| &group.edges);
+        let edges: BTreeSet<[u32; 2]> = edges.map(|&edge| ascending(edge)).collect();
+        if edges.is_empty() {
+            return Ok(Vec::new());
+        }
+        let of_cells = edges_of(&mesh.cells);
+        let mut normals = BTreeMap::new();
+        for edge in edges {
+            let (cells, along) = of_cells.get(&edge).copied().unwrap_or((0, edge));
+            let [p, q] = along.map(|node| mesh.positions[node as usize]);
+            if cells != 1 {
+                return Err(OffOutline {
+                    side: "edge",
+                    nodes: edge.map(|node| mesh.node_tags[node as usize]).to_vec(),
+                    middle: (0..2).map(|axis| 0.5 * (p[axis] + q[axis])).collect(),
+                    cells,
+                });
+            }
+            // Corners stand counter-clockwise: the outside is on the right.
+            let half = [0.5 * (q[1] - p[1]), 0.5 * (p[0] - q[0])];
+            for node in edge {
+                let sum = normals.entry(node).or_insert([0.0; 2]);
+                *sum = [0, 1].map(|axis| sum[axis] + half[axis]);
+            }
+        }
+        Ok(normals.into_iter().collect())
+    }
+
+    fn areas_at_nodes(_: &Mesh, _: &[Cell]) -> Vec<(u32, f64)> {
+        Vec::new()
+    }
+
+    fn shares_at(mesh: &Mesh, position: [f64; 2]) -> Option<Vec<(u32, f64)>> {
+        mesh.shares_at(position)
+    }
+
+    fn canvas(cells: &[Self]) -> Canvas {
+        Canvas::Between(cells.to_vec())
+    }
+}
+
+impl BodyCell<3> for SolidCell {
+    type Outline = SolidOutline;
+
+    fn origin(mesh: &SolidMesh) -> Origin<'_> {
+        Origin::SolidMesh(mesh)
+    }
+
+    fn outline(cells: &[Self], cloud: &PointCloud<3>) -> SolidOutline {
+        SolidOutline::of_cells(cells, cloud)
+    }
+
+    fn composed(
+        bonds: BondSet<3>,
+        cells: &[Self],
+        cloud: &PointCloud<3>,
+        materials: &[u32],
+    ) -> BondSet<3> {
+        bonds.through(&Tetrahedra::new(cells, cloud, materials), cloud)
+    }
+
+    fn forces(
+        cells: &[Self],
+        cloud: &PointCloud<3>,
+        material_of_cell: &[u32],
+        stiffness: Vec<Stiffness>,
+    ) -> CellForces<3> {
+        patch::of_solid_mesh(cells, cloud, material_of_cell, stiffness)
+    }
+
+    fn outer_sides(cells: &[Self], n_points: usize) -> Vec<[u32; 3]> {
+        let outer = Faces::new(cells, n_points).outer();
+        outer.iter().flat_map(|it| it.face.triangles()).collect()
+    }
+
+    fn outward(mesh: &SolidMesh, groups: &[&Group]) -> Result<Vec<(u32, [f64; 3])>, OffOutline> {
+        let faces: Vec<Cell> = groups.iter().flat_map(|it| &it.faces).copied().collect();
+        mesh.outward_areas(&faces).map_err(|it| OffOutline {
+            side: "face",
+            nodes: it.nodes,
+            middle: it.middle.to_vec(),
+            cells: it.cells,
+        })
+    }
+
+    fn areas_at_nodes(mesh: &SolidMesh, faces: &[Cell]) -> Vec<(u32, f64)> {
+        mesh.areas_at_nodes(faces)
+    }
+
+    fn shares_at(mesh: &SolidMesh, position: [f64; 3]) -> Option<Vec<(u32, f64)>> {
+        mesh.shares_at(position)
+    }
+
+    fn canvas(cells: &[Self]) -> Canvas {
+        Canvas::Solid(cells.to_vec())
+    }
+}
+
+/// For each edge of a cell, by its nodes in ascending order, how many cells have it, and the nodes in the order in which the last of these
+/// cells, on their left, goes along it.
+fn edges_of(cells: &[Cell]) -> BTreeMap<[u32; 2], (usize, [u32; 2])> {
+    let mut edges = BTreeMap::new();
+    for cell in cells {
+        let corners = cell.corners();
+        let next = corners.iter().cycle().skip(1);
+        for (&from, &to) in corners.iter().zip(next) {
+            let edge = edges.entry(ascending([from, to])).or_insert((0, [0; 2]));
+            *edge = (edge.0 + 1, [from, to]);
+        }
+    }
+    edges
+}
+
+fn ascending([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}

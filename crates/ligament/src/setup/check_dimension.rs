@@ -1,0 +1,221 @@
+//! What a setup says must exist in the dimension of its body.
+
+use ligament_analysis::Component;
+use ligament_analysis::probe::PointField;
+use ligament_model::Elasticity;
+use ligament_model::horizon::INCLUSION_TOLERANCE;
+use ligament_model::law::rotational::RotationalScale;
+use ligament_model::material::Space;
+
+use super::check::{Checked, contradiction, positive, require};
+use super::{
+    Action, Analysis, CrackShape, Displacement, Form, Law, Reading, Section, Setup, Strains,
+};
+use crate::body::Origin;
+use crate::error::Field;
+
+/// What is wrong with a z axis in the plane.
+const NO_Z: &str = "a body in the plane has no z: give \"x\" or \"y\"";
+
+/// What is wrong with a motion that points in a space do not have.
+fn no_motion(space: Space) -> &'static str {
+    match space {
+        Space::Plane(_) => {
+            "a body in the plane moves by `x`, `y` and `rotation`: the others are those of solids"
+        }
+        Space::Solid => {
+            "a solid turns about three axes: give `rotation_x`, `rotation_y` or `rotation_z`"
+        }
+    }
+}
+
+impl<const D: usize> Setup<D> {
+    pub(super) fn check_dimension(&self) -> Checked {
+        let is_plane = matches!(self.section, Section::Plane { .. });
+        if is_plane != (D == 2) {
+            let reason = "a body in the plane has `Section::Plane`, one in space `Section::Solid`";
+            return contradiction(Field::whole("section"), reason);
+        }
+        let thickness = Field::whole("section").part("thickness");
+        positive(thickness, Some(self.thickness()))?;
+        self.check_law()?;
+        self.check_strains_of_bonds()?;
+        self.check_rotational_scale()?;
+        self.check_precracks()?;
+        self.check_closing()?;
+        self.check_readings()?;
+        self.check_components()?;
+        self.check_elasticity()
+    }
+
+    fn check_law(&self) -> Checked {
+        let space = self.space();
+        if !self.law.exists_in(space) {
+            let laws = Law::ALL.iter().filter(|it| it.exists_in(space));
+            let laws: Vec<String> = laws.map(|it| format!("\"{}\"", it.name())).collect();
+            let [others @ .., last] = laws.as_slice() else {
+                return Ok(());
+            };
+            let reason = format!(
+                "\"{}\" is a law of the plane: solids take {} or {last}",
+                self.law.name(),
+                others.join(", ")
+            );
+            return contradiction(Field::whole("law"), reason);
+        }
+        match (self.rotational_scale, space) {
+            (RotationalScale::CosseratLength(_), Space::Solid) => {
+                let reason = "a Cosserat length is one of the plane: take a factor";
+                contradiction(Field::whole("rotational_scale").part("length"), reason)
+            }
+            (RotationalScale::CosseratLength(_) | RotationalScale::Factor(_), _) => Ok(()),
+        }
+    }
+
+    fn check_elasticity(&self) -> Checked {
+        if matches!(self.space(), Space::Plane(_)) {
+            return Ok(());
+        }
+        let axes = |elasticity: &Elasticity| elasticity.isotropic().is_none();
+        let mut materials = self.materials.iter();
+        match materials.position(|it| axes(&it.material.elasticity)) {
+            Some(index) => {
+                let reason = "solids are of isotropic materials: `young` and `poisson`";
+                let field = Field::element("materials", index).part("elasticity");
+                contradiction(field, reason)
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Probes read forces along the axes of the body, and motions that its points have.
+    fn check_readings(&self) -> Checked {
+        let components = Component::in_dimensions(D);
+        for (index, probe) in self.probes.iter().enumerate() {
+            let probed = Field::element("probes", index);
+            let (component, part) = match probe.reading {
+                Reading::Section { component, .. } if component.number() >= D => {
+                    return contradiction(probed.part("component"), NO_Z);
+                }
+                Reading::Between { component, .. } => (component, "component"),
+                Reading::At {
+                    field: PointField::Motion(component),
+                    ..
+                } => (component, "field"),
+                Reading::At { .. } | Reading::Section { .. } => continue,
+            };
+            if !components.contains(&component) {
+                return contradiction(probed.part(part), no_motion(self.space()));
+            }
+        }
+        Ok(())
+    }
+
+    /// Supports and loads move points by components that they have.
+    fn check_components(&self) -> Checked {
+        let (components, reason) = (Component::in_dimensions(D), no_motion(self.space()));
+        let leaves = |given: &Displacement| {
+            let mut given = given.components();
+            given.any(|(component, _)| !components.contains(&component))
+        };
+        for (index, support) in self.supports.iter().enumerate() {
+            let mut held = support.held.iter();
+            if held.any(|it| !components.contains(it)) || leaves(&support.stiffness.components) {
+                return contradiction(Field::element("supports", index), reason);
+            }
+        }
+        for (index, load) in self.loads.iter().enumerate() {
+            let field = Field::element("loads", index);
+            if load.profile.is_some_and(|it| it.along.number() >= D) {
+                return contradiction(field.part("profile"), NO_Z);
+            }
+            let action = field.part("action");
+            match load.action {
+                Action::Displacement(it) if leaves(&it) => return contradiction(action, reason),
+                Action::ForcePerArea(_) if D == 2 => {
+                    let reason =
+                        "a body in the plane has curves and no surfaces: give a force per length";
+                    return contradiction(action, reason);
+                }
+                Action::Moment(it) | Action::BodyCouple(it)
+                    if D == 2 && it.about[..2] != [0.0; 2] =>
+                {
+                    let reason = "in the plane couples turn about z alone";
+                    return contradiction(action, reason);
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Elements with strains of their own need rows and columns, and not all analyses take all of their variants.
+    fn check_strains_of_bonds(&self) -> Checked {
+        let Law::MbbPd { form, strains } = self.law else {
+            return Ok(());
+        };
+        let law = Field::whole("law");
+        let Origin::Lattice(lattice) = self.body.origin() else {
+            let reason = "`Law::MbbPd` classes bonds by the rows and columns of a lattice: give `LatticeBody`, or take \
+                          another law";
+            return contradiction(law, reason);
+        };
+        let [shorter, longer] = {
+            let [dx, dy] = lattice.spacing;
+            [dx.min(dy), dx.max(dy)]
+        };
+        let horizon = self.horizon.at_spacing(shorter);
+        if horizon * (1.0 + INCLUSION_TOLERANCE) < longer {
+            let reason = format!(
+                "`Law::MbbPd` takes strains between neighbours along rows and along columns: make it at least {longer:?} m, the longer side \
+                 of the cells (it is {horizon:?} m)"
+            );
+            return contradiction(Field::whole("horizon"), reason);
+        }
+        let is_elastic = matches!(self.analysis, Analysis::Elastic { .. });
+        if form == Form::Pairwise {
+            let reason = if !is_elastic {
+                "the printed forces are not those of an energy, so that there is no stiffness whose modes or breakages could be \
+                 followed: it is for elastic analyses; take `Form::Full`"
+            } else if !self.precracks.is_empty() {
+                "the printed factors are those of whole families: it takes no pre-cracks; take `Form::Full`"
+            } else if strains == Strains::True {
+                "it takes `Strains::Small` alone"
+            } else {
+                return Ok(());
+            };
+            return contradiction(law.part("form"), reason);
+        }
+        let has_steps = matches!(self.analysis, Analysis::Stepped(_));
+        if strains == Strains::True && !is_elastic && !has_steps {
+            let reason = "true strains are not proportional to the load, as the exact path and modes are: they are for elastic analyses and \
+                          load steps; take `Strains::Small`";
+            return contradiction(law.part("strains"), reason);
+        }
+        Ok(())
+    }
+
+    fn check_precracks(&self) -> Checked {
+        for (index, crack) in self.precracks.iter().enumerate() {
+            let field = Field::element("precracks", index);
+            let CrackShape::Line(points) = &crack.shape else {
+                if D == 2 {
+                    let reason = "a body in the plane is cut by lines: give `CrackShape::Line`";
+                    return contradiction(field.part("surface"), reason);
+                }
+                continue;
+            };
+            if D != 2 {
+                let reason = "a solid is cut by surfaces: give one of the other shapes";
+                return contradiction(field.part("points"), reason);
+            }
+            let field = field.part("points");
+            require(points.len() >= 2, field, "two points or more", points)?;
+            for pair in points.windows(2) {
+                let expected = "another point than the one before it";
+                require(pair[0] != pair[1], field, expected, pair[1])?;
+            }
+        }
+        Ok(())
+    }
+}

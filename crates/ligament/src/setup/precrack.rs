@@ -1,0 +1,52 @@
+//! Cracks that are in a body from the start.
+
+use ligament_model::bonds::precrack::Ends;
+
+/// A crack that is in a body from the start.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PreCrack {
+    /// Line or surface of the crack.
+    pub shape: CrackShape,
+    /// Whether bonds that only touch the crack are cut.
+    pub ends: Ends,
+}
+
+/// The line of a crack in the plane, or its surface in space.
+#[derive(Debug, Clone, PartialEq)]
+pub enum CrackShape {
+    /// A polyline in the plane by its vertices, two or more, m.
+    Line(Vec<[f64; 2]>),
+    /// A disk in space.
+    Disk {
+        /// Middle, m.
+        centre: [f64; 3],
+        /// Normal; it need not have the length 1.
+        normal: [f64; 3],
+        /// Radius, m.
+        radius: f64,
+    },
+    /// A plane polygon in space by its corners, three or more, m.
+    Polygon(Vec<[f64; 3]>),
+    /// Triangles in space by the numbers of their corners among points, m.
+    Triangles {
+        /// Corners, m.
+        points: Vec<[f64; 3]>,
+        /// The triangles.
+        triangles: Vec<[u32; 3]>,
+    },
+    /// The faces of a surface group of a solid mesh.
+    Group(String),
+}
+
+impl PreCrack {
+    /// Vertices of a line in the plane, m; none of a surface.
+    pub fn line(&self) -> &[[f64; 2]] {
+        match &self.shape {
+            CrackShape::Line(points) => points,
+            CrackShape::Disk { .. }
+            | CrackShape::Polygon(_)
+            | CrackShape::Triangles { .. }
+            | CrackShape::Group(_) => &[],
+        }
+    }
+}
