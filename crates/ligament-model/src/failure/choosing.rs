@@ -4,7 +4,7 @@ use super::KINDS;
 use super::basis::Basis;
 use super::criterion::{Criteria, Criterion};
 use super::fracture_energy;
-use super::kind::{After, Choice, Kind, KnownIn, PerSpace};
+use super::kind::{After, Choice, Kind};
 use super::measure::Measure;
 use super::softening::{AfterLimit, LAWS, Law};
 use super::unfit::{NoLimit, Unfit};
@@ -20,18 +20,13 @@ use crate::scatter::Scattered;
 pub fn criteria<const D: usize>(
     choices: &[Choice],
     basis: &Basis<'_, D>,
-) -> Result<Criteria, (usize, NoLimit)>
-where
-    PerSpace: KnownIn<D>,
-{
+) -> Result<Criteria, (usize, NoLimit)> {
     let mut list = Vec::new();
     for (place, choice) in choices.iter().enumerate() {
         let at_place = |error| (place, error);
         let kind = &choice.kind;
-        let limits = kind
-            .limits
-            .known()
-            .ok_or_else(|| at_place(plane_only(kind)))?;
+        let limits = kind.limits.in_dimension();
+        let limits = limits.ok_or_else(|| at_place(plane_only(kind)))?;
         let limits = limits(choice, basis).map_err(at_place)?;
         for (&measure, mut limits) in kind.measures.iter().zip(limits) {
             // Limits that follow the bonds that are left have the factors of their points.

@@ -7,6 +7,7 @@ use super::crack_at_points::CrackAtPoints;
 use super::measure::Measure;
 use super::softening::{Law, brittle};
 use super::unfit::{NoLimit, Unfit};
+use crate::dimension::cast;
 use crate::material::{Elasticity, Material};
 use crate::scatter::Scattered;
 
@@ -51,23 +52,10 @@ impl PerSpace {
         let solid = None;
         Self { plane, solid }
     }
-}
 
-/// Limits that are known in D dimensions.
-pub trait KnownIn<const D: usize> {
-    /// What makes the limits there; None where there are none.
-    fn known(&self) -> Option<MakeLimits<D>>;
-}
-
-impl KnownIn<2> for PerSpace {
-    fn known(&self) -> Option<MakeLimits<2>> {
-        Some(self.plane)
-    }
-}
-
-impl KnownIn<3> for PerSpace {
-    fn known(&self) -> Option<MakeLimits<3>> {
-        self.solid
+    /// What makes the limits in D dimensions; None for a kind that does not exist there.
+    pub(super) fn in_dimension<const D: usize>(self) -> Option<MakeLimits<D>> {
+        cast(self.plane).or_else(|| cast(self.solid?))
     }
 }
 

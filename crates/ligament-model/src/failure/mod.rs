@@ -39,7 +39,7 @@ mod unfit;
 pub use basis::Basis;
 pub use choosing::criteria;
 pub use criterion::{Criteria, Criterion, Verdict};
-pub use kind::{After, Calibration, Choice, Kind, KnownIn, Limits, MakeLimits, PerSpace, Property};
+pub use kind::{After, Calibration, Choice, Kind, Limits, MakeLimits, PerSpace, Property};
 pub use measure::{Measure, Weakened};
 pub use softening::{AfterLimit, Softened};
 pub use unfit::{NoLimit, Unfit};
