@@ -10,7 +10,7 @@ use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
 use crate::deformation::Deformations;
 use crate::element::{BondDeformation, Remaining, Rigidities, Term};
-use crate::failure::{Criteria, Criterion};
+use crate::failure::Criterion;
 use crate::layout::{Component, Layout};
 use crate::portion::Portion;
 use crate::rigid_motions::FreeMotion;
@@ -244,10 +244,6 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
         closed: &[ClosedPair],
         stresses: &mut Stresses,
     );
-
-    /// The first criterion of which the place where a bond reaches its limit is not known in closed form on a line of
-    /// deformations.
-    fn unknown_along_lines<'c>(&self, criteria: &'c Criteria) -> Option<&'c Criterion>;
 
     /// Energy that a bond stores at its limit under a criterion, with the stiffness that the criterion is about, J; 0 where
     /// the bond never gets there.

@@ -42,7 +42,6 @@ mod product;
 pub mod rigid_motions;
 pub mod scatter;
 pub mod shape;
-pub mod space;
 pub mod stress;
 pub mod sweep;
 pub mod system;

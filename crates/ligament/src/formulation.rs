@@ -6,12 +6,11 @@ use ligament_model::correction::{
 };
 use ligament_model::dimension::cast_ref;
 use ligament_model::failure::crack_energies::{Components, Lattice};
-use ligament_model::failure::{self, Basis, Criteria};
+use ligament_model::failure::{self, Basis, Criteria, NoLimit};
 use ligament_model::law::beam::ShearForm;
 use ligament_model::law::rotational::{self, RotationalScale};
 use ligament_model::law::{bbpd, bbpd_conical, beam, calibration, mbb_pd, mppd, orthotropic, pds};
 use ligament_model::material::{Stiffness, milder};
-use ligament_model::space::criteria::{NoSolidLimit, SolidBasis, criteria as solid_criteria};
 use ligament_model::{
     BondStiffness, BondSystem, Elasticity, ElementKind, EnergyRatio, FixedFields, Horizons,
     Isotropic, PointCloud,
@@ -248,6 +247,33 @@ pub fn criteria<const D: usize>(
         return Ok(Criteria::default());
     }
     let (materials, space) = (setup.materials(), setup.space());
+    let basis = Basis {
+        system,
+        no_fail: &fixed.no_fail,
+        space,
+        constants: (materials.iter())
+            .map(|it| setup.law.constants(it, space))
+            .collect(),
+        materials: &materials,
+        lattice: cast_ref(system).map(|system| lattice(setup, system)),
+        scatter: fixed.scatter.as_ref(),
+    };
+    failure::criteria(&setup.criteria, &basis).map_err(|(place, reason)| {
+        let field = Field::element("criteria", place);
+        match reason {
+            NoLimit::PlaneOnly { .. } => {
+                let reason = Fault::Contradiction(reason.to_string().into());
+                field.part("kind").error(reason)
+            }
+            NoLimit::NoFriction { .. } | NoLimit::NothingLeft { .. } => {
+                field.error(plausibility::without_limit(setup, reason))
+            }
+        }
+    })
+}
+
+/// Points in the plane as a lattice.
+fn lattice<const D: usize>(setup: &Setup<D>, system: &BondSystem) -> Lattice {
     let spacing = (system.cloud.spacing.iter().copied()).fold(f64::INFINITY, f64::min);
     let own_rows = matches!(
         setup.law,
@@ -256,51 +282,14 @@ pub fn criteria<const D: usize>(
             ..
         }
     );
-    let constants: Vec<Option<Isotropic>> = (materials.iter())
-        .map(|it| setup.law.constants(it, space))
-        .collect();
-    let field = |place: usize| Field::element("criteria", place);
-    if let Some(system) = cast_ref::<_, BondSystem<3>>(system) {
-        let basis = SolidBasis {
-            system,
-            no_fail: &fixed.no_fail,
-            materials: &materials,
-            constants: constants.into_iter().flatten().collect(),
-            scatter: fixed.scatter.as_ref(),
-        };
-        let criteria = solid_criteria(&setup.criteria, &basis);
-        return criteria.map_err(|(place, reason)| match reason {
-            NoSolidLimit::NoLimit(no_limit) => {
-                field(place).error(plausibility::without_limit(setup, no_limit))
-            }
-            NoSolidLimit::PlaneOnly(reason) => {
-                let reason = Fault::Contradiction(reason.to_string().into());
-                field(place).part("kind").error(reason)
-            }
-        });
-    }
-    let Some(system) = cast_ref::<_, BondSystem>(system) else {
-        return Ok(Criteria::default());
-    };
-    let basis = Basis {
-        system,
-        no_fail: &fixed.no_fail,
-        plane: setup.plane(),
-        constants,
-        materials: &materials,
-        lattice: Lattice {
-            spacing: system.cloud.cell_size(0),
-            horizon: setup.horizon.at_spacing(spacing),
-            thickness: system.cloud.thickness,
-            components: if own_rows {
-                Components::OwnRows
-            } else {
-                Components::All
-            },
+    Lattice {
+        spacing: system.cloud.cell_size(0),
+        horizon: setup.horizon.at_spacing(spacing),
+        thickness: system.cloud.thickness,
+        components: if own_rows {
+            Components::OwnRows
+        } else {
+            Components::All
         },
-        scatter: fixed.scatter.as_ref(),
-    };
-    failure::criteria(&setup.criteria, &basis).map_err(|(place, no_limit)| {
-        field(place).error(plausibility::without_limit(setup, no_limit))
-    })
+    }
 }

@@ -104,7 +104,7 @@ pub fn refuse(problem: &Problem) -> Result<(), SetupError> {
     if is_staged && problem.system.faces_close() {
         return Err(SetupError::ClosingFaces);
     }
-    let unknown = problem.system.unknown_along_lines(&problem.criteria);
+    let unknown = problem.criteria.unknown_along_lines();
     match unknown.filter(|_| is_staged) {
         Some(criterion) => Err(SetupError::UnknownAlongLines {
             criterion: criterion.name,

@@ -2,60 +2,21 @@
 
 use rayon::prelude::*;
 
-use super::along_line::{EVERYWHERE, Interval};
+use super::along_line::{AlongLine, EVERYWHERE, Interval};
 use super::criterion::{Criteria, Criterion};
-use super::measure::Measure;
 use crate::deformation::{Deformation, Deformations, SpaceDeformation};
 use crate::element::BondDeformation;
 
 /// Bonds that make a task worth while.
 const TASK: usize = 4096;
 
-/// A deformation that goes along lines.
-trait AlongLine: Sync {
-    /// The t for which a measure of the first + t the second is at most a limit; None where it is for no t.
-    fn within(
-        line: [&Self; 2],
-        measure: Measure,
-        coefficients: &[f64],
-        limit: f64,
-    ) -> Option<Interval>;
-}
-
-impl AlongLine for BondDeformation {
-    #[inline]
-    fn within(
-        line: [&Self; 2],
-        measure: Measure,
-        coefficients: &[f64],
-        limit: f64,
-    ) -> Option<Interval> {
-        measure.within(line, coefficients, limit)
-    }
-}
-
-impl AlongLine for SpaceDeformation {
-    #[inline]
-    fn within(
-        line: [&Self; 2],
-        measure: Measure,
-        coefficients: &[f64],
-        limit: f64,
-    ) -> Option<Interval> {
-        measure.within_in_space(line, coefficients, limit)
-    }
-}
-
 impl Criteria {
-    /// The first criterion whose measure is not known along lines of bonds in D dimensions, for some bond.
-    pub fn unknown_along_lines<const D: usize>(&self) -> Option<&Criterion> {
+    /// The first criterion whose measure is not known along lines, for some bond.
+    pub fn unknown_along_lines(&self) -> Option<&Criterion> {
         let is_unknown = |it: &&Criterion| {
             let mut bonds = 0..it.limit.len();
-            let is_known = |bond| match D {
-                2 => it.measure.is_known_along_lines(it.coefficients(bond)),
-                _ => it.measure.is_known_along_lines_in_space(),
-            };
-            it.crack_at_points.is_some() || bonds.any(|bond| !is_known(bond))
+            let is_known = |bond| it.measure.is_known_along_lines(it.coefficients(bond));
+            it.crack_at_points.is_some() || !bonds.all(is_known)
         };
         self.list.iter().find(is_unknown)
     }
@@ -76,13 +37,13 @@ impl Criteria {
         }
     }
 
-    fn admissible_along<D: AlongLine>(
+    fn admissible_along<B: AlongLine>(
         &self,
         intact: &[bool],
-        [here, slopes]: [&[D]; 2],
+        [here, slopes]: [&[B]; 2],
         reach: Interval,
     ) -> Option<Interval> {
-        let of_task = |(task, (here, slopes)): (usize, (&[D], &[D]))| {
+        let of_task = |(task, (here, slopes)): (usize, (&[B], &[B]))| {
             let bonds = (task * TASK..).zip(here.iter().zip(slopes));
             let mut of_intact = bonds.filter(|(bond, _)| intact[*bond]);
             of_intact.try_fold(reach, |interval, (bond, (here, slope))| {
@@ -96,11 +57,11 @@ impl Criteria {
     }
 
     /// The t for which no criterion breaks a bond with the deformation `here` + t `slope`; None where some does for every t.
-    fn within<D: AlongLine>(&self, bond: usize, line: [&D; 2]) -> Option<Interval> {
+    fn within<B: AlongLine>(&self, bond: usize, line: [&B; 2]) -> Option<Interval> {
         let of = |interval: Interval, it: &Criterion| {
             let limit = it.break_limit(bond);
             let of_criterion = if limit.is_finite() {
-                D::within(line, it.measure, it.coefficients(bond), limit)?
+                it.measure.within(line, it.coefficients(bond), limit)?
             } else {
                 EVERYWHERE
             };

@@ -1,10 +1,13 @@
 //! Where a bond stays within its limit while its deformation goes along a line, in closed form.
 //!
 //! With d(t) = d_0 + t d_1 a measure is the largest of some linear functions of t, or the root of a quadratic one where the bond
-//! is stretched.
+//! is stretched. In space shear and relative rotation are vectors: |gamma_0 + t gamma_1|^2 is a quadratic function of t that is no square
+//! of a linear one.
 
 use super::measure::Measure;
+use crate::deformation::{Deformation, SpaceDeformation};
 use crate::element::BondDeformation;
+use crate::tensor::dot;
 
 /// All t from the first to the second.
 pub type Interval = [f64; 2];
@@ -12,11 +15,90 @@ pub type Interval = [f64; 2];
 /// All t, to both sides without an end.
 pub const EVERYWHERE: Interval = [f64::NEG_INFINITY, f64::INFINITY];
 
+const NOWHERE: Interval = [f64::INFINITY, f64::NEG_INFINITY];
+
+/// A deformation of a bond, whose strains are asked for on the line from one deformation along another.
+pub(super) trait AlongLine: Deformation {
+    /// A strain of which measures take the size.
+    type Strain: Strain;
+
+    /// The stretch.
+    fn stretch(line: [&Self; 2]) -> Linear;
+
+    /// The shear.
+    fn shear(line: [&Self; 2]) -> Self::Strain;
+
+    /// The relative rotation of the ends.
+    fn rotation(line: [&Self; 2]) -> Self::Strain;
+
+    /// The strains (S_xx, S_yy, S_xy) of a bond with strains of its own.
+    fn own_strains(line: [&Self; 2]) -> [Linear; 3];
+}
+
+/// A strain along the line of which measures take the size: a number in the plane, a vector in space.
+pub(super) trait Strain: Copy {
+    /// The strain times a factor.
+    fn times(self, factor: f64) -> Self;
+
+    /// Square of its size times a factor q.
+    fn square_times(self, q: f64) -> Quadratic;
+
+    /// Where the sum of its size and another strain is at most a limit; empty (the first is larger) where it nowhere is.
+    fn beside_at_most(self, other: Linear, limit: f64) -> Interval;
+}
+
+impl AlongLine for BondDeformation {
+    type Strain = Linear;
+
+    fn stretch(line: [&Self; 2]) -> Linear {
+        line.map(Self::stretch).into()
+    }
+
+    fn shear(line: [&Self; 2]) -> Linear {
+        line.map(Self::shear).into()
+    }
+
+    fn rotation(line: [&Self; 2]) -> Linear {
+        line.map(Self::rotation).into()
+    }
+
+    fn own_strains(line: [&Self; 2]) -> [Linear; 3] {
+        let [here, slope] = line.map(Self::strain);
+        [0, 1, 2].map(|place| [here[place], slope[place]].into())
+    }
+}
+
+impl AlongLine for SpaceDeformation {
+    type Strain = [[f64; 3]; 2];
+
+    fn stretch(line: [&Self; 2]) -> Linear {
+        line.map(|it| it.stretch).into()
+    }
+
+    fn shear(line: [&Self; 2]) -> Self::Strain {
+        line.map(|it| it.shear)
+    }
+
+    fn rotation(line: [&Self; 2]) -> Self::Strain {
+        line.map(|it| it.rotation)
+    }
+
+    fn own_strains(_: [&Self; 2]) -> [Linear; 3] {
+        unreachable!("bonds in space have no strains of their own")
+    }
+}
+
 /// A strain along the line: value + t slope.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Linear {
-    pub(super) value: f64,
-    pub(super) slope: f64,
+    value: f64,
+    slope: f64,
+}
+
+impl From<[f64; 2]> for Linear {
+    fn from([value, slope]: [f64; 2]) -> Self {
+        Self { value, slope }
+    }
 }
 
 impl Linear {
@@ -27,14 +109,23 @@ impl Linear {
         }
     }
 
-    pub(super) fn negative(self) -> Self {
-        Self {
-            value: -self.value,
-            slope: -self.slope,
+    /// Where it is at most a limit; empty (the first is larger) where it nowhere is.
+    fn at_most(self, limit: f64) -> Interval {
+        let reached = (limit - self.value) / self.slope;
+        match self.slope {
+            slope if slope > 0.0 => [f64::NEG_INFINITY, reached],
+            slope if slope < 0.0 => [reached, f64::INFINITY],
+            _ if self.value <= limit => EVERYWHERE,
+            _ => NOWHERE,
         }
     }
+}
 
-    /// Square times a factor q.
+impl Strain for Linear {
+    fn times(self, factor: f64) -> Self {
+        [factor * self.value, factor * self.slope].into()
+    }
+
     fn square_times(self, q: f64) -> Quadratic {
         Quadratic {
             a: q * self.slope * self.slope,
@@ -43,21 +134,49 @@ impl Linear {
         }
     }
 
-    /// Where it is at most a limit; empty (the first is larger) where it nowhere is.
-    pub(super) fn at_most(self, limit: f64) -> Interval {
-        let reached = (limit - self.value) / self.slope;
-        match self.slope {
-            slope if slope > 0.0 => [f64::NEG_INFINITY, reached],
-            slope if slope < 0.0 => [reached, f64::INFINITY],
-            _ if self.value <= limit => EVERYWHERE,
-            _ => [f64::INFINITY, f64::NEG_INFINITY],
+    fn beside_at_most(self, other: Linear, limit: f64) -> Interval {
+        let with = |sign: f64| other.plus(sign, self).at_most(limit);
+        both(with(1.0), with(-1.0))
+    }
+}
+
+/// The vector v_0 + t v_1.
+impl Strain for [[f64; 3]; 2] {
+    fn times(self, factor: f64) -> Self {
+        self.map(|vector| vector.map(|it| factor * it))
+    }
+
+    fn square_times(self, q: f64) -> Quadratic {
+        let [value, slope] = self;
+        Quadratic {
+            a: q * dot(slope, slope),
+            half_b: q * dot(value, slope),
+            c: q * dot(value, value),
+        }
+    }
+
+    /// Where |v|^2 is at most the square of what the other strain leaves of the limit, and that is not negative. Where the other one
+    /// outruns the vector, the quadratic bends down, and is at most zero beyond its roots to both sides: to the one side because
+    /// enough is left, to the other because the limit is far exceeded.
+    fn beside_at_most(self, other: Linear, limit: f64) -> Interval {
+        let left = Linear::from([limit, 0.0]).plus(-1.0, other);
+        let square = self.square_times(1.0);
+        let beyond = [
+            square.a - left.slope * left.slope,
+            2.0 * (square.half_b - left.value * left.slope),
+            square.c - left.value * left.value,
+        ];
+        match roots(beyond).filter(|_| beyond[0] < 0.0) {
+            Some([_, upper]) if left.slope > 0.0 => [upper, f64::INFINITY],
+            Some([lower, _]) => [f64::NEG_INFINITY, lower],
+            None => both(quadratic(beyond), other.at_most(limit)),
         }
     }
 }
 
 impl Measure {
     /// Whether [`Measure::within`] knows the measure with these coefficients.
-    pub fn is_known_along_lines(self, coefficients: &[f64]) -> bool {
+    pub(super) fn is_known_along_lines(self, coefficients: &[f64]) -> bool {
         match self {
             Self::Tension
             | Self::Compression
@@ -70,47 +189,33 @@ impl Measure {
         }
     }
 
-    /// The t for which the measure of `here` + t `slope` is at most a limit; None where it is for no t.
+    /// The t for which the measure of the first deformation of a line + t the second is at most a limit; None where it is for no t.
     ///
     /// # Panics
     ///
     /// Panics for measures that are not [known along lines](Measure::is_known_along_lines).
-    pub fn within(
+    pub(super) fn within<B: AlongLine>(
         self,
-        [here, slope]: [&BondDeformation; 2],
+        line: [&B; 2],
         coefficients: &[f64],
         limit: f64,
     ) -> Option<Interval> {
-        let strain = |of: fn(&BondDeformation) -> f64| Linear {
-            value: of(here),
-            slope: of(slope),
-        };
-        let stretch = strain(BondDeformation::stretch);
-        let shear = strain(BondDeformation::shear);
-        let rotation = strain(BondDeformation::rotation);
+        let (stretch, shear) = (B::stretch(line), B::shear(line));
         let q = coefficients.first().copied().unwrap_or(0.0);
-        let either = |one: Linear, other: Linear| both(one.at_most(limit), other.at_most(limit));
+        let nothing = Linear::from([0.0; 2]);
+        let mixed = |axis: usize| {
+            let strains = B::own_strains(line);
+            root(strains[axis], strains[2].square_times(q), limit)
+        };
         let interval = match self {
             Self::Tension => stretch.at_most(limit),
-            Self::Compression => stretch.negative().at_most(limit),
-            Self::Fibre => either(stretch.plus(q, rotation), stretch.plus(-q, rotation)),
-            Self::Sliding => either(shear, shear.negative()),
-            Self::Friction => either(shear.plus(q, stretch), shear.negative().plus(q, stretch)),
+            Self::Compression => stretch.times(-1.0).at_most(limit),
+            Self::Fibre => B::rotation(line).times(q).beside_at_most(stretch, limit),
+            Self::Sliding => shear.beside_at_most(nothing, limit),
+            Self::Friction => shear.beside_at_most(stretch.times(q), limit),
             Self::Energy => root(stretch, shear.square_times(q), limit),
-            Self::MixedModeX => {
-                let [opening, sliding] = [0, 2].map(|place| Linear {
-                    value: here.strain()[place],
-                    slope: slope.strain()[place],
-                });
-                root(opening, sliding.square_times(q), limit)
-            }
-            Self::MixedModeY => {
-                let [opening, sliding] = [1, 2].map(|place| Linear {
-                    value: here.strain()[place],
-                    slope: slope.strain()[place],
-                });
-                root(opening, sliding.square_times(q), limit)
-            }
+            Self::MixedModeX => mixed(0),
+            Self::MixedModeY => mixed(1),
             Self::PrintedOpening | Self::PrintedSliding | Self::PrintedMixed => {
                 unreachable!("printed measures have no closed form")
             }
@@ -122,14 +227,14 @@ impl Measure {
 /// The function a t^2 + 2 b t + c.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Quadratic {
-    pub(super) a: f64,
-    pub(super) half_b: f64,
-    pub(super) c: f64,
+    a: f64,
+    half_b: f64,
+    c: f64,
 }
 
-/// Where sqrt(max(s, 0)^2 + g), g = q gamma^2, is at most a limit: where the quadratic is while the bond is stretched, and g alone
+/// Where sqrt(max(s, 0)^2 + g), g = q |gamma|^2, is at most a limit: where the quadratic is while the bond is stretched, and g alone
 /// elsewhere. Where q is negative and the quadratic bends down, up to its first root beyond s = 0.
-pub(super) fn root(s: Linear, g: Quadratic, limit: f64) -> Interval {
+fn root(s: Linear, g: Quadratic, limit: f64) -> Interval {
     let sliding = quadratic([g.a, 2.0 * g.half_b, g.c - limit * limit]);
     let stretched = quadratic([
         s.slope * s.slope + g.a,
@@ -137,35 +242,37 @@ pub(super) fn root(s: Linear, g: Quadratic, limit: f64) -> Interval {
         s.value * s.value + g.c - limit * limit,
     ]);
     let closed = s.at_most(0.0);
-    let open = s.negative().at_most(0.0);
+    let open = s.times(-1.0).at_most(0.0);
     hull(both(sliding, closed), both(stretched, open))
 }
 
 /// Where a t^2 + b t + c is at most zero; one that bends down is taken at the side of its roots on which t = 0 lies.
-pub(super) fn quadratic([a, b, c]: [f64; 3]) -> Interval {
+fn quadratic([a, b, c]: [f64; 3]) -> Interval {
     if a == 0.0 {
         return Linear { value: c, slope: b }.at_most(0.0);
     }
+    match roots([a, b, c]) {
+        None if a > 0.0 => NOWHERE,
+        None => EVERYWHERE,
+        Some(roots) if a > 0.0 => roots,
+        Some([lower, _]) if lower >= 0.0 => [f64::NEG_INFINITY, lower],
+        Some([_, upper]) => [upper, f64::INFINITY],
+    }
+}
+
+/// The smaller and the larger root of a t^2 + b t + c with a that is not zero; None without any.
+fn roots([a, b, c]: [f64; 3]) -> Option<[f64; 2]> {
     let discriminant = b * b - 4.0 * a * c;
     if discriminant < 0.0 {
-        return if a > 0.0 {
-            [f64::INFINITY, f64::NEG_INFINITY]
-        } else {
-            EVERYWHERE
-        };
+        return None;
     }
     // The root whose terms do not cancel, and the other one by their product c/a.
     let sum = -0.5 * (b + discriminant.sqrt().copysign(b));
     let (one, other) = (sum / a, if sum == 0.0 { 0.0 } else { c / sum });
-    let [lower, upper] = [one.min(other), one.max(other)];
-    match a > 0.0 {
-        true => [lower, upper],
-        false if lower >= 0.0 => [f64::NEG_INFINITY, lower],
-        false => [upper, f64::INFINITY],
-    }
+    Some([one.min(other), one.max(other)])
 }
 
-pub(super) fn both(one: Interval, other: Interval) -> Interval {
+fn both(one: Interval, other: Interval) -> Interval {
     [one[0].max(other[0]), one[1].min(other[1])]
 }
 
@@ -183,11 +290,43 @@ fn hull(one: Interval, other: Interval) -> Interval {
 mod tests {
     use super::*;
 
+    const OF_PAIRS: [Measure; 6] = [
+        Measure::Tension,
+        Measure::Compression,
+        Measure::Fibre,
+        Measure::Sliding,
+        Measure::Friction,
+        Measure::Energy,
+    ];
+
     fn deformation(strains: [f64; 3]) -> BondDeformation {
         BondDeformation::new(strains)
     }
 
-    /// Closed forms against a search along the line in fine steps, for lines that open, close and slide.
+    /// Closed forms against a search along the line in fine steps.
+    fn assert_as_searched<B: AlongLine>(line: [&B; 2], measures: &[Measure], q: f64) {
+        let [here, slope] = line;
+        for measure in measures {
+            let value = |t: f64| {
+                let at = here.less(&slope.scaled(-t)).measured();
+                measure.value(&at, &[q])
+            };
+            let interval = measure.within(line, &[q], 0.8);
+            // Where q is negative the measure may fall again: beyond the first place where it is at its limit nothing is asked.
+            let steps = if q > 0.0 { -4000..=4000 } else { 0..=4000 };
+            let mut passed = false;
+            for place in steps {
+                let t = f64::from(place) * 1e-3;
+                let found = interval.is_some_and(|[from, to]| from <= t && t <= to);
+                let near = (value(t) - 0.8).abs() < 1e-9;
+                passed |= q < 0.0 && value(t) > 0.8;
+                let expected = !passed && value(t) <= 0.8;
+                assert!(near || found == expected, "{measure:?} at {t} with {q}");
+            }
+        }
+    }
+
+    /// Lines that open, close and slide.
     #[test]
     fn intervals_are_those_of_a_search() {
         let lines = [
@@ -197,30 +336,36 @@ mod tests {
             ([0.1, 0.0, 0.0], [0.0, 1.0, 0.2]),
             ([-0.2, 0.3, 0.0], [0.7, 0.0, 0.0]),
         ];
-        let measures = [
-            Measure::Tension,
-            Measure::Compression,
-            Measure::Fibre,
-            Measure::Sliding,
-            Measure::Friction,
-            Measure::Energy,
-            Measure::MixedModeX,
-            Measure::MixedModeY,
-        ];
         for (here, slope) in lines.map(|(a, b)| (deformation(a), deformation(b))) {
-            for measure in measures {
-                let value = |t: f64| {
-                    let at = here.less(&slope.scaled(-t));
-                    measure.value(&at, &[0.4])
-                };
-                let interval = measure.within([&here, &slope], &[0.4], 0.8);
-                for place in -4000..=4000 {
-                    let t = f64::from(place) * 1e-3;
-                    let found = interval.is_some_and(|[from, to]| from <= t && t <= to);
-                    let near = (value(t) - 0.8).abs() < 1e-9;
-                    assert!(near || found == (value(t) <= 0.8), "{measure:?} at {t}");
-                }
-            }
+            let line = [&here, &slope];
+            assert_as_searched(line, &OF_PAIRS, 0.4);
+            assert_as_searched(line, &[Measure::MixedModeX, Measure::MixedModeY], 0.4);
+        }
+    }
+
+    /// Lines that open, close, slide and turn, of shears and rotations that change their direction. Of friction and fibres the stretch
+    /// outruns the size of the vector or not, to either side.
+    #[test]
+    fn intervals_of_vectors_are_those_of_a_search() {
+        let lines = [
+            ([0.3, 0.1, 0.2, -0.3], [1.0, -0.5, 0.3, 0.7]),
+            ([-0.5, 0.2, 0.0, 0.4], [1.3, 0.8, -0.4, 0.0]),
+            ([0.2, -0.1, 0.1, 0.9], [-1.1, 0.3, 0.9, 0.2]),
+            ([0.1, 0.0, 0.0, 0.3], [0.0, 1.0, 0.2, 0.0]),
+            ([-0.2, 0.3, 0.0, 0.1], [0.7, 0.0, 0.0, 0.0]),
+            ([0.1, 0.3, 0.2, 0.1], [1.5, 0.1, -0.2, 0.2]),
+            ([0.1, 0.3, 0.2, 0.1], [-1.5, 0.1, -0.2, 0.2]),
+        ];
+        let deformation = |[stretch, x, y, z]: [f64; 4]| SpaceDeformation {
+            stretch,
+            shear: [x, y, z],
+            rotation: [z, 0.5 * x, -y],
+        };
+        for (here, slope) in lines.map(|(a, b)| (deformation(a), deformation(b))) {
+            let line = [&here, &slope];
+            assert_as_searched(line, &OF_PAIRS, 0.4);
+            assert_as_searched(line, &OF_PAIRS, 2.0);
+            assert_as_searched(line, &[Measure::Energy], -0.2);
         }
     }
 

@@ -1,9 +1,10 @@
 //! From choices of criteria to the limits of the bonds.
 
-use super::basis::{Basis, LimitEnds};
+use super::KINDS;
+use super::basis::Basis;
 use super::criterion::{Criteria, Criterion};
 use super::fracture_energy;
-use super::kind::{After, Choice};
+use super::kind::{After, Choice, Kind};
 use super::measure::Measure;
 use super::softening::{AfterLimit, LAWS, Law};
 use super::unfit::{NoLimit, Unfit};
@@ -14,18 +15,23 @@ use crate::scatter::Scattered;
 ///
 /// # Errors
 ///
-/// If the strengths of a material leave a criterion without a limit, or its fracture energy leaves nothing after the limit; with the
-/// place of the choice.
-pub fn criteria(choices: &[Choice], basis: &Basis<'_>) -> Result<Criteria, (usize, NoLimit)> {
+/// If a criterion exists in the plane alone, the strengths of a material leave it without a limit, or its fracture energy leaves
+/// nothing after the limit; with the place of the choice.
+pub fn criteria<const D: usize>(
+    choices: &[Choice],
+    basis: &Basis<'_, D>,
+) -> Result<Criteria, (usize, NoLimit)> {
     let mut list = Vec::new();
     for (place, choice) in choices.iter().enumerate() {
         let at_place = |error| (place, error);
         let kind = &choice.kind;
-        let limits = (kind.limits)(choice, basis).map_err(at_place)?;
+        let limits = kind.limits.in_dimension();
+        let limits = limits.ok_or_else(|| at_place(plane_only(kind)))?;
+        let limits = limits(choice, basis).map_err(at_place)?;
         for (&measure, mut limits) in kind.measures.iter().zip(limits) {
             // Limits that follow the bonds that are left have the factors of their points.
             if limits.crack_at_points.is_none() {
-                scatter(choice, &mut limits.limit, basis.ends());
+                scatter(choice, &mut limits.limit, basis);
             }
             list.push(Criterion {
                 name: match kind.measures {
@@ -33,10 +39,7 @@ pub fn criteria(choices: &[Choice], basis: &Basis<'_>) -> Result<Criteria, (usiz
                     _ => measure.word(),
                 },
                 measure,
-                after: after(&choice.after, &limits.limit, basis.ends(), &|| {
-                    fracture_energy::critical_stretches(basis)
-                })
-                .map_err(at_place)?,
+                after: after(&choice.after, &limits.limit, basis).map_err(at_place)?,
                 limit: limits.limit,
                 coefficient: limits.coefficient,
                 crack_at_points: limits.crack_at_points,
@@ -46,32 +49,41 @@ pub fn criteria(choices: &[Choice], basis: &Basis<'_>) -> Result<Criteria, (usiz
     Ok(Criteria { list })
 }
 
+/// The refusal in space of a kind that exists in the plane alone, with those that exist in space.
+fn plane_only(kind: &Kind) -> NoLimit {
+    let in_space = KINDS.iter().filter(|it| it.limits.solid.is_some());
+    NoLimit::PlaneOnly {
+        kind: kind.word,
+        in_space: in_space.map(|it| it.word).collect(),
+    }
+}
+
 /// Multiplies limits (n_bonds) by the factor f of what they come from: a strength by f, an energy by sqrt(f).
-pub(crate) fn scatter(choice: &Choice, limits: &mut [f64], bonds: LimitEnds<'_>) {
+fn scatter<const D: usize>(choice: &Choice, limits: &mut [f64], basis: &Basis<'_, D>) {
     let of = choice.limits_from();
     let share = match of {
         Scattered::Strength => |factor: f64| factor,
         Scattered::FractureEnergy => f64::sqrt,
     };
-    bonds.scatter(of, limits, share);
+    basis.scatter(of, limits, share);
 }
 
 /// Behaviour of bonds with these limits (n_bonds) after them. A parameter that is not given makes the lives of the bonds
 /// take the fracture energy: (s_G/e_0)^2 times the energy at the limit e_0, where s_G is the critical stretch of a brittle
-/// bond with that fracture energy, which `brittle` gives (n_bonds).
-pub(crate) fn after(
+/// bond with that fracture energy.
+fn after<const D: usize>(
     wanted: &After,
     limits: &[f64],
-    bonds: LimitEnds<'_>,
-    brittle: &dyn Fn() -> Vec<f64>,
+    basis: &Basis<'_, D>,
 ) -> Result<AfterLimit, NoLimit> {
     let law = wanted.law;
+    let (bonds, portion) = (&basis.system.bonds, basis.system.cloud.portion.as_ref());
     let parameter = match (law.parameter, wanted.parameter) {
         (None, _) => Vec::new(),
         (Some(_), Some(given)) => vec![given; limits.len()],
         (Some(parameter), None) => {
-            let mut brittle = brittle();
-            bonds.scatter(Scattered::FractureEnergy, &mut brittle, f64::sqrt);
+            let mut brittle = fracture_energy::critical_stretches(basis);
+            basis.scatter(Scattered::FractureEnergy, &mut brittle, f64::sqrt);
             let of_bond = |(bond, (&limit, &brittle)): (usize, (&f64, &f64))| {
                 // Bonds that never fail need no end.
                 if limit.is_infinite() || brittle.is_infinite() {
@@ -80,16 +92,14 @@ pub(crate) fn after(
                 let energy = (brittle / limit).powi(2);
                 if energy <= parameter.least_energy {
                     let [a, b] = bonds.ends[bond].map(f64::from);
-                    return Err([a, b, bonds.horizons[bond], limit, brittle]);
+                    return Err([a, b, bonds.horizon[bond], limit, brittle]);
                 }
                 Ok((parameter.for_energy)(energy))
             };
             let of_bonds = limits.iter().zip(&brittle).enumerate();
             let found: Result<Vec<f64>, _> = of_bonds.map(of_bond).collect();
             let nothing_left = found.as_ref().err().copied();
-            let first = bonds
-                .portion
-                .map_or(nothing_left, |it| it.least(nothing_left));
+            let first = portion.map_or(nothing_left, |it| it.least(nothing_left));
             if let Some([_, _, horizon, limit, brittle]) = first {
                 return Err(NoLimit::NothingLeft {
                     horizon,
@@ -120,7 +130,7 @@ impl After {
                 key: other.key,
                 named: other.key.to_owned(),
                 setting: format!("after = \"{}\"", law.word),
-                reason: other.of_it_alone,
+                reason: other.of_it_alone.into(),
             });
         }
         let own = given.iter().find(|(key, _)| Some(*key) == of_law);
@@ -158,6 +168,44 @@ impl Choice {
         Ok(())
     }
 
+    /// Keys that mean nothing with the kind: a user who gives one expects what will not happen.
+    fn refuse_keys(&self) -> Result<(), Unfit> {
+        let calibration = ("calibration", self.calibration.map(|_| 0.0));
+        let others = [
+            calibration,
+            ("friction_angle", self.friction_angle),
+            ("fibre_distance", self.fibre_distance),
+        ];
+        let given = self.own_limits().into_iter().chain(others);
+        let mut refused =
+            given.filter(|(key, value)| value.is_some() && !self.kind.keys.contains(key));
+        let Some((key, _)) = refused.next() else {
+            return Ok(());
+        };
+        let takers = takers(key);
+        let reason = match (key, self.kind.keys) {
+            ("limit", ["critical_stretch", ..]) => {
+                "it has two limits: `critical_stretch` of opening and `critical_angle` of shear"
+                    .to_owned()
+            }
+            ("limit", _) => format!("its limits come from the material; {takers} take one"),
+            ("calibration", _) => {
+                format!("only the limit of {takers} can come from the strengths in two ways")
+            }
+            ("friction_angle", _) => format!("only {takers} has friction"),
+            ("fibre_distance", _) => {
+                format!("only {takers} looks at a fibre beside the axis of the bond")
+            }
+            _ => format!("only {takers} has a limit for opening and one for shear"),
+        };
+        Err(Unfit::NotWith {
+            key,
+            named: key.to_owned(),
+            setting: format!("kind = \"{}\"", self.kind.word),
+            reason: reason.into(),
+        })
+    }
+
     /// A kind with two limits takes both or none.
     fn check_together(&self) -> Result<(), Unfit> {
         let of_kind =
@@ -185,7 +233,7 @@ impl Choice {
             key: "after",
             named: format!("after = \"{}\"", law.word),
             setting,
-            reason,
+            reason: reason.into(),
         };
         if let Some(reason) = self.kind.brittle_because {
             return Err(refused(kind, reason));
@@ -208,5 +256,15 @@ impl Choice {
             }),
             _ => Ok(()),
         }
+    }
+}
+
+/// The kinds that take a key, in words: "a", "b" and "c".
+fn takers(key: &str) -> String {
+    let kinds = KINDS.iter().filter(|it| it.keys.contains(&key));
+    let words: Vec<String> = kinds.map(|it| format!("\"{}\"", it.word)).collect();
+    match words.as_slice() {
+        [others @ .., last] if !others.is_empty() => format!("{} and {last}", others.join(", ")),
+        words => words.concat(),
     }
 }

@@ -50,8 +50,9 @@ impl CrackAtPoints {
     pub fn new(mode: Mode, basis: &Basis<'_>) -> Self {
         let (bonds, cloud) = (&basis.system.bonds, &basis.system.cloud);
         let stiffness: &[_] = &basis.system.rigidities.strain;
-        let [dx, dy] = basis.lattice.spacing;
-        let area = 2.0 * dx * basis.lattice.thickness;
+        let (_, lattice) = basis.of_plane();
+        let [dx, dy] = lattice.spacing;
+        let area = 2.0 * dx * lattice.thickness;
         let of_bond = |((direction, &length), density): ((&[f64; 2], &f64), SymmetricEntries)| {
             let cosines = direction.map(f64::abs);
             let rows = (cosines[1] * length / dy).round();

@@ -5,9 +5,14 @@
 //! which the plane is seen, so that it can be no part of an energy. It is what its sources take it for, a measure of failure: a section
 //! that bends by theta_rel over the length l stretches a fibre at the distance kappa from its axis by kappa theta_rel/l more on one
 //! side, and by as much less on the other.
+//!
+//! In space theta_rel is a vector, across the axis of the bond where it bends and along the axis where it is twisted. A bond has one
+//! stiffness against both and no section of its own, so that the measure takes the length of the whole vector: the rotation by which
+//! pure bending would store the same energy. Where nothing twists the bond that is the stretch of the fibre; a bond that is twisted
+//! as well comes to its limit earlier than its fibre does.
 
 use super::basis::Basis;
-use super::kind::{Choice, Kind, Limits, TENSILE_STRENGTH};
+use super::kind::{Choice, Kind, Limits, PerSpace, TENSILE_STRENGTH};
 use super::measure::Measure;
 use super::stretch;
 use super::unfit::{NoLimit, Unfit};
@@ -21,7 +26,10 @@ pub const FIBRE: Kind = Kind {
         "fibre",
         "Stretch of the outermost fibre of a bond that bends, from the `tensile_strength` or a `limit`; with a `fibre_distance`.",
         &[Measure::Fibre],
-        limits,
+        PerSpace {
+            plane: limits,
+            solid: Some(limits),
+        },
     )
 };
 
@@ -42,8 +50,8 @@ fn check(choice: &Choice) -> Result<(), Unfit> {
 }
 
 /// The limits of [`stretch::TENSION`], with kappa/l.
-fn limits(choice: &Choice, basis: &Basis<'_>) -> Result<Vec<Limits>, NoLimit> {
-    let Limits { limit, .. } = stretch::limits(choice, basis, &TENSILE_STRENGTH, stretch::limit);
+fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit> {
+    let limit = stretch::of_strength(choice, basis, stretch::limit);
     let distance = choice.fibre_distance.unwrap_or_default();
     let lengths = basis.system.bonds.length.iter();
     let coefficient = lengths.map(|length| distance / length).collect();

@@ -3,11 +3,11 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::basis::{Basis, weakest_materials};
-use super::kind::{COMPRESSIVE_STRENGTH, Choice, Kind, Limits, TENSILE_STRENGTH};
+use super::kind::{COMPRESSIVE_STRENGTH, Choice, Kind, Limits, PerSpace, TENSILE_STRENGTH};
 use super::measure::Measure;
 use super::stretch;
 use super::unfit::{NoLimit, Unfit};
-use crate::material::{Isotropic, Material, Plane};
+use crate::material::{Isotropic, Material, Space};
 
 pub use super::kind::Calibration;
 
@@ -25,7 +25,10 @@ pub const FRICTIONAL: Kind = Kind {
         "Sliding that compression makes harder, from both strengths, from the `tensile_strength` and a `friction_angle`, or from a \
          `limit` and a `friction_angle`.",
         &[Measure::Friction],
-        limits,
+        PerSpace {
+            plane: limits,
+            solid: Some(limits),
+        },
     )
 };
 
@@ -45,7 +48,7 @@ fn check(choice: &Choice) -> Result<(), Unfit> {
             key: "calibration",
             named: "calibration".to_owned(),
             setting: "limit".to_owned(),
-            reason: "cohesion and friction are given, and no strength is used",
+            reason: "cohesion and friction are given, and no strength is used".into(),
         }),
         _ => Ok(()),
     }
@@ -67,8 +70,8 @@ fn suits(choice: &Choice, material: &Material) -> Result<(), Unfit> {
 }
 
 /// Limits a and coefficients tan(beta); a bond between materials takes those of the one with the smaller a.
-fn limits(choice: &Choice, basis: &Basis<'_>) -> Result<Vec<Limits>, NoLimit> {
-    let (plane, calibration) = (basis.plane, choice.calibration.unwrap_or_default());
+fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit> {
+    let (space, calibration) = (basis.space, choice.calibration.unwrap_or_default());
     let conditions = basis.constants.iter().zip(basis.materials);
     let conditions = conditions.map(|(constants, material)| {
         let slope = choice.friction_angle.map(f64::tan);
@@ -82,16 +85,16 @@ fn limits(choice: &Choice, basis: &Basis<'_>) -> Result<Vec<Limits>, NoLimit> {
             return Ok(Some(with_slope(
                 constants,
                 tensile,
-                plane,
+                space,
                 (slope, calibration),
             )));
         }
         let Some(compressive) = material.compressive_strength else {
             return Ok(None);
         };
-        let found = condition(constants, [tensile, compressive], plane, calibration);
+        let found = condition(constants, [tensile, compressive], space, calibration);
         let fault = NoLimit::NoFriction {
-            poisson: constants.in_plane(plane).poisson,
+            poisson: constants.of_bar(space).poisson,
             tensile,
             compressive,
         };
@@ -104,7 +107,7 @@ fn limits(choice: &Choice, basis: &Basis<'_>) -> Result<Vec<Limits>, NoLimit> {
     };
     let (cohesion, slope) = (of(|it| it.cohesion), of(|it| it.slope));
     let limit = basis.weakest(&cohesion);
-    let materials = weakest_materials(&basis.system.cloud, &basis.system.bonds, &cohesion);
+    let materials = weakest_materials(basis.system, &cohesion);
     // A bond that never fails has no slope, which may be infinite: infinity times zero is no number.
     let slope_of = |(limit, material): (&f64, usize)| {
         if limit.is_finite() {
@@ -135,14 +138,27 @@ pub struct Friction {
 /// | two points | sin(beta) = sin(phi) (1 + nu)/(1 - nu) | (1 - nu) tan(beta)/2 + (1 + nu)/(2 cos(beta)) |
 ///
 /// None where the two strengths leave no angle: with two points if nu >= F_t/F_c, in plane strain with nu/(1 - nu) for nu.
+///
+/// A bond at the angle x to the axis of a bar under the stress sigma, with the strains e = sigma/E along it and -nu e across it, has
+///
+/// s = e (cos^2 x - nu sin^2 x) = e ((1 - nu) + (1 + nu) cos 2x)/2, |gamma| = (1 + nu) |e sin 2x|/2.
+///
+/// In space the strains across the bar are the same all around, so that the strain of a bond has no part out of the plane of the bond and
+/// the axis: the bonds of that plane are those of all directions, and both calibrations hold with E and nu of the material.
+///
+/// - Printed: a plane across the bond has the stresses sigma cos^2 x and sigma |sin 2x|/2 = E |gamma|/(1 + nu). Mohr and Coulomb allow
+///   E |gamma|/(1 + nu) + tan(phi) sigma cos^2 x <= F_t (1 + sin(phi))/(2 cos(phi)), and E s stands for sigma cos^2 x.
+/// - Two points: the largest |gamma| + s tan(beta) over x is |e| (1 + nu)/(2 cos(beta)) + e tan(beta)(1 - nu)/2. It is a at both e = F_t/E
+///   and e = -F_c/E, which gives sin(beta) and a.
 pub fn condition(
     material: &Isotropic,
     [tensile, compressive]: [f64; 2],
-    plane: Plane,
+    space: impl Into<Space>,
     calibration: Calibration,
 ) -> Option<Friction> {
-    let poisson = material.in_plane(plane).poisson;
-    let limit = stretch::limit(material, tensile, plane);
+    let space = space.into();
+    let poisson = material.of_bar(space).poisson;
+    let limit = stretch::limit(material, tensile, space);
     let sin_phi = (compressive - tensile) / (compressive + tensile);
     match calibration {
         Calibration::Printed => {
@@ -172,11 +188,12 @@ pub fn condition(
 pub fn with_slope(
     material: &Isotropic,
     tensile: f64,
-    plane: Plane,
+    space: impl Into<Space>,
     (slope, calibration): (f64, Calibration),
 ) -> Friction {
-    let poisson = material.in_plane(plane).poisson;
-    let limit = stretch::limit(material, tensile, plane);
+    let space = space.into();
+    let poisson = material.of_bar(space).poisson;
+    let limit = stretch::limit(material, tensile, space);
     let per_limit = match calibration {
         Calibration::Printed => {
             let tan_phi = slope / (1.0 + poisson);
@@ -194,6 +211,7 @@ pub fn with_slope(
 #[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 mod tests {
     use super::*;
+    use crate::material::Plane;
 
     /// Largest |gamma| + s tan(beta) over the directions of bonds, relative to a, for the strains (axial, lateral) of a bar:
     /// s = s_m + s_d cos 2x and gamma = s_d sin 2x make it s_m tan(beta) + |s_d|/cos(beta).

@@ -7,6 +7,7 @@ use super::crack_at_points::CrackAtPoints;
 use super::measure::Measure;
 use super::softening::{Law, brittle};
 use super::unfit::{NoLimit, Unfit};
+use crate::dimension::cast;
 use crate::material::{Elasticity, Material};
 use crate::scatter::Scattered;
 
@@ -29,8 +30,33 @@ pub struct Kind {
     pub check: fn(&Choice) -> Result<(), Unfit>,
     /// Further check of a material, beyond the properties that the kind [takes](Self::takes).
     pub suits: fn(&Choice, &Material) -> Result<(), Unfit>,
-    /// Limits of the bonds, for each of the measures.
-    pub limits: fn(&Choice, &Basis<'_>) -> Result<Vec<Limits>, NoLimit>,
+    /// What makes the limits of the bonds.
+    pub limits: PerSpace,
+}
+
+/// What makes limits of bonds in D dimensions, for each of the measures of a kind.
+pub type MakeLimits<const D: usize> = fn(&Choice, &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit>;
+
+/// What makes the limits of a kind in the plane and in space.
+#[derive(Debug, Clone, Copy)]
+pub struct PerSpace {
+    /// Limits in the plane.
+    pub plane: MakeLimits<2>,
+    /// Limits in space; None for a kind that exists in the plane alone.
+    pub solid: Option<MakeLimits<3>>,
+}
+
+impl PerSpace {
+    /// Limits of a kind that exists in the plane alone.
+    pub(super) const fn in_plane(plane: MakeLimits<2>) -> Self {
+        let solid = None;
+        Self { plane, solid }
+    }
+
+    /// What makes the limits in D dimensions; None for a kind that does not exist there.
+    pub(super) fn in_dimension<const D: usize>(self) -> Option<MakeLimits<D>> {
+        cast(self.plane).or_else(|| cast(self.solid?))
+    }
 }
 
 /// A property of materials that limits come from.
@@ -145,7 +171,7 @@ impl Kind {
         word: &'static str,
         words: &'static str,
         measures: &'static [Measure],
-        limits: fn(&Choice, &Basis<'_>) -> Result<Vec<Limits>, NoLimit>,
+        limits: PerSpace,
     ) -> Self {
         Self {
             word,
@@ -226,47 +252,6 @@ impl Choice {
     pub fn begins_at_strength(&self) -> bool {
         let can = self.kind.measures == [Measure::Energy] && self.after.law.softens;
         can && self.limit.is_none() && self.after.parameter.is_none()
-    }
-
-    /// Keys that mean nothing with the kind: a user who gives one expects what will not happen.
-    ///
-    /// # Errors
-    ///
-    /// If one is given that only other kinds take.
-    pub(super) fn refuse_keys(&self) -> Result<(), Unfit> {
-        let calibration = ("calibration", self.calibration.map(|_| 0.0));
-        let others = [
-            calibration,
-            ("friction_angle", self.friction_angle),
-            ("fibre_distance", self.fibre_distance),
-        ];
-        let given = self.own_limits().into_iter().chain(others);
-        let mut refused =
-            given.filter(|(key, value)| value.is_some() && !self.kind.keys.contains(key));
-        let Some((key, _)) = refused.next() else {
-            return Ok(());
-        };
-        let reason = match (key, self.kind.keys) {
-            ("limit", ["critical_stretch", ..]) => {
-                "it has two limits: `critical_stretch` of opening and `critical_angle` of shear"
-            }
-            ("limit", _) => {
-                "its limits come from the material; \"tension\", \"compression\", \"sliding\", \"frictional\", \"fibre\" and \
-                 \"bond-energy\" take one"
-            }
-            ("calibration", _) => {
-                "only the limit of \"frictional\" can come from the strengths in two ways"
-            }
-            ("friction_angle", _) => "only \"frictional\" has friction",
-            ("fibre_distance", _) => "only \"fibre\" looks at a fibre beside the axis of the bond",
-            _ => "only \"mixed-mode\" has a limit for opening and one for shear",
-        };
-        Err(Unfit::NotWith {
-            key,
-            named: key.to_owned(),
-            setting: format!("kind = \"{}\"", self.kind.word),
-            reason,
-        })
     }
 
     /// The property whose random factor is that of the limits: given ones stand in the place of a strength.

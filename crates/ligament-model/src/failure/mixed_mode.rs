@@ -2,7 +2,7 @@
 
 use super::basis::{Basis, weakest_materials};
 use super::crack_energies::{Limits as OfModes, Toughness};
-use super::kind::{Choice, FRACTURE_ENERGY, Kind, Limits};
+use super::kind::{Choice, FRACTURE_ENERGY, Kind, Limits, PerSpace};
 use super::measure::Measure;
 use super::unfit::Unfit;
 use crate::element::imaginary::BondClass;
@@ -20,7 +20,7 @@ pub const MIXED_MODE: Kind = Kind {
         "mixed-mode",
         "Opening and shear of the bonds of `mbb-pd`, from the fracture energies or limits of both.",
         &[Measure::MixedModeX, Measure::MixedModeY],
-        |choice, basis| Ok(limits(choice, basis)),
+        PerSpace::in_plane(|choice, basis| Ok(limits(choice, basis))),
     )
 };
 
@@ -69,7 +69,7 @@ fn limits(choice: &Choice, basis: &Basis<'_>) -> Vec<Limits> {
 fn opening(axis: usize, of_materials: &[OfMaterial], basis: &Basis<'_>) -> Limits {
     let bonds = &basis.system.bonds;
     let stretches: Vec<f64> = of_materials.iter().map(|it| it.stretch[axis]).collect();
-    let materials = weakest_materials(&basis.system.cloud, &basis.system.bonds, &stretches);
+    let materials = weakest_materials(basis.system, &stretches);
     let other_axis = [BondClass::Vertical, BondClass::Horizontal][axis];
     let mut limit = basis.weakest(&stretches);
     for (limit, &direction) in limit.iter_mut().zip(&bonds.direction) {
@@ -95,8 +95,8 @@ fn of_energies(material: &Material, basis: &Basis<'_>) -> OfMaterial {
         };
     };
     let sliding = material.fracture_energy_sliding.unwrap_or(opening);
-    let stiffness = material.elasticity.plane_stiffness(basis.plane);
-    let energies = basis.lattice.crack_energies(&stiffness);
+    let (plane, lattice) = basis.of_plane();
+    let energies = lattice.crack_energies(&material.elasticity.plane_stiffness(plane));
     let of_modes = |sliding| energies.limits(&Toughness { opening, sliding });
     let exponent = material.mixed_mode_exponent.unwrap_or(1.0);
     of_material(&of_modes(opening), sliding / opening, exponent)

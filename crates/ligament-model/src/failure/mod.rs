@@ -17,9 +17,8 @@
 
 mod admissible;
 pub mod along_line;
-mod along_line_in_space;
-pub(crate) mod basis;
-pub(crate) mod choosing;
+mod basis;
+mod choosing;
 pub mod crack_at_points;
 pub mod crack_energies;
 pub mod crack_opening;
@@ -40,7 +39,7 @@ mod unfit;
 pub use basis::Basis;
 pub use choosing::criteria;
 pub use criterion::{Criteria, Criterion, Verdict};
-pub use kind::{After, Calibration, Choice, Kind, Limits, Property};
+pub use kind::{After, Calibration, Choice, Kind, Limits, MakeLimits, PerSpace, Property};
 pub use measure::{Measure, Weakened};
 pub use softening::{AfterLimit, Softened};
 pub use unfit::{NoLimit, Unfit};
@@ -60,3 +59,6 @@ pub const KINDS: [&Kind; 12] = [
     &printed::SLIDING,
     &printed::MIXED,
 ];
+
+#[cfg(test)]
+mod block_tests;

@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 use super::basis::Basis;
 use super::crack_at_points::{CrackAtPoints, Mode};
-use super::kind::{FRACTURE_ENERGY, Kind, Limits};
+use super::kind::{FRACTURE_ENERGY, Kind, Limits, PerSpace};
 use super::measure::Measure;
 use super::mixed_mode;
 
@@ -28,7 +28,7 @@ pub const OPENING: Kind = Kind {
         "printed-opening",
         "Critical stretch and angle of the bonds of `mbb-pd` in mode I as printed, from the fracture energy and the bonds left.",
         &[Measure::PrintedOpening],
-        |_, basis| Ok(limits(Mode::Opening, basis)),
+        PerSpace::in_plane(|_, basis| Ok(limits(Mode::Opening, basis))),
     )
 };
 
@@ -40,7 +40,7 @@ pub const SLIDING: Kind = Kind {
         "printed-sliding",
         "Critical stretch and angle of the bonds of `mbb-pd` in mode II as printed, from the fracture energy and the bonds left.",
         &[Measure::PrintedSliding],
-        |_, basis| Ok(limits(Mode::Sliding, basis)),
+        PerSpace::in_plane(|_, basis| Ok(limits(Mode::Sliding, basis))),
     )
 };
 
@@ -53,7 +53,7 @@ pub const MIXED: Kind = Kind {
         "printed-mixed",
         "Critical stretch and angle of the bonds of `mbb-pd` in both modes as printed, from the fracture energies and the bonds left.",
         &[Measure::PrintedMixed],
-        |_, basis| Ok(limits(Mode::Mixed, basis)),
+        PerSpace::in_plane(|_, basis| Ok(limits(Mode::Mixed, basis))),
     )
 };
 

@@ -1,9 +1,11 @@
 //! Largest sliding (MPPD eqs 49 and 50).
 
-use super::kind::{Kind, TENSILE_STRENGTH};
+use super::basis::Basis;
+use super::kind::{Choice, Kind, Limits, PerSpace, TENSILE_STRENGTH};
 use super::measure::Measure;
 use super::stretch;
-use crate::material::{Isotropic, Plane};
+use super::unfit::NoLimit;
+use crate::material::{Isotropic, Space};
 
 /// Sliding, from the tensile strength.
 pub const SLIDING: Kind = Kind {
@@ -13,20 +15,22 @@ pub const SLIDING: Kind = Kind {
         "sliding",
         "Sliding, from the `tensile_strength` or a `limit`.",
         &[Measure::Sliding],
-        |choice, basis| {
-            Ok(vec![stretch::limits(
-                choice,
-                basis,
-                &TENSILE_STRENGTH,
-                limit,
-            )])
+        PerSpace {
+            plane: limits,
+            solid: Some(limits),
         },
     )
 };
 
+fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit> {
+    let limit = stretch::of_strength(choice, basis, limit);
+    Ok(vec![Limits::without_coefficient(limit)])
+}
+
 /// Limit gamma_0 = s_0t (1 + nu)/2 (MPPD eq. 49), with nu/(1 - nu) in place of nu in plane strain: the sliding of the bonds at
-/// 45 degrees to a bar that carries its tensile strength F_t (Pa).
-pub fn limit(material: &Isotropic, tensile_strength: f64, plane: Plane) -> f64 {
-    let poisson = material.in_plane(plane).poisson;
-    0.5 * (1.0 + poisson) * stretch::limit(material, tensile_strength, plane)
+/// 45 degrees to a bar that carries its tensile strength F_t (Pa). In space it is F_t (1 + nu)/(2 E), as in plane stress.
+pub fn limit(material: &Isotropic, tensile_strength: f64, space: impl Into<Space>) -> f64 {
+    let space = space.into();
+    let poisson = material.of_bar(space).poisson;
+    0.5 * (1.0 + poisson) * stretch::limit(material, tensile_strength, space)
 }

@@ -2,10 +2,11 @@
 
 use rayon::prelude::*;
 
-use super::basis::weakest;
-use super::kind::{Kind, Limits, TENSILE_STRENGTH};
+use super::basis::{Basis, weakest};
+use super::kind::{Choice, Kind, Limits, PerSpace, TENSILE_STRENGTH};
 use super::measure::Measure;
-use crate::material::{Isotropic, Plane};
+use super::unfit::NoLimit;
+use crate::material::{Isotropic, Plane, Space};
 use crate::system::BondSystem;
 
 /// Stretch, from the energy at the tensile strength.
@@ -15,30 +16,47 @@ pub const STRENGTH: Kind = Kind {
         "strength",
         "Stretch, from the energy at the `tensile_strength` (NHPD).",
         &[Measure::Tension],
-        |_, basis| {
-            let energies = basis.each(|constants, material| {
-                let strength = material.tensile_strength?;
-                Some(critical_energy(constants, strength, basis.plane))
-            });
-            let limit = critical_stretches(basis.system, &energies, basis.no_fail);
-            Ok(vec![Limits::without_coefficient(limit)])
+        PerSpace {
+            plane: limits,
+            solid: Some(limits),
         },
     )
 };
 
+fn limits<const D: usize>(_: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit> {
+    let energies = basis.each(|constants, material| {
+        let strength = material.tensile_strength?;
+        Some(critical_energy(constants, strength, basis.space))
+    });
+    let limit = critical_stretches(basis.system, &energies, basis.no_fail);
+    Ok(vec![Limits::without_coefficient(limit)])
+}
+
 /// Critical strain energy density e_0, J/m^3 (NHPD eq. 14):
 ///
-/// F_t^2 / (2 E (1 - nu^2)) in plane stress, F_t^2 (1 - nu^2)(1 - nu)^2 / (2 E (1 - 2 nu)) in plane strain.
+/// | | e_0 |
+/// |---|---|
+/// | plane stress | F_t^2 / (2 E (1 - nu^2)) |
+/// | plane strain | F_t^2 (1 - nu^2)(1 - nu)^2 / (2 E (1 - 2 nu)) |
+/// | space, by the same argument | F_t^2 (1 - nu) / (2 E (1 + nu)(1 - 2 nu)) |
 ///
-/// Both are eq. 11 at the axial strain of a uniaxial tension test, not the energy F_t^2/(2E) of that test: 17 % above it
-/// at nu = 0.38 in plane stress. The paper's form is kept.
-pub fn critical_energy(material: &Isotropic, tensile_strength: f64, plane: Plane) -> f64 {
-    let nu = material.poisson;
-    let reduction = match plane {
-        Plane::Stress => 1.0 / (1.0 - nu * nu),
-        Plane::Strain => (1.0 - nu * nu) * (1.0 - nu).powi(2) / (1.0 - 2.0 * nu),
+/// All are the energy of a uniaxial strain (eq. 11) of the size of the axial strain in a uniaxial tension test, not the energy
+/// F_t^2/(2E) of that test: 17 % above it at nu = 0.38 in plane stress. The paper's form is kept.
+pub fn critical_energy(
+    material: &Isotropic,
+    tensile_strength: f64,
+    space: impl Into<Space>,
+) -> f64 {
+    let Isotropic { young, poisson: nu } = *material;
+    let square = tensile_strength.powi(2);
+    let reduction = match space.into() {
+        Space::Plane(Plane::Stress) => 1.0 / (1.0 - nu * nu),
+        Space::Plane(Plane::Strain) => (1.0 - nu * nu) * (1.0 - nu).powi(2) / (1.0 - 2.0 * nu),
+        Space::Solid => {
+            return square * (1.0 - nu) / (2.0 * young * (1.0 + nu) * (1.0 - 2.0 * nu));
+        }
     };
-    tensile_strength.powi(2) / (2.0 * material.young) * reduction
+    square / (2.0 * young) * reduction
 }
 
 /// Critical stretches s_0 (n_bonds), NHPD eq. 16, for the critical energies e_0 of the materials (n_materials, J/m^3; infinite for
@@ -48,9 +66,13 @@ pub fn critical_energy(material: &Isotropic, tensile_strength: f64, plane: Plane
 ///
 /// A bond between materials takes the smallest e_0 of all that have a share in one of its ends or that it crosses. A bond of which an end is
 /// marked in `no_fail` (n_points) never breaks: s_0 is infinite.
-pub fn critical_stretches(system: &BondSystem, energies: &[f64], no_fail: &[bool]) -> Vec<f64> {
+pub fn critical_stretches<const D: usize>(
+    system: &BondSystem<D>,
+    energies: &[f64],
+    no_fail: &[bool],
+) -> Vec<f64> {
     (
-        weakest(&system.cloud, &system.bonds, no_fail, energies),
+        weakest(system, no_fail, energies),
         &system.bonds.ends,
         &system.rigidities.axial,
     )

@@ -1,9 +1,10 @@
 //! Largest stretch in tension and in compression (MPPD eqs 44 to 46).
 
 use super::basis::Basis;
-use super::kind::{COMPRESSIVE_STRENGTH, Choice, Kind, Limits, Property, TENSILE_STRENGTH};
+use super::kind::{COMPRESSIVE_STRENGTH, Choice, Kind, Limits, PerSpace, TENSILE_STRENGTH};
 use super::measure::Measure;
-use crate::material::{Isotropic, Plane};
+use super::unfit::NoLimit;
+use crate::material::{Isotropic, Space};
 
 /// Stretch, from the tensile strength.
 pub const TENSION: Kind = Kind {
@@ -13,7 +14,7 @@ pub const TENSION: Kind = Kind {
         "tension",
         "Stretch, from the `tensile_strength` or a `limit`.",
         &[Measure::Tension],
-        |choice, basis| Ok(vec![limits(choice, basis, &TENSILE_STRENGTH, limit)]),
+        LIMITS,
     )
 };
 
@@ -25,25 +26,32 @@ pub const COMPRESSION: Kind = Kind {
         "compression",
         "Shortening, from the `compressive_strength` or a `limit`.",
         &[Measure::Compression],
-        |choice, basis| Ok(vec![limits(choice, basis, &COMPRESSIVE_STRENGTH, limit)]),
+        LIMITS,
     )
 };
 
-/// Limits as they are given, or of a strength (Pa); a bond between materials takes the smaller one.
-pub(super) fn limits(
+const LIMITS: PerSpace = PerSpace {
+    plane: limits,
+    solid: Some(limits),
+};
+
+fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit> {
+    let limit = of_strength(choice, basis, limit);
+    Ok(vec![Limits::without_coefficient(limit)])
+}
+
+/// Limits as they are given, or of the strength that the kind takes first (n_bonds); a bond between materials takes the smaller one.
+pub(super) fn of_strength<const D: usize>(
     choice: &Choice,
-    basis: &Basis<'_>,
-    strength: &Property,
-    of_material: fn(&Isotropic, f64, Plane) -> f64,
-) -> Limits {
-    let of_materials = match choice.limit {
-        Some(limit) => vec![limit; basis.materials.len()],
-        None => basis.each(|constants, material| {
-            let strength = (strength.value)(material)?;
-            Some(of_material(constants, strength, basis.plane))
-        }),
-    };
-    Limits::without_coefficient(basis.weakest(&of_materials))
+    basis: &Basis<'_, D>,
+    of_material: fn(&Isotropic, f64, Space) -> f64,
+) -> Vec<f64> {
+    basis.given_or(choice.limit, || {
+        basis.each(|constants, material| {
+            let strength = (choice.kind.takes.first()?.value)(material)?;
+            Some(of_material(constants, strength, basis.space))
+        })
+    })
 }
 
 /// Limit stretch of a strength F (Pa): the strain of a bar under that stress,
@@ -51,6 +59,6 @@ pub(super) fn limits(
 /// s_0 = F/E (MPPD eq. 44), in plane strain F (1 - nu^2)/E.
 ///
 /// The bond along the bar has this stretch, so that a bar yields at its strength wherever a bond lies along it.
-pub fn limit(material: &Isotropic, strength: f64, plane: Plane) -> f64 {
-    strength / material.in_plane(plane).young
+pub fn limit(material: &Isotropic, strength: f64, space: impl Into<Space>) -> f64 {
+    strength / material.of_bar(space).young
 }

@@ -1,5 +1,6 @@
 //! Why a choice of a criterion cannot be.
 
+use std::borrow::Cow;
 use std::fmt;
 
 /// Fault of a choice, or of a material for it; all but one name the key.
@@ -14,7 +15,7 @@ pub enum Unfit {
         /// The setting with which it means nothing.
         setting: String,
         /// The reason.
-        reason: &'static str,
+        reason: Cow<'static, str>,
     },
     /// A key that is not there.
     Missing {
@@ -97,9 +98,16 @@ impl fmt::Display for Unfit {
 
 impl std::error::Error for Unfit {}
 
-/// Why bonds have no limits: what the materials are does not go together.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Why bonds have no limits.
+#[derive(Debug, Clone, PartialEq)]
 pub enum NoLimit {
+    /// A criterion in space that exists in the plane alone.
+    PlaneOnly {
+        /// Word of its kind.
+        kind: &'static str,
+        /// Words of the kinds that exist in space.
+        in_space: Vec<&'static str>,
+    },
     /// Strengths that leave no angle of friction.
     NoFriction {
         /// Poisson's ratio in the plane.
@@ -124,7 +132,12 @@ pub enum NoLimit {
 
 impl fmt::Display for NoLimit {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
+        match self {
+            Self::PlaneOnly { kind, in_space } => write!(
+                formatter,
+                "the criterion \"{kind}\" exists in the plane alone; in space take one of \"{}\"",
+                in_space.join("\", \"")
+            ),
             Self::NoFriction {
                 poisson,
                 tensile,

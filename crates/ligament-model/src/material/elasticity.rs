@@ -160,6 +160,14 @@ impl Isotropic {
         }
     }
 
+    /// Young's modulus and Poisson's ratio of a bar in a space: those of the material, or in a plane those of [`in_plane`](Self::in_plane).
+    pub fn of_bar(&self, space: impl Into<Space>) -> Self {
+        match space.into() {
+            Space::Plane(plane) => self.in_plane(plane),
+            Space::Solid => *self,
+        }
+    }
+
     /// Poisson's ratio at which the bonds' shear stiffness vanishes: 1/3 in plane stress, 1/4 in plane strain and in space.
     pub fn central_force_poisson(space: impl Into<Space>) -> f64 {
         match space.into() {

@@ -9,7 +9,7 @@ use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
 use crate::deformation::{Deformation, Deformations};
 use crate::element::{BondDeformation, DeformationOf, Element, Elements, Remaining, Term};
-use crate::failure::{Criteria, Criterion};
+use crate::failure::Criterion;
 use crate::interface::{
     Bonds, CentralMotions, CoupledPoints, PointStiffness, StressReading, Stresses,
 };
@@ -330,10 +330,6 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> Bonds for ElementSystem<
     ) {
         self.system
             .add_stresses_of_contact(reading, closed, &mut stresses.values);
-    }
-
-    fn unknown_along_lines<'c>(&self, criteria: &'c Criteria) -> Option<&'c Criterion> {
-        criteria.unknown_along_lines::<D>()
     }
 
     fn energy_at_limit(&self, criterion: &Criterion, bond: usize) -> f64 {
