@@ -77,7 +77,7 @@ fn patched(mesh: Mesh, law: Law) -> Setup {
     setup
 }
 
-fn tested<const D: usize>(model: &Model<D>) -> (Thin<D>, BendingTest) {
+fn tested<const D: usize>(model: &Model) -> (Thin<D>, BendingTest) {
     let section = thinnest_section(model, usize::MAX).unwrap();
     (section, bending_test(model, &section, usize::MAX).unwrap())
 }
@@ -242,7 +242,7 @@ fn round_bar(across: usize) -> SolidMesh {
     }
 }
 
-fn bar(across: usize, rotational_factor: f64) -> Setup<3> {
+fn bar(across: usize, rotational_factor: f64) -> Setup {
     let body = SolidMeshBody::from(round_bar(across));
     let mut setup = Setup::<3>::new(body, Material::isotropic(YOUNG, 0.2), Law::Nhpd);
     setup.horizon = Horizon::Factor(2.5);
@@ -252,7 +252,7 @@ fn bar(across: usize, rotational_factor: f64) -> Setup<3> {
 }
 
 /// Torque of the bar with its right end turned by an angle over that of Saint-Venant, G J angle/L with J = A^2/(2 pi) of its section A.
-fn torque(mut setup: Setup<3>, section: f64) -> f64 {
+fn torque(mut setup: Setup, section: f64) -> f64 {
     let [_, length] = ROUND;
     let angle = 1e-4;
     let end = |z: f64| Place::Box([[-2.0, -2.0, z - 1e-6], [2.0, 2.0, z + 1e-6]]);

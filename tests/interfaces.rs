@@ -32,14 +32,14 @@ fn halved(body: impl Body + 'static, law: Law, poisson: f64, ratio: f64) -> Setu
     setup
 }
 
-fn along_x<const D: usize>(value: f64) -> Action<D> {
+fn along_x(value: f64) -> Action {
     Action::Displacement(Displacement {
         x: Some(value),
         ..Displacement::default()
     })
 }
 
-fn along_y<const D: usize>(value: f64) -> Action<D> {
+fn along_y(value: f64) -> Action {
     Action::Displacement(Displacement {
         y: Some(value),
         ..Displacement::default()
@@ -293,7 +293,7 @@ fn with_layer<const D: usize>(
     law: Law,
     [half, layer]: [Material; 2],
     across: &[Component],
-) -> Setup<D> {
+) -> Setup {
     let mut setup = Setup::new(body, half.clone(), law);
     let region = |group: &str, material: Material| MaterialRegion {
         group: Some(group.to_owned()),
@@ -347,7 +347,7 @@ fn layers_between_halves_of_a_mesh() {
 }
 
 /// The setup with its ends moved along y against each other, all points held along the other axes: the layer and the halves are sheared.
-fn sheared<const D: usize>(mut setup: Setup<D>, others: &[Component]) -> Setup<D> {
+fn sheared(mut setup: Setup, others: &[Component]) -> Setup {
     setup.supports = vec![
         Support::new("left", &[Component::Y]),
         Support::new(Place::Everywhere, others),
@@ -394,7 +394,7 @@ fn sheared_layers_between_halves_of_a_mesh() {
 /// stiff at a hundredth, and where they are those of their ends a pulled one 1.6 times.
 #[test]
 fn layers_between_halves_of_a_solid() {
-    let found = |setup: Setup<3>| {
+    let found = |setup: Setup| {
         let history = setup.solve(&mut Unobserved).unwrap().outcome.history;
         history.last().unwrap().reaction.abs()
     };

@@ -128,7 +128,7 @@ impl Observer for Seen {
 /// A model of a case in the plane or in space, and the problem of its loads.
 enum Body {
     Plane(Model),
-    Space(Model<3>),
+    Space(Model),
 }
 
 fn body(text: &str, settings: &[&str], ranks: Option<Together>) -> Body {
@@ -141,7 +141,7 @@ fn body(text: &str, settings: &[&str], ranks: Option<Together>) -> Body {
     }
 }
 
-fn problem<const D: usize>(model: &Model<D>, ranks: Option<Together>) -> Problem {
+fn problem(model: &Model, ranks: Option<Together>) -> Problem {
     let mut loading = Loading::new(&model.setup, &*model.system).unwrap();
     loading.solver.ranks = ranks;
     loading.problem(&model.system, &model.criteria)

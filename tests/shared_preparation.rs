@@ -51,8 +51,8 @@ fn at(places: &[usize], values: &[f64]) -> Vec<f64> {
 }
 
 /// Lists of numbers of the bonds, each with a name.
-fn of_bonds<const D: usize>(
-    model: &Model<D>,
+fn of_bonds(
+    model: &Model,
     rigidities: &Rigidities,
 ) -> Vec<(&'static str, Vec<f64>)> {
     let system = &*model.system;
@@ -84,12 +84,12 @@ fn of_points(fixed: &FixedFields) -> Vec<(&'static str, Vec<f64>)> {
 }
 
 /// Shares a body out among 1, 2 and 3 ranks and compares with one process.
-fn shared<const D: usize>(
+fn shared(
     name: &str,
-    setup: &Setup<D>,
+    setup: &Setup,
     accuracy: Accuracy,
-    rigidities: impl Fn(&Model<D>) -> &Rigidities + Sync,
-) -> Model<D> {
+    rigidities: impl Fn(&Model) -> &Rigidities + Sync,
+) -> Model {
     let whole = Model::build(setup.clone(), &mut ()).unwrap();
     let (ends, lists) = (whole.system.ends(), of_bonds(&whole, rigidities(&whole)));
     for n_ranks in 1..=3 {
@@ -159,7 +159,7 @@ fn in_plane(name: &str, case: &CaseFile, accuracy: Accuracy) -> Model {
     shared(name, &setup, accuracy, |model| &model.system.rigidities)
 }
 
-fn in_space(name: &str, case: &CaseFile, accuracy: Accuracy) -> Model<3> {
+fn in_space(name: &str, case: &CaseFile, accuracy: Accuracy) -> Model {
     let setup = case.setup_in_space(&mut ()).unwrap();
     shared(name, &setup, accuracy, |model| &model.system.rigidities)
 }

@@ -50,7 +50,7 @@ fn prisms(cell: SolidCell) -> Vec<SolidCell> {
         .to_vec()
 }
 
-fn patched(body: impl Body<3> + 'static, factor: f64) -> Setup<3> {
+fn patched(body: impl Body<3> + 'static, factor: f64) -> Setup {
     let Isotropic { young, poisson } = MATERIAL;
     let mut setup = Setup::new(body, Material::isotropic(young, poisson), Law::Nhpd);
     setup.horizon = Horizon::Factor(factor);
@@ -58,11 +58,11 @@ fn patched(body: impl Body<3> + 'static, factor: f64) -> Setup<3> {
     setup
 }
 
-fn built(setup: Setup<3>) -> Model<3> {
+fn built(setup: Setup) -> Model {
     Model::build(setup, &mut ()).unwrap()
 }
 
-fn tested(name: &str, model: &Model<3>) -> PatchTest<3> {
+fn tested(name: &str, model: &Model) -> PatchTest<3> {
     let test = patch_test(model).unwrap();
     let constants = test.constants.unwrap().body;
     println!(

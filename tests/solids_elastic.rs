@@ -21,20 +21,20 @@ fn case(name: &str, settings: &[&str]) -> CaseFile {
     CaseFile::load(&path, &settings).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn solid(name: &str, settings: &[&str]) -> Setup<3> {
+fn solid(name: &str, settings: &[&str]) -> Setup {
     case(name, settings).setup_in_space(&mut ()).unwrap()
 }
 
-fn solved(name: &str, settings: &[&str]) -> Solution<3> {
+fn solved(name: &str, settings: &[&str]) -> Solution {
     solid(name, settings).solve(&mut Unobserved).unwrap()
 }
 
-fn last(solution: &Solution<3>) -> &StepRecord {
+fn last(solution: &Solution) -> &StepRecord {
     solution.outcome.history.last().unwrap()
 }
 
 /// Value of a probe at the end.
-fn probe(solution: &Solution<3>, name: &str) -> f64 {
+fn probe(solution: &Solution, name: &str) -> f64 {
     let place = solution.probes.iter().position(|it| it.name == name);
     last(solution).probes[place.unwrap()]
 }
@@ -175,7 +175,7 @@ fn an_extruded_plate_is_the_plate_in_plane_strain() {
 }
 
 /// Coordinates, volumes and displacements of the points at the end, m and m^3.
-fn displaced(solution: &Solution<3>) -> Vec<([f64; 3], f64, [f64; 3])> {
+fn displaced(solution: &Solution) -> Vec<([f64; 3], f64, [f64; 3])> {
     let (cloud, layout) = (&solution.model.system.cloud, solution.model.system.layout());
     let all = &solution.outcome.state.displacement;
     let axes = [Component::X, Component::Y, Component::Z];

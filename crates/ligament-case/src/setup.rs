@@ -18,8 +18,8 @@ impl CaseFile {
     /// # Errors
     ///
     /// If a file cannot be read, or the mesh is not one of solid cells.
-    pub fn setup_in_space(&self, watcher: &mut dyn StageWatcher) -> anyhow::Result<Setup<3>> {
-        let body: Arc<dyn Body<3>> = match (&self.case.mesh, &self.case.solid_lattice) {
+    pub fn setup_in_space(&self, watcher: &mut dyn StageWatcher) -> anyhow::Result<Setup> {
+        let body: Arc<dyn Geometry<3>> = match (&self.case.mesh, &self.case.solid_lattice) {
             (Some(section), _) => {
                 let mesh = stage(watcher, "read mesh", || read_any_mesh(&section.file))?;
                 let AnyMesh::Solid(mesh) = mesh else {
@@ -66,13 +66,13 @@ impl CaseFile {
     /// # Errors
     ///
     /// If a table of temperatures cannot be read.
-    pub fn setup_on<const D: usize>(&self, body: Arc<dyn Body<D>>) -> Result<Setup<D>, CaseError> {
+    pub fn setup_on<const D: usize>(&self, body: Arc<dyn Geometry<D>>) -> Result<Setup, CaseError> {
         let setup = self.case.setup_on(body);
         self.with_tables(setup.map_err(|fault| self.source.error(fault))?)
     }
 
     /// A setup with the tables of temperatures that the case names.
-    fn with_tables<const D: usize>(&self, mut setup: Setup<D>) -> Result<Setup<D>, CaseError> {
+    fn with_tables<const D: usize>(&self, mut setup: Setup) -> Result<Setup, CaseError> {
         for (index, section) in self.case.temperatures.iter().enumerate() {
             if let Some(file) = &section.file {
                 let rows = temperature_table::rows_of::<D>(file);

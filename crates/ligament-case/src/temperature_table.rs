@@ -7,14 +7,14 @@ use ligament::setup::Sample;
 use crate::input_file;
 
 /// The rows of a file, each with its line; else what is wrong with the file.
-pub(crate) fn rows_of<const D: usize>(path: &Path) -> Result<Vec<(usize, Sample<D>)>, String> {
+pub(crate) fn rows_of(path: &Path) -> Result<Vec<(usize, Sample)>, String> {
     let text = input_file::read_text(path)
         .map_err(|source| format!("cannot read {}: {source}", path.display()))?;
     rows(&text).map_err(|(line, reason)| format!("{}:{line}: {reason}", path.display()))
 }
 
 /// The rows below the header; blank lines and those that begin with # say nothing.
-fn rows<const D: usize>(text: &str) -> Result<Vec<(usize, Sample<D>)>, (usize, String)> {
+fn rows<const D: usize>(text: &str) -> Result<Vec<(usize, Sample)>, (usize, String)> {
     // Spreadsheets begin their files with a byte order mark.
     let lines = text.trim_start_matches('\u{feff}').lines();
     let mut lines = (1..)

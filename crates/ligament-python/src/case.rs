@@ -21,7 +21,7 @@ pub(crate) struct Case {
 /// A setup in the plane or in space.
 pub(crate) enum AnySetup {
     Plane(Setup),
-    Solid(Setup<3>),
+    Solid(Setup),
 }
 
 #[pymethods]

@@ -86,7 +86,7 @@ fn find(case: &Case) -> Result<Found, Failure> {
     found.map_err(|error| Failure::Other(error.into()))?
 }
 
-fn find_here<const D: usize>(case: &CaseFile, setup: Setup<D>) -> Result<Found, Failure> {
+fn find_here(case: &CaseFile, setup: Setup) -> Result<Found, Failure> {
     let Analysis::Modal(settings) = setup.analysis else {
         let fault = Fault::OtherAnalysis {
             found: setup.analysis.name(),

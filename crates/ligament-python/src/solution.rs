@@ -145,9 +145,9 @@ pub(crate) fn solve(
     solved.map_err(|error| Failure::Other(error.into()))?
 }
 
-fn solve_here<const D: usize>(
+fn solve_here(
     case: &CaseFile,
-    setup: Setup<D>,
+    setup: Setup,
     progress: Sender<Progress>,
     stop: &Stop,
 ) -> Result<Solved, Failure> {
@@ -200,9 +200,9 @@ fn solve_here<const D: usize>(
 }
 
 /// The numbers of a run, as `summary.json` has them.
-fn summary<const D: usize>(
+fn summary(
     case: &CaseFile,
-    (model, boundary): (&Model<D>, &ProportionalLoading),
+    (model, boundary): (&Model, &ProportionalLoading),
     (outcome, kept): (&Outcome, &Kept),
     stages: &Stages,
 ) -> Result<String, Failure> {

@@ -105,9 +105,9 @@ fn assist(
     }
 }
 
-fn compute<const D: usize>(
+fn compute(
     case: &CaseFile,
-    model: &Model<D>,
+    model: &Model,
     (ranks, is_stopped): (Together, IsStopped<'_>),
     begin: &Begin,
 ) -> anyhow::Result<()> {

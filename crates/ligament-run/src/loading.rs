@@ -24,7 +24,7 @@ pub(crate) const SUMMARY: &str = "summary.json";
 /// A body under loads, and the folder of its results.
 pub(crate) struct LoadedBody<'a, const D: usize> {
     pub(crate) case: &'a CaseFile,
-    pub(crate) model: &'a Model<D>,
+    pub(crate) model: &'a Model,
     pub(crate) loading: &'a Loading,
     pub(crate) folder: &'a ResultFolder,
     pub(crate) build: Build,

@@ -124,7 +124,7 @@ pub fn foresee_lattice(
 /// # Errors
 ///
 /// With both numbers.
-pub fn foresee_model<const D: usize>(case: &CaseFile, setup: &Setup<D>) -> Result<(), TooLarge> {
+pub fn foresee_model<const D: usize>(case: &CaseFile, setup: &Setup) -> Result<(), TooLarge> {
     let positions = setup.body.positions();
     let points = positions.len() as f64;
     // Volume of a ball of radius 1 in so many dimensions.

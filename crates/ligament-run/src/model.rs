@@ -92,7 +92,7 @@ pub fn build_model_in_space(
     case: &CaseFile,
     stages: &mut Stages,
     progress: &Progress,
-) -> anyhow::Result<Model<3>> {
+) -> anyhow::Result<Model> {
     build_model_in_space_on(case, None, stages, progress)
 }
 
@@ -106,16 +106,16 @@ pub fn build_model_in_space_on(
     ranks: Option<Together>,
     stages: &mut Stages,
     progress: &Progress,
-) -> anyhow::Result<Model<3>> {
+) -> anyhow::Result<Model> {
     build(case, ranks, (stages, progress), CaseFile::setup_in_space)
 }
 
-fn build<const D: usize>(
+fn build(
     case: &CaseFile,
     ranks: Option<Together>,
     (stages, progress): (&mut Stages, &Progress),
-    read: fn(&CaseFile, &mut dyn StageWatcher) -> anyhow::Result<Setup<D>>,
-) -> anyhow::Result<Model<D>> {
+    read: fn(&CaseFile, &mut dyn StageWatcher) -> anyhow::Result<Setup>,
+) -> anyhow::Result<Model> {
     let mut preparation = Preparation { stages, progress };
     let tasks_before = tasks_of_others();
     let mut setup = read(case, &mut preparation)?;

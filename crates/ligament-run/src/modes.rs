@@ -16,10 +16,10 @@ use ligament::Model;
 use ligament_case::case::CaseFile;
 
 /// Finds the modes of a model and writes them into a new folder.
-pub(crate) fn find_modes<const D: usize>(
+pub(crate) fn find_modes(
     case: &CaseFile,
     settings: ModalSettings,
-    (model, provenance): (&Model<D>, Provenance),
+    (model, provenance): (&Model, Provenance),
     create: impl FnOnce() -> Result<ResultFolder, ligament_output::Error>,
     mut stages: Stages,
 ) -> anyhow::Result<ModalSummary> {

@@ -12,9 +12,9 @@ use crate::checkpoints::IsStopped;
 use crate::memory;
 
 /// The loading of a case, whose equations the processes solve together.
-pub(crate) fn loading<const D: usize>(
+pub(crate) fn loading(
     case: &CaseFile,
-    model: &Model<D>,
+    model: &Model,
     ranks: Option<Together>,
 ) -> anyhow::Result<Loading> {
     ensure!(

@@ -89,9 +89,9 @@ impl Request<'_> {
     }
 
     /// Goes on with a model from what was found.
-    fn go_on<const D: usize>(
+    fn go_on(
         &self,
-        model: &Model<D>,
+        model: &Model,
         found: Option<(Checkpoint, SoFar)>,
         (folder, mut stages, mut progress): (ResultFolder, Stages, Progress),
         case: &CaseFile,

@@ -120,9 +120,9 @@ impl Request<'_> {
     }
 
     /// Loads a model or finds its modes.
-    fn solve<const D: usize>(
+    fn solve(
         &self,
-        model: &Model<D>,
+        model: &Model,
         stages: Stages,
         mut progress: Progress,
     ) -> anyhow::Result<Report> {
@@ -145,9 +145,9 @@ impl Request<'_> {
 }
 
 /// Loads a model, breaks its bonds if the case says so, and writes what happens into a new folder.
-fn follow_loads<const D: usize>(
+fn follow_loads(
     request: &Request<'_>,
-    model: &Model<D>,
+    model: &Model,
     mut stages: Stages,
     mut progress: Progress,
 ) -> anyhow::Result<Summary> {

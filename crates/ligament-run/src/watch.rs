@@ -27,7 +27,7 @@ pub(crate) struct Watch<'a, const D: usize> {
     progress: &'a mut Progress,
     notices: Vec<String>,
     last: StepLine,
-    body: &'a dyn Body<D>,
+    body: &'a dyn Body,
     /// Whether faces of cracks carry pressure where they close.
     closing: bool,
 }
@@ -38,7 +38,7 @@ impl<'a, const D: usize> Watch<'a, D> {
         (writer, checkpoints): (ResultWriter<'a>, Checkpoints<'a>),
         is_stopped: IsStopped<'a>,
         progress: &'a mut Progress,
-        setup: &'a Setup<D>,
+        setup: &'a Setup,
         notices: Vec<String>,
     ) -> Self {
         progress.begin_steps(setup.n_steps().map(|steps| steps as u64));

@@ -65,6 +65,7 @@ pub mod setup;
 mod soundness;
 pub mod stage;
 pub mod suggestion;
+pub mod system;
 pub mod units;
 pub mod warning;
 

@@ -119,10 +119,10 @@ pub struct Support {
 }
 
 impl Support {
-    pub(super) fn setup<const D: usize>(
+    pub(super) fn setup(
         &self,
         key: &KeyPath,
-    ) -> Result<setup::Support<D>, KeyFault> {
+    ) -> Result<setup::Support, KeyFault> {
         let given = self.displacement.unwrap_or_default().setup();
         let moved = given.components().find(|(_, value)| *value != 0.0);
         if let Some((component, value)) = moved {

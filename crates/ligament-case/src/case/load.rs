@@ -83,7 +83,7 @@ impl Load {
         Ok(())
     }
 
-    pub(super) fn setup<const D: usize>(&self, key: &KeyPath) -> Result<setup::Load<D>, KeyFault> {
+    pub(super) fn setup(&self, key: &KeyPath) -> Result<setup::Load, KeyFault> {
         let action = one_of(key, self.actions(key))??;
         let is_placed = self.group.is_some() || self.r#box.is_some() || self.at.is_some();
         let place = match action {
@@ -105,18 +105,18 @@ impl Load {
         })
     }
 
-    fn place<const D: usize>(&self, key: &KeyPath) -> Result<Place<D>, KeyFault> {
+    fn place(&self, key: &KeyPath) -> Result<Place, KeyFault> {
         place(key, self.group.as_ref(), self.r#box, self.at)
     }
 
     fn actions<const D: usize>(&self, key: &KeyPath) -> Actions<D> {
         let displacement = |it: Displacement| Ok(Action::Displacement(it.setup()));
         let vector =
-            |name: &'static str, given: Option<Vector>, make: fn([f64; D]) -> Action<D>| {
+            |name: &'static str, given: Option<Vector>, make: fn([f64; D]) -> Action| {
                 let action = given.map(|it| it.of(&key.child(name)).map(make));
                 (name, action)
             };
-        let couple = |name: &'static str, given: Option<Couple>, make: fn(_) -> Action<D>| {
+        let couple = |name: &'static str, given: Option<Couple>, make: fn(_) -> Action| {
             let action = given.map(|it| it.of::<D>(&key.child(name)).map(make));
             (name, action)
         };
@@ -145,4 +145,4 @@ impl Load {
 }
 
 /// The actions of a load by their keys.
-type Actions<const D: usize> = [(&'static str, Option<Result<Action<D>, KeyFault>>); 9];
+type Actions<const D: usize> = [(&'static str, Option<Result<Action, KeyFault>>); 9];

@@ -34,7 +34,7 @@ pub struct Probe {
 }
 
 impl Probe {
-    pub(super) fn setup<const D: usize>(&self, key: &KeyPath) -> Result<setup::Probe<D>, KeyFault> {
+    pub(super) fn setup(&self, key: &KeyPath) -> Result<setup::Probe, KeyFault> {
         require_column_name(|| key.child("name"), &self.name)?;
         let pair = |name: &str, [first, second]: [Coordinates; 2]| {
             let key = key.child(name);

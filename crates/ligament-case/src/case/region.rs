@@ -87,18 +87,18 @@ pub struct Region {
 }
 
 impl Region {
-    pub(super) fn place<const D: usize>(&self, key: &KeyPath) -> Result<Place<D>, KeyFault> {
+    pub(super) fn place(&self, key: &KeyPath) -> Result<Place, KeyFault> {
         place(key, self.group.as_ref(), self.r#box, None)
     }
 }
 
 /// The place of a table that must have one.
-pub(super) fn place<const D: usize>(
+pub(super) fn place(
     key: &KeyPath,
     group: Option<&String>,
     corners: Option<Corners>,
     at: Option<Coordinates>,
-) -> Result<Place<D>, KeyFault> {
+) -> Result<Place, KeyFault> {
     let group = group.cloned().map(|it| Ok(Place::Group(it)));
     let corners = corners.map(|it| it.of(&key.child("box")).map(Place::Box));
     let at = at.map(|it| it.of(&key.child("at")).map(Place::At));

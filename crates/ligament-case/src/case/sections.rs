@@ -251,8 +251,8 @@ impl Case {
     /// The setup of the case on a body, whatever body the case names. Tables of temperatures have no rows yet.
     pub(crate) fn setup_on<const D: usize>(
         &self,
-        body: Arc<dyn Body<D>>,
-    ) -> Result<Setup<D>, KeyFault> {
+        body: Arc<dyn Geometry<D>>,
+    ) -> Result<Setup, KeyFault> {
         let section = match D {
             2 => Section::Plane {
                 state: self.plane(),
@@ -308,7 +308,7 @@ impl Case {
     }
 
     /// A stand-in for a solid body before it is made: of its kind, with a point at most.
-    pub(super) fn solid_stand_in(&self) -> Result<Arc<dyn Body<3>>, KeyFault> {
+    pub(super) fn solid_stand_in(&self) -> Result<Arc<dyn Geometry<3>>, KeyFault> {
         let Some(lattice) = &self.solid_lattice else {
             return Ok(Arc::new(SolidMeshBody::from(SolidMesh::default())));
         };

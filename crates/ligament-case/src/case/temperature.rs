@@ -54,10 +54,10 @@ impl Temperature {
     }
 
     /// The change; of a file without its rows, which are there once it is read.
-    pub(super) fn setup<const D: usize>(
+    pub(super) fn setup(
         &self,
         key: &KeyPath,
-    ) -> Result<setup::Temperature<D>, KeyFault> {
+    ) -> Result<setup::Temperature, KeyFault> {
         let table = self.file.as_ref();
         let field = (self.mesh_field.clone()).map(|name| TemperatureChange::Field {
             name,

@@ -17,7 +17,7 @@ use super::entry::entry;
 pub(super) fn write<const D: usize>(
     out: &mut dyn Write,
     extent: Extent,
-    model: &Model<D>,
+    model: &Model,
     stages: &mut Stages,
 ) -> io::Result<Option<String>> {
     if extent == Extent::Model {
@@ -81,7 +81,7 @@ fn times(stiffness: f64) -> String {
     }
 }
 
-fn warning<const D: usize>(model: &Model<D>, section: &Section<D>, test: &BendingTest) -> String {
+fn warning<const D: usize>(model: &Model, section: &Section<D>, test: &BendingTest) -> String {
     let across = section.thickness / section.spacing;
     let torsion = test
         .torsion

@@ -12,9 +12,9 @@ use ligament_output::quantity::{between, quantity};
 use super::entry::entry;
 
 /// Writes what a body is made of, with the volume of its points.
-pub(super) fn write<const D: usize>(
+pub(super) fn write(
     out: &mut dyn Write,
-    body: &dyn Body<D>,
+    body: &dyn Body,
     volume: f64,
 ) -> io::Result<()> {
     match body.origin() {
@@ -57,9 +57,9 @@ fn write_groups(out: &mut dyn Write, groups: &[Group]) -> io::Result<()> {
     Ok(())
 }
 
-fn write_solid_lattice<const D: usize>(
+fn write_solid_lattice(
     out: &mut dyn Write,
-    body: &dyn Body<D>,
+    body: &dyn Body,
     lattice: &SolidLattice,
     volume: f64,
 ) -> io::Result<()> {
@@ -79,9 +79,9 @@ fn write_solid_lattice<const D: usize>(
     Ok(())
 }
 
-fn write_lattice<const D: usize>(
+fn write_lattice(
     out: &mut dyn Write,
-    body: &dyn Body<D>,
+    body: &dyn Body,
     lattice: &Lattice,
     volume: f64,
 ) -> io::Result<()> {
@@ -111,9 +111,9 @@ fn write_lattice<const D: usize>(
 }
 
 /// Writes a group of points that are held or loaded.
-pub(super) fn write_group<const D: usize>(
+pub(super) fn write_group(
     out: &mut dyn Write,
-    body: &dyn Body<D>,
+    body: &dyn Body,
     name: &str,
     points: &[u32],
 ) -> io::Result<()> {

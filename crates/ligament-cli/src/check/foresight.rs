@@ -32,10 +32,10 @@ const MOST_UNKNOWNS: usize = 300_000;
 /// # Errors
 ///
 /// If the run would be refused.
-pub(super) fn write<const D: usize>(
+pub(super) fn write(
     out: &mut dyn Write,
     (case, extent): (&CaseFile, Extent),
-    model: &Model<D>,
+    model: &Model,
     loading: &Loading,
     equilibrium: Option<Equilibrium>,
     stages: &mut Stages,
@@ -97,9 +97,9 @@ fn too_costly(
     }
 }
 
-fn write_foretold<const D: usize>(
+fn write_foretold(
     out: &mut dyn Write,
-    model: &Model<D>,
+    model: &Model,
     problem: &Problem,
     foretold: &Foretold,
 ) -> io::Result<()> {
@@ -148,7 +148,7 @@ fn write_foretold<const D: usize>(
 /// Writes where the first bond reaches its limit: at which load, in which load step, and which bond it is.
 fn write_first<const D: usize>(
     out: &mut dyn Write,
-    model: &Model<D>,
+    model: &Model,
     first: &FirstFailure,
     stage: Option<String>,
 ) -> io::Result<()> {

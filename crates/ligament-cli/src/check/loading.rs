@@ -23,10 +23,10 @@ use super::entry::{entry, megabytes, spread};
 use super::{Extent, equations, foresight, model, restraints};
 
 /// Checks supports, loads and equations, and gives what a run would notice before its first load step.
-pub(super) fn check<const D: usize>(
+pub(super) fn check(
     case: &CaseFile,
     extent: Extent,
-    model: &Model<D>,
+    model: &Model,
     stages: &mut Stages,
     out: &mut dyn Write,
 ) -> anyhow::Result<Vec<String>> {
@@ -59,10 +59,10 @@ pub(super) fn check<const D: usize>(
 }
 
 /// Writes the room that fields take on a disk, and a warning where the disk of the current folder has less.
-fn write_room<const D: usize>(
+fn write_room(
     out: &mut dyn Write,
     case: &CaseFile,
-    model: &Model<D>,
+    model: &Model,
 ) -> io::Result<()> {
     let fields = FieldsOnDisk::new(case, model);
     let of_one = megabytes(fields.of_one);
@@ -88,7 +88,7 @@ fn write_room<const D: usize>(
 
 fn write_boundary<const D: usize>(
     out: &mut dyn Write,
-    model: &Model<D>,
+    model: &Model,
     loading: &Loading,
 ) -> io::Result<()> {
     let body = model.body();
@@ -132,7 +132,7 @@ fn write_boundary<const D: usize>(
 }
 
 /// The points that a probe reads: those of a cell around its position, or the nearest one and how far it is.
-fn place_words<const D: usize>(model: &Model<D>, place: &Shares, position: [f64; D]) -> String {
+fn place_words<const D: usize>(model: &Model, place: &Shares, position: [f64; D]) -> String {
     let body = model.body();
     let [(point, _)] = place[..] else {
         let labels: Vec<String> = place.iter().map(|(point, _)| body.label(*point)).collect();
@@ -149,7 +149,7 @@ fn place_words<const D: usize>(model: &Model<D>, place: &Shares, position: [f64;
     format!("{words}, {} from the position", quantity(distance, unit))
 }
 
-fn write_loading<const D: usize>(out: &mut dyn Write, setup: &Setup<D>) -> io::Result<()> {
+fn write_loading(out: &mut dyn Write, setup: &Setup) -> io::Result<()> {
     let steps = setup.n_steps().unwrap_or(0);
     let stages: Vec<&str> = setup.stages.iter().map(|it| it.name.as_str()).collect();
     if !stages.is_empty() {

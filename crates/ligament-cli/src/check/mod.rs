@@ -64,11 +64,11 @@ fn check_here(
 }
 
 /// Tells of a model.
-fn tell<const D: usize>(
+fn tell(
     case: &CaseFile,
     extent: Extent,
     fields: Option<&Path>,
-    (model, mut stages): (&Model<D>, Stages),
+    (model, mut stages): (&Model, Stages),
     out: &mut dyn Write,
 ) -> anyhow::Result<()> {
     let noticed = match model.setup.analysis {

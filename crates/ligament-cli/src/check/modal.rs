@@ -13,11 +13,11 @@ use ligament_run::model::Model;
 use ligament_run::stages::Stages;
 
 /// Checks supports, masses and equations.
-pub(super) fn check<const D: usize>(
+pub(super) fn check(
     case: &CaseFile,
     settings: ModalSettings,
     extent: Extent,
-    model: &Model<D>,
+    model: &Model,
     stages: &mut Stages,
     out: &mut dyn Write,
 ) -> anyhow::Result<()> {

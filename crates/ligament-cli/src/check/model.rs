@@ -14,10 +14,10 @@ use super::entry::{entry, spread};
 use super::{body, criteria};
 
 /// Writes what is known before supports and loads.
-pub(super) fn write<const D: usize>(
+pub(super) fn write(
     out: &mut dyn Write,
     case: &CaseFile,
-    model: &Model<D>,
+    model: &Model,
 ) -> anyhow::Result<()> {
     writeln!(out, "{}", heading(&case.case.title))?;
     let volume = model.system.volumes().iter().sum();
@@ -29,7 +29,7 @@ pub(super) fn write<const D: usize>(
     Ok(write_energy_ratios(out, model)?)
 }
 
-fn write_section<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()> {
+fn write_section(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     let Section::Plane { state, thickness } = model.setup.section else {
         return Ok(());
     };
@@ -41,7 +41,7 @@ fn write_section<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::R
     entry(out, "thickness", format!("{thickness}, {state}"))
 }
 
-fn write_materials<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()> {
+fn write_materials(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     let cloud = &model.system.cloud;
     writeln!(out, "materials")?;
     for (index, material) in model.setup.materials().iter().enumerate() {
@@ -107,7 +107,7 @@ fn constants(elasticity: &Elasticity) -> String {
     }
 }
 
-fn write_bonds<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()> {
+fn write_bonds(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     let (system, fixed) = (&model.system, &model.fixed);
     let over = |values: &[f64]| Spread::over(values.iter().copied());
     writeln!(out, "bonds")?;
@@ -137,7 +137,7 @@ fn write_bonds<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Res
     spread(out, "correction factor", over(&fixed.domain_factor), "-")
 }
 
-fn write_energy_ratios<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()> {
+fn write_energy_ratios(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     writeln!(out, "strain energy of the points over the continuum's")?;
     for ratios in &model.fixed.energy_ratios {
         let Spread { min, mean, max } = Spread::over(ratios.at_points.iter().copied());

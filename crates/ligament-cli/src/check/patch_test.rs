@@ -25,7 +25,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 pub(super) fn write<const D: usize>(
     out: &mut dyn Write,
     extent: Extent,
-    model: &Model<D>,
+    model: &Model,
     stages: &mut Stages,
 ) -> io::Result<()> {
     if extent == Extent::Model {

@@ -9,7 +9,7 @@ use ligament_output::quantity::quantity;
 use super::entry::entry;
 
 /// Writes what each support holds or resists, and which loads go through springs or a platen.
-pub(super) fn write<const D: usize>(out: &mut dyn Write, setup: &Setup<D>) -> io::Result<()> {
+pub(super) fn write(out: &mut dyn Write, setup: &Setup) -> io::Result<()> {
     for (index, support) in setup.supports.iter().enumerate() {
         let name = format!("{} holds", support.name(index));
         entry(out, &name, of_support(support).join(", "))?;
@@ -24,7 +24,7 @@ pub(super) fn write<const D: usize>(out: &mut dyn Write, setup: &Setup<D>) -> io
     Ok(())
 }
 
-fn of_support<const D: usize>(support: &Support<D>) -> Vec<String> {
+fn of_support(support: &Support) -> Vec<String> {
     let mut words: Vec<String> = (support.components())
         .map(|it| it.name().to_owned())
         .collect();
@@ -49,7 +49,7 @@ fn of_support<const D: usize>(support: &Support<D>) -> Vec<String> {
     words
 }
 
-fn of_load<const D: usize>(load: &Load<D>) -> Vec<String> {
+fn of_load(load: &Load) -> Vec<String> {
     let springs = load.stiffness;
     let springs = springs.map(|total| format!("through springs of {}", quantity(total, "N/m")));
     let platen = load

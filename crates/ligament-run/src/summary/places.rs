@@ -40,7 +40,7 @@ pub type Resultant = BTreeMap<&'static str, f64>;
 
 impl BondEvent {
     /// What happened to a bond of a model.
-    pub(super) fn new<const D: usize>(model: &Model<D>, first: &FirstBond) -> Self {
+    pub(super) fn new<const D: usize>(model: &Model, first: &FirstBond) -> Self {
         let cloud = &model.system.cloud;
         let ends = cloud.numbering.ordered(first.ends);
         let [a, b] = ends.map(|end| cloud.positions[end as usize]);
