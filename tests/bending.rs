@@ -94,7 +94,7 @@ fn cantilever(mut setup: Setup) -> f64 {
         Place::Box(left),
         &[Component::X, Component::Y],
     )];
-    setup.loads = vec![Load::new(Place::Box(right), Action::Force([0.0, -1.0]))];
+    setup.loads = vec![Load::new(Place::Box(right), Action::Force([0.0, -1.0, 0.0]))];
     let history = setup.solve(&mut Unobserved).unwrap().outcome.history;
     let bending = length.powi(3) / (3.0 * YOUNG * HEIGHT.powi(3) / 12.0);
     let shear = length * 2.0 * (1.0 + poisson) / (5.0 / 6.0 * HEIGHT * YOUNG);
@@ -330,7 +330,7 @@ fn a_round_bar_is_as_much_too_stiff_in_torsion_as_its_strip() {
     for rotational_factor in [1.0, 0.0] {
         let setup = bar(6, rotational_factor);
         let model = Model::<3>::build(setup.clone(), &mut ()).unwrap();
-        let volume: f64 = model.system.cloud.volumes.iter().sum();
+        let volume: f64 = model.plane().cloud.volumes.iter().sum();
         let (section, test) = tested(&model);
         let expected = torque(setup, volume / ROUND[1]);
         let found = test.torsion.unwrap();

@@ -58,7 +58,7 @@ fn in_series(mut setup: Setup) -> f64 {
 
 /// Reaction of the halves pulled along y, between the points below and above.
 fn in_parallel(mut setup: Setup) -> f64 {
-    let slice = |from: f64, to: f64| Place::Box([[-1.0, from], [1.0, to]]);
+    let slice = |from: f64, to: f64| Place::Box([[-1.0, from, 0.0], [1.0, to, 0.0]]);
     let slack = 1e-6;
     setup.supports = vec![
         Support::new(slice(-slack, slack), &[Component::Y]),

@@ -263,7 +263,7 @@ stop = { bonds = 60 }
     let bench = Bench::new(text, &[]);
     let run = bench.break_up();
     let image = |point: u32| 32 * (point / 32) + 31 - point % 32;
-    let bonds = &bench.model.system.bonds;
+    let bonds = &bench.model.plane().bonds;
     let broken: BTreeSet<[u32; 2]> = (run.breaks.iter())
         .map(|it| bonds.ends[it.bond as usize])
         .collect();
@@ -336,7 +336,7 @@ probe = [{ name = "middle", section = [[0.04, -1.0], [0.04, 1.0]], component = "
     let case =
         verification::bench::case(text, &["load.2={group=\"spot\", force_per_length={x=1.0}}"]);
     let setup = case.setup_on(bench.model.setup.body.clone()).unwrap();
-    let error = ligament::Loading::new(&setup, &*bench.model.system);
+    let error = ligament::Loading::new(&setup, &**bench.model.plane());
     let error = error.unwrap_err().to_string();
     assert!(error.contains("this group has no length"), "{error}");
 }

@@ -88,7 +88,7 @@ fn pulling_the_bar_gives_the_same_modulus() {
     let test = tested(bar());
     let moved = |pulled: &str, other: &str, sign: f64| {
         let mut setup = bar();
-        let force = |sign: f64| Action::ForcePerLength([sign, 0.0]);
+        let force = |sign: f64| Action::ForcePerLength([sign, 0.0, 0.0]);
         setup.loads = vec![
             Load::new(pulled, force(sign)),
             Load::new(other, force(-sign)),

@@ -142,9 +142,9 @@ fn body(text: &str, settings: &[&str], ranks: Option<Together>) -> Body {
 }
 
 fn problem(model: &Model, ranks: Option<Together>) -> Problem {
-    let mut loading = Loading::new(&model.setup, &*model.system).unwrap();
+    let mut loading = Loading::new(&model).unwrap();
     loading.solver.ranks = ranks;
-    loading.problem(&model.system, &model.criteria)
+    loading.problem(&model)
 }
 
 /// Follows a body from its unloaded state or from a checkpoint.

@@ -51,7 +51,7 @@ impl Answer {
     pub(crate) fn new(setup: Setup) -> Self {
         let mut breaks = Breaks::default();
         let solution = setup.solve(&mut breaks).unwrap();
-        let system = &solution.model.system;
+        let system = solution.model.plane();
         let layout = system.layout();
         let history = &solution.outcome.history;
         let of_group = |force: &Vec<f64>| Component::ALL.map(|it| layout.value(0, it, force));

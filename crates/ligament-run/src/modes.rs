@@ -23,9 +23,9 @@ pub(crate) fn find_modes(
     create: impl FnOnce() -> Result<ResultFolder, ligament_output::Error>,
     mut stages: Stages,
 ) -> anyhow::Result<ModalSummary> {
-    let vibration = Vibration::new(&model.setup, &*model.system);
+    let vibration = Vibration::new(model);
     let vibration = vibration.map_err(|error| case.located(error))?;
-    let problem = vibration.problem(&model.system);
+    let problem = vibration.problem(model);
     let analysis = stages.time("analysis", || ModalAnalysis::new(&problem, settings))?;
     memory::foresee(case, &*model.system, Some(analysis.stiffness()))?;
 

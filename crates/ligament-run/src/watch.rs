@@ -18,7 +18,7 @@ use crate::progress::{Progress, StepLine};
 const SHOWN: usize = 5;
 
 /// The observer of `ligament run`.
-pub(crate) struct Watch<'a, const D: usize> {
+pub(crate) struct Watch<'a> {
     writer: ResultWriter<'a>,
     checkpoints: Checkpoints<'a>,
     is_stopped: IsStopped<'a>,
@@ -32,7 +32,7 @@ pub(crate) struct Watch<'a, const D: usize> {
     closing: bool,
 }
 
-impl<'a, const D: usize> Watch<'a, D> {
+impl<'a> Watch<'a> {
     /// Watches the run of a setup with a writer, checkpoints and a progress display; it goes on with some notices.
     pub(crate) fn new(
         (writer, checkpoints): (ResultWriter<'a>, Checkpoints<'a>),
@@ -71,7 +71,7 @@ impl<'a, const D: usize> Watch<'a, D> {
     }
 }
 
-impl<const D: usize> Observer for Watch<'_, D> {
+impl Observer for Watch<'_> {
     fn round(
         &mut self,
         step: usize,

@@ -9,11 +9,8 @@ use crate::model::Model;
 /// Only points count whose families are whole, of the one material, and free to break: a crack near a surface, an interface or a part
 /// that may not fail is another matter. None for solids, where there is no such point, without criteria, and for bonds with strains of their own
 /// (`mbb-pd`), whose criteria take the fracture energy by their definition.
-pub fn crack_energies(
-    model: &Model,
-    material: usize,
-) -> Option<[CrackEnergy; 2]> {
-    let system = model.system_of::<2>()?;
+pub fn crack_energies(model: &Model, material: usize) -> Option<[CrackEnergy; 2]> {
+    let system = model.system.of_dimension::<2>()?;
     if model.criteria.list.is_empty() {
         return None;
     }

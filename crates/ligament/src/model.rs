@@ -21,12 +21,12 @@ use crate::formulation::{self, Formulation};
 use crate::loading;
 use crate::plausibility;
 use crate::precracks::{self, Precracked};
-use crate::setup::{Analysis, CorrectionDomain, Law, Setup};
+use crate::setup::{Analysis, CorrectionDomain, Law, Position, Setup};
 use crate::soundness::{
     forbid_overlap, require_connected, require_distinct, require_factors, require_numbers,
 };
 use crate::stage::{Finding, StageWatcher, stage};
-use crate::system::AnySystem;
+use crate::system::{AnySystem, over_dimension};
 use crate::warning::{self, Warning};
 
 /// The discrete model: all that comes before the first equation.
@@ -147,9 +147,57 @@ impl Model {
         &*self.setup.body
     }
 
-    /// The points and bonds of a model in D dimensions; none where it has another number of dimensions.
-    pub fn system_of<const D: usize>(&self) -> Option<&Arc<dyn System<D>>> {
-        self.system.of_dimension()
+    /// Position halfway between two points, m.
+    pub fn middle(&self, ends: [u32; 2]) -> Vec<f64> {
+        over_dimension!(&self.system, system => {
+            let cloud = &system.cloud;
+            let [a, b] = ends.map(|end| cloud.positions[end as usize]);
+            let along = a.iter().zip(b).zip(cloud.origin);
+            along.map(|((a, b), origin)| 0.5 * (a + b) + origin).collect()
+        })
+    }
+
+    /// Whether some bond has a positive shear stiffness.
+    pub fn has_shear(&self) -> bool {
+        over_dimension!(&self.system, system => system.rigidities.shear.iter().any(|it| *it > 0.0))
+    }
+
+    /// Volume of a material, by its index, m^3.
+    pub fn volume_of_material(&self, index: usize) -> f64 {
+        over_dimension!(&self.system, system => {
+            let cloud = &system.cloud;
+            let parts = (0..cloud.len()).map(|it| cloud.shares(it)[index] * cloud.volumes[it]);
+            parts.sum()
+        })
+    }
+
+    /// Distance of a point from a position, m; zero where no more than rounding is between them.
+    pub fn distance_to(&self, point: u32, position: Position) -> f64 {
+        let slack = over_dimension!(&self.system, system => system.cloud.slack(point));
+        let place = self.body().position(point).iter();
+        let squares = place.zip(position).map(|(p, q)| (p - q).powi(2));
+        let distance = squares.sum::<f64>().sqrt();
+        if distance <= slack { 0.0 } else { distance }
+    }
+
+    /// The points and bonds of a model in the plane.
+    ///
+    /// # Panics
+    ///
+    /// Panics for a solid.
+    pub fn plane(&self) -> &Arc<dyn System<2>> {
+        let system = self.system.of_dimension();
+        system.expect("the body is in the plane")
+    }
+
+    /// The points and bonds of a solid.
+    ///
+    /// # Panics
+    ///
+    /// Panics for a body in the plane.
+    pub fn solid(&self) -> &Arc<dyn System<3>> {
+        let system = self.system.of_dimension();
+        system.expect("the body is a solid")
     }
 }
 
@@ -164,10 +212,7 @@ pub fn sharing(setup: &Setup) -> Option<&'static dyn Exchange> {
 }
 
 /// The part of this process in the points of a setup that several share out; none where it has all of them.
-pub(crate) fn portion_of<const D: usize>(
-    setup: &Setup,
-    cloud: &PointCloud<D>,
-) -> Option<Portion> {
+pub(crate) fn portion_of<const D: usize>(setup: &Setup, cloud: &PointCloud<D>) -> Option<Portion> {
     sharing(setup).map(|exchange| cloud.portion_of(exchange))
 }
 

@@ -146,7 +146,7 @@ fn displacements(
         .map(|force| free_loading(system.layout(), force))
         .collect();
     let problem = Problem {
-        system: system.bonds(),
+        system: system.to_bonds(),
         criteria: Arc::default(),
         loads: loads[0].clone(),
         solver: setup.solver,

@@ -165,7 +165,7 @@ fn of_length<const D: usize>(
 }
 
 /// Corners of the box around a body, m.
-pub(crate) fn corners(body: &dyn Body) -> [Vec<f64>; 2] {
+pub fn corners(body: &dyn Body) -> [Vec<f64>; 2] {
     let points = 0..body.n_points() as u32;
     let along = |axis: usize| points.clone().map(move |it| body.position(it)[axis]);
     let axes = 0..body.position(0).len();

@@ -251,7 +251,7 @@ mod tests {
     use ligament_model::Material;
 
     use super::*;
-    use crate::body::SolidMeshBody;
+    use crate::body::{Geometry, SolidMeshBody};
     use crate::setup::Law;
 
     /// Two bricks of different heights on each other.

@@ -38,7 +38,7 @@ impl AnySystem {
     }
 
     /// The bonds as equations are made of them.
-    pub fn bonds(&self) -> Arc<dyn Bonds> {
+    pub fn to_bonds(&self) -> Arc<dyn Bonds> {
         match self {
             Self::Plane(system) => system.clone(),
             Self::Solid(system) => system.clone(),

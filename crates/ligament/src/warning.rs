@@ -302,21 +302,13 @@ fn patch_factor(space: Space) -> f64 {
     }
 }
 
-fn small_horizon(
-    setup: &Setup,
-    spacing: &[f64],
-    fixed: &FixedFields,
-) -> Option<Warning> {
+fn small_horizon(setup: &Setup, spacing: &[f64], fixed: &FixedFields) -> Option<Warning> {
     let (factor, is_given) = smallest_factor(setup, spacing, fixed);
     (factor < SMALLEST_SAFE_FACTOR).then_some(Warning::SmallHorizon { factor, is_given })
 }
 
 /// The smallest horizon over the nearest distance of a point, and whether the setup gives it.
-fn smallest_factor(
-    setup: &Setup,
-    spacing: &[f64],
-    fixed: &FixedFields,
-) -> (f64, bool) {
+fn smallest_factor(setup: &Setup, spacing: &[f64], fixed: &FixedFields) -> (f64, bool) {
     match setup.horizon {
         Horizon::Factor(factor) => (factor, true),
         Horizon::Length(_) => {
@@ -351,11 +343,7 @@ fn large_horizon(body: &dyn Body, fixed: &FixedFields) -> Option<Warning> {
     })
 }
 
-fn not_met(
-    body: &dyn Body,
-    report: &patch::Report,
-    factor: Option<f64>,
-) -> Warning {
+fn not_met(body: &dyn Body, report: &patch::Report, factor: Option<f64>) -> Warning {
     let residual = &report.residual;
     let worst = (0..residual.len())
         .max_by(|&i, &j| residual[i].total_cmp(&residual[j]))
@@ -377,11 +365,7 @@ fn more_bonds(factor: Option<f64>) -> String {
     }
 }
 
-fn not_converged(
-    body: &dyn Body,
-    correction: &DomainReport,
-    fixed: &FixedFields,
-) -> Warning {
+fn not_converged(body: &dyn Body, correction: &DomainReport, fixed: &FixedFields) -> Warning {
     let n_points = fixed.horizon.len();
     let along_axes = &fixed.energy_ratios[..body.position(0).len()];
     let error = |point: usize| {

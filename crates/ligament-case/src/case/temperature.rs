@@ -57,6 +57,7 @@ impl Temperature {
     pub(super) fn setup(
         &self,
         key: &KeyPath,
+        dimensions: usize,
     ) -> Result<setup::Temperature, KeyFault> {
         let table = self.file.as_ref();
         let field = (self.mesh_field.clone()).map(|name| TemperatureChange::Field {
@@ -77,7 +78,7 @@ impl Temperature {
         Ok(setup::Temperature {
             change: one_of(key, changes)?,
             place: match is_part {
-                true => region.place(key)?,
+                true => region.place(key, dimensions)?,
                 false => Place::Everywhere,
             },
         })

@@ -12,18 +12,14 @@ use ligament_output::quantity::{between, quantity};
 use super::entry::entry;
 
 /// Writes what a body is made of, with the volume of its points.
-pub(super) fn write(
-    out: &mut dyn Write,
-    body: &dyn Body,
-    volume: f64,
-) -> io::Result<()> {
+pub(super) fn write(out: &mut dyn Write, body: &dyn Body, volume: f64) -> io::Result<()> {
     match body.origin() {
         Origin::Mesh(mesh) => write_mesh(out, mesh, volume),
         Origin::Lattice(lattice) => write_lattice(out, body, lattice, volume),
         Origin::SolidMesh(mesh) => write_solid_mesh(out, mesh, volume),
         Origin::SolidLattice(lattice) => write_solid_lattice(out, body, lattice, volume),
         Origin::Points => {
-            let (points, volume) = (body.positions().len(), quantity(volume, "m^3"));
+            let (points, volume) = (body.n_points(), quantity(volume, "m^3"));
             writeln!(out, "{points} points of {volume}")
         }
     }

@@ -67,7 +67,7 @@ fn write_crack(
     }
     let criteria = model.criteria.list.iter();
     let by_stretch = criteria.filter(|it| matches!(it.measure, Measure::Tension | Measure::Fibre));
-    let has_shear = model.system.rigidities.shear.iter().any(|it| *it > 0.0);
+    let has_shear = model.has_shear();
     if has_shear && by_stretch.count() > 0 {
         words += "; more where its faces slide, which this criterion does not count";
     }
@@ -166,11 +166,7 @@ fn write_limits(out: &mut dyn Write, criterion: &Criterion) -> io::Result<()> {
 }
 
 /// The limit falls with the root of the horizon, so that a body without a crack has another strength on every mesh.
-fn write_energy(
-    out: &mut dyn Write,
-    model: &Model,
-    criterion: &Criterion,
-) -> io::Result<()> {
+fn write_energy(out: &mut dyn Write, model: &Model, criterion: &Criterion) -> io::Result<()> {
     // Bonds across the bar may come to their limit before those along it.
     let at_most = match criterion.measure {
         Measure::Energy => "at most ",

@@ -101,11 +101,7 @@ fn write_memory(
     }
 }
 
-fn write_choice<const D: usize>(
-    out: &mut dyn Write,
-    setup: &Setup,
-    choice: &DirectChoice,
-) -> io::Result<()> {
+fn write_choice(out: &mut dyn Write, setup: &Setup, choice: &DirectChoice) -> io::Result<()> {
     if choice.unsymmetric {
         return entry(
             out,

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use ligament::Loading;
-use ligament::setup::{Analysis, ELASTIC_ENERGY_TOLERANCE, Reading as Given, Setup};
+use ligament::setup::{Analysis, ELASTIC_ENERGY_TOLERANCE, Position, Reading as Given, Setup};
 use ligament::units::Units;
 use ligament_analysis::gauges;
 use ligament_analysis::probe::{Reading, Shares};
@@ -30,10 +30,10 @@ pub(super) fn check(
     stages: &mut Stages,
     out: &mut dyn Write,
 ) -> anyhow::Result<Vec<String>> {
-    let loading = Loading::new(&model.setup, &*model.system);
+    let loading = Loading::new(model);
     let mut loading = loading.map_err(|it| case.located(it))?;
     loading.solver.memory = memory::for_factor(case, &*model.system);
-    let problem = loading.problem(&model.system, &model.criteria);
+    let problem = loading.problem(model);
     let equilibrium = match extent {
         Extent::Model => None,
         Extent::Matrix | Extent::PatchTest => Some(stages.time("analysis", || {
@@ -59,11 +59,7 @@ pub(super) fn check(
 }
 
 /// Writes the room that fields take on a disk, and a warning where the disk of the current folder has less.
-fn write_room(
-    out: &mut dyn Write,
-    case: &CaseFile,
-    model: &Model,
-) -> io::Result<()> {
+fn write_room(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
     let fields = FieldsOnDisk::new(case, model);
     let of_one = megabytes(fields.of_one);
     let Some((most, all)) = fields.most.zip(fields.all()) else {
@@ -86,11 +82,7 @@ fn write_room(
     }
 }
 
-fn write_boundary<const D: usize>(
-    out: &mut dyn Write,
-    model: &Model,
-    loading: &Loading,
-) -> io::Result<()> {
+fn write_boundary(out: &mut dyn Write, model: &Model, loading: &Loading) -> io::Result<()> {
     let body = model.body();
     writeln!(out, "supports and loads")?;
     for group in &loading.boundary.groups {
@@ -116,7 +108,7 @@ fn write_boundary<const D: usize>(
         entry(out, "displacement is", words)?;
     }
     for (probe, given) in loading.probes.iter().zip(&model.setup.probes) {
-        let words = |(place, position): (&Shares, &[f64; D])| place_words(model, place, *position);
+        let words = |(place, position): (&Shares, &Position)| place_words(model, place, *position);
         let reads = match (&probe.reading, &given.reading) {
             (Reading::RelativeDisplacement { places, .. }, Given::Between { positions, .. }) => {
                 let words: Vec<String> = places.iter().zip(positions).map(words).collect();
@@ -132,17 +124,15 @@ fn write_boundary<const D: usize>(
 }
 
 /// The points that a probe reads: those of a cell around its position, or the nearest one and how far it is.
-fn place_words<const D: usize>(model: &Model, place: &Shares, position: [f64; D]) -> String {
+fn place_words(model: &Model, place: &Shares, position: Position) -> String {
     let body = model.body();
     let [(point, _)] = place[..] else {
         let labels: Vec<String> = place.iter().map(|(point, _)| body.label(*point)).collect();
         return format!("within {}", labels.join(", "));
     };
     let words = body.place(point);
-    let squares =
-        (body.positions()[point as usize].iter().zip(position)).map(|(p, q)| (p - q).powi(2));
-    let distance = squares.sum::<f64>().sqrt();
-    if distance <= model.system.cloud.slack(point) {
+    let distance = model.distance_to(point, position);
+    if distance == 0.0 {
         return words;
     }
     let unit = model.setup.units().displacement;

@@ -21,9 +21,9 @@ pub(super) fn check(
     stages: &mut Stages,
     out: &mut dyn Write,
 ) -> anyhow::Result<()> {
-    let vibration = Vibration::new(&model.setup, &*model.system);
+    let vibration = Vibration::new(model);
     let vibration = vibration.map_err(|error| case.located(error))?;
-    let problem = vibration.problem(&model.system);
+    let problem = vibration.problem(model);
     let analysis = match extent {
         Extent::Model => None,
         Extent::Matrix | Extent::PatchTest => {

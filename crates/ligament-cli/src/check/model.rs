@@ -14,11 +14,7 @@ use super::entry::{entry, spread};
 use super::{body, criteria};
 
 /// Writes what is known before supports and loads.
-pub(super) fn write(
-    out: &mut dyn Write,
-    case: &CaseFile,
-    model: &Model,
-) -> anyhow::Result<()> {
+pub(super) fn write(out: &mut dyn Write, case: &CaseFile, model: &Model) -> anyhow::Result<()> {
     writeln!(out, "{}", heading(&case.case.title))?;
     let volume = model.system.volumes().iter().sum();
     body::write(out, model.body(), volume)?;
@@ -42,12 +38,9 @@ fn write_section(out: &mut dyn Write, model: &Model) -> io::Result<()> {
 }
 
 fn write_materials(out: &mut dyn Write, model: &Model) -> io::Result<()> {
-    let cloud = &model.system.cloud;
     writeln!(out, "materials")?;
     for (index, material) in model.setup.materials().iter().enumerate() {
-        let volume: f64 = (0..cloud.len())
-            .map(|point| cloud.shares(point)[index] * cloud.volumes[point])
-            .sum();
+        let volume = model.volume_of_material(index);
         let name = if material.name.is_empty() {
             "the whole body"
         } else {

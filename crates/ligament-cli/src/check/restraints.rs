@@ -12,7 +12,11 @@ use super::entry::entry;
 pub(super) fn write(out: &mut dyn Write, setup: &Setup) -> io::Result<()> {
     for (index, support) in setup.supports.iter().enumerate() {
         let name = format!("{} holds", support.name(index));
-        entry(out, &name, of_support(support).join(", "))?;
+        entry(
+            out,
+            &name,
+            of_support(support, setup.body.dimensions()).join(", "),
+        )?;
     }
     for load in setup.loads.iter().filter(|it| it.is_restraint()) {
         entry(
@@ -24,7 +28,7 @@ pub(super) fn write(out: &mut dyn Write, setup: &Setup) -> io::Result<()> {
     Ok(())
 }
 
-fn of_support(support: &Support) -> Vec<String> {
+fn of_support(support: &Support, dimensions: usize) -> Vec<String> {
     let mut words: Vec<String> = (support.components())
         .map(|it| it.name().to_owned())
         .collect();
@@ -43,7 +47,8 @@ fn of_support(support: &Support) -> Vec<String> {
     if let Some(normal) = support.restrained_normal() {
         let spring = support.stiffness.normal;
         let spring = spring.map(|total| format!(" by springs of {}", quantity(total, "N/m")));
-        let normal = normal.map(|it| it.to_string()).join(", ");
+        let normal: Vec<String> = normal[..dimensions].iter().map(f64::to_string).collect();
+        let normal = normal.join(", ");
         words.push(format!("along ({normal}){}", spring.unwrap_or_default()));
     }
     words

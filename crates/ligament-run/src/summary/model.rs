@@ -9,6 +9,7 @@ use ligament::Model;
 use ligament::setup::{Alpha, Calibration, Correction, Form, Open, Setup, Surface};
 use ligament_case::case::{CaseFile, Word};
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
+use ligament_model::material::Space;
 
 /// The numbers of a model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -193,7 +194,8 @@ impl CorrectionSummary {
 }
 
 /// The law of the bonds, in a line.
-pub fn formulation_line<const D: usize>(setup: &Setup) -> String {
+pub fn formulation_line(setup: &Setup) -> String {
+    let is_solid = setup.space() == Space::Solid;
     let mut law = setup.law;
     let (name, element) = (law.name(), law.element());
     let Open {
@@ -203,8 +205,8 @@ pub fn formulation_line<const D: usize>(setup: &Setup) -> String {
         ..
     } = law.open();
     let unknowns = match element {
-        ElementKind::Beam if D == 3 => "three displacements and three rotations a point",
-        ElementKind::Spring if D == 3 => "three displacements a point",
+        ElementKind::Beam if is_solid => "three displacements and three rotations a point",
+        ElementKind::Spring if is_solid => "three displacements a point",
         ElementKind::Beam => "two displacements and a rotation a point",
         ElementKind::Spring => "two displacements a point",
         ElementKind::Imaginary => {

@@ -4,11 +4,7 @@ use crate::body::AnyBody;
 use crate::setup::{Analysis, Setup};
 
 /// A setup on a part of its body, free and whole, of one of its materials.
-pub(crate) fn free(
-    setup: &Setup,
-    body: AnyBody,
-    material: usize,
-) -> Setup {
+pub(crate) fn free(setup: &Setup, body: AnyBody, material: usize) -> Setup {
     let mut region = setup.materials[material].clone();
     region.group = None;
     Setup {

@@ -90,7 +90,7 @@ fn of_strip<const D: usize>(
         true => model.system.clone(),
         false => Model::build(strip.setup.clone(), &mut ())?.system,
     };
-    let mut solver = Solver::new(system.bonds(), strip)?;
+    let mut solver = Solver::new(system.to_bonds(), strip)?;
     let bending = solver.stiffness(strip, &strip.bending())?;
     let torsion = strip.torsion();
     let torsion = torsion.map(|stress| solver.stiffness(strip, &stress));

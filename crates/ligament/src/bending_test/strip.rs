@@ -73,7 +73,7 @@ impl<const D: usize> Strip<D> {
             true => setup.body.clone(),
             false => {
                 let part = setup.body.geometry::<D>().part(&connected);
-                part.map_or_else(|| setup.body.clone(), AnyBody::new)
+                part.map_or_else(|| setup.body.clone(), AnyBody::shared)
             }
         };
         let strip = Self::new(free(setup, part, material), section);

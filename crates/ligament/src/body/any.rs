@@ -19,11 +19,16 @@ pub enum AnyBody {
 
 impl AnyBody {
     /// A body of D dimensions.
+    pub fn new<const D: usize>(body: impl Geometry<D> + 'static) -> Self {
+        Self::shared::<D>(Arc::new(body))
+    }
+
+    /// A body of D dimensions that others hold too.
     ///
     /// # Panics
     ///
     /// Panics for other dimensions than 2 and 3.
-    pub fn new<const D: usize>(body: Arc<dyn Geometry<D>>) -> Self {
+    pub fn shared<const D: usize>(body: Arc<dyn Geometry<D>>) -> Self {
         let plane = cast(body.clone()).map(Self::Plane);
         let any = plane.or_else(|| cast(body).map(Self::Solid));
         any.expect("bodies have two or three dimensions")

@@ -11,8 +11,8 @@ mod points;
 
 use ligament_model::shape::{Shape, SolidShape};
 
-pub use cells::{Cells, Hole, LatticeError};
 pub use any::AnyBody;
+pub use cells::{Cells, Hole, LatticeError};
 pub use interface::{Body, BodyOutline, Geometry, OffOutline, Origin};
 pub use lattice::{BodyOnLattice, LatticeBody, SolidLatticeBody};
 pub use mesh::{BodyOnMesh, MeshBody, SolidMeshBody};

@@ -80,7 +80,7 @@ impl Loading {
             Some(staged) => staged.clone(),
         };
         Problem {
-            system: model.system.bonds(),
+            system: model.system.to_bonds(),
             criteria: model.criteria.clone(),
             loads,
             solver: self.solver,

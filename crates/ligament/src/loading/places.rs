@@ -127,11 +127,7 @@ pub fn material_of_cell(setup: &Setup) -> Result<Vec<u32>, SetupError> {
     Ok(covered)
 }
 
-fn cells_of_group(
-    setup: &Setup,
-    field: Field,
-    group: &str,
-) -> Result<Vec<u32>, SetupError> {
+fn cells_of_group(setup: &Setup, field: Field, group: &str) -> Result<Vec<u32>, SetupError> {
     let cells = setup.body.cells_of(group);
     let cells = cells.ok_or_else(|| field.error(unknown_group(setup, group)))?;
     if cells.is_empty() {

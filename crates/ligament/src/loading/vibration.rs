@@ -47,7 +47,7 @@ impl Vibration {
     /// The problem that it makes of the bonds of its model.
     pub fn problem(&self, model: &Model) -> ModalProblem {
         ModalProblem {
-            system: model.system.bonds(),
+            system: model.system.to_bonds(),
             mass: self.mass.clone(),
             supports: self.supports.clone(),
             solver: self.solver,
@@ -56,10 +56,7 @@ impl Vibration {
 }
 
 /// The supports on the points.
-fn supports<const D: usize>(
-    setup: &Setup,
-    system: &dyn System<D>,
-) -> Result<Supports, SetupError> {
+fn supports<const D: usize>(setup: &Setup, system: &dyn System<D>) -> Result<Supports, SetupError> {
     let cloud = &system.cloud;
     let places = Places { setup, cloud };
     let mut supports = Supports::none(system.layout());

@@ -136,7 +136,10 @@ impl Setup {
         }
         for (index, load) in self.loads.iter().enumerate() {
             let field = Field::element("loads", index);
-            if load.profile.is_some_and(|it| it.along.number() >= self.dimensions()) {
+            if load
+                .profile
+                .is_some_and(|it| it.along.number() >= self.dimensions())
+            {
                 return contradiction(field.part("profile"), NO_Z);
             }
             let action = field.part("action");

@@ -18,8 +18,6 @@ mod section;
 pub mod stage;
 mod temperature;
 
-use std::sync::Arc;
-
 use ligament_analysis::SolverSettings;
 use ligament_model::failure::Choice;
 use ligament_model::law::rotational::RotationalScale;
@@ -125,7 +123,7 @@ impl Setup {
         law: Law,
     ) -> Self {
         Self {
-            body: AnyBody::new::<D>(Arc::new(body)),
+            body: AnyBody::new(body),
             section: Section::usual::<D>(),
             materials: vec![MaterialRegion {
                 group: None,

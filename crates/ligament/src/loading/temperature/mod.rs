@@ -92,7 +92,9 @@ impl Reach {
             }
         }
         // The volumes of the cells at a point are what a cloud with a material for each section counts.
-        let counted = body.geometry::<D>().cloud(cloud.thickness, &of_cell, sections.len() + 1);
+        let counted = body
+            .geometry::<D>()
+            .cloud(cloud.thickness, &of_cell, sections.len() + 1);
         Ok(Self {
             n_sections: sections.len(),
             shares: counted.material_shares,
