@@ -236,11 +236,11 @@ fn threads_do_not_change_a_bit_of_the_model() {
     };
     for sweeps in (1..=8).chain([10_000]) {
         let one = model(1, sweeps);
-        assert_eq!(one.system.cloud.len(), 4808);
+        assert_eq!(one.plane().cloud.len(), 4808);
         assert_eq!(domain(&one).converged, sweeps > 8);
         for threads in [2, 3, 8] {
             let other = model(threads, sweeps);
-            assert_eq!(other.system.bonds, one.system.bonds);
+            assert_eq!(other.plane().bonds, one.plane().bonds);
             assert_eq!(other.correction, one.correction, "{threads} threads");
             assert!(arrays(&other) == arrays(&one), "{threads} threads");
         }
@@ -447,7 +447,7 @@ fn a_thin_slot_does_not_shrink_horizons() {
     let model = setup(false).unwrap();
     let least = |model: &Model| {
         model
-            .system
+            .plane()
             .cloud
             .spacing
             .iter()
@@ -488,7 +488,7 @@ load = [{ group = "inside", pressure = 1.0 }]
     let inside = Bench::new(text, &[]).model;
     let across = Bench::new(text, &["model.bonds_through_voids=true"]).model;
     assert_eq!(across.across_voids(), 0);
-    let places = &across.system.cloud.positions;
+    let places = &across.plane().cloud.positions;
     let nearest = |ends: &[u32; 2]| {
         let [a, b] = ends.map(|end| places[end as usize]);
         let along = [b[0] - a[0], b[1] - a[1]];
@@ -498,13 +498,13 @@ load = [{ group = "inside", pressure = 1.0 }]
     };
     let on_rim = places.iter().filter(|p| p[0].hypot(p[1]) < 0.1 + 1e-6);
     let inner = 0.1 * (std::f64::consts::PI / on_rim.count() as f64).cos();
-    let kept: Vec<[u32; 2]> = inside.system.bonds.ends.clone();
+    let kept: Vec<[u32; 2]> = inside.plane().bonds.ends.clone();
     assert!(kept.iter().all(|ends| nearest(ends) > inner - 1e-9));
-    let lost: Vec<[u32; 2]> = (across.system.bonds.ends.iter().copied())
+    let lost: Vec<[u32; 2]> = (across.plane().bonds.ends.iter().copied())
         .filter(|ends| !kept.contains(ends))
         .collect();
     assert_eq!(lost.len(), inside.across_voids());
     assert!(lost.len() > 50, "{} pairs", lost.len());
     assert!(lost.iter().all(|ends| nearest(ends) < 0.1 - 1e-9));
-    assert_eq!(lost.len() + kept.len(), across.system.bonds.len());
+    assert_eq!(lost.len() + kept.len(), across.plane().bonds.len());
 }

@@ -10,6 +10,7 @@ use ligament_model::element::Remaining;
 use ligament_model::failure::crack_opening::CrackEnergy;
 use ligament_model::failure::fracture_energy::{critical_stretch, opening_modulus};
 use ligament_model::law::bbpd;
+use ligament_model::material::Space;
 use ligament_model::thermal::ThermalStrain;
 use ligament_model::{Isotropic, Plane};
 use verification::bench::Bench;
@@ -211,7 +212,7 @@ fn the_critical_stretch_is_that_of_the_integral() {
                 FRACTURE_ENERGY,
                 modulus,
                 moment(3) / moment(2),
-                plane.into(),
+                Space::Plane(plane),
             );
             let of_length = |l: f64| {
                 let bond = 0.5 * axial(l) * l * limit * limit;

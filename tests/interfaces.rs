@@ -22,7 +22,7 @@ const PULLED: f64 = 1e-5;
 const RATIOS: [f64; 4] = [1.0, 100.0, 1e3, 1e6];
 
 /// A body of halves "left-half" and "right-half" with sides "left" and "right".
-fn halved(body: impl Body + 'static, law: Law, poisson: f64, ratio: f64) -> Setup {
+fn halved(body: impl Geometry<2> + 'static, law: Law, poisson: f64, ratio: f64) -> Setup {
     let mut setup = Setup::new(body, Material::isotropic(1.0, poisson), law);
     let half = |group: &str, young: f64| MaterialRegion {
         group: Some(group.to_owned()),
@@ -289,7 +289,7 @@ fn layered_block(thick: u32) -> SolidMesh {
 
 /// A body of a layer between halves, its ends pulled apart, all points held across.
 fn with_layer<const D: usize>(
-    body: impl Body<D> + 'static,
+    body: impl Geometry<D> + 'static,
     law: Law,
     [half, layer]: [Material; 2],
     across: &[Component],

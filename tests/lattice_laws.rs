@@ -197,7 +197,7 @@ fn moduli_are_those_of_the_infinite_lattice() {
             .map(String::as_str)
             .chain(settings.iter().copied())
             .collect();
-        let system = Bench::new(PLATE, &all).model.system;
+        let system = Bench::new(PLATE, &all).model.plane().clone();
         let middle = (cells * cells / 2) as u32;
         let in_plane =
             EngineeringConstants::from_stiffness(family_stiffness(&system, middle)).unwrap();

@@ -223,7 +223,7 @@ fn every_law_is_solved() {
         let turns = motions.iter().any(|motion| motion[2] != 0.0);
         let has_shear = bench
             .model
-            .system
+            .plane()
             .rigidities
             .shear
             .iter()
@@ -302,7 +302,7 @@ load = [{ group = "all", force = { x = 1.0 } }]
 "#;
     let middle = 41 * 41 / 2;
     let young = ["bbpd", "bbpd-conical"].map(|law| {
-        let system = bench(law, lattice, &[]).model.system;
+        let system = bench(law, lattice, &[]).model.plane().clone();
         let constants =
             EngineeringConstants::from_stiffness(family_stiffness(&system, middle)).unwrap();
         constants.young[0] / 15e9
@@ -352,7 +352,7 @@ fn axes_turn_with_the_material() {
     let text = elastic(SQUARE).replace(given, LAMINA);
     let of = |angle: f64| {
         let angle = format!("material.angle={angle:?}");
-        bench("orthotropic", &text, &[&angle]).model.system
+        bench("orthotropic", &text, &[&angle]).model.plane().clone()
     };
     let quarter = std::f64::consts::FRAC_PI_2;
     let (straight, turned, half) = (of(0.0), of(quarter), of(2.0 * quarter));

@@ -18,7 +18,7 @@ use verification::meshes;
 
 const CALIBRATION: Calibration = Calibration::Integral;
 
-fn patched(body: impl Body + 'static, poisson: f64, law: Law) -> Setup {
+fn patched(body: impl Geometry<2> + 'static, poisson: f64, law: Law) -> Setup {
     let mut setup = Setup::new(body, Material::isotropic(1.0, poisson), law);
     setup.correction.surface = Surface::Patch(Settings::default());
     setup
@@ -56,7 +56,7 @@ fn affine(model: &Model, [xx, yy, xy]: [f64; 3]) -> Vec<f64> {
         })
     };
     model
-        .system
+        .plane()
         .cloud
         .positions
         .iter()

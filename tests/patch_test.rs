@@ -33,7 +33,7 @@ fn tested(setup: Setup) -> PatchTest {
 /// Share of E along x and y that is missing or too much, and what is missing of nu.
 fn errors(test: &PatchTest) -> [f64; 3] {
     let body = test.constants.unwrap().body;
-    let [x, y] = body.young.map(|young| young / YOUNG - 1.0);
+    let [x, y, _] = body.young.map(|young| young / YOUNG - 1.0);
     [x, y, body.poisson[0][1] - POISSON]
 }
 

@@ -11,7 +11,7 @@ const INNER: f64 = 1.0;
 const OUTER: f64 = 2.0;
 const PRESSURE: f64 = 10e6;
 
-fn sphere(cells: u32) -> Solution<3> {
+fn sphere(cells: u32) -> Solution {
     let spacing = 2.0 * OUTER / f64::from(cells);
     let settings = [
         format!("solid_lattice.cells=[{cells}, {cells}, {cells}]"),

@@ -149,13 +149,13 @@ fn an_extruded_plate_is_the_plate_in_plane_strain() {
         .unwrap();
     let plane = setup.solve(&mut Unobserved).unwrap();
     let solid = solved("extruded-twin/solid.toml", &[]);
-    let flat = &plane.model.solid().cloud;
-    let layout = plane.model.solid().layout();
+    let flat = &plane.model.plane().cloud;
+    let layout = plane.model.plane().layout();
     let deep = &solid.model.solid().cloud;
     let spatial = solid.model.solid().layout();
     let (mut off, mut all) = (0.0, 0.0);
     for (point, position) in deep.positions.iter().enumerate() {
-        let [x, y, _] = std::array::from_fn(|axis| position[axis] + deep.origin[axis]);
+        let [x, y] = std::array::from_fn(|axis| position[axis] + deep.origin[axis]);
         let below = flat.nearest_point([x, y]);
         for component in [Component::X, Component::Y] {
             let wanted = layout.value(below, component, &plane.outcome.state.displacement);

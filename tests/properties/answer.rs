@@ -74,7 +74,7 @@ impl Answer {
             left: report
                 .and_then(CorrectionReport::patch)
                 .map_or(0.0, |it| it.left),
-            positions: solution.model.body().positions().to_vec(),
+            positions: solution.model.setup.body.geometry().positions().to_vec(),
             motion: by_point(layout, &solution.outcome.state.displacement),
             forces: (history.iter().flat_map(|step| &step.group_forces))
                 .map(of_group)

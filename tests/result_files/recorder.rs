@@ -271,7 +271,7 @@ impl<'a> Recorder<'a> {
 
     fn write_bonds(&mut self, file: &str, view: &View<'_>) {
         let (system, deformations) = (&**self.model.plane(), &view.balanced.deformations);
-        let positions = self.model.body().positions();
+        let positions = self.model.setup.body.geometry().positions();
         self.expected.lines(file, positions, system.bonds.len());
         let point = Place {
             file,
@@ -315,7 +315,7 @@ impl<'a> Recorder<'a> {
         let absent = &fixed.absent;
         let n_lines = system.bonds.len() + absent.len();
         let expected = &mut self.expected;
-        expected.lines(file, self.model.body().positions(), n_lines);
+        expected.lines(file, self.model.setup.body.geometry().positions(), n_lines);
         let point = |name| Place {
             file,
             part: "point",

@@ -1,7 +1,5 @@
 //! The patch test: E, Poisson's ratio and the strains of bonds in free bodies under uniform stress.
 
-
-
 use anyhow::Context;
 use ligament::Model;
 use ligament::body::{AnyBody, MeshBody};

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-
 use anyhow::Context;
 use ligament::body::{AnyBody, MeshBody};
 use ligament::run::{Solution, Unobserved};

@@ -93,7 +93,8 @@ fn a_position_off_the_body_is_refused() {
 
 #[test]
 fn a_section_that_no_bond_crosses_is_refused() {
-    let with_section = |line: [[f64; 2]; 2]| {
+    let with_section = |[start, end]: [[f64; 2]; 2]| {
+        let line = [start, end].map(|[x, y]| [x, y, 0.0]);
         let mut setup = plate([0.01; 2], |_| ());
         setup.probes = vec![Probe {
             name: "section".to_owned(),

@@ -4,7 +4,6 @@
 
 use std::path::Path;
 
-
 use ligament::body::{AnyBody, Points};
 use ligament_case::case::{CaseError, CaseFile};
 use ligament_model::failure::fracture_energy::{BOND_ENERGY, CRITICAL_STRETCH};
