@@ -207,7 +207,7 @@ fn the_critical_stretch_is_that_of_the_integral() {
         for (material, axial) in laws {
             let modulus = opening_modulus(material, plane);
             let moment = |power: i32| simpson(horizon, &|l| axial(l) * l.powi(power));
-            let limit = critical_stretch(FRACTURE_ENERGY, modulus, moment(3) / moment(2));
+            let limit = critical_stretch(FRACTURE_ENERGY, modulus, moment(3) / moment(2), plane);
             let of_length = |l: f64| {
                 let bond = 0.5 * axial(l) * l * limit * limit;
                 let angles = simpson(FRAC_PI_2, &|a| 2.0 * a * l * a.sin());

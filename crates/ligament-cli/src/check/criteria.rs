@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use ligament::crack_energy::crack_energies;
 use ligament_model::Material;
 use ligament_model::failure::crack_opening::CrackEnergy;
-use ligament_model::failure::{Choice, Criterion, Measure};
+use ligament_model::failure::{Choice, Criterion};
 use ligament_model::scatter::{Distribution, Scattered};
 use ligament_output::quantity::{between, four_digits, quantity};
 use ligament_run::model::Model;
@@ -64,7 +64,7 @@ fn write_crack(
         words += ", which changes with the horizon";
     }
     let criteria = model.criteria.list.iter();
-    let by_stretch = criteria.filter(|it| matches!(it.measure, Measure::Tension | Measure::Fibre));
+    let by_stretch = criteria.filter(|it| it.measure.opens() && !it.measure.takes_sliding());
     let has_shear = model.system.rigidities.shear.iter().any(|it| *it > 0.0);
     if has_shear && by_stretch.count() > 0 {
         words += "; more where its faces slide, which this criterion does not count";
@@ -170,9 +170,10 @@ fn write_energy<const D: usize>(
     criterion: &Criterion,
 ) -> io::Result<()> {
     // Bonds across the bar may come to their limit before those along it.
-    let at_most = match criterion.measure {
-        Measure::Energy => "at most ",
-        _ => "",
+    let at_most = if criterion.measure.needs_shear_stiffness() {
+        "at most "
+    } else {
+        ""
     };
     let setup = &model.setup;
     // The weaker material decides at interfaces, so that limits belong to a material only where there is one.

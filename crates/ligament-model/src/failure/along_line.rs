@@ -17,25 +17,23 @@ pub const EVERYWHERE: Interval = [f64::NEG_INFINITY, f64::INFINITY];
 
 const NOWHERE: Interval = [f64::INFINITY, f64::NEG_INFINITY];
 
-/// A deformation of a bond, whose strains are asked for on the line from one deformation along another.
+/// A deformation whose strains are asked for along a line: from one deformation on, with the slope of another.
 pub(super) trait AlongLine: Deformation {
-    /// A strain of which measures take the size.
-    type Strain: Strain;
+    /// A strain of which measures take the size: a number in the plane, a vector in space.
+    type Sized: Strain;
 
-    /// The stretch.
-    fn stretch(line: [&Self; 2]) -> Linear;
-
-    /// The shear.
-    fn shear(line: [&Self; 2]) -> Self::Strain;
-
-    /// The relative rotation of the ends.
-    fn rotation(line: [&Self; 2]) -> Self::Strain;
-
-    /// The strains (S_xx, S_yy, S_xy) of a bond with strains of its own.
-    fn own_strains(line: [&Self; 2]) -> [Linear; 3];
+    /// The strains along the line.
+    fn along(line: [&Self; 2]) -> Strains<Self::Sized>;
 }
 
-/// A strain along the line of which measures take the size: a number in the plane, a vector in space.
+/// Strains of a bond along a line.
+pub(super) struct Strains<S> {
+    stretch: Linear,
+    shear: S,
+    rotation: S,
+}
+
+/// A strain along a line of which measures take the size.
 pub(super) trait Strain: Copy {
     /// The strain times a factor.
     fn times(self, factor: f64) -> Self;
@@ -48,43 +46,26 @@ pub(super) trait Strain: Copy {
 }
 
 impl AlongLine for BondDeformation {
-    type Strain = Linear;
+    type Sized = Linear;
 
-    fn stretch(line: [&Self; 2]) -> Linear {
-        line.map(Self::stretch).into()
-    }
-
-    fn shear(line: [&Self; 2]) -> Linear {
-        line.map(Self::shear).into()
-    }
-
-    fn rotation(line: [&Self; 2]) -> Linear {
-        line.map(Self::rotation).into()
-    }
-
-    fn own_strains(line: [&Self; 2]) -> [Linear; 3] {
-        let [here, slope] = line.map(Self::strain);
-        [0, 1, 2].map(|place| [here[place], slope[place]].into())
+    fn along(line: [&Self; 2]) -> Strains<Linear> {
+        Strains {
+            stretch: line.map(Self::stretch).into(),
+            shear: line.map(Self::shear).into(),
+            rotation: line.map(Self::rotation).into(),
+        }
     }
 }
 
 impl AlongLine for SpaceDeformation {
-    type Strain = [[f64; 3]; 2];
+    type Sized = [[f64; 3]; 2];
 
-    fn stretch(line: [&Self; 2]) -> Linear {
-        line.map(|it| it.stretch).into()
-    }
-
-    fn shear(line: [&Self; 2]) -> Self::Strain {
-        line.map(|it| it.shear)
-    }
-
-    fn rotation(line: [&Self; 2]) -> Self::Strain {
-        line.map(|it| it.rotation)
-    }
-
-    fn own_strains(_: [&Self; 2]) -> [Linear; 3] {
-        unreachable!("bonds in space have no strains of their own")
+    fn along(line: [&Self; 2]) -> Strains<Self::Sized> {
+        Strains {
+            stretch: line.map(|it| it.stretch).into(),
+            shear: line.map(|it| it.shear),
+            rotation: line.map(|it| it.rotation),
+        }
     }
 }
 
@@ -200,18 +181,19 @@ impl Measure {
         coefficients: &[f64],
         limit: f64,
     ) -> Option<Interval> {
-        let (stretch, shear) = (B::stretch(line), B::shear(line));
+        let of_ends = B::along(line);
+        let (stretch, shear) = (of_ends.stretch, of_ends.shear);
         let q = coefficients.first().copied().unwrap_or(0.0);
-        let nothing = Linear::from([0.0; 2]);
         let mixed = |axis: usize| {
-            let strains = B::own_strains(line);
-            root(strains[axis], strains[2].square_times(q), limit)
+            let [here, slope] = line.map(|it| it.measured().strain());
+            let [opening, sliding] = [axis, 2].map(|it| Linear::from([here[it], slope[it]]));
+            root(opening, sliding.square_times(q), limit)
         };
         let interval = match self {
             Self::Tension => stretch.at_most(limit),
             Self::Compression => stretch.times(-1.0).at_most(limit),
-            Self::Fibre => B::rotation(line).times(q).beside_at_most(stretch, limit),
-            Self::Sliding => shear.beside_at_most(nothing, limit),
+            Self::Fibre => of_ends.rotation.times(q).beside_at_most(stretch, limit),
+            Self::Sliding => shear.beside_at_most([0.0; 2].into(), limit),
             Self::Friction => shear.beside_at_most(stretch.times(q), limit),
             Self::Energy => root(stretch, shear.square_times(q), limit),
             Self::MixedModeX => mixed(0),
