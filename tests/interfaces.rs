@@ -6,7 +6,7 @@
 
 use ligament::body::SolidMeshBody;
 use ligament::prelude::*;
-use ligament::setup::{Dim, Dimension, Form, MaterialRegion, Strains, Surface};
+use ligament::setup::{Form, MaterialRegion, Strains, Surface};
 use ligament_mesh::{Cell, Group, Mesh, SolidCell, SolidMesh};
 use ligament_model::Canvas;
 use ligament_model::correction::patch::{Reference, Settings};
@@ -293,10 +293,7 @@ fn with_layer<const D: usize>(
     law: Law,
     [half, layer]: [Material; 2],
     across: &[Component],
-) -> Setup<D>
-where
-    Dim: Dimension<D>,
-{
+) -> Setup<D> {
     let mut setup = Setup::new(body, half.clone(), law);
     let region = |group: &str, material: Material| MaterialRegion {
         group: Some(group.to_owned()),
@@ -350,10 +347,7 @@ fn layers_between_halves_of_a_mesh() {
 }
 
 /// The setup with its ends moved along y against each other, all points held along the other axes: the layer and the halves are sheared.
-fn sheared<const D: usize>(mut setup: Setup<D>, others: &[Component]) -> Setup<D>
-where
-    Dim: Dimension<D>,
-{
+fn sheared<const D: usize>(mut setup: Setup<D>, others: &[Component]) -> Setup<D> {
     setup.supports = vec![
         Support::new("left", &[Component::Y]),
         Support::new(Place::Everywhere, others),

@@ -163,10 +163,7 @@ fn a_lattice_has_a_patch_test() {
 #[test]
 fn precracks_are_left_out() {
     let mut cracked = bar();
-    cracked.precracks = vec![PreCrack {
-        points: vec![[0.02, 0.1], [0.08, 0.1]],
-        ends: Ends::Excluded,
-    }];
+    cracked.precracks = vec![PreCrack::along(vec![[0.02, 0.1], [0.08, 0.1]])];
     assert_eq!(tested(cracked), tested(bar()));
 }
 

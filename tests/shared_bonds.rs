@@ -3,7 +3,6 @@
 
 use ligament::Loading;
 use ligament::run::{follow, restore, resume};
-use ligament::setup::{Dim, Dimension};
 use ligament_analysis::driver::{Outcome, Problem};
 use ligament_analysis::history::{
     BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, View,
@@ -142,10 +141,7 @@ fn body(text: &str, settings: &[&str], ranks: Option<Together>) -> Body {
     }
 }
 
-fn problem<const D: usize>(model: &Model<D>, ranks: Option<Together>) -> Problem
-where
-    Dim: Dimension<D>,
-{
+fn problem<const D: usize>(model: &Model<D>, ranks: Option<Together>) -> Problem {
     let mut loading = Loading::new(&model.setup, &*model.system).unwrap();
     loading.solver.ranks = ranks;
     loading.problem(&model.system, &model.criteria)

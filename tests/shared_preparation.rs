@@ -5,9 +5,7 @@
 use ligament::Model;
 use ligament::SetupError;
 use ligament::body::SolidMeshBody;
-use ligament::model::Discretises;
 use ligament::prelude::*;
-use ligament::setup::{Dim, Dimension};
 use ligament_case::case::CaseFile;
 use ligament_mesh::{SolidCell, SolidMesh};
 use ligament_model::FixedFields;
@@ -56,10 +54,7 @@ fn at(places: &[usize], values: &[f64]) -> Vec<f64> {
 fn of_bonds<const D: usize>(
     model: &Model<D>,
     rigidities: &Rigidities,
-) -> Vec<(&'static str, Vec<f64>)>
-where
-    Dim: Dimension<D>,
-{
+) -> Vec<(&'static str, Vec<f64>)> {
     let system = &*model.system;
     let mut lists = vec![
         ("axial", rigidities.axial.clone()),
@@ -94,11 +89,7 @@ fn shared<const D: usize>(
     setup: &Setup<D>,
     accuracy: Accuracy,
     rigidities: impl Fn(&Model<D>) -> &Rigidities + Sync,
-) -> Model<D>
-where
-    Dim: Dimension<D> + Discretises<D>,
-    Setup<D>: Sync,
-{
+) -> Model<D> {
     let whole = Model::build(setup.clone(), &mut ()).unwrap();
     let (ends, lists) = (whole.system.ends(), of_bonds(&whole, rigidities(&whole)));
     for n_ranks in 1..=3 {

@@ -4,9 +4,11 @@
 use ligament_analysis::solver::{Method, SolverChoice, Unfit, points_of_aggregate};
 use ligament_analysis::{Attempt, Equilibrium, SetupError};
 use ligament_model::ElementKind;
+use ligament_model::law::beam::{self, ShearForm};
 use ligament_model::law::rotational::RotationalStiffness;
+use ligament_model::law::{mppd, pds};
 use ligament_model::material::Isotropic;
-use ligament_model::space::law::{ShearForm, mppd, nhpd, pds};
+use ligament_model::material::Space;
 use ligament_model::{BondSet, BondStiffness, PointCloud};
 use rayon::ThreadPoolBuilder;
 use verification::bench;
@@ -72,20 +74,34 @@ fn negative_shear_is_refused_by_name() {
             "nhpd, secant",
             ElementKind::Beam,
             |bonds, cloud, materials| {
-                nhpd::stiffness(bonds, cloud, materials, ShearForm::default())
+                beam::stiffness(bonds, cloud, materials, Space::Solid, ShearForm::Constant)
             },
         ),
         ("mppd", ElementKind::Beam, |bonds, cloud, materials| {
-            mppd::stiffness(bonds, cloud, materials, RotationalStiffness::Decaying)
+            mppd::stiffness(
+                bonds,
+                cloud,
+                materials,
+                Space::Solid,
+                RotationalStiffness::Decaying,
+            )
         }),
         (
             "mppd without",
             ElementKind::Beam,
             |bonds, cloud, materials| {
-                mppd::stiffness(bonds, cloud, materials, RotationalStiffness::Zero)
+                mppd::stiffness(
+                    bonds,
+                    cloud,
+                    materials,
+                    Space::Solid,
+                    RotationalStiffness::Zero,
+                )
             },
         ),
-        ("pds", ElementKind::Spring, pds::stiffness),
+        ("pds", ElementKind::Spring, |bonds, cloud, materials| {
+            pds::stiffness(bonds, cloud, materials, Space::Solid)
+        }),
     ];
     for (name, element, law) in laws {
         for (poisson, is_refused) in [(0.24, false), (0.26, true), (0.45, true)] {
@@ -111,7 +127,8 @@ fn negative_shear_is_refused_by_name() {
 #[test]
 fn negative_rotational_stiffness_gives_no_answer() {
     let law = |bonds: &BondSet<3>, cloud: &PointCloud<3>| {
-        let mut stiffness = nhpd::stiffness(bonds, cloud, &[MATERIAL], ShearForm::default());
+        let mut stiffness =
+            beam::stiffness(bonds, cloud, &[MATERIAL], Space::Solid, ShearForm::Constant);
         stiffness.rotational.iter_mut().for_each(|it| *it *= -20.0);
         stiffness
     };

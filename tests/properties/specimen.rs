@@ -278,10 +278,9 @@ impl Specimen {
     /// The image of the specimen, pre-cracked and held on its left.
     fn held(&self, image: &Image) -> Setup {
         let mut setup = self.free(image);
-        setup.precracks = vec![PreCrack {
-            points: self.precrack.iter().map(|&it| image.place(it)).collect(),
-            ends: Ends::Excluded,
-        }];
+        setup.precracks = vec![PreCrack::along(
+            self.precrack.iter().map(|&it| image.place(it)).collect(),
+        )];
         setup.supports = vec![Support::new("left", &Component::ALL)];
         setup
     }

@@ -9,8 +9,9 @@ use ligament_analysis::solver::Method;
 use ligament_analysis::{
     Attempt, Balanced, Component, Equilibrium, Problem, ProportionalLoading, SolverSettings, State,
 };
+use ligament_model::law::beam::{self, ShearForm};
 use ligament_model::material::Isotropic;
-use ligament_model::space::law::{ShearForm, nhpd};
+use ligament_model::material::Space;
 use ligament_model::{
     BondSet, BondStiffness, BondSystem, ElementKind, Horizons, PointCloud, System,
 };
@@ -30,7 +31,7 @@ const LAMBDA: f64 = 2.5;
 /// NHPD's bonds.
 pub fn cylinder(across: usize) -> Arc<dyn System<3>> {
     let law = |bonds: &BondSet<3>, cloud: &PointCloud<3>| {
-        nhpd::stiffness(bonds, cloud, &[MATERIAL], ShearForm::default())
+        beam::stiffness(bonds, cloud, &[MATERIAL], Space::Solid, ShearForm::Constant)
     };
     cylinder_of(across, ElementKind::Beam, law)
 }

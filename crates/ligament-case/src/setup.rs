@@ -33,7 +33,7 @@ impl CaseFile {
             }
             (None, None) => anyhow::bail!("the case has no body"),
         };
-        Ok(self.setup_on_solid(body)?)
+        Ok(self.setup_on(body)?)
     }
 
     /// The setup of the case in the plane, with its body and the tables that it names read from their files.
@@ -66,18 +66,8 @@ impl CaseFile {
     /// # Errors
     ///
     /// If a table of temperatures cannot be read.
-    pub fn setup_on(&self, body: Arc<dyn Body>) -> Result<Setup, CaseError> {
-        let setup = self.case.in_plane(body);
-        self.with_tables(setup.map_err(|fault| self.source.error(fault))?)
-    }
-
-    /// The setup of the case on a solid body that is there already, whatever body the case names.
-    ///
-    /// # Errors
-    ///
-    /// If a table of temperatures cannot be read.
-    pub fn setup_on_solid(&self, body: Arc<dyn Body<3>>) -> Result<Setup<3>, CaseError> {
-        let setup = self.case.in_space(body);
+    pub fn setup_on<const D: usize>(&self, body: Arc<dyn Body<D>>) -> Result<Setup<D>, CaseError> {
+        let setup = self.case.setup_on(body);
         self.with_tables(setup.map_err(|fault| self.source.error(fault))?)
     }
 
@@ -101,14 +91,7 @@ impl CaseFile {
         let (holes, sets) = parts.map_err(|fault| self.source.error(fault))?;
         let (spacing, corner) = (section.spacing.0, section.corner);
         let body = LatticeBody::new(section.cells, spacing, corner, &holes, &sets);
-        body.map_err(|error| {
-            let key = match &error {
-                LatticeError::NothingLeft { .. } => "lattice.remove".to_owned(),
-                LatticeError::EmptySet { name } => LatticeSection::set_key(name),
-                LatticeError::NoRim { hole } => format!("lattice.remove.{hole}"),
-            };
-            self.error(&key, error.to_string())
-        })
+        body.map_err(|error| self.no_lattice("lattice", LatticeSection::set_key, error))
     }
 
     fn solid_lattice(&self, section: &SolidLatticeSection) -> Result<SolidLatticeBody, CaseError> {
@@ -117,14 +100,22 @@ impl CaseFile {
         let (holes, sets) = parts.map_err(|fault| self.source.error(fault))?;
         let (spacing, corner) = (section.spacing, section.corner);
         let body = SolidLatticeBody::new(section.cells, spacing, corner, &holes, &sets);
-        body.map_err(|error| {
-            let key = match &error {
-                LatticeError::NothingLeft { .. } => "solid_lattice.remove".to_owned(),
-                LatticeError::EmptySet { name } => SolidLatticeSection::set_key(name),
-                LatticeError::NoRim { hole } => format!("solid_lattice.remove.{hole}"),
-            };
-            self.error(&key, error.to_string())
-        })
+        body.map_err(|error| self.no_lattice("solid_lattice", SolidLatticeSection::set_key, error))
+    }
+
+    /// The error of a lattice section that makes no body, at the key that it comes from.
+    fn no_lattice(
+        &self,
+        section: &str,
+        set_key: fn(&str) -> String,
+        error: LatticeError,
+    ) -> CaseError {
+        let key = match &error {
+            LatticeError::NothingLeft { .. } => format!("{section}.remove"),
+            LatticeError::EmptySet { name } => set_key(name),
+            LatticeError::NoRim { hole } => format!("{section}.remove.{hole}"),
+        };
+        self.error(&key, error.to_string())
     }
 
     /// Number of threads that the case asks for, if it does.

@@ -7,7 +7,7 @@ mod expansion;
 
 pub use anisotropic::Anisotropic;
 pub use contrast::milder;
-pub use elasticity::{Elasticity, Isotropic, Orthotropic, OutOfPlane, Plane, Stiffness, Space};
+pub use elasticity::{Elasticity, Isotropic, Orthotropic, OutOfPlane, Plane, Space, Stiffness};
 pub use expansion::Expansion;
 
 /// A linear elastic, brittle material.

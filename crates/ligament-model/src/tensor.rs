@@ -42,7 +42,9 @@ pub fn norm<const D: usize>(a: [f64; D]) -> f64 {
 /// Unit vectors at right angles to a unit vector: one in the plane, turned to its left, and two in space ([`tangents`]).
 pub fn directions_across<const D: usize>(n: [f64; D]) -> Vec<[f64; D]> {
     match D {
-        2 => vec![std::array::from_fn(|axis| if axis == 0 { -n[1] } else { n[0] })],
+        2 => vec![std::array::from_fn(
+            |axis| if axis == 0 { -n[1] } else { n[0] },
+        )],
         _ => {
             let tangents = tangents(std::array::from_fn(|axis| n[axis]));
             let resized = |it: [f64; 3]| std::array::from_fn(|axis| it[axis]);

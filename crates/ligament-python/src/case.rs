@@ -120,7 +120,7 @@ impl Case {
         let file = &self.file;
         Ok(match &self.body {
             Some(AnyBody::Plane(body)) => AnySetup::Plane(file.setup_on(body.clone())?),
-            Some(AnyBody::Solid(body)) => AnySetup::Solid(file.setup_on_solid(body.clone())?),
+            Some(AnyBody::Solid(body)) => AnySetup::Solid(file.setup_on(body.clone())?),
             None if file.case.is_solid() => AnySetup::Solid(file.setup_in_space(&mut ())?),
             None => AnySetup::Plane(file.setup(&mut ())?),
         })

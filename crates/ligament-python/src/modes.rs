@@ -1,8 +1,7 @@
 //! Natural modes, as arrays.
 
-use ligament::model::Discretises;
 use ligament::run::on_threads;
-use ligament::setup::{Analysis};
+use ligament::setup::Analysis;
 use ligament::{Fault, Field, Model, Setup, SetupError, Vibration};
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome, Mode};
 use ligament_analysis::{Component, Layout};

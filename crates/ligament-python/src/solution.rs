@@ -4,7 +4,6 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::Duration;
 
-use ligament::model::Discretises;
 use ligament::run::{follow, on_threads};
 use ligament::{Loading, Model, Setup};
 use ligament_analysis::ProportionalLoading;

@@ -4,7 +4,7 @@
 use anyhow::{Context, ensure};
 use ligament::Model;
 use ligament::run::{follow, on_threads, restore, resume as resume_run};
-use ligament::setup::{Analysis};
+use ligament::setup::Analysis;
 use ligament_analysis::Termination;
 use ligament_analysis::history::{Moment, Observer, ObserverError, Onward, StepRecord, View};
 use ligament_analysis::ranks::Together;

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use ligament::Model;
-use ligament::setup::{Analysis};
+use ligament::setup::Analysis;
 use ligament_case::case::CaseFile;
 
 /// Bytes of a point in a file of fields, compressed, rounded up from the largest that was measured: a Brazilian disk of 846,

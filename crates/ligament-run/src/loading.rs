@@ -2,7 +2,7 @@
 
 use anyhow::Context;
 use ligament::run::{follow, resume};
-use ligament::setup::{Analysis};
+use ligament::setup::Analysis;
 use ligament::{Loading, Model};
 use ligament_analysis::driver::Restored;
 use ligament_case::case::{CaseFile, StressField};

@@ -2,7 +2,6 @@
 
 pub use ligament::Model;
 use ligament::Setup;
-use ligament::model::Discretises;
 use ligament::run::on_threads;
 use ligament::stage::{Finding, StageWatcher};
 use ligament::warning::of_virial_stress;

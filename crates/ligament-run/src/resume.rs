@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{Context, bail, ensure};
 use ligament::Model;
 use ligament::run::{on_threads, restore};
-use ligament::setup::{Analysis};
+use ligament::setup::Analysis;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::ranks::Together;
 use ligament_analysis::serial::Serial;

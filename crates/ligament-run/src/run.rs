@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use ligament::run::on_threads;
-use ligament::setup::{Analysis};
+use ligament::setup::Analysis;
 use ligament_analysis::ranks::Together;
 use ligament_output::folder::ResultFolder;
 

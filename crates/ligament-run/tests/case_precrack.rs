@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use ligament::body::Points;
+use ligament::setup::PreCrack;
 use ligament_case::case::CaseFile;
-use ligament_model::bonds::precrack::PreCrack;
 use ligament_run::model::build_model;
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::Stages;
@@ -32,20 +32,20 @@ fn crack(keys: &str, overrides: &[&str]) -> PreCrack {
 #[test]
 fn a_straight_crack_has_two_ends() {
     let given = crack("centre = [0.5, 0.25]\nlength = 0.5\nangle = 0.0", &[]);
-    assert_eq!(given.points, [[0.25, 0.25], [0.75, 0.25]]);
+    assert_eq!(given.line(), [[0.25, 0.25], [0.75, 0.25]]);
     // 3-4-5: atan(4/3), from the lower left to the upper right.
     let given = crack(
         "centre = [0, 0]\nlength = 10\nangle = 0.9272952180016122",
         &[],
     );
-    for (end, expected) in given.points.iter().zip([[-3.0, -4.0], [3.0, 4.0]]) {
+    for (end, expected) in given.line().iter().zip([[-3.0, -4.0], [3.0, 4.0]]) {
         for (value, expected) in end.iter().zip(expected) {
             assert!((value - expected).abs() < 1e-14, "{value} for {expected}");
         }
     }
     let straight = "centre = [0, 0]\nlength = 0.03\nangle = 0.0";
     let upright = crack(straight, &["precrack.0.angle=1.5707963268"]);
-    assert_eq!(upright.points, [[0.0, -0.015], [0.0, 0.015]]);
+    assert_eq!(upright.line(), [[0.0, -0.015], [0.0, 0.015]]);
 }
 
 #[test]

@@ -68,7 +68,7 @@ struct PlateTest {
 impl PlateTest {
     fn from_run(solution: &Solution, breaks: &[BreakRecord]) -> anyhow::Result<Self> {
         let (model, outcome) = (&solution.model, &solution.outcome);
-        let slot = &model.setup.precracks.first().context("no slot")?.points;
+        let slot = model.setup.precracks.first().context("no slot")?.line();
         let ends: Segment = [slot[0], slot[slot.len() - 1]];
         let first = breaks.first().context("no bond breaks")?;
         let first = middle(model, first.bond as usize);

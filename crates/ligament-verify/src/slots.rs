@@ -97,7 +97,8 @@ impl SlottedTest {
     fn from_run(solution: &Solution, breaks: &[BreakRecord]) -> anyhow::Result<Self> {
         let (model, outcome) = (&solution.model, &solution.outcome);
         let slots: Vec<Segment> = (model.setup.precracks.iter())
-            .map(|slot| [slot.points[0], slot.points[slot.points.len() - 1]])
+            .map(|slot| slot.line())
+            .map(|slot| [slot[0], slot[slot.len() - 1]])
             .collect();
         let from_tip = |at: [f64; 2]| {
             let tips = slots.iter().flatten();

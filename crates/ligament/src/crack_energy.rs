@@ -1,5 +1,7 @@
 //! Energy that a crack through a model spends under its criteria, beside the fracture energy that the material is given.
 
+use ligament_model::BondSystem;
+use ligament_model::dimension::cast_ref;
 use ligament_model::failure::crack_opening::CrackEnergy;
 
 use crate::model::Model;
@@ -7,9 +9,13 @@ use crate::model::Model;
 /// Energies of cracks that open along x, and along y, through a material of a model.
 ///
 /// Only points count whose families are whole, of the one material, and free to break: a crack near a surface, an interface or a part
-/// that may not fail is another matter. None where there is no such point, without criteria, and for bonds with strains of their own
+/// that may not fail is another matter. None for solids, where there is no such point, without criteria, and for bonds with strains of their own
 /// (`mbb-pd`), whose criteria take the fracture energy by their definition.
-pub fn crack_energies(model: &Model, material: usize) -> Option<[CrackEnergy; 2]> {
+pub fn crack_energies<const D: usize>(
+    model: &Model<D>,
+    material: usize,
+) -> Option<[CrackEnergy; 2]> {
+    let system = cast_ref::<_, BondSystem>(model.system.parts())?;
     if model.criteria.list.is_empty() {
         return None;
     }
@@ -20,11 +26,11 @@ pub fn crack_energies(model: &Model, material: usize) -> Option<[CrackEnergy; 2]
     let is_excluded = |(point, on_rim)| on_rim || model.fixed.no_fail[point] || is_mixed(point);
     let excluded: Vec<bool> = rim.map(is_excluded).collect();
     let whole = model.interior(&excluded);
-    let along = |normal| CrackEnergy::of_opening(&model.system, &model.criteria, &whole, normal);
+    let along = |normal| CrackEnergy::of_opening(system, &model.criteria, &whole, normal);
     Some([along([1.0, 0.0])?, along([0.0, 1.0])?])
 }
 
-impl Model {
+impl<const D: usize> Model<D> {
     /// Marks the points whose families are whole (n_points): neither they nor a neighbour are marked in `excluded` (n_points), such as the
     /// [rim](crate::Body::rim) of the body, and pre-cracks cut none of their bonds.
     pub fn interior(&self, excluded: &[bool]) -> Vec<bool> {

@@ -173,17 +173,33 @@ impl<'a, const D: usize> Formulation<'a, D> {
     }
 
     /// The correction of bonds between the materials of the setup.
-    fn corrected(&self, bonds: &BondSet<D>, stiffness: &BondStiffness, alpha: Vec<f64>) -> Correction {
+    fn corrected(
+        &self,
+        bonds: &BondSet<D>,
+        stiffness: &BondStiffness,
+        alpha: Vec<f64>,
+    ) -> Correction {
         let (setup, cloud) = (self.setup, self.cloud);
         match setup.correction.surface {
             Surface::Domain(iteration) => {
                 let sweeps = iteration.sweeps(bonds.count(cloud));
-                domain::iterate(bonds, cloud, stiffness, alpha, &stiffness_of_materials(setup), sweeps)
+                domain::iterate(
+                    bonds,
+                    cloud,
+                    stiffness,
+                    alpha,
+                    &stiffness_of_materials(setup),
+                    sweeps,
+                )
             }
             Surface::Patch(settings) => {
                 let points = patch::Points {
                     cloud,
-                    forces: setup.body.cell_forces(cloud, self.material_of_cell, stiffness_of_materials(setup)),
+                    forces: setup.body.cell_forces(
+                        cloud,
+                        self.material_of_cell,
+                        stiffness_of_materials(setup),
+                    ),
                     turn: setup.law.element() == ElementKind::Beam,
                 };
                 let axial = || match setup.of_one_material() {

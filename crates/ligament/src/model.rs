@@ -147,7 +147,10 @@ pub fn sharing<const D: usize>(setup: &Setup<D>) -> Option<&'static dyn Exchange
 }
 
 /// The part of this process in the points of a setup that several share out; none where it has all of them.
-pub(crate) fn portion_of<const D: usize>(setup: &Setup<D>, cloud: &PointCloud<D>) -> Option<Portion> {
+pub(crate) fn portion_of<const D: usize>(
+    setup: &Setup<D>,
+    cloud: &PointCloud<D>,
+) -> Option<Portion> {
     sharing(setup).map(|exchange| cloud.portion_of(exchange))
 }
 
@@ -299,7 +302,13 @@ fn correct<const D: usize>(
     });
     let bonds = corrected.bonds.retained(&survives);
     Corrected {
-        faces: faces::faces((setup.closing, cracks), cloud, &bonds, &cut, rigidities.as_ref()),
+        faces: faces::faces(
+            (setup.closing, cracks),
+            cloud,
+            &bonds,
+            &cut,
+            rigidities.as_ref(),
+        ),
         bonds,
         stiffness: corrected.stiffness.retained(&survives),
         correction: corrected.correction.retained(&survives),
@@ -354,10 +363,7 @@ fn warnings<const D: usize>(
 }
 
 /// Smallest and largest Omega of the bonds of a body.
-fn correction_range<const D: usize>(
-    correction: &Correction,
-    cloud: &PointCloud<D>,
-) -> (f64, f64) {
+fn correction_range<const D: usize>(correction: &Correction, cloud: &PointCloud<D>) -> (f64, f64) {
     let (smallest, largest) = correction.domain_factor_range();
     (-cloud.largest(-smallest), cloud.largest(largest))
 }

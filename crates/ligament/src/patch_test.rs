@@ -10,17 +10,17 @@ use ligament_analysis::driver::Problem;
 use ligament_analysis::{
     Attempt, Control, ControlKind, Equilibrium, ProportionalLoading, State, Unbalanced,
 };
-use ligament_model::{Elasticity, Plane};
 use ligament_model::correction::patch::CellForces;
 use ligament_model::layout::Layout;
 use ligament_model::moduli::EngineeringConstants;
 use ligament_model::uniform_strain::{self, UniformStrains};
+use ligament_model::{Elasticity, Plane};
 use thiserror::Error;
 
 use crate::body::Origin;
 use crate::error::SetupError;
-use crate::loading::material_of_cell;
 use crate::formulation::stiffness_of_materials;
+use crate::loading::material_of_cell;
 use crate::model::Model;
 use crate::run::Unobserved;
 use crate::setup::{ELASTIC_ENERGY_TOLERANCE, Setup};

@@ -14,7 +14,7 @@ pub use crate::error::{Error, Fault, Field, SetupError};
 pub use crate::model::Model;
 pub use crate::run::{Solution, Unobserved};
 pub use crate::setup::{
-    Action, Analysis, Calibration, Correction, Course, CrackShape, Displacement, Form, Horizon, Law, Load,
-    MaterialRegion, Place, PreCrack, Probe, Profile, Reading, Section, Setup, Stage, Strains, Support,
-    Temperature, TemperatureChange, event, stepped,
+    Action, Analysis, Calibration, Correction, Course, CrackShape, Displacement, Form, Horizon,
+    Law, Load, MaterialRegion, Place, PreCrack, Probe, Profile, Reading, Section, Setup, Stage,
+    Strains, Support, Temperature, TemperatureChange, event, stepped,
 };

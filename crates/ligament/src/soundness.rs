@@ -331,9 +331,9 @@ mod tests {
                 ],
                 ..SolidMesh::default()
             };
-            let cloud = PointCloud::from_mesh(&mesh, 1.0, &[0, 0], 1);
-            let outline = SolidOutline::of_cells(&mesh.cells, &cloud);
-            forbid_overlap(&SolidMeshBody::from(mesh), &outline)
+            let body = SolidMeshBody::from(mesh);
+            let outline = body.outline(&body.cloud(1.0, &[0, 0], 1)).unwrap();
+            forbid_overlap(&body, &*outline)
         };
         let fault = *fault_at(0.4).unwrap_err().fault;
         assert!(matches!(fault, Fault::Overlap { .. }), "{fault}");

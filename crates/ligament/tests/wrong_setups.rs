@@ -108,7 +108,12 @@ fn a_setup_is_held_to_the_rules_of_a_case() {
     };
     let crack = |points: Vec<[f64; 2]>| {
         let ends = Ends::Excluded;
-        move |it: &mut Setup| it.precracks.push(PreCrack { points, ends })
+        move |it: &mut Setup| {
+            it.precracks.push(PreCrack {
+                shape: CrackShape::Line(points),
+                ends,
+            })
+        }
     };
     let steps = |factors: Vec<f64>| {
         move |it: &mut Setup| {

@@ -11,8 +11,8 @@ use super::key_path::KeyPath;
 use super::values::{Point, exactly_one, first_given, missing};
 use super::values::{not_exactly_one, one_of, refuse, require};
 use super::word::Word;
-use ligament::space::{CrackSurface, SolidCrack};
-use ligament_model::bonds::precrack::{Ends, PreCrack};
+use ligament::setup::{CrackShape, PreCrack};
+use ligament_model::bonds::precrack::Ends;
 
 /// Angles closer than this to a multiple of 45 degrees are one, rad: pi written with ten digits means pi, and points on an
 /// axis lie on a crack along it.
@@ -51,7 +51,18 @@ pub struct Precrack {
 }
 
 impl Precrack {
-    pub(super) fn in_plane(&self, key: &KeyPath) -> Result<PreCrack, KeyFault> {
+    /// The pre-crack of a body in D dimensions.
+    pub(super) fn setup<const D: usize>(&self, key: &KeyPath) -> Result<PreCrack, KeyFault> {
+        Ok(PreCrack {
+            shape: match D {
+                2 => CrackShape::Line(self.line(key)?),
+                _ => self.surface(key)?,
+            },
+            ends: self.ends.0,
+        })
+    }
+
+    fn line(&self, key: &KeyPath) -> Result<Vec<Point>, KeyFault> {
         let of_solids = [
             ("normal", self.normal.is_some()),
             ("radius", self.radius.is_some()),
@@ -64,7 +75,7 @@ impl Precrack {
             ("length", self.length.is_some()),
             ("angle", self.angle.is_some()),
         ];
-        let points = match &self.points {
+        match &self.points {
             Some(points) => {
                 let reason = "a pre-crack has the corners of a polyline, or `centre`, `length` and `angle` of a straight line";
                 refuse(key, straight, "`points`", reason)?;
@@ -72,19 +83,17 @@ impl Precrack {
                 let corners = points.iter().enumerate();
                 corners
                     .map(|(index, it)| it.of(&key.child(index)))
-                    .collect::<Result<_, _>>()?
+                    .collect()
             }
-            None if first_given(straight).is_some() => self.ends_of_line(key)?.to_vec(),
+            None if first_given(straight).is_some() => Ok(self.ends_of_line(key)?.to_vec()),
             None => {
                 let keys = [("points", false), ("centre", false)];
-                return Err(not_exactly_one(key, &keys));
+                Err(not_exactly_one(key, &keys))
             }
-        };
-        let ends = self.ends.0;
-        Ok(PreCrack { points, ends })
+        }
     }
 
-    pub(super) fn in_space(&self, key: &KeyPath) -> Result<SolidCrack, KeyFault> {
+    fn surface(&self, key: &KeyPath) -> Result<CrackShape, KeyFault> {
         let of_lines = [
             ("length", self.length.is_some()),
             ("angle", self.angle.is_some()),
@@ -99,23 +108,21 @@ impl Precrack {
             let key = key.child("points");
             let corners = points.iter().enumerate();
             let corners = corners.map(|(index, it)| it.of(&key.child(index)));
-            corners.collect::<Result<_, _>>().map(CrackSurface::Polygon)
+            corners.collect::<Result<_, _>>().map(CrackShape::Polygon)
         });
         let disk = self.centre.map(|centre| {
             let normal = self.normal.ok_or_else(|| missing(key, "normal"))?;
-            Ok(CrackSurface::Disk {
+            Ok(CrackShape::Disk {
                 centre: centre.of(&key.child("centre"))?,
                 normal: normal.of(&key.child("normal"))?,
                 radius: self.radius.ok_or_else(|| missing(key, "radius"))?,
             })
         });
-        let group = self.group.clone().map(|it| Ok(CrackSurface::Group(it)));
-        let surface = one_of(
+        let group = self.group.clone().map(|it| Ok(CrackShape::Group(it)));
+        one_of(
             key,
             [("points", points), ("centre", disk), ("group", group)],
-        )??;
-        let ends = self.ends.0;
-        Ok(SolidCrack { surface, ends })
+        )?
     }
 
     /// Key of the surface of a pre-crack of a solid.

@@ -226,41 +226,41 @@ impl Case {
         self.solid_lattice.is_some() || self.mesh.as_ref().is_some_and(|it| it.is_solid)
     }
 
-    /// The setup of the case on a solid body, whatever body the case names. Tables of temperatures have no rows yet.
-    pub(crate) fn in_space(&self, body: Arc<dyn Body<3>>) -> Result<Setup<3>, KeyFault> {
-        let precracks = each("precrack", &self.precracks, Precrack::in_space)?;
-        self.setup_of(body, (), precracks)
-    }
-
-    /// The setup of the case on a body in the plane, whatever body the case names. Tables of temperatures have no rows yet.
-    pub(crate) fn in_plane(&self, body: Arc<dyn Body>) -> Result<Setup, KeyFault> {
+    /// Thickness of a body in the plane, m, where it is given.
+    fn thickness(&self) -> Option<f64> {
         let of_mesh = self.mesh.as_ref().and_then(|it| it.thickness);
         let of_lattice = self.lattice.as_ref().and_then(|it| it.thickness);
-        let thickness = of_mesh.or(of_lattice);
-        let section = Section::Plane {
-            state: self.plane(),
-            thickness: thickness.unwrap_or_else(metre),
-        };
-        let precracks = each("precrack", &self.precracks, Precrack::in_plane)?;
-        let mut setup = self.setup_of(body, section, precracks)?;
+        of_mesh.or(of_lattice)
+    }
+
+    /// What is hardly meant in the sections of a body in the plane.
+    fn remarks(&self) -> Vec<Implausible> {
+        if self.is_solid() {
+            return Vec::new();
+        }
         // A long body in plane strain is computed per metre of its length.
-        let is_missing = thickness.is_none() && self.plane() == Plane::Stress;
+        let is_missing = self.thickness().is_none() && self.plane() == Plane::Stress;
         let missing = is_missing.then_some(Implausible::NoThickness);
         let angles = (self.precracks.iter().enumerate()).filter_map(|(index, crack)| {
             let what = format!("the angle of pre-crack {}", index + 1);
             Implausible::of_angle(what, crack.angle?)
         });
-        setup.remarks = missing.into_iter().chain(angles).collect();
-        Ok(setup)
+        missing.into_iter().chain(angles).collect()
     }
 
-    /// The setup of the case on a body in D dimensions. Tables of temperatures have no rows yet.
-    fn setup_of<const D: usize>(
+    /// The setup of the case on a body, whatever body the case names. Tables of temperatures have no rows yet.
+    pub(crate) fn setup_on<const D: usize>(
         &self,
         body: Arc<dyn Body<D>>,
-        section: <Dim as Dimension<D>>::Section,
-        precracks: Vec<<Dim as Dimension<D>>::PreCrack>,
     ) -> Result<Setup<D>, KeyFault> {
+        let section = match D {
+            2 => Section::Plane {
+                state: self.plane(),
+                thickness: self.thickness().unwrap_or_else(metre),
+            },
+            _ => Section::Solid,
+        };
+        let precracks = each("precrack", &self.precracks, Precrack::setup::<D>)?;
         let law = self.model.law.0;
         let criteria = self.fracture.iter().filter_map(|it| it.criteria.as_deref());
         self.check_across_sections()?;
@@ -303,7 +303,7 @@ impl Case {
             },
             solver: self.solver.setup(),
             threads: self.solver.threads.map(|threads| threads as usize),
-            remarks: Vec::new(),
+            remarks: self.remarks(),
         })
     }
 

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use ligament::Model;
 use ligament::bending_test::{
-    BendingTest, MOST_SIDES, Meshed, Section, THICK, TOO_STIFF, bending_test, thinnest_section,
+    BendingTest, MOST_SIDES, Section, THICK, TOO_STIFF, bending_test, most_points, thinnest_section,
 };
 use ligament::setup::{Law, Surface};
 use ligament_output::quantity::{place, quantity};

@@ -2,10 +2,12 @@
 
 use std::io::{self, Write};
 
+use ligament::Setup;
 use ligament::crack_energy::crack_energies;
 use ligament_model::Material;
 use ligament_model::failure::crack_opening::CrackEnergy;
 use ligament_model::failure::{Choice, Criterion};
+use ligament_model::material::Space;
 use ligament_model::scatter::{Distribution, Scattered};
 use ligament_output::quantity::{between, four_digits, quantity};
 use ligament_run::model::Model;
@@ -32,7 +34,7 @@ pub(super) fn write<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io
 }
 
 /// Writes what cracks spend in each material.
-pub(super) fn write_cracks(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+fn write_cracks<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()> {
     for (index, material) in model.setup.materials().into_iter().enumerate() {
         if let Some(energies) = crack_energies(model, index) {
             write_crack(out, model, &material, energies)?;
@@ -42,9 +44,9 @@ pub(super) fn write_cracks(out: &mut dyn Write, model: &Model) -> io::Result<()>
 }
 
 /// Writes what cracks that open along x and along y spend in a material.
-fn write_crack(
+fn write_crack<const D: usize>(
     out: &mut dyn Write,
-    model: &Model,
+    model: &Model<D>,
     material: &Material,
     energies: [CrackEnergy; 2],
 ) -> io::Result<()> {
@@ -178,7 +180,7 @@ fn write_energy<const D: usize>(
     let setup = &model.setup;
     // The weaker material decides at interfaces, so that limits belong to a material only where there is one.
     if let [region] = setup.materials.as_slice()
-        && let Some(constants) = setup.law.constants(&region.material, setup.space())
+        && let Some(young) = young(setup, &region.material)
         && let Some(limits) =
             Range::over(criterion.limit.iter().copied().filter(|it| it.is_finite()))
     {
@@ -190,6 +192,15 @@ fn write_energy<const D: usize>(
         )?;
     }
     Ok(())
+}
+
+/// Young's modulus of a bar of a material with the constants that the law makes of it, Pa; none for one with axes.
+fn young<const D: usize>(setup: &Setup<D>, material: &Material) -> Option<f64> {
+    let constants = setup.law.constants(material, setup.space())?;
+    Some(match setup.space() {
+        Space::Plane(plane) => constants.in_plane(plane).young,
+        Space::Solid => constants.young,
+    })
 }
 
 /// Smallest, median (the lower of two) and largest of some numbers.

@@ -16,7 +16,6 @@ use ligament_run::stages::Stages;
 
 use super::Extent;
 use super::entry::entry;
-use super::told::Told;
 
 /// Multiplications of a factor up to which the solution is done unasked, some seconds on one processor.
 const MOST_MULTIPLICATIONS: f64 = 5e10;

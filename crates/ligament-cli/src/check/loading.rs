@@ -4,9 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use ligament::Loading;
-use ligament::setup::{
-    Analysis, ELASTIC_ENERGY_TOLERANCE, Reading as Given, Setup,
-};
+use ligament::setup::{Analysis, ELASTIC_ENERGY_TOLERANCE, Reading as Given, Setup};
 use ligament::units::Units;
 use ligament_analysis::gauges;
 use ligament_analysis::probe::{Reading, Shares};
@@ -22,7 +20,6 @@ use ligament_run::summary::temperature_change;
 
 use super::body::write_group;
 use super::entry::{entry, megabytes, spread};
-use super::told::Told;
 use super::{Extent, equations, foresight, model, restraints};
 
 /// Checks supports, loads and equations, and gives what a run would notice before its first load step.

@@ -12,8 +12,6 @@ mod modal;
 mod model;
 mod patch_test;
 mod restraints;
-mod sections;
-mod told;
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -22,10 +20,9 @@ use ligament_analysis::connectivity::Fragments;
 use ligament_output::results::point_grid;
 
 use ligament::Model;
-use ligament::bending_test::Meshed;
 use ligament::plausibility::notes;
 use ligament::run::on_threads;
-use ligament::setup::{Analysis};
+use ligament::setup::Analysis;
 use ligament_case::case::CaseFile;
 use ligament_run::disk;
 use ligament_run::model::{build_model, build_model_in_space};
@@ -34,7 +31,6 @@ use ligament_run::stages::{Stage, Stages};
 
 use entry::{entry, megabytes};
 pub use extent::Extent;
-use told::Told;
 
 /// The file with the fields of the points.
 pub const FIELDS: &str = "points.vtu";

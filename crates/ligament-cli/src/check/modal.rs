@@ -7,7 +7,6 @@ use ligament_analysis::modal::{ModalAnalysis, ModalSettings, Rotations};
 
 use super::body::write_group;
 use super::entry::entry;
-use super::told::Told;
 use super::{Extent, equations, model};
 use ligament_case::case::CaseFile;
 use ligament_run::model::Model;

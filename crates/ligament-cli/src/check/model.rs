@@ -2,6 +2,8 @@
 
 use std::io::{self, Write};
 
+use ligament::body::Origin;
+use ligament::setup::Section;
 use ligament_case::case::CaseFile;
 use ligament_model::{Elasticity, Plane};
 use ligament_output::quantity::quantity;
@@ -27,17 +29,16 @@ pub(super) fn write<const D: usize>(
     Ok(write_energy_ratios(out, model)?)
 }
 
-pub(super) fn write_section(out: &mut dyn Write, model: &Model) -> io::Result<()> {
-    let state = match model.setup.plane() {
+fn write_section<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()> {
+    let Section::Plane { state, thickness } = model.setup.section else {
+        return Ok(());
+    };
+    let state = match state {
         Plane::Stress => "plane stress",
         Plane::Strain => "plane strain",
     };
-    let thickness = model.setup.thickness();
-    entry(
-        out,
-        "thickness",
-        format!("{}, {state}", quantity(thickness, "m")),
-    )
+    let thickness = quantity(thickness, "m");
+    entry(out, "thickness", format!("{thickness}, {state}"))
 }
 
 fn write_materials<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()> {
@@ -112,7 +113,12 @@ fn write_bonds<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Res
     writeln!(out, "bonds")?;
     let (bonds, cut) = (model.counts.bonds, model.cut_bonds());
     entry(out, "bonds", format!("{bonds} ({cut} cut by pre-cracks)"))?;
-    if !model.body().holes().is_empty() || model.across_voids() > 0 {
+    let has_holes = match model.body().origin() {
+        Origin::Lattice(lattice) => !lattice.holes.is_empty(),
+        Origin::SolidLattice(lattice) => !lattice.holes.is_empty(),
+        Origin::Mesh(_) | Origin::SolidMesh(_) | Origin::Points => false,
+    };
+    if has_holes || model.across_voids() > 0 {
         entry(out, "pairs across voids", model.across_voids())?;
     }
     if model.counts.across_layers > 0 {

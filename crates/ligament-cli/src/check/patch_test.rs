@@ -3,7 +3,6 @@
 use std::io::{self, Write};
 
 use ligament::Model;
-use ligament::model::Discretises;
 use ligament::patch_test::{Constants, PatchTest, patch_test};
 use ligament_model::tensor::SymTensor;
 use ligament_output::quantity::{place, quantity};

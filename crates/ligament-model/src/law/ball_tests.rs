@@ -1,3 +1,5 @@
+use std::f64::consts::PI;
+
 use super::*;
 use crate::bonds::{BondSet, Incidence};
 use crate::cloud::PointCloud;
@@ -7,7 +9,9 @@ use crate::element::pair::PairKinematics;
 use crate::element::spring::SpringBond;
 use crate::element::{Remaining, Rigidities};
 use crate::law::BondStiffness;
+use crate::law::beam::ShearForm;
 use crate::law::rotational::RotationalStiffness;
+use crate::material::{Isotropic, Space};
 use crate::tensor::SymTensor;
 
 const MATERIAL: Isotropic = Isotropic {
@@ -122,7 +126,13 @@ fn energies_are_those_of_the_isotropic_body() {
     let pds = pds::stiffness(&bonds, &cloud, &materials, SOLID);
     let constant = beam::stiffness(&bonds, &cloud, &materials, SOLID, ShearForm::Constant);
     let falling = beam::stiffness(&bonds, &cloud, &materials, SOLID, ShearForm::Falling);
-    let mppd = mppd::stiffness(&bonds, &cloud, &materials, SOLID, RotationalStiffness::Decaying);
+    let mppd = mppd::stiffness(
+        &bonds,
+        &cloud,
+        &materials,
+        SOLID,
+        RotationalStiffness::Decaying,
+    );
     for strain in STRAINS {
         let expected = elastic(&MATERIAL, strain);
         let spring = energy(
@@ -148,6 +158,13 @@ fn energies_are_those_of_the_isotropic_body() {
 #[test]
 fn central_forces_have_a_poisson_s_ratio_of_a_quarter() {
     let (bonds, cloud) = ball();
+    let conical = bbpd_conical::stiffness(&bonds, &cloud, &[MATERIAL], SOLID);
+    for strain in STRAINS {
+        let expected = elastic(&bbpd::central(&MATERIAL, SOLID), strain);
+        let in_strain = |it: &SpringBond<3>| it.deformation_in(&tensor(strain));
+        let error = energy(&conical, |_| 1.0, in_strain) / expected - 1.0;
+        assert!(error.abs() < OF_GAUSS, "{strain:?}: {error:e}");
+    }
     let bbpd = bbpd::stiffness(&bonds, &cloud, &[MATERIAL], SOLID);
     for strain in STRAINS {
         let expected = elastic(&bbpd::central(&MATERIAL, SOLID), strain);
@@ -210,7 +227,8 @@ fn curvatures_cost_chi_chi() {
         },
     );
     let square: f64 = chi.iter().flatten().map(|it| it * it).sum();
-    let expected = PI * HORIZON.powi(4) * constants::bending(&MATERIAL, SOLID, 1.0) / HORIZON.powi(2) / 12.0;
+    let expected =
+        PI * HORIZON.powi(4) * constants::bending(&MATERIAL, SOLID, 1.0) / HORIZON.powi(2) / 12.0;
     assert!((found / (expected * square) - 1.0).abs() < ROUNDING);
 }
 
@@ -220,7 +238,8 @@ fn discrete_calibration_needs_no_integral() {
     let (bonds, cloud) = ball();
     let alpha: Vec<f64> = bonds.length.iter().map(|l| (-l).exp()).collect();
     let stiffness = beam::stiffness(&bonds, &cloud, &[MATERIAL], SOLID, ShearForm::Falling);
-    let mut calibrated = calibration::calibrated(stiffness, &alpha, &bonds, &cloud, &[MATERIAL], SOLID);
+    let mut calibrated =
+        calibration::calibrated(stiffness, &alpha, &bonds, &cloud, &[MATERIAL], SOLID);
     // A bond takes the mean of both ends; the far ones have this bond alone and know nothing.
     let ratio = |densities: &[f64], shear: bool| -> f64 {
         let sum = (0..bonds.len()).map(|bond| {
@@ -241,8 +260,7 @@ fn discrete_calibration_needs_no_integral() {
     ] {
         // Half of the factor of a bond is that of its far end, whose family is the bond itself.
         let target = if shear {
-            10.0 * MATERIAL.young / (1.0 + MATERIAL.poisson)
-                - 12.0 * MATERIAL.bulk_modulus()
+            10.0 * MATERIAL.young / (1.0 + MATERIAL.poisson) - 12.0 * MATERIAL.bulk_modulus()
         } else {
             18.0 * MATERIAL.bulk_modulus()
         };

@@ -16,7 +16,13 @@ pub fn stiffness<const D: usize>(
     materials: &[Isotropic],
     space: Space,
 ) -> BondStiffness {
-    let constant = |material| [constants::axial(&central(material, space), space, cloud.thickness)];
+    let constant = |material| {
+        [constants::axial(
+            &central(material, space),
+            space,
+            cloud.thickness,
+        )]
+    };
     let constants: Vec<[f64; 1]> = materials.iter().map(constant).collect();
     BondStiffness::from_constants(bonds, cloud, &constants, |[c], bond| Densities {
         axial: c / bond.horizon.powi(D as i32 + 1),

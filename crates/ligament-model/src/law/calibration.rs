@@ -49,7 +49,13 @@ pub fn calibrated<const D: usize>(
             [bulk, shear - bulk * 12.0 / 18.0]
         }
     };
-    scaled_to(materials.iter().map(target), stiffness, length_factor, bonds, cloud)
+    scaled_to(
+        materials.iter().map(target),
+        stiffness,
+        length_factor,
+        bonds,
+        cloud,
+    )
 }
 
 /// Scales the densities of a law so that the sums of alpha V_B l k_n and of alpha V_B l k_t over the bonds of a point are the targets

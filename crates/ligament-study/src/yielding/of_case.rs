@@ -4,7 +4,6 @@ use ligament_model::failure::Criteria;
 
 use super::error::YieldError;
 use super::request::Request;
-use ligament::formulation::constants;
 use ligament::setup::Law;
 use ligament_case::case::CaseFile;
 use ligament_run::model::{Model, build_model};
@@ -73,7 +72,7 @@ pub(super) fn poisson(request: &Request, model: &Model) -> Result<Vec<f64>, Yiel
     let setup = &model.setup;
     let of_materials: Option<Vec<f64>> = (setup.materials.iter())
         .map(|region| {
-            let constants = constants(&region.material, &setup.law, setup.plane())?;
+            let constants = setup.law.constants(&region.material, setup.space())?;
             Some(constants.in_plane(setup.plane()).poisson)
         })
         .collect();

@@ -1,6 +1,7 @@
 //! Damage at stages: disks and plates of NHPD (Figs 10 to 12, 15, 16, 18 to 20 and 24), plates of MBB-PD (Figs 14, 16 and 17).
 
 use anyhow::Context;
+use ligament::body::Origin;
 use ligament::run::Solution;
 use ligament_analysis::fields::damage;
 use ligament_analysis::history::BreakRecord;
@@ -109,7 +110,13 @@ fn stages(
     (solution, breaks): &(Solution, Vec<BreakRecord>),
 ) -> anyhow::Result<Vec<MappedBody>> {
     let model = &solution.model;
-    let (cloud, cells) = (&model.system.cloud, model.setup.body.cells());
+    let (cloud, cells) = (
+        &model.system.cloud,
+        match model.body().origin() {
+            Origin::Mesh(mesh) => mesh.cells.as_slice(),
+            _ => &[],
+        },
+    );
     let unmoved = vec![[0.0; 2]; cloud.len()];
     let drawn = |(words, part): (&str, usize)| {
         let mut intact = vec![true; model.system.bonds.len()];

@@ -4,7 +4,7 @@
 //! D V = sum p . N, (D + 1) int x_i = sum (p . N) m_i, (D + 2) int x_i x_j = sum (p . N) m_ij with the means m over a side, p any point of it.
 
 use super::strip::Tensor;
-use crate::setup::{Setup};
+use crate::setup::Setup;
 
 /// A flat side of the outline with D corners.
 #[derive(Debug, Clone, Copy, PartialEq)]

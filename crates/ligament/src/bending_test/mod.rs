@@ -19,5 +19,5 @@ mod solution;
 mod strip;
 mod thinnest;
 
-pub use solution::{BendingTest, most_points, THICK, TOO_STIFF, bending_test};
+pub use solution::{BendingTest, THICK, TOO_STIFF, bending_test, most_points};
 pub use thinnest::{MOST_SIDES, Section, thinnest_section};

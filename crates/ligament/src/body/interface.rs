@@ -162,7 +162,12 @@ pub trait Body<const D: usize = 2>: Debug + Send + Sync {
     }
 
     /// Bonds followed through cells with the index of the material of each (n_cells); as they are where there are no cells.
-    fn composed(&self, bonds: BondSet<D>, _cloud: &PointCloud<D>, _materials: &[u32]) -> BondSet<D> {
+    fn composed(
+        &self,
+        bonds: BondSet<D>,
+        _cloud: &PointCloud<D>,
+        _materials: &[u32],
+    ) -> BondSet<D> {
         bonds
     }
 

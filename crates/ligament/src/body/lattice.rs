@@ -16,17 +16,20 @@ use super::lattice_cells::LatticeShape;
 
 /// A body with a point at the centre of each cell of a lattice, and named sets of its cells.
 #[derive(Debug)]
-pub struct LatticeBody<const D: usize = 2, S = Shape> {
+pub struct BodyOnLattice<const D: usize, S> {
     lattice: Lattice<D, S>,
     /// Positions of the points, shape (n_points), m.
     positions: Vec<[f64; D]>,
     sets: CellSets<D>,
 }
 
-/// A box of equal cells in space.
-pub type SolidLatticeBody = LatticeBody<3, SolidShape>;
+/// A lattice in the plane.
+pub type LatticeBody = BodyOnLattice<2, Shape>;
 
-impl<const D: usize, S: LatticeShape<D>> LatticeBody<D, S> {
+/// A box of equal cells in space.
+pub type SolidLatticeBody = BodyOnLattice<3, SolidShape>;
+
+impl<const D: usize, S: LatticeShape<D>> BodyOnLattice<D, S> {
     /// A lattice with named sets of cells and the holes that took cells from it, in the order of its own; named holes are groups
     /// too, unless a set has their name.
     ///
@@ -50,7 +53,7 @@ impl<const D: usize, S: LatticeShape<D>> LatticeBody<D, S> {
     }
 }
 
-impl<const D: usize, S: LatticeShape<D>> Body<D> for LatticeBody<D, S> {
+impl<const D: usize, S: LatticeShape<D>> Body<D> for BodyOnLattice<D, S> {
     fn origin(&self) -> Origin<'_> {
         S::origin(&self.lattice)
     }

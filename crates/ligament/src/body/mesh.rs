@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use ligament_mesh::{Cell, Group, Mesh, NodeField, Numbering, SolidCell};
-use ligament_model::bonds::outline::{bonds_outside, spacing_inside};
+use ligament_model::bonds::outline::{Outline, bonds_outside, spacing_inside};
 use ligament_model::correction::patch::CellForces;
 use ligament_model::material::Stiffness;
 use ligament_model::{BodyGrid, BondSet, PointCloud, raised};
@@ -13,23 +13,26 @@ use super::mesh_cells::BodyCell;
 
 /// A body with a point at each node of a mesh, by the names of its physical groups.
 #[derive(Debug)]
-pub struct MeshBody<const D: usize = 2, C = Cell> {
+pub struct BodyOnMesh<const D: usize, C> {
     /// The mesh, its nodes numbered along a curve.
     mesh: Mesh<D, C>,
     numbering: Numbering,
 }
 
-/// A body meshed with solid cells.
-pub type SolidMeshBody = MeshBody<3, SolidCell>;
+/// A body meshed with triangles and quadrangles in the plane.
+pub type MeshBody = BodyOnMesh<2, Cell>;
 
-impl<const D: usize, C: BodyCell<D>> From<Mesh<D, C>> for MeshBody<D, C> {
+/// A body meshed with solid cells.
+pub type SolidMeshBody = BodyOnMesh<3, SolidCell>;
+
+impl<const D: usize, C: BodyCell<D>> From<Mesh<D, C>> for BodyOnMesh<D, C> {
     fn from(mesh: Mesh<D, C>) -> Self {
         let (mesh, numbering) = mesh.along_curve();
         Self { mesh, numbering }
     }
 }
 
-impl<const D: usize, C: BodyCell<D>> MeshBody<D, C> {
+impl<const D: usize, C: BodyCell<D>> BodyOnMesh<D, C> {
     /// Union of what the groups of a name hold, whatever their dimension, ascending; `None` where there is no such group.
     fn union<T: Copy + Ord>(&self, name: &str, held: fn(&Group) -> &[T]) -> Option<Vec<T>> {
         let mut groups = self.mesh.groups_named(name).peekable();
@@ -55,7 +58,7 @@ struct MeshOutline<'a, const D: usize, C: BodyCell<D>> {
 
 impl<const D: usize, C: BodyCell<D>> BodyOutline<D> for MeshOutline<'_, D, C> {
     fn first_crossing(&self) -> Option<[u32; 2]> {
-        ligament_model::bonds::outline::Outline::first_crossing(&self.outline)
+        self.outline.first_crossing()
     }
 
     fn spacing(&self, cloud: &PointCloud<D>) -> Vec<f64> {
@@ -67,7 +70,7 @@ impl<const D: usize, C: BodyCell<D>> BodyOutline<D> for MeshOutline<'_, D, C> {
     }
 }
 
-impl<const D: usize, C: BodyCell<D>> Body<D> for MeshBody<D, C> {
+impl<const D: usize, C: BodyCell<D>> Body<D> for BodyOnMesh<D, C> {
     fn origin(&self) -> Origin<'_> {
         C::origin(&self.mesh)
     }
@@ -202,7 +205,10 @@ impl<const D: usize, C: BodyCell<D>> Body<D> for MeshBody<D, C> {
 
     /// Parts of the outward normal of each side of a cell on the outline at each of its nodes.
     fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; D])>, OffOutline> {
-        C::outward(&self.mesh, &self.mesh.groups_named(group).collect::<Vec<_>>())
+        C::outward(
+            &self.mesh,
+            &self.mesh.groups_named(group).collect::<Vec<_>>(),
+        )
     }
 
     /// The nodes of sides that one cell has alone.

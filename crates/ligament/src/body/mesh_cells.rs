@@ -47,10 +47,8 @@ pub trait BodyCell<const D: usize>: MeshCell<D> + Debug + Send + 'static {
     /// # Errors
     ///
     /// If a side of the groups is none of the outline.
-    fn outward(
-        mesh: &Mesh<D, Self>,
-        groups: &[&Group],
-    ) -> Result<Vec<(u32, [f64; D])>, OffOutline>;
+    fn outward(mesh: &Mesh<D, Self>, groups: &[&Group])
+    -> Result<Vec<(u32, [f64; D])>, OffOutline>;
 
     /// Area of some faces in parts at their nodes, m^2; none in the plane.
     fn areas_at_nodes(mesh: &Mesh<D, Self>, faces: &[Cell]) -> Vec<(u32, f64)>;

@@ -8,16 +8,16 @@ mod mesh;
 mod mesh_cells;
 mod points;
 
-use ligament_model::shape::SolidShape;
+use ligament_model::shape::{Shape, SolidShape};
 
 pub use cells::{Cells, Hole, LatticeError};
 pub use interface::{Body, BodyOutline, OffOutline, Origin};
-pub use lattice::{LatticeBody, SolidLatticeBody};
-pub use mesh::{MeshBody, SolidMeshBody};
+pub use lattice::{BodyOnLattice, LatticeBody, SolidLatticeBody};
+pub use mesh::{BodyOnMesh, MeshBody, SolidMeshBody};
 pub use points::{Points, PointsError};
 
 /// Cells that make a set of a lattice in the plane.
-pub type CellSet = Cells<2, ligament_model::Shape>;
+pub type CellSet = Cells<2, Shape>;
 
 /// Cells that make a set of a box.
 pub type SolidCellSet = Cells<3, SolidShape>;

@@ -8,9 +8,7 @@ use ligament_model::{Bonds, LumpedMass, PointCloud};
 use super::places::Places;
 use super::temperature::{Heating, heating};
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{
-    Action, Couple, Displacement, Load, MaterialRegion, Place, Profile, Setup,
-};
+use crate::setup::{Action, Couple, Displacement, Load, MaterialRegion, Place, Profile, Setup};
 
 /// Forces along the axes and couples about them, or their directions, in the order of the components of the dimension: three in the
 /// plane, six in space.
@@ -76,7 +74,11 @@ pub(super) fn boundary<const D: usize>(
             }
         }
         for (point, force) in places.forces(field, load, &points)?.at_points {
-            for ((&component, value), sum) in Component::in_dimensions(D).iter().zip(force).zip(&mut total) {
+            for ((&component, value), sum) in Component::in_dimensions(D)
+                .iter()
+                .zip(force)
+                .zip(&mut total)
+            {
                 boundary.add_force(point, component, value);
                 *sum += value;
             }
@@ -97,7 +99,11 @@ pub(super) fn couples_have_stiffness<const D: usize>(
         return Ok(());
     };
     let (bonds, resisted) = (system.layout(), system.resisted());
-    let rotations = || Component::in_dimensions(D).iter().filter(|it| it.is_rotation());
+    let rotations = || {
+        Component::in_dimensions(D)
+            .iter()
+            .filter(|it| it.is_rotation())
+    };
     let is_idle = |&point: &u32| {
         rotations().any(|&rotation| {
             let [given, turned] =
@@ -195,7 +201,9 @@ impl<const D: usize> Places<'_, D> {
             }
             None => {
                 let (points, forces): (Vec<u32>, Vec<Wrench>) = given.at_points.into_iter().unzip();
-                let values = forces.iter().flat_map(|it| &it[..Component::in_dimensions(D).len()]);
+                let values = forces
+                    .iter()
+                    .flat_map(|it| &it[..Component::in_dimensions(D).len()]);
                 let shares = values.map(|value| value / magnitude);
                 (ControlKind::Force, (points, shares.collect()))
             }

@@ -23,7 +23,7 @@ pub use places::{material_of_cell, no_fail};
 pub use vibration::Vibration;
 
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{Setup};
+use crate::setup::Setup;
 use boundary::{Acting, boundary, couples_have_stiffness};
 use programme::staged;
 use restraints::restrained;
@@ -48,7 +48,10 @@ impl Loading {
     ///
     /// If a name of the setup is not in the body, a probe is off it or reads nothing, supports and loads contradict
     /// each other, or a couple acts on nothing.
-    pub fn new<const D: usize>(setup: &Setup<D>, system: &dyn System<D>) -> Result<Self, SetupError> {
+    pub fn new<const D: usize>(
+        setup: &Setup<D>,
+        system: &dyn System<D>,
+    ) -> Result<Self, SetupError> {
         let cloud = &system.cloud;
         let boundary = boundary(setup, cloud, Acting::All)?;
         couples_have_stiffness(setup, &boundary, system)?;

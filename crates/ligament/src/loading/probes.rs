@@ -80,7 +80,10 @@ fn shares<const D: usize>(
 
 /// Bonds through a line of the plane, or through a plane of space given by a point and one before it, and whether their first end lies on
 /// its left or behind it; a point on the plane lies beyond it. Bonds that pre-cracks cut count where faces close.
-fn crossing<const D: usize>(system: &BondSystem<D>, [start, end]: [[f64; D]; 2]) -> Vec<(u32, bool)> {
+fn crossing<const D: usize>(
+    system: &BondSystem<D>,
+    [start, end]: [[f64; D]; 2],
+) -> Vec<(u32, bool)> {
     let (faces, cloud) = (&system.faces, &system.cloud);
     let cut = faces.cut().iter().filter(|_| faces.close());
     let ends = system.bonds.ends.iter().copied();
@@ -93,6 +96,8 @@ fn crossing<const D: usize>(system: &BondSystem<D>, [start, end]: [[f64; D]; 2])
     let normal = minus(before, point);
     let is_before = |end: u32| dot(minus(cloud.positions[end as usize], point), normal) > 0.0;
     let sides = ends.map(|ends| ends.map(is_before));
-    let crossing = (0..).zip(sides).filter(|(_, [first, second])| first != second);
+    let crossing = (0..)
+        .zip(sides)
+        .filter(|(_, [first, second])| first != second);
     crossing.map(|(bond, [_, second])| (bond, second)).collect()
 }

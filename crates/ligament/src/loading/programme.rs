@@ -76,7 +76,11 @@ pub(super) fn staged<const D: usize>(
 }
 
 /// The parts of all stages with what controls them.
-fn controlled_parts<const D: usize>(setup: &Setup<D>, layout: Layout, probes: &[Probe]) -> Vec<Part> {
+fn controlled_parts<const D: usize>(
+    setup: &Setup<D>,
+    layout: Layout,
+    probes: &[Probe],
+) -> Vec<Part> {
     let mut parts = parts(setup);
     for part in &mut parts {
         let control = setup.stages[part.stage].control.as_ref();

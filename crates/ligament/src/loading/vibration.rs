@@ -9,7 +9,7 @@ use ligament_model::{LumpedMass, System};
 
 use super::places::Places;
 use crate::error::{Field, SetupError};
-use crate::setup::{Setup};
+use crate::setup::Setup;
 
 /// Supports and masses of a model.
 #[derive(Debug)]
@@ -28,7 +28,10 @@ impl Vibration {
     /// # Errors
     ///
     /// If a name of the setup is not in the body.
-    pub fn new<const D: usize>(setup: &Setup<D>, system: &dyn System<D>) -> Result<Self, SetupError> {
+    pub fn new<const D: usize>(
+        setup: &Setup<D>,
+        system: &dyn System<D>,
+    ) -> Result<Self, SetupError> {
         let materials = setup.materials.iter();
         let densities: Vec<f64> = materials.filter_map(|it| it.material.density).collect();
         Ok(Self {

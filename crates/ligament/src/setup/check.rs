@@ -98,7 +98,8 @@ impl<const D: usize> Setup<D> {
             return contradiction(elasticity, reason);
         }
         // Six constants are those of the plane whichever it is, and so is what the temperature does to it.
-        if matches!(material.elasticity, Elasticity::Anisotropic(_)) || self.space() != Plane::Strain.into()
+        if matches!(material.elasticity, Elasticity::Anisotropic(_))
+            || self.space() != Plane::Strain.into()
         {
             return Ok(());
         }
@@ -398,7 +399,9 @@ fn idle_vector<const D: usize>() -> &'static str {
 
 /// What is wrong with a displacement without a component.
 fn no_component<const D: usize>() -> String {
-    let names = Component::in_dimensions(D).iter().map(|it| format!("`{}`", it.name()));
+    let names = Component::in_dimensions(D)
+        .iter()
+        .map(|it| format!("`{}`", it.name()));
     format!(
         "needs one of {} or more",
         names.collect::<Vec<_>>().join(", ")

@@ -263,9 +263,10 @@ impl Law {
             Self::Nhpd => Some(ShearForm::of_nhpd(space)),
             Self::MppdBeam { .. } => Some(ShearForm::Falling),
             Self::Mppd { .. } | Self::Orthotropic { .. } => Some(ShearForm::Constant),
-            Self::Bbpd { .. } | Self::BbpdConical { .. } | Self::Pds { .. } | Self::MbbPd { .. } => {
-                None
-            }
+            Self::Bbpd { .. }
+            | Self::BbpdConical { .. }
+            | Self::Pds { .. }
+            | Self::MbbPd { .. } => None,
         }
     }
 

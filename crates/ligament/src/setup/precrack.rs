@@ -39,6 +39,14 @@ pub enum CrackShape {
 }
 
 impl PreCrack {
+    /// A polyline in the plane by its vertices (m), which cuts the bonds that pass through it.
+    pub fn along(points: Vec<[f64; 2]>) -> Self {
+        Self {
+            shape: CrackShape::Line(points),
+            ends: Ends::Excluded,
+        }
+    }
+
     /// Vertices of a line in the plane, m; none of a surface.
     pub fn line(&self) -> &[[f64; 2]] {
         match &self.shape {

@@ -104,10 +104,7 @@ fn pressed_and_pulled(
 ) -> Setup {
     let mut setup = pulled_at_a_point(action, None, criterion);
     setup.closing = true;
-    setup.precracks = vec![PreCrack {
-        points: vec![[0.03, -0.001], [0.03, 0.081]],
-        ends: Ends::Excluded,
-    }];
+    setup.precracks = vec![PreCrack::along(vec![[0.03, -0.001], [0.03, 0.081]])];
     let turn = |(place, to): (usize, &f64)| {
         let control = Control {
             quantity: Quantity::Probes(vec![("hook".to_owned(), 1.0)]),
@@ -197,10 +194,7 @@ fn faces_close_in_stages() {
     let cracked = |analysis, stages| {
         let mut setup = plate(analysis, stages);
         setup.closing = true;
-        setup.precracks = vec![PreCrack {
-            points: vec![[0.03, -0.001], [0.03, 0.081]],
-            ends: Ends::Excluded,
-        }];
+        setup.precracks = vec![PreCrack::along(vec![[0.03, -0.001], [0.03, 0.081]])];
         setup
     };
     let mut before = 0.0;
@@ -252,10 +246,7 @@ fn the_opening_of_a_crack_leads_through_a_snap_back() {
     let cracked = |analysis: Analysis, stage: Stage| {
         let mut setup = plate(analysis, vec![stage]);
         setup.loads = vec![Load::new("right", Action::Force([1e6, 0.0]))];
-        setup.precracks = vec![PreCrack {
-            points: vec![[0.03, -0.001], [0.03, 0.051]],
-            ends: Ends::Excluded,
-        }];
+        setup.precracks = vec![PreCrack::along(vec![[0.03, -0.001], [0.03, 0.051]])];
         setup.probes = vec![Probe {
             name: "mouth".to_owned(),
             reading: Reading::Between {

@@ -23,10 +23,7 @@ fn bar(law: softening::Law, analysis: Analysis, stage: Stage) -> Setup {
         rotational_stiffness: RotationalStiffness::Decaying,
     };
     let mut setup = Setup::new(body, material, bonds);
-    let notch = |from: f64, to: f64| PreCrack {
-        points: vec![[0.015, from], [0.015, to]],
-        ends: Ends::Excluded,
-    };
+    let notch = |from: f64, to: f64| PreCrack::along(vec![[0.015, from], [0.015, to]]);
     setup.precracks = vec![notch(-0.01, 0.0021), notch(0.0061, 0.02)];
     setup.supports = vec![Support::new("left", &[Component::X, Component::Y])];
     let pull = Displacement {

@@ -3,9 +3,9 @@ use crate::correction::length::length_factors;
 use crate::correction::surface::surface_factors;
 use crate::correction::{CorrectionReport, StopRule};
 use crate::horizon::Horizons;
-use crate::material::{Elasticity, Isotropic, Plane};
 use crate::law::beam::{self, ShearForm};
 use crate::material::Space;
+use crate::material::{Elasticity, Isotropic, Plane};
 
 const MATERIAL: Isotropic = Isotropic {
     young: 15e9,
@@ -61,7 +61,13 @@ fn case(cells: i32, factor: f64) -> Case {
     let horizons = Horizons::unified(factor / f64::from(cells), cloud.len());
     let bonds = BondSet::<3>::search(&cloud, &horizons);
     Case {
-        stiffness: beam::stiffness(&bonds, &cloud, &[MATERIAL], Space::Solid, ShearForm::Constant),
+        stiffness: beam::stiffness(
+            &bonds,
+            &cloud,
+            &[MATERIAL],
+            Space::Solid,
+            ShearForm::Constant,
+        ),
         alpha: length_factors(&bonds, &cloud),
         cloud,
         bonds,
@@ -132,7 +138,8 @@ fn quarter_turns_change_nothing() {
         limit: 500,
     };
     let of = |cloud: &PointCloud<3>, bonds: &BondSet<3>| {
-        let stiffness = beam::stiffness(bonds, cloud, &[MATERIAL], Space::Solid, ShearForm::Constant);
+        let stiffness =
+            beam::stiffness(bonds, cloud, &[MATERIAL], Space::Solid, ShearForm::Constant);
         let alpha = length_factors(bonds, cloud);
         iterate(bonds, cloud, &stiffness, alpha, &continuum(), sweeps).domain_factor
     };

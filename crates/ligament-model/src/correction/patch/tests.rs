@@ -3,9 +3,9 @@ use ligament_mesh::{SolidCell, SolidMesh};
 use super::*;
 use crate::cloud::PointCloud;
 use crate::horizon::Horizons;
-use crate::material::{Elasticity, Isotropic, Plane, Stiffness};
 use crate::law::beam::{self, ShearForm};
 use crate::material::Space;
+use crate::material::{Elasticity, Isotropic, Plane, Stiffness};
 use crate::tensor::{cross, dot, minus, norm};
 
 const MATERIAL: Isotropic = Isotropic {
@@ -81,7 +81,13 @@ fn corrected(mesh: &SolidMesh, horizon: f64, turn: bool) -> Case {
     let cloud = PointCloud::from_mesh(mesh, 1.0, &of_cells, 1);
     let bonds = BondSet::search(&cloud, &Horizons::unified(horizon, cloud.len()));
     let forces = of_solid_mesh(&mesh.cells, &cloud, &of_cells, stiffness());
-    let stiffness = beam::stiffness(&bonds, &cloud, &[MATERIAL], Space::Solid, ShearForm::Constant);
+    let stiffness = beam::stiffness(
+        &bonds,
+        &cloud,
+        &[MATERIAL],
+        Space::Solid,
+        ShearForm::Constant,
+    );
     let alpha = vec![1.0; bonds.len()];
     let points = Points {
         cloud: &cloud,

@@ -31,7 +31,9 @@ enum Change {
 ///
 /// A temperature holds on the whole body, the cells of a group, or the points of a box or curve; of those that reach, the last
 /// one holds. A point with cells of several groups has the mean by its volume in them.
-pub(super) fn heating<const D: usize>(places: &Places<'_, D>) -> Result<Option<Heating>, SetupError> {
+pub(super) fn heating<const D: usize>(
+    places: &Places<'_, D>,
+) -> Result<Option<Heating>, SetupError> {
     let (sections, cloud) = (&places.setup.temperatures, places.cloud);
     if sections.is_empty() {
         return Ok(None);
