@@ -1,7 +1,7 @@
 //! What is possible, and hardly ever meant: values that come of other units than those of the SI, and cracks and criteria without an effect.
 
 use ligament_model::failure::softening::Law as Softening;
-use ligament_model::failure::{Choice, Criteria, Measure, NoLimit};
+use ligament_model::failure::{Choice, Criteria, NoLimit};
 use ligament_model::{Elasticity, Material, PointCloud};
 
 use crate::body::Body;
@@ -127,8 +127,8 @@ fn of_constants(material: &Material, analysis: &Analysis) -> Vec<Implausible> {
 /// Whether bonds that opened soften so that they take the fracture energy.
 fn softens_by_energy(choice: &Choice) -> bool {
     let Softening { softens, .. } = choice.after.law;
-    let opens = |it: &Measure| matches!(it, Measure::Tension | Measure::Fibre | Measure::Energy);
-    softens && choice.parameter_from_energy().is_some() && choice.kind.measures.iter().any(opens)
+    let opens = choice.kind.measures.iter().any(|it| it.opens());
+    softens && choice.parameter_from_energy().is_some() && opens
 }
 
 /// The characteristic length E G_c/F_t^2 of a material where it is no length of the body; with the limit of a criterion in the place of F_t/E.
@@ -192,9 +192,8 @@ fn of_limits<const D: usize>(cloud: &PointCloud<D>, criteria: &Criteria) -> Vec<
     if !smallest.is_empty() && smallest.iter().all(|(_, limit)| limit.is_infinite()) {
         return vec![Implausible::NothingFails];
     }
-    let opens = |measure: Measure| matches!(measure, Measure::Tension | Measure::Energy);
     let large = smallest.into_iter().filter(|(criterion, limit)| {
-        opens(criterion.measure) && limit.is_finite() && *limit > LARGEST_STRAIN
+        criterion.measure.opens() && limit.is_finite() && *limit > LARGEST_STRAIN
     });
     let large = large.map(|(criterion, limit)| Implausible::LargeLimit {
         criterion: criterion.name,

@@ -405,12 +405,9 @@ fn rotation_as_sliding(setup: &Setup) -> Option<Warning> {
     if law.element() != ElementKind::Spring {
         return None;
     }
-    let sees_rotations = |measure: &Measure| match measure {
-        Measure::Sliding | Measure::Friction => true,
-        // Without a shear stiffness there is no energy of shear.
-        Measure::Energy => !law.fixes_poisson(),
-        _ => false,
-    };
+    // Without a shear stiffness there is no energy of shear.
+    let counts = |it: &Measure| !(it.needs_shear_stiffness() && law.fixes_poisson());
+    let sees_rotations = |it: &Measure| it.takes_sliding() && counts(it);
     let mut kinds = setup.criteria.iter().map(|it| it.kind);
     let kind = kinds.find(|it| it.measures.iter().any(sees_rotations));
     kind.map(|kind| Warning::RotationAsSliding {
@@ -421,7 +418,8 @@ fn rotation_as_sliding(setup: &Setup) -> Option<Warning> {
 
 fn energy_given_back(setup: &Setup, material: &Isotropic) -> Option<Warning> {
     let mut kinds = setup.criteria.iter();
-    let looks_at_energy = kinds.any(|it| it.kind.measures.contains(&Measure::Energy));
+    let looks_at_energy =
+        kinds.any(|it| (it.kind.measures.iter()).any(|it| it.needs_shear_stiffness()));
     let (poisson, limit) = poisson_and_limit(setup, material);
     let gives_energy = poisson > limit && !setup.law.fixes_poisson();
     (looks_at_energy && gives_energy).then_some(Warning::EnergyGivenBack { poisson, limit })

@@ -6,7 +6,7 @@ use ligament::Setup;
 use ligament::crack_energy::crack_energies;
 use ligament_model::Material;
 use ligament_model::failure::crack_opening::CrackEnergy;
-use ligament_model::failure::{Choice, Criterion, Measure};
+use ligament_model::failure::{Choice, Criterion};
 use ligament_model::material::Space;
 use ligament_model::scatter::{Distribution, Scattered};
 use ligament_output::quantity::{between, four_digits, quantity};
@@ -66,7 +66,7 @@ fn write_crack(
         words += ", which changes with the horizon";
     }
     let criteria = model.criteria.list.iter();
-    let by_stretch = criteria.filter(|it| matches!(it.measure, Measure::Tension | Measure::Fibre));
+    let by_stretch = criteria.filter(|it| it.measure.opens() && !it.measure.takes_sliding());
     let has_shear = model.has_shear();
     if has_shear && by_stretch.count() > 0 {
         words += "; more where its faces slide, which this criterion does not count";
@@ -168,9 +168,10 @@ fn write_limits(out: &mut dyn Write, criterion: &Criterion) -> io::Result<()> {
 /// The limit falls with the root of the horizon, so that a body without a crack has another strength on every mesh.
 fn write_energy(out: &mut dyn Write, model: &Model, criterion: &Criterion) -> io::Result<()> {
     // Bonds across the bar may come to their limit before those along it.
-    let at_most = match criterion.measure {
-        Measure::Energy => "at most ",
-        _ => "",
+    let at_most = if criterion.measure.needs_shear_stiffness() {
+        "at most "
+    } else {
+        ""
     };
     let setup = &model.setup;
     // The weaker material decides at interfaces, so that limits belong to a material only where there is one.

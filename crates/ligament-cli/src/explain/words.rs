@@ -2,7 +2,7 @@
 
 use ligament_model::Absence;
 use ligament_model::element::BondDeformation;
-use ligament_model::failure::{Measure, Softened};
+use ligament_model::failure::Softened;
 use ligament_output::quantity::quantity;
 use ligament_output::results::stored::StoredRun;
 
@@ -16,12 +16,6 @@ pub(super) fn number(value: f64) -> String {
 /// A length.
 pub(super) fn metres(value: f64) -> String {
     quantity(value, "m")
-}
-
-/// A measure in words: "stretch s".
-pub(super) fn words(measure: Measure) -> String {
-    let words = format!("{} {}", measure.noun(), measure.formula());
-    words.trim_start().to_owned()
 }
 
 /// A point in words: "node 12".
@@ -71,7 +65,7 @@ fn is_pressed(lives: &Lives, deformation: &BondDeformation) -> bool {
 /// The limits of a bond, a line each; its name and what it says.
 pub(super) fn limits(life: &Life) -> Vec<(String, String)> {
     let in_words = |limit: &Limit| {
-        let what = words(limit.measure);
+        let what = limit.measure.words();
         let names = limit.measure.coefficient_names().iter();
         let coefficient: String = (names.zip(&limit.coefficients))
             .map(|(name, &value)| format!(", {name} = {}", number(value)))
@@ -111,7 +105,7 @@ pub(super) fn fate(run: &StoredRun, lives: &Lives, life: &Life) -> Vec<String> {
             lines.push(format!(
                 "`{}` saw {} = {}, {:.4} of the {} at which it breaks.",
                 limit.name,
-                words(limit.measure),
+                limit.measure.words(),
                 number(limit.measure(&deformation)),
                 broke.utilisation,
                 number(limit.limit * limit.after.end(0)),
@@ -267,7 +261,7 @@ pub(super) fn no_bond(run: &StoredRun, [a, b]: [u32; 2], pair: Option<usize>) ->
 
 #[cfg(test)]
 mod tests {
-    use ligament_model::failure::AfterLimit;
+    use ligament_model::failure::{AfterLimit, Measure};
     use ligament_model::failure::softening::{brittle, linear, plastic};
 
     use super::*;

@@ -17,25 +17,29 @@ pub const EVERYWHERE: Interval = [f64::NEG_INFINITY, f64::INFINITY];
 
 const NOWHERE: Interval = [f64::INFINITY, f64::NEG_INFINITY];
 
-/// A deformation of a bond, whose strains are asked for on the line from one deformation along another.
+/// A deformation whose strains are asked for along a line: from one deformation on, with the slope of another.
 pub(super) trait AlongLine: Deformation {
-    /// A strain of which measures take the size.
-    type Strain: Strain;
+    /// A strain of which measures take the size: a number in the plane, a vector in space.
+    type Sized: Strain;
 
-    /// The stretch.
-    fn stretch(line: [&Self; 2]) -> Linear;
-
-    /// The shear.
-    fn shear(line: [&Self; 2]) -> Self::Strain;
-
-    /// The relative rotation of the ends.
-    fn rotation(line: [&Self; 2]) -> Self::Strain;
-
-    /// The strains (S_xx, S_yy, S_xy) of a bond with strains of its own.
-    fn own_strains(line: [&Self; 2]) -> [Linear; 3];
+    /// The strains along the line.
+    fn along(line: [&Self; 2]) -> Strains<Self::Sized>;
 }
 
-/// A strain along the line of which measures take the size: a number in the plane, a vector in space.
+/// Strains of a bond along a line, each with its value and its slope.
+pub(super) struct Strains<S> {
+    stretch: Linear,
+    shear: S,
+    rotation: S,
+}
+
+/// The function c_0 + c_1 t.
+type Linear = [f64; 2];
+
+/// The function a t^2 + b t + c.
+type Quadratic = [f64; 3];
+
+/// A strain along a line of which measures take the size.
 pub(super) trait Strain: Copy {
     /// The strain times a factor.
     fn times(self, factor: f64) -> Self;
@@ -48,95 +52,43 @@ pub(super) trait Strain: Copy {
 }
 
 impl AlongLine for BondDeformation {
-    type Strain = Linear;
+    type Sized = Linear;
 
-    fn stretch(line: [&Self; 2]) -> Linear {
-        line.map(Self::stretch).into()
-    }
-
-    fn shear(line: [&Self; 2]) -> Linear {
-        line.map(Self::shear).into()
-    }
-
-    fn rotation(line: [&Self; 2]) -> Linear {
-        line.map(Self::rotation).into()
-    }
-
-    fn own_strains(line: [&Self; 2]) -> [Linear; 3] {
-        let [here, slope] = line.map(Self::strain);
-        [0, 1, 2].map(|place| [here[place], slope[place]].into())
+    fn along(line: [&Self; 2]) -> Strains<Linear> {
+        Strains {
+            stretch: line.map(Self::stretch),
+            shear: line.map(Self::shear),
+            rotation: line.map(Self::rotation),
+        }
     }
 }
 
 impl AlongLine for SpaceDeformation {
-    type Strain = [[f64; 3]; 2];
+    type Sized = [[f64; 3]; 2];
 
-    fn stretch(line: [&Self; 2]) -> Linear {
-        line.map(|it| it.stretch).into()
-    }
-
-    fn shear(line: [&Self; 2]) -> Self::Strain {
-        line.map(|it| it.shear)
-    }
-
-    fn rotation(line: [&Self; 2]) -> Self::Strain {
-        line.map(|it| it.rotation)
-    }
-
-    fn own_strains(_: [&Self; 2]) -> [Linear; 3] {
-        unreachable!("bonds in space have no strains of their own")
-    }
-}
-
-/// A strain along the line: value + t slope.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Linear {
-    value: f64,
-    slope: f64,
-}
-
-impl From<[f64; 2]> for Linear {
-    fn from([value, slope]: [f64; 2]) -> Self {
-        Self { value, slope }
-    }
-}
-
-impl Linear {
-    fn plus(self, factor: f64, other: Self) -> Self {
-        Self {
-            value: self.value + factor * other.value,
-            slope: self.slope + factor * other.slope,
-        }
-    }
-
-    /// Where it is at most a limit; empty (the first is larger) where it nowhere is.
-    fn at_most(self, limit: f64) -> Interval {
-        let reached = (limit - self.value) / self.slope;
-        match self.slope {
-            slope if slope > 0.0 => [f64::NEG_INFINITY, reached],
-            slope if slope < 0.0 => [reached, f64::INFINITY],
-            _ if self.value <= limit => EVERYWHERE,
-            _ => NOWHERE,
+    fn along(line: [&Self; 2]) -> Strains<Self::Sized> {
+        Strains {
+            stretch: line.map(|it| it.stretch),
+            shear: line.map(|it| it.shear),
+            rotation: line.map(|it| it.rotation),
         }
     }
 }
 
 impl Strain for Linear {
     fn times(self, factor: f64) -> Self {
-        [factor * self.value, factor * self.slope].into()
+        self.map(|it| factor * it)
     }
 
     fn square_times(self, q: f64) -> Quadratic {
-        Quadratic {
-            a: q * self.slope * self.slope,
-            half_b: q * self.value * self.slope,
-            c: q * self.value * self.value,
-        }
+        let [value, slope] = self;
+        let times = q * value;
+        [q * slope * slope, 2.0 * (times * slope), times * value]
     }
 
-    fn beside_at_most(self, other: Linear, limit: f64) -> Interval {
-        let with = |sign: f64| other.plus(sign, self).at_most(limit);
-        both(with(1.0), with(-1.0))
+    fn beside_at_most(self, [value, slope]: Linear, limit: f64) -> Interval {
+        let plus = at_most([value + self[0], slope + self[1]], limit);
+        both(plus, at_most([value - self[0], slope - self[1]], limit))
     }
 }
 
@@ -148,28 +100,21 @@ impl Strain for [[f64; 3]; 2] {
 
     fn square_times(self, q: f64) -> Quadratic {
         let [value, slope] = self;
-        Quadratic {
-            a: q * dot(slope, slope),
-            half_b: q * dot(value, slope),
-            c: q * dot(value, value),
-        }
+        let mixed = q * dot(value, slope);
+        [q * dot(slope, slope), 2.0 * mixed, q * dot(value, value)]
     }
 
     /// Where |v|^2 is at most the square of what the other strain leaves of the limit, and that is not negative. Where the other one
     /// outruns the vector, the quadratic bends down, and is at most zero beyond its roots to both sides: to the one side because
     /// enough is left, to the other because the limit is far exceeded.
     fn beside_at_most(self, other: Linear, limit: f64) -> Interval {
-        let left = Linear::from([limit, 0.0]).plus(-1.0, other);
-        let square = self.square_times(1.0);
-        let beyond = [
-            square.a - left.slope * left.slope,
-            2.0 * (square.half_b - left.value * left.slope),
-            square.c - left.value * left.value,
-        ];
+        let (left, slope) = (limit - other[0], 0.0 - other[1]);
+        let [a, b, c] = self.square_times(1.0);
+        let beyond = [a - slope * slope, b - 2.0 * (left * slope), c - left * left];
         match roots(beyond).filter(|_| beyond[0] < 0.0) {
-            Some([_, upper]) if left.slope > 0.0 => [upper, f64::INFINITY],
+            Some([_, upper]) if slope > 0.0 => [upper, f64::INFINITY],
             Some([lower, _]) => [f64::NEG_INFINITY, lower],
-            None => both(quadratic(beyond), other.at_most(limit)),
+            None => both(quadratic(beyond), at_most(other, limit)),
         }
     }
 }
@@ -200,18 +145,19 @@ impl Measure {
         coefficients: &[f64],
         limit: f64,
     ) -> Option<Interval> {
-        let (stretch, shear) = (B::stretch(line), B::shear(line));
+        let of_ends = B::along(line);
+        let (stretch, shear) = (of_ends.stretch, of_ends.shear);
         let q = coefficients.first().copied().unwrap_or(0.0);
-        let nothing = Linear::from([0.0; 2]);
         let mixed = |axis: usize| {
-            let strains = B::own_strains(line);
-            root(strains[axis], strains[2].square_times(q), limit)
+            let [here, slope] = line.map(|it| it.measured().strain());
+            let [opening, sliding] = [axis, 2].map(|it| [here[it], slope[it]]);
+            root(opening, sliding.square_times(q), limit)
         };
         let interval = match self {
-            Self::Tension => stretch.at_most(limit),
-            Self::Compression => stretch.times(-1.0).at_most(limit),
-            Self::Fibre => B::rotation(line).times(q).beside_at_most(stretch, limit),
-            Self::Sliding => shear.beside_at_most(nothing, limit),
+            Self::Tension => at_most(stretch, limit),
+            Self::Compression => at_most(stretch.times(-1.0), limit),
+            Self::Fibre => of_ends.rotation.times(q).beside_at_most(stretch, limit),
+            Self::Sliding => shear.beside_at_most([0.0; 2], limit),
             Self::Friction => shear.beside_at_most(stretch.times(q), limit),
             Self::Energy => root(stretch, shear.square_times(q), limit),
             Self::MixedModeX => mixed(0),
@@ -224,32 +170,31 @@ impl Measure {
     }
 }
 
-/// The function a t^2 + 2 b t + c.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Quadratic {
-    a: f64,
-    half_b: f64,
-    c: f64,
+/// Where a strain is at most a limit; empty (the first is larger) where it nowhere is.
+fn at_most([value, slope]: Linear, limit: f64) -> Interval {
+    let reached = (limit - value) / slope;
+    match slope {
+        slope if slope > 0.0 => [f64::NEG_INFINITY, reached],
+        slope if slope < 0.0 => [reached, f64::INFINITY],
+        _ if value <= limit => EVERYWHERE,
+        _ => NOWHERE,
+    }
 }
 
 /// Where sqrt(max(s, 0)^2 + g), g = q |gamma|^2, is at most a limit: where the quadratic is while the bond is stretched, and g alone
 /// elsewhere. Where q is negative and the quadratic bends down, up to its first root beyond s = 0.
 fn root(s: Linear, g: Quadratic, limit: f64) -> Interval {
-    let sliding = quadratic([g.a, 2.0 * g.half_b, g.c - limit * limit]);
-    let stretched = quadratic([
-        s.slope * s.slope + g.a,
-        2.0 * (s.value * s.slope + g.half_b),
-        s.value * s.value + g.c - limit * limit,
-    ]);
-    let closed = s.at_most(0.0);
-    let open = s.times(-1.0).at_most(0.0);
+    let [a, b, c] = s.square_times(1.0);
+    let sliding = quadratic([g[0], g[1], g[2] - limit * limit]);
+    let stretched = quadratic([a + g[0], b + g[1], c + g[2] - limit * limit]);
+    let (closed, open) = (at_most(s, 0.0), at_most(s.times(-1.0), 0.0));
     hull(both(sliding, closed), both(stretched, open))
 }
 
 /// Where a t^2 + b t + c is at most zero; one that bends down is taken at the side of its roots on which t = 0 lies.
-fn quadratic([a, b, c]: [f64; 3]) -> Interval {
+fn quadratic([a, b, c]: Quadratic) -> Interval {
     if a == 0.0 {
-        return Linear { value: c, slope: b }.at_most(0.0);
+        return at_most([c, b], 0.0);
     }
     match roots([a, b, c]) {
         None if a > 0.0 => NOWHERE,
@@ -261,7 +206,7 @@ fn quadratic([a, b, c]: [f64; 3]) -> Interval {
 }
 
 /// The smaller and the larger root of a t^2 + b t + c with a that is not zero; None without any.
-fn roots([a, b, c]: [f64; 3]) -> Option<[f64; 2]> {
+fn roots([a, b, c]: Quadratic) -> Option<[f64; 2]> {
     let discriminant = b * b - 4.0 * a * c;
     if discriminant < 0.0 {
         return None;

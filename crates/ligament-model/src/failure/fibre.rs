@@ -26,10 +26,7 @@ pub const FIBRE: Kind = Kind {
         "fibre",
         "Stretch of the outermost fibre of a bond that bends, from the `tensile_strength` or a `limit`; with a `fibre_distance`.",
         &[Measure::Fibre],
-        PerSpace {
-            plane: limits,
-            solid: Some(limits),
-        },
+        PerSpace::both(limits, limits),
     )
 };
 

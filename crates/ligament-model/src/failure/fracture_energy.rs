@@ -15,10 +15,7 @@ pub const CRITICAL_STRETCH: Kind = Kind {
         "critical-stretch",
         "Stretch, from the `fracture_energy`.",
         &[Measure::Tension],
-        PerSpace {
-            plane: of_stretch,
-            solid: Some(of_stretch),
-        },
+        PerSpace::both(of_stretch, of_stretch),
     )
 };
 
@@ -30,10 +27,7 @@ pub const BOND_ENERGY: Kind = Kind {
         "bond-energy",
         "Energy of stretch and sliding, from the `fracture_energy` or a `limit`; where bonds soften, from the `tensile_strength`.",
         &[Measure::Energy],
-        PerSpace {
-            plane: of_energy,
-            solid: Some(of_energy),
-        },
+        PerSpace::both(of_energy, of_energy),
     )
 };
 

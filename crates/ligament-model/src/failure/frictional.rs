@@ -25,10 +25,7 @@ pub const FRICTIONAL: Kind = Kind {
         "Sliding that compression makes harder, from both strengths, from the `tensile_strength` and a `friction_angle`, or from a \
          `limit` and a `friction_angle`.",
         &[Measure::Friction],
-        PerSpace {
-            plane: limits,
-            solid: Some(limits),
-        },
+        PerSpace::both(limits, limits),
     )
 };
 

@@ -47,10 +47,17 @@ pub struct PerSpace {
 }
 
 impl PerSpace {
+    /// Limits in the plane and in space, which one function makes.
+    pub(super) const fn both(plane: MakeLimits<2>, solid: MakeLimits<3>) -> Self {
+        Self {
+            plane,
+            solid: Some(solid),
+        }
+    }
+
     /// Limits of a kind that exists in the plane alone.
     pub(super) const fn in_plane(plane: MakeLimits<2>) -> Self {
-        let solid = None;
-        Self { plane, solid }
+        Self { plane, solid: None }
     }
 
     /// What makes the limits in D dimensions; None for a kind that does not exist there.

@@ -54,21 +54,14 @@ pub enum Weakened {
     Sliding,
 }
 
-/// What a measure looks at besides the stretch of a bond between two points.
-struct Sight {
-    sliding: bool,
-    shear_stiffness: bool,
-    rotations: bool,
-    own_strains: bool,
-}
-
-impl Sight {
-    const STRETCH: Self = Self {
-        sliding: false,
-        shear_stiffness: false,
-        rotations: false,
-        own_strains: false,
-    };
+/// What a measure looks at.
+#[derive(PartialEq)]
+enum Sight {
+    Stretch,
+    Bending,
+    Sliding,
+    Energy,
+    OwnStrains,
 }
 
 impl Measure {
@@ -106,49 +99,36 @@ impl Measure {
 
     fn looks_at(self) -> Sight {
         match self {
-            Self::Tension | Self::Compression => Sight::STRETCH,
-            Self::Fibre => Sight {
-                rotations: true,
-                ..Sight::STRETCH
-            },
-            Self::Sliding | Self::Friction => Sight {
-                sliding: true,
-                ..Sight::STRETCH
-            },
-            Self::Energy => Sight {
-                sliding: true,
-                shear_stiffness: true,
-                ..Sight::STRETCH
-            },
+            Self::Tension | Self::Compression => Sight::Stretch,
+            Self::Fibre => Sight::Bending,
+            Self::Sliding | Self::Friction => Sight::Sliding,
+            Self::Energy => Sight::Energy,
             Self::MixedModeX
             | Self::MixedModeY
             | Self::PrintedOpening
             | Self::PrintedSliding
-            | Self::PrintedMixed => Sight {
-                own_strains: true,
-                ..Sight::STRETCH
-            },
+            | Self::PrintedMixed => Sight::OwnStrains,
         }
     }
 
     /// Whether the measure looks at strains of the bond's own, and not at the relative motion of its ends.
     pub fn takes_strains(self) -> bool {
-        self.looks_at().own_strains
+        self.looks_at() == Sight::OwnStrains
     }
 
     /// Whether the measure looks at the rotations of the points.
     pub fn takes_rotations(self) -> bool {
-        self.looks_at().rotations
+        self.looks_at() == Sight::Bending
     }
 
     /// Whether the measure looks at the sliding of a bond between two points.
     pub fn takes_sliding(self) -> bool {
-        self.looks_at().sliding
+        self.needs_shear_stiffness() || self.looks_at() == Sight::Sliding
     }
 
     /// Whether the shear stiffness of a bond decides how much its sliding counts.
     pub fn needs_shear_stiffness(self) -> bool {
-        self.looks_at().shear_stiffness
+        self.looks_at() == Sight::Energy
     }
 
     /// Whether the limit is the stretch of a bond between two points that opens without sliding and bending.
@@ -163,7 +143,7 @@ impl Measure {
     }
 
     /// The noun for the measure; empty where the formula says enough.
-    pub fn noun(self) -> &'static str {
+    fn noun(self) -> &'static str {
         match self {
             Self::Tension => "stretch",
             Self::Compression => "shortening",

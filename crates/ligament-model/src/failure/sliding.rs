@@ -15,10 +15,7 @@ pub const SLIDING: Kind = Kind {
         "sliding",
         "Sliding, from the `tensile_strength` or a `limit`.",
         &[Measure::Sliding],
-        PerSpace {
-            plane: limits,
-            solid: Some(limits),
-        },
+        PerSpace::both(limits, limits),
     )
 };
 

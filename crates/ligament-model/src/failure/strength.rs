@@ -16,10 +16,7 @@ pub const STRENGTH: Kind = Kind {
         "strength",
         "Stretch, from the energy at the `tensile_strength` (NHPD).",
         &[Measure::Tension],
-        PerSpace {
-            plane: limits,
-            solid: Some(limits),
-        },
+        PerSpace::both(limits, limits),
     )
 };
 

@@ -30,10 +30,7 @@ pub const COMPRESSION: Kind = Kind {
     )
 };
 
-const LIMITS: PerSpace = PerSpace {
-    plane: limits,
-    solid: Some(limits),
-};
+const LIMITS: PerSpace = PerSpace::both(limits, limits);
 
 fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit> {
     let limit = of_strength(choice, basis, limit);
