@@ -24,6 +24,8 @@ pub(super) struct Lives {
     pub(super) absent: Vec<usize>,
     /// Whether a moment is just before the breakages of its step.
     pub(super) before_breakages: bool,
+    /// Whether bonds have strains of their own.
+    pub(super) has_own_strains: bool,
     /// Names of the components of a deformation.
     pub(super) components: &'static [&'static str],
     /// Units of the displacement and the reaction of the moments.
@@ -97,6 +99,7 @@ impl Lives {
             of_bonds: Vec::new(),
             absent,
             before_breakages: loading.follows_path,
+            has_own_strains: run.has_own_strains(),
             components: run.deformation_names,
             units: loading.units,
         };

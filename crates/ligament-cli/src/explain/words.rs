@@ -43,9 +43,9 @@ pub(super) fn place(run: &StoredRun, point: u32) -> String {
 }
 
 fn deformed(lives: &Lives, deformation: &BondDeformation) -> String {
-    let symbols: &[&str] = match lives.components.len() {
-        3 => &["S_xx", "S_xy", "S_yy"],
-        _ => &["s", "gamma"],
+    let symbols: &[&str] = match lives.has_own_strains {
+        true => &["S_xx", "S_xy", "S_yy"],
+        false => &["s", "gamma"],
     };
     let values = symbols.iter().zip(deformation.strains());
     let words: Vec<String> = values
@@ -56,9 +56,9 @@ fn deformed(lives: &Lives, deformation: &BondDeformation) -> String {
 
 /// Whether a bond is shortened, or some strain of its own is.
 fn is_pressed(lives: &Lives, deformation: &BondDeformation) -> bool {
-    match lives.components.len() {
-        3 => deformation.strain()[..2].iter().any(|strain| *strain < 0.0),
-        _ => deformation.stretch() < 0.0,
+    match lives.has_own_strains {
+        true => deformation.strain()[..2].iter().any(|strain| *strain < 0.0),
+        false => deformation.stretch() < 0.0,
     }
 }
 

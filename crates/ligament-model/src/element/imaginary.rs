@@ -21,6 +21,7 @@
 
 mod class;
 mod quotients;
+mod stored;
 mod surroundings;
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
@@ -32,6 +33,7 @@ use crate::layout::Component;
 use crate::tensor::SymTensor;
 pub use class::BondClass;
 pub(super) use quotients::{Axis, Quotient, Quotients};
+pub use stored::LatticeStrains;
 pub use surroundings::Surroundings;
 
 /// Most points that an element couples.

@@ -147,6 +147,11 @@ pub struct Motions {
 }
 
 impl StoredRun {
+    /// Whether bonds have strains of their own.
+    pub fn has_own_strains(&self) -> bool {
+        self.deformation_names == ElementKind::Imaginary.strain_names()
+    }
+
     /// Opens the results in a folder.
     ///
     /// # Errors

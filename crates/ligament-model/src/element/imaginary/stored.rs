@@ -1,0 +1,66 @@
+//! Strains of the bonds of a lattice that was stored: from positions, ends and motions alone.
+
+use super::{ImaginaryElements, StrainStiffness};
+use crate::bonds::{BondSet, Composition, Incidence};
+use crate::element::{BondDeformation, Element, Elements, Rigidities};
+use crate::tensor::{SymTensor, minus, norm};
+
+/// Bonds of a lattice with the strains of their elements, without a stiffness.
+#[derive(Debug)]
+pub struct LatticeStrains {
+    bonds: BondSet,
+    elements: ImaginaryElements,
+    rigidities: Rigidities,
+}
+
+impl LatticeStrains {
+    /// The bonds of points at some positions (n_points, m) with their ends and horizons (n_bonds each, the latter in m).
+    pub fn new(positions: Vec<[f64; 2]>, ends: Vec<[u32; 2]>, horizon: Vec<f64>) -> Self {
+        let offset = |[a, b]: &[u32; 2]| minus(positions[*b as usize], positions[*a as usize]);
+        let offsets: Vec<[f64; 2]> = ends.iter().map(offset).collect();
+        let length: Vec<f64> = offsets.iter().map(|it| norm(*it)).collect();
+        let of_ends = (0..).zip(&ends);
+        let of_ends = of_ends.flat_map(|(bond, ends)| ends.map(|end| (end, bond)));
+        let bonds = BondSet {
+            incidence: Incidence::from_pairs(of_ends, positions.len()),
+            direction: (offsets.iter().zip(&length))
+                .map(|(offset, length)| offset.map(|it| it / length))
+                .collect(),
+            horizon,
+            length,
+            ends,
+            composition: Composition::default(),
+        };
+        let none = StrainStiffness {
+            entries: [0.0; 6],
+            first_share: 0.5,
+        };
+        Self {
+            rigidities: Rigidities {
+                strain: vec![none; bonds.len()],
+                ..Rigidities::default()
+            },
+            elements: ImaginaryElements::new(&bonds, positions),
+            bonds,
+        }
+    }
+
+    /// Ends of the bonds, shape (n_bonds).
+    pub fn ends(&self) -> &[[u32; 2]] {
+        &self.bonds.ends
+    }
+
+    /// Deformation of a bond under displacements of the points (n_points, m) while the bonds marked in `intact` (n_bonds) are unbroken, less
+    /// that of a strain that it has without stress.
+    pub fn deformation(
+        &self,
+        bond: usize,
+        displacements: &[[f64; 2]],
+        intact: &[bool],
+        free: Option<&SymTensor<2>>,
+    ) -> BondDeformation {
+        let element = (self.elements).element(&self.bonds, &self.rigidities, intact, bond);
+        let whole = element.deformation(displacements.as_flattened());
+        free.map_or(whole, |free| whole.less(&element.deformation_in(free)))
+    }
+}
