@@ -1,14 +1,11 @@
 //! From a case file to the setup of a computation, with what other files hold.
 
-use ligament::body::{
-    AnyBody, LatticeBody, LatticeError, MeshBody, SolidLatticeBody, SolidMeshBody,
-};
+use ligament::body::{AnyBody, MeshBody, SolidMeshBody};
 use ligament::setup::{Setup, TemperatureChange};
 use ligament::stage::{StageWatcher, stage};
 use ligament_mesh::AnyMesh;
 
-use crate::case::key_path::KeyPath;
-use crate::case::{CaseError, CaseFile, LatticeSection, SolidLatticeSection};
+use crate::case::{CaseError, CaseFile, lattice_keys};
 use crate::mesh_file::{read_any_mesh, read_mesh};
 use crate::temperature_table;
 
@@ -58,12 +55,12 @@ impl CaseFile {
                 Ok(AnyBody::new(MeshBody::from(mesh)))
             }
             (None, Some(section), _) => {
-                let lattice = stage(watcher, "lattice", || self.lattice(section))?;
-                Ok(AnyBody::new(lattice))
+                let body = stage(watcher, "lattice", || lattice_keys::body(section));
+                Ok(AnyBody::new(body.map_err(|it| self.source.error(it))?))
             }
             (None, None, Some(section)) => {
-                let lattice = stage(watcher, "lattice", || self.solid_lattice(section))?;
-                Ok(AnyBody::new(lattice))
+                let body = stage(watcher, "lattice", || lattice_keys::body(section));
+                Ok(AnyBody::new(body.map_err(|it| self.source.error(it))?))
             }
             (None, None, None) => anyhow::bail!("the case has no body"),
         }
@@ -88,39 +85,6 @@ impl CaseFile {
             }
         }
         Ok(setup)
-    }
-
-    fn lattice(&self, section: &LatticeSection) -> Result<LatticeBody, CaseError> {
-        let key = KeyPath::default().child("lattice");
-        let parts = section.parts(&key);
-        let (holes, sets) = parts.map_err(|fault| self.source.error(fault))?;
-        let (spacing, corner) = (section.spacing.0, section.corner);
-        let body = LatticeBody::new(section.cells, spacing, corner, &holes, &sets);
-        body.map_err(|error| self.no_lattice("lattice", LatticeSection::set_key, error))
-    }
-
-    fn solid_lattice(&self, section: &SolidLatticeSection) -> Result<SolidLatticeBody, CaseError> {
-        let key = KeyPath::default().child("solid_lattice");
-        let parts = section.parts(&key);
-        let (holes, sets) = parts.map_err(|fault| self.source.error(fault))?;
-        let (spacing, corner) = (section.spacing, section.corner);
-        let body = SolidLatticeBody::new(section.cells, spacing, corner, &holes, &sets);
-        body.map_err(|error| self.no_lattice("solid_lattice", SolidLatticeSection::set_key, error))
-    }
-
-    /// The error of a lattice section that makes no body, at the key that it comes from.
-    fn no_lattice(
-        &self,
-        section: &str,
-        set_key: fn(&str) -> String,
-        error: LatticeError,
-    ) -> CaseError {
-        let key = match &error {
-            LatticeError::NothingLeft { .. } => format!("{section}.remove"),
-            LatticeError::EmptySet { name } => set_key(name),
-            LatticeError::NoRim { hole } => format!("{section}.remove.{hole}"),
-        };
-        self.error(&key, error.to_string())
     }
 
     /// Number of threads that the case asks for, if it does.

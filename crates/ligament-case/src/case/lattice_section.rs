@@ -3,25 +3,16 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use ligament::body;
 use ligament_model::shape::crosses_itself;
 use ligament_model::{Plane, Shape};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::fault::KeyFault;
-use super::key_path::KeyPath;
+use super::lattice_keys::{HoleKeys, LatticeKeys, SetKeys};
 use super::region::Rectangle;
-use super::values::{Numbers, Point, exactly_one, metre, numbers, one_of};
-use super::values::{require, require_column_name};
+use super::values::{Numbers, Point, exactly_one, metre, numbers};
 use super::word::Word;
-
-/// Cells of a lattice at most.
-pub const MOST_CELLS: u64 = 50_000_000;
-
-/// Distance from the origin at most, in cells: farther out coordinates of neighbours would share too many digits.
-const FARTHEST: f64 = 1e9;
 
 /// A rectangle of equal cells, a point at the centre of each.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -115,111 +106,73 @@ pub struct Polygon(pub Vec<Point>);
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Spacing(pub [f64; 2]);
 
-impl LatticeSection {
-    /// The key path of a set.
-    pub(crate) fn set_key(name: &str) -> String {
-        let sets = KeyPath::default().child("lattice").child("set");
-        sets.child(name).to_string()
+impl LatticeKeys<2> for LatticeSection {
+    const SECTION: &'static str = "lattice";
+    const AXES: &'static str = "x and y";
+
+    type Shape = Shape;
+    type Hole = Hole;
+    type Set = CellSet;
+
+    fn cells(&self) -> [u32; 2] {
+        self.cells
     }
 
-    /// Holes and sets of the lattice.
-    pub(crate) fn parts(
-        &self,
-        key: &KeyPath,
-    ) -> Result<(Vec<body::Hole>, BTreeMap<String, body::CellSet>), KeyFault> {
-        self.check_size(key)?;
-        let holes = self.remove.iter().enumerate().map(|(index, hole)| {
-            let key = key.child("remove").child(index);
-            if let Some(name) = &hole.name {
-                require_column_name(|| key.child("name"), name)?;
-                if self.sets.contains_key(name) {
-                    let reason =
-                        format!("`lattice.set` has a `{name}` as well: rename one of them");
-                    return Err(KeyFault::new(key.child("name"), reason));
-                }
-            }
-            Ok(body::Hole {
-                name: hole.name.clone(),
-                shape: hole.shape(&key)?,
-            })
-        });
-        let holes = holes.collect::<Result<_, _>>()?;
-        let sets = self.sets.iter().map(|(name, set)| {
-            let cells = set.cells(&key.child("set").child(name), self.cells)?;
-            Ok((name.clone(), cells))
-        });
-        Ok((holes, sets.collect::<Result<_, _>>()?))
+    fn spacing(&self) -> [f64; 2] {
+        self.spacing.0
     }
 
-    fn check_size(&self, key: &KeyPath) -> Result<(), KeyFault> {
-        let (cells, Spacing(spacing), corner) = (self.cells, self.spacing, self.corner);
-        let n_cells = u64::from(cells[0]) * u64::from(cells[1]);
-        require(
-            (1..=MOST_CELLS).contains(&n_cells),
-            || key.child("cells"),
-            &format!("at least 1 along x and y, and {MOST_CELLS} together at most"),
-            cells,
-        )?;
-        let volume = spacing[0] * spacing[1] * self.thickness.unwrap_or_else(metre);
-        require(
-            spacing.iter().all(|side| *side > 0.0) && volume.is_normal(),
-            || key.child("spacing"),
-            "greater than 0, and of a size that gives the cells a volume",
-            spacing,
-        )?;
-        let is_near = |axis: usize| {
-            corner[axis].abs() + f64::from(cells[axis]) * spacing[axis] <= FARTHEST * spacing[axis]
-        };
-        require(
-            (0..2).all(is_near),
-            || key.child("corner"),
-            "so near to the origin that no corner of the lattice is more than 1e9 cells away from it",
-            corner,
-        )
+    fn corner(&self) -> [f64; 2] {
+        self.corner
+    }
+
+    fn thickness(&self) -> f64 {
+        self.thickness.unwrap_or_else(metre)
+    }
+
+    fn holes(&self) -> &[Hole] {
+        &self.remove
+    }
+
+    fn sets(&self) -> &BTreeMap<String, CellSet> {
+        &self.sets
     }
 }
 
-impl Hole {
-    fn shape(&self, key: &KeyPath) -> Result<Shape, KeyFault> {
+impl HoleKeys<Shape> for Hole {
+    fn name(&self) -> Option<&String> {
+        self.name.as_ref()
+    }
+
+    fn shapes(&self) -> Vec<(&'static str, Option<Shape>)> {
         let outside = self
             .outside
             .map(|Circle { centre, radius }| Shape::Outside { centre, radius });
-        let shapes = [
+        vec![
             ("circle", self.circle.map(Shape::from)),
             ("rectangle", self.rectangle.map(Shape::from)),
             ("polygon", self.polygon.clone().map(Shape::from)),
             ("outside", outside),
-        ];
-        one_of(key, shapes)
+        ]
     }
 }
 
-impl CellSet {
-    /// The cells of the set in a lattice of so many along x and y.
-    fn cells(&self, key: &KeyPath, [columns, rows]: [u32; 2]) -> Result<body::CellSet, KeyFault> {
-        for (name, count, most) in [
-            ("bottom", self.bottom, rows),
-            ("top", self.top, rows),
-            ("left", self.left, columns),
-            ("right", self.right, columns),
-        ] {
-            let (count, expected) = (
-                count.unwrap_or(1),
-                format!("{most} or less, as the lattice has"),
-            );
-            require(count <= most, || key.child(name), &expected, count)?;
-        }
-        let inside = |shape: Option<Shape>| shape.map(body::CellSet::Inside);
-        let sets = [
-            ("bottom", self.bottom.map(body::CellSet::bottom)),
-            ("top", self.top.map(body::CellSet::top)),
-            ("left", self.left.map(body::CellSet::left)),
-            ("right", self.right.map(body::CellSet::right)),
-            ("box", inside(self.r#box.map(Shape::from))),
-            ("circle", inside(self.circle.map(Shape::from))),
-            ("polygon", inside(self.polygon.clone().map(Shape::from))),
-        ];
-        one_of(key, sets)
+impl SetKeys<2, Shape> for CellSet {
+    fn sides(&self) -> Vec<(&'static str, Option<u32>, [i8; 2])> {
+        vec![
+            ("bottom", self.bottom, [0, -1]),
+            ("top", self.top, [0, 1]),
+            ("left", self.left, [-1, 0]),
+            ("right", self.right, [1, 0]),
+        ]
+    }
+
+    fn shapes(&self) -> Vec<(&'static str, Option<Shape>)> {
+        vec![
+            ("box", self.r#box.map(Shape::from)),
+            ("circle", self.circle.map(Shape::from)),
+            ("polygon", self.polygon.clone().map(Shape::from)),
+        ]
     }
 }
 

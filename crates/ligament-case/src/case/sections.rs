@@ -1,11 +1,8 @@
 //! The sections of a case file, read and checked together.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
-use ligament::body::{
-    AnyBody, LatticeBody, LatticeError, MeshBody, SolidLatticeBody, SolidMeshBody,
-};
+use ligament::body::{AnyBody, MeshBody, SolidMeshBody};
 use ligament::implausible::Implausible;
 use ligament::setup::{self, Section, Setup};
 use ligament_mesh::{Mesh, SolidMesh};
@@ -22,6 +19,7 @@ use super::document::Node;
 use super::fault::{Fault as F, KeyFault};
 use super::fracture::{Control, Fracture};
 use super::key_path::KeyPath;
+use super::lattice_keys;
 use super::lattice_section::LatticeSection;
 use super::load::Load;
 use super::material::{self, Material};
@@ -316,21 +314,9 @@ impl Case {
 
     /// A stand-in for the body before it is made: of its kind, a solid or not, with a point at most.
     pub(super) fn stand_in(&self, is_solid: bool) -> Result<AnyBody, KeyFault> {
-        let fault =
-            |key: &str, error: LatticeError| KeyFault::new(root().child(key), error.to_string());
         Ok(match (is_solid, &self.lattice, &self.solid_lattice) {
-            (true, _, Some(lattice)) => {
-                lattice.parts(&root().child("solid_lattice"))?;
-                let (spacing, corner) = (lattice.spacing, lattice.corner);
-                let cell = SolidLatticeBody::new([1; 3], spacing, corner, &[], &BTreeMap::new());
-                AnyBody::new(cell.map_err(|error| fault("solid_lattice", error))?)
-            }
-            (false, Some(lattice), _) => {
-                lattice.parts(&root().child("lattice"))?;
-                let (spacing, corner) = (lattice.spacing.0, lattice.corner);
-                let cell = LatticeBody::new([1; 2], spacing, corner, &[], &BTreeMap::new());
-                AnyBody::new(cell.map_err(|error| fault("lattice", error))?)
-            }
+            (true, _, Some(lattice)) => AnyBody::new(lattice_keys::stand_in(lattice)?),
+            (false, Some(lattice), _) => AnyBody::new(lattice_keys::stand_in(lattice)?),
             (true, _, None) => AnyBody::new(SolidMeshBody::from(SolidMesh::default())),
             (false, None, _) => AnyBody::new(MeshBody::from(Mesh::default())),
         })

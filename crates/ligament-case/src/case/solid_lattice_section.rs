@@ -2,15 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use ligament::body::{SolidCellSet, SolidHole};
 use ligament_model::shape::SolidShape;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::fault::KeyFault;
-use super::key_path::KeyPath;
-use super::lattice_section::MOST_CELLS;
-use super::values::{exactly_one, one_of, require, require_column_name};
+use super::lattice_keys::{HoleKeys, LatticeKeys, SetKeys};
+use super::values::exactly_one;
 
 /// A box of equal cells, a point at the centre of each.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -105,113 +102,75 @@ pub struct Cylinder {
     pub radius: f64,
 }
 
-impl SolidLatticeSection {
-    /// The key path of a set.
-    pub(crate) fn set_key(name: &str) -> String {
-        let sets = KeyPath::default().child("solid_lattice").child("set");
-        sets.child(name).to_string()
+impl LatticeKeys<3> for SolidLatticeSection {
+    const SECTION: &'static str = "solid_lattice";
+    const AXES: &'static str = "each axis";
+
+    type Shape = SolidShape;
+    type Hole = SolidHoleKeys;
+    type Set = SolidCellSetKeys;
+
+    fn cells(&self) -> [u32; 3] {
+        self.cells
     }
 
-    /// Holes and sets of the box.
-    pub(crate) fn parts(
-        &self,
-        key: &KeyPath,
-    ) -> Result<(Vec<SolidHole>, BTreeMap<String, SolidCellSet>), KeyFault> {
-        self.check_size(key)?;
-        let holes = self.remove.iter().enumerate().map(|(index, hole)| {
-            let key = key.child("remove").child(index);
-            if let Some(name) = &hole.name {
-                require_column_name(|| key.child("name"), name)?;
-                if self.sets.contains_key(name) {
-                    let reason =
-                        format!("`solid_lattice.set` has a `{name}` as well: rename one of them");
-                    return Err(KeyFault::new(key.child("name"), reason));
-                }
-            }
-            Ok(SolidHole {
-                name: hole.name.clone(),
-                shape: hole.shape(&key)?,
-            })
-        });
-        let holes = holes.collect::<Result<_, _>>()?;
-        let sets = self.sets.iter().map(|(name, set)| {
-            let cells = set.cells(&key.child("set").child(name), self.cells)?;
-            Ok((name.clone(), cells))
-        });
-        Ok((holes, sets.collect::<Result<_, _>>()?))
+    fn spacing(&self) -> [f64; 3] {
+        self.spacing
     }
 
-    fn check_size(&self, key: &KeyPath) -> Result<(), KeyFault> {
-        let n_cells = self.cells.iter().map(|&it| u64::from(it));
-        let n_cells = n_cells.fold(1_u64, u64::saturating_mul);
-        require(
-            (1..=MOST_CELLS).contains(&n_cells),
-            || key.child("cells"),
-            &format!("at least 1 along each axis, and {MOST_CELLS} together at most"),
-            self.cells,
-        )?;
-        let volume: f64 = self.spacing.iter().product();
-        require(
-            self.spacing.iter().all(|side| *side > 0.0) && volume.is_normal(),
-            || key.child("spacing"),
-            "greater than 0, and of a size that gives the cells a volume",
-            self.spacing,
-        )
+    fn corner(&self) -> [f64; 3] {
+        self.corner
+    }
+
+    fn holes(&self) -> &[SolidHoleKeys] {
+        &self.remove
+    }
+
+    fn sets(&self) -> &BTreeMap<String, SolidCellSetKeys> {
+        &self.sets
     }
 }
 
-impl SolidHoleKeys {
-    fn shape(&self, key: &KeyPath) -> Result<SolidShape, KeyFault> {
+impl HoleKeys<SolidShape> for SolidHoleKeys {
+    fn name(&self) -> Option<&String> {
+        self.name.as_ref()
+    }
+
+    fn shapes(&self) -> Vec<(&'static str, Option<SolidShape>)> {
         let outside_sphere = self
             .outside_sphere
             .map(|Sphere { centre, radius }| SolidShape::OutsideSphere { centre, radius });
         let outside_cylinder = self
             .outside_cylinder
             .map(|Cylinder { ends, radius }| SolidShape::OutsideCylinder { axis: ends, radius });
-        let shapes = [
+        vec![
             ("sphere", self.sphere.map(SolidShape::from)),
             ("cylinder", self.cylinder.map(SolidShape::from)),
             ("box", self.r#box.map(SolidShape::between)),
             ("outside_sphere", outside_sphere),
             ("outside_cylinder", outside_cylinder),
-        ];
-        one_of(key, shapes)
+        ]
     }
 }
 
-impl SolidCellSetKeys {
-    /// The cells of the set in a box of so many along the axes.
-    fn cells(&self, key: &KeyPath, size: [u32; 3]) -> Result<SolidCellSet, KeyFault> {
-        let sides = [
+impl SetKeys<3, SolidShape> for SolidCellSetKeys {
+    fn sides(&self) -> Vec<(&'static str, Option<u32>, [i8; 3])> {
+        vec![
             ("left", self.left, [-1, 0, 0]),
             ("right", self.right, [1, 0, 0]),
             ("front", self.front, [0, -1, 0]),
             ("back", self.back, [0, 1, 0]),
             ("bottom", self.bottom, [0, 0, -1]),
             ("top", self.top, [0, 0, 1]),
-        ];
-        for (name, layers, normal) in sides {
-            let across = normal.iter().position(|it| *it != 0).unwrap_or(0);
-            let (most, layers) = (size[across], layers.unwrap_or(1));
-            let expected = format!("{most} or less, as the lattice has");
-            require(layers <= most, || key.child(name), &expected, layers)?;
-        }
-        let [left, right, front, back, bottom, top] = sides.map(|(name, layers, normal)| {
-            (name, layers.map(|it| SolidCellSet::AtSide(normal, it)))
-        });
-        let inside = |shape: Option<SolidShape>| shape.map(SolidCellSet::Inside);
-        let sets = [
-            left,
-            right,
-            front,
-            back,
-            bottom,
-            top,
-            ("box", inside(self.r#box.map(SolidShape::between))),
-            ("sphere", inside(self.sphere.map(SolidShape::from))),
-            ("cylinder", inside(self.cylinder.map(SolidShape::from))),
-        ];
-        one_of(key, sets)
+        ]
+    }
+
+    fn shapes(&self) -> Vec<(&'static str, Option<SolidShape>)> {
+        vec![
+            ("box", self.r#box.map(SolidShape::between)),
+            ("sphere", self.sphere.map(SolidShape::from)),
+            ("cylinder", self.cylinder.map(SolidShape::from)),
+        ]
     }
 }
 

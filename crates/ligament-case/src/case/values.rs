@@ -37,11 +37,14 @@ pub fn require(
 }
 
 /// The one value that is given of keys of which a table has exactly one.
-pub(super) fn one_of<T, const N: usize>(
+pub(super) fn one_of<T>(
     table: &KeyPath,
-    given: [(&'static str, Option<T>); N],
+    given: impl IntoIterator<Item = (&'static str, Option<T>)>,
 ) -> Result<T, KeyFault> {
-    let keys = given.each_ref().map(|(key, value)| (*key, value.is_some()));
+    let given: Vec<_> = given.into_iter().collect();
+    let keys: Vec<_> = (given.iter())
+        .map(|(key, value)| (*key, value.is_some()))
+        .collect();
     let mut values = given.into_iter().filter_map(|(_, value)| value);
     match (values.next(), values.next()) {
         (Some(only), None) => Ok(only),

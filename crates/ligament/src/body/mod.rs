@@ -15,6 +15,7 @@ pub use any::AnyBody;
 pub use cells::{Cells, Hole, LatticeError};
 pub use interface::{Body, BodyOutline, Geometry, OffOutline, Origin};
 pub use lattice::{BodyOnLattice, LatticeBody, SolidLatticeBody};
+pub use lattice_cells::LatticeShape;
 pub use mesh::{BodyOnMesh, MeshBody, SolidMeshBody};
 pub use points::{Points, PointsError};
 
