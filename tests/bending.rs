@@ -77,7 +77,7 @@ fn patched(mesh: Mesh, law: Law) -> Setup {
     setup
 }
 
-fn tested<const D: usize>(model: &Model<D>) -> (Thin<D>, BendingTest) {
+fn tested(model: &Model) -> (Thin, BendingTest) {
     let section = thinnest_section(model, usize::MAX).unwrap();
     (section, bending_test(model, &section, usize::MAX).unwrap())
 }
@@ -85,7 +85,7 @@ fn tested<const D: usize>(model: &Model<D>) -> (Thin<D>, BendingTest) {
 /// Deflection of Timoshenko's cantilever under a force at its end over that of the strip, with the left side held.
 fn cantilever(mut setup: Setup) -> f64 {
     let length = 10.0 * HEIGHT;
-    let [left, right] = [0.0, length].map(|x| [[x - 1e-6, -1.0], [x + 1e-6, 1.0]]);
+    let [left, right] = [0.0, length].map(|x| [[x - 1e-6, -1.0, 0.0], [x + 1e-6, 1.0, 0.0]]);
     let poisson = match setup.law.fixes_poisson() {
         true => 1.0 / 3.0,
         false => POISSON,
@@ -94,7 +94,10 @@ fn cantilever(mut setup: Setup) -> f64 {
         Place::Box(left),
         &[Component::X, Component::Y],
     )];
-    setup.loads = vec![Load::new(Place::Box(right), Action::Force([0.0, -1.0]))];
+    setup.loads = vec![Load::new(
+        Place::Box(right),
+        Action::Force([0.0, -1.0, 0.0]),
+    )];
     let history = setup.solve(&mut Unobserved).unwrap().outcome.history;
     let bending = length.powi(3) / (3.0 * YOUNG * HEIGHT.powi(3) / 12.0);
     let shear = length * 2.0 * (1.0 + poisson) / (5.0 / 6.0 * HEIGHT * YOUNG);
@@ -242,9 +245,9 @@ fn round_bar(across: usize) -> SolidMesh {
     }
 }
 
-fn bar(across: usize, rotational_factor: f64) -> Setup<3> {
+fn bar(across: usize, rotational_factor: f64) -> Setup {
     let body = SolidMeshBody::from(round_bar(across));
-    let mut setup = Setup::<3>::new(body, Material::isotropic(YOUNG, 0.2), Law::Nhpd);
+    let mut setup = Setup::new(body, Material::isotropic(YOUNG, 0.2), Law::Nhpd);
     setup.horizon = Horizon::Factor(2.5);
     setup.correction.surface = Surface::Patch(Settings::default());
     setup.rotational_scale = RotationalScale::Factor(rotational_factor);
@@ -252,7 +255,7 @@ fn bar(across: usize, rotational_factor: f64) -> Setup<3> {
 }
 
 /// Torque of the bar with its right end turned by an angle over that of Saint-Venant, G J angle/L with J = A^2/(2 pi) of its section A.
-fn torque(mut setup: Setup<3>, section: f64) -> f64 {
+fn torque(mut setup: Setup, section: f64) -> f64 {
     let [_, length] = ROUND;
     let angle = 1e-4;
     let end = |z: f64| Place::Box([[-2.0, -2.0, z - 1e-6], [2.0, 2.0, z + 1e-6]]);
@@ -310,11 +313,11 @@ fn a_large_thin_solid_is_tested_by_its_strip() {
     };
     let points = mesh.positions.len();
     let body = SolidMeshBody::from(mesh);
-    let mut setup = Setup::<3>::new(body, Material::isotropic(YOUNG, 0.2), Law::Nhpd);
+    let mut setup = Setup::new(body, Material::isotropic(YOUNG, 0.2), Law::Nhpd);
     setup.horizon = Horizon::Factor(2.1);
-    let model = Model::<3>::build(setup, &mut ()).unwrap();
+    let model = Model::build(setup, &mut ()).unwrap();
     let section = thinnest_section(&model, MOST_SIDES).unwrap();
-    let most = most_points::<3>();
+    let most = most_points(3);
     let test = bending_test(&model, &section, most).unwrap();
     assert!(points > most && test.points < points / 2, "{test:?}");
     assert!((section.thickness - 3.0).abs() < 1e-9, "{section:?}");
@@ -329,8 +332,8 @@ fn a_round_bar_is_as_much_too_stiff_in_torsion_as_its_strip() {
     let mut torsion = Vec::new();
     for rotational_factor in [1.0, 0.0] {
         let setup = bar(6, rotational_factor);
-        let model = Model::<3>::build(setup.clone(), &mut ()).unwrap();
-        let volume: f64 = model.system.cloud.volumes.iter().sum();
+        let model = Model::build(setup.clone(), &mut ()).unwrap();
+        let volume: f64 = model.plane().cloud.volumes.iter().sum();
         let (section, test) = tested(&model);
         let expected = torque(setup, volume / ROUND[1]);
         let found = test.torsion.unwrap();

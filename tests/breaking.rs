@@ -119,14 +119,14 @@ fn a_pre_crack_is_no_damage() {
     let model = &bench.model;
     let run = bench.break_up();
     assert!(model.cut_bonds() > 100);
-    let whole = Bench::new(DISK, &[]).model.system.bonds.len();
-    assert_eq!(model.system.bonds.len() + model.cut_bonds(), whole);
-    let intact = vec![true; model.system.bonds.len()];
-    assert_eq!(largest(fields::damage(&*model.system, &intact)), 0.0);
+    let whole = Bench::new(DISK, &[]).model.plane().bonds.len();
+    assert_eq!(model.plane().bonds.len() + model.cut_bonds(), whole);
+    let intact = vec![true; model.plane().bonds.len()];
+    assert_eq!(largest(fields::damage(&**model.plane(), &intact)), 0.0);
     let share = &model.fixed.precrack_share;
     assert!(largest(share.iter().copied()) > 0.3 && share.contains(&0.0));
     // What broke later is damage (NHPD eq. 17), of the bonds that the crack had left.
-    let system = &*model.system;
+    let system = &**model.plane();
     let (mut broken, mut all) = (vec![0.0; bench.points()], vec![0.0; bench.points()]);
     for (bond, ends) in system.bonds.ends.iter().enumerate() {
         let is_broken = run.breaks.iter().any(|record| record.bond as usize == bond);
@@ -154,7 +154,7 @@ fn a_broken_bond_is_an_absent_bond() {
         format!("{DISK}precrack = [{{ points = [[-0.0141, -0.0141], [0.0142, 0.0143]] }}]\n");
     let without = Bench::new(&text, &[]);
     let with = Bench::new(DISK, &[]);
-    let (system, kept) = (&*with.model.system, &without.model.system.bonds.ends);
+    let (system, kept) = (&**with.model.plane(), &without.model.plane().bonds.ends);
     let present: BTreeSet<&[u32; 2]> = kept.iter().collect();
     let mut state = State {
         load_factor: 1.0,
@@ -239,7 +239,7 @@ fn protected_bonds_never_break() {
     let broken_inside = |bench: &Bench| {
         let run = bench.break_up();
         assert!(run.breaks.len() > 50);
-        let ends = |bond: u32| bench.model.system.bonds.ends[bond as usize];
+        let ends = |bond: u32| bench.model.plane().bonds.ends[bond as usize];
         let touches = |bond: u32| ends(bond).iter().any(|&end| inside(end));
         run.breaks
             .iter()

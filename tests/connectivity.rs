@@ -20,7 +20,7 @@ fn follow(
     mut order: &[u32],
     batch: impl FnMut() -> usize,
 ) -> usize {
-    let system = &*bench.model.system;
+    let system = &**bench.model.plane();
     let unknowns = Unknowns::all_but(system, |dof| bench.boundary.prescribed[dof].is_some());
     let can_hold = |dof: usize| unknowns.number(dof).is_some();
     let none = Restraints::default();
@@ -84,7 +84,7 @@ fn fragments_and_holds_follow_every_breakage() {
         ("disk", DISK, 0.025),
     ] {
         let bench = Bench::new(text, &[]);
-        let system = &*bench.model.system;
+        let system = &**bench.model.plane();
         let random = &mut Random(7);
         let order = shuffled(system, random);
         let blocks = blocks_first(system, shuffled(system, random), block);
@@ -108,7 +108,7 @@ const PULL: &str = "load = [{ group = \"right\", displacement = { x = 1e-5 } }]\
 #[test]
 fn random_graphs_come_apart_as_a_search_finds() {
     let bench = Bench::new(&format!("{PLATE}{PULL}"), &["model.horizon_factor=100"]);
-    let system = &*bench.model.system;
+    let system = &**bench.model.plane();
     let pairs = bench.points() * (bench.points() - 1) / 2;
     assert_eq!(system.bonds.len(), pairs, "every pair is bonded");
     let random = &mut Random(11);
@@ -130,7 +130,7 @@ fn random_graphs_come_apart_as_a_search_finds() {
 fn an_ordinary_breakage_is_local() {
     for file in ["disk-4mm", "disk-2mm"] {
         let bench = Bench::new(DISK, &[&format!("mesh.file=../meshes/{file}.msh")]);
-        let system = &*bench.model.system;
+        let system = &**bench.model.plane();
         let mut connectivity = Connectivity::new(system);
         let crossing = crossing_the_y_axis(system);
         let (last, others) = crossing.split_last().unwrap();
@@ -151,7 +151,7 @@ fn an_ordinary_breakage_is_local() {
 #[test]
 fn a_small_part_comes_loose_at_its_own_cost() {
     let bench = Bench::new(DISK, &[]);
-    let system = &*bench.model.system;
+    let system = &**bench.model.plane();
     for point in 0..bench.points() as u32 {
         let mut connectivity = Connectivity::new(system);
         let (last, others) = system.bonds.incidence.at(point).split_last().unwrap();

@@ -216,7 +216,7 @@ fn threads_do_not_change_a_bit_of_the_model() {
     };
     let bits = |values: &[f64]| -> Vec<u64> { values.iter().map(|v| v.to_bits()).collect() };
     let arrays = |model: &Model| {
-        let system = &model.system;
+        let system = model.plane();
         let [x, y, biaxial, shear] =
             [0, 1, 2, 3].map(|it| &model.fixed.energy_ratios[it].at_points);
         [
@@ -236,11 +236,11 @@ fn threads_do_not_change_a_bit_of_the_model() {
     };
     for sweeps in (1..=8).chain([10_000]) {
         let one = model(1, sweeps);
-        assert_eq!(one.system.cloud.len(), 4808);
+        assert_eq!(one.plane().cloud.len(), 4808);
         assert_eq!(domain(&one).converged, sweeps > 8);
         for threads in [2, 3, 8] {
             let other = model(threads, sweeps);
-            assert_eq!(other.system.bonds, one.system.bonds);
+            assert_eq!(other.plane().bonds, one.plane().bonds);
             assert_eq!(other.correction, one.correction, "{threads} threads");
             assert!(arrays(&other) == arrays(&one), "{threads} threads");
         }
@@ -266,7 +266,7 @@ fn bonds_between_materials_are_springs_in_series_of_the_smaller_strength() {
         Bench::new(&format!("{BREAKING}{BAR}material = {material}\n"), &[])
     };
     let (left, right) = (alone(15e9, poisson, 3e6), alone(60e9, poisson, 8e6));
-    let (system, cloud) = (&*bench.model.system, &bench.model.system.cloud);
+    let (system, cloud) = (&**bench.model.plane(), &bench.model.plane().cloud);
     let side = |point: u32| {
         let x = bench.positions()[point as usize][0] - 0.05;
         if x.abs() < 1e-9 { 0 } else { x.signum() as i32 }
@@ -290,13 +290,13 @@ fn bonds_between_materials_are_springs_in_series_of_the_smaller_strength() {
     }
     // k_n of each bond: its rigidity over Omega alpha V_A V_B l.
     let density = |bench: &Bench, bond: usize| {
-        let system = &*bench.model.system;
+        let system = &**bench.model.plane();
         let [a, b] = system.bonds.ends[bond].map(|end| system.cloud.volumes[end as usize]);
         system.rigidities.axial[bond] / (system.weight[bond] * a * b * system.bonds.length[bond])
     };
     // e_0 of each bond from s_0^2 = e_0 (V_A + V_B)/(rigidity), NHPD eq. 16.
     let energy = |bench: &Bench, bond: usize| {
-        let system = &*bench.model.system;
+        let system = &**bench.model.plane();
         let [a, b] = system.bonds.ends[bond].map(|end| system.cloud.volumes[end as usize]);
         bench.limits()[bond].powi(2) * system.rigidities.axial[bond] / (a + b)
     };
@@ -356,12 +356,12 @@ fn equal_materials_are_one() {
     let (a, b) = (two.solve(), one.solve());
     let numbers = [
         deviation(
-            &two.model.system.rigidities.axial,
-            &one.model.system.rigidities.axial,
+            &two.model.plane().rigidities.axial,
+            &one.model.plane().rigidities.axial,
         ),
         deviation(
-            &two.model.system.rigidities.shear,
-            &one.model.system.rigidities.shear,
+            &two.model.plane().rigidities.shear,
+            &one.model.plane().rigidities.shear,
         ),
         deviation(two.limits(), one.limits()),
         deviation(a.displacement(), b.displacement()),
@@ -447,7 +447,7 @@ fn a_thin_slot_does_not_shrink_horizons() {
     let model = setup(false).unwrap();
     let least = |model: &Model| {
         model
-            .system
+            .plane()
             .cloud
             .spacing
             .iter()
@@ -461,7 +461,7 @@ fn a_thin_slot_does_not_shrink_horizons() {
     );
     let numbering = model.body().numbering();
     let in_file = |ends: &[u32; 2]| numbering.ends_in_file(*ends);
-    let across = (model.system.bonds.ends.iter().map(in_file)).filter(|ends| {
+    let across = (model.plane().bonds.ends.iter().map(in_file)).filter(|ends| {
         let of = |node: &u32| copies.contains_key(node) || copies.values().any(|copy| copy == node);
         let [a, b] = ends.map(|end| mesh.positions[end as usize]);
         ends.iter().all(of) && (a[0] - b[0]).abs() > 0.5 * gap
@@ -488,7 +488,7 @@ load = [{ group = "inside", pressure = 1.0 }]
     let inside = Bench::new(text, &[]).model;
     let across = Bench::new(text, &["model.bonds_through_voids=true"]).model;
     assert_eq!(across.across_voids(), 0);
-    let places = &across.system.cloud.positions;
+    let places = &across.plane().cloud.positions;
     let nearest = |ends: &[u32; 2]| {
         let [a, b] = ends.map(|end| places[end as usize]);
         let along = [b[0] - a[0], b[1] - a[1]];
@@ -498,13 +498,13 @@ load = [{ group = "inside", pressure = 1.0 }]
     };
     let on_rim = places.iter().filter(|p| p[0].hypot(p[1]) < 0.1 + 1e-6);
     let inner = 0.1 * (std::f64::consts::PI / on_rim.count() as f64).cos();
-    let kept: Vec<[u32; 2]> = inside.system.bonds.ends.clone();
+    let kept: Vec<[u32; 2]> = inside.plane().bonds.ends.clone();
     assert!(kept.iter().all(|ends| nearest(ends) > inner - 1e-9));
-    let lost: Vec<[u32; 2]> = (across.system.bonds.ends.iter().copied())
+    let lost: Vec<[u32; 2]> = (across.plane().bonds.ends.iter().copied())
         .filter(|ends| !kept.contains(ends))
         .collect();
     assert_eq!(lost.len(), inside.across_voids());
     assert!(lost.len() > 50, "{} pairs", lost.len());
     assert!(lost.iter().all(|ends| nearest(ends) < 0.1 - 1e-9));
-    assert_eq!(lost.len() + kept.len(), across.system.bonds.len());
+    assert_eq!(lost.len() + kept.len(), across.plane().bonds.len());
 }

@@ -27,7 +27,7 @@ use verification::problems::PLATE;
 fn rigid_motions_cost_no_energy() {
     for poisson in ["0.21", "0.333333333333333333", "0.38"] {
         let bench = Bench::new(DISK, &[&format!("material.poisson={poisson}")]);
-        let system = &*bench.model.system;
+        let system = &**bench.model.plane();
         let intact = vec![true; system.bonds.len()];
         let energy = |[u_x, u_y, angle]: [f64; 3], own_rotation: f64| {
             let motion = |p: &[f64; 2]| [u_x - angle * p[1], u_y + angle * p[0], own_rotation];
@@ -61,7 +61,7 @@ fn rigid_motions_cost_no_energy() {
 #[test]
 fn internal_forces_are_in_balance_with_themselves() {
     let bench = Bench::new(DISK, &[]);
-    let system = &*bench.model.system;
+    let system = &**bench.model.plane();
     let mut random = Random(1);
     let u: Vec<f64> = (0..3 * bench.points())
         .map(|_| 1e-4 * random.uniform())
@@ -103,7 +103,7 @@ fn internal_forces_are_in_balance_with_themselves() {
 fn reactions_balance() {
     let bench = Bench::new(DISK, &[]);
     let run = bench.solve();
-    let system = &*bench.model.system;
+    let system = &**bench.model.plane();
     let internal::BondSweep {
         internal: InternalForces {
             values: internal, ..
@@ -215,7 +215,7 @@ fn central_forces_leave_rotations_alone() {
             (bench, run)
         };
         let (bench, run) = solve(poisson);
-        let system = &*bench.model.system;
+        let system = &**bench.model.plane();
         assert!(
             system
                 .rigidities
@@ -363,7 +363,7 @@ fn body_forces_add_up_to_density_times_volume() {
     let volume: f64 = (0..bench.points())
         // The rim belongs to the box, however the mesh rounds it.
         .filter(|&point| bench.positions()[point][0] <= 0.1 + 1e-9)
-        .map(|point| bench.model.system.cloud.volumes[point])
+        .map(|point| bench.model.plane().cloud.volumes[point])
         .sum();
     let total: f64 = component(&bench.boundary.force, 0).iter().sum();
     assert!(relative_error(total, 1e4 * volume) < 1e-12);

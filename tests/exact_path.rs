@@ -167,12 +167,12 @@ fn tied_bonds_break_in_one_event() {
     let (mesh, image) = meshes::mirrored(&meshes::read("tests/reference/square.msh"));
     let bench = Bench::on(&mesh, &on_the_exact_path(SQUARE), &[]);
     let run = bench.break_up();
-    let damage = bench.in_file(&fields::damage(&*bench.model.system, &run.state().intact));
+    let damage = bench.in_file(&fields::damage(&**bench.model.plane(), &run.state().intact));
     let asymmetry = largest((0..damage.len()).map(|k| damage[k] - damage[image[k]]));
     assert!(largest(damage.iter().copied()) > 0.3 && asymmetry < 1e-12);
     let pairs = (run.outcome.history.iter()).filter(|step| step.broken_in_step == 2);
     assert!(pairs.count() > 20);
-    let (numbering, ends) = (bench.model.body().numbering(), bench.model.system.ends());
+    let (numbering, ends) = (bench.model.body().numbering(), bench.model.plane().ends());
     let in_file = |bond: u32| numbering.ends_in_file(ends[bond as usize]);
     let of_event = |pair: &[_]| -> bool {
         let [a, b]: [&ligament_analysis::history::BreakRecord; 2] = [&pair[0], &pair[1]];

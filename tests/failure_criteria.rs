@@ -60,7 +60,7 @@ fn motion([axial, lateral]: [f64; 2], angle: f64, [x, y]: [f64; 2]) -> [f64; 3] 
 /// Load factor of the first breakage, by both drivers, where the points of a frame as wide as the horizon have the
 /// motions of a strain at load factor one and those inside are free.
 fn first_breakage(bench: &Bench, strains: [f64; 2], angle: f64) -> f64 {
-    let system = &*bench.model.system;
+    let system = &**bench.model.plane();
     let cloud = &system.cloud;
     let of_points = cloud.positions.iter();
     let of_points = of_points.map(|&position| motion(strains, angle, position));
@@ -333,7 +333,7 @@ fn orientation_makes_frictional_bars_stronger_as_known() {
                 "model.law=pds",
             ],
         );
-        let system = &*bench.model.system;
+        let system = &**bench.model.plane();
         let middle = 13 * 6 + 6;
         for (strain, known) in [TENSILE / YOUNG, -COMPRESSIVE / YOUNG]
             .into_iter()
@@ -605,7 +605,7 @@ fn protected_bonds_have_no_limit() {
             x.abs().max(y.abs()) < 0.0021
         };
         assert_eq!(bench.model.no_fail_points(), 25);
-        for (ends, limit) in bench.model.system.bonds.ends.iter().zip(bench.limits()) {
+        for (ends, limit) in bench.model.plane().bonds.ends.iter().zip(bench.limits()) {
             let is_protected = ends.iter().any(|&end| inside(end));
             assert_eq!(limit.is_infinite(), is_protected, "{kind}");
             assert!(*limit > 0.0, "{kind}");
@@ -647,7 +647,7 @@ fn bonds_between_materials_take_the_weaker_one() {
         let setting = format!("fracture.criterion.0.kind={kind}");
         let bench = Bench::new(&text, &[&setting]);
         let criterion = &bench.model.criteria.list[0];
-        let system = &*bench.model.system;
+        let system = &**bench.model.plane();
         let mut between = 0;
         for (bond, ends) in system.bonds.ends.iter().enumerate() {
             let has = |material: usize| {

@@ -10,6 +10,7 @@ use ligament_model::element::Remaining;
 use ligament_model::failure::crack_opening::CrackEnergy;
 use ligament_model::failure::fracture_energy::{critical_stretch, opening_modulus};
 use ligament_model::law::bbpd;
+use ligament_model::material::Space;
 use ligament_model::thermal::ThermalStrain;
 use ligament_model::{Isotropic, Plane};
 use verification::bench::Bench;
@@ -78,7 +79,7 @@ impl Segment {
     fn crossing(&self, bench: &Bench) -> Vec<usize> {
         let positions = bench.positions();
         let crosses = |bond: &usize| {
-            let [a, b] = bench.model.system.bonds.ends[*bond].map(|end| positions[end as usize]);
+            let [a, b] = bench.model.plane().bonds.ends[*bond].map(|end| positions[end as usize]);
             let sides = [self.side(a), self.side(b)];
             if sides[0] * sides[1] >= 0.0 {
                 return false;
@@ -88,24 +89,24 @@ impl Segment {
             let place = at[0] * self.along[0] + at[1] * self.along[1];
             (0.0..self.length().powi(2)).contains(&place)
         };
-        let bonds = 0..bench.model.system.bonds.len();
+        let bonds = 0..bench.model.plane().bonds.len();
         bonds.filter(crosses).collect()
     }
 }
 
 /// Sum of 1/2 R s_0^2 over the bonds that cross a segment, per area, over G_c.
 fn work(bench: &Bench, segment: &Segment) -> f64 {
-    let rigidity = &bench.model.system.rigidities.axial;
+    let rigidity = &bench.model.plane().rigidities.axial;
     let crossing = segment.crossing(bench);
     assert!(!crossing.is_empty());
     let of_bond = |bond: usize| 0.5 * rigidity[bond] * bench.limits()[bond].powi(2);
     let energy: f64 = crossing.into_iter().map(of_bond).sum();
-    energy / (segment.length() * bench.model.system.cloud.thickness) / FRACTURE_ENERGY
+    energy / (segment.length() * bench.model.plane().cloud.thickness) / FRACTURE_ENERGY
 }
 
 /// What a crack through the middle of a lattice is told to spend, over G_c.
 fn told(bench: &Bench, crack: [f64; 2]) -> f64 {
-    let (system, criteria) = (&bench.model.system, &bench.model.criteria);
+    let (system, criteria) = (bench.model.plane(), &bench.model.criteria);
     let middle = system.cloud.nearest_point([0.0, 0.0]) as usize;
     let mut among = vec![false; bench.points()];
     among[middle] = true;
@@ -207,7 +208,12 @@ fn the_critical_stretch_is_that_of_the_integral() {
         for (material, axial) in laws {
             let modulus = opening_modulus(material, plane);
             let moment = |power: i32| simpson(horizon, &|l| axial(l) * l.powi(power));
-            let limit = critical_stretch(FRACTURE_ENERGY, modulus, moment(3) / moment(2), plane);
+            let limit = critical_stretch(
+                FRACTURE_ENERGY,
+                modulus,
+                moment(3) / moment(2),
+                Space::Plane(plane),
+            );
             let of_length = |l: f64| {
                 let bond = 0.5 * axial(l) * l * limit * limit;
                 let angles = simpson(FRAC_PI_2, &|a| 2.0 * a * l * a.sin());
@@ -330,7 +336,7 @@ struct Separation {
 
 impl Separation {
     fn from_bench(bench: &Bench, segment: &Segment, [x, y]: [f64; 2]) -> Self {
-        let system = &*bench.model.system;
+        let system = &**bench.model.plane();
         let area = segment.length() * THICKNESS;
         let mut sum = Self {
             counted: 0.0,

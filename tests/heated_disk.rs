@@ -95,7 +95,7 @@ fn hot_disks_are_those_of_thermoelasticity() {
         let off = (off / size).sqrt();
         let state = run.state();
         let expansion = bench.boundary.thermal_strain(state.load_factor);
-        let system = &*bench.model.system;
+        let system = &**bench.model.plane();
         let deformations = system.deformations(&state.intact, motion, expansion);
         let stress = of_reading::<3>(StressReading::Virial, system, state.bonds(), &deformations);
         let mut ratios = Vec::new();

@@ -266,7 +266,7 @@ fn the_count_is_in_the_files() {
 
 /// Negative eigenvalues by a factorisation of its own, in the other order of elimination.
 fn counted_anew(bench: &Bench, state: &State) -> usize {
-    let system = &*bench.model.system;
+    let system = &**bench.model.plane();
     let unknowns = Unknowns::all_but(system, |dof| bench.boundary.prescribed[dof].is_some());
     let pattern = Arc::new(assembly::pattern(system, &unknowns).unwrap());
     let matrix = assembly::assemble(system, &unknowns, &pattern, state.bonds(), &state.held);
@@ -306,7 +306,7 @@ impl Tearing {
     fn intact(bench: &Bench, solver: SolverSettings) -> Self {
         let state = State {
             load_factor: 1.0,
-            ..State::fresh(&*bench.model.system)
+            ..State::fresh(&**bench.model.plane())
         };
         Self::from(bench, solver, state)
     }
@@ -383,7 +383,7 @@ fn broken_down_to_points() {
         } else {
             Bench::new(SQUARE, &settings)
         };
-        let system = &*bench.model.system;
+        let system = &**bench.model.plane();
         for (seed, width) in [(5, 0.0), (6, 0.035), (7, 0.035)] {
             let [mut run, mut anew] = [IN_PLACE, ANEW].map(|it| Tearing::intact(&bench, it));
             run.balance();
@@ -419,7 +419,7 @@ fn broken_down_to_points() {
 #[test]
 fn tracked_inertia_is_that_of_a_dense_elimination() {
     let bench = Bench::new(SQUARE, &["material.poisson=0.38"]);
-    let system = &*bench.model.system;
+    let system = &**bench.model.plane();
     let mut run = Tearing::intact(&bench, IN_PLACE);
     run.balance();
     let mut counts = Vec::new();
@@ -474,7 +474,7 @@ fn degrees_of_freedom(system: &BondSystem, bond: usize) -> [usize; 6] {
 }
 
 fn dense_count(bench: &Bench, problem: &Problem, state: &State) -> usize {
-    let (system, loads) = (&*bench.model.system, &problem.loads);
+    let (system, loads) = (&**bench.model.plane(), &problem.loads);
     let free = |dof: &usize| !loads.is_prescribed(*dof) && !state.held[*dof];
     let rows: Vec<usize> = (0..state.held.len()).filter(free).collect();
     let mut place = vec![None; state.held.len()];
@@ -541,7 +541,7 @@ fn broken_down_to_points_without_a_matrix() {
         let whole = run.balance().stored_energy;
         let has_mechanisms = settings.contains(&NO_SHEAR);
         let mut worst = 0.0_f64;
-        for bonds in blocks_first(&bench.model.system, 6, 0.035).chunks(2) {
+        for bonds in blocks_first(bench.model.plane(), 6, 0.035).chunks(2) {
             let [one, other] = [&mut run, &mut anew].map(|it| it.tear(bonds));
             let energy = (one.stored_energy - other.stored_energy).abs() / whole;
             worst = worst.max(energy);
@@ -598,7 +598,7 @@ fn two_thousand_breakages_with_one_factor() {
     ];
     let bench = Bench::new(DISK, &settings);
     let (outcome, watch) = follow(&bench, IN_PLACE);
-    let (system, state) = (&*bench.model.system, &outcome.state);
+    let (system, state) = (&**bench.model.plane(), &outcome.state);
     assert!(watch.breaks.len() >= 2000);
     assert_eq!(outcome.costs.factorisations, 1);
     assert!(outcome.costs.changes >= 150);
@@ -757,7 +757,7 @@ fn whatever_the_order_and_the_factorisation() {
 #[test]
 fn nested_dissection_leaves_little_fill() {
     let bench = Bench::new(DISK, &["mesh.file=../meshes/disk-2mm.msh"]);
-    let system = &*bench.model.system;
+    let system = &**bench.model.plane();
     let unknowns = Unknowns::all_but(system, |dof| bench.boundary.prescribed[dof].is_some());
     let order = assert_permutation(system, &unknowns);
     let pattern = Arc::new(assembly::pattern(system, &unknowns).unwrap());
@@ -824,9 +824,9 @@ fn nested_dissection_of_degenerate_clouds() {
         supports,
     );
     let bench = Bench::on(&mesh, &text, &["solver.ordering=nested-dissection"]);
-    let unknowns = Unknowns::all_but(&*bench.model.system, |dof| {
+    let unknowns = Unknowns::all_but(&**bench.model.plane(), |dof| {
         bench.boundary.prescribed[dof].is_some()
     });
-    assert_permutation(&*bench.model.system, &unknowns);
+    assert_permutation(&**bench.model.plane(), &unknowns);
     assert!(bench.solve().largest_residual < 1e-10);
 }

@@ -22,7 +22,7 @@ const PULLED: f64 = 1e-5;
 const RATIOS: [f64; 4] = [1.0, 100.0, 1e3, 1e6];
 
 /// A body of halves "left-half" and "right-half" with sides "left" and "right".
-fn halved(body: impl Body + 'static, law: Law, poisson: f64, ratio: f64) -> Setup {
+fn halved(body: impl Geometry<2> + 'static, law: Law, poisson: f64, ratio: f64) -> Setup {
     let mut setup = Setup::new(body, Material::isotropic(1.0, poisson), law);
     let half = |group: &str, young: f64| MaterialRegion {
         group: Some(group.to_owned()),
@@ -32,14 +32,14 @@ fn halved(body: impl Body + 'static, law: Law, poisson: f64, ratio: f64) -> Setu
     setup
 }
 
-fn along_x<const D: usize>(value: f64) -> Action<D> {
+fn along_x(value: f64) -> Action {
     Action::Displacement(Displacement {
         x: Some(value),
         ..Displacement::default()
     })
 }
 
-fn along_y<const D: usize>(value: f64) -> Action<D> {
+fn along_y(value: f64) -> Action {
     Action::Displacement(Displacement {
         y: Some(value),
         ..Displacement::default()
@@ -58,7 +58,7 @@ fn in_series(mut setup: Setup) -> f64 {
 
 /// Reaction of the halves pulled along y, between the points below and above.
 fn in_parallel(mut setup: Setup) -> f64 {
-    let slice = |from: f64, to: f64| Place::Box([[-1.0, from], [1.0, to]]);
+    let slice = |from: f64, to: f64| Place::Box([[-1.0, from, 0.0], [1.0, to, 0.0]]);
     let slack = 1e-6;
     setup.supports = vec![
         Support::new(slice(-slack, slack), &[Component::Y]),
@@ -289,11 +289,11 @@ fn layered_block(thick: u32) -> SolidMesh {
 
 /// A body of a layer between halves, its ends pulled apart, all points held across.
 fn with_layer<const D: usize>(
-    body: impl Body<D> + 'static,
+    body: impl Geometry<D> + 'static,
     law: Law,
     [half, layer]: [Material; 2],
     across: &[Component],
-) -> Setup<D> {
+) -> Setup {
     let mut setup = Setup::new(body, half.clone(), law);
     let region = |group: &str, material: Material| MaterialRegion {
         group: Some(group.to_owned()),
@@ -347,7 +347,7 @@ fn layers_between_halves_of_a_mesh() {
 }
 
 /// The setup with its ends moved along y against each other, all points held along the other axes: the layer and the halves are sheared.
-fn sheared<const D: usize>(mut setup: Setup<D>, others: &[Component]) -> Setup<D> {
+fn sheared(mut setup: Setup, others: &[Component]) -> Setup {
     setup.supports = vec![
         Support::new("left", &[Component::Y]),
         Support::new(Place::Everywhere, others),
@@ -394,7 +394,7 @@ fn sheared_layers_between_halves_of_a_mesh() {
 /// stiff at a hundredth, and where they are those of their ends a pulled one 1.6 times.
 #[test]
 fn layers_between_halves_of_a_solid() {
-    let found = |setup: Setup<3>| {
+    let found = |setup: Setup| {
         let history = setup.solve(&mut Unobserved).unwrap().outcome.history;
         history.last().unwrap().reaction.abs()
     };

@@ -276,7 +276,7 @@ model = { law = "nhpd", horizon_factor = 3.0 }
 temperature = [{ change = 1.0 }]
 "#;
         let bench = Bench::new(LATTICE, &[&law_setting]);
-        let system: &dyn Bonds = &*bench.model.system;
+        let system: &dyn Bonds = &**bench.model.plane();
         let (n_bonds, n) = (system.ends().len(), system.layout().n_degrees_of_freedom());
         let mut random = Random(7);
         let intact: Vec<bool> = (0..n_bonds).map(|_| random.uniform() > -0.8).collect();
@@ -320,7 +320,7 @@ fn rigid_shapes_cost_nothing() {
         PLATE,
         &["load=[{ group = \"right\", displacement = { x = 1e-5 } }]"],
     );
-    let system: &dyn Bonds = &*bench.model.system;
+    let system: &dyn Bonds = &**bench.model.plane();
     let all: Vec<u32> = (0..system.n_points() as u32).collect();
     let intact = vec![true; system.ends().len()];
     let shapes = system.rigid_shapes(&all);
@@ -406,7 +406,7 @@ load = [{ group = "top", displacement = { y = 1e-5 } }]
     assert_eq!(choice.reason, Reason::Points(points_for_iteration(2)));
     let named = Bench::new(LATTICE, &[CG]);
     assert_eq!(named.model.setup.solver.method, Some(Method::Iterative));
-    assert!(State::fresh(&*named.model.system).broken_bonds() == 0);
+    assert!(State::fresh(&**named.model.plane()).broken_bonds() == 0);
 }
 
 /// In the plane the memory that there is decides, where it is known: a factor as long as it fits, of definite stiffnesses alone not.

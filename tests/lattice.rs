@@ -206,10 +206,10 @@ fn a_lattice_is_the_mesh_with_the_same_points_and_volumes() {
         let bonds = bench.bonds_in_file().into_iter();
         bonds.map(|bond| bench.nodes_of_bond(bond)).collect()
     };
-    assert_eq!(one.system.bonds.ends, ends(&mesh));
+    assert_eq!(one.plane().bonds.ends, ends(&mesh));
     assert!(one.cut_bonds() > 0 && one.cut_bonds() == other.cut_bonds());
-    let volumes = mesh.in_file(&other.system.cloud.volumes);
-    assert!(deviation(&one.system.cloud.volumes, &volumes) < 1e-12);
+    let volumes = mesh.in_file(&other.plane().cloud.volumes);
+    assert!(deviation(&one.plane().cloud.volumes, &volumes) < 1e-12);
     let omega = |bench: &Bench| bench.of_bonds(&bench.model.fixed.domain_factor);
     let quarter: Vec<f64> = omega(&mesh).iter().map(|omega| 0.25 * omega).collect();
     assert!(deviation(&omega(&lattice), &quarter) < 1e-9);
@@ -263,7 +263,7 @@ stop = { bonds = 60 }
     let bench = Bench::new(text, &[]);
     let run = bench.break_up();
     let image = |point: u32| 32 * (point / 32) + 31 - point % 32;
-    let bonds = &bench.model.system.bonds;
+    let bonds = &bench.model.plane().bonds;
     let broken: BTreeSet<[u32; 2]> = (run.breaks.iter())
         .map(|it| bonds.ends[it.bond as usize])
         .collect();
@@ -336,7 +336,7 @@ probe = [{ name = "middle", section = [[0.04, -1.0], [0.04, 1.0]], component = "
     let case =
         verification::bench::case(text, &["load.2={group=\"spot\", force_per_length={x=1.0}}"]);
     let setup = case.setup_on(bench.model.setup.body.clone()).unwrap();
-    let error = ligament::Loading::new(&setup, &*bench.model.system);
+    let error = ligament::Loading::new(&ligament::Model::build(setup, &mut ()).unwrap());
     let error = error.unwrap_err().to_string();
     assert!(error.contains("this group has no length"), "{error}");
 }

@@ -73,7 +73,7 @@ fn plates_are_those_of_the_independent_calculation() {
         let row = summary.row_where("set", set);
         assert_eq!(bench.points(), summary.count(row, "points"), "{set}");
         assert_eq!(
-            bench.model.system.bonds.len(),
+            bench.model.plane().bonds.len(),
             summary.count(row, "bonds"),
             "{set}"
         );
@@ -87,7 +87,7 @@ fn plates_are_those_of_the_independent_calculation() {
                 .iter()
                 .map(|&row| reference.number(row, column))
                 .collect();
-            let motions = by_point(bench.model.system.layout(), run.displacement());
+            let motions = by_point(bench.model.plane().layout(), run.displacement());
             let found: Vec<f64> = motions.iter().map(|it| it[component]).collect();
             let error = deviation(&found, &expected);
             let is_zero = expected.iter().all(|&value| value == 0.0);
@@ -197,7 +197,7 @@ fn moduli_are_those_of_the_infinite_lattice() {
             .map(String::as_str)
             .chain(settings.iter().copied())
             .collect();
-        let system = Bench::new(PLATE, &all).model.system;
+        let system = Bench::new(PLATE, &all).model.plane().clone();
         let middle = (cells * cells / 2) as u32;
         let in_plane =
             EngineeringConstants::from_stiffness(family_stiffness(&system, middle)).unwrap();
@@ -240,7 +240,7 @@ fn uniform_strains_of_a_lattice_have_the_stress_of_the_continuum() {
     for law in ["model.law=pds", "model.law=mppd"] {
         let settings = [law, "material.poisson=0.25", "lattice.cells=[25, 25]"];
         let bench = Bench::new(PLATE, &settings);
-        let system = &*bench.model.system;
+        let system = &**bench.model.plane();
         let intact = vec![true; system.bonds.len()];
         let inner: Vec<usize> = (0..bench.points())
             .filter(|&point| {

@@ -125,7 +125,7 @@ fn all() -> impl Iterator<Item = (&'static Entry, String, Bench)> {
 }
 
 fn stored_energy(bench: &Bench, motion: impl Fn(&[f64; 2]) -> [f64; 3]) -> f64 {
-    let system = &*bench.model.system;
+    let system = &**bench.model.plane();
     let u = of_all(system.layout(), system.cloud.positions.iter().map(motion));
     internal::sweep(
         system,
@@ -141,7 +141,7 @@ fn stored_energy(bench: &Bench, motion: impl Fn(&[f64; 2]) -> [f64; 3]) -> f64 {
 #[test]
 fn rigid_motions() {
     for (entry, title, bench) in all() {
-        let system = &*bench.model.system;
+        let system = &**bench.model.plane();
         assert_eq!(system.element, entry.element, "{title}");
         let measure = stored_energy(&bench, |p| [1e-3 * p[0], 0.0, 0.0]);
         assert!(measure > 0.0, "{title}");
@@ -165,7 +165,7 @@ fn rigid_motions() {
 #[test]
 fn internal_forces_are_in_balance() {
     for (entry, title, bench) in all() {
-        let system = &*bench.model.system;
+        let system = &**bench.model.plane();
         let mut random = Random(1);
         let u: Vec<f64> = (0..system.layout().n_degrees_of_freedom())
             .map(|_| 1e-4 * random.uniform())
@@ -219,11 +219,11 @@ fn every_law_is_solved() {
             residual < 1e-10 && run.last().reaction > 0.0,
             "{title}: {residual:e}"
         );
-        let motions = by_point(bench.model.system.layout(), run.displacement());
+        let motions = by_point(bench.model.plane().layout(), run.displacement());
         let turns = motions.iter().any(|motion| motion[2] != 0.0);
         let has_shear = bench
             .model
-            .system
+            .plane()
             .rigidities
             .shear
             .iter()
@@ -275,7 +275,7 @@ fn central_forces_are_common_to_all() {
     let settings = settings.each_ref().map(String::as_str);
     let motions = |law: &'static str, settings: &[&str]| {
         let bench = square(law, settings);
-        let motions = by_point(bench.model.system.layout(), bench.solve().displacement());
+        let motions = by_point(bench.model.plane().layout(), bench.solve().displacement());
         motions.into_flattened()
     };
     let reference = motions("bbpd", &settings);
@@ -302,7 +302,7 @@ load = [{ group = "all", force = { x = 1.0 } }]
 "#;
     let middle = 41 * 41 / 2;
     let young = ["bbpd", "bbpd-conical"].map(|law| {
-        let system = bench(law, lattice, &[]).model.system;
+        let system = bench(law, lattice, &[]).model.plane().clone();
         let constants =
             EngineeringConstants::from_stiffness(family_stiffness(&system, middle)).unwrap();
         constants.young[0] / 15e9
@@ -352,7 +352,7 @@ fn axes_turn_with_the_material() {
     let text = elastic(SQUARE).replace(given, LAMINA);
     let of = |angle: f64| {
         let angle = format!("material.angle={angle:?}");
-        bench("orthotropic", &text, &[&angle]).model.system
+        bench("orthotropic", &text, &[&angle]).model.plane().clone()
     };
     let quarter = std::f64::consts::FRAC_PI_2;
     let (straight, turned, half) = (of(0.0), of(quarter), of(2.0 * quarter));

@@ -54,7 +54,7 @@ fn assert_carried(run: &Run) {
 fn carried(bench: &Bench, run: &Run) -> Vec<(usize, f64)> {
     let internal = sweep(bench, run).internal.values;
     let force = |&(point, component): &(u32, Component)| {
-        let layout = bench.model.system.layout();
+        let layout = bench.model.plane().layout();
         let dof = layout.degree_of_freedom(point, component).unwrap();
         (dof, internal[dof] - bench.boundary.force[dof])
     };
@@ -63,7 +63,7 @@ fn carried(bench: &Bench, run: &Run) -> Vec<(usize, f64)> {
 
 fn sweep(bench: &Bench, run: &Run) -> BondSweep {
     internal::sweep(
-        &*bench.model.system,
+        &**bench.model.plane(),
         run.state().bonds(),
         run.displacement(),
         ThermalStrain::NONE,
@@ -216,7 +216,7 @@ fn bending_errors(n: u32) -> [f64; 3] {
     assert!(body.is_whole && body.is_balanced(), "{body:?}");
     assert_eq!(body.motions.len(), 3);
     let u = |x: f64, y: f64, axis: usize| {
-        let point = bench.model.system.cloud.nearest_point([x, y]);
+        let point = bench.model.plane().cloud.nearest_point([x, y]);
         run.displacement()[3 * point as usize + axis]
     };
     let corners = [[h, h, 1.0], [-h, h, -1.0], [-h, -h, 1.0], [h, -h, -1.0]];
@@ -348,7 +348,7 @@ fn missing_equilibrium_is_told() {
     assert!(moment.abs() > 10.0);
     assert_carried(&run);
     assert_eq!(
-        gauges::of_intact_body(&*bench.model.system, &bench.boundary),
+        gauges::of_intact_body(&**bench.model.plane(), &bench.boundary),
         std::slice::from_ref(body)
     );
     // Held along x at the whole left side: only y is free, and only what is missing along it is told.

@@ -45,7 +45,7 @@ fn sweep(bench: &Bench, intact: &[bool], displacement: impl Fn([f64; 2]) -> [f64
     let displacement: Vec<f64> = of_points.flatten().collect();
     let bonds = BondsLeft::whole(intact);
     internal::sweep(
-        &*bench.model.system,
+        &**bench.model.plane(),
         bonds,
         &displacement,
         ThermalStrain::NONE,
@@ -53,17 +53,17 @@ fn sweep(bench: &Bench, intact: &[bool], displacement: impl Fn([f64; 2]) -> [f64
 }
 
 fn whole(bench: &Bench) -> Vec<bool> {
-    vec![true; bench.model.system.bonds.len()]
+    vec![true; bench.model.plane().bonds.len()]
 }
 
 /// The point nearest to a position.
 fn point_at(bench: &Bench, at: [f64; 2]) -> usize {
-    bench.model.system.cloud.nearest_point(at) as usize
+    bench.model.plane().cloud.nearest_point(at) as usize
 }
 
 /// Offset of a bond in spacings, q > 0, or q = 0 and p > 0.
 fn offset(bench: &Bench, bond: usize) -> [i32; 2] {
-    let bonds = &bench.model.system.bonds;
+    let bonds = &bench.model.plane().bonds;
     let [p, q] =
         bonds.direction[bond].map(|cosine| (cosine * bonds.length[bond] / 1e-3).round() as i32);
     if q < 0 || (q == 0 && p < 0) {
@@ -77,7 +77,7 @@ fn offset(bench: &Bench, bond: usize) -> [i32; 2] {
 #[test]
 fn sums_weights_and_stiffness_are_those_of_the_independent_calculation() {
     let bench = Bench::new(PLATE, &[]);
-    let system = &*bench.model.system;
+    let system = &**bench.model.plane();
     let lengths = |at: [f64; 2]| -> f64 {
         let family = system.bonds.incidence.at(point_at(&bench, at) as u32);
         family
@@ -134,7 +134,7 @@ fn sums_weights_and_stiffness_are_those_of_the_independent_calculation() {
 
 /// The stiffness of the body that nothing holds.
 fn free_stiffness(bench: &Bench, intact: &[bool]) -> (Unknowns, SymmetricMatrix) {
-    let system = &*bench.model.system;
+    let system = &**bench.model.plane();
     let unknowns = Unknowns::all_but(system, |_| false);
     let pattern = Arc::new(assembly::pattern(system, &unknowns).unwrap());
     let held = vec![false; system.layout().n_degrees_of_freedom()];
@@ -165,7 +165,7 @@ fn uniform_strains_have_the_energy_of_the_continuum() {
                 let form = format!("model.form={form}");
                 let bench = Bench::new(PLATE, &[material, &horizon, &form, HOLES]);
                 let strain = Vector3::from(STRAIN);
-                let volume: f64 = bench.model.system.cloud.volumes.iter().sum();
+                let volume: f64 = bench.model.plane().cloud.volumes.iter().sum();
                 let expected = 0.5 * strain.dot(&(plane_stiffness(&bench) * strain)) * volume;
                 let found = sweep(&bench, &whole(&bench), linear).stored_energy;
                 assert!(
@@ -190,7 +190,7 @@ fn uniform_strains_are_in_equilibrium_inside() {
             let wanted = points.filter(|(_, at)| at.iter().all(|it| it.abs() < 4.4e-3) == inside);
             wanted
                 .flat_map(|(point, _)| {
-                    &swept.internal.values[bench.model.system.layout().range(point as u32)]
+                    &swept.internal.values[bench.model.plane().layout().range(point as u32)]
                 })
                 .fold(0.0_f64, |largest, force| largest.max(force.abs()))
         };
@@ -215,8 +215,8 @@ fn moduli_of_the_infinite_lattice_are_right_but_for_the_printed_form() {
         let middle = point_at(&bench, [0.0, 0.0]);
         let force_x = |displacement: fn([f64; 2]) -> [f64; 2]| {
             let swept = sweep(&bench, &whole(&bench), displacement);
-            let along_x = bench.model.system.layout().range(middle as u32).start;
-            -swept.internal.values[along_x] / bench.model.system.cloud.volumes[middle]
+            let along_x = bench.model.plane().layout().range(middle as u32).start;
+            -swept.internal.values[along_x] / bench.model.plane().cloud.volumes[middle]
         };
         let found = [
             force_x(|[x, _]| [0.5 * x * x, 0.0]) / c[(0, 0)],
@@ -322,7 +322,7 @@ fn uniform_strains_are_exact_on_rectangular_cells() {
             });
             assert!(off.fold(0.0, f64::max) < 1e-12, "{spacing} {form}");
             let strain = Vector3::from(STRAIN);
-            let volume: f64 = bench.model.system.cloud.volumes.iter().sum();
+            let volume: f64 = bench.model.plane().cloud.volumes.iter().sum();
             let expected = 0.5 * strain.dot(&(plane_stiffness(&bench) * strain)) * volume;
             assert!(
                 relative_error(swept.stored_energy, expected) < 1e-12,
@@ -338,7 +338,7 @@ fn uniform_strains_are_exact_on_rectangular_cells() {
                 points
                     .filter(|(_, at)| is_inside(**at) == inside)
                     .flat_map(|(point, _)| {
-                        let range = solid.model.system.layout().range(point as u32);
+                        let range = solid.model.plane().layout().range(point as u32);
                         &swept.internal.values[range]
                     })
                     .fold(0.0_f64, |largest, force| largest.max(force.abs()))

@@ -84,7 +84,7 @@ fn plates_are_those_of_the_independent_calculation() {
         let row = summary.row_where("set", set);
         let run = bench.solve();
         let cut = bench.model.cut_bonds();
-        let bonds = bench.model.system.bonds.len() + cut;
+        let bonds = bench.model.plane().bonds.len() + cut;
         assert_eq!(bench.points(), summary.count(row, "points"), "{set}");
         assert_eq!(bonds, summary.count(row, "bonds"), "{set}");
         assert_eq!(cut, summary.count(row, "cut"), "{set}");
@@ -92,7 +92,7 @@ fn plates_are_those_of_the_independent_calculation() {
         let mut errors = Vec::new();
         for (component, column) in ["ux", "uy"].into_iter().enumerate() {
             let expected: Vec<f64> = rows().map(|row| reference.number(row, column)).collect();
-            let found = by_point(bench.model.system.layout(), run.displacement());
+            let found = by_point(bench.model.plane().layout(), run.displacement());
             let found: Vec<f64> = found.iter().map(|motion| motion[component]).collect();
             errors.push(deviation(&found, &expected));
         }
@@ -113,7 +113,7 @@ fn strains_of_bonds_beside_cracks() {
     let expected = Table::reference("mbb-pd-bonds.csv");
     let bench = Bench::new(PLATE, &[CRACKS, "model.horizon_factor=2.0"]);
     let run = bench.solve();
-    let (system, intact) = (&*bench.model.system, &run.state().intact);
+    let (system, intact) = (&**bench.model.plane(), &run.state().intact);
     let found = system.deformations(intact, run.displacement(), ThermalStrain::NONE);
     let bonds = &system.bonds;
     let size = 1e-3;
@@ -142,7 +142,7 @@ fn strains_of_bonds_beside_cracks() {
 fn stiffness_beside_cracks() {
     let expected = Table::reference("mbb-pd-stiffness.csv");
     let bench = Bench::new(PLATE, &[CRACKS]);
-    let system = &*bench.model.system;
+    let system = &**bench.model.plane();
     let intact = vec![true; system.bonds.len()];
     let axis = |row: usize, column: &str| usize::from(expected.text(row, column) == "y");
     let unknown = |row: usize, point: &str, of: &str| {

@@ -58,7 +58,7 @@ fn the_printed_form_is_too_soft() {
     );
     assert!((1.65..1.70).contains(&printed_lateral), "{printed_lateral}");
     let bench = Bench::new(STRETCHED, &["model.form=pairwise"]);
-    assert_eq!(bench.model.system.element, ElementKind::Pairwise);
+    assert_eq!(bench.model.plane().element, ElementKind::Pairwise);
     assert!(bench.solve().last().energy_error().abs() > 0.1);
 }
 
@@ -132,7 +132,7 @@ fn bonds_break_where_the_sum_of_the_squares_is_one() {
         let sum = (opening.max(0.0) / stretch).powi(2) + (shear / angle).powi(2);
         // Breakages at one load are those within the tie tolerance of the worst, 1e-8, and of parts that hang by the last bonds.
         assert!(sum > 0.999, "{sum}");
-        let [a, b] = bench.model.system.bonds.ends[record.bond as usize]
+        let [a, b] = bench.model.plane().bonds.ends[record.bond as usize]
             .map(|end| bench.positions()[end as usize][1]);
         assert!(a * b < 0.0, "off the plane of the crack: {a} {b}");
     }
@@ -142,10 +142,10 @@ fn bonds_break_where_the_sum_of_the_squares_is_one() {
     assert!((sum - 1.0).abs() < 1e-3, "{sum}");
     let across = |bond: &usize| {
         let ends =
-            bench.model.system.bonds.ends[*bond].map(|end| bench.positions()[end as usize][1]);
+            bench.model.plane().bonds.ends[*bond].map(|end| bench.positions()[end as usize][1]);
         ends[0] * ends[1] < 0.0
     };
-    let n_across = (0..bench.model.system.bonds.len()).filter(across).count();
+    let n_across = (0..bench.model.plane().bonds.len()).filter(across).count();
     assert_eq!(run.breaks.len(), n_across);
 }
 
@@ -212,7 +212,7 @@ fn printed(kind: &str, settings: &[&str]) -> (Bench, Arc<CrackAtPoints>) {
 
 /// A point inside of the plate, five rows above the crack.
 fn inside(bench: &Bench) -> u32 {
-    bench.model.system.cloud.nearest_point([0.001, 0.011])
+    bench.model.plane().cloud.nearest_point([0.001, 0.011])
 }
 
 /// In mode I the printed critical stretch is that of C.4, which `mixed-mode` has as well: 0.007072 at d = 2 mm of an independent
@@ -226,7 +226,7 @@ fn printed_critical_stretches_follow_the_bonds_that_are_left() {
         ("printed-mixed", 0.00763 / 2.0_f64.sqrt(), 4e-6),
     ] {
         let (bench, crack) = printed(kind, &[]);
-        let bonds = &bench.model.system.bonds;
+        let bonds = &bench.model.plane().bonds;
         let (point, mut intact) = (inside(&bench), vec![true; bonds.len()]);
         let sound = crack.critical_stretch(point, &intact, &[]);
         assert!((sound - expected).abs() < tolerance, "{kind}: {sound}");
@@ -252,7 +252,7 @@ fn modes_of_a_uniform_strain_by_hand() {
         "material.mixed_mode_exponent=2.0",
     ];
     let (bench, crack) = printed("printed-mixed", &tough);
-    let intact = vec![true; bench.model.system.bonds.len()];
+    let intact = vec![true; bench.model.plane().bonds.len()];
     let deformations = vec![BondDeformation::of_strain([2e-3, 3e-3, 4e-3]); intact.len()];
     let point = inside(&bench);
     let [opening, sliding] = crack.mode_energies(point, &intact, &deformations);
@@ -279,7 +279,7 @@ fn printed_opening_breaks_the_plane_of_the_crack() {
         assert!(sound > 1.0 - 1e-6, "{sound}");
         has_grown |= sound > 1.05;
         let [a, b] =
-            bench.model.system.bonds.ends[bond].map(|end| bench.positions()[end as usize][1]);
+            bench.model.plane().bonds.ends[bond].map(|end| bench.positions()[end as usize][1]);
         assert!(a * b < 0.0, "off the plane of the crack: {a} {b}");
     }
     assert!(has_grown);

@@ -189,7 +189,7 @@ fn modes_of(
 
 /// Stiffness of the unknowns as a dense matrix, from the elements' rows.
 fn dense_stiffness(bench: &ModalBench, dofs: &[(usize, f64)]) -> DMatrix<f64> {
-    let system = &*bench.model.system;
+    let system = &**bench.model.plane();
     let mut place = vec![usize::MAX; system.layout().n_degrees_of_freedom()];
     for (k, (dof, _)) in dofs.iter().enumerate() {
         place[*dof] = k;

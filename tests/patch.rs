@@ -18,7 +18,7 @@ use verification::meshes;
 
 const CALIBRATION: Calibration = Calibration::Integral;
 
-fn patched(body: impl Body + 'static, poisson: f64, law: Law) -> Setup {
+fn patched(body: impl Geometry<2> + 'static, poisson: f64, law: Law) -> Setup {
     let mut setup = Setup::new(body, Material::isotropic(1.0, poisson), law);
     setup.correction.surface = Surface::Patch(Settings::default());
     setup
@@ -45,7 +45,7 @@ fn left(model: &Model) -> f64 {
 
 /// Displacements of a uniform strain (eps_xx, eps_yy, gamma_xy) without rotations of the points.
 fn affine(model: &Model, [xx, yy, xy]: [f64; 3]) -> Vec<f64> {
-    let components = model.system.components();
+    let components = model.plane().components();
     let of_point = |[x, y]: &[f64; 2]| {
         let (x, y) = (*x, *y);
         components.iter().map(move |component| match component {
@@ -56,7 +56,7 @@ fn affine(model: &Model, [xx, yy, xy]: [f64; 3]) -> Vec<f64> {
         })
     };
     model
-        .system
+        .plane()
         .cloud
         .positions
         .iter()
@@ -66,7 +66,7 @@ fn affine(model: &Model, [xx, yy, xy]: [f64; 3]) -> Vec<f64> {
 
 /// Forces of the bonds on the points, shape (n_points, 2).
 fn bond_forces(model: &Model, displacement: &[f64]) -> Vec<[f64; 2]> {
-    let system = &*model.system;
+    let system = &**model.plane();
     let intact = vec![true; system.bonds.len()];
     let deformations = system.deformations(&intact, displacement, ThermalStrain::NONE);
     let sweep = system.forces(BondsLeft::whole(&intact), deformations, ThermalStrain::NONE);
@@ -260,7 +260,7 @@ fn a_turned_or_renumbered_mesh_has_the_same_factors() {
 fn factors(mesh: &Mesh, departing: impl Fn(Setup) -> Setup) -> BTreeMap<[u64; 2], [f64; 2]> {
     let body = MeshBody::from(mesh.clone());
     let model = build(departing(patched(body, 0.21, Law::Nhpd)));
-    let (ends, fixed) = (&model.system.bonds.ends, &model.fixed);
+    let (ends, fixed) = (&model.plane().bonds.ends, &model.fixed);
     let factors = fixed.domain_factor.iter().zip(&fixed.shear_ratio);
     let by_tags = ends.iter().zip(factors).map(|(ends, (omega, ratio))| {
         let in_file = model.body().numbering().ends_in_file(*ends);

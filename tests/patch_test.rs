@@ -33,7 +33,7 @@ fn tested(setup: Setup) -> PatchTest {
 /// Share of E along x and y that is missing or too much, and what is missing of nu.
 fn errors(test: &PatchTest) -> [f64; 3] {
     let body = test.constants.unwrap().body;
-    let [x, y] = body.young.map(|young| young / YOUNG - 1.0);
+    let [x, y, _] = body.young.map(|young| young / YOUNG - 1.0);
     [x, y, body.poisson[0][1] - POISSON]
 }
 
@@ -88,7 +88,7 @@ fn pulling_the_bar_gives_the_same_modulus() {
     let test = tested(bar());
     let moved = |pulled: &str, other: &str, sign: f64| {
         let mut setup = bar();
-        let force = |sign: f64| Action::ForcePerLength([sign, 0.0]);
+        let force = |sign: f64| Action::ForcePerLength([sign, 0.0, 0.0]);
         setup.loads = vec![
             Load::new(pulled, force(sign)),
             Load::new(other, force(-sign)),

@@ -206,7 +206,7 @@ fn strength_of_a_brazilian_disk() {
         "the load falls"
     );
     for record in &run.breaks[..10] {
-        let ends = bench.model.system.bonds.ends[record.bond as usize];
+        let ends = bench.model.plane().bonds.ends[record.bond as usize];
         let [p, q] = ends.map(|end| bench.positions()[end as usize]);
         let middle = [0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])];
         let radius = middle[0].hypot(middle[1]) / 0.05;
@@ -224,7 +224,7 @@ fn strength_of_a_brazilian_disk() {
     }
     // The crack runs along the loaded diameter: bonds broken on its way lie across it.
     let near = run.breaks.iter().filter(|record| {
-        let ends = bench.model.system.bonds.ends[record.bond as usize];
+        let ends = bench.model.plane().bonds.ends[record.bond as usize];
         ends.iter()
             .all(|&end| bench.positions()[end as usize][0].abs() < 0.015)
     });
@@ -251,15 +251,15 @@ fn friction_shears_wedges_below_the_platens() {
         let bonds: Vec<usize> = run.breaks.iter().map(|it| it.bond as usize).collect();
         let middles: Vec<[f64; 2]> = (bonds.iter())
             .map(|&bond| {
-                let [a, b] = bench.model.system.bonds.ends[bond];
+                let [a, b] = bench.model.plane().bonds.ends[bond];
                 let [a, b] = [a, b].map(|end| bench.positions()[end as usize]);
                 [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
             })
             .collect();
         let first = bonds[0];
-        let [a, b] = bench.model.system.bonds.ends[first].map(|end| 3 * end as usize);
+        let [a, b] = bench.model.plane().bonds.ends[first].map(|end| 3 * end as usize);
         let u = elastic.displacement();
-        let [along_x, along_y] = bench.model.system.bonds.direction[first];
+        let [along_x, along_y] = bench.model.plane().bonds.direction[first];
         let lengthening = along_x * (u[b] - u[a]) + along_y * (u[b + 1] - u[a + 1]);
         let frictional = run.breaks.iter().filter(|it| it.criterion == 1).count();
         (lengthening, middles, frictional)

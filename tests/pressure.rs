@@ -309,7 +309,7 @@ outside = { centre = [0.0, 0.0], radius = 2.2 }
 fn fault(bench: &Bench, text: &str, settings: &[&str]) -> String {
     let case = bench::case(text, settings);
     let setup = case.setup_on(bench.model.setup.body.clone()).unwrap();
-    let loading = Loading::new(&setup, &*bench.model.system);
+    let loading = Loading::new(&ligament::Model::build(setup, &mut ()).unwrap());
     case.located(loading.unwrap_err()).to_string()
 }
 

@@ -53,7 +53,7 @@ fn limits_go_with_the_factor_of_what_they_come_from() {
         let (sound, bench) = (bar(criterion, ""), bar(criterion, scatter));
         let (sound, found) = (sound.limits(), bench.limits());
         let factors = &bench.model.fixed.scatter.as_ref().unwrap().at_points;
-        let ends = &bench.model.system.bonds.ends;
+        let ends = &bench.model.plane().bonds.ends;
         let mut finite = 0;
         for (bond, &[a, b]) in ends.iter().enumerate() {
             let factor = 0.5 * (factors[a as usize] + factors[b as usize]);
@@ -87,7 +87,7 @@ fn softening_keeps_the_fracture_energy_of_each_bond() {
         let bench = bar(criterion, scatter);
         let found = &bench.model.criteria.list[0];
         let factors = bench.model.fixed.scatter.as_ref().unwrap();
-        for (bond, &ends) in bench.model.system.bonds.ends.iter().enumerate() {
+        for (bond, &ends) in bench.model.plane().bonds.ends.iter().enumerate() {
             if sound.limit[bond].is_finite() {
                 let known = life(sound, bond) * factors.of_bond(ends).powi(power);
                 let error = relative_error(life(found, bond), known);

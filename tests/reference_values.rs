@@ -68,12 +68,12 @@ fn bonds_of_the_square() {
         let bench = square(horizon_factor, poisson, plane, &[]);
         let model = &bench.model;
         let expected = Table::reference(&format!("square-bonds-{set}.csv"));
-        let (bonds, row) = (&model.system.bonds, summary.row_where("set", set));
+        let (bonds, row) = (&model.plane().bonds, summary.row_where("set", set));
         assert_eq!(bonds.len(), expected.len(), "{set}: number of bonds");
         assert_eq!(bonds.len(), summary.count(row, "bonds"));
         assert_eq!(domain(model).sweeps, summary.count(row, "sweeps"), "{set}");
         let domain_factor = &model.fixed.domain_factor;
-        let length_factor: Vec<f64> = (model.system.weight.iter().zip(domain_factor))
+        let length_factor: Vec<f64> = (model.plane().weight.iter().zip(domain_factor))
             .map(|(weight, omega)| weight / omega)
             .collect();
         let numbering = model.body().numbering();
@@ -129,7 +129,7 @@ fn solutions_of_the_square() {
             errors.push(error);
         }
         let row = summary.row_where("set", set);
-        let system = &*bench.model.system;
+        let system = &**bench.model.plane();
         let intact = vec![true; system.bonds.len()];
         let deformations = system.deformations(&intact, run.displacement(), ThermalStrain::NONE);
         let ratios = deformations

@@ -30,7 +30,7 @@ fn square(settings: &[&str]) -> Bench {
 
 /// Energy of a motion (x, y, rotation) of all points, J.
 fn stored_energy(bench: &Bench, motion: impl FnMut(&[f64; 2]) -> [f64; 3]) -> f64 {
-    let system = &*bench.model.system;
+    let system = &**bench.model.plane();
     let u = of_all(system.layout(), system.cloud.positions.iter().map(motion));
     let intact = vec![true; system.bonds.len()];
     internal::sweep(system, BondsLeft::whole(&intact), &u, ThermalStrain::NONE).stored_energy
@@ -67,7 +67,7 @@ fn bonds_are_those_of_the_printed_matrix_with_the_factor() {
                 format!("model.rotational_factor={factor}"),
             ];
             let bench = square(&settings.each_ref().map(String::as_str));
-            let system = &*bench.model.system;
+            let system = &**bench.model.plane();
             let mut random = Random(7);
             let motions: Vec<[f64; 3]> = (0..bench.points())
                 .map(|_| [(); 3].map(|()| 1e-5 * random.uniform()))
@@ -107,7 +107,7 @@ fn factors_of_one_and_zero_are_known_laws() {
     for law in LAWS {
         let with = |setting: &str| {
             let bench = square(&[&format!("model.law={law}"), setting]);
-            bench.model.system.rigidities.clone()
+            bench.model.plane().rigidities.clone()
         };
         let (own, one, zero) = (
             with("model.horizon_factor=3.0"),
@@ -125,8 +125,8 @@ fn factors_of_one_and_zero_are_known_laws() {
         if law == "mppd" {
             assert_eq!(zero, with("model.rotational_stiffness=none"));
             let pds = square(&["model.law=pds"]);
-            assert_eq!(pds.model.system.element, ElementKind::Spring);
-            let of_pds = &pds.model.system.rigidities;
+            assert_eq!(pds.model.plane().element, ElementKind::Spring);
+            let of_pds = &pds.model.plane().rigidities;
             assert_eq!((&of_pds.axial, &of_pds.shear), (&zero.axial, &zero.shear));
         }
     }
@@ -163,7 +163,7 @@ fn a_cosserat_length_is_that_of_the_curvature() {
     let settings = ["model.law=mppd-beam", "model.cosserat_length=2e-3"];
     let without = ["model.law=mppd-beam", "model.rotational_factor=0.0"];
     let [bench, bare] = [settings, without].map(|it| square(&it));
-    let volume: f64 = bench.model.system.cloud.volumes.iter().sum();
+    let volume: f64 = bench.model.plane().cloud.volumes.iter().sum();
     let both: [fn(&[f64; 2]) -> f64; 2] = [|p| p[0], |p| p[1]];
     let of_curvature = |with| of_rotations(&bench, with) - of_rotations(&bare, with);
     let mean = 0.5 * both.map(of_curvature).iter().sum::<f64>() / volume;
@@ -210,7 +210,7 @@ fn middle_density(law: &str, m: usize, length: f64) -> f64 {
          load = [{{ group = \"base\", moment = 1.0 }}]"
     );
     let bench = Bench::new(&text, &[]);
-    let system = &*bench.model.system;
+    let system = &**bench.model.plane();
     let middle = (cells * cells / 2) as u32;
     let of_bond = |&bond: &u32| {
         let bond = bond as usize;

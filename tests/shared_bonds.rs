@@ -9,7 +9,7 @@ use ligament_analysis::history::{
 };
 use ligament_analysis::ranks::Together;
 use ligament_analysis::{Termination, fields};
-use ligament_run::model::{Model, build_model_in_space_on, build_model_on};
+use ligament_run::model::{Model, build_model_on};
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::Stages;
 use verification::bench::case;
@@ -128,23 +128,23 @@ impl Observer for Seen {
 /// A model of a case in the plane or in space, and the problem of its loads.
 enum Body {
     Plane(Model),
-    Space(Model<3>),
+    Space(Model),
 }
 
 fn body(text: &str, settings: &[&str], ranks: Option<Together>) -> Body {
     let case = case(text, settings);
     let (mut stages, progress) = (Stages::default(), Progress::new(ProgressMode::Quiet));
     if case.case.is_solid() {
-        Body::Space(build_model_in_space_on(&case, ranks, &mut stages, &progress).unwrap())
+        Body::Space(build_model_on(&case, ranks, &mut stages, &progress).unwrap())
     } else {
         Body::Plane(build_model_on(&case, ranks, &mut stages, &progress).unwrap())
     }
 }
 
-fn problem<const D: usize>(model: &Model<D>, ranks: Option<Together>) -> Problem {
-    let mut loading = Loading::new(&model.setup, &*model.system).unwrap();
+fn problem(model: &Model, ranks: Option<Together>) -> Problem {
+    let mut loading = Loading::new(&model).unwrap();
     loading.solver.ranks = ranks;
-    loading.problem(&model.system, &model.criteria)
+    loading.problem(&model)
 }
 
 /// Follows a body from its unloaded state or from a checkpoint.

@@ -51,11 +51,8 @@ fn at(places: &[usize], values: &[f64]) -> Vec<f64> {
 }
 
 /// Lists of numbers of the bonds, each with a name.
-fn of_bonds<const D: usize>(
-    model: &Model<D>,
-    rigidities: &Rigidities,
-) -> Vec<(&'static str, Vec<f64>)> {
-    let system = &*model.system;
+fn of_bonds(model: &Model, rigidities: &Rigidities) -> Vec<(&'static str, Vec<f64>)> {
+    let system = &**model.plane();
     let mut lists = vec![
         ("axial", rigidities.axial.clone()),
         ("shear", rigidities.shear.clone()),
@@ -84,12 +81,12 @@ fn of_points(fixed: &FixedFields) -> Vec<(&'static str, Vec<f64>)> {
 }
 
 /// Shares a body out among 1, 2 and 3 ranks and compares with one process.
-fn shared<const D: usize>(
+fn shared(
     name: &str,
-    setup: &Setup<D>,
+    setup: &Setup,
     accuracy: Accuracy,
-    rigidities: impl Fn(&Model<D>) -> &Rigidities + Sync,
-) -> Model<D> {
+    rigidities: impl Fn(&Model) -> &Rigidities + Sync,
+) -> Model {
     let whole = Model::build(setup.clone(), &mut ()).unwrap();
     let (ends, lists) = (whole.system.ends(), of_bonds(&whole, rigidities(&whole)));
     for n_ranks in 1..=3 {
@@ -97,12 +94,12 @@ fn shared<const D: usize>(
             let mut setup = setup.clone();
             setup.solver.ranks = Some(together);
             let model = Model::build(setup, &mut ()).unwrap();
-            let portion = model.system.portion().unwrap();
+            let portion = model.plane().portion().unwrap();
             // Bonds, and pairs that are none, are known to the ranks of their ends and to no others, in the same order.
             let is_known = |ends: &[u32; 2]| ends.iter().any(|&end| portion.is_own(end));
             let places: Vec<usize> = (0..ends.len()).filter(|&it| is_known(&ends[it])).collect();
             let expected: Vec<[u32; 2]> = places.iter().map(|&it| ends[it]).collect();
-            assert_eq!(model.system.ends(), expected);
+            assert_eq!(model.plane().ends(), expected);
             let absent = whole.fixed.absent.iter().copied();
             let absent: Vec<_> = absent.filter(|it| is_known(&it.ends)).collect();
             assert_eq!(model.fixed.absent, absent);
@@ -156,12 +153,12 @@ fn named(name: &str, settings: &[&str]) -> CaseFile {
 
 fn in_plane(name: &str, case: &CaseFile, accuracy: Accuracy) -> Model {
     let setup = case.setup(&mut ()).unwrap();
-    shared(name, &setup, accuracy, |model| &model.system.rigidities)
+    shared(name, &setup, accuracy, |model| &model.plane().rigidities)
 }
 
-fn in_space(name: &str, case: &CaseFile, accuracy: Accuracy) -> Model<3> {
-    let setup = case.setup_in_space(&mut ()).unwrap();
-    shared(name, &setup, accuracy, |model| &model.system.rigidities)
+fn in_space(name: &str, case: &CaseFile, accuracy: Accuracy) -> Model {
+    let setup = case.setup(&mut ()).unwrap();
+    shared(name, &setup, accuracy, |model| &model.plane().rigidities)
 }
 
 const PATCH: &str = "correction.surface=patch";

@@ -223,7 +223,7 @@ after = "plastic"
     // gamma_0 = s_0t/2 = 1e-4 at nu = 0 (MPPD eq. 49), which is a displacement of 1e-6 m: load factor 0.1.
     assert!(relative_error(bench.limits()[0], 1e-4) < 1e-12);
     let run = bench.break_up();
-    let limit_force = bench.model.system.rigidities.shear[0] * 1e-4 / 0.01;
+    let limit_force = bench.model.plane().rigidities.shear[0] * 1e-4 / 0.01;
     let shares = [0.5, 1.0, 1.0, 1.0, 0.5, 0.05];
     for (step, share) in run.outcome.history[1..].iter().zip(shares) {
         assert!(
@@ -234,7 +234,7 @@ after = "plastic"
     }
     let state = run.state();
     let criteria = &bench.model.criteria;
-    let sliding = fields::damage_by(&*bench.model.system, criteria, state, Weakened::Sliding);
+    let sliding = fields::damage_by(&**bench.model.plane(), criteria, state, Weakened::Sliding);
     // The printed mu of a plastic bond is 1 (MPPD eq. 50 with gamma_u to infinity): no damage, but energy is gone,
     // gamma_0 (10 - 1) times the force.
     assert_eq!(sliding, [0.0, 0.0]);
@@ -335,7 +335,7 @@ end = 6.0
             .into_iter()
             .all(|it| it[1].dissipated_energy >= it[0].dissipated_energy)
     );
-    let (system, criteria) = (&*bench.model.system, &bench.model.criteria);
+    let (system, criteria) = (&**bench.model.plane(), &bench.model.criteria);
     let damages = fields::damages(system, criteria, anew.state());
     let names: Vec<&str> = damages.iter().map(|(name, _)| *name).collect();
     assert_eq!(

@@ -11,7 +11,7 @@ const INNER: f64 = 1.0;
 const OUTER: f64 = 2.0;
 const PRESSURE: f64 = 10e6;
 
-fn sphere(cells: u32) -> Solution<3> {
+fn sphere(cells: u32) -> Solution {
     let spacing = 2.0 * OUTER / f64::from(cells);
     let settings = [
         format!("solid_lattice.cells=[{cells}, {cells}, {cells}]"),
@@ -19,7 +19,7 @@ fn sphere(cells: u32) -> Solution<3> {
     ];
     let path = repository().join("cases/lattice-sphere/case.toml");
     let case = CaseFile::load(&path, &settings).unwrap();
-    let setup = case.setup_in_space(&mut ()).unwrap();
+    let setup = case.setup(&mut ()).unwrap();
     setup.solve(&mut Unobserved).unwrap()
 }
 
@@ -49,7 +49,7 @@ fn counted(cells: u32) -> [f64; 3] {
 #[test]
 fn the_mean_stress_of_a_pressure_in_a_hole_is_exact() {
     let solution = sphere(16);
-    let (state, system) = (&solution.outcome.state, &*solution.model.system);
+    let (state, system) = (&solution.outcome.state, &**solution.model.solid());
     let deformations = system.deformations(&state.intact, &state.displacement, ThermalStrain::NONE);
     let [taken, left, rows] = counted(16);
     assert_eq!(system.n_points() as f64, left);

@@ -50,7 +50,7 @@ fn prisms(cell: SolidCell) -> Vec<SolidCell> {
         .to_vec()
 }
 
-fn patched(body: impl Body<3> + 'static, factor: f64) -> Setup<3> {
+fn patched(body: impl Geometry<3> + 'static, factor: f64) -> Setup {
     let Isotropic { young, poisson } = MATERIAL;
     let mut setup = Setup::new(body, Material::isotropic(young, poisson), Law::Nhpd);
     setup.horizon = Horizon::Factor(factor);
@@ -58,11 +58,11 @@ fn patched(body: impl Body<3> + 'static, factor: f64) -> Setup<3> {
     setup
 }
 
-fn built(setup: Setup<3>) -> Model<3> {
+fn built(setup: Setup) -> Model {
     Model::build(setup, &mut ()).unwrap()
 }
 
-fn tested(name: &str, model: &Model<3>) -> PatchTest<3> {
+fn tested(name: &str, model: &Model) -> PatchTest {
     let test = patch_test(model).unwrap();
     let constants = test.constants.unwrap().body;
     println!(
@@ -73,7 +73,7 @@ fn tested(name: &str, model: &Model<3>) -> PatchTest<3> {
 }
 
 /// E within .3 % along each axis and nu within .003.
-fn has_constants_of_material(name: &str, test: &PatchTest<3>) {
+fn has_constants_of_material(name: &str, test: &PatchTest) {
     let body = test.constants.unwrap().body;
     for (a, young) in body.young.into_iter().enumerate() {
         assert!(relative_error(young, MATERIAL.young) < 3e-3, "{name}");
@@ -112,7 +112,7 @@ fn families_leave_a_graded_block_its_energy() {
             "penny-crack/case.toml",
             &["correction.domain=whole", &reference],
         );
-        let model = built(block.unwrap().setup_in_space(&mut ()).unwrap());
+        let model = built(block.unwrap().setup(&mut ()).unwrap());
         let ratios = model.fixed.energy_ratios.iter();
         let mean = |it: &[f64]| it.iter().sum::<f64>() / it.len() as f64;
         ratios.map(|it| mean(&it.at_points)).collect()
@@ -201,7 +201,7 @@ fn equations_that_cannot_be_met_are_told_with_a_remedy() {
     let not_met = |factor: &str| {
         let setting = format!("model.horizon_factor={factor}");
         let bar = case("solid-bar/tension.toml", &[&setting]).unwrap();
-        let model = built(bar.setup_in_space(&mut ()).unwrap());
+        let model = built(bar.setup(&mut ()).unwrap());
         let mut warnings = model.warnings.into_iter();
         warnings.find_map(|it| match it {
             Warning::NotMet { factor, .. } => Some(factor),

@@ -21,20 +21,20 @@ fn case(name: &str, settings: &[&str]) -> CaseFile {
     CaseFile::load(&path, &settings).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn solid(name: &str, settings: &[&str]) -> Setup<3> {
-    case(name, settings).setup_in_space(&mut ()).unwrap()
+fn solid(name: &str, settings: &[&str]) -> Setup {
+    case(name, settings).setup(&mut ()).unwrap()
 }
 
-fn solved(name: &str, settings: &[&str]) -> Solution<3> {
+fn solved(name: &str, settings: &[&str]) -> Solution {
     solid(name, settings).solve(&mut Unobserved).unwrap()
 }
 
-fn last(solution: &Solution<3>) -> &StepRecord {
+fn last(solution: &Solution) -> &StepRecord {
     solution.outcome.history.last().unwrap()
 }
 
 /// Value of a probe at the end.
-fn probe(solution: &Solution<3>, name: &str) -> f64 {
+fn probe(solution: &Solution, name: &str) -> f64 {
     let place = solution.probes.iter().position(|it| it.name == name);
     last(solution).probes[place.unwrap()]
 }
@@ -42,7 +42,7 @@ fn probe(solution: &Solution<3>, name: &str) -> f64 {
 /// The free ball's modes, what the program warns of, and the radius of a ball of its mesh's volume.
 fn ball(settings: &[&str]) -> (ModalOutcome, Vec<Warning>, f64) {
     let model = Model::build(solid("free-sphere/case.toml", settings), &mut ()).unwrap();
-    let volume: f64 = model.system.cloud.volumes.iter().sum();
+    let volume: f64 = model.solid().cloud.volumes.iter().sum();
     let modes = solid("free-sphere/case.toml", settings).modes().unwrap();
     (modes, model.warnings, (0.75 * volume / PI).cbrt())
 }
@@ -149,13 +149,13 @@ fn an_extruded_plate_is_the_plate_in_plane_strain() {
         .unwrap();
     let plane = setup.solve(&mut Unobserved).unwrap();
     let solid = solved("extruded-twin/solid.toml", &[]);
-    let flat = &plane.model.system.cloud;
-    let layout = plane.model.system.layout();
-    let deep = &solid.model.system.cloud;
-    let spatial = solid.model.system.layout();
+    let flat = &plane.model.plane().cloud;
+    let layout = plane.model.plane().layout();
+    let deep = &solid.model.solid().cloud;
+    let spatial = solid.model.solid().layout();
     let (mut off, mut all) = (0.0, 0.0);
     for (point, position) in deep.positions.iter().enumerate() {
-        let [x, y, _] = std::array::from_fn(|axis| position[axis] + deep.origin[axis]);
+        let [x, y] = std::array::from_fn(|axis| position[axis] + deep.origin[axis]);
         let below = flat.nearest_point([x, y]);
         for component in [Component::X, Component::Y] {
             let wanted = layout.value(below, component, &plane.outcome.state.displacement);
@@ -175,8 +175,11 @@ fn an_extruded_plate_is_the_plate_in_plane_strain() {
 }
 
 /// Coordinates, volumes and displacements of the points at the end, m and m^3.
-fn displaced(solution: &Solution<3>) -> Vec<([f64; 3], f64, [f64; 3])> {
-    let (cloud, layout) = (&solution.model.system.cloud, solution.model.system.layout());
+fn displaced(solution: &Solution) -> Vec<([f64; 3], f64, [f64; 3])> {
+    let (cloud, layout) = (
+        &solution.model.solid().cloud,
+        solution.model.solid().layout(),
+    );
     let all = &solution.outcome.state.displacement;
     let axes = [Component::X, Component::Y, Component::Z];
     let of = |(point, position): (usize, &[f64; 3])| {

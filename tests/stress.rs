@@ -32,7 +32,7 @@ const POISSON: f64 = 0.21;
 
 /// Virial stress (xx, yy, xy) and tractions (xx, yx, yy, xy) of displacements (3 n_points).
 fn stresses(bench: &Bench, intact: &[bool], u: &[f64]) -> (Vec<[f64; 3]>, Vec<[f64; 4]>) {
-    let system = &*bench.model.system;
+    let system = &**bench.model.plane();
     let deformations =
         internal::sweep(system, BondsLeft::whole(intact), u, ThermalStrain::NONE).deformations;
     let left = BondsLeft::whole(intact);
@@ -48,7 +48,7 @@ fn stresses_of_run(bench: &Bench, run: &Run) -> (Vec<[f64; 3]>, Vec<[f64; 4]>) {
 
 /// Mean over some points by their volumes, of a component that a test picks.
 fn mean(bench: &Bench, points: &[usize], value: impl Fn(usize) -> f64) -> f64 {
-    let volumes = &bench.model.system.cloud.volumes;
+    let volumes = &bench.model.plane().cloud.volumes;
     let sum: f64 = points
         .iter()
         .map(|&point| volumes[point] * value(point))
@@ -69,7 +69,7 @@ fn stresses_have_the_mean_of_the_forces() {
     for mesh in ["plate-coarse", "diagonal-plate"] {
         let text = format!("{PLATE}load = [{{ body_force = {{ x = 1.0 }} }}]\n");
         let bench = Bench::new(&text, &[&format!("mesh.file=../meshes/{mesh}.msh")]);
-        let system = &*bench.model.system;
+        let system = &**bench.model.plane();
         let random = &mut Random(3);
         let motion = |[x, y]: &[f64; 2]| {
             let strained = [1e-4 * x + 3e-4 * y, 2e-4 * y - 1e-4 * x, 1e-4];
@@ -136,7 +136,7 @@ fn uniform_strains_have_the_stress_of_the_continuum() {
     let load = "load = [{ body_force = { x = 1.0 } }]\n";
     for (name, mesh, length) in [("plate", &plate, 0.2), ("lattice", &lattice, 0.1)] {
         let bench = Bench::on(mesh, &format!("{PLATE}{load}"), &[]);
-        let intact = vec![true; bench.model.system.bonds.len()];
+        let intact = vec![true; bench.model.plane().bonds.len()];
         let inner = points_where(&bench, |[x, y]| {
             [x, length - x, y, 0.1 - y]
                 .into_iter()
@@ -282,7 +282,7 @@ fn stresses_are_written_where_they_are_asked_for() {
     let bench = Bench::on(&coarse, &format!("{PLATE}{PULL}{probe}"), &[]);
     let run = bench.solve();
     assert!(bench.model.warnings.contains(&Warning::PointStress));
-    let point = bench.model.system.cloud.nearest_point(*place) as usize;
+    let point = bench.model.plane().cloud.nearest_point(*place) as usize;
     assert_eq!(
         run.last().probes,
         [stresses_of_run(&bench, &run).0[point][0]]

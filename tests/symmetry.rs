@@ -113,8 +113,11 @@ fn a_place_far_away_costs_few_digits() {
     let mesh = meshes::read("tests/reference/disk.msh");
     let far = meshes::moved(&mesh, |[x, y]| [x + 1e3, y - 1e3]);
     let [here, there] = [&mesh, &far].map(|mesh| Bench::on(mesh, DISK, &[]));
-    assert!(there.model.system.cloud.origin[0] > 999.0);
-    assert_eq!(here.model.system.bonds.ends, there.model.system.bonds.ends);
+    assert!(there.model.plane().cloud.origin[0] > 999.0);
+    assert_eq!(
+        here.model.plane().bonds.ends,
+        there.model.plane().bonds.ends
+    );
     let [u, v] = [here.solve(), there.solve()];
     for c in 0..3 {
         let error = deviation(
@@ -137,7 +140,7 @@ fn ties_keep_a_symmetric_body_symmetric() {
     let asymmetry = |settings: &[&str]| {
         let bench = Bench::on(&mesh, &text, settings);
         let run = bench.break_up();
-        let damage = bench.in_file(&fields::damage(&*bench.model.system, &run.state().intact));
+        let damage = bench.in_file(&fields::damage(&**bench.model.plane(), &run.state().intact));
         assert!(largest(damage.iter().copied()) > 0.3, "it tears");
         let u = component(&bench.in_file(run.displacement()), 1);
         let mirrored = |values: &[f64]| image.iter().map(|&k| values[k]).collect::<Vec<f64>>();

@@ -64,7 +64,7 @@ fn solved(text: &str, settings: &[&str]) -> (Bench, Run) {
 fn deformations(bench: &Bench, run: &Run) -> Deformations {
     let expansion = bench.boundary.thermal_strain(run.state().load_factor);
     let intact = &run.state().intact;
-    let system = &*bench.model.system;
+    let system = &**bench.model.plane();
     system.deformations(intact, run.displacement(), expansion)
 }
 
@@ -80,7 +80,7 @@ fn assert_free(name: &str, bench: &Bench, run: &Run) {
     let [xx, yy, xy] = free_strain(bench);
     let positions = bench.positions();
     let size = largest([xx, yy, xy].map(f64::abs));
-    let motions = by_point(bench.model.system.layout(), run.displacement());
+    let motions = by_point(bench.model.plane().layout(), run.displacement());
     let [x, y] = [0, 1].map(|axis| motions.iter().map(|it| it[axis]).collect::<Vec<f64>>());
     // The rigid motion that fits two points, to be taken off.
     let (first, last) = (0, positions.len() - 1);
@@ -102,7 +102,7 @@ fn assert_free(name: &str, bench: &Bench, run: &Run) {
     let left = deformations(bench, run);
     let left = left.iter().flat_map(|it| it.strains().map(f64::abs));
     let left = largest(left) / size;
-    let volume: f64 = bench.model.system.cloud.volumes.iter().sum();
+    let volume: f64 = bench.model.plane().cloud.volumes.iter().sum();
     let energy = run.last().stored_energy / (0.5 * YOUNG * size * size * volume);
     let force = YOUNG * size * volume / length;
     let forces = run.last().group_forces.iter().flatten();
@@ -184,7 +184,7 @@ fn bodies_held_everywhere_store_the_energy_of_the_continuum() {
                 _ => YOUNG * strain * strain * (1.0 + nu) / (1.0 - 2.0 * nu),
             };
             let biaxial = &bench.model.fixed.energy_ratios[2].at_points;
-            let volumes = &bench.model.system.cloud.volumes;
+            let volumes = &bench.model.plane().cloud.volumes;
             let expected: f64 = (biaxial.iter().zip(volumes))
                 .map(|(ratio, volume)| ratio * volume * density)
                 .sum();
@@ -359,7 +359,7 @@ fn a_linear_temperature_bends_free_bodies() {
             let size = largest(strains.as_flattened().iter().map(|it| it.abs()));
             let left = deformations(&bench, &run);
             let held = internal::sweep(
-                &*bench.model.system,
+                &**bench.model.plane(),
                 run.state().bonds(),
                 &vec![0.0; run.displacement().len()],
                 bench.boundary.thermal_strain(1.0),

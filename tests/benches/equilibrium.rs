@@ -39,14 +39,14 @@ fn equilibrium(criterion: &mut Criterion) {
         let mut group = criterion.benchmark_group(name);
         group.sampling_mode(SamplingMode::Flat).sample_size(20);
         breakages(&mut group, &bench);
-        group.throughput(Throughput::Elements(bench.model.system.bonds.len() as u64));
+        group.throughput(Throughput::Elements(bench.model.plane().bonds.len() as u64));
         parts(&mut group, &bench);
         group.finish();
     }
 }
 
 fn parts(group: &mut BenchmarkGroup<'_, WallTime>, bench: &Bench) {
-    let system = &*bench.model.system;
+    let system = &**bench.model.plane();
     let unknowns = Unknowns::all_but(system, |dof| bench.boundary.prescribed[dof].is_some());
     let pattern = Arc::new(assembly::pattern(system, &unknowns).unwrap());
     let elastic = bench.solve();

@@ -51,7 +51,7 @@ impl Answer {
     pub(crate) fn new(setup: Setup) -> Self {
         let mut breaks = Breaks::default();
         let solution = setup.solve(&mut breaks).unwrap();
-        let system = &solution.model.system;
+        let system = solution.model.plane();
         let layout = system.layout();
         let history = &solution.outcome.history;
         let of_group = |force: &Vec<f64>| Component::ALL.map(|it| layout.value(0, it, force));
@@ -74,7 +74,7 @@ impl Answer {
             left: report
                 .and_then(CorrectionReport::patch)
                 .map_or(0.0, |it| it.left),
-            positions: solution.model.body().positions().to_vec(),
+            positions: solution.model.setup.body.geometry().positions().to_vec(),
             motion: by_point(layout, &solution.outcome.state.displacement),
             forces: (history.iter().flat_map(|step| &step.group_forces))
                 .map(of_group)

@@ -55,7 +55,7 @@ struct Check {
 impl Check {
     fn new(setup: &Setup) -> Self {
         Self {
-            positions: setup.body.positions().to_vec(),
+            positions: setup.body.geometry().positions().to_vec(),
             moments_balance: !matches!(setup.law, Law::Pds { .. }),
             ..Self::default()
         }

@@ -290,7 +290,7 @@ impl Specimen {
         let [along, across] = image.turned(self.direction);
         let action = if self.by_force {
             let force = times * image.force * self.strength();
-            Action::Force([along, across].map(|it| force * it))
+            Action::Force([force * along, force * across, 0.0])
         } else {
             let far = times * image.length * self.strain * self.size()[0];
             Action::Displacement(Displacement {
@@ -312,7 +312,7 @@ impl Specimen {
             Load::new("top", Action::Pressure(image.stress() * 0.3 * stress)),
             Load::new(
                 Place::Everywhere,
-                Action::BodyForce(image.turned([0.2 * of_volume, -0.5 * of_volume])),
+                Action::BodyForce(flat(image.turned([0.2 * of_volume, -0.5 * of_volume]))),
             ),
         ];
         if self.law.element() == ElementKind::Beam {
@@ -338,4 +338,9 @@ impl Specimen {
         setup.analysis = analysis;
         setup
     }
+}
+
+/// A vector in the plane.
+fn flat([x, y]: [f64; 2]) -> [f64; 3] {
+    [x, y, 0.0]
 }

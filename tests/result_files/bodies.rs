@@ -204,14 +204,14 @@ impl<'a> PointFields<'a> {
 
     /// The tag of every point.
     pub(crate) fn tags(&mut self, model: &Model) {
-        let points = 0..model.system.cloud.len() as u32;
+        let points = 0..model.plane().cloud.len() as u32;
         let tags = points.map(|it| model.body().tag(it) as i64);
         self.integers(model.body().tagged(), tags);
     }
 
     /// The fields that a run does not change.
     pub(crate) fn fixed(&mut self, model: &Model) {
-        let (cloud, fixed) = (&model.system.cloud, &model.fixed);
+        let (cloud, fixed) = (&model.plane().cloud, &model.fixed);
         self.tags(model);
         self.reals("volume", cloud.volumes.iter().copied());
         self.reals("horizon", fixed.horizon.iter().copied());

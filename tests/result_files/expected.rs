@@ -45,7 +45,7 @@ pub(crate) struct Place<'a> {
 
 impl Order {
     fn new(mesh: Option<&Path>, model: &Model) -> Self {
-        let tags: Vec<u64> = (0..model.system.cloud.len() as u32)
+        let tags: Vec<u64> = (0..model.plane().cloud.len() as u32)
             .map(|point| model.body().tag(point))
             .collect();
         let in_file = mesh.map_or_else(|| tags.clone(), |it| meshes::read(it).node_tags);
@@ -62,7 +62,7 @@ impl Order {
             numbered.sort_unstable();
             numbered
         };
-        let bonds = ordered(model.system.bonds.ends.clone());
+        let bonds = ordered(model.plane().bonds.ends.clone());
         let n_bonds = bonds.len() as u32;
         let absent = ordered(model.fixed.absent.iter().map(|it| it.ends).collect());
         let absent = absent

@@ -71,8 +71,8 @@ impl Case {
     fn run(&self) {
         run::run(&self.file, &self.results(), false, ProgressMode::Quiet).unwrap();
         let (model, canvas) = self.model();
-        let loading = Loading::new(&model.setup, &*model.system).unwrap();
-        let problem = loading.problem(&model.system, &model.criteria);
+        let loading = Loading::new(&model).unwrap();
+        let problem = loading.problem(&model);
         let mut recorder = Recorder::new(
             &self.file.case,
             (&model, self.mesh.as_deref()),
@@ -118,7 +118,7 @@ impl Case {
             let row: [Entry; 2] = [usize::into(number), mode.kind.name().into()];
             table.push(row.into_iter().chain(reals.map(Entry::from)));
             canvas.grid(&file, &mut expected);
-            let motions = by_point(model.system.layout(), &mode.shape);
+            let motions = by_point(model.plane().layout(), &mode.shape);
             let moved: Vec<[f64; 3]> = motions.iter().map(|it| [it[0], it[1], 0.0]).collect();
             canvas.displacement(&file, &moved, &mut expected);
             let mut fields = canvas.on(&file, &mut expected);
@@ -159,7 +159,7 @@ impl Case {
         };
         yielding::yielding(&request, &mut Vec::new()).unwrap();
         let (model, canvas) = self.model();
-        let (system, list) = (&model.system, &model.criteria.list);
+        let (system, list) = (model.plane(), &model.criteria.list);
         let alone = |place: usize| Criteria {
             list: vec![list[place].clone()],
         };

@@ -198,7 +198,7 @@ impl<'a> Recorder<'a> {
 
     fn write_fields(&mut self, file: &str, view: &View<'_>) {
         let (state, balanced) = (view.state, view.balanced);
-        let system = &*self.model.system;
+        let system = &**self.model.plane();
         let layout = system.layout();
         let motions = by_point(layout, &state.displacement);
         let points = 0..system.cloud.len();
@@ -270,8 +270,8 @@ impl<'a> Recorder<'a> {
     }
 
     fn write_bonds(&mut self, file: &str, view: &View<'_>) {
-        let (system, deformations) = (&*self.model.system, &view.balanced.deformations);
-        let positions = self.model.body().positions();
+        let (system, deformations) = (&**self.model.plane(), &view.balanced.deformations);
+        let positions = self.model.setup.body.geometry().positions();
         self.expected.lines(file, positions, system.bonds.len());
         let point = Place {
             file,
@@ -311,11 +311,11 @@ impl<'a> Recorder<'a> {
     }
 
     fn model_file(&mut self) {
-        let (file, system, fixed) = ("model.vtu", &*self.model.system, &self.model.fixed);
+        let (file, system, fixed) = ("model.vtu", &**self.model.plane(), &self.model.fixed);
         let absent = &fixed.absent;
         let n_lines = system.bonds.len() + absent.len();
         let expected = &mut self.expected;
-        expected.lines(file, self.model.body().positions(), n_lines);
+        expected.lines(file, self.model.setup.body.geometry().positions(), n_lines);
         let point = |name| Place {
             file,
             part: "point",
@@ -484,7 +484,7 @@ impl Observer for Recorder<'_> {
             record.negative_eigenvalues.into(),
             record.dissipated_energy.into(),
         ];
-        let layout = self.model.system.layout();
+        let layout = self.model.plane().layout();
         let forces = record
             .group_forces
             .iter()

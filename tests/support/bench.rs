@@ -106,7 +106,7 @@ impl Bench {
         let model = build_model_on(&case, ranks, &mut Stages::default(), &progress).unwrap();
         let Loading {
             boundary, probes, ..
-        } = Loading::new(&model.setup, &*model.system).unwrap();
+        } = Loading::new(&model).unwrap();
         Self {
             case,
             model,
@@ -119,7 +119,7 @@ impl Bench {
     /// The problem of the bench.
     pub fn problem(&self) -> Problem {
         Problem {
-            system: self.model.system.clone(),
+            system: self.model.plane().clone(),
             criteria: self.model.criteria.clone(),
             loads: Arc::new(self.boundary.clone()),
             solver: self.model.setup.solver,
@@ -161,7 +161,7 @@ impl Bench {
 
     /// Number of points.
     pub fn points(&self) -> usize {
-        self.model.system.cloud.len()
+        self.model.plane().cloud.len()
     }
 
     /// Values of the points, so many a point, in the order of the mesh file.
@@ -171,7 +171,7 @@ impl Bench {
 
     /// Bonds in the order of their ends in the mesh file.
     pub fn bonds_in_file(&self) -> Vec<u32> {
-        let ends = &self.model.system.bonds.ends;
+        let ends = &self.model.plane().bonds.ends;
         let order = self.model.body().numbering().bonds_in_file(ends);
         order.unwrap_or_else(|| (0..ends.len() as u32).collect())
     }
@@ -184,13 +184,13 @@ impl Bench {
 
     /// Nodes of the ends of a bond in the mesh file, ascending.
     pub fn nodes_of_bond(&self, bond: u32) -> [u32; 2] {
-        let ends = self.model.system.bonds.ends[bond as usize];
+        let ends = self.model.plane().bonds.ends[bond as usize];
         self.model.body().numbering().ends_in_file(ends)
     }
 
     /// Positions of the nodes of the mesh, or of the centres of the cells, in the order of the points.
     pub fn positions(&self) -> &[[f64; 2]] {
-        self.model.body().positions()
+        self.model.setup.body.geometry().positions()
     }
 
     /// Points of a group.
@@ -200,7 +200,7 @@ impl Bench {
 
     /// Tags of the ends of a bond, the smaller first.
     pub fn tags_of_bond(&self, bond: usize) -> [u64; 2] {
-        let [a, b] = self.model.system.bonds.ends[bond].map(|end| self.model.body().tag(end));
+        let [a, b] = self.model.plane().bonds.ends[bond].map(|end| self.model.body().tag(end));
         [a.min(b), a.max(b)]
     }
 }
@@ -225,7 +225,7 @@ impl Run {
     pub fn group_force(&self, bench: &Bench, name: &str) -> [f64; 3] {
         let groups = &bench.boundary.groups;
         let place = groups.iter().position(|group| group.name == name).unwrap();
-        let layout = bench.model.system.layout();
+        let layout = bench.model.plane().layout();
         Component::ALL.map(|it| layout.value(0, it, &self.last().group_forces[place]))
     }
 }

@@ -1,8 +1,8 @@
 //! From a case file to the setup of a computation, with what other files hold.
 
-use std::sync::Arc;
-
-use ligament::body::{Body, LatticeBody, LatticeError, MeshBody, SolidLatticeBody, SolidMeshBody};
+use ligament::body::{
+    AnyBody, LatticeBody, LatticeError, MeshBody, SolidLatticeBody, SolidMeshBody,
+};
 use ligament::setup::{Setup, TemperatureChange};
 use ligament::stage::{StageWatcher, stage};
 use ligament_mesh::AnyMesh;
@@ -13,52 +13,60 @@ use crate::mesh_file::{read_any_mesh, read_mesh};
 use crate::temperature_table;
 
 impl CaseFile {
-    /// The setup of the case on its solid body, with the mesh and the tables that it names read from their files.
+    /// The setup of the case, with the mesh and the tables that it names read from their files.
     ///
     /// # Errors
     ///
-    /// If a file cannot be read, or the mesh is not one of solid cells.
-    pub fn setup_in_space(&self, watcher: &mut dyn StageWatcher) -> anyhow::Result<Setup<3>> {
-        let body: Arc<dyn Body<3>> = match (&self.case.mesh, &self.case.solid_lattice) {
-            (Some(section), _) => {
+    /// If a file cannot be read, the mesh has no cells of the kind of the body, or nothing is left of a lattice or of one of its sets.
+    pub fn setup(&self, watcher: &mut dyn StageWatcher) -> anyhow::Result<Setup> {
+        let body = self.body(watcher)?;
+        Ok(self.setup_on(body)?)
+    }
+
+    /// Refuses a case whose body is a solid.
+    ///
+    /// # Errors
+    ///
+    /// If it is one.
+    pub fn require_plane(&self) -> Result<(), CaseError> {
+        if !self.case.is_solid() {
+            return Ok(());
+        }
+        let key = match self.case.mesh {
+            Some(_) => "mesh.file",
+            None => "solid_lattice",
+        };
+        let reason =
+            "the body is a solid, and what is asked for is known of bodies in the plane alone";
+        Err(self.error(key, reason))
+    }
+
+    /// The body of the case, with the mesh read from its file.
+    fn body(&self, watcher: &mut dyn StageWatcher) -> anyhow::Result<AnyBody> {
+        let case = &self.case;
+        match (&case.mesh, &case.lattice, &case.solid_lattice) {
+            (Some(section), _, _) if section.is_solid => {
                 let mesh = stage(watcher, "read mesh", || read_any_mesh(&section.file))?;
                 let AnyMesh::Solid(mesh) = mesh else {
                     let reason = "the geometry has volumes, and the mesh has no solid cells: mesh the volumes too (`gmsh -3`)";
                     return Err(self.error("mesh.file", reason).into());
                 };
-                Arc::new(SolidMeshBody::from(mesh))
+                Ok(AnyBody::new(SolidMeshBody::from(mesh)))
             }
-            (None, Some(section)) => {
-                Arc::new(stage(watcher, "lattice", || self.solid_lattice(section))?)
-            }
-            (None, None) => anyhow::bail!("the case has no body"),
-        };
-        Ok(self.setup_on(body)?)
-    }
-
-    /// The setup of the case in the plane, with its body and the tables that it names read from their files.
-    ///
-    /// # Errors
-    ///
-    /// If a file cannot be read, nothing is left of the lattice or of one of its sets, or the body is solid.
-    pub fn setup(&self, watcher: &mut dyn StageWatcher) -> anyhow::Result<Setup> {
-        let body: Arc<dyn Body> = match (&self.case.mesh, &self.case.lattice) {
-            _ if self.case.is_solid() => {
-                let key = match self.case.mesh {
-                    Some(_) => "mesh.file",
-                    None => "solid_lattice",
-                };
-                let reason = "the body is a solid, and what is asked for is known of bodies in the plane alone";
-                return Err(self.error(key, reason).into());
-            }
-            (Some(section), _) => {
+            (Some(section), _, _) => {
                 let mesh = stage(watcher, "read mesh", || read_mesh(&section.file))?;
-                Arc::new(MeshBody::from(mesh))
+                Ok(AnyBody::new(MeshBody::from(mesh)))
             }
-            (None, Some(section)) => Arc::new(stage(watcher, "lattice", || self.lattice(section))?),
-            (None, None) => anyhow::bail!("the case has no body"),
-        };
-        Ok(self.setup_on(body)?)
+            (None, Some(section), _) => {
+                let lattice = stage(watcher, "lattice", || self.lattice(section))?;
+                Ok(AnyBody::new(lattice))
+            }
+            (None, None, Some(section)) => {
+                let lattice = stage(watcher, "lattice", || self.solid_lattice(section))?;
+                Ok(AnyBody::new(lattice))
+            }
+            (None, None, None) => anyhow::bail!("the case has no body"),
+        }
     }
 
     /// The setup of the case on a body that is there already, whatever body the case names.
@@ -66,16 +74,13 @@ impl CaseFile {
     /// # Errors
     ///
     /// If a table of temperatures cannot be read.
-    pub fn setup_on<const D: usize>(&self, body: Arc<dyn Body<D>>) -> Result<Setup<D>, CaseError> {
+    pub fn setup_on(&self, body: AnyBody) -> Result<Setup, CaseError> {
+        let dimensions = body.dimensions();
         let setup = self.case.setup_on(body);
-        self.with_tables(setup.map_err(|fault| self.source.error(fault))?)
-    }
-
-    /// A setup with the tables of temperatures that the case names.
-    fn with_tables<const D: usize>(&self, mut setup: Setup<D>) -> Result<Setup<D>, CaseError> {
+        let mut setup = setup.map_err(|fault| self.source.error(fault))?;
         for (index, section) in self.case.temperatures.iter().enumerate() {
             if let Some(file) = &section.file {
-                let rows = temperature_table::rows_of::<D>(file);
+                let rows = temperature_table::rows_of(file, dimensions);
                 let rows = rows
                     .map_err(|reason| self.error(&format!("temperature.{index}.file"), reason))?;
                 let samples = rows.into_iter().map(|(_, sample)| sample);

@@ -7,20 +7,20 @@ use ligament::setup::Sample;
 use crate::input_file;
 
 /// The rows of a file, each with its line; else what is wrong with the file.
-pub(crate) fn rows_of<const D: usize>(path: &Path) -> Result<Vec<(usize, Sample<D>)>, String> {
+pub(crate) fn rows_of(path: &Path, dimensions: usize) -> Result<Vec<(usize, Sample)>, String> {
     let text = input_file::read_text(path)
         .map_err(|source| format!("cannot read {}: {source}", path.display()))?;
-    rows(&text).map_err(|(line, reason)| format!("{}:{line}: {reason}", path.display()))
+    rows(&text, dimensions).map_err(|(line, reason)| format!("{}:{line}: {reason}", path.display()))
 }
 
 /// The rows below the header; blank lines and those that begin with # say nothing.
-fn rows<const D: usize>(text: &str) -> Result<Vec<(usize, Sample<D>)>, (usize, String)> {
+fn rows(text: &str, dimensions: usize) -> Result<Vec<(usize, Sample)>, (usize, String)> {
     // Spreadsheets begin their files with a byte order mark.
     let lines = text.trim_start_matches('\u{feff}').lines();
     let mut lines = (1..)
         .zip(lines.map(str::trim))
         .filter(|(_, text)| !text.is_empty() && !text.starts_with('#'));
-    let axes = &["x", "y", "z"][..D];
+    let axes = &["x", "y", "z"][..dimensions];
     let names: Vec<String> = axes.iter().map(|axis| format!("`{axis}`")).collect();
     let expected = format!(
         "the first row must name the columns {} (m) and `change` (K)",
@@ -55,7 +55,7 @@ fn rows<const D: usize>(text: &str) -> Result<Vec<(usize, Sample<D>)>, (usize, S
                 .filter(|number| number.is_finite())
                 .ok_or_else(|| (line, format!("`{:.40}` is no number", values[column])))
         };
-        let mut position = [0.0; D];
+        let mut position = [0.0; 3];
         for (coordinate, &column) in position.iter_mut().zip(&along) {
             *coordinate = value(column)?;
         }

@@ -100,7 +100,7 @@ fn profiles_and_couples_are_checked() {
 fn a_pressure_needs_a_group() {
     let case = CaseFile::parse(Path::new("case.toml"), with_load("pressure = -2e6"), &[]).unwrap();
     assert_eq!(case.case.loads[0].pressure, Some(-2e6));
-    let units = Action::<2>::Pressure(-2e6).units();
+    let units = Action::Pressure(-2e6).units();
     assert_eq!((units.displacement, units.force), ("m^3", "Pa"));
     let written = case.resolved_toml().unwrap();
     let again = CaseFile::parse(Path::new("case.toml"), written, &[]).unwrap();

@@ -59,6 +59,20 @@ pub struct EngineeringConstants<const D: usize = 2> {
     pub shear_modulus: SymTensor<D>,
 }
 
+impl<const D: usize> EngineeringConstants<D> {
+    /// The constants along the first E axes, or for E > D with zeros beyond their own.
+    pub fn resized<const E: usize>(&self) -> EngineeringConstants<E> {
+        let along = |values: &[f64; D]| {
+            std::array::from_fn(|axis| values.get(axis).copied().unwrap_or(0.0))
+        };
+        EngineeringConstants {
+            young: along(&self.young),
+            poisson: std::array::from_fn(|row| self.poisson.get(row).map_or([0.0; E], along)),
+            shear_modulus: self.shear_modulus.resized(),
+        }
+    }
+}
+
 impl EngineeringConstants {
     /// The constants that belong to a stiffness of the plane (3, 3), Pa, along x and y: reciprocals of the entries of its inverse. None
     /// where the stiffness has no inverse.

@@ -1,8 +1,6 @@
 //! Bodies from arrays.
 
-use std::sync::Arc;
-
-use ligament::body::{self, MeshBody, Points, SolidMeshBody};
+use ligament::body::{self, AnyBody, MeshBody, Points, SolidMeshBody};
 use ligament_case::case::BodyKind;
 use ligament_mesh::AnyMesh;
 use ligament_mesh::gmsh::{self, Element};
@@ -11,19 +9,11 @@ use pyo3::prelude::*;
 
 use crate::errors;
 
-/// A body in the plane or in space.
-#[derive(Debug, Clone)]
-pub(crate) enum AnyBody {
-    Plane(Arc<dyn body::Body>),
-    Solid(Arc<dyn body::Body<3>>),
-}
-
-impl AnyBody {
-    pub(crate) fn kind(&self) -> BodyKind {
-        match self {
-            Self::Plane(_) => BodyKind::Plane,
-            Self::Solid(_) => BodyKind::Solid,
-        }
+/// Kind of a body.
+pub(crate) fn kind(body: &AnyBody) -> BodyKind {
+    match body {
+        AnyBody::Plane(_) => BodyKind::Plane,
+        AnyBody::Solid(_) => BodyKind::Solid,
     }
 }
 
@@ -51,11 +41,11 @@ impl Body {
         let body = match positions.as_array().ncols() {
             3 => {
                 let points: Points<3> = points(py, positions_of(py, &positions)?, sizes, groups)?;
-                AnyBody::Solid(Arc::new(points))
+                AnyBody::new(points)
             }
             _ => {
                 let points: Points = points(py, positions_of(py, &positions)?, sizes, groups)?;
-                AnyBody::Plane(Arc::new(points))
+                AnyBody::new(points)
             }
         };
         Ok(Self { body })
@@ -84,8 +74,8 @@ impl Body {
         let mesh = gmsh::assemble(&nodes, &all);
         let mesh = mesh.map_err(|error| errors::of_body(py, &error.to_string()))?;
         let body = match mesh {
-            AnyMesh::Plane(mesh) => AnyBody::Plane(Arc::new(MeshBody::from(mesh))),
-            AnyMesh::Solid(mesh) => AnyBody::Solid(Arc::new(SolidMeshBody::from(mesh))),
+            AnyMesh::Plane(mesh) => AnyBody::new(MeshBody::from(mesh)),
+            AnyMesh::Solid(mesh) => AnyBody::new(SolidMeshBody::from(mesh)),
         };
         Ok(Self { body })
     }
@@ -93,25 +83,19 @@ impl Body {
     /// Number of points.
     #[getter]
     fn n_points(&self) -> usize {
-        match &self.body {
-            AnyBody::Plane(body) => body.positions().len(),
-            AnyBody::Solid(body) => body.positions().len(),
-        }
+        self.body.n_points()
     }
 
     /// Names of the groups.
     #[getter]
     fn groups(&self) -> Vec<String> {
-        match &self.body {
-            AnyBody::Plane(body) => body.group_names(),
-            AnyBody::Solid(body) => body.group_names(),
-        }
+        self.body.group_names()
     }
 
     /// Whether the body is a solid.
     #[getter]
     fn is_solid(&self) -> bool {
-        self.body.kind() == BodyKind::Solid
+        kind(&self.body) == BodyKind::Solid
     }
 }
 

@@ -3,11 +3,12 @@
 use std::path::PathBuf;
 
 use ligament::Setup;
+use ligament::body::AnyBody;
 use ligament_case::case::CaseFile;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::body::{AnyBody, Body};
+use crate::body::{Body, kind};
 use crate::errors::{Failure, of_case, of_request};
 use crate::{document, errors};
 
@@ -16,12 +17,6 @@ use crate::{document, errors};
 pub(crate) struct Case {
     pub(crate) file: CaseFile,
     pub(crate) body: Option<AnyBody>,
-}
-
-/// A setup in the plane or in space.
-pub(crate) enum AnySetup {
-    Plane(Setup),
-    Solid(Setup<3>),
 }
 
 #[pymethods]
@@ -61,7 +56,7 @@ impl Case {
         let overrides = document::overrides(changes)?;
         let body = body.map(|it| it.get().body.clone());
         let file = match &body {
-            Some(body) => CaseFile::on_body(&path, document, &overrides, body.kind()),
+            Some(body) => CaseFile::on_body(&path, document, &overrides, kind(body)),
             None => CaseFile::of_document(&path, document, &overrides),
         };
         Ok(Self {
@@ -116,13 +111,10 @@ impl Case {
 
 impl Case {
     /// The setup of the case on its body.
-    pub(crate) fn setup(&self) -> Result<AnySetup, Failure> {
-        let file = &self.file;
+    pub(crate) fn setup(&self) -> Result<Setup, Failure> {
         Ok(match &self.body {
-            Some(AnyBody::Plane(body)) => AnySetup::Plane(file.setup_on(body.clone())?),
-            Some(AnyBody::Solid(body)) => AnySetup::Solid(file.setup_on(body.clone())?),
-            None if file.case.is_solid() => AnySetup::Solid(file.setup_in_space(&mut ())?),
-            None => AnySetup::Plane(file.setup(&mut ())?),
+            Some(body) => self.file.setup_on(body.clone())?,
+            None => self.file.setup(&mut ())?,
         })
     }
 }

@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::{array, rows};
-use crate::case::{AnySetup, Case};
+use crate::case::Case;
 use crate::errors::Failure;
 use crate::run::positions;
 use crate::solution::watched;
@@ -79,14 +79,12 @@ struct Found {
 }
 
 fn find(case: &Case) -> Result<Found, Failure> {
-    let found = match case.setup()? {
-        AnySetup::Plane(setup) => on_threads(setup.threads, || find_here(&case.file, setup)),
-        AnySetup::Solid(setup) => on_threads(setup.threads, || find_here(&case.file, setup)),
-    };
+    let setup = case.setup()?;
+    let found = on_threads(setup.threads, || find_here(&case.file, setup));
     found.map_err(|error| Failure::Other(error.into()))?
 }
 
-fn find_here<const D: usize>(case: &CaseFile, setup: Setup<D>) -> Result<Found, Failure> {
+fn find_here(case: &CaseFile, setup: Setup) -> Result<Found, Failure> {
     let Analysis::Modal(settings) = setup.analysis else {
         let fault = Fault::OtherAnalysis {
             found: setup.analysis.name(),
@@ -105,8 +103,8 @@ fn find_here<const D: usize>(case: &CaseFile, setup: Setup<D>) -> Result<Found, 
     let located = |error| Failure::setup(case, error);
     let other = |error: ligament::Error| Failure::computing(case, error);
     let model = Model::build(setup, &mut ()).map_err(located)?;
-    let vibration = Vibration::new(&model.setup, &*model.system).map_err(located)?;
-    let problem = vibration.problem(&model.system);
+    let vibration = Vibration::new(&model).map_err(located)?;
+    let problem = vibration.problem(&model);
     let analysis = ModalAnalysis::new(&problem, settings).map_err(|it| other(it.into()))?;
     let outcome = analysis.find().map_err(|it| other(it.into()))?;
     let warnings = model.warnings.iter().map(ToString::to_string);

@@ -5,6 +5,7 @@ use std::thread;
 use std::time::Duration;
 
 use ligament::run::{follow, on_threads};
+use ligament::system::AnySystem;
 use ligament::{Loading, Model, Setup};
 use ligament_analysis::ProportionalLoading;
 use ligament_analysis::driver::Outcome;
@@ -18,7 +19,7 @@ use ligament_run::stages::Stages;
 use ligament_run::summary::Summary;
 use pyo3::prelude::*;
 
-use crate::case::{AnySetup, Case};
+use crate::case::Case;
 use crate::collector::{Collector, Kept, Progress, Stop};
 use crate::errors::Failure;
 
@@ -134,20 +135,14 @@ pub(crate) fn solve(
     stop: &Stop,
 ) -> Result<Solved, Failure> {
     let file = &case.file;
-    let solved = match case.setup()? {
-        AnySetup::Plane(setup) => {
-            on_threads(setup.threads, || solve_here(file, setup, progress, stop))
-        }
-        AnySetup::Solid(setup) => {
-            on_threads(setup.threads, || solve_here(file, setup, progress, stop))
-        }
-    };
+    let setup = case.setup()?;
+    let solved = on_threads(setup.threads, || solve_here(file, setup, progress, stop));
     solved.map_err(|error| Failure::Other(error.into()))?
 }
 
-fn solve_here<const D: usize>(
+fn solve_here(
     case: &CaseFile,
-    setup: Setup<D>,
+    setup: Setup,
     progress: Sender<Progress>,
     stop: &Stop,
 ) -> Result<Solved, Failure> {
@@ -156,10 +151,10 @@ fn solve_here<const D: usize>(
     let rule = write_rule(case, &setup.analysis);
     let model = stages.time("model", || Model::build(setup, &mut ()));
     let model = model.map_err(|it| Failure::setup(case, it))?;
-    let loading = Loading::new(&model.setup, &*model.system);
+    let loading = Loading::new(&model);
     let mut loading = loading.map_err(|it| Failure::setup(case, it))?;
     loading.solver.memory = memory::for_factor(case, &*model.system);
-    let problem = loading.problem(&model.system, &model.criteria);
+    let problem = loading.problem(&model);
     memory::foresee_equations(case, &*model.system, &problem)?;
     if stop.asked(1) {
         return Err(Failure::Stopped);
@@ -181,12 +176,15 @@ fn solve_here<const D: usize>(
         (&outcome, &kept),
         &stages,
     )?;
-    let thickness = model.system.cloud.thickness;
+    let thickness = model.setup.thickness();
     drop(problem);
     drop(loading);
     let Model { system, fixed, .. } = model;
     // The model is nobody else's any more, so that its arrays can be taken.
-    let arrays = system.into_parts().map(SystemArrays::new);
+    let arrays = match system {
+        AnySystem::Plane(system) => system.into_parts().map(SystemArrays::new),
+        AnySystem::Solid(system) => system.into_parts().map(SystemArrays::new),
+    };
     let shared = || Failure::Other(anyhow::anyhow!("the points and bonds are still in use"));
     Ok(Solved {
         fixed,
@@ -200,9 +198,9 @@ fn solve_here<const D: usize>(
 }
 
 /// The numbers of a run, as `summary.json` has them.
-fn summary<const D: usize>(
+fn summary(
     case: &CaseFile,
-    (model, boundary): (&Model<D>, &ProportionalLoading),
+    (model, boundary): (&Model, &ProportionalLoading),
     (outcome, kept): (&Outcome, &Kept),
     stages: &Stages,
 ) -> Result<String, Failure> {

@@ -16,7 +16,7 @@ use ligament_output::results::PieceWriter;
 use crate::checkpoints::IsStopped;
 use crate::end::StoppedBeforeSolution;
 use crate::loading::write_rule;
-use crate::model::{build_model_in_space_on, build_model_on};
+use crate::model::build_model_on;
 use crate::progress::{Progress, ProgressMode};
 use crate::ranks::{any_stopped, hear_folder, loading};
 use crate::stages::Stages;
@@ -96,18 +96,13 @@ fn assist(
 ) -> anyhow::Result<()> {
     let ranks = ranks.context(ALONE)?;
     let (mut stages, progress) = (Stages::default(), Progress::new(ProgressMode::Quiet));
-    if case.case.is_solid() {
-        let model = build_model_in_space_on(case, Some(ranks), &mut stages, &progress)?;
-        compute(case, &model, (ranks, is_stopped), begin)
-    } else {
-        let model = build_model_on(case, Some(ranks), &mut stages, &progress)?;
-        compute(case, &model, (ranks, is_stopped), begin)
-    }
+    let model = build_model_on(case, Some(ranks), &mut stages, &progress)?;
+    compute(case, &model, (ranks, is_stopped), begin)
 }
 
-fn compute<const D: usize>(
+fn compute(
     case: &CaseFile,
-    model: &Model<D>,
+    model: &Model,
     (ranks, is_stopped): (Together, IsStopped<'_>),
     begin: &Begin,
 ) -> anyhow::Result<()> {
@@ -116,7 +111,7 @@ fn compute<const D: usize>(
         return Ok(());
     }
     let loading = loading(case, model, Some(ranks))?;
-    let problem = loading.problem(&model.system, &model.criteria);
+    let problem = loading.problem(model);
     let solution: Option<Vec<u8>> = match begin {
         Begin::Unloaded => {
             ensure!(!any_stopped(Some(ranks), is_stopped), StoppedBeforeSolution);

@@ -29,7 +29,7 @@ pub struct FieldsOnDisk {
 
 impl FieldsOnDisk {
     /// The room that the fields of a case take.
-    pub fn new<const D: usize>(case: &CaseFile, model: &Model<D>) -> Self {
+    pub fn new(case: &CaseFile, model: &Model) -> Self {
         let output = &case.case.output;
         let every = output.fields_every.unwrap_or_default() as usize;
         let bonds = if output.bonds {

@@ -6,7 +6,7 @@ use ligament_analysis::gauges::{FreeBody, FreeMotion};
 
 /// Words on the rigid motions that are free, on what is held instead, and on whether the loads are in equilibrium without
 /// it; `closing` tells whether faces of cracks may carry them.
-pub fn words<const D: usize>(free: &FreeBody, body: &dyn Body<D>, closing: bool) -> String {
+pub fn words(free: &FreeBody, body: &dyn Body, closing: bool) -> String {
     let what = if free.is_whole {
         "the body".to_owned()
     } else {

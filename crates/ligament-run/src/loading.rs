@@ -22,9 +22,9 @@ use crate::watch::Watch;
 pub(crate) const SUMMARY: &str = "summary.json";
 
 /// A body under loads, and the folder of its results.
-pub(crate) struct LoadedBody<'a, const D: usize> {
+pub(crate) struct LoadedBody<'a> {
     pub(crate) case: &'a CaseFile,
-    pub(crate) model: &'a Model<D>,
+    pub(crate) model: &'a Model,
     pub(crate) loading: &'a Loading,
     pub(crate) folder: &'a ResultFolder,
     pub(crate) build: Build,
@@ -38,7 +38,7 @@ pub(crate) struct Kept {
     pub(crate) notices: Vec<String>,
 }
 
-impl<const D: usize> LoadedBody<'_, D> {
+impl LoadedBody<'_> {
     /// Follows the loads from the unloaded body on or from what was kept, and writes all results into the folder.
     pub(crate) fn follow(
         &self,
@@ -54,7 +54,7 @@ impl<const D: usize> LoadedBody<'_, D> {
             build,
             is_stopped,
         } = *self;
-        let problem = loading.problem(&model.system, &model.criteria);
+        let problem = loading.problem(model);
         let analysis = &model.setup.analysis;
         let grid = model.body().grid();
         tell_folder(loading.solver.ranks, folder.path());

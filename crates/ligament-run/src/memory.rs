@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use ligament::model::sharing;
+use ligament::plausibility::corners;
 use ligament::setup::{ELASTIC_ENERGY_TOLERANCE, Horizon, Setup};
 use ligament_analysis::Equilibrium;
 use ligament_analysis::driver::Problem;
@@ -124,21 +125,21 @@ pub fn foresee_lattice(
 /// # Errors
 ///
 /// With both numbers.
-pub fn foresee_model<const D: usize>(case: &CaseFile, setup: &Setup<D>) -> Result<(), TooLarge> {
-    let positions = setup.body.positions();
-    let points = positions.len() as f64;
+pub fn foresee_model(case: &CaseFile, setup: &Setup) -> Result<(), TooLarge> {
+    let dimensions = setup.body.dimensions();
+    let points = setup.body.n_points() as f64;
     // Volume of a ball of radius 1 in so many dimensions.
-    let ball = if D == 2 { PI } else { 4.0 * PI / 3.0 };
+    let ball = if dimensions == 2 { PI } else { 4.0 * PI / 3.0 };
     let family = match setup.horizon {
-        Horizon::Factor(factor) => ball * factor.powi(D as i32),
+        Horizon::Factor(factor) => ball * factor.powi(dimensions as i32),
         Horizon::Length(length) => {
-            let extent = |axis: usize| {
-                let along = positions.iter().map(|it| it[axis]);
-                along.clone().fold(f64::NEG_INFINITY, f64::max)
-                    - along.fold(f64::INFINITY, f64::min)
-            };
-            let box_of_body: f64 = (0..D).map(extent).product();
-            ball * length.powi(D as i32) * points / box_of_body
+            let [low, high] = corners(&*setup.body);
+            let box_of_body: f64 = low
+                .iter()
+                .zip(&high)
+                .map(|(low, high)| high - low)
+                .product();
+            ball * length.powi(dimensions as i32) * points / box_of_body
         }
     };
     let processes = sharing(setup).map_or(1, |it| it.n_ranks());

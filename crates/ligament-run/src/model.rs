@@ -1,7 +1,6 @@
 //! The discrete model of a case, with the stages of its preparation timed and shown.
 
 pub use ligament::Model;
-use ligament::Setup;
 use ligament::run::on_threads;
 use ligament::stage::{Finding, StageWatcher};
 use ligament::warning::of_virial_stress;
@@ -53,7 +52,7 @@ impl StageWatcher for Preparation<'_> {
     }
 }
 
-/// Reads the body of a case in the plane and builds its model.
+/// Reads the body of a case and builds its model.
 ///
 /// # Errors
 ///
@@ -66,7 +65,21 @@ pub fn build_model(
     build_model_on(case, None, stages, progress)
 }
 
-/// Reads the body of a case in the plane and builds its model, with bonds that processes share out.
+/// Reads the body of a case in the plane and builds its model.
+///
+/// # Errors
+///
+/// As of [`build_model`], and if the body is a solid.
+pub fn build_model_in_plane(
+    case: &CaseFile,
+    stages: &mut Stages,
+    progress: &Progress,
+) -> anyhow::Result<Model> {
+    case.require_plane()?;
+    build_model(case, stages, progress)
+}
+
+/// Reads the body of a case and builds its model, with bonds that processes share out.
 ///
 /// # Errors
 ///
@@ -80,45 +93,9 @@ pub fn build_model_on(
     if let Some(lattice) = &case.case.lattice {
         memory::foresee_lattice(case, lattice, ranks)?;
     }
-    build(case, ranks, (stages, progress), CaseFile::setup)
-}
-
-/// Reads the solid body of a case and builds its model.
-///
-/// # Errors
-///
-/// If a file cannot be read, or the case does not go together with its body.
-pub fn build_model_in_space(
-    case: &CaseFile,
-    stages: &mut Stages,
-    progress: &Progress,
-) -> anyhow::Result<Model<3>> {
-    build_model_in_space_on(case, None, stages, progress)
-}
-
-/// Reads the solid body of a case and builds its model, with bonds that processes share out.
-///
-/// # Errors
-///
-/// As of [`build_model_in_space`].
-pub fn build_model_in_space_on(
-    case: &CaseFile,
-    ranks: Option<Together>,
-    stages: &mut Stages,
-    progress: &Progress,
-) -> anyhow::Result<Model<3>> {
-    build(case, ranks, (stages, progress), CaseFile::setup_in_space)
-}
-
-fn build<const D: usize>(
-    case: &CaseFile,
-    ranks: Option<Together>,
-    (stages, progress): (&mut Stages, &Progress),
-    read: fn(&CaseFile, &mut dyn StageWatcher) -> anyhow::Result<Setup<D>>,
-) -> anyhow::Result<Model<D>> {
     let mut preparation = Preparation { stages, progress };
     let tasks_before = tasks_of_others();
-    let mut setup = read(case, &mut preparation)?;
+    let mut setup = case.setup(&mut preparation)?;
     setup.solver.ranks = ranks;
     memory::foresee_model(case, &setup)?;
     let tasks = tasks_before.min(tasks_of_others());

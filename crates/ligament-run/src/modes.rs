@@ -16,16 +16,16 @@ use ligament::Model;
 use ligament_case::case::CaseFile;
 
 /// Finds the modes of a model and writes them into a new folder.
-pub(crate) fn find_modes<const D: usize>(
+pub(crate) fn find_modes(
     case: &CaseFile,
     settings: ModalSettings,
-    (model, provenance): (&Model<D>, Provenance),
+    (model, provenance): (&Model, Provenance),
     create: impl FnOnce() -> Result<ResultFolder, ligament_output::Error>,
     mut stages: Stages,
 ) -> anyhow::Result<ModalSummary> {
-    let vibration = Vibration::new(&model.setup, &*model.system);
+    let vibration = Vibration::new(model);
     let vibration = vibration.map_err(|error| case.located(error))?;
-    let problem = vibration.problem(&model.system);
+    let problem = vibration.problem(model);
     let analysis = stages.time("analysis", || ModalAnalysis::new(&problem, settings))?;
     memory::foresee(case, &*model.system, Some(analysis.stiffness()))?;
 

@@ -9,7 +9,7 @@ use crate::gauges;
 const SHOWN: usize = 5;
 
 /// A notice with points given by their tags; `closing` says whether faces of cracks carry pressure where they close.
-pub fn words<const D: usize>(notice: &Notice, body: &dyn Body<D>, closing: bool) -> String {
+pub fn words(notice: &Notice, body: &dyn Body, closing: bool) -> String {
     match notice {
         Notice::FreeBody(free) => gauges::words(free, body, closing),
         Notice::CameLoose {

@@ -12,9 +12,9 @@ use crate::checkpoints::IsStopped;
 use crate::memory;
 
 /// The loading of a case, whose equations the processes solve together.
-pub(crate) fn loading<const D: usize>(
+pub(crate) fn loading(
     case: &CaseFile,
-    model: &Model<D>,
+    model: &Model,
     ranks: Option<Together>,
 ) -> anyhow::Result<Loading> {
     ensure!(
@@ -27,7 +27,7 @@ pub(crate) fn loading<const D: usize>(
         "output.stress: of \"traction\" several processes do not know all bonds that cross a plane; run the case with one process, or take \
          \"virial\" alone"
     );
-    let loading = Loading::new(&model.setup, &*model.system);
+    let loading = Loading::new(model);
     let mut loading = loading.map_err(|it| case.located(it))?;
     loading.solver.ranks = ranks;
     loading.solver.memory = memory::for_factor(case, &*model.system);

@@ -21,7 +21,7 @@ use crate::checkpoints::{IsStopped, VERSION};
 use crate::destination::make_results;
 use crate::inputs::{Contents, Inputs, MAY_CHANGE, unread};
 use crate::loading::{Kept, LoadedBody, SUMMARY};
-use crate::model::{build_model_in_space_on, build_model_on};
+use crate::model::build_model_on;
 use crate::progress::{Progress, ProgressMode};
 use crate::provenance::Build;
 use crate::ranks::{any_stopped, loading, tell_checkpoint, tell_folder};
@@ -79,25 +79,20 @@ impl Request<'_> {
             progress.stage("the run has no checkpoint yet: it starts anew");
         }
         let mut stages = Stages::default();
-        if case.case.is_solid() {
-            let model = build_model_in_space_on(case, self.ranks, &mut stages, &progress)?;
-            self.go_on(&model, found, (folder, stages, progress), case)
-        } else {
-            let model = build_model_on(case, self.ranks, &mut stages, &progress)?;
-            self.go_on(&model, found, (folder, stages, progress), case)
-        }
+        let model = build_model_on(case, self.ranks, &mut stages, &progress)?;
+        self.go_on(&model, found, (folder, stages, progress), case)
     }
 
     /// Goes on with a model from what was found.
-    fn go_on<const D: usize>(
+    fn go_on(
         &self,
-        model: &Model<D>,
+        model: &Model,
         found: Option<(Checkpoint, SoFar)>,
         (folder, mut stages, mut progress): (ResultFolder, Stages, Progress),
         case: &CaseFile,
     ) -> anyhow::Result<Report> {
         let loading = loading(case, model, self.ranks)?;
-        let problem = loading.problem(&model.system, &model.criteria);
+        let problem = loading.problem(model);
         let solution = found.as_ref().map(|(checkpoint, _)| &checkpoint.solution);
         tell_checkpoint(self.ranks, solution);
         let is_stopped = || any_stopped(self.ranks, self.is_stopped);

@@ -13,7 +13,7 @@ use crate::end::{End, StoppedBeforeSolution};
 use crate::inputs::{Contents, unread};
 use crate::loading::LoadedBody;
 use crate::memory;
-use crate::model::{Model, build_model_in_space_on, build_model_on};
+use crate::model::{Model, build_model_on};
 use crate::modes::find_modes;
 use crate::progress::{Progress, ProgressMode};
 use crate::provenance::{Build, Provenance};
@@ -110,19 +110,14 @@ impl Request<'_> {
         ResultFolder::check(self.out, self.force)?;
         let mut stages = Stages::default();
         let progress = Progress::new(mode);
-        if self.case.case.is_solid() {
-            let model = build_model_in_space_on(self.case, self.ranks, &mut stages, &progress)?;
-            self.solve(&model, stages, progress)
-        } else {
-            let model = build_model_on(self.case, self.ranks, &mut stages, &progress)?;
-            self.solve(&model, stages, progress)
-        }
+        let model = build_model_on(self.case, self.ranks, &mut stages, &progress)?;
+        self.solve(&model, stages, progress)
     }
 
     /// Loads a model or finds its modes.
-    fn solve<const D: usize>(
+    fn solve(
         &self,
-        model: &Model<D>,
+        model: &Model,
         stages: Stages,
         mut progress: Progress,
     ) -> anyhow::Result<Report> {
@@ -145,16 +140,16 @@ impl Request<'_> {
 }
 
 /// Loads a model, breaks its bonds if the case says so, and writes what happens into a new folder.
-fn follow_loads<const D: usize>(
+fn follow_loads(
     request: &Request<'_>,
-    model: &Model<D>,
+    model: &Model,
     mut stages: Stages,
     mut progress: Progress,
 ) -> anyhow::Result<Summary> {
     let case = request.case;
     let loading = loading(case, model, request.ranks)?;
     if request.ranks.is_none() {
-        let problem = loading.problem(&model.system, &model.criteria);
+        let problem = loading.problem(model);
         memory::foresee_equations(case, &*model.system, &problem)?;
     }
     let is_stopped = || any_stopped(request.ranks, request.is_stopped);

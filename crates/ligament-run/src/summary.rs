@@ -173,7 +173,7 @@ fn is_false(value: &bool) -> bool {
 }
 
 /// Why a run ended, in words, with points by their tags and places.
-pub(crate) fn ending<const D: usize>(outcome: &Outcome, model: &Model<D>) -> String {
+pub(crate) fn ending(outcome: &Outcome, model: &Model) -> String {
     let body = model.body();
     outcome.termination.words(&|point| body.place(point))
 }
@@ -186,9 +186,9 @@ pub fn temperature_change(boundary: &ProportionalLoading) -> Option<Spread> {
 
 impl Summary {
     /// Collects the numbers.
-    pub fn new<const D: usize>(
+    pub fn new(
         case: &CaseFile,
-        model: &Model<D>,
+        model: &Model,
         boundary: &ProportionalLoading,
         outcome: &Outcome,
         (provenance, notices, first): (Provenance, Vec<String>, FirstBonds),

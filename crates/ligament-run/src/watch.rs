@@ -18,7 +18,7 @@ use crate::progress::{Progress, StepLine};
 const SHOWN: usize = 5;
 
 /// The observer of `ligament run`.
-pub(crate) struct Watch<'a, const D: usize> {
+pub(crate) struct Watch<'a> {
     writer: ResultWriter<'a>,
     checkpoints: Checkpoints<'a>,
     is_stopped: IsStopped<'a>,
@@ -27,18 +27,18 @@ pub(crate) struct Watch<'a, const D: usize> {
     progress: &'a mut Progress,
     notices: Vec<String>,
     last: StepLine,
-    body: &'a dyn Body<D>,
+    body: &'a dyn Body,
     /// Whether faces of cracks carry pressure where they close.
     closing: bool,
 }
 
-impl<'a, const D: usize> Watch<'a, D> {
+impl<'a> Watch<'a> {
     /// Watches the run of a setup with a writer, checkpoints and a progress display; it goes on with some notices.
     pub(crate) fn new(
         (writer, checkpoints): (ResultWriter<'a>, Checkpoints<'a>),
         is_stopped: IsStopped<'a>,
         progress: &'a mut Progress,
-        setup: &'a Setup<D>,
+        setup: &'a Setup,
         notices: Vec<String>,
     ) -> Self {
         progress.begin_steps(setup.n_steps().map(|steps| steps as u64));
@@ -71,7 +71,7 @@ impl<'a, const D: usize> Watch<'a, D> {
     }
 }
 
-impl<const D: usize> Observer for Watch<'_, D> {
+impl Observer for Watch<'_> {
     fn round(
         &mut self,
         step: usize,

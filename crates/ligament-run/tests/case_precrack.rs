@@ -3,9 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
-use ligament::body::Points;
+use ligament::body::{AnyBody, Points};
 use ligament::setup::PreCrack;
 use ligament_case::case::CaseFile;
 use ligament_run::model::build_model;
@@ -25,7 +24,7 @@ fn with(keys: &str, overrides: &[&str]) -> Result<CaseFile, String> {
 
 fn crack(keys: &str, overrides: &[&str]) -> PreCrack {
     let body = Points::new(vec![[0.0; 2]], vec![1.0]).unwrap();
-    let setup = with(keys, overrides).unwrap().setup_on(Arc::new(body));
+    let setup = with(keys, overrides).unwrap().setup_on(AnyBody::new(body));
     setup.unwrap().precracks.remove(0)
 }
 
@@ -128,7 +127,7 @@ fn bonds(path: &Path, text: String) -> Vec<[u32; 2]> {
     )
     .unwrap();
     assert!(model.cut_bonds() > 100, "{}", path.display());
-    model.system.bonds.ends.clone()
+    model.plane().bonds.ends.clone()
 }
 
 /// The slots of the disk and of the plate, written out in their cases to a micrometre, cut the same bonds as by centre, length

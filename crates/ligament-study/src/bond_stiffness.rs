@@ -11,7 +11,7 @@ use ligament_output::csv::Table;
 use ligament_output::folder::{Kind, ResultFolder};
 use ligament_plot::plots::polar::PolarPlot;
 use ligament_plot::plots::{Colour, Series};
-use ligament_run::model::build_model;
+use ligament_run::model::build_model_in_plane;
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::Stages;
 use ligament_run::summary::heading;
@@ -66,7 +66,7 @@ pub fn bond_stiffness(request: &Request, screen: &mut dyn Write) -> anyhow::Resu
         return Err(DirectionError::Length(request.length).into());
     }
     let progress = Progress::new(ProgressMode::Quiet);
-    let model = build_model(&request.case, &mut Stages::default(), &progress)?;
+    let model = build_model_in_plane(&request.case, &mut Stages::default(), &progress)?;
     let (setup, horizons) = (&model.setup, model.fixed.horizon.iter());
     let horizon = horizons.copied().fold(f64::INFINITY, f64::min);
     let length = request.length * horizon;

@@ -137,7 +137,7 @@ fn anisotropy(
     criterion: &str,
     strains: PrincipalStretches,
 ) -> anyhow::Result<Anisotropy> {
-    let system = &model.system;
+    let system = model.plane();
     let criteria = match criterion {
         "strength" => model.criteria.clone(),
         other => Arc::new(uniform(other, system.bonds.len())?),

@@ -40,7 +40,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         let (bonds, equations) = models.result(trial.command(), || {
             let model = trial.model()?;
             Ok((
-                model.system.bonds.len() as f64,
+                model.plane().bonds.len() as f64,
                 Equations::from_model(&model)?,
             ))
         })?;

@@ -62,17 +62,17 @@ pub(super) fn middle(model: &Model, bond: usize) -> Place {
     let [a, b] = ends(model, bond);
     Place {
         at: [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])],
-        horizon: model.system.bonds.horizon[bond],
+        horizon: model.plane().bonds.horizon[bond],
     }
 }
 
 /// Places of the ends of a bond, m.
 pub(super) fn ends(model: &Model, bond: usize) -> Segment {
-    model.system.bonds.ends[bond].map(|end| place(model, end as usize))
+    model.plane().bonds.ends[bond].map(|end| place(model, end as usize))
 }
 
 fn place(model: &Model, point: usize) -> [f64; 2] {
-    let cloud = &model.system.cloud;
+    let cloud = &model.plane().cloud;
     let [x, y] = cloud.positions[point];
     [x + cloud.origin[0], y + cloud.origin[1]]
 }
@@ -92,11 +92,11 @@ pub(super) fn distance([x, y]: [f64; 2], [from, to]: Segment) -> f64 {
 impl Crack {
     /// The crack that these breakages leave.
     pub(super) fn from_breakages(model: &Model, records: &[BreakRecord]) -> Self {
-        let mut intact = vec![true; model.system.bonds.len()];
+        let mut intact = vec![true; model.plane().bonds.len()];
         for record in records {
             intact[record.bond as usize] = false;
         }
-        let damage = damage(&*model.system, &intact);
+        let damage = damage(&**model.plane(), &intact);
         let cracked = (0..damage.len()).filter(|&point| damage[point] > CRACKED);
         let points = cracked.map(|point| Place {
             at: place(model, point),

@@ -224,7 +224,7 @@ impl Failure {
 
 /// Share of the broken bonds that cross none of the lines at some heights, m.
 fn beside(solution: &Solution, lines: &[f64]) -> f64 {
-    let (system, intact) = (&solution.model.system, &solution.outcome.state.intact);
+    let (system, intact) = (solution.model.plane(), &solution.outcome.state.intact);
     let height = |point: u32| system.cloud.positions[point as usize][1];
     let crosses = |ends: &[u32; 2]| {
         let [a, b] = ends.map(height);
@@ -241,7 +241,7 @@ fn beside(solution: &Solution, lines: &[f64]) -> f64 {
 
 /// Largest difference of the damage between a point and its mirror images about both axes.
 fn asymmetry(solution: &Solution) -> f64 {
-    let (system, intact) = (&solution.model.system, &solution.outcome.state.intact);
+    let (system, intact) = (solution.model.plane(), &solution.outcome.state.intact);
     let half = 0.5 * system.cloud.cell_size(0)[0];
     let places = system.cloud.positions.iter();
     let damages: BTreeMap<[i64; 2], f64> = (0..)

@@ -69,7 +69,7 @@ fn difference(solution: &Solution, nu: f64) -> f64 {
 ///
 /// u_r = (1 + nu)/E A ((1 - 2 nu) r + r_o^2/r), A = p r_i^2/(r_o^2 - r_i^2).
 pub(super) fn radial(solution: &Solution, nu: f64) -> Vec<Radial> {
-    let cloud = &solution.model.system.cloud;
+    let cloud = &solution.model.plane().cloud;
     let places = cloud.positions.iter();
     let places = places.map(|[x, y]| [x + cloud.origin[0], y + cloud.origin[1]]);
     let points: Vec<([f64; 2], [f64; 2])> = places.zip(displacements(solution)).collect();

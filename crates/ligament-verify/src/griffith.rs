@@ -222,7 +222,7 @@ fn relative_strength(labels: Labels<'_>) -> anyhow::Result<f64> {
 /// Mean horizon of the points along the crack, m.
 fn horizon(solution: &Solution) -> f64 {
     let model = &solution.model;
-    let cloud = &model.system.cloud;
+    let cloud = &model.plane().cloud;
     let near = cloud.positions.iter().zip(&model.fixed.horizon);
     let near = near.filter(|([_, y], _)| (y + cloud.origin[1]).abs() <= STRIP);
     let (sum, count) = near.fold((0.0, 0.0), |(sum, count), (_, h)| (sum + h, count + 1.0));
@@ -239,7 +239,7 @@ fn crossing_energy(labels: Labels<'_>) -> anyhow::Result<f64> {
         let at = x + (other_x - x) * y / (y - other_y);
         y * other_y < 0.0 && (at - ASIDE).abs() < half
     };
-    let bonds = (0..solution.model.system.bonds.len()).filter(|&bond| crosses(bond));
+    let bonds = (0..solution.model.plane().bonds.len()).filter(|&bond| crosses(bond));
     let surface = 2.0 * half * THICKNESS;
     Ok(energy_at_limits(&solution, bonds) / (FRACTURE_ENERGY * surface))
 }
@@ -249,7 +249,7 @@ fn energy_at_limits(solution: &Solution, bonds: impl Iterator<Item = usize>) -> 
     let model = &solution.model;
     let limits = &model.criteria.list[0].limit;
     bonds
-        .map(|bond| 0.5 * model.system.rigidities.axial[bond] * limits[bond].powi(2))
+        .map(|bond| 0.5 * model.plane().rigidities.axial[bond] * limits[bond].powi(2))
         .sum()
 }
 
@@ -268,7 +268,7 @@ impl Separation {
         );
         let separating = FRACTURE_ENERGY * (HALF_WIDTH - EDGE_TIP) * THICKNESS;
         let last = solution.outcome.history.last();
-        let horizons = &solution.model.system.bonds.horizon;
+        let horizons = &solution.model.plane().bonds.horizon;
         let deviations = broken.iter().map(|&bond| {
             let [[_, y], [_, other_y]] = ends(&solution.model, bond);
             0.5 * (y + other_y).abs() / horizons[bond]

@@ -81,7 +81,7 @@ fn read(solution: &Solution) -> anyhow::Result<Reading> {
         let strain = (x[0] * u[0] + x[1] * u[1]) / squared;
         [middle[1].atan2(middle[0]), YOUNG * strain / TRACTION]
     });
-    let system = &solution.model.system;
+    let system = solution.model.plane();
     let state = &solution.outcome.state;
     let deformations = system.deformations(&state.intact, &state.displacement, ThermalStrain::NONE);
     let bonds = BondsLeft::whole(&state.intact);

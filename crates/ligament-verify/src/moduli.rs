@@ -80,9 +80,10 @@ fn constants(
         None => trial.set("model.law", law),
     };
     memory.result(trial.command(), || {
-        let system = trial.model()?.system;
+        let model = trial.model()?;
+        let system = model.plane();
         let middle = system.cloud.nearest_point([0.0, 0.0]);
-        EngineeringConstants::from_stiffness(family_stiffness(&system, middle))
+        EngineeringConstants::from_stiffness(family_stiffness(system, middle))
             .context("the family has no stiffness")
     })
 }

@@ -1,10 +1,8 @@
 //! The patch test: E, Poisson's ratio and the strains of bonds in free bodies under uniform stress.
 
-use std::sync::Arc;
-
 use anyhow::Context;
 use ligament::Model;
-use ligament::body::MeshBody;
+use ligament::body::{AnyBody, MeshBody};
 use ligament::patch_test::{PatchTest, patch_test};
 use ligament_mesh::gmsh;
 
@@ -138,7 +136,7 @@ fn further_from_one(one: f64, other: f64) -> f64 {
 
 /// The factors of the bonds and their ratios, in the order of the mesh file.
 fn factors(model: Model) -> Vec<f64> {
-    let (numbering, ends) = (model.body().numbering(), &model.system.bonds.ends);
+    let (numbering, ends) = (model.body().numbering(), &model.plane().bonds.ends);
     let mut bonds: Vec<usize> = (0..ends.len()).collect();
     bonds.sort_by_key(|&bond| numbering.ends_in_file(ends[bond]));
     let fixed = &model.fixed;
@@ -159,7 +157,7 @@ fn turned(labels: Labels<'_>) -> anyhow::Result<f64> {
         *place = [cos * x - sin * y, sin * x + cos * y];
     }
     let straight = trial.model()?;
-    let turned = trial.model_with(|setup| setup.body = Arc::new(MeshBody::from(mesh)))?;
+    let turned = trial.model_with(|setup| setup.body = AnyBody::new(MeshBody::from(mesh)))?;
     let (mut sum, mut count) = (0.0, 0.0);
     for (turned, straight) in factors(turned).into_iter().zip(factors(straight)) {
         sum += (turned / straight - 1.0_f64).powi(2);

@@ -68,7 +68,7 @@ fn lame(r: f64) -> f64 {
 }
 
 fn read(solution: &Solution) -> Reading {
-    let cloud = &solution.model.system.cloud;
+    let cloud = &solution.model.plane().cloud;
     let places = cloud.positions.iter();
     let places = places.map(|[x, y]| [x + cloud.origin[0], y + cloud.origin[1]]);
     let moved: Vec<([f64; 2], [f64; 2])> = places.zip(displacements(solution)).collect();

@@ -64,7 +64,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
 impl Edge {
     fn from_solution(solution: &Solution, elements: &[[f64; 5]], angle: f64) -> Self {
         let across = displacements(solution).map(|[_, v]| v);
-        let mean = across.sum::<f64>() / solution.model.system.cloud.len() as f64;
+        let mean = across.sum::<f64>() / solution.model.plane().cloud.len() as f64;
         let mut edge = Self {
             angle,
             along: Vec::new(),

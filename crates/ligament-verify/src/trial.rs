@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::Arc;
 
 use anyhow::Context;
-use ligament::body::MeshBody;
+use ligament::body::{AnyBody, MeshBody};
 use ligament::run::{Solution, Unobserved};
 use ligament::{Model, Setup};
 use ligament_analysis::history::BreakRecord;
@@ -140,7 +139,9 @@ impl Trial {
             let text = self.template.text.to_owned();
             let case = CaseFile::parse(Path::new(self.template.path), text, &self.settings)?;
             let setup = match self.mesh {
-                Some(mesh) => case.setup_on(Arc::new(MeshBody::from(gmsh::parse(mesh.bytes)?)))?,
+                Some(mesh) => {
+                    case.setup_on(AnyBody::new(MeshBody::from(gmsh::parse(mesh.bytes)?)))?
+                }
                 None => case.setup(&mut ())?,
             };
             work(&case, setup)
@@ -186,19 +187,19 @@ pub(super) fn probe(solution: &Solution, name: &str) -> anyhow::Result<f64> {
 
 /// The displacement of the point nearest to a place, in the last state of a run, m.
 pub(super) fn displacement_at(solution: &Solution, place: [f64; 2]) -> [f64; 2] {
-    let point = solution.model.system.cloud.nearest_point(place);
+    let point = solution.model.plane().cloud.nearest_point(place);
     displacement(solution, point)
 }
 
 /// The displacements of all points in the last state of a run, m.
 pub(super) fn displacements(solution: &Solution) -> impl Iterator<Item = [f64; 2]> + '_ {
-    let points = 0..solution.model.system.cloud.len() as u32;
+    let points = 0..solution.model.plane().cloud.len() as u32;
     points.map(|point| displacement(solution, point))
 }
 
 fn displacement(solution: &Solution, point: u32) -> [f64; 2] {
     let (layout, motions) = (
-        solution.model.system.layout(),
+        solution.model.plane().layout(),
         &solution.outcome.state.displacement,
     );
     [Component::X, Component::Y].map(|component| layout.value(point, component, motions))

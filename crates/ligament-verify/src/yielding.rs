@@ -104,8 +104,8 @@ fn bar_yield(labels: Labels<'_>) -> anyhow::Result<f64> {
         .set("material.compressive_strength", 3.0 * TENSILE_STRENGTH)
         .set("fracture.steps", 1);
     let model = trial.model_with(|setup| setup.criteria = choices)?;
-    let middle = model.system.cloud.nearest_point([0.0, 0.0]);
-    let family = Family::of_point(&model.system, &model.criteria, middle);
+    let middle = model.plane().cloud.nearest_point([0.0, 0.0]);
+    let family = Family::of_point(model.plane(), &model.criteria, middle);
     let sign = match labels.text("bar")? {
         "tension" => 1.0,
         _ => -1.0,

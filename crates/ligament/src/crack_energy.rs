@@ -1,7 +1,5 @@
 //! Energy that a crack through a model spends under its criteria, beside the fracture energy that the material is given.
 
-use ligament_model::BondSystem;
-use ligament_model::dimension::cast_ref;
 use ligament_model::failure::crack_opening::CrackEnergy;
 
 use crate::model::Model;
@@ -11,15 +9,12 @@ use crate::model::Model;
 /// Only points count whose families are whole, of the one material, and free to break: a crack near a surface, an interface or a part
 /// that may not fail is another matter. None for solids, where there is no such point, without criteria, and for bonds with strains of their own
 /// (`mbb-pd`), whose criteria take the fracture energy by their definition.
-pub fn crack_energies<const D: usize>(
-    model: &Model<D>,
-    material: usize,
-) -> Option<[CrackEnergy; 2]> {
-    let system = cast_ref::<_, BondSystem>(model.system.parts())?;
+pub fn crack_energies(model: &Model, material: usize) -> Option<[CrackEnergy; 2]> {
+    let system = model.system.of_dimension::<2>()?;
     if model.criteria.list.is_empty() {
         return None;
     }
-    let cloud = &model.system.cloud;
+    let cloud = &system.cloud;
     let rim = model.body().rim().into_iter().enumerate();
     // Three times the smallest number above 1: shares are quotients of volumes.
     let is_mixed = |point| cloud.shares(point)[material] < 1.0 - 3.0 * f64::EPSILON;
@@ -30,17 +25,17 @@ pub fn crack_energies<const D: usize>(
     Some([along([1.0, 0.0])?, along([0.0, 1.0])?])
 }
 
-impl<const D: usize> Model<D> {
+impl Model {
     /// Marks the points whose families are whole (n_points): neither they nor a neighbour are marked in `excluded` (n_points), such as the
     /// [rim](crate::Body::rim) of the body, and pre-cracks cut none of their bonds.
     pub fn interior(&self, excluded: &[bool]) -> Vec<bool> {
-        let bonds = &self.system.bonds;
+        let bonds = self.system.topology();
         let is_whole = |point: u32| {
             let mut family = bonds.incidence.at(point).iter();
             !excluded[point as usize]
                 && self.fixed.precrack_share[point as usize] == 0.0
                 && !family.any(|&bond| excluded[bonds.neighbour(bond, point) as usize])
         };
-        (0..self.system.cloud.len() as u32).map(is_whole).collect()
+        (0..self.system.n_points() as u32).map(is_whole).collect()
     }
 }

@@ -24,7 +24,7 @@ use crate::setup::{Alpha, Calibration, Form, Law, Setup, Surface};
 #[derive(Debug, Clone, Copy)]
 pub struct Formulation<'a, const D: usize = 2> {
     /// The setup.
-    pub setup: &'a Setup<D>,
+    pub setup: &'a Setup,
     /// Points of the body.
     pub cloud: &'a PointCloud<D>,
     horizons: &'a Horizons,
@@ -34,7 +34,7 @@ pub struct Formulation<'a, const D: usize = 2> {
 impl<'a, const D: usize> Formulation<'a, D> {
     /// The formulation for points with their horizons, on cells with the index of the material of each (n_cells).
     pub fn new(
-        setup: &'a Setup<D>,
+        setup: &'a Setup,
         cloud: &'a PointCloud<D>,
         horizons: &'a Horizons,
         material_of_cell: &'a [u32],
@@ -195,7 +195,7 @@ impl<'a, const D: usize> Formulation<'a, D> {
             Surface::Patch(settings) => {
                 let points = patch::Points {
                     cloud,
-                    forces: setup.body.cell_forces(
+                    forces: setup.body.geometry().cell_forces(
                         cloud,
                         self.material_of_cell,
                         stiffness_of_materials(setup),
@@ -225,11 +225,11 @@ impl<'a, const D: usize> Formulation<'a, D> {
 }
 
 /// Stiffness of each material with the constants that the law makes of its own (n_materials), Pa.
-pub(crate) fn stiffness_of_materials<const D: usize>(setup: &Setup<D>) -> Vec<Stiffness> {
+pub(crate) fn stiffness_of_materials(setup: &Setup) -> Vec<Stiffness> {
     let (law, space) = (setup.law, setup.space());
     let materials = setup.materials.iter();
     let elasticity = materials.map(|it| law.effective_elasticity(&it.material, space));
-    (elasticity.filter_map(|it| it.stiffness::<D>(space.plane()))).collect()
+    elasticity.filter_map(|it| it.stiffness_in(space)).collect()
 }
 
 /// Failure criteria on the bonds; none in an analysis without fracture. Bonds of points marked in `fixed.no_fail` (n_points) never fail.
@@ -239,7 +239,7 @@ pub(crate) fn stiffness_of_materials<const D: usize>(setup: &Setup<D>) -> Vec<St
 /// If a criterion does not exist in the dimension of the body, the strengths of a material leave a criterion without a limit, or its
 /// fracture energy leaves nothing after the limit.
 pub fn criteria<const D: usize>(
-    setup: &Setup<D>,
+    setup: &Setup,
     system: &BondSystem<D>,
     fixed: &FixedFields,
 ) -> Result<Criteria, SetupError> {
@@ -273,7 +273,7 @@ pub fn criteria<const D: usize>(
 }
 
 /// Points in the plane as a lattice.
-fn lattice<const D: usize>(setup: &Setup<D>, system: &BondSystem) -> Lattice {
+fn lattice(setup: &Setup, system: &BondSystem) -> Lattice {
     let spacing = (system.cloud.spacing.iter().copied()).fold(f64::INFINITY, f64::min);
     let own_rows = matches!(
         setup.law,

@@ -26,7 +26,7 @@
 //!     .with_group("right", (0..300).filter(|k| k % 30 == 29))?;
 //! let mut setup = Setup::new(points, Material::isotropic(210e9, 0.25), Law::Nhpd);
 //! setup.supports = vec![Support::new("left", &[Component::X, Component::Y])];
-//! setup.loads = vec![Load::new("right", Action::Force([1e3, 0.0]))];
+//! setup.loads = vec![Load::new("right", Action::Force([1e3, 0.0, 0.0]))];
 //!
 //! let solution = setup.solve(&mut Unobserved)?;
 //! let last = solution.outcome.history.last().ok_or("no solution")?;
@@ -65,6 +65,7 @@ pub mod setup;
 mod soundness;
 pub mod stage;
 pub mod suggestion;
+pub mod system;
 pub mod units;
 pub mod warning;
 

@@ -13,7 +13,7 @@ use ligament_model::{
     System,
 };
 
-use crate::body::{Body, BodyOutline};
+use crate::body::{AnyBody, Body, BodyOutline, Geometry};
 use crate::counts::{self, BondCounts};
 use crate::error::SetupError;
 use crate::faces;
@@ -21,20 +21,21 @@ use crate::formulation::{self, Formulation};
 use crate::loading;
 use crate::plausibility;
 use crate::precracks::{self, Precracked};
-use crate::setup::{Analysis, CorrectionDomain, Law, Setup};
+use crate::setup::{Analysis, CorrectionDomain, Law, Position, Setup};
 use crate::soundness::{
     forbid_overlap, require_connected, require_distinct, require_factors, require_numbers,
 };
 use crate::stage::{Finding, StageWatcher, stage};
+use crate::system::{AnySystem, over_dimension};
 use crate::warning::{self, Warning};
 
-/// The discrete model in the plane, or for D = 3 in space: all that comes before the first equation.
+/// The discrete model: all that comes before the first equation.
 #[derive(Debug)]
-pub struct Model<const D: usize = 2> {
+pub struct Model {
     /// Setup that the model was built from.
-    pub setup: Setup<D>,
+    pub setup: Setup,
     /// Points and corrected bonds.
-    pub system: Arc<dyn System<D>>,
+    pub system: AnySystem,
     /// Fields that an analysis does not change.
     pub fixed: FixedFields,
     /// Report on the domain correction, where there was one.
@@ -49,28 +50,39 @@ pub struct Model<const D: usize = 2> {
     pub warnings: Vec<Warning>,
 }
 
-impl<const D: usize> Model<D> {
+impl Model {
     /// Builds the model of a setup, on the threads of the caller; where its solver has several processes, they share the bonds out.
     ///
     /// # Errors
     ///
     /// If a field of the setup is wrong.
-    pub fn build(setup: Setup<D>, watcher: &mut dyn StageWatcher) -> Result<Self, SetupError> {
+    pub fn build(setup: Setup, watcher: &mut dyn StageWatcher) -> Result<Self, SetupError> {
+        match setup.body.clone() {
+            AnyBody::Plane(body) => Self::of_body(setup, &*body, watcher),
+            AnyBody::Solid(body) => Self::of_body(setup, &*body, watcher),
+        }
+    }
+
+    /// Builds the model of a setup on its body in D dimensions.
+    fn of_body<const D: usize>(
+        setup: Setup,
+        body: &dyn Geometry<D>,
+        watcher: &mut dyn StageWatcher,
+    ) -> Result<Self, SetupError> {
         setup.check()?;
         let material_of_cell = loading::material_of_cell(&setup)?;
-        let body = setup.body.clone();
         let (cloud, outline) = stage(watcher, "points", || {
-            points(&setup, &*body, &material_of_cell)
+            points(&setup, body, &material_of_cell)
         })?;
         let horizons = setup.horizon.of_points(&cloud);
         let (bonds, absent) = stage(watcher, "bonds", || {
             let all = BondSet::search(&cloud, &horizons);
-            let (bonds, absent) = inside_body(&*body, all, &cloud, outline.as_deref());
-            (composed(&*body, bonds, &cloud, &material_of_cell), absent)
+            let (bonds, absent) = inside_body(body, all, &cloud, outline.as_deref());
+            (composed(body, bonds, &cloud, &material_of_cell), absent)
         });
         require_connected(&setup, &cloud, &horizons, &bonds)?;
         watcher.found(&counts::finding(&cloud, &bonds, &absent));
-        let cracks = precracks::cracks(&*body, &setup.precracks)?;
+        let cracks = precracks::cracks(body, &setup.precracks)?;
         let crossed = stage(watcher, "pre-cracks", || {
             Precracked::new(&cracks, &bonds, &cloud)
         });
@@ -109,7 +121,7 @@ impl<const D: usize> Model<D> {
             counts: BondCounts::new(&system.cloud, &system.bonds, &fixed.absent),
             correction: correction.report,
             setup,
-            system: system.with_elements(),
+            system: AnySystem::new(system.with_elements()),
             fixed,
             criteria: Arc::new(criteria),
         })
@@ -131,14 +143,67 @@ impl<const D: usize> Model<D> {
     }
 
     /// The body.
-    pub fn body(&self) -> &dyn Body<D> {
+    pub fn body(&self) -> &dyn Body {
         &*self.setup.body
+    }
+
+    /// Position halfway between two points, m.
+    pub fn middle(&self, ends: [u32; 2]) -> Vec<f64> {
+        over_dimension!(&self.system, system => {
+            let cloud = &system.cloud;
+            let [a, b] = ends.map(|end| cloud.positions[end as usize]);
+            let along = a.iter().zip(b).zip(cloud.origin);
+            along.map(|((a, b), origin)| 0.5 * (a + b) + origin).collect()
+        })
+    }
+
+    /// Whether some bond has a positive shear stiffness.
+    pub fn has_shear(&self) -> bool {
+        over_dimension!(&self.system, system => system.rigidities.shear.iter().any(|it| *it > 0.0))
+    }
+
+    /// Volume of a material, by its index, m^3.
+    pub fn volume_of_material(&self, index: usize) -> f64 {
+        over_dimension!(&self.system, system => {
+            let cloud = &system.cloud;
+            let parts = (0..cloud.len()).map(|it| cloud.shares(it)[index] * cloud.volumes[it]);
+            parts.sum()
+        })
+    }
+
+    /// Distance of a point from a position, m; zero where no more than rounding is between them.
+    pub fn distance_to(&self, point: u32, position: Position) -> f64 {
+        let slack = over_dimension!(&self.system, system => system.cloud.slack(point));
+        let place = self.body().position(point).iter();
+        let squares = place.zip(position).map(|(p, q)| (p - q).powi(2));
+        let distance = squares.sum::<f64>().sqrt();
+        if distance <= slack { 0.0 } else { distance }
+    }
+
+    /// The points and bonds of a model in the plane.
+    ///
+    /// # Panics
+    ///
+    /// Panics for a solid.
+    pub fn plane(&self) -> &Arc<dyn System<2>> {
+        let system = self.system.of_dimension();
+        system.expect("the body is in the plane")
+    }
+
+    /// The points and bonds of a solid.
+    ///
+    /// # Panics
+    ///
+    /// Panics for a body in the plane.
+    pub fn solid(&self) -> &Arc<dyn System<3>> {
+        let system = self.system.of_dimension();
+        system.expect("the body is a solid")
     }
 }
 
 /// The processes that share the bonds of a setup out; none where each has all of them. Elements that lean on bonds beside them, faces that
 /// close and natural modes ask for the whole body.
-pub fn sharing<const D: usize>(setup: &Setup<D>) -> Option<&'static dyn Exchange> {
+pub fn sharing(setup: &Setup) -> Option<&'static dyn Exchange> {
     let Together(ranks) = setup.solver.ranks?;
     let needs_all = setup.closing
         || matches!(setup.law, Law::MbbPd { .. })
@@ -147,10 +212,7 @@ pub fn sharing<const D: usize>(setup: &Setup<D>) -> Option<&'static dyn Exchange
 }
 
 /// The part of this process in the points of a setup that several share out; none where it has all of them.
-pub(crate) fn portion_of<const D: usize>(
-    setup: &Setup<D>,
-    cloud: &PointCloud<D>,
-) -> Option<Portion> {
+pub(crate) fn portion_of<const D: usize>(setup: &Setup, cloud: &PointCloud<D>) -> Option<Portion> {
     sharing(setup).map(|exchange| cloud.portion_of(exchange))
 }
 
@@ -160,8 +222,8 @@ type Bounds<'a, const D: usize> = Option<Box<dyn BodyOutline<D> + 'a>>;
 /// The points of the body, with the index of the material of each cell (n_cells) and the part of this process in them, and the outline of a
 /// mesh that bonds do not leave.
 fn points<'a, const D: usize>(
-    setup: &Setup<D>,
-    body: &'a dyn Body<D>,
+    setup: &Setup,
+    body: &'a dyn Geometry<D>,
     material_of_cell: &[u32],
 ) -> Result<(PointCloud<D>, Bounds<'a, D>), SetupError> {
     let cloud = body.cloud(setup.thickness(), material_of_cell, setup.materials.len());
@@ -183,7 +245,7 @@ fn points<'a, const D: usize>(
 
 /// Points and corrected bonds with the rigidities of their elements.
 fn bond_system<const D: usize>(
-    setup: &Setup<D>,
+    setup: &Setup,
     cloud: PointCloud<D>,
     bonds: BondSet<D>,
     stiffness: BondStiffness,
@@ -201,7 +263,7 @@ fn bond_system<const D: usize>(
 
 /// The bonds, followed through the cells of a body of several materials.
 fn composed<const D: usize>(
-    body: &dyn Body<D>,
+    body: &dyn Geometry<D>,
     bonds: BondSet<D>,
     cloud: &PointCloud<D>,
     materials: &[u32],
@@ -214,7 +276,7 @@ fn composed<const D: usize>(
 
 /// The bonds inside the body, and those that its voids part.
 fn inside_body<const D: usize>(
-    body: &dyn Body<D>,
+    body: &dyn Geometry<D>,
     bonds: BondSet<D>,
     cloud: &PointCloud<D>,
     outline: Option<&(dyn BodyOutline<D> + '_)>,
@@ -348,7 +410,7 @@ fn of_correction(correction: &Correction, no_fail: Vec<bool>) -> FixedFields {
 
 /// What the user should know of a model, with the pre-cracks that cut no bond and the number of the bonds that they only touch.
 fn warnings<const D: usize>(
-    (setup, cloud): (&Setup<D>, &PointCloud<D>),
+    (setup, cloud): (&Setup, &PointCloud<D>),
     report: Option<&CorrectionReport>,
     fixed: &FixedFields,
     criteria: &Criteria,

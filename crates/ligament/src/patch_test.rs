@@ -14,7 +14,7 @@ use ligament_model::correction::patch::CellForces;
 use ligament_model::layout::Layout;
 use ligament_model::moduli::EngineeringConstants;
 use ligament_model::uniform_strain::{self, UniformStrains};
-use ligament_model::{Elasticity, Plane};
+use ligament_model::{Elasticity, Plane, System};
 use thiserror::Error;
 
 use crate::body::Origin;
@@ -24,33 +24,34 @@ use crate::loading::material_of_cell;
 use crate::model::Model;
 use crate::run::Unobserved;
 use crate::setup::{ELASTIC_ENERGY_TOLERANCE, Setup};
+use crate::system::over_dimension;
 
 /// Strains that the body is given: so small that strains over distances after the deformation are none others.
 pub(crate) const SIZE: f64 = 1e-6;
 
 /// What a body makes of uniform strains.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PatchTest<const D: usize = 2> {
+pub struct PatchTest {
     /// Elastic constants; none of a body of several materials, which strains uniformly under no uniform stress.
-    pub constants: Option<Constants<D>>,
+    pub constants: Option<Constants>,
     /// Root mean square over the bonds of what their strain has more than the mean strain of the body, over the size of that, for uniform
     /// strains along x, along y, in shear in xy, and in space along z, in xz and in yz.
     pub scatter: Vec<f64>,
     /// The most that the strain of a bond has more in some uniform strain, over the size of that.
     pub largest: f64,
     /// Middle of the bond that has it, m.
-    pub place: [f64; D],
+    pub place: Vec<f64>,
 }
 
 /// Elastic constants of a body, and those of its material as the law has them.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Constants<const D: usize = 2> {
+pub struct Constants {
     /// Angle from x to the first axis of the material, along which the constants are, rad; none without axes.
     pub angle: Option<f64>,
-    /// Constants of the body.
-    pub body: EngineeringConstants<D>,
+    /// Constants of the body; those beyond the plane are zero in the plane.
+    pub body: EngineeringConstants<3>,
     /// Constants of the material.
-    pub material: EngineeringConstants<D>,
+    pub material: EngineeringConstants<3>,
 }
 
 /// Why a body has no patch test.
@@ -97,7 +98,7 @@ pub enum Untested {
 /// # Errors
 ///
 /// If the body has no cells, or the free body no equilibrium.
-pub fn patch_test<const D: usize>(model: &Model<D>) -> Result<PatchTest<D>, Untested> {
+pub fn patch_test(model: &Model) -> Result<PatchTest, Untested> {
     if model.cut_bonds() == 0 {
         return of_whole_body(model);
     }
@@ -108,30 +109,36 @@ pub fn patch_test<const D: usize>(model: &Model<D>) -> Result<PatchTest<D>, Unte
     of_whole_body(&Model::build(setup, &mut ())?)
 }
 
-fn of_whole_body<const D: usize>(model: &Model<D>) -> Result<PatchTest<D>, Untested> {
-    let Model { setup, system, .. } = model;
+fn of_whole_body(model: &Model) -> Result<PatchTest, Untested> {
+    over_dimension!(&model.system, system => of_bonds(model, &**system))
+}
+
+fn of_bonds<const D: usize>(model: &Model, system: &dyn System<D>) -> Result<PatchTest, Untested> {
+    let setup = &model.setup;
     if matches!(setup.body.origin(), Origin::Points) {
         return Err(Untested::NoCells);
     }
     let (cloud, bonds) = (&system.cloud, &system.bonds);
     let stiffness = stiffness_of_materials(setup);
-    let forces = (setup.body).cell_forces(cloud, &material_of_cell(setup)?, stiffness);
-    let loads = uniform_strain::loads(&**system, &forces);
+    let forces = (setup.body.geometry()).cell_forces(cloud, &material_of_cell(setup)?, stiffness);
+    let loads = uniform_strain::loads(system, &forces);
     let displacements = displacements(model, loads)?;
-    let strains = UniformStrains::measure(&**system, &forces, &displacements);
+    let strains = UniformStrains::measure(system, &forces, &displacements);
     let strains = strains.ok_or(Untested::Degenerate)?;
     let [a, b] = bonds.ends[strains.bond].map(|end| cloud.positions[end as usize]);
     Ok(PatchTest {
         constants: constants(setup, &forces, &strains),
         scatter: strains.scatter,
         largest: strains.largest,
-        place: std::array::from_fn(|axis| cloud.origin[axis] + 0.5 * (a[axis] + b[axis])),
+        place: (0..D)
+            .map(|axis| cloud.origin[axis] + 0.5 * (a[axis] + b[axis]))
+            .collect(),
     })
 }
 
 /// Displacements of the free body under the forces of each of the strains, shape (n_strains, n_degrees_of_freedom), over their size.
-fn displacements<const D: usize>(
-    Model { setup, system, .. }: &Model<D>,
+fn displacements(
+    Model { setup, system, .. }: &Model,
     forces: Vec<Vec<f64>>,
 ) -> Result<Vec<Vec<f64>>, Untested> {
     let loads = forces.into_iter();
@@ -139,7 +146,7 @@ fn displacements<const D: usize>(
         .map(|force| free_loading(system.layout(), force))
         .collect();
     let problem = Problem {
-        system: system.clone(),
+        system: system.to_bonds(),
         criteria: Arc::default(),
         loads: loads[0].clone(),
         solver: setup.solver,
@@ -178,10 +185,10 @@ pub(crate) fn free_loading(layout: Layout, force: Vec<f64>) -> Arc<ProportionalL
 
 /// The constants of a body of one material, along the axes of that.
 fn constants<const D: usize>(
-    setup: &Setup<D>,
+    setup: &Setup,
     forces: &CellForces<D>,
     strains: &UniformStrains,
-) -> Option<Constants<D>> {
+) -> Option<Constants> {
     let ([region], [stiffness]) = (setup.materials.as_slice(), forces.stiffness.as_slice()) else {
         return None;
     };
@@ -190,7 +197,7 @@ fn constants<const D: usize>(
         Elasticity::Orthotropic(material) => Some(material.angle),
         Elasticity::Isotropic(_) | Elasticity::Anisotropic(_) => None,
     };
-    let axes = axes(angle.unwrap_or_default());
+    let axes: [[f64; D]; D] = axes(angle.unwrap_or_default());
     // In plane strain a temperature widens the section.
     let is_strain = elasticity.isotropic().is_some() && setup.space() == Plane::Strain.into();
     let read = |constants| match is_strain {
@@ -200,8 +207,8 @@ fn constants<const D: usize>(
     let of_material = stiffness_of_materials(setup).pop()?;
     Some(Constants {
         angle,
-        body: read(strains.constants(stiffness, axes)?),
-        material: read(EngineeringConstants::along(of_material, axes)?),
+        body: read(strains.constants(stiffness, axes)?).resized(),
+        material: read(EngineeringConstants::along(of_material, axes)?).resized(),
     })
 }
 

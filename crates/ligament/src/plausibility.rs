@@ -19,7 +19,7 @@ const LIGHTEST: f64 = 10.0;
 const LONGEST: f64 = 10.0;
 
 /// What is rare in a setup, and meant as a rule.
-pub fn notes<const D: usize>(setup: &Setup<D>) -> Vec<Note> {
+pub fn notes(setup: &Setup) -> Vec<Note> {
     let materials = setup.materials.iter().map(|it| &it.material);
     let auxetic = materials.filter_map(|material| {
         let poisson = match &material.elasticity {
@@ -37,7 +37,7 @@ pub fn notes<const D: usize>(setup: &Setup<D>) -> Vec<Note> {
 
 /// What is hardly ever meant in a setup and its model, with the limits of its bonds and the pre-cracks that cut none, by their indices.
 pub(crate) fn of_model<const D: usize>(
-    setup: &Setup<D>,
+    setup: &Setup,
     cloud: &PointCloud<D>,
     criteria: &Criteria,
     idle: Vec<usize>,
@@ -65,7 +65,7 @@ pub(crate) fn of_model<const D: usize>(
 }
 
 /// The fault of bonds that get no limit in a setup, with a constant that is hardly ever meant, if there is one.
-pub(crate) fn without_limit<const D: usize>(setup: &Setup<D>, reason: NoLimit) -> Fault {
+pub(crate) fn without_limit(setup: &Setup, reason: NoLimit) -> Fault {
     let materials = setup.materials.iter();
     let mut causes = materials.flat_map(|it| of_constants(&it.material, &setup.analysis));
     let cause = causes.next().map(Box::new);
@@ -133,7 +133,7 @@ fn softens_by_energy(choice: &Choice) -> bool {
 
 /// The characteristic length E G_c/F_t^2 of a material where it is no length of the body; with the limit of a criterion in the place of F_t/E.
 fn of_length<const D: usize>(
-    body: &dyn Body<D>,
+    body: &dyn Body,
     cloud: &PointCloud<D>,
     material: &Material,
     choice: &Choice,
@@ -165,14 +165,15 @@ fn of_length<const D: usize>(
 }
 
 /// Corners of the box around a body, m.
-fn corners<const D: usize>(body: &dyn Body<D>) -> [Vec<f64>; 2] {
-    let along = |axis: usize| body.positions().iter().map(move |it| it[axis]);
+pub fn corners(body: &dyn Body) -> [Vec<f64>; 2] {
+    let points = 0..body.n_points() as u32;
+    let along = |axis: usize| points.clone().map(move |it| body.position(it)[axis]);
+    let axes = 0..body.position(0).len();
     [
-        (0..D)
+        (axes.clone())
             .map(|axis| along(axis).fold(f64::INFINITY, f64::min))
             .collect(),
-        (0..D)
-            .map(|axis| along(axis).fold(f64::NEG_INFINITY, f64::max))
+        axes.map(|axis| along(axis).fold(f64::NEG_INFINITY, f64::max))
             .collect(),
     ]
 }
@@ -202,7 +203,7 @@ fn of_limits<const D: usize>(cloud: &PointCloud<D>, criteria: &Criteria) -> Vec<
 }
 
 /// Angles of more than a turn: of materials, of criteria, and of loads that turn points.
-fn of_angles<const D: usize>(setup: &Setup<D>) -> Vec<Implausible> {
+fn of_angles(setup: &Setup) -> Vec<Implausible> {
     let mut angles: Vec<(String, f64)> = Vec::new();
     for region in &setup.materials {
         if let Elasticity::Orthotropic(it) = &region.material.elasticity {

@@ -6,7 +6,7 @@ use ligament_model::bonds::precrack::{
 };
 use ligament_model::{BondSet, PointCloud};
 
-use crate::body::Body;
+use crate::body::{Body, Geometry};
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::{CrackShape, PreCrack};
 
@@ -16,7 +16,7 @@ use crate::setup::{CrackShape, PreCrack};
 ///
 /// If a surface is none, or the body has no group of its name.
 pub(crate) fn cracks<const D: usize>(
-    body: &dyn Body<D>,
+    body: &dyn Geometry<D>,
     precracks: &[PreCrack],
 ) -> Result<Vec<Crack>, SetupError> {
     let numbered = precracks.iter().enumerate();
@@ -56,9 +56,9 @@ pub(crate) fn cracks<const D: usize>(
 }
 
 /// The faces of a surface group as triangles, quadrangles along a diagonal.
-fn triangles_of_group<const D: usize>(
+fn triangles_of_group(
     field: Field,
-    body: &dyn Body<D>,
+    body: &dyn Body,
     group: &str,
 ) -> Result<Vec<[u32; 3]>, SetupError> {
     let Some(faces) = body.faces_of(group) else {

@@ -9,7 +9,7 @@ pub use ligament_model::failure::strength::STRENGTH;
 pub use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
 pub use ligament_model::{Elasticity, Isotropic, Material, Plane, Shape};
 
-pub use crate::body::{Body, CellSet, Hole, LatticeBody, MeshBody, Points};
+pub use crate::body::{AnyBody, Body, CellSet, Geometry, Hole, LatticeBody, MeshBody, Points};
 pub use crate::error::{Error, Fault, Field, SetupError};
 pub use crate::model::Model;
 pub use crate::run::{Solution, Unobserved};

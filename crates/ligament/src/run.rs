@@ -17,27 +17,27 @@ use crate::setup::{Analysis, Setup};
 
 /// What a setup of loads comes to.
 #[derive(Debug)]
-pub struct Solution<const D: usize = 2> {
+pub struct Solution {
     /// The discrete model.
-    pub model: Model<D>,
+    pub model: Model,
     /// Probes; their values stand in the records of the outcome, in this order.
     pub probes: Arc<[Probe]>,
     /// Outcome of the analysis: history, last state, and why it ended.
     pub outcome: Outcome,
 }
 
-impl<const D: usize> Setup<D> {
+impl Setup {
     /// Builds the model and follows the loads on the threads of the setup: the elastic solution, or the breaking of bonds up to the
     /// end of the loading or of the body.
     ///
     /// # Errors
     ///
     /// If a field of the setup is wrong, or the equations cannot be set up. How the analysis ends is in the outcome.
-    pub fn solve(self, observer: &mut (dyn Observer + Send)) -> Result<Solution<D>, Error> {
+    pub fn solve(self, observer: &mut (dyn Observer + Send)) -> Result<Solution, Error> {
         on_threads(self.threads, || {
             let model = Model::build(self, &mut ())?;
-            let loading = Loading::new(&model.setup, &*model.system)?;
-            let problem = loading.problem(&model.system, &model.criteria);
+            let loading = Loading::new(&model)?;
+            let problem = loading.problem(&model);
             let outcome = follow(&problem, &model.setup.analysis, observer)?;
             Ok(Solution {
                 model,
@@ -58,8 +58,8 @@ impl<const D: usize> Setup<D> {
         };
         on_threads(self.threads, || {
             let model = Model::build(self, &mut ())?;
-            let vibration = Vibration::new(&model.setup, &*model.system)?;
-            let analysis = ModalAnalysis::new(&vibration.problem(&model.system), settings)?;
+            let vibration = Vibration::new(&model)?;
+            let analysis = ModalAnalysis::new(&vibration.problem(&model), settings)?;
             Ok(analysis.find()?)
         })?
     }

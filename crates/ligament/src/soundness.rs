@@ -16,7 +16,7 @@ const DISTINCT: f64 = 1e-5;
 
 /// Refuses cells that lie on others.
 pub(crate) fn forbid_overlap<const D: usize>(
-    body: &dyn Body<D>,
+    body: &dyn Body,
     outline: &dyn BodyOutline<D>,
 ) -> Result<(), SetupError> {
     let Some([from, to]) = outline.first_crossing() else {
@@ -30,7 +30,7 @@ pub(crate) fn forbid_overlap<const D: usize>(
 
 /// Refuses points that nearly coincide, measured by the side of the square of their area, in space of the cube of their volume.
 pub(crate) fn require_distinct<const D: usize>(
-    body: &dyn Body<D>,
+    body: &dyn Body,
     cloud: &PointCloud<D>,
 ) -> Result<(), SetupError> {
     let size = |point: usize| match D {
@@ -55,7 +55,7 @@ pub(crate) fn require_distinct<const D: usize>(
 
 /// Refuses points that have no neighbour at all: no correction gives them a stiffness.
 fn require_neighbours<const D: usize>(
-    body: &dyn Body<D>,
+    body: &dyn Body,
     cloud: &PointCloud<D>,
     bonds: &BondSet<D>,
 ) -> Result<(), SetupError> {
@@ -73,7 +73,7 @@ fn require_neighbours<const D: usize>(
 
 /// Refuses bonds that leave points alone, or a body of cells in more parts than it has: edges of its cells are longer than the horizons.
 pub(crate) fn require_connected<const D: usize>(
-    setup: &Setup<D>,
+    setup: &Setup,
     cloud: &PointCloud<D>,
     horizons: &Horizons,
     bonds: &BondSet<D>,
@@ -118,7 +118,7 @@ pub(crate) fn require_connected<const D: usize>(
 
 /// Refuses bonds whose stiffness is no number that equations can be made of.
 pub(crate) fn require_numbers<const D: usize>(
-    body: &dyn Body<D>,
+    body: &dyn Body,
     system: &BondSystem<D>,
 ) -> Result<(), SetupError> {
     require_rigidities(body, &system.cloud, &system.rigidities, &system.bonds.ends)
@@ -127,7 +127,7 @@ pub(crate) fn require_numbers<const D: usize>(
 /// Refuses factors of a correction (n_bonds) that are no numbers, of bonds between some ends with an axial stiffness (n_bonds both) of a size
 /// with which a correction can compute.
 pub(crate) fn require_factors<const D: usize>(
-    body: &dyn Body<D>,
+    body: &dyn Body,
     cloud: &PointCloud<D>,
     (factors, axial): (&[f64], &[f64]),
     ends: &[[u32; 2]],
@@ -149,7 +149,7 @@ pub(crate) fn require_factors<const D: usize>(
 
 /// The first bond that is wrong, over all processes, by its ends in words; `wrong` is the one of this process, if it has one.
 fn first_of<const D: usize>(
-    body: &dyn Body<D>,
+    body: &dyn Body,
     cloud: &PointCloud<D>,
     wrong: Option<usize>,
     ends: &[[u32; 2]],
@@ -162,7 +162,7 @@ fn first_of<const D: usize>(
 
 /// Refuses rigidities of bonds between some ends (n_bonds) that are no numbers to make equations of.
 fn require_rigidities<const D: usize>(
-    body: &dyn Body<D>,
+    body: &dyn Body,
     cloud: &PointCloud<D>,
     rigidities: &Rigidities,
     ends: &[[u32; 2]],
@@ -251,11 +251,11 @@ mod tests {
     use ligament_model::Material;
 
     use super::*;
-    use crate::body::SolidMeshBody;
+    use crate::body::{Geometry, SolidMeshBody};
     use crate::setup::Law;
 
     /// Two bricks of different heights on each other.
-    fn tower(z: [f64; 3], factor: f64) -> (Setup<3>, PointCloud<3>) {
+    fn tower(z: [f64; 3], factor: f64) -> (Setup, PointCloud<3>) {
         let layer = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
         let mesh = SolidMesh {
             node_tags: (1..=12).collect(),

@@ -32,7 +32,7 @@ impl Units {
     }
 }
 
-impl<const D: usize> Setup<D> {
+impl Setup {
     /// Units of the displacement and the force in the history, which are those of the load of the curve, or of the temperature.
     pub fn units(&self) -> Units {
         let load = self.curve_load();
@@ -40,7 +40,7 @@ impl<const D: usize> Setup<D> {
     }
 }
 
-impl<const D: usize> Action<D> {
+impl Action {
     /// Units of the displacement and the force of the action in the history: their product is work.
     pub fn units(&self) -> Units {
         match self {

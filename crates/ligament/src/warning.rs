@@ -10,6 +10,7 @@ use thiserror::Error;
 
 use crate::body::{Body, Origin};
 use crate::implausible::Implausible;
+use crate::plausibility::corners;
 use crate::setup::{Horizon, Law, Setup};
 
 /// Below this the domain correction is not known to have a fixed point.
@@ -217,8 +218,8 @@ fn place(position: &[f64]) -> String {
 
 /// Warnings about the body, the horizons over the distances `spacing` (n_points) of nearest points, the correction,
 /// pre-cracks (`touched`: bonds that only touch an end of one) and the materials.
-pub(crate) fn of_model<const D: usize>(
-    setup: &Setup<D>,
+pub(crate) fn of_model(
+    setup: &Setup,
     spacing: &[f64],
     correction: Option<&CorrectionReport>,
     fixed: &FixedFields,
@@ -301,21 +302,13 @@ fn patch_factor(space: Space) -> f64 {
     }
 }
 
-fn small_horizon<const D: usize>(
-    setup: &Setup<D>,
-    spacing: &[f64],
-    fixed: &FixedFields,
-) -> Option<Warning> {
+fn small_horizon(setup: &Setup, spacing: &[f64], fixed: &FixedFields) -> Option<Warning> {
     let (factor, is_given) = smallest_factor(setup, spacing, fixed);
     (factor < SMALLEST_SAFE_FACTOR).then_some(Warning::SmallHorizon { factor, is_given })
 }
 
 /// The smallest horizon over the nearest distance of a point, and whether the setup gives it.
-fn smallest_factor<const D: usize>(
-    setup: &Setup<D>,
-    spacing: &[f64],
-    fixed: &FixedFields,
-) -> (f64, bool) {
+fn smallest_factor(setup: &Setup, spacing: &[f64], fixed: &FixedFields) -> (f64, bool) {
     match setup.horizon {
         Horizon::Factor(factor) => (factor, true),
         Horizon::Length(_) => {
@@ -326,22 +319,20 @@ fn smallest_factor<const D: usize>(
     }
 }
 
-fn scatter_below_spacing<const D: usize>(setup: &Setup<D>, spacing: &[f64]) -> Option<Warning> {
+fn scatter_below_spacing(setup: &Setup, spacing: &[f64]) -> Option<Warning> {
     let length = setup.scatter?.correlation_length;
     let spacing = spacing.iter().copied().fold(0.0, f64::max);
     (length > 0.0 && length < spacing).then_some(Warning::ScatterBelowSpacing { length, spacing })
 }
 
-/// Longer side of the box around a body, m.
-fn length<const D: usize>(body: &dyn Body<D>) -> f64 {
-    let extent = |axis: usize| {
-        let places = body.positions().iter().map(|it| it[axis]);
-        places.clone().fold(f64::NEG_INFINITY, f64::max) - places.fold(f64::INFINITY, f64::min)
-    };
-    (0..D).map(extent).fold(0.0, f64::max)
+/// Longest side of the box around a body, m.
+fn length(body: &dyn Body) -> f64 {
+    let [low, high] = corners(body);
+    let sides = low.iter().zip(&high).map(|(low, high)| high - low);
+    sides.fold(0.0, f64::max)
 }
 
-fn large_horizon<const D: usize>(body: &dyn Body<D>, fixed: &FixedFields) -> Option<Warning> {
+fn large_horizon(body: &dyn Body, fixed: &FixedFields) -> Option<Warning> {
     let length = length(body);
     let horizons = fixed.horizon.iter().enumerate();
     let (point, &horizon) = horizons.min_by(|one, other| one.1.total_cmp(other.1))?;
@@ -352,11 +343,7 @@ fn large_horizon<const D: usize>(body: &dyn Body<D>, fixed: &FixedFields) -> Opt
     })
 }
 
-fn not_met<const D: usize>(
-    body: &dyn Body<D>,
-    report: &patch::Report,
-    factor: Option<f64>,
-) -> Warning {
+fn not_met(body: &dyn Body, report: &patch::Report, factor: Option<f64>) -> Warning {
     let residual = &report.residual;
     let worst = (0..residual.len())
         .max_by(|&i, &j| residual[i].total_cmp(&residual[j]))
@@ -365,7 +352,7 @@ fn not_met<const D: usize>(
         left: report.left,
         largest: residual[worst],
         worst: body.label(worst as u32),
-        position: body.positions()[worst].to_vec(),
+        position: body.position(worst as u32).to_vec(),
         factor,
     }
 }
@@ -378,13 +365,9 @@ fn more_bonds(factor: Option<f64>) -> String {
     }
 }
 
-fn not_converged<const D: usize>(
-    body: &dyn Body<D>,
-    correction: &DomainReport,
-    fixed: &FixedFields,
-) -> Warning {
+fn not_converged(body: &dyn Body, correction: &DomainReport, fixed: &FixedFields) -> Warning {
     let n_points = fixed.horizon.len();
-    let along_axes = &fixed.energy_ratios[..D];
+    let along_axes = &fixed.energy_ratios[..body.position(0).len()];
     let error = |point: usize| {
         let errors = along_axes
             .iter()
@@ -404,12 +387,12 @@ fn not_converged<const D: usize>(
         n_points,
         error: error(worst),
         worst: body.label(worst as u32),
-        position: body.positions()[worst].to_vec(),
+        position: body.position(worst as u32).to_vec(),
     }
 }
 
 /// Bonds with a shear stiffness between points without rotations; above the Poisson's ratio of central forces they give energy.
-fn rotation_resisted<const D: usize>(setup: &Setup<D>, material: &Isotropic) -> Option<Warning> {
+fn rotation_resisted(setup: &Setup, material: &Isotropic) -> Option<Warning> {
     let (poisson, limit) = poisson_and_limit(setup, material);
     let resists = matches!(setup.law, Law::Pds { .. }) && poisson < limit - POISSON_TOLERANCE;
     let law = setup.law.name();
@@ -417,7 +400,7 @@ fn rotation_resisted<const D: usize>(setup: &Setup<D>, material: &Isotropic) -> 
 }
 
 /// The shear of a bond between points without rotations is that of the body and its rotation together.
-fn rotation_as_sliding<const D: usize>(setup: &Setup<D>) -> Option<Warning> {
+fn rotation_as_sliding(setup: &Setup) -> Option<Warning> {
     let law = &setup.law;
     if law.element() != ElementKind::Spring {
         return None;
@@ -433,7 +416,7 @@ fn rotation_as_sliding<const D: usize>(setup: &Setup<D>) -> Option<Warning> {
     })
 }
 
-fn energy_given_back<const D: usize>(setup: &Setup<D>, material: &Isotropic) -> Option<Warning> {
+fn energy_given_back(setup: &Setup, material: &Isotropic) -> Option<Warning> {
     let mut kinds = setup.criteria.iter();
     let looks_at_energy =
         kinds.any(|it| (it.kind.measures.iter()).any(|it| it.needs_shear_stiffness()));
@@ -442,7 +425,7 @@ fn energy_given_back<const D: usize>(setup: &Setup<D>, material: &Isotropic) -> 
     (looks_at_energy && gives_energy).then_some(Warning::EnergyGivenBack { poisson, limit })
 }
 
-fn of_poisson<const D: usize>(setup: &Setup<D>, material: &Isotropic) -> Option<Warning> {
+fn of_poisson(setup: &Setup, material: &Isotropic) -> Option<Warning> {
     let (poisson, limit) = poisson_and_limit(setup, material);
     if setup.law.fixes_poisson() {
         let differs = (poisson - limit).abs() > POISSON_TOLERANCE;
@@ -471,7 +454,7 @@ fn of_poisson<const D: usize>(setup: &Setup<D>, material: &Isotropic) -> Option<
     })
 }
 
-fn poisson_and_limit<const D: usize>(setup: &Setup<D>, material: &Isotropic) -> (f64, f64) {
+fn poisson_and_limit(setup: &Setup, material: &Isotropic) -> (f64, f64) {
     let limit = Isotropic::central_force_poisson(setup.space());
     (material.poisson, limit)
 }

@@ -48,7 +48,7 @@ fn peak(outcome: &Outcome) -> f64 {
 fn rollers_stand_for_the_other_half() {
     let mut whole = plate(40, -0.04);
     let mut at = Support::new("bottom", &[Component::X]);
-    at.place = Place::At([0.001, 0.001]);
+    at.place = Place::At([0.001, 0.001, 0.0]);
     whole.supports.push(at);
     let mut half = plate(20, 0.0);
     half.supports.push(Support::new("left", &[Component::X]));

@@ -24,7 +24,7 @@ fn plate(sides: [f64; 2], moved: impl Fn(&mut Vec<[f64; 2]>)) -> Setup {
         cells: (0..SIDE * SIDE).map(cell).collect(),
         ..Mesh::default()
     };
-    let left = Place::Box([[-1.0, -1.0], [1e-3 * sides[0], 1e3]]);
+    let left = Place::Box([[-1.0, -1.0, 0.0], [1e-3 * sides[0], 1e3, 0.0]]);
     let mut setup = Setup::new(
         MeshBody::from(mesh),
         Material::isotropic(15e9, 1.0 / 3.0),
@@ -32,8 +32,8 @@ fn plate(sides: [f64; 2], moved: impl Fn(&mut Vec<[f64; 2]>)) -> Setup {
     );
     setup.supports = vec![Support::new(left, &[Component::X, Component::Y])];
     setup.loads = vec![Load::new(
-        Place::At([6.0 * sides[0], 3.0 * sides[1]]),
-        Action::Force([1.0, 0.0]),
+        Place::At([6.0 * sides[0], 3.0 * sides[1], 0.0]),
+        Action::Force([1.0, 0.0, 0.0]),
     )];
     setup
 }
@@ -80,20 +80,21 @@ fn cells_longer_than_the_horizon_are_refused() {
 #[test]
 fn a_position_off_the_body_is_refused() {
     let mut setup = plate([0.01; 2], |_| ());
-    setup.loads[0].place = Place::At([5.0, 5.0]);
+    setup.loads[0].place = Place::At([5.0, 5.0, 0.0]);
     assert_eq!(
         error(setup),
         "loads[0].place: (5.000000, 5.000000) is not on the body: the nearest point, node 49 at (0.060000, 0.060000), is 6.986e0 m away"
     );
     // Half a cell outside is still meant for the corner.
     let mut setup = plate([0.01; 2], |_| ());
-    setup.loads[0].place = Place::At([0.065, 0.065]);
+    setup.loads[0].place = Place::At([0.065, 0.065, 0.0]);
     setup.solve(&mut Unobserved).unwrap();
 }
 
 #[test]
 fn a_section_that_no_bond_crosses_is_refused() {
-    let with_section = |line: [[f64; 2]; 2]| {
+    let with_section = |[start, end]: [[f64; 2]; 2]| {
+        let line = [start, end].map(|[x, y]| [x, y, 0.0]);
         let mut setup = plate([0.01; 2], |_| ());
         setup.probes = vec![Probe {
             name: "section".to_owned(),

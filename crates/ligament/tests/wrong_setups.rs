@@ -18,7 +18,7 @@ fn plate() -> Setup {
         .unwrap();
     let mut setup = Setup::new(points, Material::isotropic(1e9, 0.2), Law::Nhpd);
     setup.supports = vec![Support::new("left", &[Component::X, Component::Y])];
-    setup.loads = vec![Load::new("right", Action::Force([1.0, 0.0]))];
+    setup.loads = vec![Load::new("right", Action::Force([1.0, 0.0, 0.0]))];
     setup
 }
 
@@ -131,7 +131,7 @@ fn a_setup_is_held_to_the_rules_of_a_case() {
         };
     };
     let reading = Reading::Between {
-        positions: [[0.0; 2]; 2],
+        positions: [[0.0; 3]; 2],
         component: Component::X,
     };
     let name = "gauge".to_owned();
@@ -191,8 +191,8 @@ fn a_setup_is_held_to_the_rules_of_a_case() {
         ),
         (
             error(|it| {
-                it.loads[0].place = Place::At([0.0; 2]);
-                it.loads[0].action = Action::ForcePerLength([1.0, 0.0]);
+                it.loads[0].place = Place::At([0.0; 3]);
+                it.loads[0].action = Action::ForcePerLength([1.0, 0.0, 0.0]);
             }),
             "loads[0].action: acts along the curve of a `group`, so the load needs one",
         ),
@@ -223,7 +223,7 @@ fn what_does_not_go_together_is_refused_with_a_remedy() {
             "a pressure needs",
         ),
         (
-            error(|it| it.loads[0].place = Place::Box([[1.0; 2], [2.0; 2]])),
+            error(|it| it.loads[0].place = Place::Box([[1.0; 3], [2.0; 3]])),
             "loads[0].place:",
             "no point of the body",
         ),

@@ -8,7 +8,7 @@ use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::region::{Corners, place};
 use super::values::exactly_one;
-use ligament::setup;
+use ligament::setup::{self, Position};
 
 /// Prescribed displacements; a component that is not given is free.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
@@ -66,13 +66,12 @@ pub struct Vector {
 }
 
 impl Vector {
-    pub(super) fn of<const D: usize>(&self, key: &KeyPath) -> Result<[f64; D], KeyFault> {
-        if D < 3 && self.z.is_some() {
+    pub(super) fn of(&self, key: &KeyPath, dimensions: usize) -> Result<Position, KeyFault> {
+        if dimensions < 3 && self.z.is_some() {
             let reason = "a body in the plane has no z";
             return Err(KeyFault::new(key.child("z"), reason));
         }
-        let along = [self.x, self.y, self.z.unwrap_or(0.0)];
-        Ok(std::array::from_fn(|axis| along[axis]))
+        Ok([self.x, self.y, self.z.unwrap_or(0.0)])
     }
 }
 
@@ -119,10 +118,11 @@ pub struct Support {
 }
 
 impl Support {
-    pub(super) fn setup<const D: usize>(
+    pub(super) fn setup(
         &self,
         key: &KeyPath,
-    ) -> Result<setup::Support<D>, KeyFault> {
+        dimensions: usize,
+    ) -> Result<setup::Support, KeyFault> {
         let given = self.displacement.unwrap_or_default().setup();
         let moved = given.components().find(|(_, value)| *value != 0.0);
         if let Some((component, value)) = moved {
@@ -142,9 +142,11 @@ impl Support {
             },
             normal: it.normal,
         };
-        let normal = self.normal.map(|it| it.of(&key.child("normal")));
+        let normal = self
+            .normal
+            .map(|it| it.of(&key.child("normal"), dimensions));
         Ok(setup::Support {
-            place: place(key, self.group.as_ref(), self.r#box, self.at)?,
+            place: place(key, dimensions, self.group.as_ref(), self.r#box, self.at)?,
             held: given.components().map(|(component, _)| component).collect(),
             normal: normal.transpose()?,
             stiffness: self.stiffness.map(stiffness).unwrap_or_default(),

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize, Serializer};
 
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
+use ligament::setup::Position;
 
 /// Coordinates along x and y, and in space along z.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
@@ -22,16 +23,17 @@ impl Coordinates {
         &self.along[..self.count]
     }
 
-    /// The coordinates of a body in D dimensions; the key is where they stand.
-    pub(super) fn of<const D: usize>(&self, key: &KeyPath) -> Result<[f64; D], KeyFault> {
-        let coordinates = self.as_slice();
-        coordinates.try_into().map_err(|_| {
-            let body = match D {
-                2 => "a body in the plane takes two coordinates, [x, y]",
-                _ => "a solid takes three coordinates, [x, y, z]",
-            };
-            KeyFault::new(key.clone(), format!("{body}, found {coordinates:?}"))
-        })
+    /// The coordinates of a body in some dimensions, zero beyond them; the key is where they stand.
+    pub(super) fn of(&self, key: &KeyPath, dimensions: usize) -> Result<Position, KeyFault> {
+        if self.count == dimensions {
+            return Ok(self.along);
+        }
+        let body = match dimensions {
+            2 => "a body in the plane takes two coordinates, [x, y]",
+            _ => "a solid takes three coordinates, [x, y, z]",
+        };
+        let reason = format!("{body}, found {:?}", self.as_slice());
+        Err(KeyFault::new(key.clone(), reason))
     }
 }
 

@@ -35,13 +35,8 @@ impl Case {
 
     /// Checks the case as one of a solid, or as one in the plane.
     fn check_as(&self, source: &Source, is_solid: bool) -> Result<(), CaseError> {
-        let checked = if is_solid {
-            let setup = self.solid_stand_in().and_then(|body| self.setup_on(body));
-            setup.map(|setup| setup.check())
-        } else {
-            let setup = self.stand_in().and_then(|body| self.setup_on(body));
-            setup.map(|setup| setup.check())
-        };
+        let setup = self.stand_in(is_solid).and_then(|body| self.setup_on(body));
+        let checked = setup.map(|setup| setup.check());
         let checked = checked.map_err(|fault| source.error(fault))?;
         checked.map_err(|error| self.located(source, error))
     }

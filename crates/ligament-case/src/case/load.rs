@@ -11,7 +11,7 @@ use super::key_path::KeyPath;
 use super::region::{Corners, place};
 use super::values::{exactly_one, first_given, one_of, require_column_name};
 use super::word::Word;
-use ligament::setup::{self, Action, Axis, Place, begins_as_formula};
+use ligament::setup::{self, Action, Axis, Place, Position, begins_as_formula};
 
 /// A load, given as it is at load factor 1.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -83,12 +83,13 @@ impl Load {
         Ok(())
     }
 
-    pub(super) fn setup<const D: usize>(&self, key: &KeyPath) -> Result<setup::Load<D>, KeyFault> {
-        let action = one_of(key, self.actions(key))??;
+    pub(super) fn setup(&self, key: &KeyPath, dimensions: usize) -> Result<setup::Load, KeyFault> {
+        let action = one_of(key, self.actions(key, dimensions))??;
+        let place = || place(key, dimensions, self.group.as_ref(), self.r#box, self.at);
         let is_placed = self.group.is_some() || self.r#box.is_some() || self.at.is_some();
         let place = match action {
-            Action::Displacement(_) | Action::Force(_) | Action::Moment(_) => self.place(key)?,
-            _ if is_placed => self.place(key)?,
+            Action::Displacement(_) | Action::Force(_) | Action::Moment(_) => place()?,
+            _ if is_placed => place()?,
             _ => Place::Everywhere,
         };
         Ok(setup::Load {
@@ -105,19 +106,14 @@ impl Load {
         })
     }
 
-    fn place<const D: usize>(&self, key: &KeyPath) -> Result<Place<D>, KeyFault> {
-        place(key, self.group.as_ref(), self.r#box, self.at)
-    }
-
-    fn actions<const D: usize>(&self, key: &KeyPath) -> Actions<D> {
+    fn actions(&self, key: &KeyPath, dimensions: usize) -> Actions {
         let displacement = |it: Displacement| Ok(Action::Displacement(it.setup()));
-        let vector =
-            |name: &'static str, given: Option<Vector>, make: fn([f64; D]) -> Action<D>| {
-                let action = given.map(|it| it.of(&key.child(name)).map(make));
-                (name, action)
-            };
-        let couple = |name: &'static str, given: Option<Couple>, make: fn(_) -> Action<D>| {
-            let action = given.map(|it| it.of::<D>(&key.child(name)).map(make));
+        let vector = |name: &'static str, given: Option<Vector>, make: fn(Position) -> Action| {
+            let action = given.map(|it| it.of(&key.child(name), dimensions).map(make));
+            (name, action)
+        };
+        let couple = |name: &'static str, given: Option<Couple>, make: fn(_) -> Action| {
+            let action = given.map(|it| it.of(&key.child(name), dimensions).map(make));
             (name, action)
         };
         [
@@ -139,10 +135,10 @@ impl Load {
 
     /// Key of the action.
     pub(crate) fn action_key(&self) -> &'static str {
-        let actions = self.actions::<3>(&KeyPath::default());
+        let actions = self.actions(&KeyPath::default(), 3);
         first_given(actions.map(|(key, action)| (key, action.is_some()))).unwrap_or("force")
     }
 }
 
 /// The actions of a load by their keys.
-type Actions<const D: usize> = [(&'static str, Option<Result<Action<D>, KeyFault>>); 9];
+type Actions = [(&'static str, Option<Result<Action, KeyFault>>); 9];

@@ -1,7 +1,5 @@
 //! The key of a case that a faulty field of its setup comes from.
 
-use std::path::Path;
-
 use ligament::error::Fault as SetupFault;
 use ligament::{Field, SetupError};
 
@@ -164,20 +162,13 @@ impl Case {
             return format!("{place} has two temperatures").into();
         };
         // The rows were read before: only their lines are asked for.
-        let lines = match self.is_solid() {
-            true => lines_of::<3>(file),
-            false => lines_of::<2>(file),
-        };
+        let dimensions = if self.is_solid() { 3 } else { 2 };
+        let rows = temperature_table::rows_of(file, dimensions).unwrap_or_default();
+        let lines: Vec<usize> = rows.into_iter().map(|(line, _)| line).collect();
         let [first, second] = samples.map(|it| lines.get(it).copied().unwrap_or_default());
         let file = file.display();
         format!("{file}:{second}: {place} has a row already, in line {first}").into()
     }
-}
-
-/// Lines of the rows of a table.
-fn lines_of<const D: usize>(file: &Path) -> Vec<usize> {
-    let rows = temperature_table::rows_of::<D>(file).unwrap_or_default();
-    rows.into_iter().map(|(line, _)| line).collect()
 }
 
 /// The key of a material that a part of the setup's comes from.

@@ -51,10 +51,10 @@ pub struct Precrack {
 }
 
 impl Precrack {
-    /// The pre-crack of a body in D dimensions.
-    pub(super) fn setup<const D: usize>(&self, key: &KeyPath) -> Result<PreCrack, KeyFault> {
+    /// The pre-crack of a body in some dimensions.
+    pub(super) fn setup(&self, key: &KeyPath, dimensions: usize) -> Result<PreCrack, KeyFault> {
         Ok(PreCrack {
-            shape: match D {
+            shape: match dimensions {
                 2 => CrackShape::Line(self.line(key)?),
                 _ => self.surface(key)?,
             },
@@ -81,9 +81,11 @@ impl Precrack {
                 refuse(key, straight, "`points`", reason)?;
                 let key = key.child("points");
                 let corners = points.iter().enumerate();
-                corners
-                    .map(|(index, it)| it.of(&key.child(index)))
-                    .collect()
+                let vertex = |(index, it): (usize, &Coordinates)| {
+                    let [x, y, _] = it.of(&key.child(index), 2)?;
+                    Ok([x, y])
+                };
+                corners.map(vertex).collect()
             }
             None if first_given(straight).is_some() => Ok(self.ends_of_line(key)?.to_vec()),
             None => {
@@ -107,14 +109,14 @@ impl Precrack {
         let points = self.points.as_ref().map(|points| {
             let key = key.child("points");
             let corners = points.iter().enumerate();
-            let corners = corners.map(|(index, it)| it.of(&key.child(index)));
+            let corners = corners.map(|(index, it)| it.of(&key.child(index), 3));
             corners.collect::<Result<_, _>>().map(CrackShape::Polygon)
         });
         let disk = self.centre.map(|centre| {
             let normal = self.normal.ok_or_else(|| missing(key, "normal"))?;
             Ok(CrackShape::Disk {
-                centre: centre.of(&key.child("centre"))?,
-                normal: normal.of(&key.child("normal"))?,
+                centre: centre.of(&key.child("centre"), 3)?,
+                normal: normal.of(&key.child("normal"), 3)?,
                 radius: self.radius.ok_or_else(|| missing(key, "radius"))?,
             })
         });
@@ -136,10 +138,10 @@ impl Precrack {
 
     fn ends_of_line(&self, key: &KeyPath) -> Result<[Point; 2], KeyFault> {
         let centre = self.centre.ok_or_else(|| missing(key, "centre"))?;
-        let centre = centre.of(&key.child("centre"))?;
+        let [x, y, _] = centre.of(&key.child("centre"), 2)?;
         let length = self.length.ok_or_else(|| missing(key, "length"))?;
         let angle = self.angle.ok_or_else(|| missing(key, "angle"))?;
-        let ends = straight(centre, length, angle);
+        let ends = straight([x, y], length, angle);
         require(
             ends[0] != ends[1],
             || key.child("length"),

@@ -34,11 +34,12 @@ pub struct Probe {
 }
 
 impl Probe {
-    pub(super) fn setup<const D: usize>(&self, key: &KeyPath) -> Result<setup::Probe<D>, KeyFault> {
+    pub(super) fn setup(&self, key: &KeyPath, dimensions: usize) -> Result<setup::Probe, KeyFault> {
         require_column_name(|| key.child("name"), &self.name)?;
         let pair = |name: &str, [first, second]: [Coordinates; 2]| {
             let key = key.child(name);
-            Ok([first.of(&key.child(0))?, second.of(&key.child(1))?])
+            let [one, other] = [key.child(0), key.child(1)];
+            Ok([first.of(&one, dimensions)?, second.of(&other, dimensions)?])
         };
         let between = |positions| {
             let positions = pair("between", positions)?;
@@ -49,7 +50,7 @@ impl Probe {
             })
         };
         let at = |position: Coordinates| {
-            let position = position.of(&key.child("at"))?;
+            let position = position.of(&key.child("at"), dimensions)?;
             let field = self.field(key)?;
             Ok(Reading::At { position, field })
         };

@@ -7,7 +7,7 @@ use super::coordinates::Coordinates;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{Point, exactly_one, one_of};
-use ligament::setup::Place;
+use ligament::setup::{Place, Position};
 
 /// A rectangle: its lower left and its upper right corner, m.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -35,9 +35,10 @@ impl TryFrom<[Point; 2]> for Rectangle {
 pub struct Corners(pub [Coordinates; 2]);
 
 impl Corners {
-    pub(super) fn of<const D: usize>(&self, key: &KeyPath) -> Result<[[f64; D]; 2], KeyFault> {
+    pub(super) fn of(&self, key: &KeyPath, dimensions: usize) -> Result<[Position; 2], KeyFault> {
         let [low, high] = &self.0;
-        Ok([low.of(&key.child(0))?, high.of(&key.child(1))?])
+        let [first, second] = [key.child(0), key.child(1)];
+        Ok([low.of(&first, dimensions)?, high.of(&second, dimensions)?])
     }
 }
 
@@ -87,20 +88,21 @@ pub struct Region {
 }
 
 impl Region {
-    pub(super) fn place<const D: usize>(&self, key: &KeyPath) -> Result<Place<D>, KeyFault> {
-        place(key, self.group.as_ref(), self.r#box, None)
+    pub(super) fn place(&self, key: &KeyPath, dimensions: usize) -> Result<Place, KeyFault> {
+        place(key, dimensions, self.group.as_ref(), self.r#box, None)
     }
 }
 
 /// The place of a table that must have one.
-pub(super) fn place<const D: usize>(
+pub(super) fn place(
     key: &KeyPath,
+    dimensions: usize,
     group: Option<&String>,
     corners: Option<Corners>,
     at: Option<Coordinates>,
-) -> Result<Place<D>, KeyFault> {
+) -> Result<Place, KeyFault> {
     let group = group.cloned().map(|it| Ok(Place::Group(it)));
-    let corners = corners.map(|it| it.of(&key.child("box")).map(Place::Box));
-    let at = at.map(|it| it.of(&key.child("at")).map(Place::At));
+    let corners = corners.map(|it| it.of(&key.child("box"), dimensions).map(Place::Box));
+    let at = at.map(|it| it.of(&key.child("at"), dimensions).map(Place::At));
     one_of(key, [("group", group), ("box", corners), ("at", at)])?
 }

@@ -1,9 +1,11 @@
 //! The sections of a case file, read and checked together.
 
+use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::Arc;
 
-use ligament::body::{Body, LatticeBody, MeshBody, SolidLatticeBody, SolidMeshBody};
+use ligament::body::{
+    AnyBody, LatticeBody, LatticeError, MeshBody, SolidLatticeBody, SolidMeshBody,
+};
 use ligament::implausible::Implausible;
 use ligament::setup::{self, Section, Setup};
 use ligament_mesh::{Mesh, SolidMesh};
@@ -249,25 +251,24 @@ impl Case {
     }
 
     /// The setup of the case on a body, whatever body the case names. Tables of temperatures have no rows yet.
-    pub(crate) fn setup_on<const D: usize>(
-        &self,
-        body: Arc<dyn Body<D>>,
-    ) -> Result<Setup<D>, KeyFault> {
-        let section = match D {
-            2 => Section::Plane {
+    pub(crate) fn setup_on(&self, body: AnyBody) -> Result<Setup, KeyFault> {
+        let dimensions = body.dimensions();
+        let section = match body {
+            AnyBody::Plane(_) => Section::Plane {
                 state: self.plane(),
                 thickness: self.thickness().unwrap_or_else(metre),
             },
-            _ => Section::Solid,
+            AnyBody::Solid(_) => Section::Solid,
         };
-        let precracks = each("precrack", &self.precracks, Precrack::setup::<D>)?;
         let law = self.model.law.0;
         let criteria = self.fracture.iter().filter_map(|it| it.criteria.as_deref());
         self.check_across_sections()?;
         Ok(Setup {
             body,
             section,
-            precracks,
+            precracks: each("precrack", &self.precracks, |it, key| {
+                it.setup(key, dimensions)
+            })?,
             materials: (self.materials.iter())
                 .map(Material::setup)
                 .collect::<Result<_, _>>()?,
@@ -277,12 +278,18 @@ impl Case {
             bonds_through_voids: self.model.bonds_through_voids,
             correction: self.correction.setup(&law),
             closing: self.model.closing,
-            no_fail: each("no_fail", &self.no_fail, Region::place)?,
-            supports: each("support", &self.supports, Support::setup)?,
-            loads: each("load", &self.loads, Load::setup)?,
+            no_fail: each("no_fail", &self.no_fail, |it, key| {
+                it.place(key, dimensions)
+            })?,
+            supports: each("support", &self.supports, |it, key| {
+                it.setup(key, dimensions)
+            })?,
+            loads: each("load", &self.loads, |it, key| it.setup(key, dimensions))?,
             curve: self.curve.clone(),
             stages: each("stage", &self.stages, Stage::setup)?,
-            temperatures: each("temperature", &self.temperatures, Temperature::setup)?,
+            temperatures: each("temperature", &self.temperatures, |it, key| {
+                it.setup(key, dimensions)
+            })?,
             criteria: each(
                 "fracture.criterion",
                 criteria.flatten(),
@@ -293,7 +300,7 @@ impl Case {
                 .map(|it| it.setup(&root().child("fracture").child("scatter")))
                 .next()
                 .transpose()?,
-            probes: each("probe", &self.probes, Probe::setup)?,
+            probes: each("probe", &self.probes, |it, key| it.setup(key, dimensions))?,
             analysis: match (&self.modal, &self.fracture) {
                 (Some(modal), _) => setup::Analysis::Modal(modal.setup()),
                 (None, Some(fracture)) => {
@@ -307,32 +314,26 @@ impl Case {
         })
     }
 
-    /// A stand-in for a solid body before it is made: of its kind, with a point at most.
-    pub(super) fn solid_stand_in(&self) -> Result<Arc<dyn Body<3>>, KeyFault> {
-        let Some(lattice) = &self.solid_lattice else {
-            return Ok(Arc::new(SolidMeshBody::from(SolidMesh::default())));
-        };
-        let key = root().child("solid_lattice");
-        lattice.parts(&key)?;
-        let (spacing, corner) = (lattice.spacing, lattice.corner);
-        let cell = SolidLatticeBody::new([1; 3], spacing, corner, &[], &Default::default());
-        Ok(Arc::new(
-            cell.map_err(|error| KeyFault::new(key, error.to_string()))?,
-        ))
-    }
-
-    /// A stand-in for the body before it is made: of its kind, with a point at most.
-    pub(super) fn stand_in(&self) -> Result<Arc<dyn Body>, KeyFault> {
-        let Some(lattice) = &self.lattice else {
-            return Ok(Arc::new(MeshBody::from(Mesh::default())));
-        };
-        let key = root().child("lattice");
-        lattice.parts(&key)?;
-        let (spacing, corner) = (lattice.spacing.0, lattice.corner);
-        let cell = LatticeBody::new([1, 1], spacing, corner, &[], &Default::default());
-        Ok(Arc::new(
-            cell.map_err(|error| KeyFault::new(key, error.to_string()))?,
-        ))
+    /// A stand-in for the body before it is made: of its kind, a solid or not, with a point at most.
+    pub(super) fn stand_in(&self, is_solid: bool) -> Result<AnyBody, KeyFault> {
+        let fault =
+            |key: &str, error: LatticeError| KeyFault::new(root().child(key), error.to_string());
+        Ok(match (is_solid, &self.lattice, &self.solid_lattice) {
+            (true, _, Some(lattice)) => {
+                lattice.parts(&root().child("solid_lattice"))?;
+                let (spacing, corner) = (lattice.spacing, lattice.corner);
+                let cell = SolidLatticeBody::new([1; 3], spacing, corner, &[], &BTreeMap::new());
+                AnyBody::new(cell.map_err(|error| fault("solid_lattice", error))?)
+            }
+            (false, Some(lattice), _) => {
+                lattice.parts(&root().child("lattice"))?;
+                let (spacing, corner) = (lattice.spacing.0, lattice.corner);
+                let cell = LatticeBody::new([1; 2], spacing, corner, &[], &BTreeMap::new());
+                AnyBody::new(cell.map_err(|error| fault("lattice", error))?)
+            }
+            (true, _, None) => AnyBody::new(SolidMeshBody::from(SolidMesh::default())),
+            (false, None, _) => AnyBody::new(MeshBody::from(Mesh::default())),
+        })
     }
 
     /// Checks what sections ask of each other that the setup does not know.

@@ -54,10 +54,11 @@ impl Temperature {
     }
 
     /// The change; of a file without its rows, which are there once it is read.
-    pub(super) fn setup<const D: usize>(
+    pub(super) fn setup(
         &self,
         key: &KeyPath,
-    ) -> Result<setup::Temperature<D>, KeyFault> {
+        dimensions: usize,
+    ) -> Result<setup::Temperature, KeyFault> {
         let table = self.file.as_ref();
         let field = (self.mesh_field.clone()).map(|name| TemperatureChange::Field {
             name,
@@ -77,7 +78,7 @@ impl Temperature {
         Ok(setup::Temperature {
             change: one_of(key, changes)?,
             place: match is_part {
-                true => region.place(key)?,
+                true => region.place(key, dimensions)?,
                 false => Place::Everywhere,
             },
         })

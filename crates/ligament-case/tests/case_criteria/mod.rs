@@ -3,9 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
 use std::path::Path;
-use std::sync::Arc;
 
-use ligament::body::Points;
+use ligament::body::{AnyBody, Points};
 use ligament_case::case::{CaseError, CaseFile};
 use ligament_model::failure::fracture_energy::{BOND_ENERGY, CRITICAL_STRETCH};
 use ligament_model::failure::frictional::FRICTIONAL;
@@ -56,7 +55,7 @@ fn criteria_of(text: String, overrides: &[&str]) -> Vec<Choice> {
 /// The criteria of a case as its setup has them, on a body of one point.
 fn criteria(case: &CaseFile) -> Vec<Choice> {
     let body = Points::new(vec![[0.0; 2]], vec![1.0]).unwrap();
-    case.setup_on(Arc::new(body)).unwrap().criteria
+    case.setup_on(AnyBody::new(body)).unwrap().criteria
 }
 
 /// A criterion with a limit of its own, by which bonds break at once.

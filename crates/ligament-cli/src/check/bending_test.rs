@@ -14,10 +14,10 @@ use super::Extent;
 use super::entry::entry;
 
 /// Writes how stiff the body is at its thinnest section; a warning where that is too much.
-pub(super) fn write<const D: usize>(
+pub(super) fn write(
     out: &mut dyn Write,
     extent: Extent,
-    model: &Model<D>,
+    model: &Model,
     stages: &mut Stages,
 ) -> io::Result<Option<String>> {
     if extent == Extent::Model {
@@ -26,7 +26,7 @@ pub(super) fn write<const D: usize>(
     writeln!(out, "strip at the thinnest section, bent")?;
     let (most_points, most_sides) = match extent {
         Extent::PatchTest => (usize::MAX, usize::MAX),
-        _ => (most_points::<D>(), MOST_SIDES),
+        _ => (most_points(model.setup.body.dimensions()), MOST_SIDES),
     };
     let section = match stages.time("section", || thinnest_section(model, most_sides)) {
         Ok(section) => section,
@@ -35,7 +35,7 @@ pub(super) fn write<const D: usize>(
     let words = format!(
         "{} at {}, {:.1} distances of points across, {:.1} horizons",
         quantity(section.thickness, "m"),
-        place(&section.place),
+        place(&section.place[..model.setup.body.dimensions()]),
         section.thickness / section.spacing,
         section.horizons()
     );
@@ -81,7 +81,7 @@ fn times(stiffness: f64) -> String {
     }
 }
 
-fn warning<const D: usize>(model: &Model<D>, section: &Section<D>, test: &BendingTest) -> String {
+fn warning(model: &Model, section: &Section, test: &BendingTest) -> String {
     let across = section.thickness / section.spacing;
     let torsion = test
         .torsion
@@ -103,6 +103,6 @@ fn warning<const D: usize>(model: &Model<D>, section: &Section<D>, test: &Bendin
         times(test.bending),
         torsion.unwrap_or_default(),
         quantity(section.thickness, "m"),
-        place(&section.place),
+        place(&section.place[..model.setup.body.dimensions()]),
     )
 }

@@ -12,18 +12,14 @@ use ligament_output::quantity::{between, quantity};
 use super::entry::entry;
 
 /// Writes what a body is made of, with the volume of its points.
-pub(super) fn write<const D: usize>(
-    out: &mut dyn Write,
-    body: &dyn Body<D>,
-    volume: f64,
-) -> io::Result<()> {
+pub(super) fn write(out: &mut dyn Write, body: &dyn Body, volume: f64) -> io::Result<()> {
     match body.origin() {
         Origin::Mesh(mesh) => write_mesh(out, mesh, volume),
         Origin::Lattice(lattice) => write_lattice(out, body, lattice, volume),
         Origin::SolidMesh(mesh) => write_solid_mesh(out, mesh, volume),
         Origin::SolidLattice(lattice) => write_solid_lattice(out, body, lattice, volume),
         Origin::Points => {
-            let (points, volume) = (body.positions().len(), quantity(volume, "m^3"));
+            let (points, volume) = (body.n_points(), quantity(volume, "m^3"));
             writeln!(out, "{points} points of {volume}")
         }
     }
@@ -57,9 +53,9 @@ fn write_groups(out: &mut dyn Write, groups: &[Group]) -> io::Result<()> {
     Ok(())
 }
 
-fn write_solid_lattice<const D: usize>(
+fn write_solid_lattice(
     out: &mut dyn Write,
-    body: &dyn Body<D>,
+    body: &dyn Body,
     lattice: &SolidLattice,
     volume: f64,
 ) -> io::Result<()> {
@@ -79,9 +75,9 @@ fn write_solid_lattice<const D: usize>(
     Ok(())
 }
 
-fn write_lattice<const D: usize>(
+fn write_lattice(
     out: &mut dyn Write,
-    body: &dyn Body<D>,
+    body: &dyn Body,
     lattice: &Lattice,
     volume: f64,
 ) -> io::Result<()> {
@@ -111,9 +107,9 @@ fn write_lattice<const D: usize>(
 }
 
 /// Writes a group of points that are held or loaded.
-pub(super) fn write_group<const D: usize>(
+pub(super) fn write_group(
     out: &mut dyn Write,
-    body: &dyn Body<D>,
+    body: &dyn Body,
     name: &str,
     points: &[u32],
 ) -> io::Result<()> {

@@ -16,7 +16,7 @@ use ligament_run::summary::{ScatterSummary, Spread};
 use super::entry::entry;
 
 /// Writes the criteria with their limits over the bonds.
-pub(super) fn write<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()> {
+pub(super) fn write(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     if model.setup.criteria.is_empty() {
         return Ok(());
     }
@@ -34,7 +34,7 @@ pub(super) fn write<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io
 }
 
 /// Writes what cracks spend in each material.
-fn write_cracks<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()> {
+fn write_cracks(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     for (index, material) in model.setup.materials().into_iter().enumerate() {
         if let Some(energies) = crack_energies(model, index) {
             write_crack(out, model, &material, energies)?;
@@ -44,9 +44,9 @@ fn write_cracks<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Re
 }
 
 /// Writes what cracks that open along x and along y spend in a material.
-fn write_crack<const D: usize>(
+fn write_crack(
     out: &mut dyn Write,
-    model: &Model<D>,
+    model: &Model,
     material: &Material,
     energies: [CrackEnergy; 2],
 ) -> io::Result<()> {
@@ -67,7 +67,7 @@ fn write_crack<const D: usize>(
     }
     let criteria = model.criteria.list.iter();
     let by_stretch = criteria.filter(|it| it.measure.opens() && !it.measure.takes_sliding());
-    let has_shear = model.system.rigidities.shear.iter().any(|it| *it > 0.0);
+    let has_shear = model.has_shear();
     if has_shear && by_stretch.count() > 0 {
         words += "; more where its faces slide, which this criterion does not count";
     }
@@ -108,7 +108,7 @@ fn spent_words([x, y]: [f64; 2], given: Option<f64>) -> String {
 }
 
 /// Writes what varies at random: limits of bonds above have its factors.
-fn write_scatter<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()> {
+fn write_scatter(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     let (Some(scatter), Some(summary)) = (model.setup.scatter, ScatterSummary::new(model)) else {
         return Ok(());
     };
@@ -166,11 +166,7 @@ fn write_limits(out: &mut dyn Write, criterion: &Criterion) -> io::Result<()> {
 }
 
 /// The limit falls with the root of the horizon, so that a body without a crack has another strength on every mesh.
-fn write_energy<const D: usize>(
-    out: &mut dyn Write,
-    model: &Model<D>,
-    criterion: &Criterion,
-) -> io::Result<()> {
+fn write_energy(out: &mut dyn Write, model: &Model, criterion: &Criterion) -> io::Result<()> {
     // Bonds across the bar may come to their limit before those along it.
     let at_most = if criterion.measure.needs_shear_stiffness() {
         "at most "
@@ -195,7 +191,7 @@ fn write_energy<const D: usize>(
 }
 
 /// Young's modulus of a bar of a material with the constants that the law makes of it, Pa; none for one with axes.
-fn young<const D: usize>(setup: &Setup<D>, material: &Material) -> Option<f64> {
+fn young(setup: &Setup, material: &Material) -> Option<f64> {
     let constants = setup.law.constants(material, setup.space())?;
     Some(match setup.space() {
         Space::Plane(plane) => constants.in_plane(plane).young,

@@ -17,10 +17,10 @@ use ligament_run::memory;
 use ligament_run::model::Model;
 
 /// Writes the size of the equations and the choice of the solver.
-pub(super) fn write<const D: usize>(
+pub(super) fn write(
     out: &mut dyn Write,
     case: &CaseFile,
-    model: &Model<D>,
+    model: &Model,
     equilibrium: &Equilibrium,
 ) -> anyhow::Result<()> {
     match (equilibrium.stiffness(), equilibrium.choice()) {
@@ -33,10 +33,10 @@ pub(super) fn write<const D: usize>(
 }
 
 /// Writes the size of equations with a matrix and what was chosen for its factor.
-pub(super) fn write_with_matrix<const D: usize>(
+pub(super) fn write_with_matrix(
     out: &mut dyn Write,
     case: &CaseFile,
-    model: &Model<D>,
+    model: &Model,
     stiffness: &Stiffness,
 ) -> anyhow::Result<()> {
     let symbolic = stiffness.symbolic();
@@ -58,10 +58,10 @@ pub(super) fn write_with_matrix<const D: usize>(
 }
 
 /// Writes the number of unknowns without a matrix and what was chosen for the iteration.
-fn write_iteration<const D: usize>(
+fn write_iteration(
     out: &mut dyn Write,
     case: &CaseFile,
-    model: &Model<D>,
+    model: &Model,
     (unknowns, choice): (usize, &IterativeChoice),
 ) -> anyhow::Result<()> {
     let IterativeChoice {
@@ -84,10 +84,10 @@ fn write_iteration<const D: usize>(
     Ok(entry(out, "threads", rayon::current_num_threads())?)
 }
 
-fn write_memory<const D: usize>(
+fn write_memory(
     out: &mut dyn Write,
     case: &CaseFile,
-    model: &Model<D>,
+    model: &Model,
     stiffness: Option<&Stiffness>,
 ) -> io::Result<()> {
     let bytes = memory::of_equations(&*model.system, stiffness);
@@ -101,11 +101,7 @@ fn write_memory<const D: usize>(
     }
 }
 
-fn write_choice<const D: usize>(
-    out: &mut dyn Write,
-    setup: &Setup<D>,
-    choice: &DirectChoice,
-) -> io::Result<()> {
+fn write_choice(out: &mut dyn Write, setup: &Setup, choice: &DirectChoice) -> io::Result<()> {
     if choice.unsymmetric {
         return entry(
             out,
@@ -140,7 +136,7 @@ fn write_choice<const D: usize>(
     entry(out, "threads", rayon::current_num_threads())
 }
 
-fn ordering_reason<const D: usize>(model: &Model<D>) -> String {
+fn ordering_reason(model: &Model) -> String {
     if model.setup.solver.ordering.is_some() {
         return "as the case says".to_owned();
     }

@@ -32,15 +32,15 @@ const MOST_UNKNOWNS: usize = 300_000;
 /// # Errors
 ///
 /// If the run would be refused.
-pub(super) fn write<const D: usize>(
+pub(super) fn write(
     out: &mut dyn Write,
     (case, extent): (&CaseFile, Extent),
-    model: &Model<D>,
+    model: &Model,
     loading: &Loading,
     equilibrium: Option<Equilibrium>,
     stages: &mut Stages,
 ) -> anyhow::Result<Vec<String>> {
-    let problem = loading.problem(&model.system, &model.criteria);
+    let problem = loading.problem(model);
     let analysis = &model.setup.analysis;
     refuse(&problem, analysis).map_err(|it| case.explained(it))?;
     let Some(equilibrium) = equilibrium else {
@@ -97,9 +97,9 @@ fn too_costly(
     }
 }
 
-fn write_foretold<const D: usize>(
+fn write_foretold(
     out: &mut dyn Write,
-    model: &Model<D>,
+    model: &Model,
     problem: &Problem,
     foretold: &Foretold,
 ) -> io::Result<()> {
@@ -146,9 +146,9 @@ fn write_foretold<const D: usize>(
 }
 
 /// Writes where the first bond reaches its limit: at which load, in which load step, and which bond it is.
-fn write_first<const D: usize>(
+fn write_first(
     out: &mut dyn Write,
-    model: &Model<D>,
+    model: &Model,
     first: &FirstFailure,
     stage: Option<String>,
 ) -> io::Result<()> {
@@ -169,18 +169,13 @@ fn write_first<const D: usize>(
     let load = quantity(first.point.reaction, units.force);
     let moved = quantity(first.point.displacement, units.displacement);
     entry(out, name, format!("{at}: {load} at {moved}"))?;
-    let cloud = &model.system.cloud;
-    let ends = cloud
-        .numbering
-        .ordered(model.system.ends()[first.bond as usize]);
-    let [a, b] = ends.map(|end| cloud.positions[end as usize]);
-    let middle: [f64; D] =
-        std::array::from_fn(|axis| 0.5 * (a[axis] + b[axis]) + cloud.origin[axis]);
+    let system = &model.system;
+    let ends = (system.numbering()).ordered(system.ends()[first.bond as usize]);
     let [one, other] = ends.map(|end| model.body().tag(end));
     let mut bond = format!(
         "{}s {one} and {other} at {}, by {}",
         model.body().tagged(),
-        place(&middle),
+        place(&model.middle(ends)),
         criterion.name
     );
     if let Some(step) = first.step {

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use ligament::Loading;
-use ligament::setup::{Analysis, ELASTIC_ENERGY_TOLERANCE, Reading as Given, Setup};
+use ligament::setup::{Analysis, ELASTIC_ENERGY_TOLERANCE, Position, Reading as Given, Setup};
 use ligament::units::Units;
 use ligament_analysis::gauges;
 use ligament_analysis::probe::{Reading, Shares};
@@ -23,17 +23,17 @@ use super::entry::{entry, megabytes, spread};
 use super::{Extent, equations, foresight, model, restraints};
 
 /// Checks supports, loads and equations, and gives what a run would notice before its first load step.
-pub(super) fn check<const D: usize>(
+pub(super) fn check(
     case: &CaseFile,
     extent: Extent,
-    model: &Model<D>,
+    model: &Model,
     stages: &mut Stages,
     out: &mut dyn Write,
 ) -> anyhow::Result<Vec<String>> {
-    let loading = Loading::new(&model.setup, &*model.system);
+    let loading = Loading::new(model);
     let mut loading = loading.map_err(|it| case.located(it))?;
     loading.solver.memory = memory::for_factor(case, &*model.system);
-    let problem = loading.problem(&model.system, &model.criteria);
+    let problem = loading.problem(model);
     let equilibrium = match extent {
         Extent::Model => None,
         Extent::Matrix | Extent::PatchTest => Some(stages.time("analysis", || {
@@ -59,11 +59,7 @@ pub(super) fn check<const D: usize>(
 }
 
 /// Writes the room that fields take on a disk, and a warning where the disk of the current folder has less.
-fn write_room<const D: usize>(
-    out: &mut dyn Write,
-    case: &CaseFile,
-    model: &Model<D>,
-) -> io::Result<()> {
+fn write_room(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
     let fields = FieldsOnDisk::new(case, model);
     let of_one = megabytes(fields.of_one);
     let Some((most, all)) = fields.most.zip(fields.all()) else {
@@ -86,11 +82,7 @@ fn write_room<const D: usize>(
     }
 }
 
-fn write_boundary<const D: usize>(
-    out: &mut dyn Write,
-    model: &Model<D>,
-    loading: &Loading,
-) -> io::Result<()> {
+fn write_boundary(out: &mut dyn Write, model: &Model, loading: &Loading) -> io::Result<()> {
     let body = model.body();
     writeln!(out, "supports and loads")?;
     for group in &loading.boundary.groups {
@@ -116,7 +108,7 @@ fn write_boundary<const D: usize>(
         entry(out, "displacement is", words)?;
     }
     for (probe, given) in loading.probes.iter().zip(&model.setup.probes) {
-        let words = |(place, position): (&Shares, &[f64; D])| place_words(model, place, *position);
+        let words = |(place, position): (&Shares, &Position)| place_words(model, place, *position);
         let reads = match (&probe.reading, &given.reading) {
             (Reading::RelativeDisplacement { places, .. }, Given::Between { positions, .. }) => {
                 let words: Vec<String> = places.iter().zip(positions).map(words).collect();
@@ -132,24 +124,22 @@ fn write_boundary<const D: usize>(
 }
 
 /// The points that a probe reads: those of a cell around its position, or the nearest one and how far it is.
-fn place_words<const D: usize>(model: &Model<D>, place: &Shares, position: [f64; D]) -> String {
+fn place_words(model: &Model, place: &Shares, position: Position) -> String {
     let body = model.body();
     let [(point, _)] = place[..] else {
         let labels: Vec<String> = place.iter().map(|(point, _)| body.label(*point)).collect();
         return format!("within {}", labels.join(", "));
     };
     let words = body.place(point);
-    let squares =
-        (body.positions()[point as usize].iter().zip(position)).map(|(p, q)| (p - q).powi(2));
-    let distance = squares.sum::<f64>().sqrt();
-    if distance <= model.system.cloud.slack(point) {
+    let distance = model.distance_to(point, position);
+    if distance == 0.0 {
         return words;
     }
     let unit = model.setup.units().displacement;
     format!("{words}, {} from the position", quantity(distance, unit))
 }
 
-fn write_loading<const D: usize>(out: &mut dyn Write, setup: &Setup<D>) -> io::Result<()> {
+fn write_loading(out: &mut dyn Write, setup: &Setup) -> io::Result<()> {
     let steps = setup.n_steps().unwrap_or(0);
     let stages: Vec<&str> = setup.stages.iter().map(|it| it.name.as_str()).collect();
     if !stages.is_empty() {

@@ -25,7 +25,7 @@ use ligament::run::on_threads;
 use ligament::setup::Analysis;
 use ligament_case::case::CaseFile;
 use ligament_run::disk;
-use ligament_run::model::{build_model, build_model_in_space};
+use ligament_run::model::build_model;
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::{Stage, Stages};
 
@@ -54,21 +54,16 @@ fn check_here(
 ) -> anyhow::Result<()> {
     let mut stages = Stages::default();
     let progress = Progress::new(ProgressMode::Quiet);
-    if case.case.is_solid() {
-        let model = build_model_in_space(case, &mut stages, &progress)?;
-        tell(case, extent, fields, (&model, stages), out)
-    } else {
-        let model = build_model(case, &mut stages, &progress)?;
-        tell(case, extent, fields, (&model, stages), out)
-    }
+    let model = build_model(case, &mut stages, &progress)?;
+    tell(case, extent, fields, (&model, stages), out)
 }
 
 /// Tells of a model.
-fn tell<const D: usize>(
+fn tell(
     case: &CaseFile,
     extent: Extent,
     fields: Option<&Path>,
-    (model, mut stages): (&Model<D>, Stages),
+    (model, mut stages): (&Model, Stages),
     out: &mut dyn Write,
 ) -> anyhow::Result<()> {
     let noticed = match model.setup.analysis {
@@ -102,8 +97,14 @@ fn tell<const D: usize>(
     if let Some(folder) = fields {
         std::fs::create_dir_all(folder)?;
         let path = folder.join(FIELDS);
-        let (grid, cloud) = (model.body().grid(), &model.system.cloud);
-        point_grid(&path, &grid, &cloud.volumes, &cloud.spacing, &model.fixed)?;
+        let (grid, system) = (model.body().grid(), &model.system);
+        point_grid(
+            &path,
+            &grid,
+            system.volumes(),
+            system.spacing(),
+            &model.fixed,
+        )?;
         writeln!(out, "fields written to {}", path.display())?;
     }
     Ok(())

@@ -13,17 +13,17 @@ use ligament_run::model::Model;
 use ligament_run::stages::Stages;
 
 /// Checks supports, masses and equations.
-pub(super) fn check<const D: usize>(
+pub(super) fn check(
     case: &CaseFile,
     settings: ModalSettings,
     extent: Extent,
-    model: &Model<D>,
+    model: &Model,
     stages: &mut Stages,
     out: &mut dyn Write,
 ) -> anyhow::Result<()> {
-    let vibration = Vibration::new(&model.setup, &*model.system);
+    let vibration = Vibration::new(model);
     let vibration = vibration.map_err(|error| case.located(error))?;
-    let problem = vibration.problem(&model.system);
+    let problem = vibration.problem(model);
     let analysis = match extent {
         Extent::Model => None,
         Extent::Matrix | Extent::PatchTest => {

@@ -14,11 +14,7 @@ use super::entry::{entry, spread};
 use super::{body, criteria};
 
 /// Writes what is known before supports and loads.
-pub(super) fn write<const D: usize>(
-    out: &mut dyn Write,
-    case: &CaseFile,
-    model: &Model<D>,
-) -> anyhow::Result<()> {
+pub(super) fn write(out: &mut dyn Write, case: &CaseFile, model: &Model) -> anyhow::Result<()> {
     writeln!(out, "{}", heading(&case.case.title))?;
     let volume = model.system.volumes().iter().sum();
     body::write(out, model.body(), volume)?;
@@ -29,7 +25,7 @@ pub(super) fn write<const D: usize>(
     Ok(write_energy_ratios(out, model)?)
 }
 
-fn write_section<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()> {
+fn write_section(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     let Section::Plane { state, thickness } = model.setup.section else {
         return Ok(());
     };
@@ -41,13 +37,10 @@ fn write_section<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::R
     entry(out, "thickness", format!("{thickness}, {state}"))
 }
 
-fn write_materials<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()> {
-    let cloud = &model.system.cloud;
+fn write_materials(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     writeln!(out, "materials")?;
     for (index, material) in model.setup.materials().iter().enumerate() {
-        let volume: f64 = (0..cloud.len())
-            .map(|point| cloud.shares(point)[index] * cloud.volumes[point])
-            .sum();
+        let volume = model.volume_of_material(index);
         let name = if material.name.is_empty() {
             "the whole body"
         } else {
@@ -107,7 +100,7 @@ fn constants(elasticity: &Elasticity) -> String {
     }
 }
 
-fn write_bonds<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()> {
+fn write_bonds(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     let (system, fixed) = (&model.system, &model.fixed);
     let over = |values: &[f64]| Spread::over(values.iter().copied());
     writeln!(out, "bonds")?;
@@ -137,7 +130,7 @@ fn write_bonds<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Res
     spread(out, "correction factor", over(&fixed.domain_factor), "-")
 }
 
-fn write_energy_ratios<const D: usize>(out: &mut dyn Write, model: &Model<D>) -> io::Result<()> {
+fn write_energy_ratios(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     writeln!(out, "strain energy of the points over the continuum's")?;
     for ratios in &model.fixed.energy_ratios {
         let Spread { min, mean, max } = Spread::over(ratios.at_points.iter().copied());

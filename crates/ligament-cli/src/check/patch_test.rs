@@ -22,18 +22,19 @@ const COST: [&str; 2] = ["a factor of the matrix", "six solutions"];
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Writes the elastic constants of the free body, and how far its bonds are from uniform strains.
-pub(super) fn write<const D: usize>(
+pub(super) fn write(
     out: &mut dyn Write,
     extent: Extent,
-    model: &Model<D>,
+    model: &Model,
     stages: &mut Stages,
 ) -> io::Result<()> {
     if extent == Extent::Model {
         return Ok(());
     }
     writeln!(out, "free body under uniform stress")?;
-    let (most, cost) = (MOST_POINTS[D - 2], COST[D - 2]);
-    if extent == Extent::Matrix && model.system.cloud.len() > most {
+    let kind = model.setup.body.dimensions() - 2;
+    let (most, cost) = (MOST_POINTS[kind], COST[kind]);
+    if extent == Extent::Matrix && model.system.n_points() > most {
         let words = format!(
             "it takes {cost}, and the body has more than {most} points; ask with --patch-test"
         );
@@ -48,9 +49,10 @@ pub(super) fn write<const D: usize>(
     }
 }
 
-fn write_test<const D: usize>(out: &mut dyn Write, test: &PatchTest<D>) -> io::Result<()> {
+fn write_test(out: &mut dyn Write, test: &PatchTest) -> io::Result<()> {
+    let dimensions = test.place.len();
     match &test.constants {
-        Some(constants) => write_constants(out, constants)?,
+        Some(constants) => write_constants(out, constants, dimensions)?,
         None => entry(
             out,
             "E, nu",
@@ -58,11 +60,11 @@ fn write_test<const D: usize>(out: &mut dyn Write, test: &PatchTest<D>) -> io::R
         )?,
     }
     // Along the axes, then in shear.
-    let places = SymTensor::<D>::COMPONENTS.iter().zip(&test.scatter);
+    let places = SymTensor::<3>::COMPONENTS.iter().zip(&test.scatter);
     let (along, in_shear): (Vec<_>, Vec<_>) = places.partition(|([i, j], _)| i == j);
     let all = along.iter().chain(&in_shear);
     let percent: Vec<String> = all.map(|(_, it)| format!("{:.2}", 100.0 * *it)).collect();
-    let strains = match D {
+    let strains = match dimensions {
         2 => "along x, along y, in shear",
         _ => "along x, y, z, in shear xy, xz, yz",
     };
@@ -75,9 +77,10 @@ fn write_test<const D: usize>(out: &mut dyn Write, test: &PatchTest<D>) -> io::R
     entry(out, "strains of the bonds", words)
 }
 
-fn write_constants<const D: usize>(
+fn write_constants(
     out: &mut dyn Write,
-    constants: &Constants<D>,
+    constants: &Constants,
+    dimensions: usize,
 ) -> io::Result<()> {
     let Constants {
         angle,
@@ -92,18 +95,18 @@ fn write_constants<const D: usize>(
         None => AXES[axis].to_owned(),
         Some(_) => format!("axis {}", axis + 1),
     };
-    let young = (0..D).map(|it| {
+    let young = (0..dimensions).map(|it| {
         let modulus = modulus(body.young[it], material.young[it]);
         format!("{modulus} along {}", axis(it))
     });
     let young: Vec<String> = young.collect();
     entry(out, "Young's modulus", young.join(", "))?;
     let given = material.poisson[0][1];
-    let pairs = (0..D).flat_map(|a| (0..D).map(move |b| (a, b)));
+    let pairs = (0..dimensions).flat_map(|a| (0..dimensions).map(move |b| (a, b)));
     let ratios = pairs.filter(|(a, b)| a != b);
     let ratios = ratios.map(|(a, b)| format!("{:.4}", body.poisson[a][b]));
     let ratios: Vec<String> = ratios.collect();
-    let words = match D {
+    let words = match dimensions {
         2 => format!("{} for {given:.4}", ratios[0]),
         _ => format!(
             "{} in xy, xz, yx, yz, zx, zy for {given:.4}",
@@ -111,11 +114,13 @@ fn write_constants<const D: usize>(
         ),
     };
     entry(out, "Poisson's ratio", words)?;
-    let places = SymTensor::<D>::COMPONENTS.iter().filter(|[i, j]| i != j);
+    let places = SymTensor::<3>::COMPONENTS
+        .iter()
+        .filter(|[i, j]| i < j && *j < dimensions);
     let moduli = places.map(|&[i, j]| {
         let shear_modulus = body.shear_modulus.at(i, j);
         let modulus = modulus(shear_modulus, material.shear_modulus.at(i, j));
-        match D {
+        match dimensions {
             2 => modulus,
             _ => format!("{modulus} in {}{}", AXES[i], AXES[j]),
         }

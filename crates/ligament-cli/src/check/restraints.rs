@@ -9,10 +9,14 @@ use ligament_output::quantity::quantity;
 use super::entry::entry;
 
 /// Writes what each support holds or resists, and which loads go through springs or a platen.
-pub(super) fn write<const D: usize>(out: &mut dyn Write, setup: &Setup<D>) -> io::Result<()> {
+pub(super) fn write(out: &mut dyn Write, setup: &Setup) -> io::Result<()> {
     for (index, support) in setup.supports.iter().enumerate() {
         let name = format!("{} holds", support.name(index));
-        entry(out, &name, of_support(support).join(", "))?;
+        entry(
+            out,
+            &name,
+            of_support(support, setup.body.dimensions()).join(", "),
+        )?;
     }
     for load in setup.loads.iter().filter(|it| it.is_restraint()) {
         entry(
@@ -24,7 +28,7 @@ pub(super) fn write<const D: usize>(out: &mut dyn Write, setup: &Setup<D>) -> io
     Ok(())
 }
 
-fn of_support<const D: usize>(support: &Support<D>) -> Vec<String> {
+fn of_support(support: &Support, dimensions: usize) -> Vec<String> {
     let mut words: Vec<String> = (support.components())
         .map(|it| it.name().to_owned())
         .collect();
@@ -43,13 +47,14 @@ fn of_support<const D: usize>(support: &Support<D>) -> Vec<String> {
     if let Some(normal) = support.restrained_normal() {
         let spring = support.stiffness.normal;
         let spring = spring.map(|total| format!(" by springs of {}", quantity(total, "N/m")));
-        let normal = normal.map(|it| it.to_string()).join(", ");
+        let normal: Vec<String> = normal[..dimensions].iter().map(f64::to_string).collect();
+        let normal = normal.join(", ");
         words.push(format!("along ({normal}){}", spring.unwrap_or_default()));
     }
     words
 }
 
-fn of_load<const D: usize>(load: &Load<D>) -> Vec<String> {
+fn of_load(load: &Load) -> Vec<String> {
     let springs = load.stiffness;
     let springs = springs.map(|total| format!("through springs of {}", quantity(total, "N/m")));
     let platen = load

@@ -118,6 +118,14 @@ impl Elasticity {
         Some(Stiffness::from_fn(places.len(), places.len(), of_places))
     }
 
+    /// The stiffness in a space; none in three dimensions of a material that is known in the plane alone.
+    pub fn stiffness_in(&self, space: Space) -> Option<Stiffness> {
+        match space {
+            Space::Plane(plane) => self.stiffness::<2>(plane),
+            Space::Solid => self.stiffness::<3>(space.plane()),
+        }
+    }
+
     /// The isotropic constants, if the material is isotropic.
     pub fn isotropic(&self) -> Option<Isotropic> {
         match *self {

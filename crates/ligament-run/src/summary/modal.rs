@@ -64,9 +64,9 @@ pub struct ModeSummary {
 
 impl ModalSummary {
     /// Collects the numbers.
-    pub fn new<const D: usize>(
+    pub fn new(
         case: &CaseFile,
-        model: &Model<D>,
+        model: &Model,
         outcome: &ModalOutcome,
         provenance: Provenance,
         stages: &[Stage],

@@ -9,6 +9,7 @@ use ligament::Model;
 use ligament::setup::{Alpha, Calibration, Correction, Form, Open, Setup, Surface};
 use ligament_case::case::{CaseFile, Word};
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
+use ligament_model::material::Space;
 
 /// The numbers of a model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -104,7 +105,7 @@ pub fn heading(title: &str) -> &str {
 
 impl ModelSummary {
     /// Collects the numbers.
-    pub fn new<const D: usize>(case: &CaseFile, model: &Model<D>) -> Self {
+    pub fn new(case: &CaseFile, model: &Model) -> Self {
         Self {
             title: case.case.title.clone(),
             version: env!("CARGO_PKG_VERSION"),
@@ -124,7 +125,7 @@ impl ModelSummary {
 
 impl ScatterSummary {
     /// What varies at random in a model.
-    pub fn new<const D: usize>(model: &Model<D>) -> Option<Self> {
+    pub fn new(model: &Model) -> Option<Self> {
         let factors = &model.fixed.scatter.as_ref()?.at_points;
         let scatter = model.setup.scatter?;
         let factor = Spread::over(factors.iter().copied());
@@ -152,13 +153,13 @@ impl Spread {
 }
 
 /// Law and corrections of the bonds, in words.
-fn formulation_words<const D: usize>(model: &Model<D>) -> String {
+fn formulation_words(model: &Model) -> String {
     let correction = correction_line(&model.setup.correction, model.correction.as_ref());
     format!("{}; {correction}", formulation_line(&model.setup))
 }
 
 /// Numbers of bonds of the points.
-pub fn family<const D: usize>(model: &Model<D>) -> Spread {
+pub fn family(model: &Model) -> Spread {
     let [min, max] = model.counts.of_points.map(|it| it as f64);
     Spread {
         min,
@@ -169,7 +170,7 @@ pub fn family<const D: usize>(model: &Model<D>) -> Spread {
 
 impl CorrectionSummary {
     /// The correction of a model.
-    pub fn new<const D: usize>(model: &Model<D>) -> Self {
+    pub fn new(model: &Model) -> Self {
         let report = model.correction.as_ref();
         let domain = report.and_then(CorrectionReport::domain);
         let patch = report.and_then(CorrectionReport::patch);
@@ -193,7 +194,8 @@ impl CorrectionSummary {
 }
 
 /// The law of the bonds, in a line.
-pub fn formulation_line<const D: usize>(setup: &Setup<D>) -> String {
+pub fn formulation_line(setup: &Setup) -> String {
+    let is_solid = setup.space() == Space::Solid;
     let mut law = setup.law;
     let (name, element) = (law.name(), law.element());
     let Open {
@@ -203,8 +205,8 @@ pub fn formulation_line<const D: usize>(setup: &Setup<D>) -> String {
         ..
     } = law.open();
     let unknowns = match element {
-        ElementKind::Beam if D == 3 => "three displacements and three rotations a point",
-        ElementKind::Spring if D == 3 => "three displacements a point",
+        ElementKind::Beam if is_solid => "three displacements and three rotations a point",
+        ElementKind::Spring if is_solid => "three displacements a point",
         ElementKind::Beam => "two displacements and a rotation a point",
         ElementKind::Spring => "two displacements a point",
         ElementKind::Imaginary => {

@@ -40,17 +40,13 @@ pub type Resultant = BTreeMap<&'static str, f64>;
 
 impl BondEvent {
     /// What happened to a bond of a model.
-    pub(super) fn new<const D: usize>(model: &Model<D>, first: &FirstBond) -> Self {
-        let cloud = &model.system.cloud;
-        let ends = cloud.numbering.ordered(first.ends);
-        let [a, b] = ends.map(|end| cloud.positions[end as usize]);
+    pub(super) fn new(model: &Model, first: &FirstBond) -> Self {
+        let ends = model.system.numbering().ordered(first.ends);
         let criteria = model.criteria.list.iter().map(|it| it.name);
         let mut labels = criterion_labels(criteria);
         Self {
             ends: ends.map(|end| model.body().tag(end)),
-            place: (0..D)
-                .map(|axis| 0.5 * (a[axis] + b[axis]) + cloud.origin[axis])
-                .collect(),
+            place: model.middle(ends),
             step: first.step,
             load_factor: first.load_factor,
             displacement: first.displacement,

@@ -58,13 +58,13 @@ fn equations(case: &CaseFile) -> anyhow::Result<usize> {
     let system = &model.system;
     Ok(match model.setup.analysis {
         Analysis::Modal(settings) => {
-            let vibration = Vibration::new(&model.setup, &**system)?;
-            let analysis = ModalAnalysis::new(&vibration.problem(system), settings)?;
+            let vibration = Vibration::new(&model)?;
+            let analysis = ModalAnalysis::new(&vibration.problem(&model), settings)?;
             memory::of_equations(&**system, Some(analysis.stiffness()))
         }
         _ => {
-            let loading = Loading::new(&model.setup, &**system)?;
-            let problem = loading.problem(system, &model.criteria);
+            let loading = Loading::new(&model)?;
+            let problem = loading.problem(&model);
             let equilibrium = Equilibrium::new(&problem, ELASTIC_ENERGY_TOLERANCE)?;
             memory::of_equations(&**system, equilibrium.stiffness())
         }

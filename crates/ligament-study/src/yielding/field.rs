@@ -41,7 +41,7 @@ struct Layer {
 
 fn draw_here(request: &Request, case: &CaseFile, screen: &mut dyn Write) -> anyhow::Result<()> {
     let model = model(case)?;
-    let system = &model.system;
+    let system = model.plane();
     let poisson = poisson(request, &model)?;
     let is_interior = model.interior(&model.body().rim());
     let sizes: Vec<i64> = (0..system.cloud.len() as u32)
@@ -109,7 +109,7 @@ fn layers(
             layers.push(Layer {
                 criterion: criterion.clone(),
                 strain,
-                yields: families(&model.system, &criteria, at),
+                yields: families(model.plane(), &criteria, at),
                 lattice: lattice.as_ref().and_then(worst),
             });
         }

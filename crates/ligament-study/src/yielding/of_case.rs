@@ -6,7 +6,7 @@ use super::error::YieldError;
 use super::request::Request;
 use ligament::setup::Law;
 use ligament_case::case::CaseFile;
-use ligament_run::model::{Model, build_model};
+use ligament_run::model::{Model, build_model_in_plane};
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::Stages;
 
@@ -16,7 +16,7 @@ pub(super) fn model(case: &CaseFile) -> anyhow::Result<Model> {
         return Err(YieldError::NoDirections.into());
     }
     let progress = Progress::new(ProgressMode::Quiet);
-    build_model(case, &mut Stages::default(), &progress)
+    build_model_in_plane(case, &mut Stages::default(), &progress)
 }
 
 /// The criteria with their names: those of the request, or each of the case's and, where there are several, all together.
@@ -24,7 +24,7 @@ pub(super) fn criteria(
     request: &Request,
     model: &Model,
 ) -> anyhow::Result<Vec<(String, Criteria)>> {
-    let n_bonds = model.system.bonds.len();
+    let n_bonds = model.system.ends().len();
     if !request.combinations.is_empty() {
         let values = poisson(request, model)?;
         let first = values[0];
@@ -65,7 +65,7 @@ pub(super) fn criteria(
 
 /// Poisson's ratio in the plane at each point (n_points): the mean over its materials.
 pub(super) fn poisson(request: &Request, model: &Model) -> Result<Vec<f64>, YieldError> {
-    let cloud = &model.system.cloud;
+    let cloud = &model.plane().cloud;
     if let Some(poisson) = request.poisson {
         return Ok(vec![poisson; cloud.len()]);
     }

@@ -29,7 +29,7 @@ pub(super) fn draw(
         let label = model.body().label(point);
         let mut comparisons = Vec::new();
         for (criterion, criteria) in criteria(request, &model)? {
-            let subject = Subject::of_point(label.clone(), &model.system, &criteria, point);
+            let subject = Subject::of_point(label.clone(), model.plane(), &criteria, point);
             comparisons.push(Comparison {
                 criterion,
                 subjects: vec![subject],
@@ -64,13 +64,13 @@ pub(super) fn draw(
 }
 
 fn find(model: &Model, place: Place) -> Result<u32, YieldError> {
-    let (body, cloud) = (model.body(), &model.system.cloud);
+    let (body, cloud) = (model.body(), &model.plane().cloud);
     match place {
         Place::At(at) => {
             let point = cloud.nearest_point(at);
-            let [x, y] = body.positions()[point as usize];
+            let position = body.position(point);
             let horizon = model.fixed.horizon[point as usize];
-            if (x - at[0]).hypot(y - at[1]) <= horizon {
+            if (position[0] - at[0]).hypot(position[1] - at[1]) <= horizon {
                 return Ok(point);
             }
             let nearest = body.place(point);

@@ -111,7 +111,7 @@ fn stages(
 ) -> anyhow::Result<Vec<MappedBody>> {
     let model = &solution.model;
     let (cloud, cells) = (
-        &model.system.cloud,
+        &model.plane().cloud,
         match model.body().origin() {
             Origin::Mesh(mesh) => mesh.cells.as_slice(),
             _ => &[],
@@ -119,11 +119,11 @@ fn stages(
     );
     let unmoved = vec![[0.0; 2]; cloud.len()];
     let drawn = |(words, part): (&str, usize)| {
-        let mut intact = vec![true; model.system.bonds.len()];
+        let mut intact = vec![true; model.plane().bonds.len()];
         for record in &breaks[..breaks.len() / part] {
             intact[record.bond as usize] = false;
         }
-        let (title, values) = (format!("{label}{words}"), damage(&*model.system, &intact));
+        let (title, values) = (format!("{label}{words}"), damage(&**model.plane(), &intact));
         let positions = &cloud.positions;
         if cells.is_empty() {
             let [spacing, _] = cloud.lattice_cell.context("the body has no cells")?;

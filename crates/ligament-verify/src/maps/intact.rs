@@ -73,7 +73,7 @@ fn beside(
     let trial = template.trial().set("material.poisson", ratio);
     let solution = trial.solve()?;
     let lattice = Motion::of_lattice(
-        &*solution.model.system,
+        &**solution.model.plane(),
         &solution.outcome.state.displacement,
     )?;
     Ok([
@@ -150,7 +150,7 @@ fn cylinder() -> anyhow::Result<Maps> {
     let mut bodies = Vec::new();
     for ratio in [0.1, -0.1] {
         let solution = cylinder::trial(COARSE, ratio).solve()?;
-        let cloud = &solution.model.system.cloud;
+        let cloud = &solution.model.plane().cloud;
         let [spacing, _] = cloud.lattice_cell.context("the cylinder is no lattice")?;
         let points = cylinder::radial(&solution, ratio);
         let places: Vec<[f64; 2]> = points.iter().map(|it| it.place).collect();

@@ -61,7 +61,7 @@ fn stretched(angle: f64, has_hole: bool) -> anyhow::Result<Motion> {
     }
     let solution = trial.solve()?;
     let motion = Motion::of_lattice(
-        &*solution.model.system,
+        &**solution.model.plane(),
         &solution.outcome.state.displacement,
     )?;
     Ok(motion.without_rigid_motion())
@@ -71,9 +71,10 @@ fn modes(angle: f64) -> anyhow::Result<Vec<Motion>> {
     let trial = lamina::CASE
         .trial()
         .set("material.angle", angle.to_radians());
-    let system = trial.model()?.system;
+    let model = trial.model()?;
+    let system = model.plane();
     let modes = in_named_order(trial.modes()?, |it| it.participation[ALONG])?;
-    let modes = modes.map(|mode| Motion::of_lattice(&*system, &mode.shape));
+    let modes = modes.map(|mode| Motion::of_lattice(&**system, &mode.shape));
     modes.into_iter().collect()
 }
 

@@ -51,7 +51,7 @@ impl Squares {
             .set("material.poisson", ratio)
             .set("model.law", model.to_lowercase());
         self.motions.reading(&trial, |it| {
-            let motion = Motion::of_lattice(&*it.model.system, &it.outcome.state.displacement)?;
+            let motion = Motion::of_lattice(&**it.model.plane(), &it.outcome.state.displacement)?;
             Ok(motion.without_rigid_motion())
         })
     }
@@ -76,9 +76,10 @@ impl Squares {
             .set("material.poisson", ratio)
             .set("model.law", model.to_lowercase());
         self.modes.result(trial.command(), || {
-            let system = trial.model()?.system;
+            let model = trial.model()?;
+            let system = model.plane();
             let modes = in_named_order(trial.modes()?, |it| it.participation[ALONG])?;
-            let modes = modes.map(|mode| Motion::of_lattice(&*system, &mode.shape));
+            let modes = modes.map(|mode| Motion::of_lattice(&**system, &mode.shape));
             modes.into_iter().collect()
         })
     }

@@ -18,9 +18,9 @@ pub(crate) struct Facet<const D: usize> {
 }
 
 /// The sides of the outline of a body.
-pub(super) fn of_body<const D: usize>(setup: &Setup<D>) -> Vec<Facet<D>> {
-    let positions = setup.body.positions();
-    let sides = setup.body.outer_sides().into_iter();
+pub(super) fn of_body<const D: usize>(setup: &Setup) -> Vec<Facet<D>> {
+    let body = setup.body.geometry();
+    let (positions, sides) = (body.positions(), body.outer_sides().into_iter());
     sides
         .map(|corners| {
             let places = corners.map(|corner| positions[corner as usize]);

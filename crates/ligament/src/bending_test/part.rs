@@ -1,16 +1,10 @@
 //! A part of a body as a body of its own.
 
-use std::sync::Arc;
-
-use crate::body::Body;
+use crate::body::AnyBody;
 use crate::setup::{Analysis, Setup};
 
 /// A setup on a part of its body, free and whole, of one of its materials.
-pub(crate) fn free<const D: usize>(
-    setup: &Setup<D>,
-    body: Arc<dyn Body<D>>,
-    material: usize,
-) -> Setup<D> {
+pub(crate) fn free(setup: &Setup, body: AnyBody, material: usize) -> Setup {
     let mut region = setup.materials[material].clone();
     region.group = None;
     Setup {

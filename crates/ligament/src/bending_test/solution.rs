@@ -9,6 +9,7 @@ use ligament_model::layout::{Component, Layout};
 use super::facets::dot;
 use super::strip::{LinearStress, Strip};
 use super::thinnest::Section;
+use crate::body::AnyBody;
 use crate::model::Model;
 use crate::patch_test::{SIZE, Untested, free_loading};
 use crate::run::Unobserved;
@@ -24,9 +25,9 @@ const MOST_CURABLE: f64 = 4.0;
 /// in bending, and round bars 3 % in torsion.
 pub const THICK: f64 = 6.0;
 
-/// Points of a strip in D dimensions up to which the test takes a second or two.
-pub fn most_points<const D: usize>() -> usize {
-    match D {
+/// Points of a strip in some dimensions up to which the test takes a second or two.
+pub fn most_points(dimensions: usize) -> usize {
+    match dimensions {
         2 => 20_000,
         _ => 3_000,
     }
@@ -65,13 +66,23 @@ impl BendingTest {
 /// # Errors
 ///
 /// If the strip has too many points, cannot be built or has no equilibrium.
-pub fn bending_test<const D: usize>(
-    model: &Model<D>,
-    section: &Section<D>,
+pub fn bending_test(
+    model: &Model,
+    section: &Section,
     most_points: usize,
 ) -> Result<BendingTest, Untested> {
-    let strip = Strip::cut(&model.setup, section)?;
-    let points = strip.setup.body.positions().len();
+    match model.setup.body {
+        AnyBody::Plane(_) => of_strip(model, &Strip::<2>::cut(&model.setup, section)?, most_points),
+        AnyBody::Solid(_) => of_strip(model, &Strip::<3>::cut(&model.setup, section)?, most_points),
+    }
+}
+
+fn of_strip<const D: usize>(
+    model: &Model,
+    strip: &Strip<D>,
+    most_points: usize,
+) -> Result<BendingTest, Untested> {
+    let points = strip.setup.body.n_points();
     if points > most_points {
         return Err(Untested::TooLarge { points });
     }
@@ -79,10 +90,10 @@ pub fn bending_test<const D: usize>(
         true => model.system.clone(),
         false => Model::build(strip.setup.clone(), &mut ())?.system,
     };
-    let mut solver = Solver::new(system, &strip)?;
-    let bending = solver.stiffness(&strip, &strip.bending())?;
+    let mut solver = Solver::new(system.to_bonds(), strip)?;
+    let bending = solver.stiffness(strip, &strip.bending())?;
     let torsion = strip.torsion();
-    let torsion = torsion.map(|stress| solver.stiffness(&strip, &stress));
+    let torsion = torsion.map(|stress| solver.stiffness(strip, &stress));
     Ok(BendingTest {
         points,
         bending,

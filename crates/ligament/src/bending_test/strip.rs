@@ -5,6 +5,8 @@ use ligament_model::tensor::{SymTensor, directions_across};
 use super::facets::{self, Facet, dot, mean, minus, second_moments, size, volume_and_middle};
 use super::part::free;
 use super::thinnest::Section;
+use crate::body::AnyBody;
+use crate::coordinates::narrowed;
 use crate::error::SetupError;
 use crate::formulation::stiffness_of_materials;
 use crate::loading::material_of_cell;
@@ -24,7 +26,7 @@ const HALF_HEIGHT: f64 = 0.75;
 
 /// A strip of a body.
 pub(super) struct Strip<const D: usize> {
-    pub(super) setup: Setup<D>,
+    pub(super) setup: Setup,
     facets: Vec<Facet<D>>,
     second: Tensor<D>,
     volume: f64,
@@ -43,13 +45,14 @@ impl<const D: usize> Strip<D> {
     /// # Errors
     ///
     /// If the groups of the materials are wrong.
-    pub(super) fn cut(setup: &Setup<D>, section: &Section<D>) -> Result<Self, SetupError> {
+    pub(super) fn cut(setup: &Setup, section: &Section) -> Result<Self, SetupError> {
         let cells = setup.body.corners();
+        let (place_of_section, across) = (narrowed(section.place), narrowed(section.across));
         let reach = 0.5 * LENGTH * (section.thickness + section.horizon);
-        let positions = setup.body.positions();
+        let positions = setup.body.geometry().positions();
         let is_inside = |place: [f64; D]| {
-            let from = minus(place, section.place);
-            let height = dot(from, section.across);
+            let from = minus(place, place_of_section);
+            let height = dot(from, across);
             let aside = dot(from, from) - height * height;
             height.abs() <= HALF_HEIGHT * section.thickness && aside <= reach * reach
         };
@@ -57,7 +60,7 @@ impl<const D: usize> Strip<D> {
         for (cell, corners) in cells.iter().enumerate() {
             let places: Vec<_> = corners.iter().map(|&it| positions[it as usize]).collect();
             inside[cell] = places.iter().all(|place| is_inside(*place));
-            let away = size(minus(mean(&places), section.place));
+            let away = size(minus(mean(&places), place_of_section));
             if away < nearest.0 {
                 nearest = (away, cell);
             }
@@ -68,21 +71,25 @@ impl<const D: usize> Strip<D> {
         let is_whole = connected.len() == cells.len();
         let part = match is_whole {
             true => setup.body.clone(),
-            false => (setup.body.part(&connected)).unwrap_or_else(|| setup.body.clone()),
+            false => {
+                let part = setup.body.geometry::<D>().part(&connected);
+                part.map_or_else(|| setup.body.clone(), AnyBody::shared)
+            }
         };
         let strip = Self::new(free(setup, part, material), section);
         let is_whole = is_whole && setup.materials.len() == 1;
         Ok(Self { is_whole, ..strip })
     }
 
-    fn new(setup: Setup<D>, section: &Section<D>) -> Self {
+    fn new(setup: Setup, section: &Section) -> Self {
         let mut facets = facets::of_body(&setup);
         let (volume, middle) = volume_and_middle(&facets);
         for facet in &mut facets {
             facet.places = facet.places.map(|place| minus(place, middle));
         }
         let second = second_moments(&facets);
-        let (along, beside) = principal(&second, section.across);
+        let across = narrowed(section.across);
+        let (along, beside) = principal(&second, across);
         Self {
             setup,
             facets,
@@ -90,7 +97,7 @@ impl<const D: usize> Strip<D> {
             volume,
             middle,
             is_whole: false,
-            across: section.across,
+            across,
             along,
             beside,
         }
@@ -132,7 +139,7 @@ impl<const D: usize> Strip<D> {
     /// On a flat side the mean of N_P sigma over it is the sum of sigma at its corners, that of P twice, over D (D + 1).
     pub(super) fn forces(&self, stress: &LinearStress<D>) -> Vec<[f64; D]> {
         let width = self.setup.thickness();
-        let mut forces = vec![[0.0; D]; self.setup.body.positions().len()];
+        let mut forces = vec![[0.0; D]; self.setup.body.n_points()];
         for facet in &self.facets {
             let tractions = facet
                 .places
@@ -205,7 +212,7 @@ impl<const D: usize> Strip<D> {
 
     /// Places of the points from the middle of the strip, shape (n_points), m.
     fn places(&self) -> Vec<[f64; D]> {
-        let positions = self.setup.body.positions().iter();
+        let positions = self.setup.body.geometry().positions().iter();
         positions.map(|it| minus(*it, self.middle)).collect()
     }
 
@@ -221,7 +228,7 @@ impl<const D: usize> Strip<D> {
 }
 
 /// Strains of the first material of a setup, as its law has it, under a stress (Pa).
-fn strain<const D: usize>(setup: &Setup<D>, stress: &Tensor<D>) -> Option<Tensor<D>> {
+fn strain<const D: usize>(setup: &Setup, stress: &Tensor<D>) -> Option<Tensor<D>> {
     let stiffness = stiffness_of_materials(setup).into_iter().next()?;
     let stress = SymTensor::<D>::from_fn(|row, column| stress[row][column]);
     let stress: Vec<f64> = stress.components().collect();

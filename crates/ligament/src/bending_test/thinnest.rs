@@ -1,10 +1,14 @@
 //! The thinnest section of a body: the shortest way through it, counted in horizons, between sides that lie opposite to each other.
 
+use ligament_model::PointCloud;
 use rayon::prelude::*;
 
 use super::facets::{self, Facet, dot, mean, minus, size};
+use crate::coordinates::widened;
 use crate::model::Model;
 use crate::patch_test::Untested;
+use crate::setup::Position;
+use crate::system::over_dimension;
 
 /// Sides of an outline up to which its thinnest section is found in a second or two: each is asked where the ways from all others end.
 pub const MOST_SIDES: usize = 20_000;
@@ -21,11 +25,11 @@ const SLACK: f64 = 1e-9;
 
 /// A section of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Section<const D: usize> {
+pub struct Section {
     /// Middle of the section, m.
-    pub place: [f64; D],
+    pub place: Position,
     /// Direction through the body, of length one.
-    pub across: [f64; D],
+    pub across: Position,
     /// Length of the way through the body, m.
     pub thickness: f64,
     /// Mean distance of the points at the sides to their nearest ones, m.
@@ -34,7 +38,7 @@ pub struct Section<const D: usize> {
     pub horizon: f64,
 }
 
-impl<const D: usize> Section<D> {
+impl Section {
     /// Thickness over the horizon.
     pub fn horizons(&self) -> f64 {
         self.thickness / self.horizon
@@ -49,17 +53,20 @@ impl<const D: usize> Section<D> {
 /// # Errors
 ///
 /// If the outline has more sides; if the body has no mesh, or no sides that lie opposite to each other.
-pub fn thinnest_section<const D: usize>(
-    model: &Model<D>,
+pub fn thinnest_section(model: &Model, most_sides: usize) -> Result<Section, Untested> {
+    over_dimension!(&model.system, system => thinnest(model, &system.cloud, most_sides))
+}
+
+fn thinnest<const D: usize>(
+    model: &Model,
+    cloud: &PointCloud<D>,
     most_sides: usize,
-) -> Result<Section<D>, Untested> {
-    let setup = &model.setup;
-    let facets = facets::of_body(setup);
+) -> Result<Section, Untested> {
+    let facets = facets::of_body::<D>(&model.setup);
     let sides = facets.len();
     if sides > most_sides {
         return Err(Untested::ManySides { sides });
     }
-    let cloud = &model.system.cloud;
     let around = |values: &[f64], [one, other]: [&Facet<D>; 2]| {
         let corners = one.corners.iter().chain(&other.corners);
         corners.map(|&corner| values[corner as usize]).sum::<f64>() / (2 * D) as f64
@@ -70,14 +77,16 @@ pub fn thinnest_section<const D: usize>(
         let (thickness, to) = way_through(&facets, middle, inward)?;
         let is_opposite = dot(inward, to.area) >= OPPOSITE * size(to.area);
         is_opposite.then(|| Section {
-            place: std::array::from_fn(|axis| middle[axis] + 0.5 * thickness * inward[axis]),
-            across: inward,
+            place: widened(std::array::from_fn::<f64, D, _>(|axis| {
+                middle[axis] + 0.5 * thickness * inward[axis]
+            })),
+            across: widened(inward),
             thickness,
             spacing: around(&cloud.spacing, [from, to]),
             horizon: around(&model.fixed.horizon, [from, to]),
         })
     };
-    let mut sections: Vec<Section<D>> = facets.par_iter().filter_map(section).collect();
+    let mut sections: Vec<Section> = facets.par_iter().filter_map(section).collect();
     let shortest = sections
         .iter()
         .map(Section::horizons)
@@ -85,7 +94,7 @@ pub fn thinnest_section<const D: usize>(
     sections.retain(|it| it.horizons() <= AS_THIN * shortest);
     let places: Vec<_> = sections.iter().map(|it| it.place).collect();
     let middle = mean(&places);
-    let away = |it: &Section<D>| size(minus(it.place, middle));
+    let away = |it: &Section| size(minus(it.place, middle));
     sections
         .into_iter()
         .min_by(|one, other| away(one).total_cmp(&away(other)))

@@ -62,13 +62,17 @@ pub trait BodyOutline<const D: usize> {
     fn is_left_by(&self, bonds: &BondSet<D>, cloud: &PointCloud<D>) -> Vec<bool>;
 }
 
-/// A body as a computation sees it: points, groups and outline, whatever the points come from.
-pub trait Body<const D: usize = 2>: Debug + Send + Sync {
+/// A body as a computation sees it: points and groups, whatever the points come from. Its [`Geometry`] has as many coordinates as the body
+/// has dimensions.
+pub trait Body: Debug + Send + Sync {
     /// Origin of the points.
     fn origin(&self) -> Origin<'_>;
 
-    /// Positions of the points, shape (n_points), m.
-    fn positions(&self) -> &[[f64; D]];
+    /// Number of points.
+    fn n_points(&self) -> usize;
+
+    /// Coordinates of a point, as many as the body has dimensions, m.
+    fn position(&self, point: u32) -> &[f64];
 
     /// How the points are numbered: here, and in the file or the arrays that they come from.
     fn numbering(&self) -> Numbering {
@@ -83,9 +87,6 @@ pub trait Body<const D: usize = 2>: Debug + Send + Sync {
 
     /// Number of cells, each of which has one material.
     fn n_cells(&self) -> usize;
-
-    /// The material points; `material_of_cell` (n_cells) holds the index of each cell's material.
-    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D>;
 
     /// Kind of the body's groups, for errors: "physical group in the mesh".
     fn group_kind(&self) -> &'static str;
@@ -107,10 +108,61 @@ pub trait Body<const D: usize = 2>: Debug + Send + Sync {
         Vec::new()
     }
 
+    /// Faces of the surface groups of a name; none of bodies without a mesh.
+    fn faces_of(&self, _group: &str) -> Option<Vec<Cell>> {
+        None
+    }
+
     /// The other points of the cells at a point; none where there are no cells between points.
     fn around(&self, _point: u32) -> Vec<u32> {
         Vec::new()
     }
+
+    /// Corners of the cells of a meshed body, shape (n_cells, corners); empty for others.
+    fn corners(&self) -> Vec<&[u32]> {
+        Vec::new()
+    }
+
+    /// Edges of the cells of a meshed body; empty for others.
+    fn edges(&self) -> Vec<[u32; 2]> {
+        Vec::new()
+    }
+
+    /// Values at the points that the file of the body brings along.
+    fn fields(&self) -> &[NodeField] {
+        &[]
+    }
+
+    /// Marks of the points on the rim, at the edge of the body or of a hole (n_points).
+    fn rim(&self) -> Vec<bool>;
+
+    /// Remarks about the body that the user should know.
+    fn remarks(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// The body as result files show it.
+    fn grid(&self) -> BodyGrid;
+
+    /// A point in words: "node 12".
+    fn label(&self, point: u32) -> String {
+        format!("{} {}", self.tagged(), self.tag(point))
+    }
+
+    /// A point in words, and where it is.
+    fn place(&self, point: u32) -> String {
+        let position = coordinates(self.position(point));
+        format!("{} at ({position})", self.label(point))
+    }
+}
+
+/// The geometry of a body in D dimensions.
+pub trait Geometry<const D: usize>: Body {
+    /// Positions of the points, shape (n_points), m.
+    fn positions(&self) -> &[[f64; D]];
+
+    /// The material points; `material_of_cell` (n_cells) holds the index of each cell's material.
+    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D>;
 
     /// Points and their shares, which add up to one, in a value at a position (m), by the cell around it; None off the cells, and for a body
     /// without cells.
@@ -126,28 +178,13 @@ pub trait Body<const D: usize = 2>: Debug + Send + Sync {
     /// If an edge of the group is none of the outline.
     fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; D])>, OffOutline>;
 
-    /// Faces of the surface groups of a name; none of bodies without a mesh.
-    fn faces_of(&self, _group: &str) -> Option<Vec<Cell>> {
-        None
-    }
-
-    /// Corners of the cells of a meshed body, shape (n_cells, corners); empty for others.
-    fn corners(&self) -> Vec<&[u32]> {
-        Vec::new()
-    }
-
-    /// Edges of the cells of a meshed body; empty for others.
-    fn edges(&self) -> Vec<[u32; 2]> {
-        Vec::new()
-    }
-
     /// Corners of the sides that one cell of a meshed body has alone, in an order that tells inside from outside; empty for others.
     fn outer_sides(&self) -> Vec<[u32; D]> {
         Vec::new()
     }
 
     /// A body of some of the cells (ascending) of a meshed one, without its groups; none of others.
-    fn part(&self, _cells: &[usize]) -> Option<Arc<dyn Body<D>>> {
+    fn part(&self, _cells: &[usize]) -> Option<Arc<dyn Geometry<D>>> {
         None
     }
 
@@ -179,31 +216,4 @@ pub trait Body<const D: usize = 2>: Debug + Send + Sync {
         material_of_cell: &[u32],
         stiffness: Vec<Stiffness>,
     ) -> CellForces<D>;
-
-    /// Values at the points that the file of the body brings along.
-    fn fields(&self) -> &[NodeField] {
-        &[]
-    }
-
-    /// Marks of the points on the rim, at the edge of the body or of a hole (n_points).
-    fn rim(&self) -> Vec<bool>;
-
-    /// Remarks about the body that the user should know.
-    fn remarks(&self) -> Vec<String> {
-        Vec::new()
-    }
-
-    /// The body as result files show it.
-    fn grid(&self) -> BodyGrid;
-
-    /// A point in words: "node 12".
-    fn label(&self, point: u32) -> String {
-        format!("{} {}", self.tagged(), self.tag(point))
-    }
-
-    /// A point in words, and where it is.
-    fn place(&self, point: u32) -> String {
-        let position = &self.positions()[point as usize];
-        format!("{} at ({})", self.label(point), coordinates(position))
-    }
 }

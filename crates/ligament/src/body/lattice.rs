@@ -11,7 +11,7 @@ use ligament_model::shape::{Shape, SolidShape};
 use ligament_model::{BodyGrid, BondSet, PointCloud, raised};
 
 use super::cells::{self, CellSets, Cells, Hole, LatticeError, rim};
-use super::interface::{Body, OffOutline, Origin};
+use super::interface::{Body, Geometry, OffOutline, Origin};
 use super::lattice_cells::LatticeShape;
 
 /// A body with a point at the centre of each cell of a lattice, and named sets of its cells.
@@ -53,13 +53,17 @@ impl<const D: usize, S: LatticeShape<D>> BodyOnLattice<D, S> {
     }
 }
 
-impl<const D: usize, S: LatticeShape<D>> Body<D> for BodyOnLattice<D, S> {
+impl<const D: usize, S: LatticeShape<D>> Body for BodyOnLattice<D, S> {
     fn origin(&self) -> Origin<'_> {
         S::origin(&self.lattice)
     }
 
-    fn positions(&self) -> &[[f64; D]] {
-        &self.positions
+    fn n_points(&self) -> usize {
+        self.positions().len()
+    }
+
+    fn position(&self, point: u32) -> &[f64] {
+        &self.positions()[point as usize]
     }
 
     fn tagged(&self) -> &'static str {
@@ -73,10 +77,6 @@ impl<const D: usize, S: LatticeShape<D>> Body<D> for BodyOnLattice<D, S> {
 
     fn n_cells(&self) -> usize {
         self.lattice.cells.len()
-    }
-
-    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D> {
-        PointCloud::from_lattice(&self.lattice, thickness, material_of_cell, n_materials)
     }
 
     fn group_kind(&self) -> &'static str {
@@ -112,6 +112,30 @@ impl<const D: usize, S: LatticeShape<D>> Body<D> for BodyOnLattice<D, S> {
         }
     }
 
+    fn rim(&self) -> Vec<bool> {
+        rim(&self.lattice)
+    }
+
+    fn grid(&self) -> BodyGrid {
+        BodyGrid {
+            numbering: self.numbering(),
+            positions: raised(&self.positions),
+            tags: (1..=self.positions.len() as i64).collect(),
+            tagged: self.tagged(),
+            canvas: S::canvas(&self.positions, self.lattice.spacing.map(|side| 0.5 * side)),
+        }
+    }
+}
+
+impl<const D: usize, S: LatticeShape<D>> Geometry<D> for BodyOnLattice<D, S> {
+    fn positions(&self) -> &[[f64; D]] {
+        &self.positions
+    }
+
+    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D> {
+        PointCloud::from_lattice(&self.lattice, thickness, material_of_cell, n_materials)
+    }
+
     fn shares_at(&self, position: [f64; D]) -> Option<Vec<(u32, f64)>> {
         self.lattice.shares_at(position)
     }
@@ -143,19 +167,5 @@ impl<const D: usize, S: LatticeShape<D>> Body<D> for BodyOnLattice<D, S> {
         stiffness: Vec<Stiffness>,
     ) -> CellForces<D> {
         patch::of_lattice(&self.lattice, cloud, material_of_cell, &stiffness)
-    }
-
-    fn rim(&self) -> Vec<bool> {
-        rim(&self.lattice)
-    }
-
-    fn grid(&self) -> BodyGrid {
-        BodyGrid {
-            numbering: self.numbering(),
-            positions: raised(&self.positions),
-            tags: (1..=self.positions.len() as i64).collect(),
-            tagged: self.tagged(),
-            canvas: S::canvas(&self.positions, self.lattice.spacing.map(|side| 0.5 * side)),
-        }
     }
 }

@@ -8,7 +8,7 @@ use ligament_model::correction::patch::CellForces;
 use ligament_model::material::Stiffness;
 use ligament_model::{BodyGrid, BondSet, PointCloud, raised};
 
-use super::interface::{Body, BodyOutline, OffOutline, Origin};
+use super::interface::{Body, BodyOutline, Geometry, OffOutline, Origin};
 use super::mesh_cells::BodyCell;
 
 /// A body with a point at each node of a mesh, by the names of its physical groups.
@@ -70,13 +70,17 @@ impl<const D: usize, C: BodyCell<D>> BodyOutline<D> for MeshOutline<'_, D, C> {
     }
 }
 
-impl<const D: usize, C: BodyCell<D>> Body<D> for BodyOnMesh<D, C> {
+impl<const D: usize, C: BodyCell<D>> Body for BodyOnMesh<D, C> {
     fn origin(&self) -> Origin<'_> {
         C::origin(&self.mesh)
     }
 
-    fn positions(&self) -> &[[f64; D]] {
-        &self.mesh.positions
+    fn n_points(&self) -> usize {
+        self.positions().len()
+    }
+
+    fn position(&self, point: u32) -> &[f64] {
+        &self.positions()[point as usize]
     }
 
     fn numbering(&self) -> Numbering {
@@ -93,13 +97,6 @@ impl<const D: usize, C: BodyCell<D>> Body<D> for BodyOnMesh<D, C> {
 
     fn n_cells(&self) -> usize {
         self.mesh.cells.len()
-    }
-
-    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D> {
-        PointCloud {
-            numbering: self.numbering(),
-            ..PointCloud::from_mesh(&self.mesh, thickness, material_of_cell, n_materials)
-        }
     }
 
     fn group_kind(&self) -> &'static str {
@@ -148,12 +145,53 @@ impl<const D: usize, C: BodyCell<D>> Body<D> for BodyOnMesh<D, C> {
         self.mesh.cells.iter().flat_map(C::edges).collect()
     }
 
+    fn fields(&self) -> &[NodeField] {
+        &self.mesh.fields
+    }
+
+    /// The nodes of sides that one cell has alone.
+    fn rim(&self) -> Vec<bool> {
+        let mut marked = vec![false; self.mesh.positions.len()];
+        for &node in self.outer_sides().as_flattened() {
+            marked[node as usize] = true;
+        }
+        marked
+    }
+
+    fn remarks(&self) -> Vec<String> {
+        let remarks = self.mesh.remarks.iter();
+        remarks.map(|remark| format!("mesh: {remark}")).collect()
+    }
+
+    fn grid(&self) -> BodyGrid {
+        BodyGrid {
+            numbering: self.numbering(),
+            positions: raised(&self.mesh.positions),
+            tags: self.mesh.node_tags.iter().map(|&tag| tag as i64).collect(),
+            tagged: self.tagged(),
+            canvas: C::canvas(&self.mesh.cells),
+        }
+    }
+}
+
+impl<const D: usize, C: BodyCell<D>> Geometry<D> for BodyOnMesh<D, C> {
+    fn positions(&self) -> &[[f64; D]] {
+        &self.mesh.positions
+    }
+
+    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D> {
+        PointCloud {
+            numbering: self.numbering(),
+            ..PointCloud::from_mesh(&self.mesh, thickness, material_of_cell, n_materials)
+        }
+    }
+
     fn outer_sides(&self) -> Vec<[u32; D]> {
         C::outer_sides(&self.mesh.cells, self.mesh.positions.len())
     }
 
     /// A body of the nodes of the cells, without groups.
-    fn part(&self, cells: &[usize]) -> Option<Arc<dyn Body<D>>> {
+    fn part(&self, cells: &[usize]) -> Option<Arc<dyn Geometry<D>>> {
         let cells = cells.iter().map(|&cell| self.mesh.cells[cell]);
         let mut nodes: Vec<u32> = (cells.clone())
             .flat_map(|cell| cell.corners().to_vec())
@@ -195,10 +233,6 @@ impl<const D: usize, C: BodyCell<D>> Body<D> for BodyOnMesh<D, C> {
         C::forces(&self.mesh.cells, cloud, material_of_cell, stiffness)
     }
 
-    fn fields(&self) -> &[NodeField] {
-        &self.mesh.fields
-    }
-
     fn shares_at(&self, position: [f64; D]) -> Option<Vec<(u32, f64)>> {
         C::shares_at(&self.mesh, position)
     }
@@ -209,29 +243,5 @@ impl<const D: usize, C: BodyCell<D>> Body<D> for BodyOnMesh<D, C> {
             &self.mesh,
             &self.mesh.groups_named(group).collect::<Vec<_>>(),
         )
-    }
-
-    /// The nodes of sides that one cell has alone.
-    fn rim(&self) -> Vec<bool> {
-        let mut marked = vec![false; self.mesh.positions.len()];
-        for &node in self.outer_sides().as_flattened() {
-            marked[node as usize] = true;
-        }
-        marked
-    }
-
-    fn remarks(&self) -> Vec<String> {
-        let remarks = self.mesh.remarks.iter();
-        remarks.map(|remark| format!("mesh: {remark}")).collect()
-    }
-
-    fn grid(&self) -> BodyGrid {
-        BodyGrid {
-            numbering: self.numbering(),
-            positions: raised(&self.mesh.positions),
-            tags: self.mesh.node_tags.iter().map(|&tag| tag as i64).collect(),
-            tagged: self.tagged(),
-            canvas: C::canvas(&self.mesh.cells),
-        }
     }
 }

@@ -1,5 +1,6 @@
 //! The body: points with their groups, from a mesh, a lattice or arrays.
 
+mod any;
 mod cells;
 mod interface;
 mod lattice;
@@ -10,8 +11,9 @@ mod points;
 
 use ligament_model::shape::{Shape, SolidShape};
 
+pub use any::AnyBody;
 pub use cells::{Cells, Hole, LatticeError};
-pub use interface::{Body, BodyOutline, OffOutline, Origin};
+pub use interface::{Body, BodyOutline, Geometry, OffOutline, Origin};
 pub use lattice::{BodyOnLattice, LatticeBody, SolidLatticeBody};
 pub use mesh::{BodyOnMesh, MeshBody, SolidMeshBody};
 pub use points::{Points, PointsError};

@@ -7,7 +7,7 @@ use ligament_model::material::Stiffness;
 use ligament_model::{BodyGrid, Canvas, Numbering, PointCloud, raised};
 use thiserror::Error;
 
-use super::interface::{Body, OffOutline, Origin};
+use super::interface::{Body, Geometry, OffOutline, Origin};
 
 /// A body of points that are given one by one, each with the area, or in space the volume, that it stands for. Its groups are sets of
 /// points; they have no length and no outline, so that forces are spread over their points by volume.
@@ -131,13 +131,17 @@ impl<const D: usize> Points<D> {
     }
 }
 
-impl<const D: usize> Body<D> for Points<D> {
+impl<const D: usize> Body for Points<D> {
     fn origin(&self) -> Origin<'_> {
         Origin::Points
     }
 
-    fn positions(&self) -> &[[f64; D]] {
-        &self.positions
+    fn n_points(&self) -> usize {
+        self.positions().len()
+    }
+
+    fn position(&self, point: u32) -> &[f64] {
+        &self.positions()[point as usize]
     }
 
     fn numbering(&self) -> Numbering {
@@ -157,22 +161,6 @@ impl<const D: usize> Body<D> for Points<D> {
         self.positions.len()
     }
 
-    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D> {
-        // In space the thickness is 1.
-        let volumes: Vec<f64> = self.sizes.iter().map(|size| size * thickness).collect();
-        let positions = &self.positions;
-        PointCloud {
-            numbering: self.numbering(),
-            ..PointCloud::from_points(
-                positions,
-                &volumes,
-                thickness,
-                material_of_cell,
-                n_materials,
-            )
-        }
-    }
-
     fn group_kind(&self) -> &'static str {
         "group of points"
     }
@@ -189,22 +177,8 @@ impl<const D: usize> Body<D> for Points<D> {
         self.points_of(group)
     }
 
-    /// No force: arrays have no cells.
-    fn cell_forces(
-        &self,
-        cloud: &PointCloud<D>,
-        _: &[u32],
-        stiffness: Vec<Stiffness>,
-    ) -> CellForces<D> {
-        CellForces::none(cloud.len(), stiffness)
-    }
-
     fn lengths_of(&self, _: &str) -> Vec<(u32, f64)> {
         Vec::new()
-    }
-
-    fn outline_of(&self, _: &str) -> Result<Vec<(u32, [f64; D])>, OffOutline> {
-        Ok(Vec::new())
     }
 
     /// No point: arrays do not say where the body ends.
@@ -239,5 +213,41 @@ impl<const D: usize> Body<D> for Points<D> {
             tagged: self.tagged(),
             canvas,
         }
+    }
+}
+
+impl<const D: usize> Geometry<D> for Points<D> {
+    fn positions(&self) -> &[[f64; D]] {
+        &self.positions
+    }
+
+    fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D> {
+        // In space the thickness is 1.
+        let volumes: Vec<f64> = self.sizes.iter().map(|size| size * thickness).collect();
+        let positions = &self.positions;
+        PointCloud {
+            numbering: self.numbering(),
+            ..PointCloud::from_points(
+                positions,
+                &volumes,
+                thickness,
+                material_of_cell,
+                n_materials,
+            )
+        }
+    }
+
+    /// No force: arrays have no cells.
+    fn cell_forces(
+        &self,
+        cloud: &PointCloud<D>,
+        _: &[u32],
+        stiffness: Vec<Stiffness>,
+    ) -> CellForces<D> {
+        CellForces::none(cloud.len(), stiffness)
+    }
+
+    fn outline_of(&self, _: &str) -> Result<Vec<(u32, [f64; D])>, OffOutline> {
+        Ok(Vec::new())
     }
 }

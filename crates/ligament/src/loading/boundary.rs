@@ -28,7 +28,7 @@ pub(super) enum Acting {
 /// Supports and the loads that act on the points with all components of the dimension, whichever of them the bonds have; the groups and
 /// the control are the same whatever acts.
 pub(super) fn boundary<const D: usize>(
-    setup: &Setup<D>,
+    setup: &Setup,
     cloud: &PointCloud<D>,
     acting: Acting,
 ) -> Result<ProportionalLoading, SetupError> {
@@ -90,11 +90,11 @@ pub(super) fn boundary<const D: usize>(
 
 /// Refuses couples on points that no bond keeps from turning: they would act on nothing.
 pub(super) fn couples_have_stiffness<const D: usize>(
-    setup: &Setup<D>,
+    setup: &Setup,
     boundary: &ProportionalLoading,
     system: &dyn Bonds,
 ) -> Result<(), SetupError> {
-    let is_couple = |it: &Load<D>| matches!(it.action, Action::Moment(_) | Action::BodyCouple(_));
+    let is_couple = |it: &Load| matches!(it.action, Action::Moment(_) | Action::BodyCouple(_));
     let Some(load) = setup.loads.iter().position(is_couple) else {
         return Ok(());
     };
@@ -226,7 +226,7 @@ impl<const D: usize> Places<'_, D> {
         let Some(profile) = profile else {
             return Ok(vec![1.0; points.len()]);
         };
-        let factor = |&point: &u32| profile.at(&self.setup.body.positions()[point as usize]);
+        let factor = |&point: &u32| profile.at(self.setup.body.position(point));
         let factors: Vec<f64> = points.iter().map(factor).collect();
         if factors.iter().all(|&factor| factor == 0.0) {
             return Err(field.part("profile").error(Fault::ZeroProfile));
@@ -235,7 +235,7 @@ impl<const D: usize> Places<'_, D> {
     }
 
     /// What points of a group stand for: areas of a surface, lengths of a curve; none elsewhere.
-    fn extents(&self, place: &Place<D>) -> Vec<(u32, f64)> {
+    fn extents(&self, place: &Place) -> Vec<(u32, f64)> {
         let Place::Group(group) = place else {
             return Vec::new();
         };
@@ -248,7 +248,7 @@ impl<const D: usize> Places<'_, D> {
     }
 
     /// Shares of points in a total: by the area or length that each stands for in a group that has one, elsewhere by their volumes.
-    pub(super) fn shares(&self, place: &Place<D>, points: &[u32]) -> Vec<(u32, f64)> {
+    pub(super) fn shares(&self, place: &Place, points: &[u32]) -> Vec<(u32, f64)> {
         let mut weights = self.extents(place);
         if weights.is_empty() {
             let volume = |&point: &u32| (point, self.cloud.volumes[point as usize]);
@@ -264,7 +264,7 @@ impl<const D: usize> Places<'_, D> {
     /// A total force is spread over a group that has an area or a length by what each point stands for, over other places by the points'
     /// volumes; a force per length goes by the lengths, one per area by the areas; body forces and all couples go by the volumes. Each
     /// point's share is then multiplied by the profile.
-    fn forces(&self, field: Field, load: &Load<D>, points: &[u32]) -> Result<Given, SetupError> {
+    fn forces(&self, field: Field, load: &Load, points: &[u32]) -> Result<Given, SetupError> {
         let extents = self.extents(&load.place);
         let volume = |&point: &u32| (point, self.cloud.volumes[point as usize]);
         let volumes: Vec<(u32, f64)> = points.iter().map(volume).collect();
@@ -309,7 +309,7 @@ impl<const D: usize> Places<'_, D> {
     }
 
     /// Lengths that the points of a group stand for, m.
-    fn lengths(&self, field: Field, place: &Place<D>) -> Result<Vec<(u32, f64)>, SetupError> {
+    fn lengths(&self, field: Field, place: &Place) -> Result<Vec<(u32, f64)>, SetupError> {
         let lengths = match place {
             Place::Group(group) => self.setup.body.lengths_of(group),
             _ => Vec::new(),
@@ -321,7 +321,7 @@ impl<const D: usize> Places<'_, D> {
     }
 
     /// Areas that the points of a group stand for, m^2.
-    fn areas(&self, field: Field, place: &Place<D>) -> Result<Vec<(u32, f64)>, SetupError> {
+    fn areas(&self, field: Field, place: &Place) -> Result<Vec<(u32, f64)>, SetupError> {
         let areas = match place {
             Place::Group(group) => self.setup.body.areas_of(group),
             _ => Vec::new(),
@@ -354,10 +354,10 @@ impl<const D: usize> Places<'_, D> {
     /// Forces of a pressure p on the outline of a group: -p t n L, half at each node of an edge of a mesh of length L and outward
     /// normal n, or at the cell of a lattice whose face it is; in space -p n A with the area A of a face. All are those of the body at rest
     /// (a dead load). Each point's share is then multiplied by the profile.
-    fn pressures(&self, field: Field, load: &Load<D>, pressure: f64) -> Result<Given, SetupError> {
+    fn pressures(&self, field: Field, load: &Load, pressure: f64) -> Result<Given, SetupError> {
         let place = field.part("place");
         let normals = match &load.place {
-            Place::Group(group) => self.setup.body.outline_of(group),
+            Place::Group(group) => self.setup.body.geometry().outline_of(group),
             _ => Ok(Vec::new()),
         };
         let normals = normals.map_err(|error| place.error(Fault::OffOutline(error)))?;

@@ -15,7 +15,6 @@ use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::solver::SolverSettings;
 use ligament_analysis::{LoadProgram, ProportionalLoading, StagedLoading};
 use ligament_model::System;
-use ligament_model::failure::Criteria;
 use ligament_model::portion::{self, Portion};
 
 use places::Places;
@@ -23,7 +22,9 @@ pub use places::{material_of_cell, no_fail};
 pub use vibration::Vibration;
 
 use crate::error::{Fault, Field, SetupError};
+use crate::model::Model;
 use crate::setup::Setup;
+use crate::system::over_dimension;
 use boundary::{Acting, boundary, couples_have_stiffness};
 use programme::staged;
 use restraints::restrained;
@@ -42,26 +43,25 @@ pub struct Loading {
 }
 
 impl Loading {
-    /// The loading of a setup on the points and bonds of a model.
+    /// The loading of a model.
     ///
     /// # Errors
     ///
     /// If a name of the setup is not in the body, a probe is off it or reads nothing, supports and loads contradict
     /// each other, or a couple acts on nothing.
-    pub fn new<const D: usize>(
-        setup: &Setup<D>,
-        system: &dyn System<D>,
-    ) -> Result<Self, SetupError> {
+    pub fn new(model: &Model) -> Result<Self, SetupError> {
+        over_dimension!(&model.system, system => Self::on(&model.setup, &**system))
+    }
+
+    /// The loading of a setup on the points and bonds of its model.
+    fn on<const D: usize>(setup: &Setup, system: &dyn System<D>) -> Result<Self, SetupError> {
         let cloud = &system.cloud;
         let boundary = boundary(setup, cloud, Acting::All)?;
-        couples_have_stiffness(setup, &boundary, system)?;
+        couples_have_stiffness::<D>(setup, &boundary, system)?;
         let places = Places { setup, cloud };
         places.require_probes_on_body()?;
-        let probes: Arc<[Probe]> = setup
-            .probes
-            .iter()
-            .map(|it| probes::on(it, setup, system))
-            .collect();
+        let probes = (setup.probes.iter()).map(|it| probes::on(it, setup, system));
+        let probes: Arc<[Probe]> = probes.collect();
         sections_are_crossed(&probes, system.portion())?;
         let staged = staged(setup, system, &probes)?;
         let boundary = restrained(setup, system, boundary, Acting::All)?;
@@ -73,19 +73,15 @@ impl Loading {
         })
     }
 
-    /// The problem that it makes of the bonds and their failure criteria.
-    pub fn problem<const D: usize>(
-        &self,
-        system: &Arc<dyn System<D>>,
-        criteria: &Arc<Criteria>,
-    ) -> Problem {
+    /// The problem that it makes of the bonds of its model and their failure criteria.
+    pub fn problem(&self, model: &Model) -> Problem {
         let loads: Arc<dyn LoadProgram> = match &self.staged {
             None => self.boundary.clone(),
             Some(staged) => staged.clone(),
         };
         Problem {
-            system: system.clone(),
-            criteria: criteria.clone(),
+            system: model.system.to_bonds(),
+            criteria: model.criteria.clone(),
             loads,
             solver: self.solver,
             probes: self.probes.clone(),

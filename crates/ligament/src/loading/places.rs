@@ -2,19 +2,20 @@
 
 use ligament_model::PointCloud;
 
+use crate::coordinates::narrowed;
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::{Place, Reading, Setup};
 
 /// A setup and the points of its body, to look places up in.
 #[derive(Clone, Copy)]
 pub(super) struct Places<'a, const D: usize> {
-    pub(super) setup: &'a Setup<D>,
+    pub(super) setup: &'a Setup,
     pub(super) cloud: &'a PointCloud<D>,
 }
 
 impl<const D: usize> Places<'_, D> {
     /// Points of the place of a field, ascending.
-    pub(super) fn points(&self, field: Field, place: &Place<D>) -> Result<Vec<u32>, SetupError> {
+    pub(super) fn points(&self, field: Field, place: &Place) -> Result<Vec<u32>, SetupError> {
         let field = field.part("place");
         match place {
             Place::Everywhere => Ok((0..self.cloud.len() as u32).collect()),
@@ -23,15 +24,16 @@ impl<const D: usize> Places<'_, D> {
                 points.ok_or_else(|| field.error(unknown_group(self.setup, group)))
             }
             Place::Box([lower, upper]) => {
-                let points = self.cloud.points_in_box(*lower, *upper);
+                let points = self.cloud.points_in_box(narrowed(*lower), narrowed(*upper));
                 if points.is_empty() {
                     return Err(field.error(Fault::EmptyBox));
                 }
                 Ok(points)
             }
             Place::At(position) => {
-                let nearest = self.cloud.nearest_point(*position);
-                self.require_on_body(field, *position, nearest)?;
+                let position = narrowed(*position);
+                let nearest = self.cloud.nearest_point(position);
+                self.require_on_body(field, position, nearest)?;
                 Ok(vec![nearest])
             }
         }
@@ -46,7 +48,8 @@ impl<const D: usize> Places<'_, D> {
                 Reading::Between { positions, .. } => positions,
                 Reading::Section { .. } => &[],
             };
-            for &position in positions {
+            for position in positions {
+                let position = narrowed(*position);
                 let nearest = self.cloud.nearest_point(position);
                 self.require_on_body(field, position, nearest)?;
             }
@@ -62,7 +65,7 @@ impl<const D: usize> Places<'_, D> {
         position: [f64; D],
         nearest: u32,
     ) -> Result<(), SetupError> {
-        let body = &*self.setup.body;
+        let body = self.setup.body.geometry::<D>();
         let place = body.positions()[nearest as usize];
         let around = body.around(nearest).into_iter();
         let reach = around
@@ -85,7 +88,7 @@ impl<const D: usize> Places<'_, D> {
 
 /// Marks the points whose bonds never break, shape (n_points).
 pub fn no_fail<const D: usize>(
-    setup: &Setup<D>,
+    setup: &Setup,
     cloud: &PointCloud<D>,
 ) -> Result<Vec<bool>, SetupError> {
     let places = Places { setup, cloud };
@@ -99,7 +102,7 @@ pub fn no_fail<const D: usize>(
 }
 
 /// Index of the material of each cell, shape (n_cells): every cell must have exactly one.
-pub fn material_of_cell<const D: usize>(setup: &Setup<D>) -> Result<Vec<u32>, SetupError> {
+pub fn material_of_cell(setup: &Setup) -> Result<Vec<u32>, SetupError> {
     let n_cells = setup.body.n_cells();
     let mut material_of_cell = vec![None; n_cells];
     for (index, region) in setup.materials.iter().enumerate() {
@@ -124,11 +127,7 @@ pub fn material_of_cell<const D: usize>(setup: &Setup<D>) -> Result<Vec<u32>, Se
     Ok(covered)
 }
 
-fn cells_of_group<const D: usize>(
-    setup: &Setup<D>,
-    field: Field,
-    group: &str,
-) -> Result<Vec<u32>, SetupError> {
+fn cells_of_group(setup: &Setup, field: Field, group: &str) -> Result<Vec<u32>, SetupError> {
     let cells = setup.body.cells_of(group);
     let cells = cells.ok_or_else(|| field.error(unknown_group(setup, group)))?;
     if cells.is_empty() {
@@ -138,7 +137,7 @@ fn cells_of_group<const D: usize>(
     Ok(cells)
 }
 
-fn unknown_group<const D: usize>(setup: &Setup<D>, name: &str) -> Fault {
+fn unknown_group(setup: &Setup, name: &str) -> Fault {
     Fault::UnknownName {
         what: setup.body.group_kind(),
         found: name.to_owned(),

@@ -6,19 +6,20 @@ use ligament_model::dimension::cast_ref;
 use ligament_model::tensor::{dot, minus};
 use ligament_model::{BondSet, BondSystem, Horizons, PointCloud, System};
 
+use crate::coordinates::narrowed;
 use crate::precracks::cracks;
-use crate::setup::{Probe, Reading, Setup};
+use crate::setup::{Position, Probe, Reading, Setup};
 
 /// A horizon that reaches farther than coordinates of meshes may, m.
 const EVERYWHERE: f64 = 1e120;
 
 /// A probe on the points and bonds of the model of a setup.
 pub(super) fn on<const D: usize>(
-    probe: &Probe<D>,
-    setup: &Setup<D>,
+    probe: &Probe,
+    setup: &Setup,
     system: &dyn System<D>,
 ) -> probe::Probe {
-    let shares = |position: [f64; D]| shares(position, setup, &system.cloud);
+    let shares = |position: Position| shares(narrowed(position), setup, &system.cloud);
     let reading = match probe.reading {
         Reading::Between {
             positions,
@@ -32,7 +33,7 @@ pub(super) fn on<const D: usize>(
             field,
         },
         Reading::Section { line, component } => probe::Reading::SectionForce {
-            bonds: crossing(system, line),
+            bonds: crossing(system, line.map(narrowed)),
             component: component.displacement(),
         },
     };
@@ -46,11 +47,12 @@ pub(super) fn on<const D: usize>(
 /// pre-crack parts them, the nearest of them that it does not part from the position.
 fn shares<const D: usize>(
     position: [f64; D],
-    setup: &Setup<D>,
+    setup: &Setup,
     cloud: &PointCloud<D>,
 ) -> Vec<(u32, f64)> {
     let nearest = || vec![(cloud.nearest_point(position), 1.0)];
-    let Some(shares) = setup.body.shares_at(position) else {
+    let body = setup.body.geometry::<D>();
+    let Some(shares) = body.shares_at(position) else {
         return nearest();
     };
     if shares.len() == 1 || setup.precracks.is_empty() {
@@ -58,14 +60,14 @@ fn shares<const D: usize>(
     }
     let corners = shares
         .iter()
-        .map(|(point, _)| setup.body.positions()[*point as usize]);
+        .map(|(point, _)| body.positions()[*point as usize]);
     // The position stands before its points.
     let places: Vec<[f64; D]> = std::iter::once(position).chain(corners).collect();
     let n = places.len();
     let few = PointCloud::from_points(&places, &vec![1.0; n], 1.0, &vec![0; n], 1);
     let pairs = BondSet::search(&few, &Horizons::unified(EVERYWHERE, n));
     // What is wrong with a surface was told when the model was made.
-    let cracks = cracks(&*setup.body, &setup.precracks).unwrap_or_default();
+    let cracks = cracks(&**body, &setup.precracks).unwrap_or_default();
     let parted = cut_bonds(&cracks, &pairs, &few);
     if !parted.contains(&true) {
         return shares;

@@ -16,7 +16,7 @@ use crate::setup::{self, Analysis, Quantity, Setup, Stage};
 /// Shares of a stage that are nearer to each other are one.
 const SAME: f64 = 1e-9;
 
-impl<const D: usize> Setup<D> {
+impl Setup {
     /// Index of the load that is the axis of the force-displacement curve; None for the temperature.
     pub(crate) fn curve_load(&self) -> Option<usize> {
         match &self.curve {
@@ -45,7 +45,7 @@ impl<const D: usize> Setup<D> {
 ///
 /// If two loads prescribe a motion of a point.
 pub(super) fn staged<const D: usize>(
-    setup: &Setup<D>,
+    setup: &Setup,
     system: &dyn System<D>,
     probes: &[Probe],
 ) -> Result<Option<StagedLoading>, SetupError> {
@@ -76,11 +76,7 @@ pub(super) fn staged<const D: usize>(
 }
 
 /// The parts of all stages with what controls them.
-fn controlled_parts<const D: usize>(
-    setup: &Setup<D>,
-    layout: Layout,
-    probes: &[Probe],
-) -> Vec<Part> {
+fn controlled_parts(setup: &Setup, layout: Layout, probes: &[Probe]) -> Vec<Part> {
     let mut parts = parts(setup);
     for part in &mut parts {
         let control = setup.stages[part.stage].control.as_ref();
@@ -108,7 +104,7 @@ fn motion(of: &[(String, f64)], end: f64, layout: Layout, probes: &[Probe]) -> M
 }
 
 /// The parts of all stages, without what controls them.
-fn parts<const D: usize>(setup: &Setup<D>) -> Vec<Part> {
+fn parts(setup: &Setup) -> Vec<Part> {
     let names = setup.factor_names();
     let mut parts = Vec::new();
     let mut factors = vec![0.0; names.len()];
@@ -155,8 +151,8 @@ fn add_parts(
 }
 
 /// Refuses points that two loads move: one of them would have to follow two factors.
-fn moved_by_one<const D: usize>(
-    setup: &Setup<D>,
+fn moved_by_one(
+    setup: &Setup,
     layout: Layout,
     loads: &[ProportionalLoading],
 ) -> Result<(), SetupError> {

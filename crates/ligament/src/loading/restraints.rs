@@ -6,6 +6,7 @@ use ligament_model::tensor::directions_across;
 
 use super::boundary::Acting;
 use super::places::Places;
+use crate::coordinates::narrowed;
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::{Action, Load, Setup, Support};
 
@@ -15,7 +16,7 @@ const RIGID: f64 = 1e6;
 
 /// A loading with the components of the bonds alone and the restraints of a setup; far ends move where their loads act.
 pub(super) fn restrained<const D: usize>(
-    setup: &Setup<D>,
+    setup: &Setup,
     system: &dyn System<D>,
     loading: ProportionalLoading,
     acting: Acting,
@@ -65,7 +66,7 @@ struct Restraining<'a, const D: usize> {
 }
 
 impl<const D: usize> Restraining<'_, D> {
-    fn support(&mut self, field: Field, support: &Support<D>) -> Result<(), SetupError> {
+    fn support(&mut self, field: Field, support: &Support) -> Result<(), SetupError> {
         let points = self.places.points(field, &support.place)?;
         let shares = self.places.shares(&support.place, &points);
         for (component, total) in support.stiffness.components.components() {
@@ -79,7 +80,7 @@ impl<const D: usize> Restraining<'_, D> {
         let Some(normal) = support.restrained_normal() else {
             return Ok(());
         };
-        let normal = unit(normal);
+        let normal = unit(narrowed(normal));
         for (point, share) in shares {
             let total = support.stiffness.normal.map(|total| share * total);
             let stiffness = total.unwrap_or(self.rigid[point as usize]);
@@ -89,7 +90,7 @@ impl<const D: usize> Restraining<'_, D> {
         Ok(())
     }
 
-    fn load(&mut self, field: Field, load: &Load<D>, acts: bool) -> Result<(), SetupError> {
+    fn load(&mut self, field: Field, load: &Load, acts: bool) -> Result<(), SetupError> {
         let points = self.places.points(field, &load.place)?;
         let motion = match load.action {
             Action::Displacement(it) => Some(it.vector::<D>()),
@@ -97,7 +98,7 @@ impl<const D: usize> Restraining<'_, D> {
         };
         let direction = match (motion, load.action) {
             (Some(motion), _) => motion,
-            (None, Action::Force(force)) => force,
+            (None, Action::Force(force)) => narrowed(force),
             (None, _) => return Ok(()),
         };
         let (direction, size) = (unit(direction), length(direction));

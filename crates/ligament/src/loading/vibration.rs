@@ -9,7 +9,9 @@ use ligament_model::{LumpedMass, System};
 
 use super::places::Places;
 use crate::error::{Field, SetupError};
+use crate::model::Model;
 use crate::setup::Setup;
+use crate::system::over_dimension;
 
 /// Supports and masses of a model.
 #[derive(Debug)]
@@ -23,15 +25,16 @@ pub struct Vibration {
 }
 
 impl Vibration {
-    /// Supports and masses of the setup on the points and bonds of a model.
+    /// Supports and masses of a model.
     ///
     /// # Errors
     ///
     /// If a name of the setup is not in the body.
-    pub fn new<const D: usize>(
-        setup: &Setup<D>,
-        system: &dyn System<D>,
-    ) -> Result<Self, SetupError> {
+    pub fn new(model: &Model) -> Result<Self, SetupError> {
+        over_dimension!(&model.system, system => Self::on(&model.setup, &**system))
+    }
+
+    fn on<const D: usize>(setup: &Setup, system: &dyn System<D>) -> Result<Self, SetupError> {
         let materials = setup.materials.iter();
         let densities: Vec<f64> = materials.filter_map(|it| it.material.density).collect();
         Ok(Self {
@@ -41,10 +44,10 @@ impl Vibration {
         })
     }
 
-    /// The problem that it makes of the bonds.
-    pub fn problem<const D: usize>(&self, system: &Arc<dyn System<D>>) -> ModalProblem {
+    /// The problem that it makes of the bonds of its model.
+    pub fn problem(&self, model: &Model) -> ModalProblem {
         ModalProblem {
-            system: system.clone(),
+            system: model.system.to_bonds(),
             mass: self.mass.clone(),
             supports: self.supports.clone(),
             solver: self.solver,
@@ -53,10 +56,7 @@ impl Vibration {
 }
 
 /// The supports on the points.
-fn supports<const D: usize>(
-    setup: &Setup<D>,
-    system: &dyn System<D>,
-) -> Result<Supports, SetupError> {
+fn supports<const D: usize>(setup: &Setup, system: &dyn System<D>) -> Result<Supports, SetupError> {
     let cloud = &system.cloud;
     let places = Places { setup, cloud };
     let mut supports = Supports::none(system.layout());

@@ -16,7 +16,7 @@ use crate::error::{Fault, Field, SetupError};
 
 pub(super) type Checked = Result<(), SetupError>;
 
-impl<const D: usize> Setup<D> {
+impl Setup {
     /// Checks that the fields of the setup make sense and go together. Groups are looked up when the model is built.
     ///
     /// # Errors
@@ -49,7 +49,7 @@ impl<const D: usize> Setup<D> {
         require_unique("probes", self.probes.iter().map(|it| it.name.as_str()))?;
         self.check_restraints()?;
         for (index, load) in self.loads.iter().enumerate() {
-            check_load(Field::element("loads", index), load)?;
+            check_load(Field::element("loads", index), load, self.body.dimensions())?;
         }
         self.check_probes()
     }
@@ -325,7 +325,7 @@ fn check_anisotropic(field: Field, constants: &Anisotropic) -> Checked {
 const NOT_IDLE: &str = "other than 0, or the load does nothing";
 
 /// A load does something, along a curve where it is spread along one.
-fn check_load<const D: usize>(field: Field, load: &Load<D>) -> Checked {
+fn check_load(field: Field, load: &Load, dimensions: usize) -> Checked {
     if let Some(profile) = load.profile {
         require(
             profile.one != profile.zero,
@@ -337,19 +337,19 @@ fn check_load<const D: usize>(field: Field, load: &Load<D>) -> Checked {
     let action = field.part("action");
     match load.action {
         Action::Displacement(it) if it.components().next().is_none() => {
-            return contradiction(action, no_component::<D>());
+            return contradiction(action, no_component(dimensions));
         }
         Action::Force(vector)
         | Action::ForcePerLength(vector)
         | Action::ForcePerArea(vector)
         | Action::BodyForce(vector)
         | Action::Acceleration(vector)
-            if vector == [0.0; D] =>
+            if vector == [0.0; 3] =>
         {
-            return contradiction(action, idle_vector::<D>());
+            return contradiction(action, idle_vector(dimensions));
         }
         Action::Moment(couple) | Action::BodyCouple(couple) => {
-            require_couple::<D>(action, couple)?;
+            require_couple(action, couple, dimensions)?;
         }
         Action::Pressure(value) => require(value != 0.0, action, NOT_IDLE, value)?,
         _ => {}
@@ -382,24 +382,24 @@ fn check_load<const D: usize>(field: Field, load: &Load<D>) -> Checked {
 }
 
 /// A couple turns something: in the plane about z.
-fn require_couple<const D: usize>(action: Field, Couple { about }: Couple) -> Checked {
-    match D {
+fn require_couple(action: Field, Couple { about }: Couple, dimensions: usize) -> Checked {
+    match dimensions {
         2 => require(about[2] != 0.0, action, NOT_IDLE, about[2]),
         _ => require(about != [0.0; 3], action, NOT_IDLE, about),
     }
 }
 
 /// What is wrong with a vector of zeros.
-fn idle_vector<const D: usize>() -> &'static str {
-    match D {
+fn idle_vector(dimensions: usize) -> &'static str {
+    match dimensions {
         2 => "this load does nothing: neither `x` nor `y` is given a value",
         _ => "this load does nothing: none of `x`, `y` and `z` is given a value",
     }
 }
 
 /// What is wrong with a displacement without a component.
-fn no_component<const D: usize>() -> String {
-    let names = Component::in_dimensions(D)
+fn no_component(dimensions: usize) -> String {
+    let names = Component::in_dimensions(dimensions)
         .iter()
         .map(|it| format!("`{}`", it.name()));
     format!(

@@ -4,7 +4,7 @@ use super::check::{Checked, contradiction, require};
 use super::{Analysis, Control, Course, Quantity, Setup, Stage};
 use crate::error::{Fault, Field};
 
-impl<const D: usize> Setup<D> {
+impl Setup {
     pub(super) fn check_control(&self, field: Field, stage: &Stage, control: &Control) -> Checked {
         let part = field.part("control");
         match &control.quantity {

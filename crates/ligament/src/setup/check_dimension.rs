@@ -29,10 +29,20 @@ fn no_motion(space: Space) -> &'static str {
     }
 }
 
-impl<const D: usize> Setup<D> {
+impl Setup {
+    /// Number of dimensions of the body.
+    fn dimensions(&self) -> usize {
+        self.body.dimensions()
+    }
+
+    /// Components of the motion of a point that turns.
+    fn components(&self) -> &'static [Component] {
+        Component::in_dimensions(self.dimensions())
+    }
+
     pub(super) fn check_dimension(&self) -> Checked {
         let is_plane = matches!(self.section, Section::Plane { .. });
-        if is_plane != (D == 2) {
+        if is_plane != (self.dimensions() == 2) {
             let reason = "a body in the plane has `Section::Plane`, one in space `Section::Solid`";
             return contradiction(Field::whole("section"), reason);
         }
@@ -90,11 +100,11 @@ impl<const D: usize> Setup<D> {
 
     /// Probes read forces along the axes of the body, and motions that its points have.
     fn check_readings(&self) -> Checked {
-        let components = Component::in_dimensions(D);
+        let components = self.components();
         for (index, probe) in self.probes.iter().enumerate() {
             let probed = Field::element("probes", index);
             let (component, part) = match probe.reading {
-                Reading::Section { component, .. } if component.number() >= D => {
+                Reading::Section { component, .. } if component.number() >= self.dimensions() => {
                     return contradiction(probed.part("component"), NO_Z);
                 }
                 Reading::Between { component, .. } => (component, "component"),
@@ -113,7 +123,7 @@ impl<const D: usize> Setup<D> {
 
     /// Supports and loads move points by components that they have.
     fn check_components(&self) -> Checked {
-        let (components, reason) = (Component::in_dimensions(D), no_motion(self.space()));
+        let (components, reason) = (self.components(), no_motion(self.space()));
         let leaves = |given: &Displacement| {
             let mut given = given.components();
             given.any(|(component, _)| !components.contains(&component))
@@ -126,19 +136,22 @@ impl<const D: usize> Setup<D> {
         }
         for (index, load) in self.loads.iter().enumerate() {
             let field = Field::element("loads", index);
-            if load.profile.is_some_and(|it| it.along.number() >= D) {
+            if load
+                .profile
+                .is_some_and(|it| it.along.number() >= self.dimensions())
+            {
                 return contradiction(field.part("profile"), NO_Z);
             }
             let action = field.part("action");
             match load.action {
                 Action::Displacement(it) if leaves(&it) => return contradiction(action, reason),
-                Action::ForcePerArea(_) if D == 2 => {
+                Action::ForcePerArea(_) if self.dimensions() == 2 => {
                     let reason =
                         "a body in the plane has curves and no surfaces: give a force per length";
                     return contradiction(action, reason);
                 }
                 Action::Moment(it) | Action::BodyCouple(it)
-                    if D == 2 && it.about[..2] != [0.0; 2] =>
+                    if self.dimensions() == 2 && it.about[..2] != [0.0; 2] =>
                 {
                     let reason = "in the plane couples turn about z alone";
                     return contradiction(action, reason);
@@ -199,13 +212,13 @@ impl<const D: usize> Setup<D> {
         for (index, crack) in self.precracks.iter().enumerate() {
             let field = Field::element("precracks", index);
             let CrackShape::Line(points) = &crack.shape else {
-                if D == 2 {
+                if self.dimensions() == 2 {
                     let reason = "a body in the plane is cut by lines: give `CrackShape::Line`";
                     return contradiction(field.part("surface"), reason);
                 }
                 continue;
             };
-            if D != 2 {
+            if self.dimensions() != 2 {
                 let reason = "a solid is cut by surfaces: give one of the other shapes";
                 return contradiction(field.part("points"), reason);
             }

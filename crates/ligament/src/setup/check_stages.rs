@@ -5,7 +5,7 @@ use super::stage::TEMPERATURE;
 use super::{Analysis, Course, Setup, Stage};
 use crate::error::{Fault, Field};
 
-impl<const D: usize> Setup<D> {
+impl Setup {
     pub(super) fn check_stages(&self) -> Checked {
         let name = self.curve.as_deref();
         if let Some(name) = name.filter(|name| !self.factor_names().iter().any(|it| it == name)) {

@@ -6,7 +6,7 @@ use super::check::{Checked, contradiction};
 use super::{Analysis, CorrectionDomain, Setup};
 use crate::error::Field;
 
-impl<const D: usize> Setup<D> {
+impl Setup {
     pub(super) fn check_closing(&self) -> Checked {
         if !self.closing {
             return Ok(());

@@ -2,20 +2,23 @@
 
 use ligament_analysis::Component;
 
+/// A position or a vector along x, y and z; that of a body in the plane has no part along z.
+pub type Position = [f64; 3];
+
 /// Where on the body something acts.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Place<const D: usize = 2> {
+pub enum Place {
     /// All points.
     Everywhere,
     /// The points of a group of the body.
     Group(String),
     /// The points in a rectangle, in space in a box: its lowest and its highest corner, m.
-    Box([[f64; D]; 2]),
+    Box([Position; 2]),
     /// The point nearest to a position, m.
-    At([f64; D]),
+    At(Position),
 }
 
-impl<const D: usize> From<&str> for Place<D> {
+impl From<&str> for Place {
     fn from(group: &str) -> Self {
         Self::Group(group.to_owned())
     }
@@ -42,14 +45,14 @@ pub struct Displacement {
 
 /// A support: components of the displacement that are held at zero, or resisted by springs.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Support<const D: usize = 2> {
+pub struct Support {
     /// Where it holds.
-    pub place: Place<D>,
+    pub place: Place,
     /// Components that it holds.
     pub held: Vec<Component>,
     /// Direction along which displacements are held while they are free across it: the normal of the plane of a roller. It need not
     /// have the length 1.
-    pub normal: Option<[f64; D]>,
+    pub normal: Option<Position>,
     /// Springs to the ground.
     pub stiffness: SpringStiffness,
 }
@@ -65,13 +68,13 @@ pub struct SpringStiffness {
 
 /// A load as it is at load factor 1.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Load<const D: usize = 2> {
+pub struct Load {
     /// Name, unique among the loads: its reaction goes by it.
     pub name: String,
     /// Where it acts.
-    pub place: Place<D>,
+    pub place: Place,
     /// What acts.
-    pub action: Action<D>,
+    pub action: Action,
     /// How it varies from point to point; without it every point takes its whole share.
     pub profile: Option<Profile>,
     /// Stiffness in total of springs between what moves and the points, where a displacement is given, N/m: what gives way in a testing
@@ -84,19 +87,19 @@ pub struct Load<const D: usize = 2> {
 
 /// What a load does.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Action<const D: usize = 2> {
+pub enum Action {
     /// Prescribed displacements, m and rad.
     Displacement(Displacement),
     /// A force in total over the points, N.
-    Force([f64; D]),
+    Force(Position),
     /// A force along a group that has a length, N/m.
-    ForcePerLength([f64; D]),
+    ForcePerLength(Position),
     /// A force in the volume, N/m^3.
-    BodyForce([f64; D]),
+    BodyForce(Position),
     /// An acceleration that acts on the masses in the volume, as gravity does, m/s^2.
-    Acceleration([f64; D]),
+    Acceleration(Position),
     /// A force over a group of a solid that has an area, N/m^2.
-    ForcePerArea([f64; D]),
+    ForcePerArea(Position),
     /// A couple in total over the points, N m.
     Moment(Couple),
     /// A couple in the volume, N m/m^3.
@@ -160,9 +163,9 @@ impl Axis {
     }
 }
 
-impl<const D: usize> Support<D> {
+impl Support {
     /// A support that holds some components.
-    pub fn new(place: impl Into<Place<D>>, held: &[Component]) -> Self {
+    pub fn new(place: impl Into<Place>, held: &[Component]) -> Self {
         Self {
             place: place.into(),
             held: held.to_vec(),
@@ -239,9 +242,9 @@ impl Displacement {
     }
 }
 
-impl<const D: usize> Load<D> {
+impl Load {
     /// A load without a profile, named by its group, or `load` where it acts elsewhere.
-    pub fn new(place: impl Into<Place<D>>, action: Action<D>) -> Self {
+    pub fn new(place: impl Into<Place>, action: Action) -> Self {
         let place = place.into();
         let name = match &place {
             Place::Group(group) => group.clone(),

@@ -18,20 +18,18 @@ mod section;
 pub mod stage;
 mod temperature;
 
-use std::sync::Arc;
-
 use ligament_analysis::SolverSettings;
 use ligament_model::failure::Choice;
 use ligament_model::law::rotational::RotationalScale;
 use ligament_model::material::Space;
 use ligament_model::{Elasticity, Horizons, Isotropic, Material, Plane, PointCloud, Scatter};
 
-use crate::body::Body;
+use crate::body::{AnyBody, Geometry};
 use crate::implausible::Implausible;
 
 pub use analysis::{Analysis, ELASTIC_ENERGY_TOLERANCE, event, modal, stepped};
 pub use conditions::{
-    Action, Axis, Couple, Displacement, Load, Place, Profile, SpringStiffness, Support,
+    Action, Axis, Couple, Displacement, Load, Place, Position, Profile, SpringStiffness, Support,
     begins_as_formula,
 };
 pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
@@ -42,15 +40,15 @@ pub use section::Section;
 pub use stage::{Control, Course, Quantity, Stage};
 pub use temperature::{Sample, Temperature, TemperatureChange};
 
-/// Description of a computation in the plane, or for D = 3 in space: body, section, materials, law, corrections, supports, loads and the
+/// Description of a computation in the plane or in space: body, section, materials, law, corrections, supports, loads and the
 /// analysis.
 ///
 /// Lengths are in metres, forces in newtons, all else in SI units. Positions are in the coordinates of the body.
 /// [`Setup::new`] fills in what need not be said; every field can be set afterwards.
 #[derive(Debug, Clone)]
-pub struct Setup<const D: usize = 2> {
+pub struct Setup {
     /// Points with their groups: from a mesh, a lattice or arrays.
-    pub body: Arc<dyn Body<D>>,
+    pub body: AnyBody,
     /// Section of the body.
     pub section: Section,
     /// Materials: one without a group for the whole body, or one for each of some groups.
@@ -70,24 +68,24 @@ pub struct Setup<const D: usize = 2> {
     /// Whether the faces of pre-cracks and of broken bonds carry pressure again where they close; of laws whose points turn.
     pub closing: bool,
     /// Parts of the body where bonds never fail.
-    pub no_fail: Vec<Place<D>>,
+    pub no_fail: Vec<Place>,
     /// Supports of the body; there need be none.
-    pub supports: Vec<Support<D>>,
+    pub supports: Vec<Support>,
     /// Loads as they are at load factor 1.
-    pub loads: Vec<Load<D>>,
+    pub loads: Vec<Load>,
     /// Name of the load that is the axis of the force-displacement curve; without it the first, or the temperature where there is
     /// none.
     pub curve: Option<String>,
     /// Stages one after the other, in which each load follows a factor of its own; without any all loads grow with one load factor.
     pub stages: Vec<Stage>,
     /// Changes of temperature at load factor 1; where several reach, the last holds.
-    pub temperatures: Vec<Temperature<D>>,
+    pub temperatures: Vec<Temperature>,
     /// Failure criteria of the bonds, in an analysis of fracture: the first criterion that is met decides.
     pub criteria: Vec<Choice>,
     /// A property of the materials that varies at random over the body, in an analysis of fracture.
     pub scatter: Option<Scatter>,
     /// Quantities that the history records beside displacement and load.
-    pub probes: Vec<Probe<D>>,
+    pub probes: Vec<Probe>,
     /// Kind of analysis.
     pub analysis: Analysis,
     /// Solver of the equations.
@@ -116,12 +114,16 @@ pub enum Horizon {
     Length(f64),
 }
 
-impl<const D: usize> Setup<D> {
+impl Setup {
     /// The elastic analysis of a body of one material, horizon factor 3 and the correction of the law's paper; nothing holds it and nothing
     /// loads it yet. A body in the plane is in plane stress and 1 m thick.
-    pub fn new(body: impl Body<D> + 'static, material: Material, law: Law) -> Self {
+    pub fn new<const D: usize>(
+        body: impl Geometry<D> + 'static,
+        material: Material,
+        law: Law,
+    ) -> Self {
         Self {
-            body: Arc::new(body),
+            body: AnyBody::new(body),
             section: Section::usual::<D>(),
             materials: vec![MaterialRegion {
                 group: None,
@@ -184,7 +186,7 @@ impl<const D: usize> Setup<D> {
     }
 }
 
-impl<const D: usize> Setup<D> {
+impl Setup {
     /// The space in which the body deforms.
     pub fn space(&self) -> Space {
         self.section.space()

@@ -3,31 +3,31 @@
 use ligament_analysis::Component;
 use ligament_analysis::probe::PointField;
 
-use super::conditions::Axis;
+use super::conditions::{Axis, Position};
 
 /// A number read off the body at every load step.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Probe<const D: usize = 2> {
+pub struct Probe {
     /// Name, unique among the probes.
     pub name: String,
     /// Quantity that the probe reads.
-    pub reading: Reading<D>,
+    pub reading: Reading,
 }
 
 /// What a probe reads.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Reading<const D: usize = 2> {
+pub enum Reading {
     /// Displacement of one point relative to another.
     Between {
         /// Two positions, m: the displacement at the second less that at the first.
-        positions: [[f64; D]; 2],
+        positions: [Position; 2],
         /// Component read, m or rad.
         component: Component,
     },
     /// A field at a position.
     At {
         /// Position, m: what the points of the cell around it have, in parts; where no cell is, or a pre-crack parts them, the nearest point.
-        position: [f64; D],
+        position: Position,
         /// Field read.
         field: PointField,
     },
@@ -35,13 +35,13 @@ pub enum Reading<const D: usize = 2> {
     Section {
         /// Ends of the line, m: what is on its right pulls at what is on its left; in space a point of the plane and one before it along
         /// its normal: what is before the plane pulls at what is behind it.
-        line: [[f64; D]; 2],
+        line: [Position; 2],
         /// Component read, N.
         component: Axis,
     },
 }
 
-impl<const D: usize> Reading<D> {
+impl Reading {
     /// Whether it is a virial stress.
     pub(crate) fn is_stress(&self) -> bool {
         let stress = |field: &PointField| matches!(field, PointField::Stress(_));

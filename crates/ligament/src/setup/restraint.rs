@@ -2,10 +2,10 @@
 
 use super::check::{Checked, contradiction, positive};
 use super::conditions::axis_along;
-use super::{Action, Analysis, Form, Law, Load, Setup, Support};
+use super::{Action, Analysis, Form, Law, Load, Position, Setup, Support};
 use crate::error::Field;
 
-impl<const D: usize> Support<D> {
+impl Support {
     /// Whether it resists without holding still, by springs or along a direction between the axes.
     pub fn is_restraint(&self) -> bool {
         let springs = self.stiffness.components;
@@ -13,25 +13,25 @@ impl<const D: usize> Support<D> {
     }
 
     /// The normal, where it has a spring or lies between the axes.
-    pub fn restrained_normal(&self) -> Option<[f64; D]> {
+    pub fn restrained_normal(&self) -> Option<Position> {
         let has_spring = self.stiffness.normal.is_some();
         self.normal
             .filter(|it| has_spring || axis_along(it).is_none())
     }
 }
 
-impl<const D: usize> Load<D> {
+impl Load {
     /// Whether it acts through springs or a platen.
     pub fn is_restraint(&self) -> bool {
         self.stiffness.is_some() || self.tilts
     }
 }
 
-impl<const D: usize> Setup<D> {
+impl Setup {
     pub(super) fn check_restraints(&self) -> Checked {
         for (index, support) in self.supports.iter().enumerate() {
             let field = Field::element("supports", index);
-            check_support(field, support)?;
+            check_support(field, support, self.body.dimensions())?;
             if support.is_restraint() {
                 self.check_takes_restraints(field)?;
             }
@@ -73,7 +73,7 @@ impl<const D: usize> Setup<D> {
     }
 }
 
-fn check_support<const D: usize>(field: Field, support: &Support<D>) -> Checked {
+fn check_support(field: Field, support: &Support, dimensions: usize) -> Checked {
     let Support {
         held,
         normal,
@@ -88,8 +88,8 @@ fn check_support<const D: usize>(field: Field, support: &Support<D>) -> Checked 
         positive(field.part("stiffness"), value)?;
     }
     if let Some(normal) = normal {
-        if *normal == [0.0; D] || !normal.iter().all(|it| it.is_finite()) {
-            let reason = format!("must be a direction other than {:?}", [0; D]);
+        if *normal == [0.0; 3] || !normal.iter().all(|it| it.is_finite()) {
+            let reason = format!("must be a direction other than {:?}", vec![0; dimensions]);
             return contradiction(field.part("normal"), reason);
         }
         if held.iter().any(|it| !it.is_rotation()) {
@@ -115,7 +115,7 @@ fn check_support<const D: usize>(field: Field, support: &Support<D>) -> Checked 
     }
 }
 
-fn check_load<const D: usize>(field: Field, load: &Load<D>) -> Checked {
+fn check_load(field: Field, load: &Load) -> Checked {
     positive(field.part("stiffness"), load.stiffness)?;
     let moves = match load.action {
         Action::Displacement(it) => it.is_translation(),

@@ -7,7 +7,7 @@ use super::Setup;
 use super::check::{Checked, contradiction, positive, require};
 use crate::error::Field;
 
-impl<const D: usize> Setup<D> {
+impl Setup {
     pub(super) fn check_rotational_scale(&self) -> Checked {
         let (field, scale) = (Field::whole("rotational_scale"), self.rotational_scale);
         let law = self.law.name();

@@ -6,7 +6,7 @@ use super::Setup;
 use super::check::{Checked, contradiction, require};
 use crate::error::Field;
 
-impl<const D: usize> Setup<D> {
+impl Setup {
     /// Factors are positive, and some criterion feels them.
     pub(super) fn check_scatter(&self) -> Checked {
         let Some(scatter) = self.scatter else {

@@ -1,23 +1,23 @@
 //! Changes of temperature.
 
-use super::conditions::Place;
+use super::conditions::{Place, Position};
 
 /// A change of temperature at load factor 1.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Temperature<const D: usize = 2> {
+pub struct Temperature {
     /// Part of the body: the cells of a group that has any, else the points.
-    pub place: Place<D>,
+    pub place: Place,
     /// How much the temperature changes.
-    pub change: TemperatureChange<D>,
+    pub change: TemperatureChange,
 }
 
 /// How much the temperature changes.
 #[derive(Debug, Clone, PartialEq)]
-pub enum TemperatureChange<const D: usize = 2> {
+pub enum TemperatureChange {
     /// One change everywhere, K.
     Uniform(f64),
     /// Changes at positions, each of which belongs to the point within a tenth of the distance to the nearest other point.
-    Table(Vec<Sample<D>>),
+    Table(Vec<Sample>),
     /// A field that the mesh brings along.
     Field {
         /// Name of the field.
@@ -31,9 +31,9 @@ pub enum TemperatureChange<const D: usize = 2> {
 
 /// A change of temperature at a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sample<const D: usize = 2> {
+pub struct Sample {
     /// Position, m.
-    pub position: [f64; D],
+    pub position: Position,
     /// Change, K.
     pub change: f64,
 }

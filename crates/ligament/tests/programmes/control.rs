@@ -5,16 +5,16 @@ use super::*;
 /// The plate, pulled at one point by a force or by a displacement, with bonds that cannot break around it.
 fn pulled_at_a_point(action: Action, control: Option<Control>, criterion: Choice) -> Setup {
     let mut setup = plate(Analysis::Stepped(stepped(Vec::new())), Vec::new());
-    let mut load = Load::new(Place::At([0.115, 0.065]), action);
+    let mut load = Load::new(Place::At([0.115, 0.065, 0.0]), action);
     load.name = "hook".to_owned();
     setup.loads[0] = load;
-    setup.no_fail = vec![Place::Box([[0.085, 0.0], [0.12, 0.12]])];
+    setup.no_fail = vec![Place::Box([[0.085, 0.0, 0.0], [0.12, 0.12, 0.0]])];
     setup.supports = vec![Support::new("left", &[Component::X, Component::Y])];
     setup.criteria = vec![criterion];
     setup.probes = vec![Probe {
         name: "hook".to_owned(),
         reading: Reading::At {
-            position: [0.115, 0.065],
+            position: [0.115, 0.065, 0.0],
             field: PointField::Motion(Component::X),
         },
     }];
@@ -62,7 +62,7 @@ fn a_force_that_follows_its_displacement_is_its_reaction() {
             quantity: Quantity::Probes(vec![("hook".to_owned(), 1.0)]),
             to: END,
         };
-        let force = Action::Force([1e5, 0.0]);
+        let force = Action::Force([1e5, 0.0, 0.0]);
         let (followed, _) = run(pulled_at_a_point(force, Some(control), criterion));
         assert_eq!(given.history.len(), 61);
         assert!(given.state.broken_bonds() >= 3, "{name}");
@@ -146,7 +146,7 @@ fn a_force_that_follows_its_displacement_closes_cracks() {
         };
         let moved = Action::Displacement(moved);
         let (given, _) = run(pressed_and_pulled(moved, TURNS, false, criterion));
-        let force = Action::Force([1e5, 0.0]);
+        let force = Action::Force([1e5, 0.0, 0.0]);
         let (followed, _) = run(pressed_and_pulled(force, TURNS, true, criterion));
         assert_eq!(given.history.len(), 61, "{name}: {}", given.termination);
         let dissipated = given.history[60].dissipated_energy;
@@ -245,12 +245,12 @@ fn faces_close_in_stages() {
 fn the_opening_of_a_crack_leads_through_a_snap_back() {
     let cracked = |analysis: Analysis, stage: Stage| {
         let mut setup = plate(analysis, vec![stage]);
-        setup.loads = vec![Load::new("right", Action::Force([1e6, 0.0]))];
+        setup.loads = vec![Load::new("right", Action::Force([1e6, 0.0, 0.0]))];
         setup.precracks = vec![PreCrack::along(vec![[0.03, -0.001], [0.03, 0.051]])];
         setup.probes = vec![Probe {
             name: "mouth".to_owned(),
             reading: Reading::Between {
-                positions: [[0.025, 0.005], [0.035, 0.005]],
+                positions: [[0.025, 0.005, 0.0], [0.035, 0.005, 0.0]],
                 component: Component::X,
             },
         }];

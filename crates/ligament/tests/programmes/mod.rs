@@ -126,8 +126,8 @@ fn goes_on_from_every_moment(setup: Setup, analysis: &Analysis) -> usize {
         ..Recorder::default()
     };
     let model = Model::build(setup, &mut ()).unwrap();
-    let loading = Loading::new(&model.setup, &*model.system).unwrap();
-    let problem = loading.problem(&model.system, &model.criteria);
+    let loading = Loading::new(&model).unwrap();
+    let problem = loading.problem(&model);
     let mut whole = recorder();
     let outcome = follow(&problem, analysis, &mut whole).unwrap();
     for (from, checkpoint) in &whole.moments {
@@ -197,8 +197,8 @@ fn the_exact_path_after_a_preload_is_that_of_a_search() {
     const PARTS: u32 = 400;
     let setup = plate(Analysis::Event(event()), preloaded(None));
     let model = Model::build(setup, &mut ()).unwrap();
-    let loading = Loading::new(&model.setup, &*model.system).unwrap();
-    let problem = loading.problem(&model.system, &model.criteria);
+    let loading = Loading::new(&model).unwrap();
+    let problem = loading.problem(&model);
     let mut path = Recorder::default();
     follow(&problem, &model.setup.analysis, &mut path).unwrap();
     let first = problem.loads.course().unwrap();
@@ -206,7 +206,7 @@ fn the_exact_path_after_a_preload_is_that_of_a_search() {
     let pull = problem.loads.in_course(pull).unwrap();
     let mut equilibrium = Equilibrium::new(&problem, 1e-4).unwrap();
     equilibrium.load_with(pull);
-    let mut state = State::fresh(&*model.system);
+    let mut state = State::fresh(&**model.plane());
     let mut breakage = equilibrium.break_bonds(&mut state, &[]);
     let ratios = |equilibrium: &mut Equilibrium, state: &mut State, breakage: &Breakage| {
         let attempt = equilibrium
@@ -317,7 +317,7 @@ fn runs_in_stages_go_on_to_the_same_bits() {
         setup.probes = vec![Probe {
             name: "opening".to_owned(),
             reading: Reading::Between {
-                positions: [[0.025, 0.055], [0.095, 0.055]],
+                positions: [[0.025, 0.055, 0.0], [0.095, 0.055, 0.0]],
                 component: Component::X,
             },
         }];
@@ -353,7 +353,7 @@ fn elastic_answers_are_sums_over_the_loads() {
 #[test]
 fn an_acceleration_acts_on_the_masses() {
     let mut setup = plate(Analysis::default(), Vec::new());
-    let mut gravity = Load::new(Place::Everywhere, Action::Acceleration([0.0, -9.81]));
+    let mut gravity = Load::new(Place::Everywhere, Action::Acceleration([0.0, -9.81, 0.0]));
     gravity.name = "gravity".to_owned();
     setup.loads = vec![gravity];
     let (outcome, _) = run(setup);
@@ -418,7 +418,7 @@ fn stages_that_make_no_sense_say_so() {
         setup.probes = vec![Probe {
             name: "mouth".to_owned(),
             reading: Reading::At {
-                position: [0.055, 0.005],
+                position: [0.055, 0.005, 0.0],
                 field: PointField::Damage,
             },
         }];

@@ -6,8 +6,8 @@ use crate::body::Body;
 use crate::error::Fault;
 
 /// The scalar field of a name, at a time step if there are several; else the part that is wrong, and why.
-pub(super) fn find<'a, const D: usize>(
-    body: &'a dyn Body<D>,
+pub(super) fn find<'a>(
+    body: &'a dyn Body,
     name: &str,
     time_step: Option<i32>,
 ) -> Result<&'a NodeField, (&'static str, Fault)> {

@@ -73,7 +73,7 @@ struct Reach {
 impl Reach {
     fn over<const D: usize>(
         places: &Places<'_, D>,
-        sections: &[Temperature<D>],
+        sections: &[Temperature],
     ) -> Result<Self, SetupError> {
         let (body, cloud) = (&places.setup.body, places.cloud);
         let mut of_cell = vec![0; body.n_cells()];
@@ -92,7 +92,9 @@ impl Reach {
             }
         }
         // The volumes of the cells at a point are what a cloud with a material for each section counts.
-        let counted = body.cloud(cloud.thickness, &of_cell, sections.len() + 1);
+        let counted = body
+            .geometry::<D>()
+            .cloud(cloud.thickness, &of_cell, sections.len() + 1);
         Ok(Self {
             n_sections: sections.len(),
             shares: counted.material_shares,
@@ -114,7 +116,7 @@ impl Reach {
 }
 
 impl<const D: usize> Places<'_, D> {
-    fn change(&self, index: usize, section: &Temperature<D>) -> Result<Change, SetupError> {
+    fn change(&self, index: usize, section: &Temperature) -> Result<Change, SetupError> {
         let field = Field::element("temperatures", index);
         let body = &*self.setup.body;
         Ok(match &section.change {
@@ -132,7 +134,7 @@ impl<const D: usize> Places<'_, D> {
                 let found = field::find(body, name, *time_step);
                 let found = found.map_err(|(part, fault)| field.part(part).error(fault))?;
                 let change = |value: &Option<f64>| value.map(|value| value - reference);
-                let values = found.at_nodes(body.positions().len());
+                let values = found.at_nodes(body.n_points());
                 let values = values.iter().map(change).collect();
                 Change::Each(values, "the field has no value")
             }

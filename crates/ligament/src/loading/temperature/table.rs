@@ -3,6 +3,7 @@
 use ligament_model::PointCloud;
 
 use crate::body::Body;
+use crate::coordinates::narrowed;
 use crate::error::Fault;
 use crate::loading::places::distance;
 use crate::setup::Sample;
@@ -17,11 +18,11 @@ pub(super) const MISSING: &str =
 
 /// The change at each point (n_points) that a sample belongs to, K; else what is wrong with the samples.
 pub(super) fn at_points<const D: usize>(
-    samples: &[Sample<D>],
-    body: &dyn Body<D>,
+    samples: &[Sample],
+    body: &dyn Body,
     cloud: &PointCloud<D>,
 ) -> Result<Vec<Option<f64>>, Fault> {
-    let positions: Vec<[f64; D]> = samples.iter().map(|it| it.position).collect();
+    let positions: Vec<[f64; D]> = samples.iter().map(|it| narrowed(it.position)).collect();
     let nearest = cloud.nearest_points(&positions);
     let mut of_point: Vec<Option<usize>> = vec![None; cloud.len()];
     for (second, &point) in nearest.iter().enumerate() {
