@@ -261,8 +261,8 @@ pub(super) fn no_bond(run: &StoredRun, [a, b]: [u32; 2], pair: Option<usize>) ->
 
 #[cfg(test)]
 mod tests {
-    use ligament_model::failure::{AfterLimit, Measure};
     use ligament_model::failure::softening::{brittle, linear, plastic};
+    use ligament_model::failure::{AfterLimit, Measure};
 
     use super::*;
     use crate::explain::life::life_of;
