@@ -57,20 +57,33 @@ fn behind_generics(tokens: &[Token], at: usize) -> usize {
     }
 }
 
-/// Number of parameters between brackets: parts between commas that no bracket holds.
+/// Number of values that are bound between the brackets of a signature: a parameter that takes a tuple or an array apart counts by its
+/// parts.
 fn parameters(tokens: &[Token]) -> usize {
-    let (mut depth, mut count, mut is_begun) = (0_isize, 0, false);
-    for token in tokens {
+    parts(tokens).map(bindings).sum()
+}
+
+/// Values that a parameter binds: the names of a tuple, one of any other pattern.
+fn bindings(parameter: &[Token]) -> usize {
+    match parameter.first().map(|it| it.text.as_str()) {
+        None => 0,
+        Some("(" | "[") => parts(&parameter[1..closing(parameter, 0)])
+            .map(bindings)
+            .sum(),
+        Some(_) => 1,
+    }
+}
+
+/// Parts between commas that no bracket holds.
+fn parts(tokens: &[Token]) -> impl Iterator<Item = &[Token]> {
+    let mut depth = 0_isize;
+    let separates = move |token: &Token| {
         match token.text.as_str() {
             "(" | "[" | "{" | "<" => depth += 1,
             ")" | "]" | "}" | ">" => depth -= 1,
             _ => {}
         }
-        if depth == 0 && token.text == "," {
-            is_begun = false;
-        } else if !is_begun {
-            (is_begun, count) = (true, count + 1);
-        }
-    }
-    count
+        depth == 0 && token.text == ","
+    };
+    tokens.split(separates).filter(|it| !it.is_empty())
 }

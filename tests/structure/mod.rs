@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 #![allow(clippy::print_stdout, reason = "a guard says what it counted")]
 
+mod dimension;
 mod functions;
 mod modules;
 mod text;
@@ -296,6 +297,7 @@ fn lines_and_parameters_are_counted_as_one_reads_them() {
     let source = "
         trait T { fn without_body(&self, a: u8); }
         fn plain() {}
+        fn taking_apart(&self, (a, [b, c]): (u8, [u8; 2]), _: u8) {}
         pub fn generic<F: Fn(u8, u8) -> u8>(a: [u8; 2], b: (u8, u8), c: F,
             d: HashMap<u8, Vec<u8>>,) -> u8 where F: Copy
         {
@@ -313,6 +315,11 @@ fn lines_and_parameters_are_counted_as_one_reads_them() {
         .collect();
     assert_eq!(
         sizes,
-        [("plain", 1, 0), ("generic", 7, 4), ("method", 2, 2)]
+        [
+            ("plain", 1, 0),
+            ("taking_apart", 1, 5),
+            ("generic", 7, 4),
+            ("method", 2, 2)
+        ]
     );
 }

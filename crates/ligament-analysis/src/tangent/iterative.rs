@@ -6,12 +6,12 @@
 
 mod aggregates;
 mod coarse;
+mod coarse_basis;
 mod coarse_stiffness;
 mod conjugate;
 mod operator;
 mod point_blocks;
 mod resistance;
-mod space;
 mod unresisted;
 
 use std::collections::BTreeSet;

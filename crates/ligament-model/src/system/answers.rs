@@ -310,8 +310,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> Bonds for ElementSystem<
         beyond: f64,
         asked: &[bool],
     ) -> Option<Overlap> {
-        // Faces of solids do not close yet, so that nobody could act on what would be said of them.
-        if self.faces_close() || D > 2 {
+        if self.faces_close() {
             return None;
         }
         let moved = Moved {

@@ -5,14 +5,14 @@ use std::sync::Arc;
 
 use ligament_linalg::{FactorError, Factorisation, Pattern, RankOne};
 
+use super::coarse_basis::CoarseBasis;
 use super::coarse_stiffness::{CoarseStiffness, Factored};
 use super::operator::Operator;
 use super::resistance::Resistance;
-use super::space::Space;
 
 /// The coarse space Z, the forces K Z and the factor of E = Z^T K Z.
 pub(super) struct Coarse {
-    space: Space,
+    space: CoarseBasis,
     resistance: Resistance,
     factor: Box<dyn Factorisation>,
     pattern: Arc<Pattern>,
@@ -32,7 +32,7 @@ impl Coarse {
         diagonal: &[f64],
         largest: usize,
     ) -> Result<Self, FactorError> {
-        let space = Space::new(operator, diagonal, largest);
+        let space = CoarseBasis::new(operator, diagonal, largest);
         let (resistance, blocks) = Resistance::new(operator, &space, diagonal);
         let stiffness = CoarseStiffness {
             operator,
@@ -52,7 +52,7 @@ impl Coarse {
     }
 
     /// The space.
-    pub(super) fn space(&self) -> &Space {
+    pub(super) fn space(&self) -> &CoarseBasis {
         &self.space
     }
 

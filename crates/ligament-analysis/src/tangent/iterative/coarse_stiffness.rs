@@ -8,14 +8,14 @@ use ligament_linalg::{
     VANISHING_PIVOT,
 };
 
+use super::coarse_basis::CoarseBasis;
 use super::operator::Operator;
 use super::resistance::Block;
-use super::space::Space;
 
 /// The stiffness in a coarse space, to be made.
 pub(super) struct CoarseStiffness<'a> {
     pub(super) operator: &'a Operator<'a>,
-    pub(super) space: &'a Space,
+    pub(super) space: &'a CoarseBasis,
     /// Blocks of the columns of each aggregate.
     pub(super) blocks: Vec<Vec<Block>>,
 }

@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 use ligament_linalg::RankOne;
 use rayon::prelude::*;
 
+use super::coarse_basis::CoarseBasis;
 use super::operator::Operator;
-use super::space::Space;
 
 /// Share of the stiffness of a point against its neighbours below which a force is rounding: an aggregate that moves as one with all
 /// neighbours of a point does not strain it.
@@ -54,7 +54,7 @@ impl Resistance {
     /// by itself (n_degrees_of_freedom); and what they do on the coarse space, blocks by aggregate of their columns.
     pub(super) fn new(
         operator: &Operator<'_>,
-        space: &Space,
+        space: &CoarseBasis,
         diagonal: &[f64],
     ) -> (Self, Vec<Vec<Block>>) {
         let making = Making {
@@ -82,7 +82,7 @@ impl Resistance {
     }
 
     /// Takes the work W^T y for motions y (n_degrees_of_freedom) away from works (n_aggregates, n_motions).
-    pub(super) fn subtract_works(&self, space: &Space, motions: &[f64], works: &mut [f64]) {
+    pub(super) fn subtract_works(&self, space: &CoarseBasis, motions: &[f64], works: &mut [f64]) {
         match (
             motions.len() / space.aggregates.of_point.len(),
             space.n_motions,
@@ -123,7 +123,7 @@ impl Resistance {
     }
 
     /// Adds c w (Z^T w)^T for a term c w w^T with the works Z^T w of its entries by coarse unknown, ascending.
-    pub(super) fn add(&mut self, space: &Space, term: &RankOne, works: &[(usize, f64)]) {
+    pub(super) fn add(&mut self, space: &CoarseBasis, term: &RankOne, works: &[(usize, f64)]) {
         let n = space.n_motions;
         let n_components = self.free.len() / space.aggregates.of_point.len();
         for &(unknown, work) in works {
@@ -144,7 +144,7 @@ impl Resistance {
 /// The forces on their way.
 struct Making<'a> {
     operator: &'a Operator<'a>,
-    space: &'a Space,
+    space: &'a CoarseBasis,
     diagonal: &'a [f64],
 }
 

@@ -19,7 +19,7 @@ const TASK: usize = 32;
 ///
 /// A column of Z is a rigid motion of an aggregate where it is free. Those that an aggregate has not are zero, with a unit on the
 /// diagonal of E.
-pub(super) struct Space {
+pub(super) struct CoarseBasis {
     pub(super) aggregates: Aggregates,
     /// Rigid motions of an aggregate.
     pub(super) n_motions: usize,
@@ -27,7 +27,7 @@ pub(super) struct Space {
     rows: Vec<f64>,
 }
 
-impl Space {
+impl CoarseBasis {
     /// The rigid motions of aggregates of at most so many points.
     pub(super) fn new(operator: &Operator<'_>, diagonal: &[f64], largest: usize) -> Self {
         let aggregates = Aggregates::new(operator.system, operator.bonds.intact, largest);
