@@ -26,6 +26,22 @@ const SHORT: [&str; 3] = [
     "fracture.stop.bonds=60",
 ];
 
+/// Its criterion, and others that look at vectors besides the stretch of a bond.
+const CRITERIA: [&[&str]; 3] = [
+    &[],
+    &[
+        "fracture.criterion.0.kind=frictional",
+        "material.tensile_strength=3e6",
+        "material.compressive_strength=12e6",
+    ],
+    &[
+        "model.law=nhpd",
+        "fracture.criterion.0.kind=fibre",
+        "fracture.criterion.0.fibre_distance=1e-3",
+        "material.tensile_strength=3e6",
+    ],
+];
+
 /// The case `split-block` with other settings.
 fn split_block(settings: &[&str]) -> CaseFile {
     let path = repository().join("cases/split-block/case.toml");
@@ -84,11 +100,17 @@ fn splitting_a_block_takes_the_fracture_energy() {
 /// of the path up to it.
 #[test]
 fn load_steps_break_bonds_in_the_order_of_the_exact_path() {
+    for criterion in CRITERIA {
+        assert_same_order(&[&SHORT[..], criterion].concat());
+    }
+}
+
+fn assert_same_order(settings: &[&str]) {
     const STEPS: u32 = 400;
     let folder = tempfile::tempdir().unwrap();
     let exact = folder.path().join("exact");
     let stepped = folder.path().join("stepped");
-    split(&SHORT, &exact);
+    split(settings, &exact);
     let steps = format!("fracture.steps={STEPS}");
     let one_by_one = [
         "fracture.control=stepped",
@@ -96,7 +118,7 @@ fn load_steps_break_bonds_in_the_order_of_the_exact_path() {
         "fracture.order=ratio",
         &steps,
     ];
-    split(&[&SHORT[..], &one_by_one].concat(), &stepped);
+    split(&[settings, &one_by_one].concat(), &stepped);
     let path = broken(&exact);
     assert_eq!(path.len(), 60);
     assert_eq!(path, broken(&stepped));

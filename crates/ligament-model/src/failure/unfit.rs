@@ -110,7 +110,7 @@ pub enum NoLimit {
     },
     /// Strengths that leave no angle of friction.
     NoFriction {
-        /// Poisson's ratio in the plane.
+        /// Poisson's ratio of the bar; in plane strain nu/(1 - nu).
         poisson: f64,
         /// Tensile strength, Pa.
         tensile: f64,
@@ -144,7 +144,7 @@ impl fmt::Display for NoLimit {
                 compressive,
             } => write!(
                 formatter,
-                "a bar with Poisson's ratio {poisson:.4} (in the plane) and strengths {tensile:.4e} and {compressive:.4e} Pa fits no \
+                "a bar with Poisson's ratio {poisson:.4} (in plane strain nu/(1 - nu)) and strengths {tensile:.4e} and {compressive:.4e} Pa fits no \
                  friction: calibration = \"two-point\" needs poisson < tensile_strength/compressive_strength = {:.4}; take \
                  \"printed\", or strengths that lie closer together",
                 tensile / compressive
