@@ -6,11 +6,11 @@ use ligament::Model;
 use ligament::SetupError;
 use ligament::body::SolidMeshBody;
 use ligament::prelude::*;
+use ligament::system::AnySystem;
 use ligament_case::case::CaseFile;
 use ligament_mesh::{SolidCell, SolidMesh};
 use ligament_model::FixedFields;
 use ligament_model::correction::CorrectionReport;
-use ligament_model::element::Rigidities;
 use ligament_run::memory::foresee_model;
 use verification::bench::case;
 use verification::problems::{BAR, TWO};
@@ -51,8 +51,12 @@ fn at(places: &[usize], values: &[f64]) -> Vec<f64> {
 }
 
 /// Lists of numbers of the bonds, each with a name.
-fn of_bonds(model: &Model, rigidities: &Rigidities) -> Vec<(&'static str, Vec<f64>)> {
-    let system = &**model.plane();
+fn of_bonds(model: &Model) -> Vec<(&'static str, Vec<f64>)> {
+    let system = &model.system;
+    let rigidities = match system {
+        AnySystem::Plane(system) => &system.rigidities,
+        AnySystem::Solid(system) => &system.rigidities,
+    };
     let mut lists = vec![
         ("axial", rigidities.axial.clone()),
         ("shear", rigidities.shear.clone()),
@@ -81,29 +85,24 @@ fn of_points(fixed: &FixedFields) -> Vec<(&'static str, Vec<f64>)> {
 }
 
 /// Shares a body out among 1, 2 and 3 ranks and compares with one process.
-fn shared(
-    name: &str,
-    setup: &Setup,
-    accuracy: Accuracy,
-    rigidities: impl Fn(&Model) -> &Rigidities + Sync,
-) -> Model {
+fn shared(name: &str, setup: &Setup, accuracy: Accuracy) -> Model {
     let whole = Model::build(setup.clone(), &mut ()).unwrap();
-    let (ends, lists) = (whole.system.ends(), of_bonds(&whole, rigidities(&whole)));
+    let (ends, lists) = (whole.system.ends(), of_bonds(&whole));
     for n_ranks in 1..=3 {
         let known = on_ranks(n_ranks, |together| {
             let mut setup = setup.clone();
             setup.solver.ranks = Some(together);
             let model = Model::build(setup, &mut ()).unwrap();
-            let portion = model.plane().portion().unwrap();
+            let portion = model.system.portion().unwrap();
             // Bonds, and pairs that are none, are known to the ranks of their ends and to no others, in the same order.
             let is_known = |ends: &[u32; 2]| ends.iter().any(|&end| portion.is_own(end));
             let places: Vec<usize> = (0..ends.len()).filter(|&it| is_known(&ends[it])).collect();
             let expected: Vec<[u32; 2]> = places.iter().map(|&it| ends[it]).collect();
-            assert_eq!(model.plane().ends(), expected);
+            assert_eq!(model.system.ends(), expected);
             let absent = whole.fixed.absent.iter().copied();
             let absent: Vec<_> = absent.filter(|it| is_known(&it.ends)).collect();
             assert_eq!(model.fixed.absent, absent);
-            let own = of_bonds(&model, rigidities(&model));
+            let own = of_bonds(&model);
             let mut most: f64 = 0.0;
             for ((what, expected), (_, found)) in lists.iter().zip(&own) {
                 let expected = at(&places, expected);
@@ -151,14 +150,9 @@ fn named(name: &str, settings: &[&str]) -> CaseFile {
     CaseFile::load(&path, &settings).unwrap()
 }
 
-fn in_plane(name: &str, case: &CaseFile, accuracy: Accuracy) -> Model {
+fn prepared(name: &str, case: &CaseFile, accuracy: Accuracy) -> Model {
     let setup = case.setup(&mut ()).unwrap();
-    shared(name, &setup, accuracy, |model| &model.plane().rigidities)
-}
-
-fn in_space(name: &str, case: &CaseFile, accuracy: Accuracy) -> Model {
-    let setup = case.setup(&mut ()).unwrap();
-    shared(name, &setup, accuracy, |model| &model.plane().rigidities)
+    shared(name, &setup, accuracy)
 }
 
 const PATCH: &str = "correction.surface=patch";
@@ -166,15 +160,15 @@ const PATCH: &str = "correction.surface=patch";
 /// Pre-cracks, holes and voids, and the laws and corrections that need sums over families.
 #[test]
 fn bodies_in_the_plane_are_shared_out_to_the_bit() {
-    let model = in_plane("crack", &named("central-crack", &[]), Accuracy::Bits);
+    let model = prepared("crack", &named("central-crack", &[]), Accuracy::Bits);
     assert!(model.counts.cut > 100 && model.correction.is_some());
     let cracked = [
         "correction.domain=cracked",
         "model.law=mppd",
         "correction.surface=domain",
     ];
-    in_plane("cracked", &named("central-crack", &cracked), Accuracy::Bits);
-    let model = in_plane(
+    prepared("cracked", &named("central-crack", &cracked), Accuracy::Bits);
+    let model = prepared(
         "void",
         &named("l-panel", &["correction.surface=domain"]),
         Accuracy::Bits,
@@ -185,9 +179,9 @@ fn bodies_in_the_plane_are_shared_out_to_the_bit() {
         "model.calibration=discrete",
         "model.cosserat_length=1e-3",
     ];
-    in_plane("lattice", &named("lattice-plate", &lattice), Accuracy::Bits);
-    in_plane("softening", &named("softening-bar", &[]), Accuracy::Bits);
-    in_plane(
+    prepared("lattice", &named("lattice-plate", &lattice), Accuracy::Bits);
+    prepared("softening", &named("softening-bar", &[]), Accuracy::Bits);
+    prepared(
         "two materials",
         &case(&[BAR, TWO].concat(), &[]),
         Accuracy::Bits,
@@ -202,7 +196,7 @@ fn bodies_in_space_are_shared_out_to_the_bit() {
         "solid_lattice.spacing=[0.25, 0.25, 0.25]",
         "model.horizon_factor=3.5",
     ];
-    let model = in_space("sphere", &named("lattice-sphere", &cells), Accuracy::Bits);
+    let model = prepared("sphere", &named("lattice-sphere", &cells), Accuracy::Bits);
     assert!(model.counts.across_voids > 100);
     for (name, settings) in [
         (
@@ -212,27 +206,27 @@ fn bodies_in_space_are_shared_out_to_the_bit() {
         ("discrete", &["model.law=mppd-beam"]),
     ] {
         let settings = [&cells[..], settings].concat();
-        in_space(name, &named("lattice-sphere", &settings), Accuracy::Bits);
+        prepared(name, &named("lattice-sphere", &settings), Accuracy::Bits);
     }
-    let model = in_space("block", &named("split-block", &[]), Accuracy::Bits);
+    let model = prepared("block", &named("split-block", &[]), Accuracy::Bits);
     assert!(model.counts.cut > 100 && !model.criteria.list.is_empty());
 }
 
 /// Several blocks of points a rank, points that turn and that do not, and factors of two materials.
 #[test]
 fn the_patch_correction_is_shared_out() {
-    in_plane("disk", &named("brazilian-disk", &[PATCH]), Accuracy::Newton);
+    prepared("disk", &named("brazilian-disk", &[PATCH]), Accuracy::Newton);
     let springs = [PATCH, "model.law=pds"];
-    in_plane("springs", &named("l-panel", &springs), Accuracy::Newton);
-    in_plane("bar", &named("bimaterial-bar", &[]), Accuracy::Newton);
-    in_space("block", &named("split-block", &[PATCH]), Accuracy::Newton);
+    prepared("springs", &named("l-panel", &springs), Accuracy::Newton);
+    prepared("bar", &named("bimaterial-bar", &[]), Accuracy::Newton);
+    prepared("block", &named("split-block", &[PATCH]), Accuracy::Newton);
     let families = "correction.reference=families";
-    in_plane(
+    prepared(
         "bar",
         &named("bimaterial-bar", &[families]),
         Accuracy::Newton,
     );
-    in_space(
+    prepared(
         "block",
         &named("split-block", &[PATCH, families]),
         Accuracy::Newton,

@@ -16,7 +16,7 @@ impl CaseFile {
     ///
     /// If a file cannot be read, the mesh has no cells of the kind of the body, or nothing is left of a lattice or of one of its sets.
     pub fn setup(&self, watcher: &mut dyn StageWatcher) -> anyhow::Result<Setup> {
-        let body = self.body(watcher)?;
+        let body = self.read_body(watcher)?;
         Ok(self.setup_on(body)?)
     }
 
@@ -39,7 +39,7 @@ impl CaseFile {
     }
 
     /// The body of the case, with the mesh read from its file.
-    fn body(&self, watcher: &mut dyn StageWatcher) -> anyhow::Result<AnyBody> {
+    fn read_body(&self, watcher: &mut dyn StageWatcher) -> anyhow::Result<AnyBody> {
         let case = &self.case;
         match (&case.mesh, &case.lattice, &case.solid_lattice) {
             (Some(section), _, _) if section.is_solid => {

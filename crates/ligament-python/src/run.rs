@@ -4,7 +4,7 @@ use ligament_analysis::driver::Outcome;
 use ligament_mesh::Cell;
 use ligament_model::{Absence, BodyGrid, Canvas, FixedFields, box_corners};
 use ligament_output::results::FieldValues;
-use ligament_output::results::cracks::StoredCracks;
+use ligament_output::results::cracks::{PartedPairs, StoredCracks};
 use numpy::PyReadonlyArray1;
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
@@ -184,12 +184,15 @@ fn cracks(solved: &Solved) -> Option<StoredCracks> {
     let absent = fixed.absent.iter();
     let cut = absent.filter(|it| it.absence == Absence::PreCrack);
     let cut: Vec<[u32; 2]> = cut.map(|it| it.ends).collect();
+    let parted = PartedPairs {
+        cut: &cut,
+        broken: &kept.broken,
+        softened: &kept.opened,
+    };
+    let (horizon, thickness) = (fixed.horizon.clone(), solved.thickness);
+    let history = &outcome.history;
     Some(StoredCracks::in_memory(
-        (grid, fixed.horizon.clone()),
-        &cut,
-        &kept.broken,
-        &kept.opened,
-        (&outcome.history, solved.thickness),
+        grid, horizon, thickness, &parted, history,
     ))
 }
 

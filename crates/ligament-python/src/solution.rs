@@ -16,7 +16,7 @@ use ligament_run::loading::write_rule;
 use ligament_run::memory;
 use ligament_run::provenance::Provenance;
 use ligament_run::stages::Stages;
-use ligament_run::summary::Summary;
+use ligament_run::summary::{Noted, Summary};
 use pyo3::prelude::*;
 
 use crate::case::Case;
@@ -205,7 +205,12 @@ fn summary(
     stages: &Stages,
 ) -> Result<String, Failure> {
     let provenance = Provenance::of_inputs(ligament_cli::BUILD, Vec::new());
-    let told = (provenance, kept.notices.clone(), kept.first);
-    let summary = Summary::new(case, model, boundary, outcome, told, stages.done());
+    let noted = Noted {
+        provenance,
+        notices: kept.notices.clone(),
+        first: kept.first,
+        stages: stages.done().to_vec(),
+    };
+    let summary = Summary::new(case, model, boundary, outcome, noted);
     serde_json::to_string(&summary).map_err(|error| Failure::Other(error.into()))
 }

@@ -15,7 +15,7 @@ use crate::progress::Progress;
 use crate::provenance::{Build, Provenance};
 use crate::ranks::tell_folder;
 use crate::stages::Stages;
-use crate::summary::Summary;
+use crate::summary::{Noted, Summary};
 use crate::watch::Watch;
 
 /// Name of the file with all numbers of a run.
@@ -85,8 +85,13 @@ impl LoadedBody<'_> {
 
         let (notices, first, checkpoints) = watch.into_parts();
         let boundary = &loading.boundary;
-        let told = (provenance, notices, first);
-        let summary = Summary::new(case, model, boundary, &outcome, told, stages.done());
+        let noted = Noted {
+            provenance,
+            notices,
+            first,
+            stages: stages.done().to_vec(),
+        };
+        let summary = Summary::new(case, model, boundary, &outcome, noted);
         let text = serde_json::to_string_pretty(&summary)
             .context("the summary cannot be written as JSON")?;
         folder.write_text(SUMMARY, &(text + "\n"))?;

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use anyhow::{Context, bail, ensure};
-use ligament::Model;
 use ligament::run::{on_threads, restore};
 use ligament::setup::Analysis;
 use ligament_analysis::driver::Problem;
@@ -78,21 +77,21 @@ impl Request<'_> {
             ensure_unfinished(&folder)?;
             progress.stage("the run has no checkpoint yet: it starts anew");
         }
-        let mut stages = Stages::default();
-        let model = build_model_on(case, self.ranks, &mut stages, &progress)?;
-        self.go_on(&model, found, (folder, stages, progress), case)
+        self.go_on(case, folder, found, progress)
     }
 
-    /// Goes on with a model from what was found.
+    /// Goes on with the model of a case from what was found.
     fn go_on(
         &self,
-        model: &Model,
-        found: Option<(Checkpoint, SoFar)>,
-        (folder, mut stages, mut progress): (ResultFolder, Stages, Progress),
         case: &CaseFile,
+        folder: ResultFolder,
+        found: Option<(Checkpoint, SoFar)>,
+        mut progress: Progress,
     ) -> anyhow::Result<Report> {
-        let loading = loading(case, model, self.ranks)?;
-        let problem = loading.problem(model);
+        let mut stages = Stages::default();
+        let model = build_model_on(case, self.ranks, &mut stages, &progress)?;
+        let loading = loading(case, &model, self.ranks)?;
+        let problem = loading.problem(&model);
         let solution = found.as_ref().map(|(checkpoint, _)| &checkpoint.solution);
         tell_checkpoint(self.ranks, solution);
         let is_stopped = || any_stopped(self.ranks, self.is_stopped);
@@ -118,7 +117,7 @@ impl Request<'_> {
             |folder| {
                 let body = LoadedBody {
                     case,
-                    model,
+                    model: &model,
                     loading: &loading,
                     folder,
                     build: self.build,

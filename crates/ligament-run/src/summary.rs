@@ -184,6 +184,19 @@ pub fn temperature_change(boundary: &ProportionalLoading) -> Option<Spread> {
     (!changes.is_empty()).then(|| Spread::over(changes.iter().copied()))
 }
 
+/// Facts of a run beside its model and its outcome.
+#[derive(Debug, Clone)]
+pub struct Noted {
+    /// Origin of the results.
+    pub provenance: Provenance,
+    /// Notices of the run in words.
+    pub notices: Vec<String>,
+    /// First bonds that gave way.
+    pub first: FirstBonds,
+    /// Stages of the run with their times.
+    pub stages: Vec<Stage>,
+}
+
 impl Summary {
     /// Collects the numbers.
     pub fn new(
@@ -191,9 +204,14 @@ impl Summary {
         model: &Model,
         boundary: &ProportionalLoading,
         outcome: &Outcome,
-        (provenance, notices, first): (Provenance, Vec<String>, FirstBonds),
-        stages: &[Stage],
+        noted: Noted,
     ) -> Self {
+        let Noted {
+            provenance,
+            notices,
+            first,
+            stages,
+        } = noted;
         let history = &outcome.history;
         let without_equilibrium = outcome.is_without_equilibrium();
         let loaded = |point: Option<LoadPoint>| {
@@ -238,7 +256,7 @@ impl Summary {
             stability: outcome.stability.map(StabilitySummary::from),
             solver: SolverSummary::new(&outcome.costs, &outcome.solver),
             provenance,
-            stages: stages.to_vec(),
+            stages,
             warnings: of_model.chain(notices).chain(of_end).collect(),
         }
     }

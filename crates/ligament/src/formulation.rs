@@ -126,17 +126,17 @@ impl<'a, const D: usize> Formulation<'a, D> {
         elasticity: &[Elasticity],
     ) -> BondStiffness {
         let (setup, cloud, plane) = (self.setup, self.cloud, self.setup.plane());
-        let length = match (setup.rotational_scale, setup.law.rotational_profile()) {
+        let (profile, length) = match (setup.rotational_scale, setup.law.rotational_profile()) {
             (RotationalScale::Factor(factor), _) => return rotational::scaled(stiffness, factor),
             (_, None) => return stiffness,
             (RotationalScale::CosseratLength(length), Some(profile)) => (profile, length),
         };
-        let materials = (elasticity, plane);
-        let scaled = rotational::with_cosserat_length(stiffness, bonds, cloud, materials, length);
+        let constants = rotational::curvature_constants(elasticity, plane, length);
+        let scaled = rotational::with_cosserat_length(stiffness, bonds, cloud, &constants, profile);
         if setup.law.calibration() != Some(Calibration::Discrete) {
             return scaled;
         }
-        let moduli = rotational::curvature_moduli(elasticity, plane, length.1);
+        let moduli = rotational::curvature_moduli(elasticity, plane, length);
         rotational::calibrated(scaled, alpha, bonds, cloud, &moduli)
     }
 

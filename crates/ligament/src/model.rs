@@ -83,7 +83,7 @@ impl Model {
         require_connected(&setup, &cloud, &horizons, &bonds)?;
         watcher.found(&counts::finding(&cloud, &bonds, &absent));
         let cracks = precracks::cracks(body, &setup.precracks)?;
-        let crossed = stage(watcher, "pre-cracks", || {
+        let mut crossed = stage(watcher, "pre-cracks", || {
             Precracked::new(&cracks, &bonds, &cloud)
         });
         let absent = with_cut(absent, &bonds, &crossed.is_cut);
@@ -99,12 +99,11 @@ impl Model {
         });
         let report = correction.report.as_ref();
         watcher.found(&Finding::Correction(&setup.correction, report));
-        let scatter = (setup.scatter).map(|it| it.factors(body.positions(), &body.numbering()));
         let fixed = FixedFields {
             horizon: horizons.radius,
-            precrack_share: crossed.share,
+            precrack_share: std::mem::take(&mut crossed.share),
             energy_ratios,
-            scatter,
+            scatter: (setup.scatter).map(|it| it.factors(body.positions(), &body.numbering())),
             absent,
             ..of_correction(&correction, loading::no_fail(&setup, &cloud)?)
         };
@@ -113,10 +112,8 @@ impl Model {
         })?;
         let limits = || formulation::criteria(&setup, &system, &fixed);
         let criteria = stage(watcher, "criteria", limits)?;
-        let of_cracks = (crossed.idle, crossed.touched);
-        let of_body = (&setup, &system.cloud);
         Ok(Self {
-            warnings: warnings(of_body, report, &fixed, &criteria, of_cracks),
+            warnings: warnings(&setup, &system.cloud, report, &fixed, &criteria, crossed),
             correction_range: correction_range(&correction, &system.cloud),
             counts: BondCounts::new(&system.cloud, &system.bonds, &fixed.absent),
             correction: correction.report,
@@ -410,14 +407,15 @@ fn of_correction(correction: &Correction, no_fail: Vec<bool>) -> FixedFields {
 
 /// What the user should know of a model, with the pre-cracks that cut no bond and the number of the bonds that they only touch.
 fn warnings<const D: usize>(
-    (setup, cloud): (&Setup, &PointCloud<D>),
+    setup: &Setup,
+    cloud: &PointCloud<D>,
     report: Option<&CorrectionReport>,
     fixed: &FixedFields,
     criteria: &Criteria,
-    (idle, touched): (Vec<usize>, usize),
+    crossed: Precracked,
 ) -> Vec<Warning> {
-    let implausible = plausibility::of_model(setup, cloud, criteria, idle).into_iter();
-    let of_model = warning::of_model(setup, &cloud.spacing, report, fixed, touched);
+    let implausible = plausibility::of_model(setup, cloud, criteria, crossed.idle).into_iter();
+    let of_model = warning::of_model(setup, &cloud.spacing, report, fixed, crossed.touched);
     implausible
         .map(Warning::Implausible)
         .chain(of_model)

@@ -6,13 +6,19 @@ use ligament_model::failure::Criteria;
 use crate::bond_numbers::BondNumbers;
 use crate::history::BreakRecord;
 
+/// Criteria with the deformations that they judge.
+#[derive(Clone, Copy)]
+pub(super) struct Judged<'a> {
+    pub(super) criteria: &'a Criteria,
+    /// Deformation of a bond by its place among those that break, and the bond.
+    pub(super) deformation: &'a dyn Fn(usize, usize) -> BondDeformation,
+}
+
 /// Bonds that are about to break.
 pub(super) struct Breaking<'a> {
     /// Ends of all bonds that are known here, shape (n_bonds).
     pub(super) ends: &'a [[u32; 2]],
-    pub(super) criteria: &'a Criteria,
-    /// Deformation of a bond by its place among those that break, and the bond.
-    pub(super) deformation: &'a dyn Fn(usize, usize) -> BondDeformation,
+    pub(super) judged: Judged<'a>,
     /// What the records have in common, with the number of bonds broken before.
     pub(super) moment: BreakRecord,
 }
@@ -73,8 +79,8 @@ impl Breaking<'_> {
 
     /// The record of a bond with a number, at its place among those that break.
     fn record(&self, place: usize, bond: usize, number: u32) -> Option<BreakRecord> {
-        let deformation = (self.deformation)(place, bond);
-        let verdict = self.criteria.breaking(bond, &deformation)?;
+        let deformation = (self.judged.deformation)(place, bond);
+        let verdict = self.judged.criteria.breaking(bond, &deformation)?;
         Some(BreakRecord {
             order: self.moment.order + place + 1,
             bond: number,

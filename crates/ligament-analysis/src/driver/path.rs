@@ -9,7 +9,7 @@ use std::time::Instant;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::Criteria;
 
-use super::breaks::Breaking;
+use super::breaks::{Breaking, Judged};
 use super::course::{Course, Place, Proof, Restored};
 use super::dissipation;
 use super::outcome::{Outcome, Rows};
@@ -281,7 +281,11 @@ impl<'a> Path<'a> {
     ) -> Result<Breakage, SetupError> {
         let criteria = self.criteria(balanced).into_owned();
         let deformation = |_, bond: usize| balanced.deformations[bond];
-        self.break_deformed(bonds, (&criteria, &deformation), balanced, [step, round])
+        let judged = Judged {
+            criteria: &criteria,
+            deformation: &deformation,
+        };
+        self.break_deformed(bonds, judged, balanced, step, round)
     }
 
     /// Breaks bonds by criteria, with their deformations by place and bond, in an equilibrium of which no more is asked than forces of the
@@ -289,9 +293,10 @@ impl<'a> Path<'a> {
     pub(super) fn break_deformed(
         &mut self,
         bonds: &[u32],
-        (criteria, deformation): (&Criteria, &dyn Fn(usize, usize) -> BondDeformation),
+        judged: Judged<'_>,
         balanced: &Balanced,
-        [step, round]: [usize; 2],
+        step: usize,
+        round: usize,
     ) -> Result<Breakage, SetupError> {
         let (displacement, reaction) = self.control(balanced);
         let moment = BreakRecord {
@@ -310,8 +315,7 @@ impl<'a> Path<'a> {
         let numbers = self.equilibrium.numbers();
         let breaking = Breaking {
             ends: self.problem.system.ends(),
-            criteria,
-            deformation,
+            judged,
             moment,
         };
         let records = match numbers {

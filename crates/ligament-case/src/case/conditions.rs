@@ -66,7 +66,7 @@ pub struct Vector {
 }
 
 impl Vector {
-    pub(super) fn of(&self, key: &KeyPath, dimensions: usize) -> Result<Position, KeyFault> {
+    pub(super) fn for_body(&self, key: &KeyPath, dimensions: usize) -> Result<Position, KeyFault> {
         if dimensions < 3 && self.z.is_some() {
             let reason = "a body in the plane has no z";
             return Err(KeyFault::new(key.child("z"), reason));
@@ -144,7 +144,7 @@ impl Support {
         };
         let normal = self
             .normal
-            .map(|it| it.of(&key.child("normal"), dimensions));
+            .map(|it| it.for_body(&key.child("normal"), dimensions));
         Ok(setup::Support {
             place: place(key, dimensions, self.group.as_ref(), self.r#box, self.at)?,
             held: given.components().map(|(component, _)| component).collect(),

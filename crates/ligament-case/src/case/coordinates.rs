@@ -24,7 +24,7 @@ impl Coordinates {
     }
 
     /// The coordinates of a body in some dimensions, zero beyond them; the key is where they stand.
-    pub(super) fn of(&self, key: &KeyPath, dimensions: usize) -> Result<Position, KeyFault> {
+    pub(super) fn for_body(&self, key: &KeyPath, dimensions: usize) -> Result<Position, KeyFault> {
         if self.count == dimensions {
             return Ok(self.along);
         }

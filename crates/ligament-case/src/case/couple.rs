@@ -23,11 +23,15 @@ pub enum Couple {
 }
 
 impl Couple {
-    pub(super) fn of(&self, key: &KeyPath, dimensions: usize) -> Result<setup::Couple, KeyFault> {
+    pub(super) fn for_body(
+        &self,
+        key: &KeyPath,
+        dimensions: usize,
+    ) -> Result<setup::Couple, KeyFault> {
         match (*self, dimensions) {
             (Self::InPlane(value), 2) => Ok(value.into()),
             (Self::About(vector), 3) => Ok(setup::Couple {
-                about: vector.of(key, dimensions)?,
+                about: vector.for_body(key, dimensions)?,
             }),
             (Self::InPlane(_), _) => {
                 let reason = "a couple in a solid turns about an axis: give a vector, { z = 1.0 }";

@@ -109,11 +109,11 @@ impl Load {
     fn actions(&self, key: &KeyPath, dimensions: usize) -> Actions {
         let displacement = |it: Displacement| Ok(Action::Displacement(it.setup()));
         let vector = |name: &'static str, given: Option<Vector>, make: fn(Position) -> Action| {
-            let action = given.map(|it| it.of(&key.child(name), dimensions).map(make));
+            let action = given.map(|it| it.for_body(&key.child(name), dimensions).map(make));
             (name, action)
         };
         let couple = |name: &'static str, given: Option<Couple>, make: fn(_) -> Action| {
-            let action = given.map(|it| it.of(&key.child(name), dimensions).map(make));
+            let action = given.map(|it| it.for_body(&key.child(name), dimensions).map(make));
             (name, action)
         };
         [

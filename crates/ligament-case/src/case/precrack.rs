@@ -82,7 +82,7 @@ impl Precrack {
                 let key = key.child("points");
                 let corners = points.iter().enumerate();
                 let vertex = |(index, it): (usize, &Coordinates)| {
-                    let [x, y, _] = it.of(&key.child(index), 2)?;
+                    let [x, y, _] = it.for_body(&key.child(index), 2)?;
                     Ok([x, y])
                 };
                 corners.map(vertex).collect()
@@ -109,14 +109,14 @@ impl Precrack {
         let points = self.points.as_ref().map(|points| {
             let key = key.child("points");
             let corners = points.iter().enumerate();
-            let corners = corners.map(|(index, it)| it.of(&key.child(index), 3));
+            let corners = corners.map(|(index, it)| it.for_body(&key.child(index), 3));
             corners.collect::<Result<_, _>>().map(CrackShape::Polygon)
         });
         let disk = self.centre.map(|centre| {
             let normal = self.normal.ok_or_else(|| missing(key, "normal"))?;
             Ok(CrackShape::Disk {
-                centre: centre.of(&key.child("centre"), 3)?,
-                normal: normal.of(&key.child("normal"), 3)?,
+                centre: centre.for_body(&key.child("centre"), 3)?,
+                normal: normal.for_body(&key.child("normal"), 3)?,
                 radius: self.radius.ok_or_else(|| missing(key, "radius"))?,
             })
         });
@@ -138,7 +138,7 @@ impl Precrack {
 
     fn ends_of_line(&self, key: &KeyPath) -> Result<[Point; 2], KeyFault> {
         let centre = self.centre.ok_or_else(|| missing(key, "centre"))?;
-        let [x, y, _] = centre.of(&key.child("centre"), 2)?;
+        let [x, y, _] = centre.for_body(&key.child("centre"), 2)?;
         let length = self.length.ok_or_else(|| missing(key, "length"))?;
         let angle = self.angle.ok_or_else(|| missing(key, "angle"))?;
         let ends = straight([x, y], length, angle);

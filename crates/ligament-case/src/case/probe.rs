@@ -39,7 +39,10 @@ impl Probe {
         let pair = |name: &str, [first, second]: [Coordinates; 2]| {
             let key = key.child(name);
             let [one, other] = [key.child(0), key.child(1)];
-            Ok([first.of(&one, dimensions)?, second.of(&other, dimensions)?])
+            Ok([
+                first.for_body(&one, dimensions)?,
+                second.for_body(&other, dimensions)?,
+            ])
         };
         let between = |positions| {
             let positions = pair("between", positions)?;
@@ -50,7 +53,7 @@ impl Probe {
             })
         };
         let at = |position: Coordinates| {
-            let position = position.of(&key.child("at"), dimensions)?;
+            let position = position.for_body(&key.child("at"), dimensions)?;
             let field = self.field(key)?;
             Ok(Reading::At { position, field })
         };

@@ -35,10 +35,17 @@ impl TryFrom<[Point; 2]> for Rectangle {
 pub struct Corners(pub [Coordinates; 2]);
 
 impl Corners {
-    pub(super) fn of(&self, key: &KeyPath, dimensions: usize) -> Result<[Position; 2], KeyFault> {
+    pub(super) fn for_body(
+        &self,
+        key: &KeyPath,
+        dimensions: usize,
+    ) -> Result<[Position; 2], KeyFault> {
         let [low, high] = &self.0;
         let [first, second] = [key.child(0), key.child(1)];
-        Ok([low.of(&first, dimensions)?, high.of(&second, dimensions)?])
+        Ok([
+            low.for_body(&first, dimensions)?,
+            high.for_body(&second, dimensions)?,
+        ])
     }
 }
 
@@ -102,7 +109,7 @@ pub(super) fn place(
     at: Option<Coordinates>,
 ) -> Result<Place, KeyFault> {
     let group = group.cloned().map(|it| Ok(Place::Group(it)));
-    let corners = corners.map(|it| it.of(&key.child("box"), dimensions).map(Place::Box));
-    let at = at.map(|it| it.of(&key.child("at"), dimensions).map(Place::At));
+    let corners = corners.map(|it| it.for_body(&key.child("box"), dimensions).map(Place::Box));
+    let at = at.map(|it| it.for_body(&key.child("at"), dimensions).map(Place::At));
     one_of(key, [("group", group), ("box", corners), ("at", at)])?
 }

@@ -233,6 +233,17 @@ impl Case {
         of_mesh.or(of_lattice)
     }
 
+    /// Section of a body.
+    fn section(&self, body: &AnyBody) -> Section {
+        match body {
+            AnyBody::Plane(_) => Section::Plane {
+                state: self.plane(),
+                thickness: self.thickness().unwrap_or_else(metre),
+            },
+            AnyBody::Solid(_) => Section::Solid,
+        }
+    }
+
     /// What is hardly meant in the sections of a body in the plane.
     fn remarks(&self) -> Vec<Implausible> {
         if self.is_solid() {
@@ -251,19 +262,12 @@ impl Case {
     /// The setup of the case on a body, whatever body the case names. Tables of temperatures have no rows yet.
     pub(crate) fn setup_on(&self, body: AnyBody) -> Result<Setup, KeyFault> {
         let dimensions = body.dimensions();
-        let section = match body {
-            AnyBody::Plane(_) => Section::Plane {
-                state: self.plane(),
-                thickness: self.thickness().unwrap_or_else(metre),
-            },
-            AnyBody::Solid(_) => Section::Solid,
-        };
         let law = self.model.law.0;
         let criteria = self.fracture.iter().filter_map(|it| it.criteria.as_deref());
         self.check_across_sections()?;
         Ok(Setup {
+            section: self.section(&body),
             body,
-            section,
             precracks: each("precrack", &self.precracks, |it, key| {
                 it.setup(key, dimensions)
             })?,

@@ -2,8 +2,7 @@
 
 use std::io::{self, Write};
 
-use ligament::Loading;
-use ligament::foresight::{foretell, refuse};
+use ligament::foresight::foretell;
 use ligament_analysis::Equilibrium;
 use ligament_analysis::driver::{FirstFailure, Foretold, Problem};
 use ligament_analysis::history::{Notice, Observer, ObserverError, StepRecord, View};
@@ -34,19 +33,14 @@ const MOST_UNKNOWNS: usize = 300_000;
 /// If the run would be refused.
 pub(super) fn write(
     out: &mut dyn Write,
-    (case, extent): (&CaseFile, Extent),
+    case: &CaseFile,
     model: &Model,
-    loading: &Loading,
-    equilibrium: Option<Equilibrium>,
+    problem: &Problem,
+    too_costly: Option<String>,
     stages: &mut Stages,
 ) -> anyhow::Result<Vec<String>> {
-    let problem = loading.problem(model);
     let analysis = &model.setup.analysis;
-    refuse(&problem, analysis).map_err(|it| case.explained(it))?;
-    let Some(equilibrium) = equilibrium else {
-        return Ok(Vec::new());
-    };
-    if let Some(reason) = too_costly(case, extent, &problem, &equilibrium) {
+    if let Some(reason) = too_costly {
         let name = match analysis.is_fracture() {
             true => "first breakage",
             false => "first solution",
@@ -54,13 +48,10 @@ pub(super) fn write(
         entry(out, name, format!("not done: {reason}"))?;
         return Ok(Vec::new());
     }
-    drop(equilibrium);
     let mut heard = Heard::default();
-    let foretold = stages.time("first solution", || {
-        foretell(&problem, analysis, &mut heard)
-    });
+    let foretold = stages.time("first solution", || foretell(problem, analysis, &mut heard));
     if let Some(foretold) = foretold.map_err(|it| case.explained(it))? {
-        write_foretold(out, model, &problem, &foretold)?;
+        write_foretold(out, model, problem, &foretold)?;
     }
     // What nothing holds stands among the supports.
     let told = heard
@@ -71,8 +62,8 @@ pub(super) fn write(
     Ok(told.map(|it| words(it, model.body(), closing)).collect())
 }
 
-/// Why the solution is not done unasked.
-fn too_costly(
+/// Reason why the solution is not done unasked.
+pub(super) fn too_costly(
     case: &CaseFile,
     extent: Extent,
     problem: &Problem,

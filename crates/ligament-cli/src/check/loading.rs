@@ -4,6 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use ligament::Loading;
+use ligament::foresight::refuse;
 use ligament::setup::{Analysis, ELASTIC_ENERGY_TOLERANCE, Position, Reading as Given, Setup};
 use ligament::units::Units;
 use ligament_analysis::gauges;
@@ -55,7 +56,13 @@ pub(super) fn check(
     if let Some(equilibrium) = &equilibrium {
         equations::write(out, case, model, equilibrium)?;
     }
-    foresight::write(out, (case, extent), model, &loading, equilibrium, stages)
+    refuse(&problem, &model.setup.analysis).map_err(|it| case.explained(it))?;
+    let Some(equilibrium) = equilibrium else {
+        return Ok(Vec::new());
+    };
+    let too_costly = foresight::too_costly(case, extent, &problem, &equilibrium);
+    drop(equilibrium);
+    foresight::write(out, case, model, &problem, too_costly, stages)
 }
 
 /// Writes the room that fields take on a disk, and a warning where the disk of the current folder has less.

@@ -83,6 +83,18 @@ pub(super) struct Records {
     pub(super) repeats_cells: bool,
 }
 
+/// Element of a file before its nodes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ElementHeader {
+    pub(super) tag: u64,
+    /// Physical group, or entity, that owns it.
+    pub(super) owner: i32,
+    /// Place in the file, bytes.
+    pub(super) offset: usize,
+    /// Shape and number of nodes.
+    pub(super) element_type: (Shape, usize),
+}
+
 impl Records {
     pub(super) fn push_node(&mut self, cursor: &Cursor<'_>, node: Node) -> Result<(), GmshError> {
         match node
@@ -125,10 +137,15 @@ impl Records {
     pub(super) fn push_element<'a>(
         &mut self,
         cursor: &mut Cursor<'a>,
-        (tag, owner, offset): (u64, i32, usize),
-        (shape, nodes): (Shape, usize),
+        header: ElementHeader,
         node_tag: impl Fn(&mut Cursor<'a>) -> Result<u64, GmshError>,
     ) -> Result<(), GmshError> {
+        let ElementHeader {
+            tag,
+            owner,
+            offset,
+            element_type: (shape, nodes),
+        } = header;
         let n_corners = shape.corners();
         let element = Element {
             tag,

@@ -3,7 +3,7 @@
 use super::cursor::Cursor;
 use super::element_type::Shape;
 use super::error::GmshError;
-use super::records::{Node, Records, TypeRecord, make_room};
+use super::records::{ElementHeader, Node, Records, TypeRecord, make_room};
 
 /// Reads `$Nodes` behind its first line.
 pub(super) fn read_nodes(cursor: &mut Cursor<'_>, records: &mut Records) -> Result<(), GmshError> {
@@ -123,7 +123,13 @@ fn read_tags_and_nodes(
         .physicals
         .entry((element_type.0.dimension(), physical))
         .or_insert_with(|| vec![physical]);
-    records.push_element(cursor, (tag, physical, offset), element_type, |cursor| {
+    let header = ElementHeader {
+        tag,
+        owner: physical,
+        offset,
+        element_type,
+    };
+    records.push_element(cursor, header, |cursor| {
         cursor.unsigned_int("a node number")
     })
 }

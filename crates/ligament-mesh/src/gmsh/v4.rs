@@ -2,7 +2,7 @@
 
 use super::cursor::Cursor;
 use super::error::GmshError;
-use super::records::{Node, Records, TypeRecord, make_room};
+use super::records::{ElementHeader, Node, Records, TypeRecord, make_room};
 
 /// Reads `$Entities`, or `$PartitionedEntities`, behind its first line: which groups an entity is in.
 pub(super) fn read_entities(
@@ -236,9 +236,13 @@ fn read_element_block(cursor: &mut Cursor<'_>, records: &mut Records) -> Result<
         cursor.begin_row();
         let offset = cursor.offset();
         let tag = cursor.size("an element tag")?;
-        records.push_element(cursor, (tag, entity, offset), element_type, |cursor| {
-            cursor.size("a node tag")
-        })?;
+        let header = ElementHeader {
+            tag,
+            owner: entity,
+            offset,
+            element_type,
+        };
+        records.push_element(cursor, header, |cursor| cursor.size("a node tag"))?;
         cursor.end_row()?;
     }
     Ok(())

@@ -8,7 +8,7 @@ use crate::material::{Isotropic, Space};
 /// Shear stiffness k_t of a bond over its length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ShearForm {
-    /// The same k_t for all lengths, that of [`super::pds`]. With a factor alpha that depends on the length, the ratio of shear to stretch
+    /// One k_t for all lengths, that of [`super::pds`]. With a factor alpha that depends on the length, the ratio of shear to stretch
     /// stays right: NHPD's form in space.
     Constant,
     /// k_t = 12 d/l^2, as a beam of Euler and Bernoulli has: NHPD's form in the plane. In space NHPD's factor alpha, which falls with the

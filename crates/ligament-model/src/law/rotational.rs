@@ -98,13 +98,24 @@ pub fn curvature_moduli(materials: &[Elasticity], plane: Plane, length: f64) -> 
     materials.iter().map(modulus).collect()
 }
 
+/// Constants of each material for its k_theta by a characteristic length (m) in bending, shape (n_materials): the stiffness that tells the softer of two
+/// (Pa), and the modulus of curvature gamma (N).
+pub fn curvature_constants(materials: &[Elasticity], plane: Plane, length: f64) -> Vec<[f64; 2]> {
+    let moduli = curvature_moduli(materials, plane, length).into_iter();
+    let of_material = |(material, modulus): (&Elasticity, f64)| {
+        [bulk_stiffness(&material.plane_stiffness(plane)), modulus]
+    };
+    materials.iter().zip(moduli).map(of_material).collect()
+}
+
 /// Densities with k_theta times a factor.
 pub fn scaled(mut stiffness: BondStiffness, factor: f64) -> BondStiffness {
     stiffness.rotational.iter_mut().for_each(|it| *it *= factor);
     stiffness
 }
 
-/// Densities of bonds in the plane with the k_theta, in proportion to a profile q(l), of materials that have the characteristic length l_b (m) in bending:
+/// Densities of bonds in the plane with the k_theta, in proportion to a profile q(l), of materials with some [constants](curvature_constants), the
+/// second of which is gamma:
 ///
 /// k_theta = 2 gamma q(l) / (pi t M), M = integral of q l^3 over the horizon,
 ///
@@ -114,17 +125,12 @@ pub fn with_cosserat_length<const D: usize>(
     stiffness: BondStiffness,
     bonds: &BondSet<D>,
     cloud: &PointCloud<D>,
-    (materials, plane): (&[Elasticity], Plane),
-    (profile, length): (Profile, f64),
+    constants: &[[f64; 2]],
+    profile: Profile,
 ) -> BondStiffness {
-    let moduli = curvature_moduli(materials, plane, length);
-    let bulk = |it: &Elasticity| bulk_stiffness(&it.plane_stiffness(plane));
-    let constants: Vec<[f64; 2]> = (materials.iter().zip(moduli))
-        .map(|(material, modulus)| [bulk(material), modulus])
-        .collect();
     let unit = 2.0 / (PI * cloud.thickness * profile.moment());
     let of_curvature =
-        BondStiffness::from_constants(bonds, cloud, &constants, |[_, modulus], bond| Densities {
+        BondStiffness::from_constants(bonds, cloud, constants, |[_, modulus], bond| Densities {
             axial: 0.0,
             shear: 0.0,
             rotational: unit * modulus * profile.value(bond.length, bond.horizon)

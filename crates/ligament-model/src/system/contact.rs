@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::BondSystem;
 use super::crack_axis::AxisSum;
-use crate::contact::{ClosedPair, ContactPair, Overlap};
+use crate::contact::{ClosedPair, ContactPair, CutBond, Overlap};
 use crate::ghosts::Ghosts;
 use crate::interface::StressReading;
 use crate::layout::{Component, Layout};
@@ -43,15 +43,17 @@ impl<const D: usize> BondSystem<D> {
             let [a, b] = ends.map(|end| around[end as usize]);
             let normal = a.plus(b).axis_towards(bonds.direction[bond]);
             let of_bond = |all: &[f64]| all.get(bond).copied().unwrap_or_default();
-            let rigidities = [&self.rigidities.axial, &self.rigidities.shear];
-            let rigidities = rigidities.map(|all| of_bond(all));
-            let pair = self.contact_pair(layout, bond as u32, ends, normal, rigidities);
+            let parted = CutBond {
+                ends,
+                normal,
+                axial: of_bond(&self.rigidities.axial),
+                shear: of_bond(&self.rigidities.shear),
+            };
+            let pair = self.contact_pair(layout, bond as u32, &parted);
             (dot(normal, bonds.direction[bond]) >= ALONG_THE_CRACK).then_some(pair)
         });
         let numbered = (bonds.len() as u32..).zip(cut);
-        let of_cut = numbered.map(|(number, it)| {
-            self.contact_pair(layout, number, it.ends, it.normal, [it.axial, it.shear])
-        });
+        let of_cut = numbered.map(|(number, it)| self.contact_pair(layout, number, it));
         of_broken.chain(of_cut).collect()
     }
 
@@ -91,15 +93,14 @@ impl<const D: usize> BondSystem<D> {
         around
     }
 
-    /// The pair of two points with a number, a normal and the axial and shear rigidities of their bond.
-    fn contact_pair(
-        &self,
-        layout: Layout,
-        number: u32,
-        ends: [u32; 2],
-        normal: [f64; D],
-        [axial, shear]: [f64; 2],
-    ) -> ContactPair {
+    /// The pair of a bond that is parted, with a number.
+    fn contact_pair(&self, layout: Layout, number: u32, parted: &CutBond<D>) -> ContactPair {
+        let &CutBond {
+            ends,
+            normal,
+            axial,
+            shear,
+        } = parted;
         let [a, b] = ends.map(|end| self.cloud.positions[end as usize]);
         let way = minus(b, a);
         let length = norm(way);

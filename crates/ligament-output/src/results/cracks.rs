@@ -14,6 +14,17 @@ use crate::csv::read::{Row, Sheet};
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation, vtu};
 
+/// Pairs of points that a run in memory parted.
+#[derive(Debug, Clone, Copy)]
+pub struct PartedPairs<'a> {
+    /// Pairs that pre-cracks part.
+    pub cut: &'a [[u32; 2]],
+    /// Ends of the bonds that broke, in their order.
+    pub broken: &'a [[u32; 2]],
+    /// Ends of the bonds that opened as they softened, each with its step.
+    pub softened: &'a [([u32; 2], usize)],
+}
+
 /// The faces of a body with the order in which a run opened them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredCracks {
@@ -97,16 +108,20 @@ impl StoredCracks {
         })
     }
 
-    /// The cracks of a run that is in memory: its body with the horizons of the points (n_points, m), the pairs of points that
-    /// pre-cracks part, the pairs of the bonds that broke, in their order, those of the bonds that opened as they softened, each
-    /// with its step, and the history.
+    /// The cracks of a run that is in memory: its body with the horizons of the points (n_points, m) and its thickness (m), the pairs of
+    /// points that are parted, and the history.
     pub fn in_memory(
-        (body, horizon): (&BodyGrid, Vec<f64>),
-        cut: &[[u32; 2]],
-        broken: &[[u32; 2]],
-        softened: &[([u32; 2], usize)],
-        (history, thickness): (&[StepRecord], f64),
+        body: &BodyGrid,
+        horizon: Vec<f64>,
+        thickness: f64,
+        parted: &PartedPairs<'_>,
+        history: &[StepRecord],
     ) -> Self {
+        let &PartedPairs {
+            cut,
+            broken,
+            softened,
+        } = parted;
         let faces = Faces::new(&body.positions_in_plane(), &body.canvas);
         let breaks = (1..).zip(broken);
         let breaks = breaks.map(|(order, ends)| (*ends, Moment::Breakage(order)));

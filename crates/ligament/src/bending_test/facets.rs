@@ -3,7 +3,7 @@
 //! By the divergence of x, x_i x and x_i x_j x integrals over a body with flat sides of normal N (with the area as its length) are sums over these:
 //! D V = sum p . N, (D + 1) int x_i = sum (p . N) m_i, (D + 2) int x_i x_j = sum (p . N) m_ij with the means m over a side, p any point of it.
 
-use super::strip::Tensor;
+use super::stress::Tensor;
 use crate::setup::Setup;
 
 /// A flat side of the outline with D corners.

@@ -16,6 +16,7 @@
 mod facets;
 mod part;
 mod solution;
+mod stress;
 mod strip;
 mod thinnest;
 

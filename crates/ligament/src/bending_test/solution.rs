@@ -7,7 +7,8 @@ use ligament_analysis::{Attempt, Bonds, Equilibrium, State};
 use ligament_model::layout::{Component, Layout};
 
 use super::facets::dot;
-use super::strip::{LinearStress, Strip};
+use super::stress::LinearStress;
+use super::strip::Strip;
 use super::thinnest::Section;
 use crate::body::AnyBody;
 use crate::model::Model;

@@ -4,6 +4,7 @@ use ligament_model::tensor::{SymTensor, directions_across};
 
 use super::facets::{self, Facet, dot, mean, minus, second_moments, size, volume_and_middle};
 use super::part::free;
+use super::stress::{LinearStress, Tensor};
 use super::thinnest::Section;
 use crate::body::AnyBody;
 use crate::coordinates::narrowed;
@@ -11,12 +12,6 @@ use crate::error::SetupError;
 use crate::formulation::stiffness_of_materials;
 use crate::loading::material_of_cell;
 use crate::setup::Setup;
-
-/// A stress (Pa) or a strain.
-pub(super) type Tensor<const D: usize> = [[f64; D]; D];
-
-/// A stress that is linear in the position from the middle of a strip: its growth along each coordinate, Pa/m.
-pub(super) type LinearStress<const D: usize> = [Tensor<D>; D];
 
 /// Length of a strip over its thickness and its horizon together: its middle half is half of both away from the ends.
 const LENGTH: f64 = 4.0;

@@ -48,8 +48,8 @@ pub(super) fn boundary<const D: usize>(
         let field = Field::element("supports", index);
         let points = places.points(field, &support.place)?;
         for component in support.components() {
-            let at_rest = vec![1.0; points.len()];
-            places.prescribe(&mut boundary, field, (&points, &at_rest), (component, 0.0))?;
+            let each: Vec<(u32, f64)> = points.iter().map(|&point| (point, 1.0)).collect();
+            places.prescribe(&mut boundary, field, &each, component, 0.0)?;
         }
         boundary.report_group(
             &support.name(index),
@@ -69,8 +69,9 @@ pub(super) fn boundary<const D: usize>(
         if let Action::Displacement(displacement) = &load.action
             && !load.is_restraint()
         {
-            for given in displacement.components() {
-                places.prescribe(&mut boundary, field, (&points, &factors), given)?;
+            let each: Vec<(u32, f64)> = points.iter().copied().zip(factors).collect();
+            for (component, value) in displacement.components() {
+                places.prescribe(&mut boundary, field, &each, component, value)?;
             }
         }
         for (point, force) in places.forces(field, load, &points)?.at_points {
@@ -133,16 +134,16 @@ struct Given {
 }
 
 impl<const D: usize> Places<'_, D> {
-    /// Prescribes a component times a factor for each point.
+    /// Prescribes a component times the factor of each point.
     fn prescribe(
         &self,
         boundary: &mut ProportionalLoading,
         field: Field,
-        (points, factors): (&[u32], &[f64]),
-        (component, value): (Component, f64),
+        each: &[(u32, f64)],
+        component: Component,
+        value: f64,
     ) -> Result<(), SetupError> {
-        let mut each = points.iter().zip(factors);
-        let done = each.try_for_each(|(&point, factor)| {
+        let done = each.iter().try_for_each(|&(point, factor)| {
             boundary.prescribe(&[point], component, factor * value)
         });
         done.map_err(|error| {

@@ -12,6 +12,7 @@ use ligament_model::element::{BondDeformation, Remaining};
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::breaking::{FirstToBreak, first_to_break};
+use crate::driver::breaks::Judged;
 use crate::driver::path::Path;
 use crate::driver::recorder::StepCounters;
 use crate::error::SetupError;
@@ -177,11 +178,11 @@ impl Passing<'_, '_> {
         let deformations: Vec<BondDeformation> = deformations.collect();
         let deformation = |place: usize, _| deformations[place];
         let criteria = &self.problem.criteria;
-        let judged = (
-            &**criteria,
-            &deformation as &dyn Fn(usize, usize) -> BondDeformation,
-        );
-        path.break_deformed(&bonds, judged, &critical, [step, 1])
+        let judged = Judged {
+            criteria,
+            deformation: &deformation,
+        };
+        path.break_deformed(&bonds, judged, &critical, step, 1)
     }
 
     /// Takes in a breakage; gives the bonds that are the next to break. None where the factor broke on the way.

@@ -92,19 +92,21 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         let n_seats = self.equations.pairs().seats.all().len();
         let mut direction = vec![[0.0; N]; n_seats];
         let (mut step, mut product) = (zeros.clone(), zeros);
-        let mut size = self.go(
-            0.0,
-            [&direction, &product],
-            [&mut step, &mut left],
-            &mut solved,
-        );
+        let way = Way {
+            direction: &direction,
+            product: &product,
+        };
+        let mut size = self.go(0.0, way, &mut step, &mut left, &mut solved);
         let target = accuracy * accuracy * size;
         let mut share = 0.0;
         for done in 1..=MOST_PRODUCTS {
             self.turn(&mut direction, share, &solved);
             let length = size / self.multiply(&direction, &mut product);
-            let vectors = [&mut step, &mut left];
-            let next = self.go(length, [&direction, &product], vectors, &mut solved);
+            let way = Way {
+                direction: &direction,
+                product: &product,
+            };
+            let next = self.go(length, way, &mut step, &mut left, &mut solved);
             if next <= target {
                 return (step, done);
             }
@@ -156,10 +158,12 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
     fn go(
         &self,
         length: f64,
-        [direction, product]: [&Multipliers<N>; 2],
-        [step, left]: [&mut Multipliers<N>; 2],
+        way: Way<'_, N>,
+        step: &mut Multipliers<N>,
+        left: &mut Multipliers<N>,
         solved: &mut Solved<N>,
     ) -> f64 {
+        let Way { direction, product } = way;
         let of_point = |rank: usize, step: &mut [f64; N], left: &mut [f64; N]| {
             let mut solved = [0.0; N];
             for k in 0..N {
@@ -188,6 +192,13 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         solved.aggregates = self.coarse.solve(&of_aggregates);
         of_points + dot(&of_aggregates, &solved.aggregates)
     }
+}
+
+/// A direction of a search with its product with the matrix.
+#[derive(Clone, Copy)]
+struct Way<'a, const N: usize> {
+    direction: &'a Multipliers<N>,
+    product: &'a Multipliers<N>,
 }
 
 /// Adds the squares of two rows with weights.
