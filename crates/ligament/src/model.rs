@@ -21,7 +21,7 @@ use crate::formulation::{self, Formulation};
 use crate::loading;
 use crate::plausibility;
 use crate::precracks::{self, Precracked};
-use crate::setup::{Analysis, CorrectionDomain, Law, Setup};
+use crate::setup::{Analysis, CorrectionDomain, Setup};
 use crate::soundness::{
     forbid_overlap, require_connected, require_distinct, require_factors, require_numbers,
 };
@@ -141,7 +141,7 @@ impl<const D: usize> Model<D> {
 pub fn sharing<const D: usize>(setup: &Setup<D>) -> Option<&'static dyn Exchange> {
     let Together(ranks) = setup.solver.ranks?;
     let needs_all = setup.closing
-        || matches!(setup.law, Law::MbbPd { .. })
+        || !setup.law.row.couples_ends_alone
         || matches!(setup.analysis, Analysis::Modal(_));
     (!needs_all).then_some(ranks)
 }

@@ -10,7 +10,7 @@ use thiserror::Error;
 
 use crate::body::{Body, Origin};
 use crate::implausible::Implausible;
-use crate::setup::{Horizon, Law, Setup};
+use crate::setup::{Horizon, Setup};
 
 /// Below this the domain correction is not known to have a fixed point.
 const SMALLEST_SAFE_FACTOR: f64 = 2.0;
@@ -411,7 +411,7 @@ fn not_converged<const D: usize>(
 /// Bonds with a shear stiffness between points without rotations; above the Poisson's ratio of central forces they give energy.
 fn rotation_resisted<const D: usize>(setup: &Setup<D>, material: &Isotropic) -> Option<Warning> {
     let (poisson, limit) = poisson_and_limit(setup, material);
-    let resists = matches!(setup.law, Law::Pds { .. }) && poisson < limit - POISSON_TOLERANCE;
+    let resists = setup.law.row.resists_rotations() && poisson < limit - POISSON_TOLERANCE;
     let law = setup.law.name();
     resists.then_some(Warning::RotationResisted { law })
 }
@@ -425,8 +425,13 @@ fn rotation_as_sliding<const D: usize>(setup: &Setup<D>) -> Option<Warning> {
     let sees_rotations = |measure: &Measure| match measure {
         Measure::Sliding | Measure::Friction => true,
         // Without a shear stiffness there is no energy of shear.
-        Measure::Energy => !law.fixes_poisson(),
-        _ => false,
+        Measure::Energy => !law.row.fixes_poisson,
+        Measure::Tension | Measure::Compression | Measure::Fibre => false,
+        Measure::MixedModeX
+        | Measure::MixedModeY
+        | Measure::PrintedOpening
+        | Measure::PrintedSliding
+        | Measure::PrintedMixed => false,
     };
     let mut kinds = setup.criteria.iter().map(|it| it.kind);
     let kind = kinds.find(|it| it.measures.iter().any(sees_rotations));
@@ -440,13 +445,13 @@ fn energy_given_back<const D: usize>(setup: &Setup<D>, material: &Isotropic) -> 
     let mut kinds = setup.criteria.iter();
     let looks_at_energy = kinds.any(|it| it.kind.measures.contains(&Measure::Energy));
     let (poisson, limit) = poisson_and_limit(setup, material);
-    let gives_energy = poisson > limit && !setup.law.fixes_poisson();
+    let gives_energy = poisson > limit && !setup.law.row.fixes_poisson;
     (looks_at_energy && gives_energy).then_some(Warning::EnergyGivenBack { poisson, limit })
 }
 
 fn of_poisson<const D: usize>(setup: &Setup<D>, material: &Isotropic) -> Option<Warning> {
     let (poisson, limit) = poisson_and_limit(setup, material);
-    if setup.law.fixes_poisson() {
+    if setup.law.row.fixes_poisson {
         let differs = (poisson - limit).abs() > POISSON_TOLERANCE;
         return differs.then_some(Warning::PoissonNotUsed { poisson, limit });
     }
@@ -467,7 +472,7 @@ fn of_poisson<const D: usize>(setup: &Setup<D>, material: &Isotropic) -> Option<
             turns,
         },
         Space::Solid => {
-            let form = setup.law.shear_form(Space::Solid);
+            let form = setup.law.row.shear_form.map(|of| of(Space::Solid));
             Warning::NegativeShearInSpace(NegativeShear::new(poisson, form, horizon_factor))
         }
     })

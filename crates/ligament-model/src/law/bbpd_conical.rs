@@ -1,11 +1,30 @@
 //! Bond-based peridynamics with a conical micromodulus: bonds count less the longer they are (Ha and Bobaru 2010, section
 //! 2).
 
-use super::bbpd::central;
-use super::{BondStiffness, Densities, constants};
+use super::{BondLaw, BondStiffness, Calibration, Densities, Law, Options, constants, everywhere};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::material::{Isotropic, Space};
+
+/// The law.
+pub const LAW: BondLaw = BondLaw {
+    options: Options {
+        calibration: Some(Calibration::Integral),
+        ..Options::NONE
+    },
+    fixes_poisson: true,
+    ..BondLaw::new(
+        "bbpd-conical",
+        "Central forces with a stiffness that falls with the length.",
+        "Ha and Bobaru 2010, section 2",
+        everywhere!(it => stiffness(it.bonds, it.cloud, &it.isotropic(), it.space)),
+    )
+};
+
+impl Law {
+    /// Central forces with a stiffness that falls with the length of the bond.
+    pub const BBPD_CONICAL: Self = Self::usual(&LAW);
+}
 
 /// Stiffness densities of every bond: k_n alone,
 ///
@@ -19,8 +38,9 @@ pub fn stiffness<const D: usize>(
     materials: &[Isotropic],
     space: Space,
 ) -> BondStiffness {
-    let constant = |material| {
-        let constant = constants::axial(&central(material, space), space, cloud.thickness);
+    let constant = |material: &Isotropic| {
+        let central = material.with_central_forces(space);
+        let constant = constants::axial(&central, space, cloud.thickness);
         [(D + 2) as f64 * constant]
     };
     let constants: Vec<[f64; 1]> = materials.iter().map(constant).collect();

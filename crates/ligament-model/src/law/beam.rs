@@ -1,28 +1,57 @@
 //! The beam-like bond (Gerstle 2007, in the form of MPPD), which is also the law of NHPD eq. 6.
 
-use super::{BondStiffness, Densities, constants};
+pub use super::row::ShearForm;
+use super::{
+    BondLaw, BondStiffness, Calibration, Densities, Law, Options, PaperCorrection, constants,
+    everywhere,
+};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
+use crate::element::ElementKind;
 use crate::material::{Isotropic, Space};
 
-/// Shear stiffness k_t of a bond over its length.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ShearForm {
-    /// The same k_t for all lengths, that of [`super::pds`]. With a factor alpha that depends on the length, the ratio of shear to stretch
-    /// stays right: NHPD's form in space.
-    Constant,
-    /// k_t = 12 d/l^2, as a beam of Euler and Bernoulli has: NHPD's form in the plane. In space NHPD's factor alpha, which falls with the
-    /// length, makes the shear of the body 1.16 times too strong: nu = .2 becomes .192.
-    Falling,
+/// NHPD's law.
+pub const NHPD: BondLaw = BondLaw {
+    shear_form: Some(nhpd_form),
+    correction: PaperCorrection::LengthAndDomain,
+    element: |_| ElementKind::Beam,
+    ..BondLaw::new(
+        "nhpd",
+        "Beam-like bonds with non-unified horizons: normal, shear and rotational stiffness.",
+        "NHPD eq. 6",
+        everywhere!(it => stiffness(it.bonds, it.cloud, &it.isotropic(), it.space, nhpd_form(it.space))),
+    )
+};
+
+/// MPPD's beam form, whose integrals leave the constants 7.5 % off at nu = 0 with a horizon factor of 3.
+pub const MPPD_BEAM: BondLaw = BondLaw {
+    options: Options {
+        calibration: Some(Calibration::Discrete),
+        ..Options::NONE
+    },
+    element: |_| ElementKind::Beam,
+    shear_form: Some(|_| ShearForm::Falling),
+    ..BondLaw::new(
+        "mppd-beam",
+        "Micropolar bonds in the form of a beam: shear stiffness falls with the length.",
+        "Gerstle 2007; OMPPD eq. 22",
+        everywhere!(it => stiffness(it.bonds, it.cloud, &it.isotropic(), it.space, ShearForm::Falling)),
+    )
+};
+
+impl Law {
+    /// Beam-like bonds with non-unified horizons: normal, shear and rotational stiffness.
+    pub const NHPD: Self = Self::usual(&NHPD);
+
+    /// Normal and shear stiffness in the form of a beam, with rotations: shear stiffness falls with the length.
+    pub const MPPD_BEAM: Self = Self::usual(&MPPD_BEAM);
 }
 
-impl ShearForm {
-    /// The form of NHPD's law.
-    pub fn of_nhpd(space: Space) -> Self {
-        match space {
-            Space::Plane(_) => Self::Falling,
-            Space::Solid => Self::Constant,
-        }
+/// The form of NHPD's law.
+fn nhpd_form(space: Space) -> ShearForm {
+    match space {
+        Space::Plane(_) => ShearForm::Falling,
+        Space::Solid => ShearForm::Constant,
     }
 }
 

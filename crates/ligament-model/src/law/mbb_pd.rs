@@ -16,11 +16,57 @@ pub mod rows;
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
-use super::{BondStiffness, bulk_stiffness, materials};
+use super::{
+    BondLaw, BondStiffness, Form, Law, Materials, Options, PaperCorrection, PerSpace, Strains,
+    bulk_stiffness, materials,
+};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
+use crate::element::ElementKind;
 use crate::element::imaginary::{StrainStiffness, entries};
+use crate::failure::mixed_mode;
 use crate::material::{Elasticity, Plane};
+
+/// The law.
+pub const LAW: BondLaw = BondLaw {
+    options: Options {
+        form: Some(Form::Full),
+        strains: Some(Strains::Small),
+        ..Options::NONE
+    },
+    element: |options| match (options.form, options.strains) {
+        (Some(Form::Pairwise), _) => ElementKind::Pairwise,
+        (Some(Form::Full | Form::Rows) | None, Some(Strains::True)) => ElementKind::TrueStrain,
+        (Some(Form::Full | Form::Rows) | None, Some(Strains::Small) | None) => {
+            ElementKind::Imaginary
+        }
+    },
+    materials: Materials::Anisotropic,
+    needs_lattice: true,
+    couples_ends_alone: false,
+    correction: PaperCorrection::None,
+    criterion: &mixed_mode::MIXED_MODE,
+    ..BondLaw::new(
+        "mbb-pd",
+        "All strains of a small rectangle around each bond of a lattice.",
+        "MBB-PD eqs 12 to 19, appendix A",
+        PerSpace {
+            plane: |it| {
+                let make = match it.options.form.unwrap_or_default() {
+                    Form::Rows => rows::stiffness,
+                    Form::Full | Form::Pairwise => stiffness,
+                };
+                make(it.bonds, it.cloud, it.elasticity, it.space.plane())
+            },
+            solid: None,
+        },
+    )
+};
+
+impl Law {
+    /// All strains of a small rectangle around each bond of a lattice.
+    pub const MBB_PD: Self = Self::usual(&LAW);
+}
 
 /// Factors psi of the points, from the families in `bonds`, shape (n_points), 1/m^4.
 pub fn factors(bonds: &BondSet, cloud: &PointCloud) -> Vec<f64> {

@@ -4,10 +4,47 @@
 use std::f64::consts::PI;
 
 use super::rotational::RotationalStiffness;
-use super::{BondStiffness, CENTRAL_FORCE_TOLERANCE, Densities};
+use super::{
+    BondLaw, BondStiffness, CENTRAL_FORCE_TOLERANCE, Densities, Law, Materials, Options, PerSpace,
+    ShearForm,
+};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
+use crate::element::ElementKind;
 use crate::material::{Elasticity, Plane};
+
+/// The law.
+pub const LAW: BondLaw = BondLaw {
+    options: Options {
+        rotational_stiffness: Some(RotationalStiffness::Decaying),
+        ..Options::NONE
+    },
+    element: |_| ElementKind::Beam,
+    shear_form: Some(|_| ShearForm::Constant),
+    materials: Materials::Orthotropic,
+    ..BondLaw::new(
+        "orthotropic",
+        "Stiffness by the direction in the axes of an orthotropic material, rotations.",
+        "OMPPD eqs 50 to 59",
+        PerSpace {
+            plane: |it| {
+                stiffness(
+                    it.bonds,
+                    it.cloud,
+                    it.elasticity,
+                    it.space.plane(),
+                    it.rotational(),
+                )
+            },
+            solid: None,
+        },
+    )
+};
+
+impl Law {
+    /// Stiffness by the direction in the axes of an orthotropic material, with rotations.
+    pub const ORTHOTROPIC: Self = Self::usual(&LAW);
+}
 
 /// Stiffness densities of every bond, OMPPD eqs 58 and 59 with the constants of eqs 50 to 53: with psi measured from the axis 1
 /// of the material,

@@ -1,9 +1,28 @@
 //! Bonds that resist stretch and shear, without rotations of the points (PDS; MPPD section 2.1).
 
-use super::{BondStiffness, Densities, constants};
+use super::{BondLaw, BondStiffness, Calibration, Densities, Law, Options, constants, everywhere};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::material::{Isotropic, Space};
+
+/// The law.
+pub const LAW: BondLaw = BondLaw {
+    options: Options {
+        calibration: Some(Calibration::Integral),
+        ..Options::NONE
+    },
+    ..BondLaw::new(
+        "pds",
+        "Normal and constant shear stiffness, no rotations of the points.",
+        "MPPD eqs 7, 21; OMPPD eqs 54 to 57",
+        everywhere!(it => stiffness(it.bonds, it.cloud, &it.isotropic(), it.space)),
+    )
+};
+
+impl Law {
+    /// Normal and constant shear stiffness, no rotations of the points.
+    pub const PDS: Self = Self::usual(&LAW);
+}
 
 /// Stiffness densities of every bond, MPPD eqs 7 and 21 (OMPPD eqs 54 to 57); in space our own:
 ///

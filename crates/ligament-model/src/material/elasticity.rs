@@ -176,6 +176,14 @@ impl Isotropic {
         }
     }
 
+    /// The material that central forces make of a material: its Young's modulus with the Poisson's ratio 1/3 or 1/4.
+    pub fn with_central_forces(&self, space: impl Into<Space>) -> Self {
+        Self {
+            young: self.young,
+            poisson: Self::central_force_poisson(space),
+        }
+    }
+
     /// Bulk modulus K = E/(3 (1 - 2 nu)), Pa.
     pub fn bulk_modulus(&self) -> f64 {
         self.young / (3.0 * (1.0 - 2.0 * self.poisson))
