@@ -7,8 +7,8 @@ use ligament_model::correction::{
 use ligament_model::dimension::cast_ref;
 use ligament_model::failure::crack_energies::{Components, Lattice};
 use ligament_model::failure::{self, Basis, Criteria, NoLimit};
+use ligament_model::law::calibration;
 use ligament_model::law::rotational::{self, RotationalScale};
-use ligament_model::law::{LawInput, calibration};
 use ligament_model::material::{Stiffness, milder};
 use ligament_model::{
     BondStiffness, BondSystem, Elasticity, ElementKind, EnergyRatio, FixedFields, Horizons,
@@ -65,13 +65,7 @@ impl<'a, const D: usize> Formulation<'a, D> {
         let (space, law) = (setup.space(), setup.law);
         let materials = setup.materials.iter();
         let elasticity: Vec<Elasticity> = materials.map(|it| it.material.elasticity).collect();
-        let stiffness = law.densities(&LawInput {
-            bonds,
-            cloud,
-            elasticity: &elasticity,
-            space,
-            options: law.options,
-        });
+        let stiffness = law.densities(bonds, cloud, &elasticity, space);
         let stiffness = match law.options.calibration {
             Some(Calibration::Discrete) => {
                 let effective: Vec<Isotropic> = (setup.materials.iter())

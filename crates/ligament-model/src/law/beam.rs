@@ -1,14 +1,12 @@
 //! The beam-like bond (Gerstle 2007, in the form of MPPD), which is also the law of NHPD eq. 6.
 
-pub use super::row::ShearForm;
+use super::row::ShearForm;
 use super::{
-    BondLaw, BondStiffness, Calibration, Densities, Law, Options, PaperCorrection, constants,
-    everywhere,
+    BondLaw, BondStiffness, Calibration, Densities, Law, LawInput, Options, PaperCorrection,
+    constants,
 };
-use crate::bonds::BondSet;
-use crate::cloud::PointCloud;
 use crate::element::ElementKind;
-use crate::material::{Isotropic, Space};
+use crate::material::Space;
 
 /// NHPD's law.
 pub const NHPD: BondLaw = BondLaw {
@@ -19,7 +17,8 @@ pub const NHPD: BondLaw = BondLaw {
         "nhpd",
         "Beam-like bonds with non-unified horizons: normal, shear and rotational stiffness.",
         "NHPD eq. 6",
-        everywhere!(it => stiffness(it.bonds, it.cloud, &it.isotropic(), it.space, nhpd_form(it.space))),
+        |it| densities(it, nhpd_form(it.space)),
+        Some(|it| densities(it, nhpd_form(it.space))),
     )
 };
 
@@ -35,7 +34,8 @@ pub const MPPD_BEAM: BondLaw = BondLaw {
         "mppd-beam",
         "Micropolar bonds in the form of a beam: shear stiffness falls with the length.",
         "Gerstle 2007; OMPPD eq. 22",
-        everywhere!(it => stiffness(it.bonds, it.cloud, &it.isotropic(), it.space, ShearForm::Falling)),
+        |it| densities(it, ShearForm::Falling),
+        Some(|it| densities(it, ShearForm::Falling)),
     )
 };
 
@@ -63,20 +63,9 @@ fn nhpd_form(space: Space) -> ShearForm {
 /// d is negative above the Poisson's ratio of central forces. A uniform strain does not see k_theta, which in space bending and torsion share:
 /// with k_phi = g/l for torsion the energy of a uniform curvature chi is (pi H^4/60) ((g - d)(tr^2 chi + chi : chi^T) + (g + 4 d) chi : chi),
 /// and g = d leaves chi : chi alone.
-pub fn stiffness<const D: usize>(
-    bonds: &BondSet<D>,
-    cloud: &PointCloud<D>,
-    materials: &[Isotropic],
-    space: Space,
-    form: ShearForm,
-) -> BondStiffness {
-    // What does not depend on the bond.
-    let constant = |material| {
-        [constants::axial, constants::bending, constants::shear]
-            .map(|of| of(material, space, cloud.thickness))
-    };
-    let constants: Vec<[f64; 3]> = materials.iter().map(constant).collect();
-    BondStiffness::from_constants(bonds, cloud, &constants, |[c, d, shear], bond| {
+fn densities<const D: usize>(input: &LawInput<'_, D>, form: ShearForm) -> BondStiffness {
+    let constants = [constants::axial, constants::bending, constants::shear];
+    input.of_isotropic(constants, |[c, d, shear], bond| {
         let (l, h) = (bond.length, bond.horizon);
         let d = d / h.powi(D as i32 - 1);
         Densities {

@@ -17,7 +17,7 @@ use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
 use super::{
-    BondLaw, BondStiffness, Form, Law, Materials, Options, PaperCorrection, PerSpace, Strains,
+    BondLaw, BondStiffness, Form, Law, LawInput, Materials, Options, PaperCorrection, Strains,
     bulk_stiffness, materials,
 };
 use crate::bonds::BondSet;
@@ -25,7 +25,6 @@ use crate::cloud::PointCloud;
 use crate::element::ElementKind;
 use crate::element::imaginary::{StrainStiffness, entries};
 use crate::failure::mixed_mode;
-use crate::material::{Elasticity, Plane};
 
 /// The law.
 pub const LAW: BondLaw = BondLaw {
@@ -50,16 +49,11 @@ pub const LAW: BondLaw = BondLaw {
         "mbb-pd",
         "All strains of a small rectangle around each bond of a lattice.",
         "MBB-PD eqs 12 to 19, appendix A",
-        PerSpace {
-            plane: |it| {
-                let make = match it.options.form.unwrap_or_default() {
-                    Form::Rows => rows::stiffness,
-                    Form::Full | Form::Pairwise => stiffness,
-                };
-                make(it.bonds, it.cloud, it.elasticity, it.space.plane())
-            },
-            solid: None,
+        |it| match it.options.form.unwrap_or_default() {
+            Form::Rows => rows::densities(it),
+            Form::Full | Form::Pairwise => densities(it),
         },
+        None,
     )
 };
 
@@ -82,14 +76,9 @@ pub fn factors(bonds: &BondSet, cloud: &PointCloud) -> Vec<f64> {
 
 /// Micro-modulus matrices K = psi c (eq. 16) with the mean psi of the ends of each bond and the c of its materials; `axial` and
 /// `shear` have those for a stretch along the bond and for S_xy.
-pub fn stiffness(
-    bonds: &BondSet,
-    cloud: &PointCloud,
-    elasticity: &[Elasticity],
-    plane: Plane,
-) -> BondStiffness {
-    let stiffnesses = plane_stiffnesses(bonds, cloud, elasticity, plane);
-    let psi = factors(bonds, cloud);
+fn densities(input: &LawInput<'_, 2>) -> BondStiffness {
+    let (stiffnesses, bonds) = (plane_stiffnesses(input), input.bonds);
+    let psi = factors(bonds, input.cloud);
     let of_bond = |(ends, stiffness): (&[u32; 2], Matrix3<f64>)| {
         let [a, b] = ends.map(|end| psi[end as usize]);
         (0.5 * (a + b) * stiffness, a / (a + b))
@@ -119,18 +108,14 @@ fn of_matrices(bonds: &BondSet, matrices: &[(Matrix3<f64>, f64)]) -> BondStiffne
 }
 
 /// The stiffness of the plane for the materials of each bond ([`materials::of_bond`]), shape (n_bonds), Pa.
-fn plane_stiffnesses(
-    bonds: &BondSet,
-    cloud: &PointCloud,
-    elasticity: &[Elasticity],
-    plane: Plane,
-) -> Vec<Matrix3<f64>> {
-    let of_materials: Vec<Matrix3<f64>> = (elasticity.iter())
+fn plane_stiffnesses(input: &LawInput<'_, 2>) -> Vec<Matrix3<f64>> {
+    let (bonds, plane) = (input.bonds, input.space.plane());
+    let of_materials: Vec<Matrix3<f64>> = (input.elasticity.iter())
         .map(|material| material.plane_stiffness(plane))
         .collect();
     let bulk: Vec<f64> = of_materials.iter().map(bulk_stiffness).collect();
     let of_bond = |&ends: &[u32; 2]| {
-        let shares = materials::of_bond(cloud, ends, &bulk);
+        let shares = materials::of_bond(input.cloud, ends, &bulk);
         shares.fold(Matrix3::zeros(), |sum, (material, share)| {
             sum + share * of_materials[material]
         })

@@ -31,10 +31,7 @@ pub mod stability;
 pub use densities::BondStiffness;
 pub(crate) use densities::{CENTRAL_FORCE_TOLERANCE, Densities, bulk_stiffness};
 pub use options::{Calibration, Form, Options, Strains};
-use row::everywhere;
-pub use row::{
-    BondLaw, Law, LawInput, MakeDensities, Materials, PaperCorrection, PerSpace, ShearForm,
-};
+pub use row::{BondLaw, Law, LawInput, MakeDensities, Materials, PaperCorrection, ShearForm};
 
 /// All laws. A law is one row: its own file and its place here.
 pub const LAWS: [&BondLaw; 8] = [

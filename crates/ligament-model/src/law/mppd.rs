@@ -3,11 +3,8 @@
 use rayon::prelude::*;
 
 use super::rotational::RotationalStiffness;
-use super::{BondLaw, BondStiffness, Calibration, Law, Options, ShearForm, everywhere, pds};
-use crate::bonds::BondSet;
-use crate::cloud::PointCloud;
+use super::{BondLaw, BondStiffness, Calibration, Law, LawInput, Options, ShearForm, pds};
 use crate::element::ElementKind;
-use crate::material::{Isotropic, Space};
 
 /// The law.
 pub const LAW: BondLaw = BondLaw {
@@ -22,7 +19,8 @@ pub const LAW: BondLaw = BondLaw {
         "mppd",
         "Normal and constant shear stiffness, rotations.",
         "MPPD section 2; OMPPD eqs 54 to 57",
-        everywhere!(it => stiffness(it.bonds, it.cloud, &it.isotropic(), it.space, it.rotational())),
+        densities,
+        Some(densities),
     )
 };
 
@@ -32,17 +30,11 @@ impl Law {
 }
 
 /// Stiffness densities of every bond: k_n and k_t of [`pds`], and a chosen k_theta.
-pub fn stiffness<const D: usize>(
-    bonds: &BondSet<D>,
-    cloud: &PointCloud<D>,
-    materials: &[Isotropic],
-    space: Space,
-    rotational: RotationalStiffness,
-) -> BondStiffness {
-    let non_polar = pds::stiffness(bonds, cloud, materials, space);
+fn densities<const D: usize>(input: &LawInput<'_, D>) -> BondStiffness {
+    let (non_polar, bonds) = (pds::densities(input), input.bonds);
     let rotational = (&non_polar.shear, &bonds.length, &bonds.horizon)
         .into_par_iter()
-        .map(|(&shear, &length, &horizon)| rotational.density(shear, length, horizon))
+        .map(|(&shear, &length, &horizon)| input.rotational().density(shear, length, horizon))
         .collect();
     BondStiffness {
         rotational,

@@ -5,11 +5,9 @@ use std::f64::consts::PI;
 
 use super::rotational::RotationalStiffness;
 use super::{
-    BondLaw, BondStiffness, CENTRAL_FORCE_TOLERANCE, Densities, Law, Materials, Options, PerSpace,
+    BondLaw, BondStiffness, CENTRAL_FORCE_TOLERANCE, Densities, Law, LawInput, Materials, Options,
     ShearForm,
 };
-use crate::bonds::BondSet;
-use crate::cloud::PointCloud;
 use crate::element::ElementKind;
 use crate::material::{Elasticity, Plane};
 
@@ -26,18 +24,8 @@ pub const LAW: BondLaw = BondLaw {
         "orthotropic",
         "Stiffness by the direction in the axes of an orthotropic material, rotations.",
         "OMPPD eqs 50 to 59",
-        PerSpace {
-            plane: |it| {
-                stiffness(
-                    it.bonds,
-                    it.cloud,
-                    it.elasticity,
-                    it.space.plane(),
-                    it.rotational(),
-                )
-            },
-            solid: None,
-        },
+        densities,
+        None,
     )
 };
 
@@ -58,18 +46,12 @@ impl Law {
 /// # Panics
 ///
 /// Panics for a material without axes ([`Elasticity::Anisotropic`]): its six constants have no place in four.
-pub fn stiffness(
-    bonds: &BondSet,
-    cloud: &PointCloud,
-    materials: &[Elasticity],
-    plane: Plane,
-    rotational: RotationalStiffness,
-) -> BondStiffness {
-    let constants: Vec<[f64; 8]> = materials
-        .iter()
-        .map(|material| harmonics(material, plane, cloud.thickness))
+fn densities(input: &LawInput<'_, 2>) -> BondStiffness {
+    let (plane, rotational) = (input.space.plane(), input.rotational());
+    let constants: Vec<[f64; 8]> = (input.elasticity.iter())
+        .map(|material| harmonics(material, plane, input.cloud.thickness))
         .collect();
-    BondStiffness::from_constants(bonds, cloud, &constants, |constants, bond| {
+    BondStiffness::from_constants(input.bonds, input.cloud, &constants, |constants, bond| {
         let [a, b] = bond.direction;
         let [cos_2, sin_2] = [a * a - b * b, 2.0 * a * b];
         let [cos_4, sin_4] = [cos_2 * cos_2 - sin_2 * sin_2, 2.0 * cos_2 * sin_2];

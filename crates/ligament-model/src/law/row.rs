@@ -1,6 +1,6 @@
 //! What a bond law is, and a law with what is chosen of it.
 
-use super::BondStiffness;
+use super::densities::{BondGeometry, BondStiffness, Densities};
 use super::options::Options;
 use super::rotational::{Profile, RotationalStiffness};
 use crate::bonds::BondSet;
@@ -37,32 +37,14 @@ pub struct BondLaw {
     pub correction: PaperCorrection,
     /// Criterion by which bonds fail where none is given.
     pub criterion: &'static Kind,
-    /// What makes the stiffness densities.
-    pub densities: PerSpace,
+    /// What makes the stiffness densities in the plane.
+    pub plane: MakeDensities<2>,
+    /// What makes them in space; None for a law that exists in the plane alone.
+    pub solid: Option<MakeDensities<3>>,
 }
 
 /// What makes stiffness densities of bonds in D dimensions.
 pub type MakeDensities<const D: usize> = fn(&LawInput<'_, D>) -> BondStiffness;
-
-/// What makes the stiffness densities of a law in the plane and in space.
-#[derive(Debug, Clone, Copy)]
-pub struct PerSpace {
-    /// Densities in the plane.
-    pub plane: MakeDensities<2>,
-    /// Densities in space; None for a law that exists in the plane alone.
-    pub solid: Option<MakeDensities<3>>,
-}
-
-/// Densities that one expression makes in the plane and in space.
-macro_rules! everywhere {
-    ($input:ident => $densities:expr) => {
-        $crate::law::PerSpace {
-            plane: |$input| $densities,
-            solid: Some(|$input| $densities),
-        }
-    };
-}
-pub(super) use everywhere;
 
 /// What the stiffness densities of bonds in D dimensions are made of.
 #[derive(Debug, Clone, Copy)]
@@ -150,10 +132,17 @@ impl PartialEq for BondLaw {
 impl Eq for BondLaw {}
 
 impl<const D: usize> LawInput<'_, D> {
-    /// The materials that are isotropic: all, for a law of such materials.
-    pub(super) fn isotropic(&self) -> Vec<Isotropic> {
+    /// Densities from constants of the materials, each made of an isotropic one in a space with the thickness of the body.
+    pub(super) fn of_isotropic<const N: usize>(
+        &self,
+        constants: [fn(&Isotropic, Space, f64) -> f64; N],
+        densities: impl Fn(&[f64; N], &BondGeometry<D>) -> Densities + Sync,
+    ) -> BondStiffness {
         let isotropic = self.elasticity.iter().filter_map(Elasticity::isotropic);
-        isotropic.collect()
+        let made =
+            isotropic.map(|it| constants.map(|of| of(&it, self.space, self.cloud.thickness)));
+        let made: Vec<[f64; N]> = made.collect();
+        BondStiffness::from_constants(self.bonds, self.cloud, &made, densities)
     }
 
     /// The chosen stiffness against relative rotation.
@@ -168,7 +157,8 @@ impl BondLaw {
         word: &'static str,
         sentence: &'static str,
         source: &'static str,
-        densities: PerSpace,
+        plane: MakeDensities<2>,
+        solid: Option<MakeDensities<3>>,
     ) -> Self {
         Self {
             word,
@@ -183,7 +173,8 @@ impl BondLaw {
             couples_ends_alone: true,
             correction: PaperCorrection::Volumes,
             criterion: &strength::STRENGTH,
-            densities,
+            plane,
+            solid,
         }
     }
 
@@ -191,7 +182,7 @@ impl BondLaw {
     pub fn exists_in(&self, space: Space) -> bool {
         match space {
             Space::Plane(_) => true,
-            Space::Solid => self.densities.solid.is_some(),
+            Space::Solid => self.solid.is_some(),
         }
     }
 
@@ -273,14 +264,27 @@ impl Law {
         constants.map_or(material.elasticity, Elasticity::Isotropic)
     }
 
-    /// Stiffness densities of bonds.
+    /// Stiffness densities of the bonds of points in a space, of materials (n_materials).
     ///
     /// # Panics
     ///
     /// Panics for a law that does not exist in the dimension of the body.
-    pub fn densities<const D: usize>(&self, input: &LawInput<'_, D>) -> BondStiffness {
-        let PerSpace { plane, solid } = self.row.densities;
+    pub fn densities<const D: usize>(
+        &self,
+        bonds: &BondSet<D>,
+        cloud: &PointCloud<D>,
+        elasticity: &[Elasticity],
+        space: Space,
+    ) -> BondStiffness {
+        let input = LawInput {
+            bonds,
+            cloud,
+            elasticity,
+            space,
+            options: self.options,
+        };
+        let BondLaw { plane, solid, .. } = *self.row;
         let make: Option<MakeDensities<D>> = cast(plane).or_else(|| cast(solid?));
-        make.expect("laws are checked to exist in the dimension of the body")(input)
+        make.expect("laws are checked to exist in the dimension of the body")(&input)
     }
 }

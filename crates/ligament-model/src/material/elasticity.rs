@@ -38,6 +38,12 @@ impl Space {
     }
 }
 
+impl From<Isotropic> for Elasticity {
+    fn from(constants: Isotropic) -> Self {
+        Self::Isotropic(constants)
+    }
+}
+
 impl From<Plane> for Space {
     fn from(plane: Plane) -> Self {
         Self::Plane(plane)
