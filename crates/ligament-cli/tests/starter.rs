@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use ligament::setup::{Form, Law, Strains};
+use ligament::setup::Law;
 use ligament_case::case::{CaseFile, schema};
 use ligament_case::starter::{Starter, StarterError, of_lattice, of_mesh};
 use ligament_cli::check::{Extent, check};

@@ -172,9 +172,9 @@ fn write_energy<const D: usize>(
     criterion: &Criterion,
 ) -> io::Result<()> {
     // Bonds across the bar may come to their limit before those along it.
-    let at_most = match criterion.measure {
-        Measure::Energy => "at most ",
-        _ => "",
+    let at_most = match criterion.measure == Measure::Energy {
+        true => "at most ",
+        false => "",
     };
     let setup = &model.setup;
     // The weaker material decides at interfaces, so that limits belong to a material only where there is one.

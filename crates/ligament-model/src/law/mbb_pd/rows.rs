@@ -3,7 +3,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{of_matrices, plane_stiffnesses};
+use super::matrices::{of_matrices, plane_stiffnesses};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::element::imaginary::BondClass;
