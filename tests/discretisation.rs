@@ -393,7 +393,7 @@ fn bodies_on_top_of_each_other_are_refused() {
     let setup = Setup::new(
         MeshBody::from(mesh),
         Material::isotropic(1.0, 0.2),
-        Law::Nhpd,
+        Law::NHPD,
     );
     let error = Model::build(setup, &mut ()).unwrap_err().to_string();
     assert!(
@@ -440,7 +440,7 @@ fn a_thin_slot_does_not_shrink_horizons() {
     mesh.groups.clear();
     let setup = |through: bool| {
         let body = MeshBody::from(mesh.clone());
-        let mut setup = Setup::new(body, Material::isotropic(1.0, 0.2), Law::Nhpd);
+        let mut setup = Setup::new(body, Material::isotropic(1.0, 0.2), Law::NHPD);
         setup.bonds_through_voids = through;
         Model::build(setup, &mut ())
     };

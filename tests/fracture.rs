@@ -6,6 +6,7 @@ mod closing;
 mod crack_lines;
 mod crack_surfaces;
 mod determinism;
+mod every_law;
 mod exact_path;
 mod failure_criteria;
 mod fracture_energy;

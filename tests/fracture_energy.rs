@@ -9,7 +9,6 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use ligament_model::element::Remaining;
 use ligament_model::failure::crack_opening::CrackEnergy;
 use ligament_model::failure::fracture_energy::{critical_stretch, opening_modulus};
-use ligament_model::law::bbpd;
 use ligament_model::thermal::ThermalStrain;
 use ligament_model::{Isotropic, Plane};
 use verification::bench::Bench;
@@ -198,7 +197,7 @@ fn the_critical_stretch_is_that_of_the_integral() {
         }
         .map(|it| it / volume);
         type Axial<'a> = &'a dyn Fn(f64) -> f64;
-        let with_central_forces = bbpd::central(&material, plane);
+        let with_central_forces = material.with_central_forces(plane);
         let laws: [(&Isotropic, Axial<'_>); 3] = [
             (&material, &|_| beam_axial),
             (&with_central_forces, &|_| central),

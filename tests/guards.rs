@@ -2,6 +2,7 @@
 
 mod architecture;
 mod dependencies;
+mod existence;
 mod metadata;
 mod structure;
 mod targets;

@@ -6,14 +6,13 @@
 
 use ligament::body::SolidMeshBody;
 use ligament::prelude::*;
-use ligament::setup::{Form, MaterialRegion, Strains, Surface};
+use ligament::setup::{MaterialRegion, Surface};
 use ligament_mesh::{Cell, Group, Mesh, SolidCell, SolidMesh};
 use ligament_model::Canvas;
 use ligament_model::correction::patch::{Reference, Settings};
 use verification::meshes;
 use verification::solids::block;
 
-const CALIBRATION: Calibration = Calibration::Integral;
 const LENGTH: f64 = 0.1;
 const HEIGHT: f64 = 0.05;
 const PULLED: f64 = 1e-5;
@@ -91,26 +90,11 @@ fn modulus(poisson: f64) -> f64 {
 #[test]
 fn halves_of_a_mesh_at_any_ratio() {
     let laws = [
-        (Law::Nhpd, 0.0),
-        (Law::Nhpd, 0.2),
-        (
-            Law::Bbpd {
-                calibration: CALIBRATION,
-            },
-            1.0 / 3.0,
-        ),
-        (
-            Law::Pds {
-                calibration: CALIBRATION,
-            },
-            0.2,
-        ),
-        (
-            Law::Orthotropic {
-                rotational_stiffness: RotationalStiffness::Decaying,
-            },
-            0.2,
-        ),
+        (Law::NHPD, 0.0),
+        (Law::NHPD, 0.2),
+        (Law::BBPD, 1.0 / 3.0),
+        (Law::PDS, 0.2),
+        (Law::ORTHOTROPIC, 0.2),
     ];
     let body = || MeshBody::from(meshes::read("meshes/bimaterial.msh"));
     for (law, poisson) in laws {
@@ -153,16 +137,13 @@ fn halves_of_a_lattice_at_any_ratio() {
         ("right-half", CellSet::right(n / 2)),
     ];
     let sets = sets.map(|(name, set)| (name.to_owned(), set)).into();
-    let full = Law::MbbPd {
-        form: Form::Full,
-        strains: Strains::Small,
-    };
-    for law in [full, Law::Nhpd] {
+    let full = Law::MBB_PD;
+    for law in [full, Law::NHPD] {
         let off = |ratio: f64| {
             let body =
                 LatticeBody::new([n, n / 2], [side; 2], [0.5 * side; 2], &[], &sets).unwrap();
             let mut setup = halved(body, law, 0.2, ratio);
-            if law == Law::Nhpd {
+            if law == Law::NHPD {
                 setup.correction.surface = Surface::Patch(Settings::default());
             }
             // From the middle of the first cells to the middle of the last.
@@ -320,13 +301,9 @@ fn force_through(area: f64, stiffness: f64, thick: u32, ratio: f64) -> f64 {
 /// with a hundredth of the stiffness is 10 % too stiff, and one with a ten-thousandth 94 times.
 #[test]
 fn layers_between_halves_of_a_mesh() {
-    let bbpd = Law::Bbpd {
-        calibration: CALIBRATION,
-    };
-    let orthotropic = Law::Orthotropic {
-        rotational_stiffness: RotationalStiffness::Decaying,
-    };
-    for (law, poisson) in [(Law::Nhpd, 0.2), (bbpd, 1.0 / 3.0), (orthotropic, 0.2)] {
+    let bbpd = Law::BBPD;
+    let orthotropic = Law::ORTHOTROPIC;
+    for (law, poisson) in [(Law::NHPD, 0.2), (bbpd, 1.0 / 3.0), (orthotropic, 0.2)] {
         for ratio in [1e-4, 0.01, 0.1, 10.0, 100.0] {
             for thick in [1, 2, 4] {
                 let materials = [1.0, ratio].map(|young| Material::isotropic(young, poisson));
@@ -365,11 +342,8 @@ fn shear_modulus(poisson: f64) -> f64 {
 /// `mppd` within 8 %; measured 7.3 % there. Where bonds do not know what holds their ends it is twice as stiff at nu = 0 and 1e-4.
 #[test]
 fn sheared_layers_between_halves_of_a_mesh() {
-    let mppd = Law::Mppd {
-        calibration: CALIBRATION,
-        rotational_stiffness: RotationalStiffness::Decaying,
-    };
-    for (law, poisson) in [(Law::Nhpd, 0.2), (Law::Nhpd, 0.0), (mppd, 0.2)] {
+    let mppd = Law::MPPD;
+    for (law, poisson) in [(Law::NHPD, 0.2), (Law::NHPD, 0.0), (mppd, 0.2)] {
         let limit = if law == mppd { 0.08 } else { 0.05 };
         for ratio in [1e-4, 0.01, 0.1, 10.0] {
             for thick in [1, 2, 4] {
@@ -403,7 +377,7 @@ fn layers_between_halves_of_a_solid() {
             let materials = [1.0, ratio].map(|young| Material::isotropic(young, 0.2));
             let body = SolidMeshBody::from(layered_block(thick));
             let across = [Component::Y, Component::Z];
-            let mut setup = with_layer(body, Law::Nhpd, materials, &across);
+            let mut setup = with_layer(body, Law::NHPD, materials, &across);
             setup.correction.surface = Surface::Patch(Settings::default());
             let area = f64::from(CELLS[1] * CELLS[2]);
             // E (1 - nu)/((1 + nu)(1 - 2 nu)) of E = 1 and nu = 0.2.

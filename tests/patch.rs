@@ -16,8 +16,6 @@ use ligament_model::thermal::ThermalStrain;
 use nalgebra::{Matrix3, Matrix3x6, SVector};
 use verification::meshes;
 
-const CALIBRATION: Calibration = Calibration::Integral;
-
 fn patched(body: impl Geometry<2> + 'static, poisson: f64, law: Law) -> Setup {
     let mut setup = Setup::new(body, Material::isotropic(1.0, poisson), law);
     setup.correction.surface = Surface::Patch(Settings::default());
@@ -115,21 +113,11 @@ fn root_mean_square(values: impl Iterator<Item = f64> + Clone) -> f64 {
 fn bonds_carry_uniform_strains_as_triangles_do() {
     let mesh = meshes::read("meshes/disk-4mm.msh");
     for (law, poisson) in [
-        (Law::Nhpd, 0.21),
-        (Law::Nhpd, 0.38),
-        (Law::Nhpd, -0.3),
-        (
-            Law::Pds {
-                calibration: CALIBRATION,
-            },
-            0.2,
-        ),
-        (
-            Law::Bbpd {
-                calibration: CALIBRATION,
-            },
-            1.0 / 3.0,
-        ),
+        (Law::NHPD, 0.21),
+        (Law::NHPD, 0.38),
+        (Law::NHPD, -0.3),
+        (Law::PDS, 0.2),
+        (Law::BBPD, 1.0 / 3.0),
     ] {
         let stiffness = Isotropic {
             young: 1.0,
@@ -168,21 +156,10 @@ fn bonds_carry_uniform_strains_as_triangles_do() {
 #[test]
 fn a_bar_is_as_stiff_as_its_material() {
     let laws = [
-        (Law::Nhpd, Plane::Stress),
-        (Law::Nhpd, Plane::Strain),
-        (
-            Law::Mppd {
-                calibration: CALIBRATION,
-                rotational_stiffness: RotationalStiffness::Decaying,
-            },
-            Plane::Stress,
-        ),
-        (
-            Law::Pds {
-                calibration: CALIBRATION,
-            },
-            Plane::Stress,
-        ),
+        (Law::NHPD, Plane::Stress),
+        (Law::NHPD, Plane::Strain),
+        (Law::MPPD, Plane::Stress),
+        (Law::PDS, Plane::Stress),
     ];
     for (law, state) in laws {
         let mut setup = patched(MeshBody::from(meshes::read("meshes/plate.msh")), 0.2, law);
@@ -205,7 +182,7 @@ fn a_bar_is_as_stiff_as_its_material() {
     ];
     let lattice = LatticeBody::new([40, 20], [0.005; 2], [0.0; 2], &[], &sets.into()).unwrap();
     // The points are the centres of the cells: the gauge ends there.
-    let ratio = pulled(patched(lattice, 0.2, Law::Nhpd), 1.0) / (0.1 / 0.195);
+    let ratio = pulled(patched(lattice, 0.2, Law::NHPD), 1.0) / (0.1 / 0.195);
     assert!((ratio - 1.0).abs() < 2e-3, "lattice: {ratio}");
 }
 
@@ -259,7 +236,7 @@ fn a_turned_or_renumbered_mesh_has_the_same_factors() {
 /// Omega and the ratio of shear of the bonds, by the tags of their nodes.
 fn factors(mesh: &Mesh, departing: impl Fn(Setup) -> Setup) -> BTreeMap<[u64; 2], [f64; 2]> {
     let body = MeshBody::from(mesh.clone());
-    let model = build(departing(patched(body, 0.21, Law::Nhpd)));
+    let model = build(departing(patched(body, 0.21, Law::NHPD)));
     let (ends, fixed) = (&model.plane().bonds.ends, &model.fixed);
     let factors = fixed.domain_factor.iter().zip(&fixed.shear_ratio);
     let by_tags = ends.iter().zip(factors).map(|(ends, (omega, ratio))| {
@@ -278,7 +255,7 @@ fn factors(mesh: &Mesh, departing: impl Fn(Setup) -> Setup) -> BTreeMap<[u64; 2]
 fn families_leave_a_graded_mesh_its_energy() {
     let setup = || {
         let mesh = meshes::read("meshes/plate-with-hole-0.25mm.msh");
-        patched(MeshBody::from(mesh), 0.2, Law::Nhpd)
+        patched(MeshBody::from(mesh), 0.2, Law::NHPD)
     };
     let energies = |model: &Model| -> Vec<f64> {
         let ratios = model.fixed.energy_ratios.iter();
@@ -298,7 +275,7 @@ fn families_leave_a_graded_mesh_its_energy() {
 #[test]
 fn too_few_bonds_are_noticed() {
     let body = || MeshBody::from(meshes::read("meshes/disk-4mm.msh"));
-    let mut setup = patched(body(), 0.21, Law::Nhpd);
+    let mut setup = patched(body(), 0.21, Law::NHPD);
     setup.horizon = Horizon::Factor(1.5);
     let model = build(setup);
     assert!(left(&model) > 5e-3, "{}", left(&model));
@@ -308,7 +285,7 @@ fn too_few_bonds_are_noticed() {
         about("cannot make every uniform strain an equilibrium") && about("horizon_factor = 3"),
         "{warnings:?}"
     );
-    let model = build(patched(body(), 0.21, Law::Nhpd));
+    let model = build(patched(body(), 0.21, Law::NHPD));
     assert!(left(&model) < 2e-3, "{}", left(&model));
     // Nothing but the units of the made-up material is warned of.
     let warnings: Vec<String> = model.warnings.iter().map(ToString::to_string).collect();
@@ -322,7 +299,7 @@ fn too_few_bonds_are_noticed() {
 #[test]
 fn bodies_without_cells_are_refused() {
     let points = Points::new(vec![[0.0; 2], [1.0, 0.0]], vec![1.0; 2]).unwrap();
-    let error = Model::build(patched(points, 0.2, Law::Nhpd), &mut ()).unwrap_err();
+    let error = Model::build(patched(points, 0.2, Law::NHPD), &mut ()).unwrap_err();
     assert!(
         error
             .to_string()
@@ -332,7 +309,7 @@ fn bodies_without_cells_are_refused() {
     let mut setup = patched(
         MeshBody::from(meshes::read("meshes/disk-4mm.msh")),
         0.21,
-        Law::Nhpd,
+        Law::NHPD,
     );
     setup.correction.domain = ligament::setup::CorrectionDomain::Cracked;
     let error = Model::build(setup, &mut ()).unwrap_err();

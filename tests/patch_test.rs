@@ -18,7 +18,7 @@ const POISSON: f64 = 0.21;
 
 fn bar() -> Setup {
     let body = MeshBody::from(meshes::read("meshes/plate-tall.msh"));
-    Setup::new(body, Material::isotropic(YOUNG, POISSON), Law::Nhpd)
+    Setup::new(body, Material::isotropic(YOUNG, POISSON), Law::NHPD)
 }
 
 fn patched(mut setup: Setup) -> Setup {
@@ -69,7 +69,7 @@ fn few_bonds_make_no_soft_body() {
     let mut setup = patched(Setup::new(
         MeshBody::from(meshes::read("meshes/disk-1.5mm.msh")),
         Material::isotropic(YOUNG, POISSON),
-        Law::Nhpd,
+        Law::NHPD,
     ));
     setup.horizon = Horizon::Factor(2.0);
     let test = tested(setup);
@@ -109,9 +109,7 @@ fn an_orthotropic_body_is_read_along_its_axes() {
     let angle = 0.5;
     let constants = |angle: f64| {
         let mut setup = patched(bar());
-        setup.law = Law::Orthotropic {
-            rotational_stiffness: RotationalStiffness::Decaying,
-        };
+        setup.law = Law::ORTHOTROPIC;
         setup.materials[0].material.elasticity =
             Elasticity::Orthotropic(ligament_model::Orthotropic {
                 young: [15e9, 5e9],
@@ -147,7 +145,7 @@ fn an_orthotropic_body_is_read_along_its_axes() {
 fn a_lattice_has_a_patch_test() {
     for cells in [[40, 20], [30, 30], [160, 10]] {
         let lattice = LatticeBody::new(cells, [0.005; 2], [0.0; 2], &[], &[].into()).unwrap();
-        let setup = Setup::new(lattice, Material::isotropic(YOUNG, POISSON), Law::Nhpd);
+        let setup = Setup::new(lattice, Material::isotropic(YOUNG, POISSON), Law::NHPD);
         let test = tested(patched(setup));
         let [x, y, nu] = errors(&test);
         assert!(
@@ -171,7 +169,7 @@ fn precracks_are_left_out() {
 fn points_without_cells_have_none() {
     let places = vec![[0.0; 2], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
     let points = Points::new(places, vec![1.0; 4]).unwrap();
-    let setup = Setup::new(points, Material::isotropic(YOUNG, POISSON), Law::Nhpd);
+    let setup = Setup::new(points, Material::isotropic(YOUNG, POISSON), Law::NHPD);
     let error = patch_test(&Model::build(setup, &mut ()).unwrap()).unwrap_err();
     assert!(matches!(error, Untested::NoCells), "{error}");
 }

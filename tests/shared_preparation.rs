@@ -248,7 +248,7 @@ fn faults_are_those_of_the_whole_body() {
         ..SolidMesh::default()
     };
     let material = Material::isotropic(1e9, 0.2);
-    let mut torn = Setup::new(SolidMeshBody::from(mesh), material, Law::Nhpd);
+    let mut torn = Setup::new(SolidMeshBody::from(mesh), material, Law::NHPD);
     torn.horizon = Horizon::Factor(1.5);
     let soft = named("softening-bar", &["material.fracture_energy=1e-3"]);
     let soft = soft.setup(&mut ()).unwrap();

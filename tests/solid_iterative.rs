@@ -4,12 +4,11 @@
 use ligament_analysis::solver::{Method, SolverChoice, Unfit, points_of_aggregate};
 use ligament_analysis::{Attempt, Equilibrium, SetupError};
 use ligament_model::ElementKind;
-use ligament_model::law::beam::{self, ShearForm};
+use ligament_model::law::Law;
 use ligament_model::law::rotational::RotationalStiffness;
-use ligament_model::law::{mppd, pds};
 use ligament_model::material::Isotropic;
 use ligament_model::material::Space;
-use ligament_model::{BondSet, BondStiffness, PointCloud};
+use ligament_model::{BondSet, PointCloud};
 use rayon::ThreadPoolBuilder;
 use verification::bench;
 use verification::cylinders::{MATERIAL, Torn, cylinder, cylinder_of, pulled};
@@ -68,48 +67,21 @@ fn threads_change_no_bit() {
 /// Every law with shear has bonds with a negative stiffness above a Poisson's ratio of 1/4, and none below: they are refused by name.
 #[test]
 fn negative_shear_is_refused_by_name() {
-    type Law = fn(&BondSet<3>, &PointCloud<3>, &[Isotropic]) -> BondStiffness;
-    let laws: [(&str, ElementKind, Law); 4] = [
-        (
-            "nhpd, secant",
-            ElementKind::Beam,
-            |bonds, cloud, materials| {
-                beam::stiffness(bonds, cloud, materials, Space::Solid, ShearForm::Constant)
-            },
-        ),
-        ("mppd", ElementKind::Beam, |bonds, cloud, materials| {
-            mppd::stiffness(
-                bonds,
-                cloud,
-                materials,
-                Space::Solid,
-                RotationalStiffness::Decaying,
-            )
-        }),
-        (
-            "mppd without",
-            ElementKind::Beam,
-            |bonds, cloud, materials| {
-                mppd::stiffness(
-                    bonds,
-                    cloud,
-                    materials,
-                    Space::Solid,
-                    RotationalStiffness::Zero,
-                )
-            },
-        ),
-        ("pds", ElementKind::Spring, |bonds, cloud, materials| {
-            pds::stiffness(bonds, cloud, materials, Space::Solid)
-        }),
+    let laws = [
+        ("nhpd, secant", Law::NHPD),
+        ("mppd", Law::MPPD),
+        ("mppd without", Law::MPPD.with(RotationalStiffness::Zero)),
+        ("pds", Law::PDS),
     ];
-    for (name, element, law) in laws {
+    for (name, law) in laws {
         for (poisson, is_refused) in [(0.24, false), (0.26, true), (0.45, true)] {
             let material = Isotropic {
                 poisson,
                 ..MATERIAL
             };
-            let system = cylinder_of(6, element, |bonds, cloud| law(bonds, cloud, &[material]));
+            let system = cylinder_of(6, law.element(), |bonds, cloud| {
+                law.densities(bonds, cloud, &[material.into()], Space::Solid)
+            });
             let made = Equilibrium::new(&pulled(&system, Method::Iterative), 1e-4);
             match made {
                 Err(SetupError::NotIterative(Unfit::Indefinite)) => {
@@ -127,8 +99,7 @@ fn negative_shear_is_refused_by_name() {
 #[test]
 fn negative_rotational_stiffness_gives_no_answer() {
     let law = |bonds: &BondSet<3>, cloud: &PointCloud<3>| {
-        let mut stiffness =
-            beam::stiffness(bonds, cloud, &[MATERIAL], Space::Solid, ShearForm::Constant);
+        let mut stiffness = Law::NHPD.densities(bonds, cloud, &[MATERIAL.into()], Space::Solid);
         stiffness.rotational.iter_mut().for_each(|it| *it *= -20.0);
         stiffness
     };

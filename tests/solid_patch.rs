@@ -52,7 +52,7 @@ fn prisms(cell: SolidCell) -> Vec<SolidCell> {
 
 fn patched(body: impl Geometry<3> + 'static, factor: f64) -> Setup {
     let Isotropic { young, poisson } = MATERIAL;
-    let mut setup = Setup::new(body, Material::isotropic(young, poisson), Law::Nhpd);
+    let mut setup = Setup::new(body, Material::isotropic(young, poisson), Law::NHPD);
     setup.horizon = Horizon::Factor(factor);
     setup.correction.surface = Surface::Patch(Settings::default());
     setup

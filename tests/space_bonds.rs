@@ -19,8 +19,7 @@ use ligament_model::correction::length::length_factors;
 use ligament_model::correction::{StopRule, Sweeps, domain};
 use ligament_model::failure::{Criteria, Criterion, Measure};
 use ligament_model::interface::StressReading;
-use ligament_model::law::beam::{self, ShearForm};
-use ligament_model::law::{calibration, pds};
+use ligament_model::law::{Law, calibration};
 use ligament_model::material::Space;
 use ligament_model::tensor::{SymTensor, cross, dot, minus};
 use ligament_model::thermal::{FreeStrains, ThermalStrain};
@@ -67,14 +66,18 @@ fn plain(cloud: PointCloud<3>, poisson: f64, element: ElementKind) -> Arc<dyn Sy
     let bonds = BondSet::<3>::search(&cloud, &Horizons::unified(2.0, cloud.len()));
     let materials = material(poisson);
     let stiffness = match element {
-        ElementKind::Beam => beam::stiffness(
+        ElementKind::Beam => Law::NHPD.densities(
             &bonds,
             &cloud,
-            &materials,
+            &materials.map(Elasticity::Isotropic),
             Space::Solid,
-            ShearForm::Constant,
         ),
-        _ => pds::stiffness(&bonds, &cloud, &materials, Space::Solid),
+        _ => Law::PDS.densities(
+            &bonds,
+            &cloud,
+            &materials.map(Elasticity::Isotropic),
+            Space::Solid,
+        ),
     };
     let ones = vec![1.0; bonds.len()];
     BondSystem::new(cloud, bonds, element, stiffness, ones.clone(), &ones).with_elements()
@@ -314,12 +317,11 @@ fn a_bar_has_the_modulus_of_its_material() {
     let cloud = lattice([5, 5, 15], |_| true);
     let bonds = BondSet::<3>::search(&cloud, &Horizons::unified(2.5, cloud.len()));
     let materials = material(0.2);
-    let stiffness = beam::stiffness(
+    let stiffness = Law::NHPD.densities(
         &bonds,
         &cloud,
-        &materials,
+        &materials.map(Elasticity::Isotropic),
         Space::Solid,
-        ShearForm::Constant,
     );
     let alpha = length_factors(&bonds, &cloud);
     let sweeps = Sweeps {
@@ -414,12 +416,11 @@ fn sums_over_families_make_the_bulk_modulus_right() {
     let cloud = lattice([11; 3], |_| true);
     let bonds = BondSet::<3>::search(&cloud, &Horizons::unified(2.0, cloud.len()));
     let materials = material(0.2);
-    let stiffness = beam::stiffness(
+    let stiffness = Law::NHPD.densities(
         &bonds,
         &cloud,
-        &materials,
+        &materials.map(Elasticity::Isotropic),
         Space::Solid,
-        ShearForm::Constant,
     );
     let ones = vec![1.0; bonds.len()];
     let stiffness =
@@ -547,12 +548,11 @@ fn gaps_in_space_are_those_of_the_faces() {
     let cloud = lattice([4, 4, 4], |_| true);
     let bonds = BondSet::<3>::search(&cloud, &Horizons::unified(2.0, cloud.len()));
     let materials = material(0.2);
-    let stiffness = beam::stiffness(
+    let stiffness = Law::NHPD.densities(
         &bonds,
         &cloud,
-        &materials,
+        &materials.map(Elasticity::Isotropic),
         Space::Solid,
-        ShearForm::Constant,
     );
     let ones = vec![1.0; bonds.len()];
     let faces = Faces::closing(Vec::new(), &bonds);

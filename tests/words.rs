@@ -6,6 +6,7 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use ligament_model::law::LAWS;
 use verification::repository;
 
 /// Words at the start of a doc comment that point at something beside it.
@@ -100,6 +101,34 @@ fn comments_and_names_can_be_read_alone() {
         found.extend(named.map(|(number, line)| format!("{path}:{number}: {}", line.trim())));
     }
     assert!(found.is_empty(), "say what it is:\n{}", found.join("\n"));
+}
+
+/// What a law is stands in its row: no match asks for its word anywhere else.
+#[test]
+fn laws_are_asked_for_what_they_are() {
+    let mut found = Vec::new();
+    for (_, path, text) in sources() {
+        let word_in_pattern = |line: &str| {
+            LAWS.iter().any(|law| {
+                let word = law.quoted();
+                let patterns = [
+                    format!("{word} =>"),
+                    format!("{word} |"),
+                    format!("| {word}"),
+                ];
+                patterns.iter().any(|pattern| line.contains(pattern))
+            })
+        };
+        let lines = (1..).zip(text.lines());
+        let matching = lines.filter(|(_, line)| word_in_pattern(line));
+        found.extend(matching.map(|(number, line)| format!("{path}:{number}: {}", line.trim())));
+    }
+    found.retain(|place| !place.starts_with("ligament-model/src/law/"));
+    assert!(
+        found.is_empty(),
+        "ask the row of the law:\n{}",
+        found.join("\n")
+    );
 }
 
 /// The keys of docs/references.md: the first cells of its tables.

@@ -74,12 +74,10 @@ fn turns_by_any_angle() {
         Surface::Volume,
         Surface::Patch(patch::Settings::default()),
     ];
-    let laws = Law::ALL
-        .into_iter()
-        .filter(|law| !matches!(law, Law::MbbPd { .. }));
+    let laws = Law::ALL.into_iter().filter(|law| !law.row.needs_lattice);
     for (seed, law) in (101..).zip(laws.collect::<Vec<_>>().repeat(4)) {
         for surface in surfaces {
-            let is_discrete = law.calibration() == Some(Calibration::Discrete);
+            let is_discrete = law.options.calibration == Some(Calibration::Discrete);
             if is_discrete && surface == Surface::Volume {
                 continue;
             }
@@ -126,16 +124,19 @@ pub(crate) fn criteria(specimen: &Specimen, number: usize) -> Vec<Choice> {
         ..Choice::from(kind)
     };
     let by_strain = vec![with_limit(TENSION, 1.0), with_limit(SLIDING, 1.6)];
-    match (specimen.law, number % 5) {
-        (Law::MbbPd { .. }, _) => vec![Choice {
+    if specimen.law.row.has_own_strains() {
+        return vec![Choice {
             critical_stretch: Some(specimen.strain),
             critical_angle: Some(2.0 * specimen.strain),
             ..Choice::from(MIXED_MODE)
-        }],
-        (Law::Orthotropic { .. }, _) | (_, 0) => by_strain,
-        (_, 1) => vec![STRENGTH.into()],
-        (_, 2) => vec![CRITICAL_STRETCH.into()],
-        (_, 3) => vec![BOND_ENERGY.into()],
+        }];
+    }
+    match number % 5 {
+        _ if specimen.law == Law::ORTHOTROPIC => by_strain,
+        0 => by_strain,
+        1 => vec![STRENGTH.into()],
+        2 => vec![CRITICAL_STRETCH.into()],
+        3 => vec![BOND_ENERGY.into()],
         _ => vec![FRICTIONAL.into()],
     }
 }

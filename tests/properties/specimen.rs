@@ -123,7 +123,7 @@ pub(crate) fn jittered(random: &mut Random, [columns, rows]: [u32; 2], spacing: 
 impl Specimen {
     /// A random specimen of a law.
     pub(crate) fn new(law: Law, random: &mut Random) -> Self {
-        let has_lattice = matches!(law, Law::MbbPd { .. });
+        let has_lattice = law.row.needs_lattice;
         let plane = if chance(random) {
             Plane::Stress
         } else {
@@ -141,7 +141,7 @@ impl Specimen {
         };
         // Above that of central forces the shear stiffness of bonds is negative, and breakages soon end a run.
         let central = Isotropic::central_force_poisson(plane);
-        let poisson = if law.fixes_poisson() {
+        let poisson = if law.row.fixes_poisson {
             central
         } else {
             between(random, 0.02, 0.9) * central
@@ -182,7 +182,7 @@ impl Specimen {
     fn material(&self, image: &Image) -> Material {
         let young = image.stress() * self.young;
         let mut material = Material::isotropic(young, self.poisson);
-        if matches!(self.law, Law::Orthotropic { .. }) {
+        if self.law == Law::ORTHOTROPIC {
             let (s, c) = self.angle.sin_cos();
             let axis = image.turned([c, s]);
             material.elasticity = Elasticity::Orthotropic(Orthotropic {

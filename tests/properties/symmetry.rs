@@ -38,11 +38,9 @@ fn symmetric_bodies_move_symmetrically() {
                 change: TemperatureChange::Uniform(0.5 * specimen.strain / 1e-5),
             }];
             // In a lattice, the right side is that of one half.
-            setup.loads.truncate(if matches!(law, Law::MbbPd { .. }) {
-                1
-            } else {
-                2
-            });
+            setup
+                .loads
+                .truncate(if law.row.needs_lattice { 1 } else { 2 });
             Answer::new(setup)
         };
         let straight = pressed([0.0, 1.0]);

@@ -4,6 +4,7 @@
 
 mod dimension;
 mod functions;
+mod matches;
 mod modules;
 mod text;
 
@@ -11,6 +12,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use functions::functions;
+use matches::matches;
 use modules::Tree;
 use verification::repository;
 
@@ -48,6 +50,18 @@ const STILL_SPATIAL: [(&str, &str); 1] = [(
     "eigen.rs 3 *",
     "the size of a basis, in vectors that are sought",
 )];
+
+/// Types whose values are kinds of something that new ones are added to: a match on them names them all.
+const KINDS: [&str; 8] = [
+    "Calibration",
+    "ElementKind",
+    "Form",
+    "Materials",
+    "Measure",
+    "PaperCorrection",
+    "ShearForm",
+    "Strains",
+];
 
 /// The trees of all crates, each with the name of its crate.
 fn trees() -> Vec<(String, Tree)> {
@@ -163,6 +177,41 @@ fn counts_of_components_are_seen() {
         let words: Vec<&str> = tokens.iter().map(|it| it.text.as_str()).collect();
         let found = (0..words.len()).find_map(|at| spatial_count(&words[at..]));
         assert_eq!(found.as_deref(), expected, "{source}");
+    }
+}
+
+/// A match that names elements, measures or options of laws has no arm for whatever is left: a new kind is asked for everywhere.
+#[test]
+fn matches_on_kinds_name_them_all() {
+    let mut hiding = Vec::new();
+    for (name, tree) in trees() {
+        for module in tree.modules() {
+            let found = matches(&module.tokens).into_iter();
+            let found = found.filter(|it| it.hides_values_of(&KINDS));
+            hiding.extend(found.map(|it| format!("{name}/{}:{}", module.file.display(), it.line)));
+        }
+    }
+    assert!(hiding.is_empty(), "name all values: {hiding:#?}");
+}
+
+#[test]
+fn arms_for_whatever_is_left_are_seen() {
+    for (source, hides) in [
+        ("match it { Form::Rows => 1, _ => 2 }", true),
+        ("match (it, 1) { (Form::Rows, _) => 1, (_, _) => 2 }", true),
+        ("match f({ 1 }) { Form::Rows => { g(1, 2) } _ => 2, }", true),
+        (
+            "match it { 1 => 1, _ => match its { Form::Full | Form::Rows => 2 } }",
+            false,
+        ),
+        ("match it { 1 => Form::Full, _ => Form::Rows }", false),
+    ] {
+        let found = matches(&text::tokens(source));
+        assert_eq!(
+            found.iter().any(|it| it.hides_values_of(&KINDS)),
+            hides,
+            "{source}"
+        );
     }
 }
 

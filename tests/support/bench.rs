@@ -10,7 +10,7 @@ use ligament_analysis::driver::{self, Outcome, Problem};
 use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::probe::Probe;
 use ligament_analysis::ranks::Together;
-use ligament_analysis::{Component, ProportionalLoading, State};
+use ligament_analysis::{ProportionalLoading, State};
 use ligament_case::case::CaseFile;
 use ligament_mesh::Mesh;
 use ligament_model::correction::{CorrectionReport, DomainReport};
@@ -119,7 +119,7 @@ impl Bench {
     /// The problem of the bench.
     pub fn problem(&self) -> Problem {
         Problem {
-            system: self.model.plane().clone(),
+            system: self.model.system.to_bonds(),
             criteria: self.model.criteria.clone(),
             loads: Arc::new(self.boundary.clone()),
             solver: self.model.setup.solver,
@@ -161,7 +161,7 @@ impl Bench {
 
     /// Number of points.
     pub fn points(&self) -> usize {
-        self.model.plane().cloud.len()
+        self.model.system.n_points()
     }
 
     /// Values of the points, so many a point, in the order of the mesh file.
@@ -171,7 +171,7 @@ impl Bench {
 
     /// Bonds in the order of their ends in the mesh file.
     pub fn bonds_in_file(&self) -> Vec<u32> {
-        let ends = &self.model.plane().bonds.ends;
+        let ends = self.model.system.ends();
         let order = self.model.body().numbering().bonds_in_file(ends);
         order.unwrap_or_else(|| (0..ends.len() as u32).collect())
     }
@@ -184,7 +184,7 @@ impl Bench {
 
     /// Nodes of the ends of a bond in the mesh file, ascending.
     pub fn nodes_of_bond(&self, bond: u32) -> [u32; 2] {
-        let ends = self.model.plane().bonds.ends[bond as usize];
+        let ends = self.model.system.ends()[bond as usize];
         self.model.body().numbering().ends_in_file(ends)
     }
 
@@ -200,7 +200,7 @@ impl Bench {
 
     /// Tags of the ends of a bond, the smaller first.
     pub fn tags_of_bond(&self, bond: usize) -> [u64; 2] {
-        let [a, b] = self.model.plane().bonds.ends[bond].map(|end| self.model.body().tag(end));
+        let [a, b] = self.model.system.ends()[bond].map(|end| self.model.body().tag(end));
         [a.min(b), a.max(b)]
     }
 }
@@ -225,8 +225,9 @@ impl Run {
     pub fn group_force(&self, bench: &Bench, name: &str) -> [f64; 3] {
         let groups = &bench.boundary.groups;
         let place = groups.iter().position(|group| group.name == name).unwrap();
-        let layout = bench.model.plane().layout();
-        Component::ALL.map(|it| layout.value(0, it, &self.last().group_forces[place]))
+        let layout = bench.model.system.layout();
+        let components = layout.of_body();
+        [0, 1, 2].map(|it| layout.value(0, components[it], &self.last().group_forces[place]))
     }
 }
 

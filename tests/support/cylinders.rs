@@ -9,7 +9,7 @@ use ligament_analysis::solver::Method;
 use ligament_analysis::{
     Attempt, Balanced, Component, Equilibrium, Problem, ProportionalLoading, SolverSettings, State,
 };
-use ligament_model::law::beam::{self, ShearForm};
+use ligament_model::law::Law;
 use ligament_model::material::Isotropic;
 use ligament_model::material::Space;
 use ligament_model::{
@@ -31,7 +31,7 @@ const LAMBDA: f64 = 2.5;
 /// NHPD's bonds.
 pub fn cylinder(across: usize) -> Arc<dyn System<3>> {
     let law = |bonds: &BondSet<3>, cloud: &PointCloud<3>| {
-        beam::stiffness(bonds, cloud, &[MATERIAL], Space::Solid, ShearForm::Constant)
+        Law::NHPD.densities(bonds, cloud, &[MATERIAL.into()], Space::Solid)
     };
     cylinder_of(across, ElementKind::Beam, law)
 }

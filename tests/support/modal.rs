@@ -57,7 +57,7 @@ impl ModalBench {
     /// Finds its modes.
     pub fn find(&self) -> ModalOutcome {
         let problem = ModalProblem {
-            system: self.model.plane().clone(),
+            system: self.model.system.to_bonds(),
             mass: self.mass.clone(),
             supports: self.supports.clone(),
             solver: self.model.setup.solver,
@@ -73,7 +73,7 @@ impl ModalBench {
 
     /// The degrees of freedom that are unknown, and their masses.
     pub fn unknown_masses(&self, rotations: Rotations) -> Vec<(usize, f64)> {
-        let unknowns = Unknowns::all_but(&**self.model.plane(), |dof| self.supports.held[dof]);
+        let unknowns = Unknowns::all_but(&*self.model.system, |dof| self.supports.held[dof]);
         let layout = unknowns.layout();
         let mass_of = |dof: usize| match (layout.component(dof), rotations) {
             (Component::Rotation, Rotations::Massless) => 0.0,

@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use ligament::setup::{Form, Law, Strains};
+use ligament::setup::Law;
 use ligament_case::case::{CaseFile, schema};
 use ligament_case::starter::{Starter, StarterError, of_lattice, of_mesh};
 use ligament_cli::check::{Extent, check};
@@ -50,7 +50,7 @@ fn every_mesh_has_a_case_that_checks() {
             continue;
         }
         count += 1;
-        let mut starter = of_mesh(&path, folder.path(), Law::Nhpd).unwrap();
+        let mut starter = of_mesh(&path, folder.path(), Law::NHPD).unwrap();
         assert!(
             starter.warnings.is_empty(),
             "{}: {:?}",
@@ -81,7 +81,7 @@ fn groups_are_found_by_their_names() {
         ("disk-2mm.msh", "platen-bottom", "platen-top", 1, -1.0),
         ("diagonal-plate.msh", "patch-bottom", "patch-top", 1, 1.0),
     ] {
-        let starter = of_mesh(&meshes().join(mesh), folder.path(), Law::Nhpd).unwrap();
+        let starter = of_mesh(&meshes().join(mesh), folder.path(), Law::NHPD).unwrap();
         let case = case(&starter, folder.path()).case;
         assert_eq!(case.supports[0].group.as_deref(), Some(held), "{mesh}");
         assert_eq!(case.loads[0].group.as_deref(), Some(loaded), "{mesh}");
@@ -100,7 +100,7 @@ fn groups_are_found_by_their_names() {
 fn without_groups_boxes_are_taken() {
     let folder = TempDir::new().unwrap();
     for mesh in ["annulus-coarse.msh", "heated-disk.msh"] {
-        let starter = of_mesh(&meshes().join(mesh), folder.path(), Law::Nhpd).unwrap();
+        let starter = of_mesh(&meshes().join(mesh), folder.path(), Law::NHPD).unwrap();
         let case = case(&starter, folder.path());
         assert!(case.case.supports[0].r#box.is_some(), "{}", starter.text);
         let report = checked(&case, Extent::Matrix);
@@ -177,7 +177,7 @@ fn beams_break_within_their_example_load() {
     }
     let mesh = folder.path().join("beam.msh");
     std::fs::write(&mesh, text + "$EndElements\n").unwrap();
-    let starter = of_mesh(&mesh, folder.path(), Law::Nhpd).unwrap();
+    let starter = of_mesh(&mesh, folder.path(), Law::NHPD).unwrap();
     let report = checked(&case(&starter, folder.path()), Extent::Matrix);
     let first = report.lines().find(|it| it.starts_with("  first breakage"));
     let share = first.and_then(|it| it.split_once("at ")?.1.split(' ').next()?.parse().ok());
@@ -222,7 +222,7 @@ fn of_text(text: &str) -> (TempDir, Result<Starter, StarterError>) {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("a mesh.msh");
     std::fs::write(&path, text).unwrap();
-    let starter = of_mesh(&path, folder.path(), Law::Nhpd);
+    let starter = of_mesh(&path, folder.path(), Law::NHPD);
     (folder, starter)
 }
 
@@ -305,7 +305,7 @@ fn a_beam_lies_on_both_supports() {
 fn a_load_between_two_ends_bends() {
     let folder = TempDir::new().unwrap();
     let mesh = meshes().join("notched-beam-10mm.msh");
-    let starter = of_mesh(&mesh, folder.path(), Law::Nhpd).unwrap();
+    let starter = of_mesh(&mesh, folder.path(), Law::NHPD).unwrap();
     let case = case(&starter, folder.path());
     let supports = case.case.supports.iter();
     let supports: Vec<_> = supports
@@ -362,7 +362,7 @@ fn a_lattice_takes_the_place_of_a_mesh() {
         let case = case(&starter, Path::new(""));
         checked(&case, Extent::Matrix);
     }
-    let small = of_lattice([4, 4], 2.0, Law::Nhpd);
+    let small = of_lattice([4, 4], 2.0, Law::NHPD);
     checked(&case(&small, Path::new("")), Extent::Matrix);
 }
 
@@ -390,25 +390,22 @@ fn what_is_no_mesh_is_refused() {
         std::fs::write(&path, text).unwrap();
         of_mesh(&path, folder.path(), law).unwrap_err().to_string()
     };
-    let error = of("plate.geo", "Point(1) = {0, 0, 0};", Law::Nhpd);
+    let error = of("plate.geo", "Point(1) = {0, 0, 0};", Law::NHPD);
     assert!(
         error.contains("is a geometry") && error.contains("ligament mesh"),
         "{error}"
     );
-    let error = of("plate.inp", "*NODE\n", Law::Nhpd);
+    let error = of("plate.inp", "*NODE\n", Law::NHPD);
     assert!(
         error.contains("not a Gmsh mesh") && error.contains("--via-meshio"),
         "{error}"
     );
-    let error = of("plate.msh", "*NODE\n", Law::Nhpd);
+    let error = of("plate.msh", "*NODE\n", Law::NHPD);
     assert!(error.contains("cannot use the mesh"), "{error}");
-    let lattices = Law::MbbPd {
-        form: Form::Full,
-        strains: Strains::Small,
-    };
+    let lattices = Law::MBB_PD;
     let error = of("a.msh", &square(1.0, ["a", "b", "c", "d"]), lattices);
     assert!(error.contains("--lattice"), "{error}");
-    let missing = of_mesh(Path::new("nowhere.msh"), folder.path(), Law::Nhpd).unwrap_err();
+    let missing = of_mesh(Path::new("nowhere.msh"), folder.path(), Law::NHPD).unwrap_err();
     assert!(
         missing
             .to_string()

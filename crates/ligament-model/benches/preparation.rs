@@ -10,7 +10,7 @@ use ligament_model::correction::length::length_factors;
 use ligament_model::correction::patch::Settings;
 use ligament_model::correction::{StopRule, Sweeps, domain, patch};
 use ligament_model::failure::strength::{critical_energy, critical_stretches};
-use ligament_model::law::beam::{self, ShearForm};
+use ligament_model::law::Law;
 use ligament_model::{
     BondSet, BondSystem, Elasticity, ElementKind, Horizons, Isotropic, Plane, PointCloud,
 };
@@ -43,7 +43,7 @@ fn preparation(criterion: &mut Criterion) {
         let cloud = points();
         let horizons = Horizons::from_spacing(&cloud.spacing, HORIZON_FACTOR);
         let bonds = BondSet::search(&cloud, &horizons);
-        let stiffness = beam::stiffness(&bonds, &cloud, &[rock], plane.into(), ShearForm::Falling);
+        let stiffness = Law::MPPD_BEAM.densities(&bonds, &cloud, &[rock.into()], plane.into());
         let continuum = Elasticity::Isotropic(rock).stiffness::<2>(plane);
         let continuum = [continuum.unwrap()];
         let correct = || {
@@ -84,13 +84,7 @@ fn preparation(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements(bonds.len() as u64));
         group.bench_function("law", |bencher| {
             bencher.iter(|| {
-                beam::stiffness(
-                    black_box(&bonds),
-                    &cloud,
-                    &[rock],
-                    plane.into(),
-                    ShearForm::Falling,
-                )
+                Law::MPPD_BEAM.densities(black_box(&bonds), &cloud, &[rock.into()], plane.into())
             });
         });
         group.bench_function("correction, 10 sweeps", |bencher| bencher.iter(correct));

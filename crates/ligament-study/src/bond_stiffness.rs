@@ -21,9 +21,9 @@ use ligament_run::summary::heading;
 pub enum DirectionError {
     /// Bonds with strains of their own.
     #[error(
-        "the bonds of \"mbb-pd\" resist the strains of a rectangle by a matrix, and have no k_n, k_t and k_theta: take another law"
+        "the bonds of \"{0}\" resist the strains of a rectangle by a matrix, and have no k_n, k_t and k_theta: take another law"
     )]
-    NoStiffness,
+    NoStiffness(&'static str),
     /// A length that no bond has.
     #[error("--length must be greater than 0 and at most 1 (the horizon), found {0}")]
     Length(f64),
@@ -75,7 +75,7 @@ pub fn bond_stiffness(request: &Request, screen: &mut dyn Write) -> anyhow::Resu
         let curves = over_direction(setup, index, [length, horizon], &angles);
         Ok((
             name_of(setup, index),
-            curves.ok_or(DirectionError::NoStiffness)?,
+            curves.ok_or(DirectionError::NoStiffness(setup.law.name()))?,
         ))
     };
     let materials: Vec<(String, Vec<InDirection>)> = (0..setup.materials.len())

@@ -12,7 +12,7 @@ fn disk() -> Result<Solution, Box<dyn std::error::Error>> {
         tensile_strength: Some(3.81e6),
         ..Material::isotropic(15e9, 0.21)
     };
-    let mut setup = Setup::new(MeshBody::from(gmsh::parse(MESH)?), material, Law::Nhpd);
+    let mut setup = Setup::new(MeshBody::from(gmsh::parse(MESH)?), material, Law::NHPD);
     setup.supports = vec![
         Support::new("platen-bottom", &[Component::Y]),
         Support::new("pole-bottom", &[Component::X]),

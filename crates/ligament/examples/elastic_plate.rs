@@ -12,9 +12,7 @@ fn plate() -> Result<Solution, Box<dyn std::error::Error>> {
     let points = Points::new((0..800).map(position).collect(), vec![SIZE * SIZE; 800])?
         .with_group("left", (0..800).filter(|k| k % 40 == 0))?
         .with_group("right", (0..800).filter(|k| k % 40 == 39))?;
-    let law = Law::Bbpd {
-        calibration: Calibration::Integral,
-    };
+    let law = Law::BBPD;
     let mut setup = Setup::new(points, Material::isotropic(210e9, 1.0 / 3.0), law);
     setup.supports = vec![Support::new("left", &[Component::X, Component::Y])];
     setup.loads = vec![Load::new("right", Action::Force([1e3, 0.0, 0.0]))];

@@ -4,7 +4,7 @@ use ligament_model::bonds::star::star;
 use ligament_model::{Elasticity, Horizons};
 
 use crate::formulation::Formulation;
-use crate::setup::{Calibration, Law, Setup};
+use crate::setup::{Calibration, Setup};
 
 /// Stiffness of a bond, and of the continuum, in one direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,11 +31,11 @@ pub fn over_direction(
     [length, horizon]: [f64; 2],
     angles: &[f64],
 ) -> Option<Vec<InDirection>> {
-    if matches!(setup.law, Law::MbbPd { .. }) {
+    if setup.law.row.has_own_strains() {
         return None;
     }
     let mut setup = setup.clone();
-    if let Some(calibration) = setup.law.open().calibration {
+    if let Some(calibration) = &mut setup.law.options.calibration {
         *calibration = Calibration::Integral;
     }
     let of = (material, setup.materials.len());

@@ -7,9 +7,8 @@ use ligament_model::correction::{
 use ligament_model::dimension::cast_ref;
 use ligament_model::failure::crack_energies::{Components, Lattice};
 use ligament_model::failure::{self, Basis, Criteria, NoLimit};
-use ligament_model::law::beam::ShearForm;
+use ligament_model::law::calibration;
 use ligament_model::law::rotational::{self, RotationalScale};
-use ligament_model::law::{bbpd, bbpd_conical, beam, calibration, mbb_pd, mppd, orthotropic, pds};
 use ligament_model::material::{Stiffness, milder};
 use ligament_model::{
     BondStiffness, BondSystem, Elasticity, ElementKind, EnergyRatio, FixedFields, Horizons,
@@ -18,7 +17,7 @@ use ligament_model::{
 
 use crate::error::{Fault, Field, SetupError};
 use crate::plausibility;
-use crate::setup::{Alpha, Calibration, Form, Law, Setup, Surface};
+use crate::setup::{Alpha, Calibration, Form, Setup, Surface};
 
 /// Law, calibration and corrections of a setup on the points of its body.
 #[derive(Debug, Clone, Copy)]
@@ -66,46 +65,8 @@ impl<'a, const D: usize> Formulation<'a, D> {
         let (space, law) = (setup.space(), setup.law);
         let materials = setup.materials.iter();
         let elasticity: Vec<Elasticity> = materials.map(|it| it.material.elasticity).collect();
-        let isotropic: Vec<Isotropic> = elasticity
-            .iter()
-            .filter_map(Elasticity::isotropic)
-            .collect();
-        let in_plane = || {
-            let both = cast_ref::<_, BondSet>(bonds).zip(cast_ref::<_, PointCloud>(cloud));
-            both.expect("laws are checked to exist in the dimension of the body")
-        };
-        let stiffness = match law {
-            Law::Nhpd => {
-                let form = ShearForm::of_nhpd(space);
-                beam::stiffness(bonds, cloud, &isotropic, space, form)
-            }
-            Law::MppdBeam { .. } => {
-                beam::stiffness(bonds, cloud, &isotropic, space, ShearForm::Falling)
-            }
-            Law::Bbpd { .. } => bbpd::stiffness(bonds, cloud, &isotropic, space),
-            Law::BbpdConical { .. } => bbpd_conical::stiffness(bonds, cloud, &isotropic, space),
-            Law::Pds { .. } => pds::stiffness(bonds, cloud, &isotropic, space),
-            Law::Mppd {
-                rotational_stiffness,
-                ..
-            } => mppd::stiffness(bonds, cloud, &isotropic, space, rotational_stiffness),
-            Law::Orthotropic {
-                rotational_stiffness: rotational,
-            } => {
-                let (bonds, cloud) = in_plane();
-                orthotropic::stiffness(bonds, cloud, &elasticity, space.plane(), rotational)
-            }
-            Law::MbbPd { form, .. } => {
-                let (bonds, cloud) = in_plane();
-                match form {
-                    Form::Rows => mbb_pd::rows::stiffness(bonds, cloud, &elasticity, space.plane()),
-                    Form::Full | Form::Pairwise => {
-                        mbb_pd::stiffness(bonds, cloud, &elasticity, space.plane())
-                    }
-                }
-            }
-        };
-        let stiffness = match law.calibration() {
+        let stiffness = law.densities(bonds, cloud, &elasticity, space);
+        let stiffness = match law.options.calibration {
             Some(Calibration::Discrete) => {
                 let effective: Vec<Isotropic> = (setup.materials.iter())
                     .filter_map(|it| law.constants(&it.material, space))
@@ -133,7 +94,7 @@ impl<'a, const D: usize> Formulation<'a, D> {
         };
         let constants = rotational::curvature_constants(elasticity, plane, length);
         let scaled = rotational::with_cosserat_length(stiffness, bonds, cloud, &constants, profile);
-        if setup.law.calibration() != Some(Calibration::Discrete) {
+        if setup.law.options.calibration != Some(Calibration::Discrete) {
             return scaled;
         }
         let moduli = rotational::curvature_moduli(elasticity, plane, length);
@@ -275,21 +236,13 @@ pub fn criteria<const D: usize>(
 /// Points in the plane as a lattice.
 fn lattice(setup: &Setup, system: &BondSystem) -> Lattice {
     let spacing = (system.cloud.spacing.iter().copied()).fold(f64::INFINITY, f64::min);
-    let own_rows = matches!(
-        setup.law,
-        Law::MbbPd {
-            form: Form::Rows,
-            ..
-        }
-    );
     Lattice {
         spacing: system.cloud.cell_size(0),
         horizon: setup.horizon.at_spacing(spacing),
         thickness: system.cloud.thickness,
-        components: if own_rows {
-            Components::OwnRows
-        } else {
-            Components::All
+        components: match setup.law.options.form {
+            Some(Form::Rows) => Components::OwnRows,
+            Some(Form::Full | Form::Pairwise) | None => Components::All,
         },
     }
 }

@@ -24,7 +24,7 @@
 //! let points = Points::new((0..300).map(position).collect(), vec![1e-4; 300])?
 //!     .with_group("left", (0..300).filter(|k| k % 30 == 0))?
 //!     .with_group("right", (0..300).filter(|k| k % 30 == 29))?;
-//! let mut setup = Setup::new(points, Material::isotropic(210e9, 0.25), Law::Nhpd);
+//! let mut setup = Setup::new(points, Material::isotropic(210e9, 0.25), Law::NHPD);
 //! setup.supports = vec![Support::new("left", &[Component::X, Component::Y])];
 //! setup.loads = vec![Load::new("right", Action::Force([1e3, 0.0, 0.0]))];
 //!

@@ -21,7 +21,7 @@ use crate::formulation::{self, Formulation};
 use crate::loading;
 use crate::plausibility;
 use crate::precracks::{self, Precracked};
-use crate::setup::{Analysis, CorrectionDomain, Law, Position, Setup};
+use crate::setup::{Analysis, CorrectionDomain, Position, Setup};
 use crate::soundness::{
     forbid_overlap, require_connected, require_distinct, require_factors, require_numbers,
 };
@@ -203,7 +203,7 @@ impl Model {
 pub fn sharing(setup: &Setup) -> Option<&'static dyn Exchange> {
     let Together(ranks) = setup.solver.ranks?;
     let needs_all = setup.closing
-        || matches!(setup.law, Law::MbbPd { .. })
+        || !setup.law.row.couples_ends_alone
         || matches!(setup.analysis, Analysis::Modal(_));
     (!needs_all).then_some(ranks)
 }

@@ -269,7 +269,7 @@ mod tests {
         let body = SolidMeshBody::from(mesh);
         let cloud = body.cloud(1.0, &[0, 0], 1);
         let material = Material::isotropic(1e9, 0.2);
-        let mut setup = Setup::new(body, material, Law::Nhpd);
+        let mut setup = Setup::new(body, material, Law::NHPD);
         setup.horizon = Horizon::Factor(factor);
         (setup, cloud)
     }

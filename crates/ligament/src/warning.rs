@@ -11,7 +11,7 @@ use thiserror::Error;
 use crate::body::{Body, Origin};
 use crate::implausible::Implausible;
 use crate::plausibility::corners;
-use crate::setup::{Horizon, Law, Setup};
+use crate::setup::{Horizon, Setup};
 
 /// Below this the domain correction is not known to have a fixed point.
 const SMALLEST_SAFE_FACTOR: f64 = 2.0;
@@ -394,7 +394,7 @@ fn not_converged(body: &dyn Body, correction: &DomainReport, fixed: &FixedFields
 /// Bonds with a shear stiffness between points without rotations; above the Poisson's ratio of central forces they give energy.
 fn rotation_resisted(setup: &Setup, material: &Isotropic) -> Option<Warning> {
     let (poisson, limit) = poisson_and_limit(setup, material);
-    let resists = matches!(setup.law, Law::Pds { .. }) && poisson < limit - POISSON_TOLERANCE;
+    let resists = setup.law.row.resists_rotations() && poisson < limit - POISSON_TOLERANCE;
     let law = setup.law.name();
     resists.then_some(Warning::RotationResisted { law })
 }
@@ -406,7 +406,7 @@ fn rotation_as_sliding(setup: &Setup) -> Option<Warning> {
         return None;
     }
     // Without a shear stiffness there is no energy of shear.
-    let counts = |it: &Measure| !(it.needs_shear_stiffness() && law.fixes_poisson());
+    let counts = |it: &Measure| !(it.needs_shear_stiffness() && law.row.fixes_poisson);
     let sees_rotations = |it: &Measure| it.takes_sliding() && counts(it);
     let mut kinds = setup.criteria.iter().map(|it| it.kind);
     let kind = kinds.find(|it| it.measures.iter().any(sees_rotations));
@@ -421,13 +421,13 @@ fn energy_given_back(setup: &Setup, material: &Isotropic) -> Option<Warning> {
     let looks_at_energy =
         kinds.any(|it| (it.kind.measures.iter()).any(|it| it.needs_shear_stiffness()));
     let (poisson, limit) = poisson_and_limit(setup, material);
-    let gives_energy = poisson > limit && !setup.law.fixes_poisson();
+    let gives_energy = poisson > limit && !setup.law.row.fixes_poisson;
     (looks_at_energy && gives_energy).then_some(Warning::EnergyGivenBack { poisson, limit })
 }
 
 fn of_poisson(setup: &Setup, material: &Isotropic) -> Option<Warning> {
     let (poisson, limit) = poisson_and_limit(setup, material);
-    if setup.law.fixes_poisson() {
+    if setup.law.row.fixes_poisson {
         let differs = (poisson - limit).abs() > POISSON_TOLERANCE;
         return differs.then_some(Warning::PoissonNotUsed { poisson, limit });
     }
@@ -448,7 +448,7 @@ fn of_poisson(setup: &Setup, material: &Isotropic) -> Option<Warning> {
             turns,
         },
         Space::Solid => {
-            let form = setup.law.shear_form(Space::Solid);
+            let form = setup.law.row.shear_form.map(|of| of(Space::Solid));
             Warning::NegativeShearInSpace(NegativeShear::new(poisson, form, horizon_factor))
         }
     })

@@ -22,7 +22,7 @@ fn plate(columns: u32, left: f64) -> Setup {
     let body = LatticeBody::new([columns, 60], [0.002; 2], [left, 0.0], &[hole], &sets).unwrap();
     let mut material = Material::isotropic(3e10, 0.2);
     material.tensile_strength = Some(3e6);
-    let mut setup = Setup::new(body, material, Law::Nhpd);
+    let mut setup = Setup::new(body, material, Law::NHPD);
     let pull = Displacement {
         y: Some(2e-5),
         ..Displacement::default()

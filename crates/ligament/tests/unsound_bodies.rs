@@ -28,7 +28,7 @@ fn plate(sides: [f64; 2], moved: impl Fn(&mut Vec<[f64; 2]>)) -> Setup {
     let mut setup = Setup::new(
         MeshBody::from(mesh),
         Material::isotropic(15e9, 1.0 / 3.0),
-        Law::Nhpd,
+        Law::NHPD,
     );
     setup.supports = vec![Support::new(left, &[Component::X, Component::Y])];
     setup.loads = vec![Load::new(

@@ -16,7 +16,7 @@ fn plate() -> Setup {
     let points = points
         .with_group("right", (0..10).map(|row| 10 * row + 9))
         .unwrap();
-    let mut setup = Setup::new(points, Material::isotropic(1e9, 0.2), Law::Nhpd);
+    let mut setup = Setup::new(points, Material::isotropic(1e9, 0.2), Law::NHPD);
     setup.supports = vec![Support::new("left", &[Component::X, Component::Y])];
     setup.loads = vec![Load::new("right", Action::Force([1.0, 0.0, 0.0]))];
     setup
@@ -124,7 +124,7 @@ fn a_setup_is_held_to_the_rules_of_a_case() {
     };
     let strained = |it: &mut Setup| {
         with_axes(0.2)(it);
-        it.law = Law::ALL[6];
+        it.law = Law::ORTHOTROPIC;
         it.section = Section::Plane {
             state: Plane::Strain,
             thickness: 1.0,
@@ -150,7 +150,7 @@ fn a_setup_is_held_to_the_rules_of_a_case() {
         ),
         (
             error(with_axes(0.2)),
-            "materials[0].elasticity: an orthotropic material needs `Law::Orthotropic` or `Law::MbbPd`: \"nhpd\" is a law for \
+            "materials[0].elasticity: an orthotropic material needs `Law::ORTHOTROPIC` or `Law::MBB_PD`: \"nhpd\" is a law for \
              isotropic ones",
         ),
         (
@@ -241,17 +241,17 @@ fn what_does_not_go_together_is_refused_with_a_remedy() {
         (
             error(|it| (it.analysis, it.criteria) = (steps(), vec![MIXED_MODE.into()])),
             "criteria[0].kind:",
-            "Law::MbbPd",
+            "Law::MBB_PD",
         ),
         (
-            error(|it| {
-                it.law = Law::MbbPd {
-                    form: Form::Full,
-                    strains: Strains::Small,
-                }
-            }),
+            error(|it| it.law = Law::MBB_PD),
             "law:",
             "rows and columns of a lattice",
+        ),
+        (
+            error(|it| it.law = Law::NHPD.with(Calibration::Discrete)),
+            "law.calibration:",
+            "leaves other options open",
         ),
     ] {
         assert!(

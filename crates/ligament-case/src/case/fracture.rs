@@ -7,7 +7,7 @@ use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
 use ligament_analysis::driver::StopRules;
 use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::stepped::SteppedSettings;
-use ligament_model::failure::{Kind, mixed_mode, strength};
+use ligament_model::failure::Kind;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Error, Unexpected};
 use serde::{Deserialize, Deserializer, Serialize};
@@ -146,10 +146,7 @@ impl Fracture {
             }
             Control::Event => self.refuse_stepping(key)?,
         }
-        let default: Kind = match law {
-            setup::Law::MbbPd { .. } => mixed_mode::MIXED_MODE,
-            _ => strength::STRENGTH,
-        };
+        let default: Kind = *law.row.criterion;
         let criteria = self.criteria.get_or_insert_with(|| vec![default.into()]);
         criteria.iter_mut().for_each(Criterion::complete);
         let (kind, key) = (default.word, || key.child("criterion"));

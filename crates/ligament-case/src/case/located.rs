@@ -2,6 +2,7 @@
 
 use ligament::error::Fault as SetupFault;
 use ligament::{Field, SetupError};
+use ligament_model::law::{BondLaw, LAWS};
 
 use super::fault::{CaseError, Fault, KeyFault};
 use super::key_path::KeyPath;
@@ -10,10 +11,7 @@ use super::source::Source;
 use crate::temperature_table;
 
 /// What a setup calls by the names of its types, and the words of a case for it.
-const WORDS: [(&str, &str); 14] = [
-    (" or `Law::MbbPd`", " or \"mbb-pd\""),
-    ("`Law::MbbPd`", "model.law = \"mbb-pd\""),
-    ("`Law::Orthotropic`", "model.law = \"orthotropic\""),
+const WORDS: [(&str, &str); 11] = [
     ("`Scattered::Strength`", "\"strength\""),
     ("`Scattered::FractureEnergy`", "\"fracture-energy\""),
     ("`LatticeBody`", "[lattice] in the place of [mesh]"),
@@ -62,7 +60,8 @@ impl Case {
             },
             SetupFault::Contradiction(reason) => {
                 let in_words = |text: String, (name, word)| text.replace(name, word);
-                Fault::Other(WORDS.into_iter().fold(reason.into_owned(), in_words))
+                let of_laws = LAWS.into_iter().fold(reason.into_owned(), law_in_words);
+                Fault::Other(WORDS.into_iter().fold(of_laws, in_words))
             }
             SetupFault::NothingHappens => {
                 "there is no [[load]] and no point whose temperature changes: nothing would happen"
@@ -169,6 +168,13 @@ impl Case {
         let file = file.display();
         format!("{file}:{second}: {place} has a row already, in line {first}").into()
     }
+}
+
+/// A text that calls a law by its word in the place of its constant.
+fn law_in_words(text: String, law: &BondLaw) -> String {
+    let (constant, word) = (law.constant(), law.quoted());
+    text.replace(&format!(" or {constant}"), &format!(" or {word}"))
+        .replace(&constant, &format!("model.law = {word}"))
 }
 
 /// The key of a material that a part of the setup's comes from.

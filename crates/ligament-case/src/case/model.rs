@@ -7,8 +7,9 @@ use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::values::{exactly_one, one_of, refuse};
 use super::word::Word;
-use ligament::setup::{Calibration, Form, Horizon, Law, Strains};
+use ligament::setup::{Calibration, Form, Horizon, Law, Options, Strains};
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
+use ligament_model::law::{BondLaw, LAWS};
 
 /// The bond model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -30,12 +31,14 @@ pub struct ModelSection {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     #[schemars(extend("default" = false))]
     pub closing: bool,
-    /// Where the constants of the law come from; of `bbpd`, `bbpd-conical`, `pds`, `mppd`, `mppd-beam`.
+    /// Where the constants of the law come from.
+    #[schemars(extend("description" = of_laws("Where the constants of the law come from", |it| it.options.calibration.is_some())))]
     pub calibration: Option<Word<Calibration>>,
-    /// Stiffness against relative rotation; of `mppd` and `orthotropic`.
+    /// Stiffness against relative rotation.
+    #[schemars(extend("description" = of_laws("Stiffness against relative rotation", |it| it.options.rotational_stiffness.is_some())))]
     pub rotational_stiffness: Option<Word<RotationalStiffness>>,
-    /// Stiffness against relative rotation over that of the law; of `nhpd`, `mppd`, `mppd-beam`, `orthotropic`; 1 without the key.
-    #[schemars(range(min = 0))]
+    /// Stiffness against relative rotation over that of the law; 1 without the key.
+    #[schemars(range(min = 0), extend("description" = of_laws("Stiffness against relative rotation over that of the law; 1 without the key", |it| it.shear_form.is_some())))]
     pub rotational_factor: Option<f64>,
     /// Stiffness against relative rotation of a Cosserat continuum with this characteristic length in bending, m; in the place of
     /// `rotational_factor`.
@@ -50,22 +53,21 @@ pub struct ModelSection {
 impl ModelSection {
     /// Puts what the case says into the law, and what the law says else into the case.
     pub(super) fn complete(&mut self, key: &KeyPath) -> Result<(), KeyFault> {
-        let mut law = self.law.0;
-        let open = law.open();
-        let is_open = [
-            settle(&mut self.calibration, open.calibration),
-            settle(&mut self.rotational_stiffness, open.rotational_stiffness),
-            settle(&mut self.form, open.form),
-            settle(&mut self.strains, open.strains),
-        ];
+        let law = self.law.0.with(Options {
+            calibration: self.calibration.map(|it| it.0),
+            rotational_stiffness: self.rotational_stiffness.map(|it| it.0),
+            form: self.form.map(|it| it.0),
+            strains: self.strains.map(|it| it.0),
+        });
         let reasons = [
             ("calibration", "its constants are those of the paper"),
             ("rotational_stiffness", "the law says what it is"),
             ("form", "only \"mbb-pd\" has several"),
             ("strains", "only \"mbb-pd\" has true strains"),
         ];
-        if let Some(settled) = is_open.iter().position(|is_open| !is_open) {
-            let (name, reason) = reasons[settled];
+        let settled = law.misplaced_option();
+        let settled = settled.and_then(|name| reasons.iter().find(|(key, _)| *key == name));
+        if let Some(&(name, reason)) = settled {
             let fault = Fault::NotWith {
                 key: name,
                 setting: format!("law = \"{}\"", law.name()),
@@ -74,6 +76,10 @@ impl ModelSection {
             return Err(KeyFault::new(key.child(name), fault));
         }
         self.law = Word(law);
+        self.calibration = law.options.calibration.map(Word);
+        self.rotational_stiffness = law.options.rotational_stiffness.map(Word);
+        self.form = law.options.form.map(Word);
+        self.strains = law.options.strains.map(Word);
         self.check_rotational_scale(key, &law)
     }
 
@@ -113,13 +119,9 @@ impl ModelSection {
     }
 }
 
-/// Gives a key and what a law leaves open the same value; false where the law does not leave it open.
-fn settle<T: Copy>(given: &mut Option<Word<T>>, open: Option<&mut T>) -> bool {
-    match (given, open) {
-        (Some(_), None) => return false,
-        (None, None) => {}
-        (Some(given), Some(open)) => *open = given.0,
-        (given, Some(open)) => *given = Some(Word(*open)),
-    }
-    true
+/// What a key is, and the laws that take it.
+fn of_laws(what: &str, takes: fn(&BondLaw) -> bool) -> String {
+    let laws = LAWS.into_iter().filter(|it| takes(it));
+    let words: Vec<String> = laws.map(|it| format!("`{}`", it.word)).collect();
+    format!("{what}; of {}.", words.join(", "))
 }

@@ -328,10 +328,13 @@ impl Case {
 
     /// Checks what sections ask of each other that the setup does not know.
     fn check_across_sections(&self) -> Result<(), KeyFault> {
-        let takes_strains = matches!(self.model.law.0, setup::Law::MbbPd { .. });
+        let law = self.model.law.0.row;
         let has_traction = self.output.stress.contains(&StressField::Traction);
-        if takes_strains && has_traction && self.modal.is_none() {
-            let reason = "the elements of \"mbb-pd\" couple up to six points, so that their forces go through no line: take \"virial\"";
+        if !law.couples_ends_alone && has_traction && self.modal.is_none() {
+            let reason = format!(
+                "the elements of {} couple up to six points, so that their forces go through no line: take \"virial\"",
+                law.quoted()
+            );
             return Err(KeyFault::new(
                 root().child("output").child("stress"),
                 reason,

@@ -65,7 +65,7 @@ macro_rules! worded_by_table {
 
 worded_by_table! { Kind: KINDS, KINDS.into_iter().copied(), it => [it.word, it.words] }
 worded_by_table! { Law: LAWS, LAWS.into_iter().copied(), it => [it.word, it.words] }
-worded_by_table! { setup::Law: setup::Law::ALL, setup::Law::ALL.into_iter(), it => it.words() }
+worded_by_table! { setup::Law: setup::Law::ALL, setup::Law::ALL.into_iter(), it => [it.row.word, it.row.sentence] }
 
 /// Values of a type with their words and what these mean; where a word stands for many values, one of them with the pattern of
 /// all.

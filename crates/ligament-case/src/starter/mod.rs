@@ -11,6 +11,8 @@ use crate::mesh_file::{MeshFileError, bounding_box, read_any_mesh};
 use groups::{Ends, Named, Spot};
 use ligament::setup::Law;
 use ligament::warning::{SUSPICIOUSLY_LARGE, Warning};
+use ligament_model::law::listed;
+use ligament_model::material::Space;
 use text::{Body, Section};
 
 /// A starter case.
@@ -48,7 +50,7 @@ pub enum StarterError {
     #[error("\"{}\" is a law for lattices: take --lattice NX,NY,SPACING in the place of the mesh, or another --law", .0.name())]
     NeedsLattice(Law),
     /// The law is for bodies in the plane alone.
-    #[error("\"{}\" is a law of the plane, and the body is a solid: take nhpd, mppd, mppd-beam, pds or bbpd as --law", .0.name())]
+    #[error("\"{}\" is a law of the plane, and the body is a solid: take {} as --law", .0.name(), of_solids())]
     NeedsPlane(Law),
 }
 
@@ -66,7 +68,7 @@ pub fn of_mesh(path: &Path, folder: &Path, law: Law) -> Result<Starter, StarterE
     if extension == "geo" || extension == "geo_unrolled" {
         return Err(StarterError::Geometry(path.to_owned()));
     }
-    if matches!(law, Law::MbbPd { .. }) {
+    if law.row.needs_lattice {
         return Err(StarterError::NeedsLattice(law));
     }
     let mesh = read_any_mesh(path).map_err(|source| match source {
@@ -106,12 +108,15 @@ fn named<'a, const D: usize>(
 }
 
 fn check_solid(law: Law) -> Result<(), StarterError> {
-    match law {
-        Law::BbpdConical { .. } | Law::Orthotropic { .. } | Law::MbbPd { .. } => {
-            Err(StarterError::NeedsPlane(law))
-        }
-        _ => Ok(()),
+    match law.row.exists_in(Space::Solid) {
+        true => Ok(()),
+        false => Err(StarterError::NeedsPlane(law)),
     }
+}
+
+/// The laws of solids.
+fn of_solids() -> String {
+    listed(|it| it.exists_in(Space::Solid), |it| it.word.to_owned())
 }
 
 /// The starter case of a mesh with points at a distance; `file` is its path in the case, `name` that of the body.

@@ -6,7 +6,7 @@ use ligament::Model;
 use ligament::bending_test::{
     BendingTest, MOST_SIDES, Section, THICK, TOO_STIFF, bending_test, most_points, thinnest_section,
 };
-use ligament::setup::{Law, Surface};
+use ligament::setup::Surface;
 use ligament_output::quantity::{place, quantity};
 use ligament_run::stages::Stages;
 
@@ -40,7 +40,7 @@ pub(super) fn write(
         section.horizons()
     );
     entry(out, "thinnest section", words)?;
-    if section.horizons() > THICK && !matches!(model.setup.law, Law::Pds { .. }) {
+    if section.horizons() > THICK && !model.setup.law.row.resists_rotations() {
         let words = format!("it has more than {THICK} horizons across, enough to bend");
         entry(out, "not tested", words)?;
         return Ok(None);

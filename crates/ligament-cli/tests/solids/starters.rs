@@ -41,7 +41,7 @@ fn meshes_of_the_repository_have_cases_that_check() {
         ("thick-disk.msh", "platen-bottom", "platen-top", 1, -1.0),
         ("cavity.msh", "plane-z", "top", 2, 1.0),
     ] {
-        let starter = of_mesh(&meshes().join(mesh), folder.path(), Law::Nhpd).unwrap();
+        let starter = of_mesh(&meshes().join(mesh), folder.path(), Law::NHPD).unwrap();
         let case = case(&starter.text, folder.path());
         assert!(case.case.is_solid());
         assert_eq!(case.case.supports[0].group.as_deref(), Some(held), "{mesh}");
@@ -52,13 +52,7 @@ fn meshes_of_the_repository_have_cases_that_check() {
         assert_eq!(moved.iter().flatten().count(), 1, "{mesh}: {moved:?}");
     }
     // One of them with everything: the pre-crack cuts bonds, probes and output are known.
-    let starter = of_mesh(
-        &meshes().join("thick-disk.msh"),
-        folder.path(),
-        Law::Pds {
-            calibration: Default::default(),
-        },
-    );
+    let starter = of_mesh(&meshes().join("thick-disk.msh"), folder.path(), Law::PDS);
     let report = checked(&case(
         &with_all_settings(&starter.unwrap().text),
         folder.path(),
@@ -85,7 +79,7 @@ fn a_load_between_two_ends_bends() {
     }
     let file = folder.path().join("beam.msh");
     std::fs::write(&file, text + "$EndElements\n").unwrap();
-    let starter = of_mesh(&file, folder.path(), Law::Nhpd).unwrap();
+    let starter = of_mesh(&file, folder.path(), Law::NHPD).unwrap();
     let case = case(&starter.text, folder.path()).case;
     let [left, right] = case.supports.as_slice() else {
         panic!("{}", starter.text);
@@ -151,7 +145,7 @@ fn lattices_take_the_laws_of_solids() {
             Err(other) => panic!("{other}"),
         }
     }
-    assert_eq!(count, 5);
+    assert_eq!(count, 6);
     let folder = tempfile::tempdir().unwrap();
     let made = ligament_in(
         folder.path(),

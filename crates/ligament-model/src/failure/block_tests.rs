@@ -14,9 +14,8 @@ use crate::element::beam::BeamBond;
 use crate::element::pair::PairKinematics;
 use crate::element::{BondDeformation, ElementKind};
 use crate::horizon::Horizons;
-use crate::law::beam::{self, ShearForm};
-use crate::law::pds;
-use crate::material::{Isotropic, Material, Space};
+use crate::law::Law;
+use crate::material::{Elasticity, Isotropic, Material, Space};
 use crate::system::BondSystem;
 use crate::tensor::{dot, tangents};
 
@@ -55,9 +54,9 @@ fn block(size: [i32; 3], horizon: f64, poisson: f64, element: ElementKind) -> Bo
     let space = Space::Solid;
     let stiffness = match element {
         ElementKind::Beam => {
-            beam::stiffness(&bonds, &cloud, &materials, space, ShearForm::Constant)
+            Law::NHPD.densities(&bonds, &cloud, &materials.map(Elasticity::Isotropic), space)
         }
-        _ => pds::stiffness(&bonds, &cloud, &materials, space),
+        _ => Law::PDS.densities(&bonds, &cloud, &materials.map(Elasticity::Isotropic), space),
     };
     let ones = vec![1.0; bonds.len()];
     BondSystem::new(cloud, bonds, element, stiffness, ones.clone(), &ones)

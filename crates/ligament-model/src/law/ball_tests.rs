@@ -9,9 +9,7 @@ use crate::element::pair::PairKinematics;
 use crate::element::spring::SpringBond;
 use crate::element::{Remaining, Rigidities};
 use crate::law::BondStiffness;
-use crate::law::beam::ShearForm;
-use crate::law::rotational::RotationalStiffness;
-use crate::material::{Isotropic, Space};
+use crate::material::{Elasticity, Isotropic, Space};
 use crate::tensor::SymTensor;
 
 const MATERIAL: Isotropic = Isotropic {
@@ -123,16 +121,12 @@ const OF_GAUSS: f64 = 1e-7;
 fn energies_are_those_of_the_isotropic_body() {
     let (bonds, cloud) = ball();
     let materials = [MATERIAL];
-    let pds = pds::stiffness(&bonds, &cloud, &materials, SOLID);
-    let constant = beam::stiffness(&bonds, &cloud, &materials, SOLID, ShearForm::Constant);
-    let falling = beam::stiffness(&bonds, &cloud, &materials, SOLID, ShearForm::Falling);
-    let mppd = mppd::stiffness(
-        &bonds,
-        &cloud,
-        &materials,
-        SOLID,
-        RotationalStiffness::Decaying,
-    );
+    let pds = Law::PDS.densities(&bonds, &cloud, &materials.map(Elasticity::Isotropic), SOLID);
+    let constant =
+        Law::NHPD.densities(&bonds, &cloud, &materials.map(Elasticity::Isotropic), SOLID);
+    let falling =
+        Law::MPPD_BEAM.densities(&bonds, &cloud, &materials.map(Elasticity::Isotropic), SOLID);
+    let mppd = Law::MPPD.densities(&bonds, &cloud, &materials.map(Elasticity::Isotropic), SOLID);
     for strain in STRAINS {
         let expected = elastic(&MATERIAL, strain);
         let spring = energy(
@@ -158,16 +152,16 @@ fn energies_are_those_of_the_isotropic_body() {
 #[test]
 fn central_forces_have_a_poisson_s_ratio_of_a_quarter() {
     let (bonds, cloud) = ball();
-    let conical = bbpd_conical::stiffness(&bonds, &cloud, &[MATERIAL], SOLID);
+    let conical = Law::BBPD_CONICAL.densities(&bonds, &cloud, &[MATERIAL.into()], SOLID);
     for strain in STRAINS {
-        let expected = elastic(&bbpd::central(&MATERIAL, SOLID), strain);
+        let expected = elastic(&MATERIAL.with_central_forces(SOLID), strain);
         let in_strain = |it: &SpringBond<3>| it.deformation_in(&tensor(strain));
         let error = energy(&conical, |_| 1.0, in_strain) / expected - 1.0;
         assert!(error.abs() < OF_GAUSS, "{strain:?}: {error:e}");
     }
-    let bbpd = bbpd::stiffness(&bonds, &cloud, &[MATERIAL], SOLID);
+    let bbpd = Law::BBPD.densities(&bonds, &cloud, &[MATERIAL.into()], SOLID);
     for strain in STRAINS {
-        let expected = elastic(&bbpd::central(&MATERIAL, SOLID), strain);
+        let expected = elastic(&MATERIAL.with_central_forces(SOLID), strain);
         let found = energy(
             &bbpd,
             |_| 1.0,
@@ -189,7 +183,7 @@ fn rotations_cost_springs_what_they_should() {
     let (omega, mu) = ([0.3, -0.8, 0.5], 3.0 / 2.4);
     let lambda = 2.0 * mu * 0.2 / 0.6;
     let square: f64 = omega.iter().map(|it| it * it).sum();
-    let pds = pds::stiffness(&bonds, &cloud, &[MATERIAL], SOLID);
+    let pds = Law::PDS.densities(&bonds, &cloud, &[MATERIAL.into()], SOLID);
     let turned = |n: [f64; 3]| {
         [
             omega[1] * n[2] - omega[2] * n[1],
@@ -213,7 +207,7 @@ fn rotations_cost_springs_what_they_should() {
 #[test]
 fn curvatures_cost_chi_chi() {
     let (bonds, cloud) = ball();
-    let nhpd = beam::stiffness(&bonds, &cloud, &[MATERIAL], SOLID, ShearForm::Constant);
+    let nhpd = Law::NHPD.densities(&bonds, &cloud, &[MATERIAL.into()], SOLID);
     let chi = [[0.3, -1.2, 0.4], [0.9, 0.1, -0.6], [0.2, 0.8, -0.7]];
     let found = energy(
         &nhpd,
@@ -237,7 +231,7 @@ fn curvatures_cost_chi_chi() {
 fn discrete_calibration_needs_no_integral() {
     let (bonds, cloud) = ball();
     let alpha: Vec<f64> = bonds.length.iter().map(|l| (-l).exp()).collect();
-    let stiffness = beam::stiffness(&bonds, &cloud, &[MATERIAL], SOLID, ShearForm::Falling);
+    let stiffness = Law::MPPD_BEAM.densities(&bonds, &cloud, &[MATERIAL.into()], SOLID);
     let mut calibrated =
         calibration::calibrated(stiffness, &alpha, &bonds, &cloud, &[MATERIAL], SOLID);
     // A bond takes the mean of both ends; the far ones have this bond alone and know nothing.
@@ -287,7 +281,9 @@ fn bonds_across_an_interface_are_in_series() {
         ..MATERIAL
     };
     let materials = [MATERIAL, stiff];
-    let found = beam::stiffness(&bonds, &cloud, &materials, SOLID, ShearForm::Constant).in_series();
+    let found = Law::NHPD
+        .densities(&bonds, &cloud, &materials.map(Elasticity::Isotropic), SOLID)
+        .in_series();
     let [soft, hard] = materials.map(|it| constants::axial(&it, SOLID, 1.0) / 2.5_f64.powi(4));
     let of = |ends: [u32; 2]| {
         let bond = bonds.ends.iter().position(|it| *it == ends);

@@ -1,11 +1,29 @@
 //! Bond-based peridynamics with a conical micromodulus: bonds count less the longer they are (Ha and Bobaru 2010, section
 //! 2).
 
-use super::bbpd::central;
-use super::{BondStiffness, Densities, constants};
-use crate::bonds::BondSet;
-use crate::cloud::PointCloud;
-use crate::material::{Isotropic, Space};
+use super::{BondLaw, BondStiffness, Calibration, Densities, Law, LawInput, Options, constants};
+use crate::material::Isotropic;
+
+/// The law.
+pub const LAW: BondLaw = BondLaw {
+    options: Options {
+        calibration: Some(Calibration::Integral),
+        ..Options::NONE
+    },
+    fixes_poisson: true,
+    ..BondLaw::new(
+        "bbpd-conical",
+        "Central forces with a stiffness that falls with the length.",
+        "Ha and Bobaru 2010, section 2",
+        densities,
+        Some(densities),
+    )
+};
+
+impl Law {
+    /// Central forces with a stiffness that falls with the length of the bond.
+    pub const BBPD_CONICAL: Self = Self::usual(&LAW);
+}
 
 /// Stiffness densities of every bond: k_n alone,
 ///
@@ -13,18 +31,11 @@ use crate::material::{Isotropic, Space};
 ///
 /// D + 2 times the constant micromodulus of [`super::bbpd`]: the integral of (1 - l/H) l^D over the horizon is that part of the integral of
 /// l^D. Bonds as long as the horizon carry nothing. Poisson's ratio is 1/3 or 1/4, as for [`super::bbpd`].
-pub fn stiffness<const D: usize>(
-    bonds: &BondSet<D>,
-    cloud: &PointCloud<D>,
-    materials: &[Isotropic],
-    space: Space,
-) -> BondStiffness {
-    let constant = |material| {
-        let constant = constants::axial(&central(material, space), space, cloud.thickness);
-        [(D + 2) as f64 * constant]
+fn densities<const D: usize>(input: &LawInput<'_, D>) -> BondStiffness {
+    let constant = |material: &Isotropic, space, thickness| {
+        (D + 2) as f64 * constants::central_axial(material, space, thickness)
     };
-    let constants: Vec<[f64; 1]> = materials.iter().map(constant).collect();
-    BondStiffness::from_constants(bonds, cloud, &constants, |[c], bond| Densities {
+    input.of_isotropic([constant], |[c], bond| Densities {
         axial: c / bond.horizon.powi(D as i32 + 1) * (1.0 - bond.length / bond.horizon).max(0.0),
         shear: 0.0,
         rotational: 0.0,

@@ -1,28 +1,57 @@
 //! The beam-like bond (Gerstle 2007, in the form of MPPD), which is also the law of NHPD eq. 6.
 
-use super::{BondStiffness, Densities, constants};
-use crate::bonds::BondSet;
-use crate::cloud::PointCloud;
-use crate::material::{Isotropic, Space};
+use super::row::ShearForm;
+use super::{
+    BondLaw, BondStiffness, Calibration, Densities, Law, LawInput, Options, PaperCorrection,
+    constants,
+};
+use crate::element::ElementKind;
+use crate::material::Space;
 
-/// Shear stiffness k_t of a bond over its length.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ShearForm {
-    /// One k_t for all lengths, that of [`super::pds`]. With a factor alpha that depends on the length, the ratio of shear to stretch
-    /// stays right: NHPD's form in space.
-    Constant,
-    /// k_t = 12 d/l^2, as a beam of Euler and Bernoulli has: NHPD's form in the plane. In space NHPD's factor alpha, which falls with the
-    /// length, makes the shear of the body 1.16 times too strong: nu = .2 becomes .192.
-    Falling,
+/// NHPD's law.
+pub const NHPD: BondLaw = BondLaw {
+    shear_form: Some(nhpd_form),
+    correction: PaperCorrection::LengthAndDomain,
+    element: |_| ElementKind::Beam,
+    ..BondLaw::new(
+        "nhpd",
+        "Beam-like bonds with non-unified horizons: normal, shear and rotational stiffness.",
+        "NHPD eq. 6",
+        |it| densities(it, nhpd_form(it.space)),
+        Some(|it| densities(it, nhpd_form(it.space))),
+    )
+};
+
+/// MPPD's beam form, whose integrals leave the constants 7.5 % off at nu = 0 with a horizon factor of 3.
+pub const MPPD_BEAM: BondLaw = BondLaw {
+    options: Options {
+        calibration: Some(Calibration::Discrete),
+        ..Options::NONE
+    },
+    element: |_| ElementKind::Beam,
+    shear_form: Some(|_| ShearForm::Falling),
+    ..BondLaw::new(
+        "mppd-beam",
+        "Micropolar bonds in the form of a beam: shear stiffness falls with the length.",
+        "Gerstle 2007; OMPPD eq. 22",
+        |it| densities(it, ShearForm::Falling),
+        Some(|it| densities(it, ShearForm::Falling)),
+    )
+};
+
+impl Law {
+    /// Beam-like bonds with non-unified horizons: normal, shear and rotational stiffness.
+    pub const NHPD: Self = Self::usual(&NHPD);
+
+    /// Normal and shear stiffness in the form of a beam, with rotations: shear stiffness falls with the length.
+    pub const MPPD_BEAM: Self = Self::usual(&MPPD_BEAM);
 }
 
-impl ShearForm {
-    /// The form of NHPD's law.
-    pub fn of_nhpd(space: Space) -> Self {
-        match space {
-            Space::Plane(_) => Self::Falling,
-            Space::Solid => Self::Constant,
-        }
+/// The form of NHPD's law.
+fn nhpd_form(space: Space) -> ShearForm {
+    match space {
+        Space::Plane(_) => ShearForm::Falling,
+        Space::Solid => ShearForm::Constant,
     }
 }
 
@@ -34,20 +63,9 @@ impl ShearForm {
 /// d is negative above the Poisson's ratio of central forces. A uniform strain does not see k_theta, which in space bending and torsion share:
 /// with k_phi = g/l for torsion the energy of a uniform curvature chi is (pi H^4/60) ((g - d)(tr^2 chi + chi : chi^T) + (g + 4 d) chi : chi),
 /// and g = d leaves chi : chi alone.
-pub fn stiffness<const D: usize>(
-    bonds: &BondSet<D>,
-    cloud: &PointCloud<D>,
-    materials: &[Isotropic],
-    space: Space,
-    form: ShearForm,
-) -> BondStiffness {
-    // What does not depend on the bond.
-    let constant = |material| {
-        [constants::axial, constants::bending, constants::shear]
-            .map(|of| of(material, space, cloud.thickness))
-    };
-    let constants: Vec<[f64; 3]> = materials.iter().map(constant).collect();
-    BondStiffness::from_constants(bonds, cloud, &constants, |[c, d, shear], bond| {
+fn densities<const D: usize>(input: &LawInput<'_, D>, form: ShearForm) -> BondStiffness {
+    let constants = [constants::axial, constants::bending, constants::shear];
+    input.of_isotropic(constants, |[c, d, shear], bond| {
         let (l, h) = (bond.length, bond.horizon);
         let d = d / h.powi(D as i32 - 1);
         Densities {

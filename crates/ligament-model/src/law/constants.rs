@@ -27,6 +27,11 @@ pub(crate) fn axial(material: &Isotropic, space: Space, thickness: f64) -> f64 {
     }
 }
 
+/// c H^(D + 1) of central forces, which have a Poisson's ratio of their own.
+pub(crate) fn central_axial(material: &Isotropic, space: Space, thickness: f64) -> f64 {
+    axial(&material.with_central_forces(space), space, thickness)
+}
+
 /// d H^(D - 1), N/m^3, in space Pa; exactly zero where central forces have the Poisson's ratio of the material but for rounding.
 pub(crate) fn bending(material: &Isotropic, space: Space, thickness: f64) -> f64 {
     let Isotropic { young, poisson } = *material;

@@ -10,17 +10,57 @@
 //! of its ends, so that the energy of a uniform strain is that of the continuum at every point, whatever c and whatever is missing of its family; the
 //! forces follow from the energy, and K is symmetric.
 
+mod matrices;
 pub mod pairwise;
-pub mod rows;
+mod rows;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 use rayon::prelude::*;
 
-use super::{BondStiffness, bulk_stiffness, materials};
+use super::{
+    BondLaw, BondStiffness, Form, Law, LawInput, Materials, Options, PaperCorrection, Strains,
+};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
-use crate::element::imaginary::{StrainStiffness, entries};
-use crate::material::{Elasticity, Plane};
+use crate::element::ElementKind;
+use crate::failure::mixed_mode;
+use matrices::{of_matrices, plane_stiffnesses};
+
+/// The law.
+pub const LAW: BondLaw = BondLaw {
+    options: Options {
+        form: Some(Form::Full),
+        strains: Some(Strains::Small),
+        ..Options::NONE
+    },
+    element: |options| match (options.form, options.strains) {
+        (Some(Form::Pairwise), _) => ElementKind::Pairwise,
+        (Some(Form::Full | Form::Rows) | None, Some(Strains::True)) => ElementKind::TrueStrain,
+        (Some(Form::Full | Form::Rows) | None, Some(Strains::Small) | None) => {
+            ElementKind::Imaginary
+        }
+    },
+    materials: Materials::Anisotropic,
+    needs_lattice: true,
+    couples_ends_alone: false,
+    correction: PaperCorrection::None,
+    criterion: &mixed_mode::MIXED_MODE,
+    ..BondLaw::new(
+        "mbb-pd",
+        "All strains of a small rectangle around each bond of a lattice.",
+        "MBB-PD eqs 12 to 19, appendix A",
+        |it| match it.options.form.unwrap_or_default() {
+            Form::Rows => rows::densities(it),
+            Form::Full | Form::Pairwise => densities(it),
+        },
+        None,
+    )
+};
+
+impl Law {
+    /// All strains of a small rectangle around each bond of a lattice.
+    pub const MBB_PD: Self = Self::usual(&LAW);
+}
 
 /// Factors psi of the points, from the families in `bonds`, shape (n_points), 1/m^4.
 pub fn factors(bonds: &BondSet, cloud: &PointCloud) -> Vec<f64> {
@@ -36,63 +76,13 @@ pub fn factors(bonds: &BondSet, cloud: &PointCloud) -> Vec<f64> {
 
 /// Micro-modulus matrices K = psi c (eq. 16) with the mean psi of the ends of each bond and the c of its materials; `axial` and
 /// `shear` have those for a stretch along the bond and for S_xy.
-pub fn stiffness(
-    bonds: &BondSet,
-    cloud: &PointCloud,
-    elasticity: &[Elasticity],
-    plane: Plane,
-) -> BondStiffness {
-    let stiffnesses = plane_stiffnesses(bonds, cloud, elasticity, plane);
-    let psi = factors(bonds, cloud);
+fn densities(input: &LawInput<'_, 2>) -> BondStiffness {
+    let (stiffnesses, bonds) = (plane_stiffnesses(input), input.bonds);
+    let psi = factors(bonds, input.cloud);
     let of_bond = |(ends, stiffness): (&[u32; 2], Matrix3<f64>)| {
         let [a, b] = ends.map(|end| psi[end as usize]);
         (0.5 * (a + b) * stiffness, a / (a + b))
     };
     let matrices = bonds.ends.par_iter().zip(stiffnesses).map(of_bond);
     of_matrices(bonds, &matrices.collect::<Vec<_>>())
-}
-
-/// The stiffness of bonds with these micro-modulus matrices and shares of their first ends (n_bonds).
-fn of_matrices(bonds: &BondSet, matrices: &[(Matrix3<f64>, f64)]) -> BondStiffness {
-    let along = |((matrix, _), &[a, b]): (&(Matrix3<f64>, f64), &[f64; 2])| {
-        let stretch = Vector3::new(a * a, b * b, a * b);
-        stretch.dot(&(matrix * stretch))
-    };
-    let strain = |(matrix, first_share): &(Matrix3<f64>, f64)| StrainStiffness {
-        entries: entries(matrix),
-        first_share: *first_share,
-    };
-    BondStiffness {
-        axial: matrices.iter().zip(&bonds.direction).map(along).collect(),
-        shear: matrices.iter().map(|(matrix, _)| matrix[(2, 2)]).collect(),
-        rotational: vec![0.0; bonds.len()],
-        strain: matrices.iter().map(strain).collect(),
-        series: Vec::new(),
-        held: Vec::new(),
-    }
-}
-
-/// The stiffness of the plane for the materials of each bond ([`materials::of_bond`]), shape (n_bonds), Pa.
-fn plane_stiffnesses(
-    bonds: &BondSet,
-    cloud: &PointCloud,
-    elasticity: &[Elasticity],
-    plane: Plane,
-) -> Vec<Matrix3<f64>> {
-    let of_materials: Vec<Matrix3<f64>> = (elasticity.iter())
-        .map(|material| material.plane_stiffness(plane))
-        .collect();
-    let bulk: Vec<f64> = of_materials.iter().map(bulk_stiffness).collect();
-    let of_bond = |&ends: &[u32; 2]| {
-        let shares = materials::of_bond(cloud, ends, &bulk);
-        shares.fold(Matrix3::zeros(), |sum, (material, share)| {
-            sum + share * of_materials[material]
-        })
-    };
-    let mut of_bonds: Vec<Matrix3<f64>> = bonds.ends.iter().map(of_bond).collect();
-    for (bond, shares) in bonds.composition.numbered() {
-        let (softest, _) = materials::softest(shares, [&bulk, &bulk]);
-        of_bonds[bond] = of_materials[softest];
-    }
-    of_bonds
 }

@@ -17,317 +17,56 @@ pub mod bbpd_conical;
 pub mod beam;
 pub mod calibration;
 pub(crate) mod constants;
+mod densities;
 mod materials;
 pub mod mbb_pd;
 pub mod mppd;
+mod options;
 pub mod orthotropic;
 pub mod pds;
 pub mod rotational;
+mod row;
 pub mod stability;
 
-use nalgebra::Matrix3;
-use rayon::prelude::*;
+pub use densities::BondStiffness;
+pub(crate) use densities::{CENTRAL_FORCE_TOLERANCE, Densities, bulk_stiffness};
+pub use options::{Calibration, Form, Options, Strains};
+pub use row::{BondLaw, Law, LawInput, MakeDensities, Materials, PaperCorrection, ShearForm};
 
-use crate::bonds::BondSet;
-use crate::bonds::retained::retained;
-use crate::cloud::PointCloud;
-use crate::element::Remaining;
-use crate::element::imaginary::StrainStiffness;
+/// All laws. A law is one row: its own file and its place here.
+pub const LAWS: [&BondLaw; 8] = [
+    &beam::NHPD,
+    &bbpd::LAW,
+    &bbpd_conical::LAW,
+    &pds::LAW,
+    &mppd::LAW,
+    &beam::MPPD_BEAM,
+    &orthotropic::LAW,
+    &mbb_pd::LAW,
+];
 
-/// Below this |1 - 3 nu| (or |1 - 4 nu| in plane strain) the shear stiffness counts as exactly zero, and with it the
-/// rotational one: what rounding leaves of it would only make the system nearly singular.
-pub(crate) const CENTRAL_FORCE_TOLERANCE: f64 = 1e-9;
-
-/// Stiffness densities of the bonds.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BondStiffness {
-    /// Axial k_n, shape (n_bonds), N/m^6.
-    pub axial: Vec<f64>,
-    /// Shear k_t, shape (n_bonds), N/m^6; negative above the central-force Poisson's ratio.
-    pub shear: Vec<f64>,
-    /// Rotational k_theta, shape (n_bonds), N/m^5; of the sign of k_t.
-    pub rotational: Vec<f64>,
-    /// The micro-modulus matrix over (xx, yy, xy) of imaginary elements, shape (n_bonds), N/m^6; empty for the others.
-    pub strain: Vec<StrainStiffness>,
-    /// Factors of bonds across an interface ([`BondStiffness::in_series`]), shape (n_bonds); empty where there is none.
-    pub series: Vec<f64>,
-    /// beta, how far the ends of bonds are held by a stiffer material, shape (n_bonds); empty where none is.
-    pub held: Vec<f64>,
+impl Law {
+    /// All laws, each with the usual choice of what it leaves open.
+    pub const ALL: [Self; LAWS.len()] = {
+        let mut all = [Self::usual(LAWS[0]); LAWS.len()];
+        let mut place = 1;
+        while place < all.len() {
+            all[place] = Self::usual(LAWS[place]);
+            place += 1;
+        }
+        all
+    };
 }
 
-/// Densities of one bond.
-pub(crate) struct Densities {
-    pub(crate) axial: f64,
-    pub(crate) shear: f64,
-    pub(crate) rotational: f64,
-}
-
-/// Geometry of a bond as a law needs it.
-pub(crate) struct BondGeometry<const D: usize = 2> {
-    /// Length l, m.
-    pub(crate) length: f64,
-    /// Bond horizon H, m.
-    pub(crate) horizon: f64,
-    /// Direction cosines from A to B.
-    pub(crate) direction: [f64; D],
-}
-
-impl BondStiffness {
-    /// Densities from `constants` of the materials (n_materials), the first of which tells how stiff they are: a bond has those of
-    /// its materials ([`materials::of_bond`]).
-    pub(crate) fn from_constants<const D: usize, const N: usize>(
-        bonds: &BondSet<D>,
-        cloud: &PointCloud<D>,
-        constants: &[[f64; N]],
-        densities: impl Fn(&[f64; N], &BondGeometry<D>) -> Densities + Sync,
-    ) -> Self {
-        let axial_constants: Vec<f64> = constants.iter().map(|it| it[0]).collect();
-        let of_ends = |ends| {
-            materials::of_bond(cloud, ends, &axial_constants).fold(
-                [0.0; N],
-                |mut sum, (material, share)| {
-                    for (value, constant) in sum.iter_mut().zip(&constants[material]) {
-                        *value += share * constant;
-                    }
-                    sum
-                },
-            )
-        };
-        let geometry = |bond: usize| BondGeometry {
-            length: bonds.length[bond],
-            horizon: bonds.horizon[bond],
-            direction: bonds.direction[bond],
-        };
-        let mut series = materials::series_factors(bonds, cloud, &axial_constants);
-        let [mut axial, mut shear, mut rotational] = [(); 3].map(|()| vec![0.0; bonds.len()]);
-        (&bonds.ends, &mut axial, &mut shear, &mut rotational)
-            .into_par_iter()
-            .enumerate()
-            .for_each(|(bond, (&ends, axial, shear, rotational))| {
-                let of_bond = densities(&of_ends(ends), &geometry(bond));
-                (*axial, *shear, *rotational) = (of_bond.axial, of_bond.shear, of_bond.rotational);
-            });
-        for (bond, shares) in bonds.composition.numbered() {
-            let of_material = |constants: &[f64; N]| densities(constants, &geometry(bond));
-            let axial_of = constants
-                .iter()
-                .map(|it| of_material(it).axial)
-                .collect::<Vec<_>>();
-            let (softest, factor) = materials::softest(shares, [&axial_of, &axial_constants]);
-            let of_bond = of_material(&constants[softest]);
-            (axial[bond], shear[bond], rotational[bond]) =
-                (of_bond.axial, of_bond.shear, of_bond.rotational);
-            series[bond] = factor;
-        }
-        let held = materials::held(bonds, cloud, &shear, |material, bond| {
-            densities(&constants[material], &geometry(bond)).shear
-        });
-        Self {
-            axial,
-            shear,
-            rotational,
-            strain: Vec::new(),
-            series: some_other_than(1.0, series),
-            held: some_other_than(0.0, held),
-        }
+/// Names of the laws of which something is true, as in `a, b or c`.
+pub fn listed(suits: impl Fn(&BondLaw) -> bool, name: impl Fn(&BondLaw) -> String) -> String {
+    let suited = LAWS.into_iter().filter(|it| suits(it));
+    let names: Vec<String> = suited.map(name).collect();
+    match names.as_slice() {
+        [others @ .., last] if !others.is_empty() => format!("{} or {last}", others.join(", ")),
+        alone => alone.concat(),
     }
-
-    /// The densities with those of bonds across an interface as two halves in series.
-    ///
-    /// Corrections take such bonds for bonds of the softer material. A uniform strain then leaves that material as it is without the
-    /// stiffer one, as in a body whose parts pull each other along; and where both are strained as their stiffnesses say, so that the
-    /// tractions agree, a bond that is half in each has the force of one that is all in the softer.
-    pub fn in_series(mut self) -> Self {
-        for densities in [&mut self.axial, &mut self.shear, &mut self.rotational] {
-            for (density, factor) in densities.iter_mut().zip(&self.series) {
-                *density *= factor;
-            }
-        }
-        self
-    }
-
-    /// The densities after the correction: of bonds [in series](Self::in_series) and, between points that turn, of bonds whose ends are held
-    /// by a stiffer material; and beside them the part of each that the correction knows nothing of, shape (n_bonds), empty in a body of one
-    /// material.
-    ///
-    /// A point turns with the stiffest of its materials. In a layer sheared by gamma between stiff parts the ends of bonds do not turn with
-    /// the layer, which turns by gamma/2, and a bond straight across has the shear gamma in place of gamma/2. In D dimensions a layer of
-    /// bonds evenly spread over the directions, none of whose ends turns with it, stores the energy of its material when it is pulled and
-    /// when it is sheared with
-    ///
-    /// k_t' = k_t/4, k_n' = k_n + (D - 1)/3 (k_t - k_t').
-    ///
-    /// Where the ends of a bond are held in part, by beta in the mean, k_t' = k_t/(1 + 3 beta), and k_theta alike. (If all other ends turned
-    /// with the layer it would be 1 + 3 beta^2, but the bonds to held ends hold them too.) Where k_t is negative, k_n' is at least k_n/2. What
-    /// strains along the layer do to its faces is then that of bonds without k_t; stiff parts beside it keep such strains small. The
-    /// equations are this project's own.
-    pub(crate) fn joined<const D: usize>(mut self, do_points_turn: bool) -> (Self, Vec<Remaining>) {
-        if !do_points_turn {
-            self.held.clear();
-        }
-        if self.series.is_empty() && self.held.is_empty() {
-            return (self, Vec::new());
-        }
-        let corrected = (
-            self.axial.clone(),
-            self.shear.clone(),
-            self.rotational.clone(),
-        );
-        let gained = (D as f64 - 1.0) / 3.0;
-        for (bond, held) in self.held.iter().enumerate() {
-            let shear = self.shear[bond];
-            let left = 1.0 / (1.0 + 3.0 * held);
-            self.shear[bond] *= left;
-            self.rotational[bond] *= left;
-            let change = gained * (shear - self.shear[bond]);
-            self.axial[bond] += change.max(-0.5 * self.axial[bond]);
-        }
-        let joined = self.in_series();
-        let part = |before: f64, after: f64| {
-            if after == 0.0 {
-                0.0
-            } else {
-                1.0 - before / after
-            }
-        };
-        let (axial, shear, rotational) = &corrected;
-        let beyond = (0..axial.len()).map(|bond| Remaining {
-            axial: part(axial[bond], joined.axial[bond]),
-            shear: part(shear[bond], joined.shear[bond]),
-            rotational: part(rotational[bond], joined.rotational[bond]),
-        });
-        let beyond = beyond.collect();
-        (joined, beyond)
-    }
-
-    /// The densities with shear and rotation times some factors (n_bonds); as they are without any.
-    pub fn with_shear(mut self, factors: &[f64]) -> Self {
-        let of_bonds = self.shear.iter_mut().zip(&mut self.rotational);
-        for ((shear, rotational), factor) in of_bonds.zip(factors) {
-            (*shear, *rotational) = (*shear * factor, *rotational * factor);
-        }
-        self
-    }
-
-    /// The bonds for which `keep` (n_bonds) is true.
-    pub fn retained(self, keep: &[bool]) -> Self {
-        Self {
-            axial: retained(self.axial, keep),
-            shear: retained(self.shear, keep),
-            rotational: retained(self.rotational, keep),
-            strain: some_retained(self.strain, keep),
-            series: some_retained(self.series, keep),
-            held: some_retained(self.held, keep),
-        }
-    }
-}
-
-/// Values; none where all are a common one.
-fn some_other_than(common: f64, values: Vec<f64>) -> Vec<f64> {
-    match values.iter().all(|&value| value == common) {
-        true => Vec::new(),
-        false => values,
-    }
-}
-
-/// The values of the bonds for which `keep` (n_bonds) is true; none where there are none.
-fn some_retained<T>(values: Vec<T>, keep: &[bool]) -> Vec<T> {
-    if values.is_empty() {
-        values
-    } else {
-        retained(values, keep)
-    }
-}
-
-/// C_11 + C_22 + 2 C_12 of a plane, Pa, which does not depend on the axes and is what the laws' axial constants are in proportion to: the
-/// softer of two materials has the smaller one.
-pub(crate) fn bulk_stiffness(plane: &Matrix3<f64>) -> f64 {
-    plane[(0, 0)] + plane[(1, 1)] + 2.0 * plane[(0, 1)]
 }
 
 #[cfg(test)]
 mod ball_tests;
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Energies of a layer across x, of bonds with unit k_n and k_t/2 along the unit vectors, pulled and sheared by one: with ends that
-    /// turn with it and the densities of the law, and with ends that do not turn and those that are joined.
-    fn energies<const D: usize>(directions: &[[f64; D]]) -> [[f64; 2]; 2] {
-        let of_law = BondStiffness {
-            axial: vec![1.0; directions.len()],
-            shear: vec![0.5; directions.len()],
-            rotational: vec![0.0; directions.len()],
-            strain: Vec::new(),
-            series: Vec::new(),
-            held: vec![1.0; directions.len()],
-        };
-        let energy = |stiffness: &BondStiffness, slope: fn(f64, f64) -> [f64; 2]| {
-            let of_bond = |(bond, n): (usize, &[f64; D])| {
-                let [x, y] = slope(n[0], n[1]);
-                let stretch = n[0] * x + n[1] * y;
-                let shear = x * x + y * y - stretch * stretch;
-                stiffness.axial[bond] * stretch * stretch + stiffness.shear[bond] * shear
-            };
-            directions.iter().enumerate().map(of_bond).sum()
-        };
-        let (joined, _) = of_law.clone().joined::<D>(true);
-        [
-            [
-                energy(&of_law, |x, _| [x, 0.0]),
-                energy(&of_law, |x, y| [0.5 * y, 0.5 * x]),
-            ],
-            [
-                energy(&joined, |x, _| [x, 0.0]),
-                energy(&joined, |x, _| [0.0, x]),
-            ],
-        ]
-    }
-
-    fn assert_equal([turning, held]: [[f64; 2]; 2]) {
-        for (turning, held) in turning.into_iter().zip(held) {
-            assert!((held / turning - 1.0).abs() < 1e-12, "{held} {turning}");
-        }
-    }
-
-    /// A layer between parts that do not turn has the energy of its material, by twelve directions around the circle and the corners of
-    /// an icosahedron, whose means of fourth powers are those of all directions.
-    #[test]
-    fn a_layer_whose_points_are_held_is_as_stiff_as_its_material() {
-        let circle = (0..12).map(|k| f64::from(k) * std::f64::consts::PI / 6.0);
-        let circle: Vec<[f64; 2]> = circle.map(|it| [it.cos(), it.sin()]).collect();
-        assert_equal(energies(&circle));
-        let golden = 0.5 * (1.0 + 5.0_f64.sqrt());
-        let size = golden.hypot(1.0);
-        let corners = [
-            [1.0, golden],
-            [1.0, -golden],
-            [-1.0, golden],
-            [-1.0, -golden],
-        ];
-        let corners = corners.map(|pair| pair.map(|it| it / size));
-        let corners = corners
-            .into_iter()
-            .flat_map(|[a, b]| [[0.0, a, b], [a, b, 0.0], [b, 0.0, a]]);
-        assert_equal(energies(&corners.collect::<Vec<[f64; 3]>>()));
-    }
-
-    /// Points that do not turn are held by nothing.
-    #[test]
-    fn bonds_between_points_that_do_not_turn_stay_as_they_are() {
-        let stiffness = BondStiffness {
-            axial: vec![1.0],
-            shear: vec![0.5],
-            rotational: vec![0.0],
-            strain: Vec::new(),
-            series: Vec::new(),
-            held: vec![1.0],
-        };
-        let (joined, beyond) = stiffness.joined::<2>(false);
-        assert_eq!(
-            (joined.axial[0], joined.shear[0], beyond.len()),
-            (1.0, 0.5, 0)
-        );
-    }
-}

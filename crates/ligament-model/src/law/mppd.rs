@@ -3,23 +3,38 @@
 use rayon::prelude::*;
 
 use super::rotational::RotationalStiffness;
-use super::{BondStiffness, pds};
-use crate::bonds::BondSet;
-use crate::cloud::PointCloud;
-use crate::material::{Isotropic, Space};
+use super::{BondLaw, BondStiffness, Calibration, Law, LawInput, Options, ShearForm, pds};
+use crate::element::ElementKind;
+
+/// The law.
+pub const LAW: BondLaw = BondLaw {
+    options: Options {
+        calibration: Some(Calibration::Integral),
+        rotational_stiffness: Some(RotationalStiffness::Decaying),
+        ..Options::NONE
+    },
+    element: |_| ElementKind::Beam,
+    shear_form: Some(|_| ShearForm::Constant),
+    ..BondLaw::new(
+        "mppd",
+        "Normal and constant shear stiffness, rotations.",
+        "MPPD section 2; OMPPD eqs 54 to 57",
+        densities,
+        Some(densities),
+    )
+};
+
+impl Law {
+    /// Normal and constant shear stiffness, with rotations of the points.
+    pub const MPPD: Self = Self::usual(&LAW);
+}
 
 /// Stiffness densities of every bond: k_n and k_t of [`pds`], and a chosen k_theta.
-pub fn stiffness<const D: usize>(
-    bonds: &BondSet<D>,
-    cloud: &PointCloud<D>,
-    materials: &[Isotropic],
-    space: Space,
-    rotational: RotationalStiffness,
-) -> BondStiffness {
-    let non_polar = pds::stiffness(bonds, cloud, materials, space);
+fn densities<const D: usize>(input: &LawInput<'_, D>) -> BondStiffness {
+    let (non_polar, bonds) = (pds::densities(input), input.bonds);
     let rotational = (&non_polar.shear, &bonds.length, &bonds.horizon)
         .into_par_iter()
-        .map(|(&shear, &length, &horizon)| rotational.density(shear, length, horizon))
+        .map(|(&shear, &length, &horizon)| input.rotational().density(shear, length, horizon))
         .collect();
     BondStiffness {
         rotational,

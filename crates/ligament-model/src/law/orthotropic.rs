@@ -4,10 +4,35 @@
 use std::f64::consts::PI;
 
 use super::rotational::RotationalStiffness;
-use super::{BondStiffness, CENTRAL_FORCE_TOLERANCE, Densities};
-use crate::bonds::BondSet;
-use crate::cloud::PointCloud;
+use super::{
+    BondLaw, BondStiffness, CENTRAL_FORCE_TOLERANCE, Densities, Law, LawInput, Materials, Options,
+    ShearForm,
+};
+use crate::element::ElementKind;
 use crate::material::{Elasticity, Plane};
+
+/// The law.
+pub const LAW: BondLaw = BondLaw {
+    options: Options {
+        rotational_stiffness: Some(RotationalStiffness::Decaying),
+        ..Options::NONE
+    },
+    element: |_| ElementKind::Beam,
+    shear_form: Some(|_| ShearForm::Constant),
+    materials: Materials::Orthotropic,
+    ..BondLaw::new(
+        "orthotropic",
+        "Stiffness by the direction in the axes of an orthotropic material, rotations.",
+        "OMPPD eqs 50 to 59",
+        densities,
+        None,
+    )
+};
+
+impl Law {
+    /// Stiffness by the direction in the axes of an orthotropic material, with rotations.
+    pub const ORTHOTROPIC: Self = Self::usual(&LAW);
+}
 
 /// Stiffness densities of every bond, OMPPD eqs 58 and 59 with the constants of eqs 50 to 53: with psi measured from the axis 1
 /// of the material,
@@ -21,18 +46,12 @@ use crate::material::{Elasticity, Plane};
 /// # Panics
 ///
 /// Panics for a material without axes ([`Elasticity::Anisotropic`]): its six constants have no place in four.
-pub fn stiffness(
-    bonds: &BondSet,
-    cloud: &PointCloud,
-    materials: &[Elasticity],
-    plane: Plane,
-    rotational: RotationalStiffness,
-) -> BondStiffness {
-    let constants: Vec<[f64; 8]> = materials
-        .iter()
-        .map(|material| harmonics(material, plane, cloud.thickness))
+fn densities(input: &LawInput<'_, 2>) -> BondStiffness {
+    let (plane, rotational) = (input.space.plane(), input.rotational());
+    let constants: Vec<[f64; 8]> = (input.elasticity.iter())
+        .map(|material| harmonics(material, plane, input.cloud.thickness))
         .collect();
-    BondStiffness::from_constants(bonds, cloud, &constants, |constants, bond| {
+    BondStiffness::from_constants(input.bonds, input.cloud, &constants, |constants, bond| {
         let [a, b] = bond.direction;
         let [cos_2, sin_2] = [a * a - b * b, 2.0 * a * b];
         let [cos_4, sin_4] = [cos_2 * cos_2 - sin_2 * sin_2, 2.0 * cos_2 * sin_2];

@@ -1,9 +1,26 @@
 //! Bonds that resist stretch and shear, without rotations of the points (PDS; MPPD section 2.1).
 
-use super::{BondStiffness, Densities, constants};
-use crate::bonds::BondSet;
-use crate::cloud::PointCloud;
-use crate::material::{Isotropic, Space};
+use super::{BondLaw, BondStiffness, Calibration, Densities, Law, LawInput, Options, constants};
+
+/// The law.
+pub const LAW: BondLaw = BondLaw {
+    options: Options {
+        calibration: Some(Calibration::Integral),
+        ..Options::NONE
+    },
+    ..BondLaw::new(
+        "pds",
+        "Normal and constant shear stiffness, no rotations of the points.",
+        "MPPD eqs 7, 21; OMPPD eqs 54 to 57",
+        densities,
+        Some(densities),
+    )
+};
+
+impl Law {
+    /// Normal and constant shear stiffness, no rotations of the points.
+    pub const PDS: Self = Self::usual(&LAW);
+}
 
 /// Stiffness densities of every bond, MPPD eqs 7 and 21 (OMPPD eqs 54 to 57); in space our own:
 ///
@@ -15,22 +32,16 @@ use crate::material::{Isotropic, Space};
 ///
 /// Energies of all uniform strains are those of the isotropic body. In space a rigid rotation omega costs 2 (mu - lambda) |omega|^2 a
 /// volume, with Lame's mu and lambda: the law is stable for nu < 1/4, though not objective, and a free body is ill-posed above.
-pub fn stiffness<const D: usize>(
-    bonds: &BondSet<D>,
-    cloud: &PointCloud<D>,
-    materials: &[Isotropic],
-    space: Space,
-) -> BondStiffness {
-    let constant = |material| {
-        [constants::axial, constants::shear].map(|of| of(material, space, cloud.thickness))
-    };
-    let constants: Vec<[f64; 2]> = materials.iter().map(constant).collect();
-    BondStiffness::from_constants(bonds, cloud, &constants, |[axial, shear], bond| {
-        let power = bond.horizon.powi(D as i32 + 1);
-        Densities {
-            axial: axial / power,
-            shear: shear / power,
-            rotational: 0.0,
-        }
-    })
+pub(super) fn densities<const D: usize>(input: &LawInput<'_, D>) -> BondStiffness {
+    input.of_isotropic(
+        [constants::axial, constants::shear],
+        |[axial, shear], bond| {
+            let power = bond.horizon.powi(D as i32 + 1);
+            Densities {
+                axial: axial / power,
+                shear: shear / power,
+                rotational: 0.0,
+            }
+        },
+    )
 }

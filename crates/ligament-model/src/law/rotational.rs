@@ -14,9 +14,10 @@ use crate::cloud::PointCloud;
 use crate::material::{Elasticity, Plane};
 
 /// A choice of k_theta for a given k_t.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum RotationalStiffness {
     /// k_t l (1 - l/H)/2 (OMPPD after eq. 57): short bonds resist bending most, and one as long as the horizon not at all.
+    #[default]
     Decaying,
     /// k_t l/4: the moment at an end does not depend on the rotation of the other.
     Quarter,

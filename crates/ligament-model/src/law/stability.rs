@@ -5,7 +5,7 @@
 
 use std::fmt;
 
-use super::beam::ShearForm;
+use super::ShearForm;
 use crate::material::{Isotropic, Space};
 
 /// Poisson's ratio from which irregular free bodies of micropolar bonds lose stability, by the form of the shear stiffness and the

@@ -38,6 +38,12 @@ impl Space {
     }
 }
 
+impl From<Isotropic> for Elasticity {
+    fn from(constants: Isotropic) -> Self {
+        Self::Isotropic(constants)
+    }
+}
+
 impl From<Plane> for Space {
     fn from(plane: Plane) -> Self {
         Self::Plane(plane)
@@ -181,6 +187,14 @@ impl Isotropic {
         match space.into() {
             Space::Plane(Plane::Stress) => 1.0 / 3.0,
             Space::Plane(Plane::Strain) | Space::Solid => 0.25,
+        }
+    }
+
+    /// The material that central forces make of a material: its Young's modulus with the Poisson's ratio 1/3 or 1/4.
+    pub fn with_central_forces(&self, space: impl Into<Space>) -> Self {
+        Self {
+            young: self.young,
+            poisson: Self::central_force_poisson(space),
         }
     }
 

@@ -6,7 +6,7 @@ use ligament_model::scatter::Scattered;
 use serde::Serialize;
 
 use ligament::Model;
-use ligament::setup::{Alpha, Calibration, Correction, Form, Open, Setup, Surface};
+use ligament::setup::{Alpha, Calibration, Correction, Form, Setup, Surface};
 use ligament_case::case::{CaseFile, Word};
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
 use ligament_model::material::Space;
@@ -196,15 +196,8 @@ impl CorrectionSummary {
 /// The law of the bonds, in a line.
 pub fn formulation_line(setup: &Setup) -> String {
     let is_solid = setup.space() == Space::Solid;
-    let mut law = setup.law;
-    let (name, element) = (law.name(), law.element());
-    let Open {
-        calibration,
-        rotational_stiffness,
-        form,
-        ..
-    } = law.open();
-    let unknowns = match element {
+    let (name, options) = (setup.law.name(), setup.law.options);
+    let unknowns = match setup.law.element() {
         ElementKind::Beam if is_solid => "three displacements and three rotations a point",
         ElementKind::Spring if is_solid => "three displacements a point",
         ElementKind::Beam => "two displacements and a rotation a point",
@@ -219,11 +212,11 @@ pub fn formulation_line(setup: &Setup) -> String {
             "two displacements a point, the strains of a rectangle around each bond, the printed forces on its ends"
         }
     };
-    let constants = match calibration {
+    let constants = match options.calibration {
         Some(Calibration::Discrete) => ", constants from sums over the families",
         Some(Calibration::Integral) | None => "",
     };
-    let rotational = match rotational_stiffness {
+    let rotational = match options.rotational_stiffness {
         Some(RotationalStiffness::Decaying) => ", k_theta = k_t l (1 - l/H)/2",
         Some(RotationalStiffness::Quarter) => ", k_theta = k_t l/4",
         Some(RotationalStiffness::Beam) => ", k_theta = k_t l/12",
@@ -238,11 +231,11 @@ pub fn formulation_line(setup: &Setup) -> String {
         }
     };
     format!(
-        "law {}: {unknowns}{constants}{rotational}{scale}",
-        match form {
-            Some(Form::Rows) => "mbb-pd (rows)",
-            Some(Form::Pairwise) => "mbb-pd (pairwise)",
-            Some(Form::Full) | None => name,
+        "law {name}{}: {unknowns}{constants}{rotational}{scale}",
+        match options.form {
+            Some(Form::Rows) => " (rows)",
+            Some(Form::Pairwise) => " (pairwise)",
+            Some(Form::Full) | None => "",
         }
     )
 }

@@ -53,10 +53,13 @@ pub enum YieldError {
     NoCriteria,
     /// Bonds that do not see the strain by their direction.
     #[error(
-        "the bonds of model.law = \"mbb-pd\" have all strains of the body whatever their direction, so that directions weaken nothing: \
+        "the bonds of model.law = \"{law}\" have all strains of the body whatever their direction, so that directions weaken nothing: \
          families yield at the limits that `ligament check` lists"
     )]
-    NoDirections,
+    NoDirections {
+        /// Word of the law.
+        law: &'static str,
+    },
     /// A case without a Poisson's ratio for all directions, or with several.
     #[error("the case has {which}: give Poisson's ratio in the plane with --nu")]
     NoPoisson {

@@ -4,7 +4,6 @@ use ligament_model::failure::Criteria;
 
 use super::error::YieldError;
 use super::request::Request;
-use ligament::setup::Law;
 use ligament_case::case::CaseFile;
 use ligament_run::model::{Model, build_model_in_plane};
 use ligament_run::progress::{Progress, ProgressMode};
@@ -12,8 +11,9 @@ use ligament_run::stages::Stages;
 
 /// The model of a case whose bonds have directions.
 pub(super) fn model(case: &CaseFile) -> anyhow::Result<Model> {
-    if matches!(case.case.model.law.0, Law::MbbPd { .. }) {
-        return Err(YieldError::NoDirections.into());
+    let law = case.case.model.law.0.row;
+    if law.has_own_strains() {
+        return Err(YieldError::NoDirections { law: law.word }.into());
     }
     let progress = Progress::new(ProgressMode::Quiet);
     build_model_in_plane(case, &mut Stages::default(), &progress)

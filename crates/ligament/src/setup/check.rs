@@ -5,11 +5,10 @@ use std::fmt::Debug;
 
 use ligament_analysis::Component;
 use ligament_model::correction::patch;
+use ligament_model::law::{BondLaw, Materials, PaperCorrection, listed};
 use ligament_model::{Anisotropic, Elasticity, Isotropic, Material, Orthotropic, Plane};
 
-use super::{
-    Action, Alpha, Analysis, Calibration, CorrectionDomain, Couple, Horizon, Law, Load, Place,
-};
+use super::{Action, Alpha, Analysis, Calibration, CorrectionDomain, Couple, Horizon, Load, Place};
 use super::{Reading, Setup, Surface};
 use crate::body::Origin;
 use crate::error::{Fault, Field, SetupError};
@@ -74,27 +73,16 @@ impl Setup {
             return missing(field, "density", reason);
         }
         let elasticity = field.part("elasticity");
-        let (what, laws, is_suited) = match material.elasticity {
-            Elasticity::Isotropic(_) => ("", "", true),
-            Elasticity::Orthotropic(_) => (
-                "an orthotropic",
-                "`Law::Orthotropic` or `Law::MbbPd`",
-                matches!(self.law, Law::Orthotropic { .. } | Law::MbbPd { .. }),
-            ),
-            Elasticity::Anisotropic(_) => (
-                "an anisotropic",
-                "`Law::MbbPd`",
-                matches!(self.law, Law::MbbPd { .. }),
-            ),
-        };
-        if !is_suited {
-            let others = match self.law {
-                Law::Orthotropic { .. } => "orthotropic",
-                _ => "isotropic",
-            };
-            let law = self.law.name();
-            let reason =
-                format!("{what} material needs {laws}: \"{law}\" is a law for {others} ones");
+        let needed = Materials::of_elasticity(&material.elasticity);
+        let taken = self.law.row.materials;
+        if taken < needed {
+            let reason = format!(
+                "an {} material needs {}: \"{}\" is a law for {} ones",
+                needed.word(),
+                listed(|it| it.materials >= needed, BondLaw::constant),
+                self.law.name(),
+                taken.word()
+            );
             return contradiction(elasticity, reason);
         }
         // Six constants are those of the plane whichever it is, and so is what the temperature does to it.
@@ -117,7 +105,7 @@ impl Setup {
 
     fn check_criteria(&self) -> Checked {
         let on_exact_path = matches!(self.analysis, Analysis::Event(_));
-        let takes_strains = matches!(self.law, Law::MbbPd { .. });
+        let takes_strains = self.law.row.has_own_strains();
         if self.analysis.is_fracture() && self.criteria.is_empty() {
             let reason = "bonds break by a criterion, and there is none: give one";
             return contradiction(Field::whole("criteria"), reason);
@@ -131,13 +119,16 @@ impl Setup {
             if choice.kind.takes_strains() != takes_strains {
                 let reason = if takes_strains {
                     format!(
-                        "\"{kind}\" looks at stretch and sliding of a bond between two points, and the bonds of `Law::MbbPd` have \
-                         strains of their own: take \"mixed-mode\""
+                        "\"{kind}\" looks at stretch and sliding of a bond between two points, and the bonds of {} have \
+                         strains of their own: take \"{}\"",
+                        self.law.row.constant(),
+                        self.law.row.criterion.word
                     )
                 } else {
                     format!(
-                        "\"{kind}\" looks at strains of the bond's own, which only `Law::MbbPd` has: for \"{law}\" take \
-                         \"critical-stretch\" or \"bond-energy\""
+                        "\"{kind}\" looks at strains of the bond's own, which only {} has: for \"{law}\" take \
+                         \"critical-stretch\" or \"bond-energy\"",
+                        listed(BondLaw::has_own_strains, BondLaw::constant)
                     )
                 };
                 return contradiction(field.part("kind"), reason);
@@ -161,7 +152,7 @@ impl Setup {
     fn check_correction(&self) -> Checked {
         let (alpha, surface) = (self.correction.alpha, self.correction.surface);
         let field = Field::whole("correction");
-        let is_discrete = self.law.calibration() == Some(Calibration::Discrete);
+        let is_discrete = self.law.options.calibration == Some(Calibration::Discrete);
         if is_discrete && surface == Surface::Volume {
             let reason = "the discrete calibration has the surfaces in its sums: take `Surface::None`, or `Calibration::Integral`";
             return contradiction(field.part("surface"), reason);
@@ -169,20 +160,17 @@ impl Setup {
         if let Surface::Patch(settings) = surface {
             self.check_patch(field.part("surface"), settings)?;
         }
-        if !matches!(self.law, Law::MbbPd { .. }) {
+        if self.law.row.correction != PaperCorrection::None {
             return Ok(());
         }
-        if alpha != Alpha::None {
-            let reason =
-                "the factors psi of `Law::MbbPd` make all energies right: take `Alpha::None`";
-            return contradiction(field.part("alpha"), reason);
-        }
-        if surface != Surface::None {
-            let reason =
-                "the factors psi of `Law::MbbPd` make all energies right: take `Surface::None`";
-            return contradiction(field.part("surface"), reason);
-        }
-        Ok(())
+        let (part, instead) = match (alpha, surface) {
+            (Alpha::None, Surface::None) => return Ok(()),
+            (Alpha::None, _) => ("surface", "`Surface::None`"),
+            (Alpha::PartialVolume | Alpha::Length, _) => ("alpha", "`Alpha::None`"),
+        };
+        let law = self.law.row.constant();
+        let reason = format!("the factors psi of {law} make all energies right: take {instead}");
+        contradiction(field.part(part), reason)
     }
 
     /// Forces of uniform strains are those of whole cells.
@@ -246,11 +234,13 @@ impl Setup {
     fn check_probes(&self) -> Checked {
         for (index, probe) in self.probes.iter().enumerate() {
             let field = Field::element("probes", index).part("reading");
-            if matches!(probe.reading, Reading::Section { .. })
-                && matches!(self.law, Law::MbbPd { .. })
+            if matches!(probe.reading, Reading::Section { .. }) && !self.law.row.couples_ends_alone
             {
-                let reason = "the elements of `Law::MbbPd` couple up to six points, so that their forces go through no line: the \
-                              forces of supports and loads are in the history";
+                let reason = format!(
+                    "the elements of {} couple up to six points, so that their forces go through no line: the forces of supports and \
+                     loads are in the history",
+                    self.law.row.constant()
+                );
                 return contradiction(field, reason);
             }
             if let Reading::Between {

@@ -5,12 +5,11 @@ use ligament_analysis::probe::PointField;
 use ligament_model::Elasticity;
 use ligament_model::horizon::INCLUSION_TOLERANCE;
 use ligament_model::law::rotational::RotationalScale;
+use ligament_model::law::{BondLaw, listed};
 use ligament_model::material::Space;
 
 use super::check::{Checked, contradiction, positive, require};
-use super::{
-    Action, Analysis, CrackShape, Displacement, Form, Law, Reading, Section, Setup, Strains,
-};
+use super::{Action, Analysis, CrackShape, Displacement, Form, Reading, Section, Setup, Strains};
 use crate::body::Origin;
 use crate::error::Field;
 
@@ -60,18 +59,20 @@ impl Setup {
 
     fn check_law(&self) -> Checked {
         let space = self.space();
-        if !self.law.exists_in(space) {
-            let laws = Law::ALL.iter().filter(|it| it.exists_in(space));
-            let laws: Vec<String> = laws.map(|it| format!("\"{}\"", it.name())).collect();
-            let [others @ .., last] = laws.as_slice() else {
-                return Ok(());
-            };
+        let field = Field::whole("law");
+        if !self.law.row.exists_in(space) {
             let reason = format!(
-                "\"{}\" is a law of the plane: solids take {} or {last}",
+                "\"{}\" is a law of the plane: solids take {}",
                 self.law.name(),
-                others.join(", ")
+                listed(|it| it.exists_in(space), BondLaw::quoted)
             );
-            return contradiction(Field::whole("law"), reason);
+            return contradiction(field, reason);
+        }
+        if let Some(option) = self.law.misplaced_option() {
+            let law = self.law.row.constant();
+            let reason =
+                format!("{law} leaves other options open: choose what its row has, and that alone");
+            return contradiction(field.part(option), reason);
         }
         match (self.rotational_scale, space) {
             (RotationalScale::CosseratLength(_), Space::Solid) => {
@@ -164,13 +165,15 @@ impl Setup {
 
     /// Elements with strains of their own need rows and columns, and not all analyses take all of their variants.
     fn check_strains_of_bonds(&self) -> Checked {
-        let Law::MbbPd { form, strains } = self.law else {
+        let (row, options) = (self.law.row, self.law.options);
+        if !row.needs_lattice {
             return Ok(());
-        };
-        let law = Field::whole("law");
+        }
+        let (law, name) = (Field::whole("law"), row.constant());
         let Origin::Lattice(lattice) = self.body.origin() else {
-            let reason = "`Law::MbbPd` classes bonds by the rows and columns of a lattice: give `LatticeBody`, or take \
-                          another law";
+            let reason = format!(
+                "{name} classes bonds by the rows and columns of a lattice: give `LatticeBody`, or take another law"
+            );
             return contradiction(law, reason);
         };
         let [shorter, longer] = {
@@ -180,19 +183,19 @@ impl Setup {
         let horizon = self.horizon.at_spacing(shorter);
         if horizon * (1.0 + INCLUSION_TOLERANCE) < longer {
             let reason = format!(
-                "`Law::MbbPd` takes strains between neighbours along rows and along columns: make it at least {longer:?} m, the longer side \
+                "{name} takes strains between neighbours along rows and along columns: make it at least {longer:?} m, the longer side \
                  of the cells (it is {horizon:?} m)"
             );
             return contradiction(Field::whole("horizon"), reason);
         }
         let is_elastic = matches!(self.analysis, Analysis::Elastic { .. });
-        if form == Form::Pairwise {
+        if options.form == Some(Form::Pairwise) {
             let reason = if !is_elastic {
                 "the printed forces are not those of an energy, so that there is no stiffness whose modes or breakages could be \
                  followed: it is for elastic analyses; take `Form::Full`"
             } else if !self.precracks.is_empty() {
                 "the printed factors are those of whole families: it takes no pre-cracks; take `Form::Full`"
-            } else if strains == Strains::True {
+            } else if options.strains == Some(Strains::True) {
                 "it takes `Strains::Small` alone"
             } else {
                 return Ok(());
@@ -200,7 +203,7 @@ impl Setup {
             return contradiction(law.part("form"), reason);
         }
         let has_steps = matches!(self.analysis, Analysis::Stepped(_));
-        if strains == Strains::True && !is_elastic && !has_steps {
+        if options.strains == Some(Strains::True) && !is_elastic && !has_steps {
             let reason = "true strains are not proportional to the load, as the exact path and modes are: they are for elastic analyses and \
                           load steps; take `Strains::Small`";
             return contradiction(law.part("strains"), reason);

@@ -1,6 +1,7 @@
 //! Faces that close ask something of law, correction and analysis.
 
 use ligament_model::ElementKind;
+use ligament_model::law::{BondLaw, listed};
 
 use super::check::{Checked, contradiction};
 use super::{Analysis, CorrectionDomain, Setup};
@@ -15,8 +16,8 @@ impl Setup {
         let law = self.law.name();
         if self.law.element() != ElementKind::Beam {
             let reason = format!(
-                "faces can slide on each other without turning moments only where points turn, and those of \"{law}\" do not: take \
-                 \"nhpd\", \"mppd\", \"mppd-beam\" or \"orthotropic\""
+                "faces can slide on each other without turning moments only where points turn, and those of \"{law}\" do not: take {}",
+                listed(|it| it.shear_form.is_some(), BondLaw::quoted)
             );
             return contradiction(field, reason);
         }

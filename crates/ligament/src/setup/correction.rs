@@ -1,8 +1,7 @@
 //! The corrections of the bonds: factors alpha and Omega.
 
 use ligament_model::correction::{StopRule, Sweeps, patch};
-
-use super::law::{Calibration, Law};
+use ligament_model::law::{Calibration, Law, PaperCorrection};
 
 /// Number of bonds above which a model takes the stop rule that does not depend on its size, unless the setup names a rule.
 const LARGE_MODEL: usize = 1_000_000;
@@ -108,11 +107,17 @@ impl Iteration {
 impl Correction {
     /// The corrections that the paper of a law takes with it.
     pub fn of_paper(law: &Law) -> Self {
-        let (alpha, surface) = match (law, law.calibration()) {
-            (Law::Nhpd, _) => (Alpha::Length, Surface::Domain(Iteration::default())),
-            (Law::MbbPd { .. }, _) => (Alpha::None, Surface::None),
-            (_, Some(Calibration::Discrete)) => (Alpha::PartialVolume, Surface::None),
-            _ => (Alpha::PartialVolume, Surface::Volume),
+        let (alpha, surface) = match (law.row.correction, law.options.calibration) {
+            (PaperCorrection::None, _) => (Alpha::None, Surface::None),
+            (PaperCorrection::LengthAndDomain, _) => {
+                (Alpha::Length, Surface::Domain(Iteration::default()))
+            }
+            (PaperCorrection::Volumes, Some(Calibration::Discrete)) => {
+                (Alpha::PartialVolume, Surface::None)
+            }
+            (PaperCorrection::Volumes, Some(Calibration::Integral) | None) => {
+                (Alpha::PartialVolume, Surface::Volume)
+            }
         };
         Self {
             alpha,

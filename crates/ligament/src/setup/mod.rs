@@ -8,7 +8,6 @@ mod check_stages;
 mod closing;
 mod conditions;
 mod correction;
-mod law;
 mod precrack;
 mod probe;
 mod restraint;
@@ -33,7 +32,7 @@ pub use conditions::{
     begins_as_formula,
 };
 pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
-pub use law::{Calibration, Form, Law, Open, Strains};
+pub use ligament_model::law::{Calibration, Form, Law, Options, Strains};
 pub use precrack::{CrackShape, PreCrack};
 pub use probe::{Probe, Reading};
 pub use section::Section;

@@ -2,7 +2,7 @@
 
 use super::check::{Checked, contradiction, positive};
 use super::conditions::axis_along;
-use super::{Action, Analysis, Form, Law, Load, Position, Setup, Support};
+use super::{Action, Analysis, Form, Load, Position, Setup, Support};
 use crate::error::Field;
 
 impl Support {
@@ -58,14 +58,7 @@ impl Setup {
             let reason = "natural modes know supports that hold alone, no springs, inclined rollers or platens: give a `displacement`";
             return contradiction(field, reason);
         }
-        let is_pairwise = matches!(
-            self.law,
-            Law::MbbPd {
-                form: Form::Pairwise,
-                ..
-            }
-        );
-        if is_pairwise {
+        if self.law.options.form == Some(Form::Pairwise) {
             let reason = "springs, inclined rollers and platens need a stiffness with symmetry: take `Form::Full`";
             return contradiction(field, reason);
         }

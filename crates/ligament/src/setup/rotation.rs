@@ -2,6 +2,7 @@
 
 use ligament_model::law::orthotropic;
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
+use ligament_model::law::{BondLaw, listed};
 
 use super::Setup;
 use super::check::{Checked, contradiction, positive, require};
@@ -15,8 +16,8 @@ impl Setup {
             (_, RotationalScale::Factor(1.0)) => return Ok(()),
             (None, _) => {
                 let reason = format!(
-                    "the points of \"{law}\" have no rotations, so that nothing resists them: take \"nhpd\", \"mppd\", \"mppd-beam\" or \
-                     \"orthotropic\""
+                    "the points of \"{law}\" have no rotations, so that nothing resists them: take {}",
+                    listed(|it| it.shear_form.is_some(), BondLaw::quoted)
                 );
                 return contradiction(field, reason);
             }

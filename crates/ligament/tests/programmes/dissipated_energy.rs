@@ -18,10 +18,7 @@ fn bar(law: softening::Law, analysis: Analysis, stage: Stage) -> Setup {
     let body = LatticeBody::new([30, 8], [0.001; 2], [0.0; 2], &[], &sets).unwrap();
     let mut material = Material::isotropic(30e9, 0.2);
     material.fracture_energy = Some(FRACTURE_ENERGY);
-    let bonds = Law::Mppd {
-        calibration: Calibration::Integral,
-        rotational_stiffness: RotationalStiffness::Decaying,
-    };
+    let bonds = Law::MPPD;
     let mut setup = Setup::new(body, material, bonds);
     let notch = |from: f64, to: f64| PreCrack::along(vec![[0.015, from], [0.015, to]]);
     setup.precracks = vec![notch(-0.01, 0.0021), notch(0.0061, 0.02)];

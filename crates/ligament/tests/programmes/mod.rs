@@ -39,7 +39,7 @@ fn plate(analysis: Analysis, stages: Vec<Stage>) -> Setup {
     let mut material = Material::isotropic(3e10, 0.2);
     material.tensile_strength = Some(3e6);
     material.density = Some(2400.0);
-    let mut setup = Setup::new(body, material, Law::Nhpd);
+    let mut setup = Setup::new(body, material, Law::NHPD);
     setup.supports = vec![
         Support::new("left", &[Component::X]),
         Support::new("bottom", &[Component::Y]),

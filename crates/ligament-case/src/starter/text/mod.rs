@@ -15,6 +15,8 @@ use crate::case::values::{is_unseen, require_column_name};
 use body::size;
 pub(super) use body::{Body, Section};
 use ligament::setup::Law;
+use ligament_model::law::{BondLaw, LAWS, Materials, PaperCorrection};
+use ligament_model::material::Space;
 use numbers::{coordinates, digits, exact, quoted};
 use precrack::precrack;
 use section::section;
@@ -112,8 +114,9 @@ fn constants<const D: usize>(body: &Body<D>, law: Law) -> String {
             exact(YOUNG)
         )
     };
-    match law {
-        Law::Orthotropic { .. } => format!(
+    let row = law.row;
+    match row.materials {
+        Materials::Orthotropic => format!(
             "\
 young_1 = {} # Pa along the axis 1, EXAMPLE
 young_2 = {} # Pa along the axis 2, EXAMPLE
@@ -125,7 +128,7 @@ angle = 0.0 # rad, from the x axis to the axis 1, counter-clockwise, EXAMPLE
             exact(0.5 * YOUNG),
             exact(0.25 * YOUNG)
         ),
-        Law::MbbPd { .. } => {
+        Materials::Isotropic | Materials::Anisotropic if row.has_own_strains() => {
             // What bonds of three spacings at the stretch of the example store.
             let energy =
                 STRETCH.powi(2) * 2.0 * YOUNG / std::f64::consts::PI / 0.8 * 2.25 * body.spacing;
@@ -135,42 +138,44 @@ angle = 0.0 # rad, from the x axis to the axis 1, counter-clockwise, EXAMPLE
             );
             isotropic("0.2 #", &failure)
         }
-        law if law.fixes_poisson() && D > 2 => {
-            isotropic("0.25 # the law has 1/4 whatever stands here;", &strength)
-        }
-        law if law.fixes_poisson() => isotropic(
-            "0.3333 # the law has 1/3 (plane strain: 1/4) whatever stands here;",
-            &strength,
-        ),
-        _ => isotropic("0.2 #", &strength),
+        Materials::Isotropic | Materials::Anisotropic => match (row.fixes_poisson, D) {
+            (false, _) => isotropic("0.2 #", &strength),
+            (true, 2) => isotropic(
+                "0.3333 # the law has 1/3 (plane strain: 1/4) whatever stands here;",
+                &strength,
+            ),
+            (true, _) => isotropic("0.25 # the law has 1/4 whatever stands here;", &strength),
+        },
     }
 }
 
 fn model<const D: usize>(body: &Body<D>, law: Law) -> String {
     let is_lattice = matches!(body.section, Section::Lattice { .. });
-    let fits = |other: &Law| {
-        *other != law
-            && match other {
-                Law::MbbPd { .. } => is_lattice && D == 2,
-                Law::Orthotropic { .. } | Law::BbpdConical { .. } => D == 2,
-                _ => true,
-            }
-    };
-    let others = Law::ALL.into_iter().filter(fits).map(|it| it.name());
+    let others = LAWS.into_iter().filter(|it| {
+        let exists = D == 2 || it.exists_in(Space::Solid);
+        *it != law.row && exists && (is_lattice || !it.needs_lattice)
+    });
+    let words = |laws: Vec<&BondLaw>| laws.iter().map(|it| it.word).collect::<Vec<_>>();
     let constants = match D {
-        2 => "; `orthotropic` and `mbb-pd` take other constants of the material.",
-        _ => ".",
+        2 => {
+            let with_axes = LAWS
+                .into_iter()
+                .filter(|it| it.materials > Materials::Isotropic);
+            let with_axes = words(with_axes.collect()).join("` and `");
+            format!("; `{with_axes}` take other constants of the material.")
+        }
+        _ => ".".to_owned(),
     };
-    let correction = match law {
-        Law::MbbPd { .. } => "",
-        _ if D > 2 && is_lattice => {
+    let correction = match law.row.correction {
+        PaperCorrection::None => "",
+        PaperCorrection::Volumes | PaperCorrection::LengthAndDomain if D > 2 && is_lattice => {
             "
 # Makes the energies of stretches along the axes those of the material. Others: volume, none; for meshes patch.
 [correction]
 surface = \"domain\"
 "
         }
-        _ => {
+        PaperCorrection::Volumes | PaperCorrection::LengthAndDomain => {
             "
 # Makes the body as stiff as its material, with every uniform strain in equilibrium. Others: domain (NHPD), volume, none.
 [correction]
@@ -186,7 +191,7 @@ law = \"{}\"
 # Horizon of a point over the distance to its nearest neighbour. The strength depends on it, so compare runs with the same.
 horizon_factor = 3.0
 {correction}",
-        others.collect::<Vec<_>>().join(", "),
+        words(others.collect()).join(", "),
         law.name()
     )
 }
@@ -261,8 +266,13 @@ fn conditions<const D: usize>(body: &Body<D>, ends: &Ends<D>) -> String {
 }
 
 fn fracture<const D: usize>(body: &Body<D>, law: Law) -> String {
-    let criterion = match law {
-        Law::Orthotropic { .. } => format!(
+    let row = law.row;
+    let criterion = match (row.materials, D) {
+        (Materials::Isotropic | Materials::Anisotropic, _) if row.has_own_strains() => format!(
+            "# Without a [[fracture.criterion]] bonds fail by the fracture energy (\"{}\").\n",
+            row.criterion.word
+        ),
+        (Materials::Orthotropic, _) => format!(
             "\
 # When a bond fails.
 [[fracture.criterion]]
@@ -271,18 +281,17 @@ limit = {} # stretch, EXAMPLE
 ",
             exact(STRETCH)
         ),
-        Law::MbbPd { .. } => "# Without a [[fracture.criterion]] bonds fail by the fracture energy (\"mixed-mode\").\n".to_owned(),
-        _ if D > 2 => "\
-# When a bond fails: at the stretch F_t/E, whatever its length. Others: strength (NHPD), sliding, compression, critical-stretch,
-# bond-energy. With a crack or notch in glass, ceramics or rock: critical-stretch or bond-energy, with `fracture_energy` of the material.
+        (Materials::Isotropic | Materials::Anisotropic, 2) => "\
+# When a bond fails: at the stretch F_t/E, whatever its length. Others: strength (NHPD), sliding, frictional, critical-stretch, ...
+# With a crack or notch in glass, ceramics or rock: critical-stretch or bond-energy, with the `fracture_energy` of the material. Concrete:
+# bond-energy with after = \"two-branch\", with `tensile_strength` and `fracture_energy`.
 [[fracture.criterion]]
 kind = \"tension\"
 "
         .to_owned(),
-        _ => "\
-# When a bond fails: at the stretch F_t/E, whatever its length. Others: strength (NHPD), sliding, frictional, critical-stretch, ...
-# With a crack or notch in glass, ceramics or rock: critical-stretch or bond-energy, with the `fracture_energy` of the material. Concrete:
-# bond-energy with after = \"two-branch\", with `tensile_strength` and `fracture_energy`.
+        (Materials::Isotropic | Materials::Anisotropic, _) => "\
+# When a bond fails: at the stretch F_t/E, whatever its length. Others: strength (NHPD), sliding, compression, critical-stretch,
+# bond-energy. With a crack or notch in glass, ceramics or rock: critical-stretch or bond-energy, with `fracture_energy` of the material.
 [[fracture.criterion]]
 kind = \"tension\"
 "

@@ -3,7 +3,7 @@ use crate::correction::length::length_factors;
 use crate::correction::surface::surface_factors;
 use crate::correction::{CorrectionReport, StopRule};
 use crate::horizon::Horizons;
-use crate::law::beam::{self, ShearForm};
+use crate::law::Law;
 use crate::material::Space;
 use crate::material::{Elasticity, Isotropic, Plane};
 
@@ -61,13 +61,7 @@ fn case(cells: i32, factor: f64) -> Case {
     let horizons = Horizons::unified(factor / f64::from(cells), cloud.len());
     let bonds = BondSet::<3>::search(&cloud, &horizons);
     Case {
-        stiffness: beam::stiffness(
-            &bonds,
-            &cloud,
-            &[MATERIAL],
-            Space::Solid,
-            ShearForm::Constant,
-        ),
+        stiffness: Law::NHPD.densities(&bonds, &cloud, &[MATERIAL.into()], Space::Solid),
         alpha: length_factors(&bonds, &cloud),
         cloud,
         bonds,
@@ -138,8 +132,7 @@ fn quarter_turns_change_nothing() {
         limit: 500,
     };
     let of = |cloud: &PointCloud<3>, bonds: &BondSet<3>| {
-        let stiffness =
-            beam::stiffness(bonds, cloud, &[MATERIAL], Space::Solid, ShearForm::Constant);
+        let stiffness = Law::NHPD.densities(bonds, cloud, &[MATERIAL.into()], Space::Solid);
         let alpha = length_factors(bonds, cloud);
         iterate(bonds, cloud, &stiffness, alpha, &continuum(), sweeps).domain_factor
     };

@@ -3,7 +3,7 @@ use ligament_mesh::{SolidCell, SolidMesh};
 use super::*;
 use crate::cloud::PointCloud;
 use crate::horizon::Horizons;
-use crate::law::beam::{self, ShearForm};
+use crate::law::Law;
 use crate::material::Space;
 use crate::material::{Elasticity, Isotropic, Plane, Stiffness};
 use crate::tensor::{cross, dot, minus, norm};
@@ -81,13 +81,7 @@ fn corrected(mesh: &SolidMesh, horizon: f64, turn: bool) -> Case {
     let cloud = PointCloud::from_mesh(mesh, 1.0, &of_cells, 1);
     let bonds = BondSet::search(&cloud, &Horizons::unified(horizon, cloud.len()));
     let forces = of_solid_mesh(&mesh.cells, &cloud, &of_cells, stiffness());
-    let stiffness = beam::stiffness(
-        &bonds,
-        &cloud,
-        &[MATERIAL],
-        Space::Solid,
-        ShearForm::Constant,
-    );
+    let stiffness = Law::NHPD.densities(&bonds, &cloud, &[MATERIAL.into()], Space::Solid);
     let alpha = vec![1.0; bonds.len()];
     let points = Points {
         cloud: &cloud,

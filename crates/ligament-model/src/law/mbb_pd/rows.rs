@@ -3,12 +3,11 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{of_matrices, plane_stiffnesses};
+use super::matrices::{of_matrices, plane_stiffnesses};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::element::imaginary::BondClass;
-use crate::law::BondStiffness;
-use crate::material::{Elasticity, Plane};
+use crate::law::{BondStiffness, LawInput};
 
 /// Micro-modulus matrices: the symmetric part of diag(psi_1, psi_2, psi_6) c, of which a bond has the rows of its class, with the
 /// means of its ends and
@@ -17,13 +16,9 @@ use crate::material::{Elasticity, Plane};
 ///
 /// over the lengths of the bonds of a point in their classes. So every row has its whole energy at every point, but the matrix of a bond
 /// along an axis is indefinite where c_12, c_16 or c_26 is not zero; and a straight free side is not free of forces, by 0.055 of the stress.
-pub fn stiffness(
-    bonds: &BondSet,
-    cloud: &PointCloud,
-    elasticity: &[Elasticity],
-    plane: Plane,
-) -> BondStiffness {
-    let stiffnesses = plane_stiffnesses(bonds, cloud, elasticity, plane);
+pub(super) fn densities(input: &LawInput<'_, 2>) -> BondStiffness {
+    let stiffnesses = plane_stiffnesses(input);
+    let (bonds, cloud) = (input.bonds, input.cloud);
     let psi: Vec<[f64; 3]> = (0..cloud.len() as u32)
         .map(|point| factors(bonds, cloud, point))
         .collect();

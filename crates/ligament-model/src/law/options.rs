@@ -1,0 +1,102 @@
+//! What bond laws leave open.
+
+use super::rotational::RotationalStiffness;
+
+/// Origin of the constants of a law.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Calibration {
+    /// Integrals over a full circle, as in the papers.
+    #[default]
+    Integral,
+    /// Sums over the family of each point.
+    Discrete,
+}
+
+/// Strains that the bonds of MBB-PD resist.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Form {
+    /// All bonds resist all three strains.
+    #[default]
+    Full,
+    /// Bonds along x and y resist their own strain alone.
+    Rows,
+    /// The printed form, with forces on the two ends alone.
+    Pairwise,
+}
+
+/// Distances that the strains of MBB-PD are taken over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Strains {
+    /// The distances before the deformation.
+    #[default]
+    Small,
+    /// The distances after the deformation.
+    True,
+}
+
+/// Choices of what a law leaves open; None for what the law settles itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Options {
+    /// Origin of the constants.
+    pub calibration: Option<Calibration>,
+    /// Stiffness against relative rotation.
+    pub rotational_stiffness: Option<RotationalStiffness>,
+    /// Strains that the bonds resist.
+    pub form: Option<Form>,
+    /// Distances that the strains are taken over.
+    pub strains: Option<Strains>,
+}
+
+impl Options {
+    /// No choice at all.
+    pub const NONE: Self = Self {
+        calibration: None,
+        rotational_stiffness: None,
+        form: None,
+        strains: None,
+    };
+
+    /// The choices, or where there is none those of others.
+    pub fn or(self, others: Self) -> Self {
+        Self {
+            calibration: self.calibration.or(others.calibration),
+            rotational_stiffness: self.rotational_stiffness.or(others.rotational_stiffness),
+            form: self.form.or(others.form),
+            strains: self.strains.or(others.strains),
+        }
+    }
+
+    /// Name of the first option that is chosen here and not among others, or the other way round.
+    pub fn apart_from(&self, others: &Self) -> Option<&'static str> {
+        [
+            (
+                "calibration",
+                self.calibration.is_some() != others.calibration.is_some(),
+            ),
+            (
+                "rotational_stiffness",
+                self.rotational_stiffness.is_some() != others.rotational_stiffness.is_some(),
+            ),
+            ("form", self.form.is_some() != others.form.is_some()),
+            (
+                "strains",
+                self.strains.is_some() != others.strains.is_some(),
+            ),
+        ]
+        .into_iter()
+        .find_map(|(name, differs)| differs.then_some(name))
+    }
+}
+
+/// The choice of one option alone.
+macro_rules! alone {
+    ($($name:ident: $option:ty),+) => {
+        $(impl From<$option> for Options {
+            fn from(chosen: $option) -> Self {
+                Self { $name: Some(chosen), ..Self::NONE }
+            }
+        })+
+    };
+}
+
+alone! { calibration: Calibration, rotational_stiffness: RotationalStiffness, form: Form, strains: Strains }
