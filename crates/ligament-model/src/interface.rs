@@ -25,7 +25,12 @@ use crate::thermal::ThermalStrain;
 /// the whole body, or of forces at points, is the same on all of them, and all of them ask for it at the same time: stiffnesses by sign,
 /// what is resisted, point stiffnesses, rigid motions, forces and energies of a sweep, overlaps. Energy densities and stresses of points
 /// are right at own points, and each process asks for them by itself.
-pub trait Bonds: std::fmt::Debug + Send + Sync {
+pub trait Bonds: BondTopology + BondKinetics + BondReadings + BondContact {}
+
+impl<T: BondTopology + BondKinetics + BondReadings + BondContact> Bonds for T {}
+
+/// Points, bonds and what they are connected with: numbers without coordinates.
+pub trait BondTopology: std::fmt::Debug + Send + Sync {
     /// Number of points.
     fn n_points(&self) -> usize;
 
@@ -89,6 +94,16 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     /// Share of the energy of a bond that belongs to one of its ends: mostly a half.
     fn share(&self, bond: u32, point: u32) -> f64;
 
+    /// Diagonal of the box around all points of the body, m.
+    fn extent(&self) -> f64;
+
+    /// Sorts points so that those of the first half lie before those of the second along the longest side of all; ties are
+    /// broken by number.
+    fn halve(&self, points: &mut [u32]);
+}
+
+/// Stiffness and forces of the bonds, and the motions that cost no energy.
+pub trait BondKinetics: BondTopology {
     /// Whether forces are linear in the displacements.
     fn is_linear(&self) -> bool;
 
@@ -109,13 +124,6 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
 
     /// Stiffness of each point with all its bonds, shape (n_points).
     fn point_stiffness(&self) -> Vec<PointStiffness>;
-
-    /// Diagonal of the box around all points of the body, m.
-    fn extent(&self) -> f64;
-
-    /// Sorts points so that those of the first half lie before those of the second along the longest side of all; ties are
-    /// broken by number.
-    fn halve(&self, points: &mut [u32]);
 
     /// Degrees of freedom that hold the rigid motions of some connected points which cost no energy, as far as fixed ones do
     /// not; those that hold most first, of equals the first in the file. `can_hold` tells what has a stiffness.
@@ -178,6 +186,34 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
         expansion: ThermalStrain<'_>,
     ) -> BondSweep;
 
+    /// Stiffness of a bond with what remains of it, as a sum of terms.
+    fn terms(&self, intact: &[bool], bond: usize, remaining: &Remaining) -> Vec<Term>;
+
+    /// Adds up the blocks of the stiffness in the columns of a point at the rows of its `lower` coupled points (ascending) and
+    /// of itself, shape (n_lower + 1, components, components).
+    fn add_blocks(&self, bonds: BondsLeft<'_>, point: u32, lower: &[u32], blocks: &mut [f64]);
+
+    /// The product K u of the stiffness of the bonds that are left with motions u, shape (n_degrees_of_freedom) both; of bonds whose
+    /// forces are linear in the displacements. What `forces` held is lost.
+    ///
+    /// Nothing depends on the number of threads, as in [`BondKinetics::forces`].
+    fn multiply(&self, bonds: BondsLeft<'_>, motions: &[f64], forces: &mut [f64]);
+
+    /// Adds the derivatives of the forces by the displacements: row, column, value.
+    fn add_derivatives(&self, intact: &[bool], add: &mut dyn FnMut(usize, usize, f64));
+
+    /// The elements that change when some of the bonds that are `left` break, at displacements (n_degrees_of_freedom).
+    fn changed(
+        &self,
+        left: BondsLeft<'_>,
+        displacement: &[f64],
+        expansion: ThermalStrain<'_>,
+        bonds: &[u32],
+    ) -> Box<dyn ChangedElements>;
+}
+
+/// Energies, stresses and forces that are read off a state of the bonds.
+pub trait BondReadings: BondTopology {
     /// 1/2 u^T K u', J, of an unbroken bond with what remains of its stiffness, for two deformations of all bonds.
     fn mutual_energy(
         &self,
@@ -220,6 +256,13 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
         component: Component,
     ) -> f64;
 
+    /// Energy that a bond stores at its limit under a criterion, with the stiffness that the criterion is about, J; 0 where
+    /// the bond never gets there.
+    fn energy_at_limit(&self, criterion: &Criterion, bond: usize) -> f64;
+}
+
+/// Pairs of points across cracks.
+pub trait BondContact: BondTopology {
     /// Whether faces of cracks carry pressure where they close.
     fn faces_close(&self) -> bool;
 
@@ -244,35 +287,6 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
         closed: &[ClosedPair],
         stresses: &mut Stresses,
     );
-
-    /// Energy that a bond stores at its limit under a criterion, with the stiffness that the criterion is about, J; 0 where
-    /// the bond never gets there.
-    fn energy_at_limit(&self, criterion: &Criterion, bond: usize) -> f64;
-
-    /// Stiffness of a bond with what remains of it, as a sum of terms.
-    fn terms(&self, intact: &[bool], bond: usize, remaining: &Remaining) -> Vec<Term>;
-
-    /// Adds up the blocks of the stiffness in the columns of a point at the rows of its `lower` coupled points (ascending) and
-    /// of itself, shape (n_lower + 1, components, components).
-    fn add_blocks(&self, bonds: BondsLeft<'_>, point: u32, lower: &[u32], blocks: &mut [f64]);
-
-    /// The product K u of the stiffness of the bonds that are left with motions u, shape (n_degrees_of_freedom) both; of bonds whose
-    /// forces are linear in the displacements. What `forces` held is lost.
-    ///
-    /// Nothing depends on the number of threads, as in [`Bonds::forces`].
-    fn multiply(&self, bonds: BondsLeft<'_>, motions: &[f64], forces: &mut [f64]);
-
-    /// Adds the derivatives of the forces by the displacements: row, column, value.
-    fn add_derivatives(&self, intact: &[bool], add: &mut dyn FnMut(usize, usize, f64));
-
-    /// The elements that change when some of the bonds that are `left` break, at displacements (n_degrees_of_freedom).
-    fn changed(
-        &self,
-        left: BondsLeft<'_>,
-        displacement: &[f64],
-        expansion: ThermalStrain<'_>,
-        bonds: &[u32],
-    ) -> Box<dyn ChangedElements>;
 }
 
 /// Ends and families of bonds, without coordinates.

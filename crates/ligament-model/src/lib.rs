@@ -58,7 +58,7 @@ pub use element::ElementKind;
 pub use fixed::{Absence, AbsentBond, EnergyRatio, FixedFields};
 pub use grid::{BodyGrid, Canvas, box_corners, raised};
 pub use horizon::Horizons;
-pub use interface::Bonds;
+pub use interface::{BondContact, BondKinetics, BondReadings, BondTopology, Bonds};
 pub use law::BondStiffness;
 pub use ligament_mesh::Numbering;
 pub use mass::LumpedMass;

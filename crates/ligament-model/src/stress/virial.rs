@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::element::{DeformationOf, Element, Elements};
-use crate::interface::Bonds;
+use crate::interface::BondTopology;
 use crate::system::{BondsLeft, ElementSystem};
 use crate::tensor::SymTensor;
 

@@ -11,7 +11,8 @@ use crate::deformation::{Deformation, Deformations};
 use crate::element::{BondDeformation, DeformationOf, Element, Elements, Remaining, Term};
 use crate::failure::Criterion;
 use crate::interface::{
-    Bonds, CentralMotions, CoupledPoints, PointStiffness, StressReading, Stresses,
+    BondContact, BondKinetics, BondReadings, BondTopology, CentralMotions, CoupledPoints,
+    PointStiffness, StressReading, Stresses,
 };
 use crate::layout::Component;
 use crate::portion::{Portion, any};
@@ -21,7 +22,7 @@ use crate::sweep::BondSweep;
 use crate::tensor::SymTensor;
 use crate::thermal::ThermalStrain;
 
-impl<const D: usize, const M: usize, E: Elements<D, M>> Bonds for ElementSystem<D, M, E> {
+impl<const D: usize, const M: usize, E: Elements<D, M>> BondTopology for ElementSystem<D, M, E> {
     fn n_points(&self) -> usize {
         self.system.cloud.len()
     }
@@ -90,6 +91,16 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> Bonds for ElementSystem<
             .share(&self.system.bonds, &self.system.rigidities, bond, point)
     }
 
+    fn extent(&self) -> f64 {
+        self.system.cloud.extent()
+    }
+
+    fn halve(&self, points: &mut [u32]) {
+        self.system.cloud.halve(points);
+    }
+}
+
+impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for ElementSystem<D, M, E> {
     fn is_linear(&self) -> bool {
         self.elements.is_linear()
     }
@@ -122,14 +133,6 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> Bonds for ElementSystem<
 
     fn point_stiffness(&self) -> Vec<PointStiffness> {
         PointStiffness::of_bonds(&self.system.rigidities, &self.system.bonds, self.portion())
-    }
-
-    fn extent(&self) -> f64 {
-        self.system.cloud.extent()
-    }
-
-    fn halve(&self, points: &mut [u32]) {
-        self.system.cloud.halve(points);
     }
 
     fn holds(
@@ -212,6 +215,54 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> Bonds for ElementSystem<
         self.forces(bonds, deformations, expansion)
     }
 
+    fn terms(&self, intact: &[bool], bond: usize, remaining: &Remaining) -> Vec<Term> {
+        self.whole(intact, bond).weakened(remaining).terms()
+    }
+
+    fn add_blocks(&self, bonds: BondsLeft<'_>, point: u32, lower: &[u32], blocks: &mut [f64]) {
+        for &bond in self.elements_at_points().at(point) {
+            let Some(element) = self.left(bonds, bond as usize) else {
+                continue;
+            };
+            element.upper_blocks(point, |other, block| {
+                let place = if other == point {
+                    Ok(lower.len())
+                } else {
+                    lower.binary_search(&other)
+                };
+                if let Ok(place) = place {
+                    let values = block.as_flattened();
+                    let sums = &mut blocks[place * values.len()..];
+                    for (sum, value) in sums.iter_mut().zip(values) {
+                        *sum += value;
+                    }
+                }
+            });
+        }
+    }
+
+    fn multiply(&self, bonds: BondsLeft<'_>, motions: &[f64], forces: &mut [f64]) {
+        self.multiply(bonds, motions, forces);
+    }
+
+    fn add_derivatives(&self, intact: &[bool], add: &mut dyn FnMut(usize, usize, f64)) {
+        for bond in 0..self.system.bonds.len() {
+            self.whole(intact, bond).derivatives(&mut *add);
+        }
+    }
+
+    fn changed(
+        &self,
+        left: BondsLeft<'_>,
+        displacement: &[f64],
+        expansion: ThermalStrain<'_>,
+        bonds: &[u32],
+    ) -> Box<dyn ChangedElements> {
+        self.changed(left, displacement, expansion, bonds)
+    }
+}
+
+impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for ElementSystem<D, M, E> {
     fn mutual_energy(
         &self,
         intact: &[bool],
@@ -294,6 +345,12 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> Bonds for ElementSystem<
         pulls.sum()
     }
 
+    fn energy_at_limit(&self, criterion: &Criterion, bond: usize) -> f64 {
+        criterion.energy_at_limit(&self.system.rigidities, bond)
+    }
+}
+
+impl<const D: usize, const M: usize, E: Elements<D, M>> BondContact for ElementSystem<D, M, E> {
     fn faces_close(&self) -> bool {
         self.system.faces.close()
     }
@@ -329,56 +386,6 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> Bonds for ElementSystem<
     ) {
         self.system
             .add_stresses_of_contact(reading, closed, &mut stresses.values);
-    }
-
-    fn energy_at_limit(&self, criterion: &Criterion, bond: usize) -> f64 {
-        criterion.energy_at_limit(&self.system.rigidities, bond)
-    }
-
-    fn terms(&self, intact: &[bool], bond: usize, remaining: &Remaining) -> Vec<Term> {
-        self.whole(intact, bond).weakened(remaining).terms()
-    }
-
-    fn add_blocks(&self, bonds: BondsLeft<'_>, point: u32, lower: &[u32], blocks: &mut [f64]) {
-        for &bond in self.elements_at_points().at(point) {
-            let Some(element) = self.left(bonds, bond as usize) else {
-                continue;
-            };
-            element.upper_blocks(point, |other, block| {
-                let place = if other == point {
-                    Ok(lower.len())
-                } else {
-                    lower.binary_search(&other)
-                };
-                if let Ok(place) = place {
-                    let values = block.as_flattened();
-                    let sums = &mut blocks[place * values.len()..];
-                    for (sum, value) in sums.iter_mut().zip(values) {
-                        *sum += value;
-                    }
-                }
-            });
-        }
-    }
-
-    fn multiply(&self, bonds: BondsLeft<'_>, motions: &[f64], forces: &mut [f64]) {
-        self.multiply(bonds, motions, forces);
-    }
-
-    fn add_derivatives(&self, intact: &[bool], add: &mut dyn FnMut(usize, usize, f64)) {
-        for bond in 0..self.system.bonds.len() {
-            self.whole(intact, bond).derivatives(&mut *add);
-        }
-    }
-
-    fn changed(
-        &self,
-        left: BondsLeft<'_>,
-        displacement: &[f64],
-        expansion: ThermalStrain<'_>,
-        bonds: &[u32],
-    ) -> Box<dyn ChangedElements> {
-        self.changed(left, displacement, expansion, bonds)
     }
 }
 
