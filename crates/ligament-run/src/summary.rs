@@ -206,12 +206,6 @@ impl Summary {
         outcome: &Outcome,
         noted: Noted,
     ) -> Self {
-        let Noted {
-            provenance,
-            notices,
-            first,
-            stages,
-        } = noted;
         let history = &outcome.history;
         let without_equilibrium = outcome.is_without_equilibrium();
         let loaded = |point: Option<LoadPoint>| {
@@ -224,7 +218,6 @@ impl Summary {
         let missing = largest(&mut history.iter().map(|step| step.missing_energy().abs()));
         let is_cut_short = !without_equilibrium
             && matches!(outcome.termination, Termination::NoEquilibrium { .. });
-        let of_model = model.warnings.iter().map(ToString::to_string);
         let of_end = is_cut_short.then(|| UP_TO_THERE.to_owned());
         Self {
             model: ModelSummary::new(case, model),
@@ -233,8 +226,8 @@ impl Summary {
             elastic_stiffness: Some(outcome.elastic_stiffness)
                 .filter(|stiffness| stiffness.is_finite()),
             first_break: outcome.first_break.map(PathPoint::from),
-            first_softened_bond: first.softened.map(|it| BondEvent::new(model, &it)),
-            first_broken_bond: first.broken.map(|it| BondEvent::new(model, &it)),
+            first_softened_bond: noted.first.softened.map(|it| BondEvent::new(model, &it)),
+            first_broken_bond: noted.first.broken.map(|it| BondEvent::new(model, &it)),
             peak: loaded(outcome.peak()),
             reactions_at_peak: resultants_at_peak(boundary, model.system.layout(), outcome),
             first_peak: loaded(outcome.first_peak(DROP)),
@@ -255,9 +248,11 @@ impl Summary {
             }),
             stability: outcome.stability.map(StabilitySummary::from),
             solver: SolverSummary::new(&outcome.costs, &outcome.solver),
-            provenance,
-            stages,
-            warnings: of_model.chain(notices).chain(of_end).collect(),
+            provenance: noted.provenance,
+            stages: noted.stages,
+            warnings: (model.warnings.iter().map(ToString::to_string))
+                .chain(noted.notices.into_iter().chain(of_end))
+                .collect(),
         }
     }
 

@@ -32,11 +32,11 @@ pub(super) fn boundary<const D: usize>(
     cloud: &PointCloud<D>,
     acting: Acting,
 ) -> Result<ProportionalLoading, SetupError> {
-    let places = Places { setup, cloud };
+    let (places, components) = (Places { setup, cloud }, Component::in_dimensions(D));
     let heating = heating(&places)?;
     let all = Layout {
         n_points: cloud.len(),
-        components: Component::in_dimensions(D),
+        components,
     };
     let mut boundary = ProportionalLoading::new(all, places.control(heating.as_ref())?);
     let is_heated = matches!(acting, Acting::All | Acting::Temperature);
@@ -51,16 +51,12 @@ pub(super) fn boundary<const D: usize>(
             let each: Vec<(u32, f64)> = points.iter().map(|&point| (point, 1.0)).collect();
             places.prescribe(&mut boundary, field, &each, component, 0.0)?;
         }
-        boundary.report_group(
-            &support.name(index),
-            points,
-            vec![0.0; Component::in_dimensions(D).len()],
-        );
+        boundary.report_group(&support.name(index), points, vec![0.0; components.len()]);
     }
     for (index, load) in setup.loads.iter().enumerate() {
         let field = Field::element("loads", index);
         let points = places.points(field, &load.place)?;
-        let mut total = vec![0.0; Component::in_dimensions(D).len()];
+        let mut total = vec![0.0; components.len()];
         if acting != Acting::All && acting != Acting::Load(index) {
             boundary.report_group(&load.name, points, total);
             continue;
@@ -75,11 +71,7 @@ pub(super) fn boundary<const D: usize>(
             }
         }
         for (point, force) in places.forces(field, load, &points)?.at_points {
-            for ((&component, value), sum) in Component::in_dimensions(D)
-                .iter()
-                .zip(force)
-                .zip(&mut total)
-            {
+            for ((&component, value), sum) in components.iter().zip(force).zip(&mut total) {
                 boundary.add_force(point, component, value);
                 *sum += value;
             }
