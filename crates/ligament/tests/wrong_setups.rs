@@ -196,6 +196,18 @@ fn a_setup_is_held_to_the_rules_of_a_case() {
             }),
             "loads[0].action: acts along the curve of a `group`, so the load needs one",
         ),
+        (
+            error(|it| it.loads[0].action = Action::Force([1.0, 0.0, 1.0])),
+            "loads[0].action: a body in the plane has no z: give \"x\" or \"y\"",
+        ),
+        (
+            error(|it| it.supports[0].place = Place::At([0.0, 0.0, 1.0])),
+            "supports[0].place: a body in the plane has no z: give \"x\" or \"y\"",
+        ),
+        (
+            error(|it| it.section = Section::Solid),
+            "section: a body in the plane has `Section::Plane`, one in space `Section::Solid`",
+        ),
     ] {
         assert!(found.starts_with(expected), "{found}");
     }

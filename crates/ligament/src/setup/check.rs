@@ -248,7 +248,8 @@ impl Setup {
             }
             | Reading::Section { line: ends, .. } = probe.reading
             {
-                require(ends[0] != ends[1], field, "two different points", ends)?;
+                let found = ends.map(|it| it[..self.body.dimensions()].to_vec());
+                require(ends[0] != ends[1], field, "two different points", found)?;
             }
         }
         Ok(())

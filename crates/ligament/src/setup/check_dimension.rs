@@ -9,7 +9,10 @@ use ligament_model::law::{BondLaw, listed};
 use ligament_model::material::Space;
 
 use super::check::{Checked, contradiction, positive, require};
-use super::{Action, Analysis, CrackShape, Displacement, Form, Reading, Section, Setup, Strains};
+use super::{
+    Action, Analysis, CrackShape, Displacement, Form, Place, Position, Reading, Section, Setup,
+    Strains, Support,
+};
 use crate::body::Origin;
 use crate::error::Field;
 
@@ -54,6 +57,7 @@ impl Setup {
         self.check_closing()?;
         self.check_readings()?;
         self.check_components()?;
+        self.check_positions()?;
         self.check_elasticity()
     }
 
@@ -122,6 +126,43 @@ impl Setup {
         Ok(())
     }
 
+    /// Whether a vector or a position has a part along z that a body in the plane does not.
+    fn leaves_plane(&self, vector: &Position) -> bool {
+        self.dimensions() == 2 && vector[2] != 0.0
+    }
+
+    /// Positions in the plane have no part along z.
+    fn check_positions(&self) -> Checked {
+        let is_off = |place: &Place| match place {
+            Place::At(position) => self.leaves_plane(position),
+            Place::Everywhere | Place::Group(_) | Place::Box(_) => false,
+        };
+        let supports = self.supports.iter().map(|it| ("supports", &it.place));
+        let loads = self.loads.iter().map(|it| ("loads", &it.place));
+        for places in [supports.collect::<Vec<_>>(), loads.collect()] {
+            for (index, (list, place)) in places.into_iter().enumerate() {
+                if is_off(place) {
+                    return contradiction(Field::element(list, index).part("place"), NO_Z);
+                }
+            }
+        }
+        for (index, probe) in self.probes.iter().enumerate() {
+            let positions = match &probe.reading {
+                Reading::At { position, .. } => std::slice::from_ref(position),
+                Reading::Between { positions, .. } => positions,
+                Reading::Section { line, .. } => line,
+            };
+            if positions.iter().any(|it| self.leaves_plane(it)) {
+                return contradiction(Field::element("probes", index).part("reading"), NO_Z);
+            }
+        }
+        let leans = |it: &Support| it.normal.is_some_and(|normal| self.leaves_plane(&normal));
+        match self.supports.iter().position(leans) {
+            Some(index) => contradiction(Field::element("supports", index).part("normal"), NO_Z),
+            None => Ok(()),
+        }
+    }
+
     /// Supports and loads move points by components that they have.
     fn check_components(&self) -> Checked {
         let (components, reason) = (self.components(), no_motion(self.space()));
@@ -146,6 +187,14 @@ impl Setup {
             let action = field.part("action");
             match load.action {
                 Action::Displacement(it) if leaves(&it) => return contradiction(action, reason),
+                Action::Force(it)
+                | Action::ForcePerLength(it)
+                | Action::BodyForce(it)
+                | Action::Acceleration(it)
+                    if self.leaves_plane(&it) =>
+                {
+                    return contradiction(action, NO_Z);
+                }
                 Action::ForcePerArea(_) if self.dimensions() == 2 => {
                     let reason =
                         "a body in the plane has curves and no surfaces: give a force per length";
