@@ -220,15 +220,16 @@ fn keys_of_the_plane_are_refused() {
     ] {
         assert_contains(&refused(&Block::new(1.0), &case(parts)), &words);
     }
-    let law = case(SOLID).replace("\"nhpd\"", "\"bbpd-conical\"");
+    let law = case(SOLID).replace("\"nhpd\"", "\"mbb-pd\"");
     assert_contains(
         &refused(&Block::new(1.0), &law),
         &["model.law", "is a law of the plane"],
     );
-    let closing = case(SOLID).replace("[model]", "[model]\nclosing = true");
+    let springs = case(SOLID).replace("\"nhpd\"", "\"pds\"");
+    let closing = springs.replace("[model]", "[model]\nclosing = true");
     assert_contains(
         &refused(&Block::new(1.0), &closing),
-        &["model.closing", "plane alone"],
+        &["model.closing", "only where points turn"],
     );
 }
 
