@@ -278,8 +278,8 @@ fn a_machine_keeps_what_it_did_in_an_earlier_stage() {
     let stages = "[[stage]]\nloads = { top = 1.0 }\n[[stage]]\nloads = { side = 1.0 }";
     let bench = Bench::new(&format!("{BLOCK}\n{supports}\n{loads}\n{stages}"), &[]);
     let Bench { model, .. } = &bench;
-    let loading = Loading::new(&model).unwrap();
-    let problem = loading.problem(&model);
+    let loading = Loading::new(model).unwrap();
+    let problem = loading.problem(model);
     let outcome = follow(&problem, &model.setup.analysis, &mut Watch::default()).unwrap();
     let largest = |values: &[f64]| values.iter().fold(0.0, |one: f64, it| one.max(it.abs()));
     let pairs = outcome

@@ -142,9 +142,9 @@ fn body(text: &str, settings: &[&str], ranks: Option<Together>) -> Body {
 }
 
 fn problem(model: &Model, ranks: Option<Together>) -> Problem {
-    let mut loading = Loading::new(&model).unwrap();
+    let mut loading = Loading::new(model).unwrap();
     loading.solver.ranks = ranks;
-    loading.problem(&model)
+    loading.problem(model)
 }
 
 /// Follows a body from its unloaded state or from a checkpoint.

@@ -25,8 +25,8 @@ impl Equations {
     ///
     /// If its supports and loads, or the equations, cannot be made.
     pub(super) fn from_model(model: &Model) -> anyhow::Result<Self> {
-        let loading = Loading::new(&model)?;
-        let problem = loading.problem(&model);
+        let loading = Loading::new(model)?;
+        let problem = loading.problem(model);
         let equilibrium = Equilibrium::new(&problem, ELASTIC_ENERGY_TOLERANCE)?;
         let stiffness = equilibrium.stiffness();
         let stiffness = stiffness.context("the equations are solved without a matrix")?;
