@@ -7,6 +7,7 @@ use ligament::body::{Cells, SolidLatticeBody};
 use ligament::prelude::*;
 use ligament::setup::{Iteration, Surface};
 use ligament_analysis::Termination;
+use ligament_model::ElementKind;
 use ligament_model::correction::patch;
 use ligament_model::law::LAWS;
 use ligament_model::material::Space;
@@ -135,4 +136,30 @@ fn every_law_runs_in_its_dimensions_with_its_corrections() {
         }
     }
     assert!(failed.is_empty(), "{failed:#?}");
+}
+
+/// What the row of a law says agrees with itself, and its words are those of no other.
+#[test]
+fn rows_agree_with_themselves() {
+    for law in LAWS {
+        let word = law.word;
+        let element = (law.element)(&law.options);
+        assert_eq!(
+            law.shear_form.is_some(),
+            element == ElementKind::Beam,
+            "{word}"
+        );
+        assert_eq!(
+            law.criterion.takes_strains(),
+            law.has_own_strains(),
+            "{word}"
+        );
+        assert!(law.couples_ends_alone || law.has_own_strains(), "{word}");
+        assert_eq!(
+            LAWS.iter().filter(|it| it.word == word).count(),
+            1,
+            "{word}"
+        );
+        assert_eq!(Law::usual(law).misplaced_option(), None, "{word}");
+    }
 }

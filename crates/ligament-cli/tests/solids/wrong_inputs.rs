@@ -220,7 +220,7 @@ fn keys_of_the_plane_are_refused() {
     ] {
         assert_contains(&refused(&Block::new(1.0), &case(parts)), &words);
     }
-    let law = case(SOLID).replace("\"nhpd\"", "\"bbpd-conical\"");
+    let law = case(SOLID).replace("\"nhpd\"", "\"orthotropic\"");
     assert_contains(
         &refused(&Block::new(1.0), &law),
         &["model.law", "is a law of the plane"],
