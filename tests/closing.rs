@@ -111,19 +111,19 @@ fn a_solid_pulled_in_two_carries_pressure_again() {
         "precrack = [{ points = [[0.01, -0.01, -0.01], [0.01, 0.0021, -0.01], [0.01, 0.0021, 0.03], [0.01, -0.01, 0.03]] }]\nno_fail = [{ group = \"left\" }, { group = \"right\" }]\nsupport =",
     );
     let steps =
-        "fracture={ steps = [-1.0, 0.0, 1.0, -1.0], criterion = [{ kind = \"strength\" }] }";
+        "fracture={ steps = [-1.0, 0.0, 1.0], criterion = [{ kind = \"strength\" }] }";
     let pressed = "fracture={ steps = [0.1], criterion = [{ kind = \"strength\" }] }";
     let whole = stiffness(&Bench::new(&notched, &[pressed]).break_up());
     let run = Bench::new(&notched, &[steps]).break_up();
     let history = &run.outcome.history;
-    assert_eq!(history.last().unwrap().fragments, 2);
+    assert!(history.iter().skip(1).all(|it| it.fragments == 2));
     let largest = history.iter().map(|it| it.external_work.abs());
     let largest = largest.fold(0.0, f64::max);
     let missing = history.iter().map(|it| it.missing_energy().abs());
     let missing = missing.fold(0.0, f64::max) / largest;
     assert!(missing < 1e-8, "{missing:e}");
-    let [.., pulled, pressed] = history.as_slice() else {
-        panic!("four load steps");
+    let [_, pulled, _, pressed] = history.as_slice() else {
+        panic!("three load steps");
     };
     assert!(pulled.reaction.abs() < 1e-6 * pressed.reaction.abs());
     let ratio = pressed.reaction / pressed.displacement / whole;
