@@ -110,8 +110,7 @@ fn a_solid_pulled_in_two_carries_pressure_again() {
         "support =",
         "precrack = [{ points = [[0.01, -0.01, -0.01], [0.01, 0.0021, -0.01], [0.01, 0.0021, 0.03], [0.01, -0.01, 0.03]] }]\nno_fail = [{ group = \"left\" }, { group = \"right\" }]\nsupport =",
     );
-    let steps =
-        "fracture={ steps = [-1.0, 0.0, 1.0], criterion = [{ kind = \"strength\" }] }";
+    let steps = "fracture={ steps = [-1.0, 0.0, 1.0], criterion = [{ kind = \"strength\" }] }";
     let pressed = "fracture={ steps = [0.1], criterion = [{ kind = \"strength\" }] }";
     let whole = stiffness(&Bench::new(&notched, &[pressed]).break_up());
     let run = Bench::new(&notched, &[steps]).break_up();
