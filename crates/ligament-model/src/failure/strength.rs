@@ -1,7 +1,5 @@
 //! The energy-based tensile strength of NHPD (eqs 14 to 16).
 
-use rayon::prelude::*;
-
 use super::basis::{Basis, weakest};
 use super::kind::{Choice, Kind, Limits, PerSpace, TENSILE_STRENGTH};
 use super::measure::Measure;
@@ -68,15 +66,12 @@ pub fn critical_stretches<const D: usize>(
     energies: &[f64],
     no_fail: &[bool],
 ) -> Vec<f64> {
-    (
-        weakest(system, no_fail, energies),
-        &system.bonds.ends,
-        &system.rigidities.axial,
-    )
-        .into_par_iter()
-        .map(|(energy, ends, &axial_rigidity)| {
-            let [a, b] = ends.map(|end| system.cloud.volumes[end as usize]);
-            (energy * (a + b) / axial_rigidity).sqrt()
-        })
-        .collect()
+    let volumes = &system.cloud.volumes;
+    let mut limits = weakest(system, no_fail, energies);
+    let of_bonds = system.bonds.ends.iter().zip(&system.rigidities.axial);
+    for (limit, (&[a, b], axial_rigidity)) in limits.iter_mut().zip(of_bonds) {
+        let both = volumes[a as usize] + volumes[b as usize];
+        *limit = (*limit * both / axial_rigidity).sqrt();
+    }
+    limits
 }

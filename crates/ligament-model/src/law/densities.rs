@@ -59,6 +59,9 @@ impl BondStiffness {
     ) -> Self {
         let axial_constants: Vec<f64> = constants.iter().map(|it| it[0]).collect();
         let of_ends = |ends| {
+            if let [of_all] = constants {
+                return *of_all;
+            }
             materials::of_bond(cloud, ends, &axial_constants).fold(
                 [0.0; N],
                 |mut sum, (material, share)| {
