@@ -7,6 +7,7 @@ use ligament_analysis::history::BreakRecord;
 use ligament_case::case::CaseFile;
 use ligament_model::element::{BondDeformation, ElementKind};
 use ligament_model::failure::crack_at_points::CrackAtPoints;
+use ligament_model::failure::surroundings::Surroundings;
 use tempfile::TempDir;
 use verification::bench::{self, Bench, Run};
 use verification::numbers::relative_error;
@@ -203,11 +204,14 @@ fn mixed_modes_take_what_the_exponent_says() {
 }
 
 /// The printed criterion `kind` of the plate with cracks, before it is loaded.
-fn printed(kind: &str, settings: &[&str]) -> (Bench, Arc<CrackAtPoints>) {
+fn printed(kind: &str, settings: &[&str]) -> (Bench, CrackAtPoints) {
     let kind = format!("fracture.criterion=[{{ kind = \"{kind}\" }}]");
     let bench = Bench::new(CRACKED, &[&[kind.as_str()], settings].concat());
-    let crack = bench.model.criteria.list[0].crack_at_points.clone();
-    (bench, crack.unwrap())
+    let surroundings = bench.model.criteria.list[0].surroundings.clone();
+    let Some(Surroundings::CrackAtPoints(crack)) = surroundings.as_deref().cloned() else {
+        panic!("{kind} follows the bonds that are left");
+    };
+    (bench, crack)
 }
 
 /// A point inside of the plate, five rows above the crack.

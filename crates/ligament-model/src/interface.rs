@@ -14,6 +14,7 @@ use crate::failure::Criterion;
 use crate::layout::{Component, Layout};
 use crate::portion::Portion;
 use crate::rigid_motions::FreeMotion;
+use crate::stress::point_strain::{Motion, StrainAround};
 use crate::sweep::BondSweep;
 use crate::system::BondsLeft;
 use crate::thermal::ThermalStrain;
@@ -245,6 +246,10 @@ pub trait BondReadings: BondTopology {
         bonds: BondsLeft<'_>,
         deformations: &Deformations,
     ) -> Stresses;
+
+    /// Strains of the points around each bond in a motion of which some bonds are left, shape (n_bonds); None where the bonds of
+    /// neither end span the space.
+    fn strains_around(&self, motion: Motion<'_>) -> Vec<Option<StrainAround>>;
 
     /// Sum of a component of what the far ends of some bonds exert on the near ones, which are the first where marked, N; of
     /// bonds of two points alone.

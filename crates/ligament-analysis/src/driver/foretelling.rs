@@ -3,6 +3,8 @@
 //! Up to its first breakage a body is elastic. In proportion to one load factor its first solution tells where that is; in a programme of
 //! stages everything goes along a straight line from the end of one part to the end of the next, and one solution a part tells it.
 
+use std::borrow::Cow;
+
 use ligament_model::deformation::Deformations;
 use ligament_model::failure::Criteria;
 use rayon::prelude::*;
@@ -114,6 +116,7 @@ impl Path<'_> {
             return Ok(());
         }
         let criteria = self.criteria(&balanced);
+        let criteria = criteria.on_line(None, times);
         let deformations = balanced.deformations.scaled(times);
         let is_beyond = |(bond, deformation)| criteria.utilisation(bond, deformation) >= AT_LIMIT;
         let of_bonds = deformations.iter().enumerate();
@@ -196,7 +199,8 @@ fn in_proportion(
     let open = reversed.filter(|_| path.problem.system.faces_close());
     let told = open.unwrap_or(factors.len());
     let forward = Nearest::new(&path, &criteria, &along);
-    let backward = reversed.map(|_| Nearest::new(&path, &criteria, &along.scaled(-1.0)));
+    let backward = reversed
+        .map(|_| Nearest::new(&path, &criteria.on_line(None, -1.0), &along.scaled(-1.0)));
     let nearest = |factor: f64| match &backward {
         Some(backward) if factor < 0.0 => backward,
         _ => &forward,
@@ -226,7 +230,10 @@ fn in_proportion(
         step: steps.map(|_| StepOfFailure {
             step: index + 1,
             steps: factors.len(),
-            beyond: beyond(&criteria, &along.scaled(factors[index])),
+            beyond: beyond(
+                &criteria.on_line(None, factors[index]),
+                &along.scaled(factors[index]),
+            ),
         }),
     }))
 }
@@ -255,6 +262,7 @@ fn in_stages(
         Attempt::Balanced(balanced) => balanced,
         Attempt::Unbalanced(reason) => return Ok(Foretold::NoEquilibrium { part: 0, reason }),
     };
+    let mut criteria_here = path.criteria(&here).into_owned();
     for (index, part) in programme.parts.iter().enumerate() {
         let start = path.control(&here);
         path.begin_part(index);
@@ -269,13 +277,13 @@ fn in_stages(
             }
         };
         let criteria = path.criteria(&there).into_owned();
-        let line = Line::new(&here, &there);
-        let Some(share) = line.first_failure(&criteria, goes_on) else {
+        let line = Line::new([&here, &there], [&criteria_here, &criteria]);
+        let Some(share) = line.first_failure(goes_on) else {
             largest = largest.max(utilisation(&criteria, &there.deformations));
-            here = there;
+            (here, criteria_here) = (there, criteria);
             continue;
         };
-        let first = Nearest::new(&path, &criteria, &line.at(share));
+        let first = Nearest::new(&path, &line.criteria(share), &line.at(share));
         let end = path.control(&there);
         let on_way = |start: f64, end: f64| start + share * (end - start);
         let (begins, ends) = part.span;
@@ -295,7 +303,7 @@ fn in_stages(
             step: is_counted.then(|| StepOfFailure {
                 step: steps_before + step as usize,
                 steps: programme.parts.iter().map(|it| it.steps).sum(),
-                beyond: beyond(&criteria, &line.at(step / part.steps as f64)),
+                beyond: line.beyond(step / part.steps as f64),
             }),
         }));
     }
@@ -319,17 +327,20 @@ fn aim_at_end(path: &mut Path<'_>, part: &Part) -> bool {
     dissipates
 }
 
-/// Deformations on the straight line from one equilibrium to another.
-struct Line {
+/// Deformations and criteria on the straight line from one equilibrium to another.
+struct Line<'a> {
     here: Deformations,
     slopes: Deformations,
+    /// Criteria in both equilibria.
+    criteria: [&'a Criteria; 2],
 }
 
-impl Line {
-    fn new(here: &Balanced, there: &Balanced) -> Self {
+impl<'a> Line<'a> {
+    fn new([here, there]: [&Balanced; 2], criteria: [&'a Criteria; 2]) -> Self {
         Self {
             here: here.deformations.clone(),
             slopes: there.deformations.ahead(&here.deformations, -1.0),
+            criteria,
         }
     }
 
@@ -337,12 +348,22 @@ impl Line {
         self.here.ahead(&self.slopes, share)
     }
 
+    fn criteria(&self, share: f64) -> Cow<'a, Criteria> {
+        let [here, there] = self.criteria;
+        there.on_line(Some(here), share)
+    }
+
+    /// Number of the bonds that are at their limits or beyond at a share of the line.
+    fn beyond(&self, share: f64) -> usize {
+        beyond(&self.criteria(share), &self.at(share))
+    }
+
     /// Share of the line at which the first bond reaches its limit, at most 1 unless it goes on; None where none does.
     ///
     /// A measure is convex along a line, so that from a state within all limits on there is one place where the largest utilisation passes
     /// one, and halving finds it.
-    fn first_failure(&self, criteria: &Criteria, goes_on: bool) -> Option<f64> {
-        let fails = |share: f64| utilisation(criteria, &self.at(share)) >= AT_LIMIT;
+    fn first_failure(&self, goes_on: bool) -> Option<f64> {
+        let fails = |share: f64| utilisation(&self.criteria(share), &self.at(share)) >= AT_LIMIT;
         let mut doublings =
             (0..=if goes_on { DOUBLINGS } else { 0 }).map(|it| 2_f64.powi(it as i32));
         let [mut low, mut high] = [0.0, doublings.find(|share| fails(*share))?];

@@ -339,10 +339,9 @@ impl<'a> Path<'a> {
         Ok(breakage)
     }
 
-    /// The criteria with the limits of the bonds that are left in an equilibrium.
+    /// The criteria with the limits and measures that the bonds have in an equilibrium.
     pub(super) fn criteria(&self, balanced: &Balanced) -> Cow<'_, Criteria> {
-        let criteria = &self.problem.criteria;
-        criteria.in_state(&self.state.intact, &balanced.deformations)
+        self.problem.criteria_in(&self.state, balanced)
     }
 
     fn load_came_loose(&self, holds: &[Hold]) -> bool {
@@ -418,7 +417,7 @@ impl<'a> Path<'a> {
         self.course.peak = self.course.peak.max(record.reaction);
         let force = balanced.internal.force_scale;
         self.course.largest_force = self.course.largest_force.max(force);
-        let criteria = (self.problem.criteria).in_state(&self.state.intact, &balanced.deformations);
+        let criteria = self.problem.criteria_in(&self.state, balanced);
         let numbers = self.equilibrium.numbers();
         let softened = numbers.filter(|_| !self.state.softening.largest.is_empty());
         let view = View {

@@ -299,7 +299,7 @@ fn group_forces(problem: &Problem, load_factor: f64, reactions: &[f64]) -> Vec<V
 
 /// Largest utilisation of the intact bonds; 0 without criteria.
 pub(super) fn largest_ratio(problem: &Problem, state: &State, balanced: &Balanced) -> f64 {
-    let criteria = (problem.criteria).in_state(&state.intact, &balanced.deformations);
+    let criteria = problem.criteria_in(state, balanced);
     let ratio = (&state.intact, balanced.deformations.measured())
         .into_par_iter()
         .enumerate()

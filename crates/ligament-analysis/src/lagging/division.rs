@@ -106,7 +106,7 @@ impl Division {
 fn may_wait(problem: &Problem, choice: &DirectChoice) -> bool {
     let (system, loads) = (&problem.system, &problem.loads);
     let is_judged = |it: &ligament_model::failure::Criterion| {
-        it.after.is_brittle() && it.crack_at_points.is_none() && !it.measure.takes_strains()
+        it.after.is_brittle() && it.surroundings.is_none() && !it.measure.takes_strains()
     };
     system.is_linear()
         && system.has_energy()

@@ -27,10 +27,13 @@ pub struct Criterion {
     /// How the limit of `frictional` comes from the strengths.
     #[schemars(extend("default" = Word(Calibration::default())))]
     pub calibration: Option<Word<Calibration>>,
-    /// Angle beta of the friction of a bond, rad: compression by s makes its limit of sliding larger by s tan(beta). Of `frictional`, in
-    /// the place of the compressive strength; that of the material, phi', is another.
+    /// Angle of friction, rad. Of `mohr-coulomb` that of the material, phi. Of `frictional` that of a bond, beta, in the place of the
+    /// compressive strength: compression by s makes its limit of sliding larger by s tan(beta).
     #[schemars(range(min = 0))]
     pub friction_angle: Option<f64>,
+    /// Cohesion of `mohr-coulomb`, Pa, in the place of the compressive strength; with `friction_angle`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub cohesion: Option<f64>,
     /// Distance of the outermost fibre from the axis of a bond, m; of `fibre`.
     #[schemars(range(min = 0))]
     pub fibre_distance: Option<f64>,
@@ -54,6 +57,7 @@ impl From<Kind> for Criterion {
             critical_angle: None,
             calibration: None,
             friction_angle: None,
+            cohesion: None,
             fibre_distance: None,
             after: Word::default(),
             end: None,
@@ -83,6 +87,7 @@ impl Criterion {
             critical_angle: self.critical_angle,
             calibration: self.calibration.map(|it| it.0),
             friction_angle: self.friction_angle,
+            cohesion: self.cohesion,
             fibre_distance: self.fibre_distance,
             after,
         })

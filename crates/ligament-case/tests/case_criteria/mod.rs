@@ -277,7 +277,7 @@ fn cohesion_friction_and_fibres_as_given() {
         (
             "kind = \"sliding\"\nfriction_angle = 0.5",
             "61:18: fracture.criterion.0.friction_angle: `friction_angle` does not apply with kind = \"sliding\": only \
-             \"frictional\" has friction; remove it",
+             \"mohr-coulomb\" and \"frictional\" have friction; remove it",
         ),
         (
             "kind = \"tension\"\nfibre_distance = 1e-3",

@@ -16,7 +16,7 @@ impl Criteria {
         let is_unknown = |it: &&Criterion| {
             let mut bonds = 0..it.limit.len();
             let is_known = |bond| it.measure.is_known_along_lines(it.coefficients(bond));
-            it.crack_at_points.is_some() || !bonds.all(is_known)
+            it.surroundings.is_some() || !bonds.all(is_known)
         };
         self.list.iter().find(is_unknown)
     }

@@ -130,7 +130,11 @@ impl Measure {
             | Self::Friction
             | Self::Energy => true,
             Self::MixedModeX | Self::MixedModeY => coefficients.get(1).is_none_or(|&r| r == 1.0),
-            Self::PrintedOpening | Self::PrintedSliding | Self::PrintedMixed => false,
+            Self::PrintedOpening
+            | Self::PrintedSliding
+            | Self::PrintedMixed
+            | Self::NormalStress
+            | Self::CoulombStress => false,
         }
     }
 
@@ -162,8 +166,12 @@ impl Measure {
             Self::Energy => root(stretch, shear.square_times(q), limit),
             Self::MixedModeX => mixed(0),
             Self::MixedModeY => mixed(1),
-            Self::PrintedOpening | Self::PrintedSliding | Self::PrintedMixed => {
-                unreachable!("printed measures have no closed form")
+            Self::PrintedOpening
+            | Self::PrintedSliding
+            | Self::PrintedMixed
+            | Self::NormalStress
+            | Self::CoulombStress => {
+                unreachable!("measures that follow what is around a bond have no closed form here")
             }
         };
         (interval[0] <= interval[1]).then_some(interval)

@@ -30,7 +30,7 @@ pub fn criteria<const D: usize>(
         let limits = limits(choice, basis).map_err(at_place)?;
         for (&measure, mut limits) in kind.measures.iter().zip(limits) {
             // Limits that follow the bonds that are left have the factors of their points.
-            if limits.crack_at_points.is_none() {
+            if limits.has_fixed_limits() {
                 scatter(choice, &mut limits.limit, basis);
             }
             list.push(Criterion {
@@ -42,7 +42,7 @@ pub fn criteria<const D: usize>(
                 after: after(&choice.after, &limits.limit, basis).map_err(at_place)?,
                 limit: limits.limit,
                 coefficient: limits.coefficient,
-                crack_at_points: limits.crack_at_points,
+                surroundings: limits.surroundings,
             });
         }
     }
@@ -174,6 +174,7 @@ impl Choice {
         let others = [
             calibration,
             ("friction_angle", self.friction_angle),
+            ("cohesion", self.cohesion),
             ("fibre_distance", self.fibre_distance),
         ];
         let given = self.own_limits().into_iter().chain(others);
@@ -192,7 +193,8 @@ impl Choice {
             ("calibration", _) => {
                 format!("only the limit of {takers} can come from the strengths in two ways")
             }
-            ("friction_angle", _) => format!("only {takers} has friction"),
+            ("friction_angle", _) => format!("only {takers} have friction"),
+            ("cohesion", _) => format!("only {takers} has a cohesion"),
             ("fibre_distance", _) => {
                 format!("only {takers} looks at a fibre beside the axis of the bond")
             }

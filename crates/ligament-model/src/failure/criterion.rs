@@ -1,12 +1,15 @@
 //! Criteria with the limits of their bonds.
 
 use std::borrow::Cow;
+use std::cell::LazyCell;
 use std::sync::Arc;
 
-use super::crack_at_points::CrackAtPoints;
 use super::measure::{Measure, Weakened};
 use super::softening::{AfterLimit, brittle};
+use super::surroundings::{Surroundings, follow_stress};
 use crate::element::{BondDeformation, Rigidities};
+use crate::interface::Bonds;
+use crate::stress::point_strain::Motion;
 
 /// A failure criterion with its limits.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,8 +24,8 @@ pub struct Criterion {
     pub coefficient: Vec<f64>,
     /// What happens after the limit.
     pub after: AfterLimit,
-    /// What the limits follow while bonds break; None where they stay.
-    pub crack_at_points: Option<Arc<CrackAtPoints>>,
+    /// What its limits or its measure follow while the body deforms and bonds break; None where both depend on the bond alone.
+    pub surroundings: Option<Arc<Surroundings>>,
 }
 
 impl Criterion {
@@ -34,7 +37,7 @@ impl Criterion {
             limit,
             coefficient: Vec::new(),
             after: AfterLimit::new(brittle::LAW, Vec::new()),
-            crack_at_points: None,
+            surroundings: None,
         }
     }
 
@@ -120,15 +123,55 @@ impl Criteria {
         self.list.iter().any(|it| !it.after.is_brittle())
     }
 
-    /// The criteria with the limits that they have while the bonds marked in `intact` (n_bonds) are left, at deformations (n_bonds).
-    pub fn in_state(&self, intact: &[bool], deformations: &[BondDeformation]) -> Cow<'_, Self> {
-        if self.list.iter().all(|it| it.crack_at_points.is_none()) {
+    /// The criteria with the limits and coefficients that they have in a motion of a body of which some bonds are left, with the
+    /// deformations (n_bonds) in it.
+    pub fn in_state(
+        &self,
+        system: &dyn Bonds,
+        motion: Motion<'_>,
+        deformations: &[BondDeformation],
+    ) -> Cow<'_, Self> {
+        if self.list.iter().all(|it| it.surroundings.is_none()) {
             return Cow::Borrowed(self);
         }
         let mut criteria = self.clone();
+        let around = LazyCell::new(|| system.strains_around(motion));
         for criterion in &mut criteria.list {
-            if let Some(crack) = &criterion.crack_at_points {
-                criterion.limit = crack.limits(&criterion.limit, intact, deformations);
+            match criterion.surroundings.as_deref() {
+                None => {}
+                Some(Surroundings::CrackAtPoints(crack)) => {
+                    criterion.limit = crack.limits(&criterion.limit, motion.intact, deformations);
+                }
+                Some(Surroundings::Stress) => {
+                    let coefficients = &mut criterion.coefficient;
+                    follow_stress(criterion.measure, coefficients, &around, deformations);
+                }
+            }
+        }
+        Cow::Owned(criteria)
+    }
+
+    /// The criteria on the straight line between two motions, of the same body with the same bonds: from that of some criteria, or none
+    /// from the unloaded body, to that of these, at a share of it. Limits are those of these.
+    pub fn on_line(&self, from: Option<&Self>, share: f64) -> Cow<'_, Self> {
+        let follows_stress =
+            |it: &Criterion| it.surroundings.as_deref() == Some(&Surroundings::Stress);
+        if !self.list.iter().any(follows_stress) {
+            return Cow::Borrowed(self);
+        }
+        let mut criteria = self.clone();
+        for (place, criterion) in criteria.list.iter_mut().enumerate() {
+            if !follows_stress(criterion) {
+                continue;
+            }
+            let count = criterion.measure.coefficient_names().len();
+            let from = from.map(|it| &it.list[place].coefficient);
+            for bond in 0..criterion.limit.len() {
+                for at in count * bond..count * bond + criterion.measure.n_of_stress() {
+                    let begin = from.map_or(0.0, |it| it[at]);
+                    let there = &mut criterion.coefficient[at];
+                    *there = begin + share * (*there - begin);
+                }
             }
         }
         Cow::Owned(criteria)

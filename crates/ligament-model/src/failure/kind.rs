@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use super::basis::Basis;
-use super::crack_at_points::CrackAtPoints;
 use super::measure::Measure;
 use super::softening::{Law, brittle};
+use super::surroundings::Surroundings;
 use super::unfit::{NoLimit, Unfit};
 use crate::dimension::cast;
 use crate::material::{Elasticity, Material};
@@ -105,8 +105,8 @@ pub struct Limits {
     pub limit: Vec<f64>,
     /// Coefficients of the measure for each bond; empty where the measure has none, shape (n_bonds, n).
     pub coefficient: Vec<f64>,
-    /// What the limits follow while bonds break; None where they stay.
-    pub crack_at_points: Option<Arc<CrackAtPoints>>,
+    /// What the limits or the measure follow while the body deforms and bonds break; None where both depend on the bond alone.
+    pub surroundings: Option<Arc<Surroundings>>,
 }
 
 impl Limits {
@@ -120,8 +120,13 @@ impl Limits {
         Self {
             limit,
             coefficient,
-            crack_at_points: None,
+            surroundings: None,
         }
+    }
+
+    /// Whether the limits stay as they are while bonds break.
+    pub(super) fn has_fixed_limits(&self) -> bool {
+        !matches!(self.surroundings.as_deref(), Some(Surroundings::CrackAtPoints(_)))
     }
 }
 
@@ -140,6 +145,8 @@ pub struct Choice {
     pub calibration: Option<Calibration>,
     /// Angle beta of the friction of a bond, in the place of the compressive strength, rad.
     pub friction_angle: Option<f64>,
+    /// Cohesion of shear with friction, in the place of the compressive strength, Pa.
+    pub cohesion: Option<f64>,
     /// Distance kappa of the outermost fibre from the axis of a bond, m.
     pub fibre_distance: Option<f64>,
     /// Behaviour of a bond after its limit.
@@ -200,16 +207,18 @@ impl Kind {
 
     /// The key of its own limit, the first of them where it has several.
     pub fn own_limit(&self) -> Option<&'static str> {
+        let limits = Choice::from(*self).own_limits();
         let mut keys = self.keys.iter();
-        keys.find(|key| **key != "calibration").copied()
+        keys.find(|key| limits.iter().any(|(limit, _)| limit == *key))
+            .copied()
     }
 
     /// The key that spares a property of the material.
     fn instead_of(&self, property: &Property) -> Option<&'static str> {
-        let friction = "friction_angle";
-        let by_friction = property.key == COMPRESSIVE_STRENGTH.key && self.keys.contains(&friction);
-        if by_friction {
-            return Some(friction);
+        if property.key == COMPRESSIVE_STRENGTH.key {
+            let spares = ["cohesion", "friction_angle"];
+            let spares = spares.into_iter().find(|it| self.keys.contains(it));
+            return spares.or(self.own_limit());
         }
         self.own_limit()
     }
@@ -225,6 +234,7 @@ impl From<Kind> for Choice {
             critical_angle: None,
             calibration: None,
             friction_angle: None,
+            cohesion: None,
             fibre_distance: None,
             after: After {
                 law: brittle::LAW,
@@ -247,11 +257,13 @@ impl Choice {
     /// Properties of each material that the limits come from.
     pub fn takes(&self) -> &'static [Property] {
         let is_given = self.own_limits().iter().any(|(_, limit)| limit.is_some());
-        match (is_given, self.friction_angle) {
+        // With a cohesion the angle alone does not say how strong the material is under pressure.
+        let by_angle = self.friction_angle.is_some() && !self.kind.keys.contains(&"cohesion");
+        let spares = by_angle || self.cohesion.is_some() || self.begins_at_strength();
+        match (is_given, spares) {
             (true, _) => &[],
-            (false, Some(_)) => &[TENSILE_STRENGTH],
-            (false, None) if self.begins_at_strength() => &[TENSILE_STRENGTH],
-            (false, None) => self.kind.takes,
+            (false, true) => &[TENSILE_STRENGTH],
+            (false, false) => self.kind.takes,
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::element::BondDeformation;
 
-const NO_DIRECTION: &str = "a bond with strains of its own has no worst direction";
+const NO_DIRECTION: &str = "a measure of more than the relative motion of the ends has no worst direction";
 
 /// The equivalent deformation of a bond that a criterion compares with its limit.
 ///
@@ -23,6 +23,12 @@ pub enum Measure {
     /// sqrt(max(s, 0)^2 + q gamma^2), q = k_t/k_n: the stretch that would store the same energy. Compression stores none that
     /// counts.
     Energy,
+    /// s + q: stress on the plane across the bond over the modulus E', with what the strains across the bond add to it
+    /// ([`Moduli`](super::surroundings::Moduli)).
+    NormalStress,
+    /// |tau|/E' + (s + q) tan(phi): shear stress on the plane across the bond with what friction takes off it under pressure, after
+    /// Mohr and Coulomb.
+    CoulombStress,
     /// Opening S_n = S_xx and shear S_xy of a bond with strains of its own, a measure that reaches s_I where the bond breaks:
     ///
     /// sqrt((max(S_n, 0)^2 + q S_xy^2)/(1 + (r - 1) B^eta)), B = q S_xy^2/(max(S_n, 0)^2 + q S_xy^2).
@@ -61,12 +67,13 @@ enum Sight {
     Bending,
     Sliding,
     Energy,
+    Stress,
     OwnStrains,
 }
 
 impl Measure {
     /// All measures.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 13] = [
         Self::Tension,
         Self::Compression,
         Self::Fibre,
@@ -78,6 +85,8 @@ impl Measure {
         Self::PrintedOpening,
         Self::PrintedSliding,
         Self::PrintedMixed,
+        Self::NormalStress,
+        Self::CoulombStress,
     ];
 
     /// The word for the measure in results.
@@ -89,6 +98,8 @@ impl Measure {
             Self::Sliding => "sliding",
             Self::Friction => "friction",
             Self::Energy => "energy",
+            Self::NormalStress => "normal-stress",
+            Self::CoulombStress => "coulomb-stress",
             Self::MixedModeX => "mixed-mode-x",
             Self::MixedModeY => "mixed-mode-y",
             Self::PrintedOpening => "printed-opening",
@@ -103,6 +114,7 @@ impl Measure {
             Self::Fibre => Sight::Bending,
             Self::Sliding | Self::Friction => Sight::Sliding,
             Self::Energy => Sight::Energy,
+            Self::NormalStress | Self::CoulombStress => Sight::Stress,
             Self::MixedModeX
             | Self::MixedModeY
             | Self::PrintedOpening
@@ -114,6 +126,20 @@ impl Measure {
     /// Whether the measure looks at strains of the bond's own, and not at the relative motion of its ends.
     pub fn takes_strains(self) -> bool {
         self.looks_at() == Sight::OwnStrains
+    }
+
+    /// Whether the measure looks at the stress around the bond, and not at the relative motion of its ends alone.
+    pub fn takes_stress(self) -> bool {
+        self.looks_at() == Sight::Stress
+    }
+
+    /// Number of the coefficients, first of all, that are the stress around the bond; linear in the motion.
+    pub(super) fn n_of_stress(self) -> usize {
+        let is_of_stress = |name: &&&str| **name == "q" || name.starts_with("tau");
+        match self.takes_stress() {
+            true => self.coefficient_names().iter().filter(is_of_stress).count(),
+            false => 0,
+        }
     }
 
     /// Whether the measure looks at the rotations of the points.
@@ -133,7 +159,7 @@ impl Measure {
 
     /// Whether the limit is the stretch of a bond between two points that opens without sliding and bending.
     pub fn opens(self) -> bool {
-        self.weakens() == Weakened::Opening && !self.takes_strains()
+        self.weakens() == Weakened::Opening && !self.takes_strains() && !self.takes_stress()
     }
 
     /// The measure in words: "stretch s".
@@ -150,6 +176,8 @@ impl Measure {
             Self::Fibre => "fibre stretch",
             Self::Sliding => "sliding",
             Self::PrintedOpening | Self::PrintedSliding | Self::PrintedMixed => "stretch or angle",
+            Self::NormalStress => "stress across the bond over E'",
+            Self::CoulombStress => "stress of Mohr and Coulomb over E'",
             Self::Friction | Self::Energy | Self::MixedModeX | Self::MixedModeY => "",
         }
     }
@@ -163,6 +191,8 @@ impl Measure {
             Self::Sliding => "|gamma|",
             Self::Friction => "|gamma| + s tan(beta)",
             Self::Energy => "sqrt(max(s, 0)^2 + gamma^2 k_t/k_n)",
+            Self::NormalStress => "s + q",
+            Self::CoulombStress => "|tau|/E' + (s + q) tan(phi)",
             Self::MixedModeX => "sqrt(max(S_xx, 0)^2 + q S_xy^2)",
             Self::MixedModeY => "sqrt(max(S_yy, 0)^2 + q S_xy^2)",
             Self::PrintedOpening => "S_xx, S_yy or phi/sin(theta)",
@@ -178,6 +208,17 @@ impl Measure {
             Self::Fibre => &["kappa/l"],
             Self::Friction => &["tan(beta)"],
             Self::Energy => &["k_t/k_n"],
+            Self::NormalStress => &["q", "lambda/E'", "E/E'"],
+            Self::CoulombStress => &[
+                "q",
+                "tau_x/E'",
+                "tau_y/E'",
+                "tau_z/E'",
+                "lambda/E'",
+                "2 mu/E'",
+                "E/E'",
+                "tan(phi)",
+            ],
             Self::MixedModeX | Self::MixedModeY => &["q", "G_IIc/G_Ic", "eta"],
             Self::PrintedOpening | Self::PrintedSliding | Self::PrintedMixed => &["tan(theta)"],
         }
@@ -199,6 +240,8 @@ impl Measure {
                 let square = stretch.max(0.0).powi(2) + coefficient() * shear * shear;
                 square.max(0.0).sqrt()
             }
+            Self::NormalStress => stretch + coefficient(),
+            Self::CoulombStress => coulomb(stretch, coefficients),
             Self::MixedModeX => mixed_mode(strain[0], strain[2], coefficients),
             Self::MixedModeY => mixed_mode(strain[1], strain[2], coefficients),
             Self::PrintedOpening => printed(strain, coefficient(), |angle, sine| angle / sine),
@@ -216,13 +259,14 @@ impl Measure {
             Self::Tension
             | Self::Fibre
             | Self::Energy
+            | Self::NormalStress
             | Self::MixedModeX
             | Self::MixedModeY
             | Self::PrintedOpening
             | Self::PrintedSliding
             | Self::PrintedMixed => Weakened::Opening,
             Self::Compression => Weakened::Crushing,
-            Self::Sliding | Self::Friction => Weakened::Sliding,
+            Self::Sliding | Self::Friction | Self::CoulombStress => Weakened::Sliding,
         }
     }
 
@@ -242,7 +286,7 @@ impl Measure {
     ///
     /// # Panics
     ///
-    /// Panics for a measure of strains of the bond's own, which are those of the body in all directions.
+    /// Panics for a measure of strains of the bond's own, which are those of the body in all directions, and of the stress around it.
     pub fn worst_directions(self, coefficient: f64, mean: f64, deviator: f64) -> [f64; 5] {
         match self {
             Self::Tension | Self::Fibre => [1.0; 5],
@@ -256,7 +300,9 @@ impl Measure {
                 -mean / deviator,
                 mean / (deviator * (coefficient - 1.0)),
             ],
-            Self::MixedModeX
+            Self::NormalStress
+            | Self::CoulombStress
+            | Self::MixedModeX
             | Self::MixedModeY
             | Self::PrintedOpening
             | Self::PrintedSliding
@@ -275,7 +321,9 @@ impl Measure {
             Self::Tension | Self::Compression | Self::Fibre | Self::Sliding => 1.0,
             Self::Friction => (1.0 + coefficient * coefficient).sqrt(),
             Self::Energy => coefficient.max(1.0).sqrt(),
-            Self::MixedModeX
+            Self::NormalStress
+            | Self::CoulombStress
+            | Self::MixedModeX
             | Self::MixedModeY
             | Self::PrintedOpening
             | Self::PrintedSliding
@@ -296,6 +344,15 @@ fn printed([xx, yy, xy]: [f64; 3], tangent: f64, of_angle: impl Fn(f64, f64) -> 
     }
     let angle = (xy + xx / tangent + yy * tangent) * tangent.signum();
     of_angle(angle, tangent.abs() / tangent.hypot(1.0))
+}
+
+/// Measure of the stretch of a bond with the stress around it; `coefficients` are q, the components of tau/E', moduli and tan(phi).
+#[inline]
+fn coulomb(stretch: f64, coefficients: &[f64]) -> f64 {
+    let &[normal, x, y, z, .., slope] = coefficients else {
+        return 0.0;
+    };
+    (x * x + y * y + z * z).sqrt() + (stretch + normal) * slope
 }
 
 /// Measure of the opening and the shear of a bond with strains of its own; `coefficients` are q, or q, r and eta.

@@ -7,6 +7,8 @@
 //! | kind | measure | limit |
 //! |---|---|---|
 //! | [`strength`] | tension | from the energy at the tensile strength (NHPD eqs 14 to 16) |
+//! | [`bond_rankine`] | normal stress | F_t |
+//! | [`mohr_coulomb`] | normal stress, stress of Mohr and Coulomb | F_t, cohesion |
 //! | [`stretch`] | tension, compression | F/E (MPPD eqs 44 to 46) |
 //! | [`fibre`] | fibre | F/E (MPPD eqs 28, 44) |
 //! | [`sliding`] | sliding | s_0t (1 + nu)/2 (MPPD eq. 49) |
@@ -18,6 +20,7 @@
 mod admissible;
 pub mod along_line;
 mod basis;
+pub mod bond_rankine;
 mod choosing;
 pub mod crack_at_points;
 pub mod crack_energies;
@@ -29,11 +32,13 @@ pub mod frictional;
 mod kind;
 mod measure;
 pub mod mixed_mode;
+pub mod mohr_coulomb;
 pub mod printed;
 pub mod sliding;
 pub mod softening;
 pub mod strength;
 pub mod stretch;
+pub mod surroundings;
 mod unfit;
 
 pub use basis::Basis;
@@ -45,8 +50,10 @@ pub use softening::{AfterLimit, Softened};
 pub use unfit::{NoLimit, Unfit};
 
 /// All kinds of criteria.
-pub const KINDS: [&Kind; 12] = [
+pub const KINDS: [&Kind; 14] = [
     &strength::STRENGTH,
+    &bond_rankine::BOND_RANKINE,
+    &mohr_coulomb::MOHR_COULOMB,
     &stretch::TENSION,
     &stretch::COMPRESSION,
     &fibre::FIBRE,

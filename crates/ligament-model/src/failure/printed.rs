@@ -19,6 +19,7 @@ use super::crack_at_points::{CrackAtPoints, Mode};
 use super::kind::{FRACTURE_ENERGY, Kind, Limits, PerSpace};
 use super::measure::Measure;
 use super::mixed_mode;
+use super::surroundings::Surroundings;
 
 /// Opening (mode I).
 pub const OPENING: Kind = Kind {
@@ -67,6 +68,6 @@ fn limits(mode: Mode, basis: &Basis<'_>) -> Vec<Limits> {
     vec![Limits {
         limit: crack.limits(&unbreakable, &whole, &[]),
         coefficient: system.bonds.direction.iter().map(tangent).collect(),
-        crack_at_points: Some(Arc::new(crack)),
+        surroundings: Some(Arc::new(Surroundings::CrackAtPoints(crack))),
     }]
 }

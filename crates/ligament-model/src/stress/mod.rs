@@ -7,5 +7,6 @@
 //!
 //! In a uniform strain both are the stress of the continuum whose energy the bonds have. Tension is positive.
 
+pub mod point_strain;
 pub mod traction;
 pub mod virial;

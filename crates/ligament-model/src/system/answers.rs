@@ -17,6 +17,7 @@ use crate::interface::{
 use crate::layout::Component;
 use crate::portion::{Portion, any};
 use crate::rigid_motions::{self, FreeMotion, RigidMotions, Turn};
+use crate::stress::point_strain::{Motion, StrainAround};
 use crate::stress::traction;
 use crate::sweep::BondSweep;
 use crate::tensor::SymTensor;
@@ -323,6 +324,10 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
                 values: self.tractions(bonds, deformations),
             },
         }
+    }
+
+    fn strains_around(&self, motion: Motion<'_>) -> Vec<Option<StrainAround>> {
+        self.system.strains_around(self.layout(), motion)
     }
 
     fn force_through(

@@ -60,6 +60,15 @@ pub enum YieldError {
         /// Word of the law.
         law: &'static str,
     },
+    /// A criterion that looks at more of a body than the strain of a bond.
+    #[error(
+        "the criterion \"{criterion}\" looks at the stress of the body, which is the same for all families: it yields at the strength, and no \
+         diagram is drawn of it; take others with --criterion"
+    )]
+    OfStress {
+        /// Name of the criterion.
+        criterion: &'static str,
+    },
     /// A case without a Poisson's ratio for all directions, or with several.
     #[error("the case has {which}: give Poisson's ratio in the plane with --nu")]
     NoPoisson {

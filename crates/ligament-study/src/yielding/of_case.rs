@@ -43,6 +43,10 @@ pub(super) fn criteria(
     if list.is_empty() {
         return Err(YieldError::NoCriteria.into());
     }
+    if let Some(of_stress) = list.iter().find(|it| it.measure.takes_stress()) {
+        let criterion = of_stress.name;
+        return Err(YieldError::OfStress { criterion }.into());
+    }
     let mut found: Vec<(String, Criteria)> = Vec::new();
     for criterion in list {
         // Two of a kind keep their order in the case.

@@ -87,7 +87,7 @@ impl Subject {
             coefficient: of_family(&it.coefficient),
             // Only the limit of the sound body matters for first yield.
             after: AfterLimit::new(brittle::LAW, Vec::new()),
-            crack_at_points: None,
+            surroundings: None,
             ..*it
         };
         Self {

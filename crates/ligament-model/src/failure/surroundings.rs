@@ -1,0 +1,166 @@
+//! What limits and measures of bonds follow beside the deformation of the bond.
+
+use rayon::prelude::*;
+
+use super::basis::{Basis, weakest_materials};
+use super::crack_at_points::CrackAtPoints;
+use super::kind::Limits;
+use super::measure::Measure;
+use crate::element::BondDeformation;
+use crate::material::{Isotropic, Plane, Space};
+use crate::stress::point_strain::StrainAround;
+
+/// What limits and measures of bonds follow while the body deforms and bonds break.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Surroundings {
+    /// Limits follow the bonds that are left at the points.
+    CrackAtPoints(CrackAtPoints),
+    /// Measures follow the stress around the bonds ([`Moduli`]).
+    Stress,
+}
+
+/// Moduli of a bond over the modulus E' of a strain along the bond alone. With them the stresses on the plane across the bond are
+///
+/// sigma_n/E' = s + q, q = (lambda/E') (tr(eps) - n . eps n), tau/E' = (2 mu/E') (eps n - (n . eps n) n),
+///
+/// with the own stretch s of the bond and the strain eps of the points ([`crate::stress::point_strain`]), by Hooke's law:
+///
+/// | | E' | lambda/E' | 2 mu/E' |
+/// |---|---|---|---|
+/// | plane stress | E/(1 - nu^2) | nu | 1 - nu |
+/// | plane strain, space | E (1 - nu)/((1 + nu)(1 - 2 nu)) | nu/(1 - nu) | (1 - 2 nu)/(1 - nu) |
+///
+/// The strain n . eps n in the place of s would blunt notches and stop cracks: it knows nothing of what is between the ends. Where the
+/// bonds of neither end span the space a bond is a bar, sigma_n = E s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moduli {
+    /// lambda/E'.
+    pub lateral: f64,
+    /// 2 mu/E'.
+    pub shear: f64,
+    /// E/E' of a bar.
+    pub bar: f64,
+}
+
+impl Moduli {
+    /// Moduli of a bar without Poisson's effect.
+    const BAR: Self = Self {
+        lateral: 0.0,
+        shear: 1.0,
+        bar: 1.0,
+    };
+
+    /// Moduli of a material in a space.
+    pub fn new(material: &Isotropic, space: Space) -> Self {
+        let nu = across(material, space).poisson;
+        Self {
+            lateral: nu,
+            shear: 1.0 - nu,
+            bar: material.of_bar(space).young / modulus(material, space),
+        }
+    }
+}
+
+/// Modulus E' of a strain along one direction alone, Pa.
+pub fn modulus(material: &Isotropic, space: Space) -> f64 {
+    let Isotropic { young, poisson: nu } = across(material, space);
+    young / (1.0 - nu * nu)
+}
+
+/// The constants with which the equations of plane stress describe strains in a plane, and in space.
+fn across(material: &Isotropic, space: Space) -> Isotropic {
+    material.in_plane(match space {
+        Space::Plane(plane) => plane,
+        Space::Solid => Plane::Strain,
+    })
+}
+
+/// Limits of a stress across the bonds over E', from those of the materials (n_materials), with the coefficients of its measure that a
+/// function makes of the index of a material and its moduli. A bond between materials takes those of the one with the smallest limit.
+pub(super) fn of_stress<const D: usize, const N: usize>(
+    basis: &Basis<'_, D>,
+    of_materials: &[f64],
+    coefficients: impl Fn(usize, &Moduli) -> [f64; N],
+) -> Limits {
+    let of_material = |(material, constants): (usize, &Option<Isotropic>)| {
+        let moduli = constants.map_or(Moduli::BAR, |it| Moduli::new(&it, basis.space));
+        coefficients(material, &moduli)
+    };
+    let constants = basis.constants.iter().enumerate();
+    let of_material: Vec<[f64; N]> = constants.map(of_material).collect();
+    let materials = weakest_materials(basis.system, of_materials).into_iter();
+    Limits {
+        limit: basis.weakest(of_materials),
+        coefficient: materials.flat_map(|it| of_material[it]).collect(),
+        surroundings: Some(Surroundings::Stress.into()),
+    }
+}
+
+/// Puts the stress around each bond into the coefficients of a measure, shape (n_bonds, n).
+pub(super) fn follow_stress(
+    measure: Measure,
+    coefficients: &mut [f64],
+    around: &[Option<StrainAround>],
+    deformations: &[BondDeformation],
+) {
+    let count = measure.coefficient_names().len();
+    let of_bonds = coefficients.par_chunks_exact_mut(count);
+    let both = around.par_iter().zip(deformations);
+    of_bonds.zip(both).for_each(|(own, (around, it))| {
+        measure.follow_stress(own, around.as_ref(), it);
+    });
+}
+
+impl Measure {
+    /// Puts the stress around a bond into its coefficients of a measure that [takes it](Self::takes_stress).
+    pub fn follow_stress(
+        self,
+        coefficients: &mut [f64],
+        around: Option<&StrainAround>,
+        deformation: &BondDeformation,
+    ) {
+        let lateral = |lateral: f64, bar: f64| match around {
+            Some(around) => lateral * around.lateral,
+            None => (bar - 1.0) * deformation.stretch(),
+        };
+        match coefficients {
+            [q, ratio, bar] => *q = lateral(*ratio, *bar),
+            [q, x, y, z, ratio, modulus, bar, _] => {
+                *q = lateral(*ratio, *bar);
+                let shear = around.map_or([0.0; 3], |it| it.shear);
+                [*x, *y, *z] = shear.map(|it| *modulus * it);
+            }
+            _ => {}
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+mod tests {
+    use super::*;
+    use crate::material::Elasticity;
+
+    /// Hooke's law of a strain in the plane and in space is what the moduli say: sigma_n = E' (s + q), tau = E' (2 mu/E') gamma/2.
+    #[test]
+    fn stresses_are_those_of_hooke() {
+        let material = Isotropic {
+            young: 30.0,
+            poisson: 0.2,
+        };
+        for space in [
+            Space::Plane(Plane::Stress),
+            Space::Plane(Plane::Strain),
+            Space::Solid,
+        ] {
+            let moduli = Moduli::new(&material, space);
+            let stiffness = Elasticity::Isotropic(material).stiffness_in(space).unwrap();
+            let (along, across, shear) = (0.3, -0.1, 0.07);
+            let normal = stiffness[(0, 0)] * along + stiffness[(0, 1)] * across;
+            let modulus = modulus(&material, space);
+            assert!((modulus * (along + moduli.lateral * across) - normal).abs() < 1e-12);
+            let sheared = stiffness[(2, 2)] * 2.0 * shear;
+            assert!((modulus * moduli.shear * shear - sheared).abs() < 1e-12);
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! Strains of the points by least squares over the bonds that they have left.
+//!
+//! With the slopes du/l and the directions n of the bonds of a point P, to points Q with the volumes V_Q, the gradient G that fits the slopes
+//! best is
+//!
+//! K = sum w n (x) n, M = sum w (du/l) (x) n, G = M K^-1, eps = (G + G^T)/2, with w = V_Q exp(-l/H).
+//!
+//! An affine motion is found exactly from any bonds that span the space: also from those of half a family at an edge or beside a crack.
+//! The dyads of the forces ([`super::virial`]) have no such property: corrections make forces and energies right, not the dyads of
+//! single points.
+
+use nalgebra::SMatrix;
+use rayon::prelude::*;
+
+use crate::layout::Layout;
+use crate::system::BondSystem;
+use crate::tensor::{SymTensor, dot, minus};
+use crate::thermal::ThermalStrain;
+
+/// Smallest det(D K/tr K) with which the bonds of a point span the space; a full family has 1.
+const LEAST_SPAN: f64 = 4e-4;
+
+/// A motion of the points of a body of which some bonds are left.
+#[derive(Debug, Clone, Copy)]
+pub struct Motion<'a> {
+    /// Whether each bond is unbroken, shape (n_bonds).
+    pub intact: &'a [bool],
+    /// Displacements and rotations, shape (n_degrees_of_freedom), m and rad.
+    pub displacement: &'a [f64],
+    /// Strains that the temperature gives the points without stress.
+    pub expansion: ThermalStrain<'a>,
+}
+
+impl<const D: usize> BondSystem<D> {
+    /// Strain of each point less what the temperature gives it, shape (n_points); None where its bonds do not span the space. Where
+    /// processes share the body out, the strains of all points are those of their owners.
+    pub(crate) fn point_strains(
+        &self,
+        layout: Layout,
+        motion: Motion<'_>,
+    ) -> Vec<Option<SymTensor<D>>> {
+        let cloud = &self.cloud;
+        let free = |point: u32| match motion.expansion.is_none() {
+            true => SymTensor::ZERO,
+            false => motion.expansion.of_point(point as usize).resized(),
+        };
+        let of_point = |point: u32| {
+            let strain = self.point_strain(layout, motion, point)?;
+            Some(strain.plus(&free(point).scaled(-1.0)))
+        };
+        let Some(portion) = &cloud.portion else {
+            let points = (0..cloud.len() as u32).into_par_iter();
+            return points.map(of_point).collect();
+        };
+        let n_components = SymTensor::<D>::COMPONENTS.len();
+        let mut all = vec![f64::NAN; n_components * cloud.len()];
+        for &point in portion.own() {
+            if let Some(strain) = of_point(point) {
+                let place = n_components * point as usize;
+                let of_point = all[place..].iter_mut();
+                of_point.zip(strain.components()).for_each(|(to, it)| *to = it);
+            }
+        }
+        portion.complete(&mut all, n_components);
+        let strains = all.chunks_exact(n_components);
+        let strain = |it: &[f64]| (!it[0].is_nan()).then(|| SymTensor::from_components(it));
+        strains.map(strain).collect()
+    }
+
+    /// Strain of a point with all that its motion has.
+    fn point_strain(
+        &self,
+        layout: Layout,
+        motion: Motion<'_>,
+        point: u32,
+    ) -> Option<SymTensor<D>> {
+        let (bonds, volumes) = (&self.bonds, &self.cloud.volumes);
+        let place = |point: u32| -> [f64; D] {
+            let first = layout.range(point).start;
+            std::array::from_fn(|axis| motion.displacement[first + axis])
+        };
+        let here = place(point);
+        let [mut spread, mut slopes] = [SMatrix::<f64, D, D>::zeros(); 2];
+        let family = bonds.incidence.at(point).iter();
+        for &bond in family.filter(|&&bond| motion.intact[bond as usize]) {
+            let other = bonds.neighbour(bond, point);
+            let bond = bond as usize;
+            let [length, horizon] = [bonds.length[bond], bonds.horizon[bond]];
+            let weight = volumes[other as usize] * (-length / horizon).exp();
+            // Signs of a bond seen from its other end cancel in the products.
+            let n = match bonds.ends[bond][0] == point {
+                true => bonds.direction[bond],
+                false => bonds.direction[bond].map(|cosine| -cosine),
+            };
+            let slope = minus(place(other), here).map(|it| it / length);
+            for row in 0..D {
+                for column in 0..D {
+                    spread[(row, column)] += weight * n[row] * n[column];
+                    slopes[(row, column)] += weight * slope[row] * n[column];
+                }
+            }
+        }
+        let scaled = spread * (D as f64 / spread.trace());
+        let factor = scaled.cholesky()?;
+        (factor.determinant() > LEAST_SPAN).then(|| {
+            // G^T = K^-1 M^T.
+            let gradient = factor.solve(&slopes.transpose()) * (D as f64 / spread.trace());
+            SymTensor::from_fn(|row, column| {
+                0.5 * (gradient[(row, column)] + gradient[(column, row)])
+            })
+        })
+    }
+
+    /// Strains around each bond, which are the means of those of its ends as far as these are known, shape (n_bonds); None where
+    /// neither is.
+    pub(crate) fn strains_around(
+        &self,
+        layout: Layout,
+        motion: Motion<'_>,
+    ) -> Vec<Option<StrainAround>> {
+        let of_points = self.point_strains(layout, motion);
+        let of_bond = |(&[a, b], &n): (&[u32; 2], &[f64; D])| {
+            let ends = [a, b].map(|end| of_points[end as usize]);
+            let mean = match ends {
+                [Some(a), Some(b)] => a.plus(&b).scaled(0.5),
+                [one, other] => one.or(other)?,
+            };
+            Some(StrainAround::new(&mean, n))
+        };
+        let bonds = &self.bonds;
+        let both = bonds.ends.par_iter().zip(&bonds.direction);
+        both.map(of_bond).collect()
+    }
+}
+
+/// Strains of the points around a bond that its own stretch says nothing of. Both are linear in the motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StrainAround {
+    /// Sum of the strains across the bond, tr(eps) - n . eps n.
+    pub lateral: f64,
+    /// Shear strain eps n - (n . eps n) n on the plane across the bond; in the plane without its third component.
+    pub shear: [f64; 3],
+}
+
+impl StrainAround {
+    /// The parts of a strain around a bond with the direction n.
+    fn new<const D: usize>(strain: &SymTensor<D>, n: [f64; D]) -> Self {
+        let along = strain.times(n);
+        let normal = dot(n, along);
+        let trace: f64 = (0..D).map(|axis| strain.at(axis, axis)).sum();
+        let mut shear = [0.0; 3];
+        for axis in 0..D {
+            shear[axis] = along[axis] - normal * n[axis];
+        }
+        Self {
+            lateral: trace - normal,
+            shear,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,96 @@
+use super::*;
+use crate::bonds::BondSet;
+use crate::cloud::PointCloud;
+use crate::cloud::lattice::Lattice;
+use crate::element::ElementKind;
+use crate::horizon::Horizons;
+use crate::law::Law;
+use crate::layout::Component;
+use crate::material::{Isotropic, Plane, Space};
+use crate::shape::{Region, Shape, SolidShape};
+
+const MATERIAL: Isotropic = Isotropic {
+    young: 3.0,
+    poisson: 0.2,
+};
+
+/// Springs between the points of a lattice of 6^D cells, whose spacing differs from axis to axis.
+fn springs<const D: usize, S: Region<D>>(space: Space) -> BondSystem<D> {
+    let spacing = std::array::from_fn(|axis| 1.0 + 0.1 * axis as f64);
+    let lattice = Lattice::<D, S>::new([6; D], spacing, [0.0; D], Vec::new());
+    let n_points = lattice.cells.len();
+    let cloud = PointCloud::from_lattice(&lattice, 1.0, &vec![0; n_points], 1);
+    let horizons = Horizons::unified(2.7, cloud.len());
+    let bonds = BondSet::search(&cloud, &horizons);
+    let stiffness = Law::NHPD.densities(&bonds, &cloud, &[MATERIAL.into()], space);
+    let ones = vec![1.0; bonds.len()];
+    BondSystem::new(cloud, bonds, ElementKind::Spring, stiffness, ones.clone(), &ones)
+}
+
+const GRADIENT: [[f64; 3]; 3] = [[0.3, -0.2, 0.05], [0.4, -0.1, 0.2], [-0.3, 0.15, 0.25]];
+
+/// An affine motion is found to rounding, whichever bonds are left as long as they span the space, and the strains around a bond are parts
+/// of its strain. A point with bonds along one line has no strain.
+fn assert_affine_motions_are_exact<const D: usize, S: Region<D>>(space: Space, components: &'static [Component]) {
+    let system = springs::<D, S>(space);
+    let layout = Layout {
+        n_points: system.cloud.len(),
+        components,
+    };
+    let positions = &system.cloud.positions;
+    let moved = positions.iter().flat_map(|place| {
+        (0..D).map(move |row| 1.0 + (0..D).map(|k| GRADIENT[row][k] * place[k]).sum::<f64>())
+    });
+    let displacement: Vec<f64> = moved.collect();
+    let expected = SymTensor::<D>::from_fn(|i, j| 0.5 * (GRADIENT[i][j] + GRADIENT[j][i]));
+    let mut intact = vec![true; system.bonds.len()];
+    for every in [usize::MAX, 3, 2] {
+        for bond in (0..intact.len()).step_by(every) {
+            intact[bond] = false;
+        }
+        let motion = Motion {
+            intact: &intact,
+            displacement: &displacement,
+            expansion: ThermalStrain::NONE,
+        };
+        let strains = system.point_strains(layout, motion);
+        for strain in strains.iter().flatten() {
+            let off = strain.plus(&expected.scaled(-1.0));
+            assert!(off.components().all(|it| it.abs() < 1e-12), "{off:?}");
+        }
+        assert!(strains.iter().flatten().count() > system.cloud.len() / 2);
+        let around = system.strains_around(layout, motion);
+        for (around, &n) in around.iter().zip(&system.bonds.direction) {
+            let around = around.unwrap_or_else(|| panic!("both ends lost their bonds"));
+            let normal = dot(n, expected.times(n));
+            let trace: f64 = (0..D).map(|axis| expected.at(axis, axis)).sum();
+            let shear: f64 = around.shear.iter().map(|it| it * it).sum();
+            let along = expected.times(n);
+            assert!((around.lateral + normal - trace).abs() < 1e-12);
+            assert!((shear - (dot(along, along) - normal * normal)).abs() < 1e-12);
+        }
+    }
+    let point = system.cloud.len() as u32 / 2;
+    for &bond in system.bonds.incidence.at(point) {
+        let n = system.bonds.direction[bond as usize];
+        intact[bond as usize] = n[1..].iter().all(|cosine| *cosine == 0.0);
+    }
+    let motion = Motion {
+        intact: &intact,
+        displacement: &displacement,
+        expansion: ThermalStrain::NONE,
+    };
+    assert_eq!(system.point_strains(layout, motion)[point as usize], None);
+}
+
+#[test]
+fn affine_motions_of_a_plane_are_exact() {
+    let components = &[Component::X, Component::Y];
+    assert_affine_motions_are_exact::<2, Shape>(Space::Plane(Plane::Stress), components);
+}
+
+#[test]
+fn affine_motions_of_a_solid_are_exact() {
+    let components = &[Component::X, Component::Y, Component::Z];
+    assert_affine_motions_are_exact::<3, SolidShape>(Space::Solid, components);
+}
