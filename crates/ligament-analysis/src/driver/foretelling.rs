@@ -199,8 +199,8 @@ fn in_proportion(
     let open = reversed.filter(|_| path.problem.system.faces_close());
     let told = open.unwrap_or(factors.len());
     let forward = Nearest::new(&path, &criteria, &along);
-    let backward = reversed
-        .map(|_| Nearest::new(&path, &criteria.on_line(None, -1.0), &along.scaled(-1.0)));
+    let backward =
+        reversed.map(|_| Nearest::new(&path, &criteria.on_line(None, -1.0), &along.scaled(-1.0)));
     let nearest = |factor: f64| match &backward {
         Some(backward) if factor < 0.0 => backward,
         _ => &forward,

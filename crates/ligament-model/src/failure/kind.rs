@@ -126,7 +126,10 @@ impl Limits {
 
     /// Whether the limits stay as they are while bonds break.
     pub(super) fn has_fixed_limits(&self) -> bool {
-        !matches!(self.surroundings.as_deref(), Some(Surroundings::CrackAtPoints(_)))
+        !matches!(
+            self.surroundings.as_deref(),
+            Some(Surroundings::CrackAtPoints(_))
+        )
     }
 }
 

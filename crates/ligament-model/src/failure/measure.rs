@@ -2,7 +2,8 @@
 
 use crate::element::BondDeformation;
 
-const NO_DIRECTION: &str = "a measure of more than the relative motion of the ends has no worst direction";
+const NO_DIRECTION: &str =
+    "a measure of more than the relative motion of the ends has no worst direction";
 
 /// The equivalent deformation of a bond that a criterion compares with its limit.
 ///

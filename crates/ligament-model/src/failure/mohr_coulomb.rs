@@ -99,7 +99,11 @@ fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<L
             return Some(Friction { cohesion, slope });
         }
         let strengths = (material.tensile_strength?, material.compressive_strength?);
-        Some(Friction::new(strengths.0, strengths.1, choice.friction_angle))
+        Some(Friction::new(
+            strengths.0,
+            strengths.1,
+            choice.friction_angle,
+        ))
     };
     let cohesions = basis.each(|constants, material| {
         Some(friction(material)?.cohesion / modulus(constants, basis.space))

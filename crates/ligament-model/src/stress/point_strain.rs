@@ -58,7 +58,9 @@ impl<const D: usize> BondSystem<D> {
             if let Some(strain) = of_point(point) {
                 let place = n_components * point as usize;
                 let of_point = all[place..].iter_mut();
-                of_point.zip(strain.components()).for_each(|(to, it)| *to = it);
+                of_point
+                    .zip(strain.components())
+                    .for_each(|(to, it)| *to = it);
             }
         }
         portion.complete(&mut all, n_components);
@@ -68,12 +70,7 @@ impl<const D: usize> BondSystem<D> {
     }
 
     /// Strain of a point with all that its motion has.
-    fn point_strain(
-        &self,
-        layout: Layout,
-        motion: Motion<'_>,
-        point: u32,
-    ) -> Option<SymTensor<D>> {
+    fn point_strain(&self, layout: Layout, motion: Motion<'_>, point: u32) -> Option<SymTensor<D>> {
         let (bonds, volumes) = (&self.bonds, &self.cloud.volumes);
         let place = |point: u32| -> [f64; D] {
             let first = layout.range(point).start;

@@ -24,14 +24,24 @@ fn springs<const D: usize, S: Region<D>>(space: Space) -> BondSystem<D> {
     let bonds = BondSet::search(&cloud, &horizons);
     let stiffness = Law::NHPD.densities(&bonds, &cloud, &[MATERIAL.into()], space);
     let ones = vec![1.0; bonds.len()];
-    BondSystem::new(cloud, bonds, ElementKind::Spring, stiffness, ones.clone(), &ones)
+    BondSystem::new(
+        cloud,
+        bonds,
+        ElementKind::Spring,
+        stiffness,
+        ones.clone(),
+        &ones,
+    )
 }
 
 const GRADIENT: [[f64; 3]; 3] = [[0.3, -0.2, 0.05], [0.4, -0.1, 0.2], [-0.3, 0.15, 0.25]];
 
 /// An affine motion is found to rounding, whichever bonds are left as long as they span the space, and the strains around a bond are parts
 /// of its strain. A point with bonds along one line has no strain.
-fn assert_affine_motions_are_exact<const D: usize, S: Region<D>>(space: Space, components: &'static [Component]) {
+fn assert_affine_motions_are_exact<const D: usize, S: Region<D>>(
+    space: Space,
+    components: &'static [Component],
+) {
     let system = springs::<D, S>(space);
     let layout = Layout {
         n_points: system.cloud.len(),
