@@ -256,8 +256,8 @@ pub enum Notice {
 
 /// A state in equilibrium, for observers that want fields.
 ///
-/// Where processes share the body out ([`BondTopology::portion`](ligament_model::BondTopology::portion)), motions and forces are those of all points, bonds are those that this process
-/// knows, and what follows from the bonds of a point is right at own points alone; each observer may ask for it by itself.
+/// Where processes share the body out ([`BondTopology::portion`](ligament_model::BondTopology::portion)), motions and forces are those of
+/// all points, bonds are those that this process knows, and what follows from the bonds of a point is right at own points alone; each observer may ask for it by itself.
 pub struct View<'a> {
     /// The system.
     pub system: &'a dyn Bonds,
