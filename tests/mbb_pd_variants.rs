@@ -1,8 +1,6 @@
 //! The printed form of MBB-PD, true strains, and failure by mixed modes.
 #![allow(clippy::unwrap_used)]
 
-use std::sync::Arc;
-
 use ligament_analysis::history::BreakRecord;
 use ligament_case::case::CaseFile;
 use ligament_model::element::{BondDeformation, ElementKind};

@@ -32,17 +32,17 @@ pub const MOHR_COULOMB: Kind = Kind {
 fn check(choice: &Choice) -> Result<(), Unfit> {
     match choice.friction_angle {
         None if choice.cohesion.is_some() => Err(Unfit::Missing {
-            key: "friction_angle",
-            reason: "(in rad) beside `cohesion`: a bond fails at |tau| + sigma_n tan(phi) = c, and `cohesion` is c alone".to_owned(),
+            field: "friction_angle",
+            reason: "(in rad) beside `cohesion`: a bond fails at |tau| + sigma_n tan(phi) = c, and `cohesion` is c alone".into(),
         }),
         Some(angle) if !(0.0..FRAC_PI_2).contains(&angle) => Err(Unfit::OutOfRange {
-            key: "friction_angle",
+            field: "friction_angle",
             expected: "at least 0 and less than pi/2 (rad)".to_owned(),
             found: angle,
         }),
         _ => match choice.cohesion {
             Some(found) if !(found > 0.0 && found.is_finite()) => Err(Unfit::OutOfRange {
-                key: "cohesion",
+                field: "cohesion",
                 expected: "greater than 0 (Pa)".to_owned(),
                 found,
             }),
@@ -58,7 +58,7 @@ fn suits(choice: &Choice, material: &Material) -> Result<(), Unfit> {
             if compressive < tensile && choice.friction_angle.is_none() =>
         {
             Err(Unfit::OutOfRange {
-                key: COMPRESSIVE_STRENGTH.key,
+                field: COMPRESSIVE_STRENGTH.key,
                 expected: "at least the tensile_strength for the criterion \"mohr-coulomb\" without a friction_angle".to_owned(),
                 found: compressive,
             })
