@@ -16,29 +16,31 @@ impl Criteria {
         let is_unknown = |it: &&Criterion| {
             let mut bonds = 0..it.limit.len();
             let is_known = |bond| it.measure.is_known_along_lines(it.coefficients(bond));
-            it.surroundings.is_some() || !bonds.all(is_known)
+            it.limits_follow_bonds() || !bonds.all(is_known)
         };
         self.list.iter().find(is_unknown)
     }
 
     /// The t, within `reach`, for which no criterion breaks an intact bond with the deformation `here` + t `slopes`; None where some
-    /// does for every t.
+    /// does for every t. These are the criteria here, and `rates` are those of the slopes.
     pub fn admissible(
         &self,
+        rates: &Self,
         intact: &[bool],
         [here, slopes]: [&Deformations; 2],
         reach: Interval,
     ) -> Option<Interval> {
         let line = [here, slopes];
         if SpaceDeformation::of_bonds(here).is_empty() {
-            self.admissible_along(intact, line.map(BondDeformation::of_bonds), reach)
+            self.admissible_along(rates, intact, line.map(BondDeformation::of_bonds), reach)
         } else {
-            self.admissible_along(intact, line.map(SpaceDeformation::of_bonds), reach)
+            self.admissible_along(rates, intact, line.map(SpaceDeformation::of_bonds), reach)
         }
     }
 
     fn admissible_along<B: AlongLine>(
         &self,
+        rates: &Self,
         intact: &[bool],
         [here, slopes]: [&[B]; 2],
         reach: Interval,
@@ -47,7 +49,7 @@ impl Criteria {
             let bonds = (task * TASK..).zip(here.iter().zip(slopes));
             let mut of_intact = bonds.filter(|(bond, _)| intact[*bond]);
             of_intact.try_fold(reach, |interval, (bond, (here, slope))| {
-                both(interval, self.within(bond, [here, slope])?)
+                both(interval, self.within(rates, bond, [here, slope])?)
             })
         };
         let tasks = here.par_chunks(TASK).zip(slopes.par_chunks(TASK));
@@ -57,17 +59,19 @@ impl Criteria {
     }
 
     /// The t for which no criterion breaks a bond with the deformation `here` + t `slope`; None where some does for every t.
-    fn within<B: AlongLine>(&self, bond: usize, line: [&B; 2]) -> Option<Interval> {
-        let of = |interval: Interval, it: &Criterion| {
+    fn within<B: AlongLine>(&self, rates: &Self, bond: usize, line: [&B; 2]) -> Option<Interval> {
+        let of = |interval: Interval, (it, rate): (&Criterion, &Criterion)| {
             let limit = it.break_limit(bond);
             let of_criterion = if limit.is_finite() {
-                it.measure.within(line, it.coefficients(bond), limit)?
+                let coefficients = [it, rate].map(|it| it.coefficients(bond));
+                it.measure.within(line, coefficients, limit)?
             } else {
                 EVERYWHERE
             };
             both(interval, of_criterion)
         };
-        self.list.iter().try_fold(EVERYWHERE, of)
+        let mut both_of = self.list.iter().zip(&rates.list);
+        both_of.try_fold(EVERYWHERE, of)
     }
 }
 

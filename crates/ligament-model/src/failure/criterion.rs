@@ -41,6 +41,16 @@ impl Criterion {
         }
     }
 
+    /// Whether the measure follows the stress around the bonds.
+    pub fn follows_stress(&self) -> bool {
+        matches!(self.surroundings.as_deref(), Some(Surroundings::Stress))
+    }
+
+    /// Whether the limits follow the bonds that are left.
+    pub fn limits_follow_bonds(&self) -> bool {
+        matches!(self.surroundings.as_deref(), Some(Surroundings::CrackAtPoints(_)))
+    }
+
     /// Energy of a bond at its limit, J; zero without a limit.
     pub(crate) fn energy_at_limit(&self, rigidities: &Rigidities, bond: usize) -> f64 {
         let rigidity = match self.measure.weakens() {
@@ -154,23 +164,31 @@ impl Criteria {
     /// The criteria on the straight line between two motions, of the same body with the same bonds: from that of some criteria, or none
     /// from the unloaded body, to that of these, at a share of it. Limits are those of these.
     pub fn on_line(&self, from: Option<&Self>, share: f64) -> Cow<'_, Self> {
-        let follows_stress =
-            |it: &Criterion| it.surroundings.as_deref() == Some(&Surroundings::Stress);
-        if !self.list.iter().any(follows_stress) {
+        self.with_stresses(|criterion, at, there| {
+            let begin = from.map_or(0.0, |it| it.list[criterion].coefficient[at]);
+            begin + share * (there - begin)
+        })
+    }
+
+    /// The criteria of a motion + t another one, of the same body with the same bonds, from those of both.
+    pub fn ahead(&self, rates: &Self, t: f64) -> Cow<'_, Self> {
+        self.with_stresses(|criterion, at, here| here + t * rates.list[criterion].coefficient[at])
+    }
+
+    /// The criteria with other stresses around the bonds, which a function makes of the number of a criterion, the place of a coefficient
+    /// and its value.
+    fn with_stresses(&self, stress: impl Fn(usize, usize, f64) -> f64) -> Cow<'_, Self> {
+        if !self.list.iter().any(Criterion::follows_stress) {
             return Cow::Borrowed(self);
         }
         let mut criteria = self.clone();
-        for (place, criterion) in criteria.list.iter_mut().enumerate() {
-            if !follows_stress(criterion) {
-                continue;
-            }
+        let of_stress = criteria.list.iter_mut().enumerate();
+        for (place, criterion) in of_stress.filter(|(_, it)| it.follows_stress()) {
             let count = criterion.measure.coefficient_names().len();
-            let from = from.map(|it| &it.list[place].coefficient);
             for bond in 0..criterion.limit.len() {
                 for at in count * bond..count * bond + criterion.measure.n_of_stress() {
-                    let begin = from.map_or(0.0, |it| it[at]);
-                    let there = &mut criterion.coefficient[at];
-                    *there = begin + share * (*there - begin);
+                    let value = &mut criterion.coefficient[at];
+                    *value = stress(place, at, *value);
                 }
             }
         }

@@ -450,10 +450,15 @@ mod tests {
     #[test]
     fn measures_grow_with_the_load() {
         for measure in Measure::ALL {
-            for coefficients in [&[0.5] as &[f64], &[0.5, 3.0, 1.75]] {
+            let of_coulomb = [0.5, 0.2, -0.3, 0.1, 0.2, 0.8, 1.0, 0.7];
+            for coefficients in [&[0.5] as &[f64], &[0.5, 3.0, 1.75], &of_coulomb] {
                 let [once, twice] = [1.0, 2.0].map(|load| {
                     let deformation = deformation(measure, 0.3, -0.7).scaled(load);
-                    measure.value(&deformation, coefficients)
+                    // The stress around a bond grows with the load as well.
+                    let mut coefficients = coefficients.to_vec();
+                    let of_stress = coefficients.iter_mut().take(measure.n_of_stress());
+                    of_stress.for_each(|it| *it *= load);
+                    measure.value(&deformation, &coefficients)
                 });
                 assert!((twice - 2.0 * once).abs() < 1e-15, "{measure:?}");
             }

@@ -20,11 +20,13 @@ use crate::driver::path::Path;
 use crate::driver::recorder::largest_ratio;
 use crate::history::Termination;
 use crate::load_program::{LoadProgram, PartControl};
+use crate::problem::Problem;
 use crate::unbalanced::Unbalanced;
 use ligament_model::deformation::Deformations;
 use ligament_model::failure::Criteria;
 use ligament_model::failure::along_line::{EVERYWHERE, Interval};
 use ligament_model::portion::Portion;
+use ligament_model::stress::point_strain::Motion;
 
 /// Lines of the parts of a programme.
 pub(super) struct Affine {
@@ -44,19 +46,27 @@ impl Affine {
         }
     }
 
-    /// Growth of the deformations (n_bonds) with the load factor.
+    /// Growth of the deformations (n_bonds) with the load factor, and the criteria of the bonds with the growth of the stress around them.
     fn slopes(
         &mut self,
         path: &mut Path<'_>,
         rate: &dyn LoadProgram,
-    ) -> Result<Deformations, Unbalanced> {
+    ) -> Result<(Deformations, Criteria), Unbalanced> {
         if !mem::replace(&mut self.is_present, false) {
             self.growth = path.equilibrium.growth(&mut path.state, rate)?;
             path.course.solves[0] = path.equilibrium.costs().solves;
         }
-        let expansion = rate.thermal_strain(1.0);
-        let system = &path.problem.system;
-        Ok(system.deformations(&path.state.intact, &self.growth, expansion))
+        let motion = Motion {
+            intact: &path.state.intact,
+            displacement: &self.growth,
+            expansion: rate.thermal_strain(1.0),
+        };
+        let Problem {
+            system, criteria, ..
+        } = &path.problem;
+        let slopes = system.deformations(motion.intact, motion.displacement, motion.expansion);
+        let criteria = criteria.in_state(&**system, motion, &slopes).into_owned();
+        Ok((slopes, criteria))
     }
 }
 
@@ -68,7 +78,7 @@ impl Way for Affine {
         else {
             unreachable!("lines of a programme are followed under a programme");
         };
-        let slopes = self.slopes(path, &*rate)?;
+        let (slopes, rates) = self.slopes(path, &*rate)?;
         let start = Instant::now();
         let now = path.state.load_factor;
         let (programme, part) = (&course.programme, course.part);
@@ -83,7 +93,8 @@ impl Way for Affine {
             Some(_) => EVERYWHERE,
             None => [begins - now, ends - now],
         };
-        let admissible = criteria.admissible(intact, [&line.deformations, &slopes], reach);
+        let deformations = [&line.deformations, &slopes];
+        let admissible = criteria.admissible(&rates, intact, deformations, reach);
         let goal = match on_all_ranks(path.problem.system.portion(), admissible) {
             None => held(self.tie_tolerance, line, &criteria, path),
             Some([_, upper]) if upper.is_infinite() => Goal {
@@ -97,6 +108,7 @@ impl Way for Affine {
             Some([_, upper]) => {
                 let at = line.deformations.ahead(&slopes, upper);
                 let tie = self.tie_tolerance;
+                let criteria = criteria.ahead(&rates, upper);
                 let FirstToBreak { ratio, bonds } = path.first_to_break(tie, &at, &criteria);
                 let is_at_end = upper == reach[1];
                 let is_gone = dissipates.filter(|it| path.dissipated_energy() >= *it);
