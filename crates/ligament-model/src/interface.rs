@@ -12,6 +12,7 @@ use crate::deformation::Deformations;
 use crate::element::{BondDeformation, Remaining, Rigidities, Term};
 use crate::failure::Criterion;
 use crate::layout::{Component, Layout};
+use crate::material::Stiffness;
 use crate::portion::Portion;
 use crate::rigid_motions::FreeMotion;
 use crate::stress::point_strain::{Motion, StrainAround};
@@ -246,6 +247,18 @@ pub trait BondReadings: BondTopology {
         bonds: BondsLeft<'_>,
         deformations: &Deformations,
     ) -> Stresses;
+
+    /// Stress of every point by the stiffnesses of the materials (n_materials) in the space of the body, Pa, in a motion of which some
+    /// bonds are left; not a number where the bonds of a point do not span the space.
+    fn stresses_by_material(&self, motion: Motion<'_>, materials: &[Stiffness]) -> Stresses;
+
+    /// Components of that stress of one point, Pa; None where its bonds do not span the space.
+    fn stress_by_material(
+        &self,
+        motion: Motion<'_>,
+        materials: &[Stiffness],
+        point: u32,
+    ) -> Option<Vec<f64>>;
 
     /// Strains of the points around each bond in a motion of which some bonds are left, shape (n_bonds); None where the bonds of
     /// neither end span the space.

@@ -362,7 +362,10 @@ mod tests {
     #[test]
     fn a_bond_that_slides_too_far_is_beyond_its_limit_wherever_it_closes() {
         let (here, slope) = (deformation([0.0, 3.0, 0.0]), deformation([1.0, 0.0, 0.0]));
-        assert_eq!(Measure::Energy.within([&here, &slope], [&[0.5]; 2], 1.0), None);
+        assert_eq!(
+            Measure::Energy.within([&here, &slope], [&[0.5]; 2], 1.0),
+            None
+        );
         assert_eq!(
             Measure::Tension.within([&here, &slope], [&[]; 2], 1.0),
             Some([f64::NEG_INFINITY, 1.0])

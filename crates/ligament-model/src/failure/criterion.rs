@@ -48,7 +48,10 @@ impl Criterion {
 
     /// Whether the limits follow the bonds that are left.
     pub fn limits_follow_bonds(&self) -> bool {
-        matches!(self.surroundings.as_deref(), Some(Surroundings::CrackAtPoints(_)))
+        matches!(
+            self.surroundings.as_deref(),
+            Some(Surroundings::CrackAtPoints(_))
+        )
     }
 
     /// Energy of a bond at its limit, J; zero without a limit.

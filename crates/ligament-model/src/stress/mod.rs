@@ -1,12 +1,15 @@
-//! Stresses at the points, from the forces of the bonds: two readings of the same forces.
+//! Stresses at the points: two readings of the forces of the bonds, and the law of the material for the strains that the bonds show.
 //!
 //! | reading | from | symmetric |
 //! |---|---|---|
 //! | [`virial`] | the bonds of the point, each with the whole of its length | made so |
 //! | [`traction`] | the bonds that cross a small plane through the point | no: couples on the points are in balance with the difference |
+//! | [`by_material`] | the strain of the point by least squares over the bonds that it has left ([`point_strain`]), and Hooke's law | yes |
 //!
-//! In a uniform strain both are the stress of the continuum whose energy the bonds have. Tension is positive.
+//! In a uniform strain the first two are the stress of the continuum whose energy the bonds have, inside a body whose bonds nothing
+//! corrects; the third one is the stress of the material everywhere. Tension is positive.
 
+mod by_material;
 pub mod point_strain;
 pub mod traction;
 pub mod virial;

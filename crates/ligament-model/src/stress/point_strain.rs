@@ -40,14 +40,7 @@ impl<const D: usize> BondSystem<D> {
         motion: Motion<'_>,
     ) -> Vec<Option<SymTensor<D>>> {
         let cloud = &self.cloud;
-        let free = |point: u32| match motion.expansion.is_none() {
-            true => SymTensor::ZERO,
-            false => motion.expansion.of_point(point as usize).resized(),
-        };
-        let of_point = |point: u32| {
-            let strain = self.point_strain(layout, motion, point)?;
-            Some(strain.plus(&free(point).scaled(-1.0)))
-        };
+        let of_point = |point: u32| self.point_strain(layout, motion, point);
         let Some(portion) = &cloud.portion else {
             let points = (0..cloud.len() as u32).into_par_iter();
             return points.map(of_point).collect();
@@ -69,8 +62,28 @@ impl<const D: usize> BondSystem<D> {
         strains.map(strain).collect()
     }
 
+    /// Strain of a point less what the temperature gives it; None where its bonds do not span the space.
+    pub(crate) fn point_strain(
+        &self,
+        layout: Layout,
+        motion: Motion<'_>,
+        point: u32,
+    ) -> Option<SymTensor<D>> {
+        let strain = self.fitted_strain(layout, motion, point)?;
+        if motion.expansion.is_none() {
+            return Some(strain);
+        }
+        let free = motion.expansion.of_point(point as usize).resized();
+        Some(strain.plus(&free.scaled(-1.0)))
+    }
+
     /// Strain of a point with all that its motion has.
-    fn point_strain(&self, layout: Layout, motion: Motion<'_>, point: u32) -> Option<SymTensor<D>> {
+    fn fitted_strain(
+        &self,
+        layout: Layout,
+        motion: Motion<'_>,
+        point: u32,
+    ) -> Option<SymTensor<D>> {
         let (bonds, volumes) = (&self.bonds, &self.cloud.volumes);
         let place = |point: u32| -> [f64; D] {
             let first = layout.range(point).start;
@@ -157,4 +170,4 @@ impl StrainAround {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -15,6 +15,7 @@ use crate::interface::{
     PointStiffness, StressReading, Stresses,
 };
 use crate::layout::Component;
+use crate::material::Stiffness;
 use crate::portion::{Portion, any};
 use crate::rigid_motions::{self, FreeMotion, RigidMotions, Turn};
 use crate::stress::point_strain::{Motion, StrainAround};
@@ -324,6 +325,31 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
                 values: self.tractions(bonds, deformations),
             },
         }
+    }
+
+    fn stresses_by_material(&self, motion: Motion<'_>, materials: &[Stiffness]) -> Stresses {
+        let stresses = self
+            .system
+            .stresses_by_material(self.layout(), motion, materials);
+        let unknown = SymTensor::from_fn(|_, _| f64::NAN);
+        let of_points = stresses.iter().map(|it| it.unwrap_or(unknown));
+        Stresses {
+            names: SymTensor::<D>::NAMES,
+            values: of_points
+                .flat_map(|it| it.components().collect::<Vec<_>>())
+                .collect(),
+        }
+    }
+
+    fn stress_by_material(
+        &self,
+        motion: Motion<'_>,
+        materials: &[Stiffness],
+        point: u32,
+    ) -> Option<Vec<f64>> {
+        let strain = self.system.point_strain(self.layout(), motion, point)?;
+        let stress = self.system.stress_of(point, &strain, materials);
+        Some(stress.components().collect())
     }
 
     fn strains_around(&self, motion: Motion<'_>) -> Vec<Option<StrainAround>> {

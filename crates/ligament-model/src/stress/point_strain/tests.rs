@@ -9,13 +9,13 @@ use crate::layout::Component;
 use crate::material::{Isotropic, Plane, Space};
 use crate::shape::{Region, Shape, SolidShape};
 
-const MATERIAL: Isotropic = Isotropic {
+pub(in crate::stress) const MATERIAL: Isotropic = Isotropic {
     young: 3.0,
     poisson: 0.2,
 };
 
 /// Springs between the points of a lattice of 6^D cells, whose spacing differs from axis to axis.
-fn springs<const D: usize, S: Region<D>>(space: Space) -> BondSystem<D> {
+pub(in crate::stress) fn springs<const D: usize, S: Region<D>>(space: Space) -> BondSystem<D> {
     let spacing = std::array::from_fn(|axis| 1.0 + 0.1 * axis as f64);
     let lattice = Lattice::<D, S>::new([6; D], spacing, [0.0; D], Vec::new());
     let n_points = lattice.cells.len();
@@ -34,7 +34,20 @@ fn springs<const D: usize, S: Region<D>>(space: Space) -> BondSystem<D> {
     )
 }
 
-const GRADIENT: [[f64; 3]; 3] = [[0.3, -0.2, 0.05], [0.4, -0.1, 0.2], [-0.3, 0.15, 0.25]];
+pub(in crate::stress) const GRADIENT: [[f64; 3]; 3] =
+    [[0.3, -0.2, 0.05], [0.4, -0.1, 0.2], [-0.3, 0.15, 0.25]];
+
+/// Displacements with a gradient, and one along each axis.
+pub(in crate::stress) fn affine<const D: usize>(
+    system: &BondSystem<D>,
+    gradient: [[f64; 3]; 3],
+) -> Vec<f64> {
+    let positions = system.cloud.positions.iter();
+    let moved = positions.flat_map(|place| {
+        (0..D).map(move |row| 1.0 + (0..D).map(|k| gradient[row][k] * place[k]).sum::<f64>())
+    });
+    moved.collect()
+}
 
 /// An affine motion is found to rounding, whichever bonds are left as long as they span the space, and the strains around a bond are parts
 /// of its strain. A point with bonds along one line has no strain.
@@ -47,11 +60,7 @@ fn assert_affine_motions_are_exact<const D: usize, S: Region<D>>(
         n_points: system.cloud.len(),
         components,
     };
-    let positions = &system.cloud.positions;
-    let moved = positions.iter().flat_map(|place| {
-        (0..D).map(move |row| 1.0 + (0..D).map(|k| GRADIENT[row][k] * place[k]).sum::<f64>())
-    });
-    let displacement: Vec<f64> = moved.collect();
+    let displacement = affine(&system, GRADIENT);
     let expected = SymTensor::<D>::from_fn(|i, j| 0.5 * (GRADIENT[i][j] + GRADIENT[j][i]));
     let mut intact = vec![true; system.bonds.len()];
     for every in [usize::MAX, 3, 2] {

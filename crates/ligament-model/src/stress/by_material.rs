@@ -1,0 +1,64 @@
+//! Stresses at the points by the laws of their materials, from the strains that their bonds show.
+//!
+//! With the strain eps of a point by least squares over the bonds that it has left ([`super::point_strain`]), less what the temperature
+//! gives it, and the stiffness C of its material in the space of the body,
+//!
+//! sigma = C : eps.
+//!
+//! That is the stress of an affine motion to rounding, inside a body, at its edges and beside cracks, whatever the corrections of the
+//! bonds; the virial stress ([`super::virial`]) is so inside an uncorrected body alone. A point on the border of materials has the mean
+//! of their stiffnesses by volume.
+
+use rayon::prelude::*;
+
+use crate::layout::Layout;
+use crate::material::Stiffness;
+use crate::system::BondSystem;
+use crate::tensor::SymTensor;
+
+use super::point_strain::Motion;
+
+impl<const D: usize> BondSystem<D> {
+    /// Stress of each point in a motion, from the stiffnesses of the materials (n_materials) in the space of the body, shape (n_points), Pa;
+    /// None where the bonds of a point do not span the space.
+    pub(crate) fn stresses_by_material(
+        &self,
+        layout: Layout,
+        motion: Motion<'_>,
+        materials: &[Stiffness],
+    ) -> Vec<Option<SymTensor<D>>> {
+        let strains = self.point_strains(layout, motion);
+        let numbered = strains.into_par_iter().enumerate();
+        numbered
+            .map(|(point, strain)| Some(self.stress_of(point as u32, &strain?, materials)))
+            .collect()
+    }
+
+    /// Stress of a point with a strain, Pa.
+    pub(crate) fn stress_of(
+        &self,
+        point: u32,
+        strain: &SymTensor<D>,
+        materials: &[Stiffness],
+    ) -> SymTensor<D> {
+        let places = SymTensor::<D>::COMPONENTS;
+        let engineering = places.iter().map(|&[row, column]| match row == column {
+            true => strain.at(row, column),
+            false => 2.0 * strain.at(row, column),
+        });
+        let engineering: Vec<f64> = engineering.collect();
+        let mut stress = vec![0.0; places.len()];
+        let shares = self.cloud.shares(point as usize).iter().zip(materials);
+        for (share, stiffness) in shares.filter(|(share, _)| **share > 0.0) {
+            for (row, sum) in stress.iter_mut().enumerate() {
+                let of_strain = engineering.iter().enumerate();
+                let of_strain = of_strain.map(|(column, strain)| stiffness[(row, column)] * strain);
+                *sum += share * of_strain.sum::<f64>();
+            }
+        }
+        SymTensor::from_components(&stress)
+    }
+}
+
+#[cfg(test)]
+mod tests;

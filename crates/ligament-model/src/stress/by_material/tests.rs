@@ -1,0 +1,115 @@
+use super::*;
+use crate::layout::Component;
+use crate::material::{Elasticity, Orthotropic, Plane, Space};
+use crate::shape::{Region, Shape, SolidShape};
+use crate::stress::point_strain::tests::{GRADIENT, MATERIAL, affine, springs};
+use crate::thermal::{FreeStrains, ThermalStrain};
+
+const IN_PLANE: &[Component] = &[Component::X, Component::Y];
+
+fn layout<const D: usize>(system: &BondSystem<D>, components: &'static [Component]) -> Layout {
+    Layout {
+        n_points: system.cloud.len(),
+        components,
+    }
+}
+
+fn assert_all_are<const D: usize>(found: &[Option<SymTensor<D>>], expected: &SymTensor<D>) {
+    for stress in found {
+        let off = stress.map(|it| it.plus(&expected.scaled(-1.0)));
+        let is_close = off.is_some_and(|it| it.components().all(|it| it.abs() < 1e-11));
+        assert!(is_close, "{stress:?} for {expected:?}");
+    }
+}
+
+/// sigma = 2 mu eps + lambda tr(eps) with Lame's constants, of plane stress those of Poisson's ratio nu/(1 + nu), at all points of an affine
+/// motion of which two bonds of three are left.
+fn assert_lame<const D: usize, S: Region<D>>(space: Space, components: &'static [Component]) {
+    let system = springs::<D, S>(space);
+    let nu = match space {
+        Space::Plane(Plane::Stress) => MATERIAL.poisson / (1.0 + MATERIAL.poisson),
+        _ => MATERIAL.poisson,
+    };
+    let twice_mu = MATERIAL.young / (1.0 + MATERIAL.poisson);
+    let lame = twice_mu * nu / (1.0 - 2.0 * nu);
+    let trace: f64 = (0..D).map(|axis| GRADIENT[axis][axis]).sum();
+    let expected = SymTensor::<D>::from_fn(|i, j| {
+        let volumetric = if i == j { lame * trace } else { 0.0 };
+        twice_mu * 0.5 * (GRADIENT[i][j] + GRADIENT[j][i]) + volumetric
+    });
+    let intact: Vec<bool> = (0..system.bonds.len()).map(|bond| bond % 3 != 0).collect();
+    let motion = Motion {
+        intact: &intact,
+        displacement: &affine(&system, GRADIENT),
+        expansion: ThermalStrain::NONE,
+    };
+    let stiffness = Elasticity::Isotropic(MATERIAL).stiffness_in(space);
+    let stiffness: Vec<Stiffness> = stiffness.into_iter().collect();
+    let layout = layout(&system, components);
+    assert_all_are(
+        &system.stresses_by_material(layout, motion, &stiffness),
+        &expected,
+    );
+}
+
+#[test]
+fn stresses_are_those_of_lame() {
+    assert_lame::<2, Shape>(Space::Plane(Plane::Stress), IN_PLANE);
+    assert_lame::<2, Shape>(Space::Plane(Plane::Strain), IN_PLANE);
+    let in_space = &[Component::X, Component::Y, Component::Z];
+    assert_lame::<3, SolidShape>(Space::Solid, in_space);
+}
+
+/// A bar of an orthotropic material along its axis 1, at 0.4 rad to the x axis, under the stress E_1: strains 1 along it and -nu_12
+/// across it.
+#[test]
+fn a_material_with_axes_is_pulled_along_its_own() {
+    let system = springs::<2, Shape>(Space::Plane(Plane::Stress));
+    let material = Elasticity::Orthotropic(Orthotropic {
+        young: [10.0, 2.0],
+        poisson: 0.3,
+        shear_modulus: 1.5,
+        out_of_plane: None,
+        angle: 0.4,
+    });
+    let (sine, cosine) = 0.4_f64.sin_cos();
+    let [along, across] = [[cosine, sine], [-sine, cosine]];
+    let mut gradient = [[0.0; 3]; 3];
+    for (i, row) in gradient.iter_mut().enumerate().take(2) {
+        for (j, it) in row.iter_mut().enumerate().take(2) {
+            *it = along[i] * along[j] - 0.3 * across[i] * across[j];
+        }
+    }
+    let motion = Motion {
+        intact: &vec![true; system.bonds.len()],
+        displacement: &affine(&system, gradient),
+        expansion: ThermalStrain::NONE,
+    };
+    let stiffness: Vec<Stiffness> = (material
+        .stiffness_in(Space::Plane(Plane::Stress))
+        .into_iter())
+    .collect();
+    let expected = SymTensor::<2>::from_fn(|i, j| 10.0 * along[i] * along[j]);
+    let layout = layout(&system, IN_PLANE);
+    assert_all_are(
+        &system.stresses_by_material(layout, motion, &stiffness),
+        &expected,
+    );
+}
+
+/// A free body that a temperature expands has no stress.
+#[test]
+fn what_the_temperature_gives_is_no_stress() {
+    let system = springs::<2, Shape>(Space::Plane(Plane::Stress));
+    let free = FreeStrains::new(vec![SymTensor::<2>::isotropic(0.02); system.cloud.len()]);
+    let motion = Motion {
+        intact: &vec![true; system.bonds.len()],
+        displacement: &affine(&system, [[0.01, 0.0, 0.0], [0.0, 0.01, 0.0], [0.0; 3]]),
+        expansion: free.times(0.5),
+    };
+    let stiffness = Elasticity::Isotropic(MATERIAL).stiffness_in(Space::Plane(Plane::Stress));
+    let stiffness: Vec<Stiffness> = stiffness.into_iter().collect();
+    let layout = layout(&system, IN_PLANE);
+    let stresses = system.stresses_by_material(layout, motion, &stiffness);
+    assert_all_are(&stresses, &SymTensor::ZERO);
+}
