@@ -331,7 +331,7 @@ mod tests {
     /// Stresses whose shear turns, outruns the normal stress or is outrun by it, or lies in one line as in the plane, against a search.
     #[test]
     fn intervals_of_stresses_are_those_of_a_search() {
-        let moduli = [0.25, 0.75, 0.9, 0.7];
+        let moduli = [0.25, 0.75, 0.9, 5.0, 0.7];
         let stresses = [
             ([0.3, 0.1, 0.2, -0.3], [1.0, -0.5, 0.3, 0.7]),
             ([-0.5, 0.2, 0.0, 0.4], [1.3, 0.8, -0.4, 0.0]),

@@ -209,7 +209,7 @@ impl Measure {
             Self::Fibre => &["kappa/l"],
             Self::Friction => &["tan(beta)"],
             Self::Energy => &["k_t/k_n"],
-            Self::NormalStress => &["q", "lambda/E'", "E/E'"],
+            Self::NormalStress => &["q", "lambda/E'", "E/E'", "E'"],
             Self::CoulombStress => &[
                 "q",
                 "tau_x/E'",
@@ -218,6 +218,7 @@ impl Measure {
                 "lambda/E'",
                 "2 mu/E'",
                 "E/E'",
+                "E'",
                 "tan(phi)",
             ],
             Self::MixedModeX | Self::MixedModeY => &["q", "G_IIc/G_Ic", "eta"],
@@ -450,7 +451,7 @@ mod tests {
     #[test]
     fn measures_grow_with_the_load() {
         for measure in Measure::ALL {
-            let of_coulomb = [0.5, 0.2, -0.3, 0.1, 0.2, 0.8, 1.0, 0.7];
+            let of_coulomb = [0.5, 0.2, -0.3, 0.1, 0.2, 0.8, 1.0, 9.0, 0.7];
             for coefficients in [&[0.5] as &[f64], &[0.5, 3.0, 1.75], &of_coulomb] {
                 let [once, twice] = [1.0, 2.0].map(|load| {
                     let deformation = deformation(measure, 0.3, -0.7).scaled(load);

@@ -113,7 +113,8 @@ fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<L
         .collect();
     let sheared = of_stress(basis, &cohesions, |material, it| {
         let [q, x, y, z] = [0.0; 4];
-        [q, x, y, z, it.lateral, it.shear, it.bar, slopes[material]]
+        let slope = slopes[material];
+        [q, x, y, z, it.lateral, it.shear, it.bar, it.along, slope]
     });
     Ok(vec![tensile(basis), sheared])
 }

@@ -40,6 +40,8 @@ pub struct Moduli {
     pub shear: f64,
     /// E/E' of a bar.
     pub bar: f64,
+    /// E', Pa.
+    pub along: f64,
 }
 
 impl Moduli {
@@ -48,15 +50,17 @@ impl Moduli {
         lateral: 0.0,
         shear: 1.0,
         bar: 1.0,
+        along: 1.0,
     };
 
     /// Moduli of a material in a space.
     pub fn new(material: &Isotropic, space: Space) -> Self {
-        let nu = across(material, space).poisson;
+        let (nu, along) = (across(material, space).poisson, modulus(material, space));
         Self {
             lateral: nu,
             shear: 1.0 - nu,
-            bar: material.of_bar(space).young / modulus(material, space),
+            bar: material.of_bar(space).young / along,
+            along,
         }
     }
 }
@@ -124,8 +128,8 @@ impl Measure {
             None => (bar - 1.0) * deformation.stretch(),
         };
         match coefficients {
-            [q, ratio, bar] => *q = lateral(*ratio, *bar),
-            [q, x, y, z, ratio, modulus, bar, _] => {
+            [q, ratio, bar, _] => *q = lateral(*ratio, *bar),
+            [q, x, y, z, ratio, modulus, bar, ..] => {
                 *q = lateral(*ratio, *bar);
                 let shear = around.map_or([0.0; 3], |it| it.shear);
                 [*x, *y, *z] = shear.map(|it| *modulus * it);

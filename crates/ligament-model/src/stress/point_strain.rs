@@ -20,6 +20,64 @@ use crate::thermal::ThermalStrain;
 /// Smallest det(D K/tr K) with which the bonds of a point span the space; a full family has 1.
 const LEAST_SPAN: f64 = 4e-4;
 
+/// Weight V exp(-l/H) of a bond of a length l with a horizon H (m) to a point of a volume V (m^3).
+pub fn weight(volume: f64, length: f64, horizon: f64) -> f64 {
+    volume * (-length / horizon).exp()
+}
+
+/// The mean strain of the ends of a bond as far as these are known.
+pub fn mean_strain<const D: usize>(of_ends: [Option<SymTensor<D>>; 2]) -> Option<SymTensor<D>> {
+    match of_ends {
+        [Some(a), Some(b)] => Some(a.plus(&b).scaled(0.5)),
+        [one, other] => one.or(other),
+    }
+}
+
+/// The sums over the bonds of a point from which its strain comes.
+#[derive(Debug, Clone)]
+pub struct Fit<const D: usize> {
+    /// K, row by row.
+    spread: SMatrix<f64, D, D>,
+    /// M, row by row.
+    slopes: SMatrix<f64, D, D>,
+}
+
+impl<const D: usize> Default for Fit<D> {
+    fn default() -> Self {
+        Self {
+            spread: SMatrix::zeros(),
+            slopes: SMatrix::zeros(),
+        }
+    }
+}
+
+impl<const D: usize> Fit<D> {
+    /// Adds a bond with the direction n away from the point, what its other end moved by against the point (m), its length (m) and
+    /// its [`weight`].
+    pub fn add(&mut self, n: [f64; D], moved: [f64; D], length: f64, weight: f64) {
+        let slope = moved.map(|it| it / length);
+        for row in 0..D {
+            for column in 0..D {
+                self.spread[(row, column)] += weight * n[row] * n[column];
+                self.slopes[(row, column)] += weight * slope[row] * n[column];
+            }
+        }
+    }
+
+    /// Strain of the point with all that its motion has; None where its bonds do not span the space.
+    pub fn strain(&self) -> Option<SymTensor<D>> {
+        let per_trace = D as f64 / self.spread.trace();
+        let factor = (self.spread * per_trace).cholesky()?;
+        (factor.determinant() > LEAST_SPAN).then(|| {
+            // G^T = K^-1 M^T.
+            let gradient = factor.solve(&self.slopes.transpose()) * per_trace;
+            SymTensor::from_fn(|row, column| {
+                0.5 * (gradient[(row, column)] + gradient[(column, row)])
+            })
+        })
+    }
+}
+
 /// A motion of the points of a body of which some bonds are left.
 #[derive(Debug, Clone, Copy)]
 pub struct Motion<'a> {
@@ -90,35 +148,26 @@ impl<const D: usize> BondSystem<D> {
             std::array::from_fn(|axis| motion.displacement[first + axis])
         };
         let here = place(point);
-        let [mut spread, mut slopes] = [SMatrix::<f64, D, D>::zeros(); 2];
+        let mut fit = Fit::default();
         let family = bonds.incidence.at(point).iter();
         for &bond in family.filter(|&&bond| motion.intact[bond as usize]) {
             let other = bonds.neighbour(bond, point);
             let bond = bond as usize;
-            let [length, horizon] = [bonds.length[bond], bonds.horizon[bond]];
-            let weight = volumes[other as usize] * (-length / horizon).exp();
             // Signs of a bond seen from its other end cancel in the products.
             let n = match bonds.ends[bond][0] == point {
                 true => bonds.direction[bond],
                 false => bonds.direction[bond].map(|cosine| -cosine),
             };
-            let slope = minus(place(other), here).map(|it| it / length);
-            for row in 0..D {
-                for column in 0..D {
-                    spread[(row, column)] += weight * n[row] * n[column];
-                    slopes[(row, column)] += weight * slope[row] * n[column];
-                }
-            }
+            let moved = minus(place(other), here);
+            let [length, horizon] = [bonds.length[bond], bonds.horizon[bond]];
+            fit.add(
+                n,
+                moved,
+                length,
+                weight(volumes[other as usize], length, horizon),
+            );
         }
-        let scaled = spread * (D as f64 / spread.trace());
-        let factor = scaled.cholesky()?;
-        (factor.determinant() > LEAST_SPAN).then(|| {
-            // G^T = K^-1 M^T.
-            let gradient = factor.solve(&slopes.transpose()) * (D as f64 / spread.trace());
-            SymTensor::from_fn(|row, column| {
-                0.5 * (gradient[(row, column)] + gradient[(column, row)])
-            })
-        })
+        fit.strain()
     }
 
     /// Strains around each bond, which are the means of those of its ends as far as these are known, shape (n_bonds); None where
@@ -129,12 +178,8 @@ impl<const D: usize> BondSystem<D> {
         motion: Motion<'_>,
     ) -> Vec<Option<StrainAround>> {
         let of_points = self.point_strains(layout, motion);
-        let of_bond = |(&[a, b], &n): (&[u32; 2], &[f64; D])| {
-            let ends = [a, b].map(|end| of_points[end as usize]);
-            let mean = match ends {
-                [Some(a), Some(b)] => a.plus(&b).scaled(0.5),
-                [one, other] => one.or(other)?,
-            };
+        let of_bond = |(ends, &n): (&[u32; 2], &[f64; D])| {
+            let mean = mean_strain(ends.map(|end| of_points[end as usize]))?;
             Some(StrainAround::new(&mean, n))
         };
         let bonds = &self.bonds;
@@ -154,7 +199,7 @@ pub struct StrainAround {
 
 impl StrainAround {
     /// The parts of a strain around a bond with the direction n.
-    fn new<const D: usize>(strain: &SymTensor<D>, n: [f64; D]) -> Self {
+    pub fn new<const D: usize>(strain: &SymTensor<D>, n: [f64; D]) -> Self {
         let along = strain.times(n);
         let normal = dot(n, along);
         let trace: f64 = (0..D).map(|axis| strain.at(axis, axis)).sum();
