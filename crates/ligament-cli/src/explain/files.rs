@@ -43,7 +43,8 @@ pub(super) fn csv(run: &StoredRun, lives: &Lives) -> String {
             ];
             let values = deformation.strains().into_iter();
             row.extend(values.take(lives.components.len()).map(Value::from));
-            for (criterion, limit) in life.limits.iter().enumerate() {
+            for criterion in 0..life.limits.len() {
+                let limit = life.limit_in(criterion, place);
                 let utilisation = if is_intact {
                     limit.utilisation(deformation)
                 } else {
@@ -108,7 +109,7 @@ fn bond(run: &StoredRun, lives: &Lives, life: &Life) -> serde_json::Value {
     });
     let path = lives.moments.iter().zip(&life.deformation).enumerate();
     let path = path.map(|(place, (moment, deformation))| {
-        let utilisation = life.limits.iter().map(|it| it.utilisation(deformation));
+        let utilisation = (0..life.limits.len()).map(|it| life.utilisation(it, place));
         let moment = json!({
             "step": moment.step,
             "load_factor": moment.load_factor,

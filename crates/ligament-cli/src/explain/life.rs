@@ -1,14 +1,18 @@
 //! What bonds went through.
 
+use std::borrow::Cow;
+
 use ligament_model::element::BondDeformation;
 use ligament_model::element::beam::BeamBond;
 use ligament_model::element::pair::measured;
 use ligament_model::failure::{AfterLimit, Measure, Softened};
+use ligament_model::stress::point_strain::StrainAround;
 use ligament_output::Error;
 use ligament_output::results::stored::{
     Motions, StoredBreak, StoredCriterion, StoredRun, StoredStep,
 };
 
+use super::around::Around;
 use super::strains::Strains;
 use ligament::units::Units;
 use ligament_plot::stored_loading::StoredLoading;
@@ -47,6 +51,8 @@ pub(super) struct Life {
     pub(super) limits: Vec<Limit>,
     /// Deformation of the bond in each moment, also after it broke.
     pub(super) deformation: Vec<BondDeformation>,
+    /// Strain of its ends in each moment; empty where no criterion takes the stress around it.
+    pub(super) around: Vec<Option<StrainAround>>,
     /// Number of moments in which it was intact.
     pub(super) n_intact: usize,
     /// Breakage of the bond, and the number of the criterion by which it failed.
@@ -56,7 +62,7 @@ pub(super) struct Life {
 }
 
 /// A criterion and its limit for a bond.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Limit {
     pub(super) name: String,
     pub(super) measure: Measure,
@@ -107,6 +113,7 @@ impl Lives {
             lives.of_bonds.push(Life::begin(run, pair)?);
         }
         let mut strains = Strains::from_run(run, loading.follows_path);
+        let around = Around::from_run(run, &lives.of_bonds, loading.follows_path);
         for step in run.field_steps() {
             // A run that is under way may have fields of a step before its row.
             let (Some(row), Some(motions)) = (run.step(step), run.motions(step)?) else {
@@ -121,6 +128,9 @@ impl Lives {
                     Some(strains) => strains.deformation(life.pair, &motions),
                     None => life.deformed(run, &motions),
                 });
+                if let Some(around) = &around {
+                    life.around.push(around.strain(life, &motions, step));
+                }
             }
         }
         for life in &mut lives.of_bonds {
@@ -154,6 +164,21 @@ impl Limit {
     pub(super) fn utilisation(&self, deformation: &BondDeformation) -> f64 {
         (self.measure(deformation) / self.limit).max(0.0)
     }
+
+    /// The limit with the stress around the bond in its coefficients, where it takes that.
+    fn with_stress(
+        &self,
+        around: Option<&StrainAround>,
+        deformation: &BondDeformation,
+    ) -> Cow<'_, Self> {
+        if !self.measure.takes_stress() {
+            return Cow::Borrowed(self);
+        }
+        let mut there = self.clone();
+        let coefficients = &mut there.coefficients;
+        self.measure.follow_stress(coefficients, around, deformation);
+        Cow::Owned(there)
+    }
 }
 
 impl Life {
@@ -179,6 +204,7 @@ impl Life {
             direction: along.map(|component| component / length),
             limits: model.criteria.iter().map(limit).collect::<Result<_, _>>()?,
             deformation: Vec::new(),
+            around: Vec::new(),
             n_intact: 0,
             breakage: None,
             nearest: None,
@@ -228,8 +254,13 @@ impl Life {
     fn nearest_at_breakage(&self) -> Option<Nearest> {
         let (broke, criterion) = self.breakage.as_ref()?;
         let criterion = (*criterion)?;
+        let limit = &self.limits[criterion];
         Some(Nearest {
-            utilisation: self.limits[criterion].utilisation(&broke.deformation),
+            // The stress around a bond when it breaks stands in the table of broken bonds alone.
+            utilisation: match limit.measure.takes_stress() {
+                true => broke.utilisation * limit.after.end(0),
+                false => limit.utilisation(&broke.deformation),
+            },
             step: broke.at.step,
             criterion,
         })
@@ -250,9 +281,9 @@ impl Life {
     /// From the steps with fields alone.
     fn nearest_of_moments(&self, moments: &[StoredStep]) -> Option<Nearest> {
         let mut nearest: Option<Nearest> = None;
-        for (moment, deformation) in moments.iter().zip(&self.deformation).take(self.n_intact) {
-            for (criterion, limit) in self.limits.iter().enumerate() {
-                let utilisation = limit.utilisation(deformation);
+        for (place, moment) in moments.iter().enumerate().take(self.n_intact) {
+            for criterion in 0..self.limits.len() {
+                let utilisation = self.utilisation(criterion, place);
                 if nearest.is_none_or(|it| utilisation > it.utilisation) {
                     nearest = Some(Nearest {
                         utilisation,
@@ -263,6 +294,18 @@ impl Life {
             }
         }
         nearest
+    }
+
+    /// The limit of a criterion in a moment, with the stress around the bond.
+    pub(super) fn limit_in(&self, criterion: usize, moment: usize) -> Cow<'_, Limit> {
+        let around = self.around.get(moment).and_then(Option::as_ref);
+        self.limits[criterion].with_stress(around, &self.deformation[moment])
+    }
+
+    /// Measure over limit of a criterion in a moment, 0 where the measure is not positive.
+    pub(super) fn utilisation(&self, criterion: usize, moment: usize) -> f64 {
+        let limit = self.limit_in(criterion, moment);
+        limit.utilisation(&self.deformation[moment])
     }
 
     /// The rest of the bond by a criterion in a moment: nothing once it is broken.
@@ -286,8 +329,9 @@ impl Life {
         moment: usize,
     ) -> Softened {
         let limit = &self.limits[criterion];
-        let so_far = self.deformation[..=moment].iter();
-        let kappa = so_far.map(|it| limit.utilisation(it)).fold(0.0, f64::max);
+        let so_far = 0..=moment;
+        let kappa = so_far.map(|it| self.utilisation(criterion, it));
+        let kappa = kappa.fold(0.0, f64::max);
         // It may have been larger between the moments.
         let is_past = |it: &Nearest| it.criterion == criterion && it.step <= moments[moment].step;
         let nearest = self.nearest.filter(is_past);
@@ -308,6 +352,7 @@ pub(super) fn life_of(limits: Vec<Limit>, deformation: Vec<BondDeformation>) -> 
         limits,
         n_intact: deformation.len(),
         deformation,
+        around: Vec::new(),
         breakage: None,
         nearest: None,
     }

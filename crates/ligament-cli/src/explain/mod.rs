@@ -3,6 +3,7 @@
 //! Limits, factors and horizons come from `model.vtu`, breakages from `breaks.csv`, loads from `history.csv`, and what a bond went
 //! through from the displacements and rotations of the fields, by the kinematics of the bonds.
 
+mod around;
 mod files;
 mod life;
 mod report;

@@ -205,7 +205,7 @@ fn bond_path(lives: &Lives, life: &Life) -> Columns {
         for (criterion, limit) in life.limits.iter().enumerate() {
             let is_intact = place < life.n_intact;
             row.push(if is_intact {
-                format!("{:.4}", limit.utilisation(deformation))
+                format!("{:.4}", life.utilisation(criterion, place))
             } else {
                 "broken".to_owned()
             });
@@ -282,8 +282,8 @@ fn family_path(run: &StoredRun, point: u32, lives: &Lives) -> Columns {
         let intact = || lives.of_bonds.iter().filter(|life| place < life.n_intact);
         let mut worst: Option<(f64, &Life, usize)> = None;
         for life in intact() {
-            for (criterion, limit) in life.limits.iter().enumerate() {
-                let utilisation = limit.utilisation(&life.deformation[place]);
+            for criterion in 0..life.limits.len() {
+                let utilisation = life.utilisation(criterion, place);
                 let is_worse = worst.is_none_or(|(so_far, ..)| utilisation > so_far);
                 if utilisation > 0.0 && is_worse {
                     worst = Some((utilisation, life, criterion));

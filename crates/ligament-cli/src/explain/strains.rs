@@ -61,7 +61,7 @@ impl Strains {
 }
 
 /// Step in which each bond broke, shape (n_bonds).
-fn breakages(run: &StoredRun, ends: &[[u32; 2]]) -> Vec<Option<usize>> {
+pub(super) fn breakages(run: &StoredRun, ends: &[[u32; 2]]) -> Vec<Option<usize>> {
     let mut broke_in = vec![None; ends.len()];
     let mut points: Vec<(i64, u32)> = run.model.tags.iter().copied().zip(0..).collect();
     points.sort_unstable();

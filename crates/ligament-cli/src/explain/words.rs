@@ -2,7 +2,7 @@
 
 use ligament_model::Absence;
 use ligament_model::element::BondDeformation;
-use ligament_model::failure::Softened;
+use ligament_model::failure::{Measure, Softened};
 use ligament_output::quantity::quantity;
 use ligament_output::results::stored::StoredRun;
 
@@ -102,14 +102,20 @@ pub(super) fn fate(run: &StoredRun, lives: &Lives, life: &Life) -> Vec<String> {
         )];
         let deformation = broke.deformation;
         if let Some(limit) = criterion.map(|criterion| &life.limits[criterion]) {
+            let end = limit.limit * limit.after.end(0);
+            let seen = match limit.measure.takes_stress() {
+                true => broke.utilisation * end,
+                false => limit.measure(&deformation),
+            };
             lines.push(format!(
                 "`{}` saw {} = {}, {:.4} of the {} at which it breaks.",
                 limit.name,
                 limit.measure.words(),
-                number(limit.measure(&deformation)),
+                number(seen),
                 broke.utilisation,
-                number(limit.limit * limit.after.end(0)),
+                number(end),
             ));
+            lines.extend(plane_words(life, limit, broke.utilisation));
         }
         lines.push(format!("Then {}.", deformed(lives, &deformation)));
         lines.push(format!(
@@ -134,6 +140,37 @@ pub(super) fn fate(run: &StoredRun, lives: &Lives, life: &Life) -> Vec<String> {
     lines.extend(end_words(lives, life));
     lines.extend(softened_words(lives, life));
     lines
+}
+
+/// The stress on the plane across a bond that a criterion of stresses broke, and the surface that it came to.
+fn plane_words(life: &Life, limit: &Limit, utilisation: f64) -> Option<String> {
+    let of_limit = |share: f64, modulus: f64| quantity(share * limit.limit * modulus, "Pa");
+    let normal = words_of_normal(life);
+    match (limit.measure, limit.coefficients.as_slice()) {
+        (Measure::NormalStress, &[.., modulus]) => {
+            let [stress, strength] = [utilisation, 1.0].map(|it| of_limit(it, modulus));
+            Some(format!(
+                "That is sigma_n = {stress} on the plane across it, whose normal is {normal}; the surface is sigma_n = {strength}."
+            ))
+        }
+        (Measure::CoulombStress, &[.., modulus, slope]) => {
+            let [stress, cohesion] = [utilisation, 1.0].map(|it| of_limit(it, modulus));
+            Some(format!(
+                "That is |tau| + {} sigma_n = {stress} on the plane across it, whose normal is {normal}; the surface is the cohesion {cohesion}.",
+                number(slope)
+            ))
+        }
+        _ => None,
+    }
+}
+
+/// The direction of a bond in words.
+fn words_of_normal(life: &Life) -> String {
+    let [x, y, z] = life.direction;
+    match z == 0.0 {
+        true => format!("at {:.2} degrees", y.atan2(x).to_degrees()),
+        false => format!("({x:.4}, {y:.4}, {z:.4})"),
+    }
 }
 
 fn never_fails(run: &StoredRun, life: &Life) -> String {
@@ -172,7 +209,8 @@ fn end_words(lives: &Lives, life: &Life) -> Option<String> {
     if life.nearest.is_some_and(is_told) {
         return None;
     }
-    let largest = life.limits.iter().map(|it| it.utilisation(deformation));
+    let last = lives.moments.len() - 1;
+    let largest = (0..life.limits.len()).map(|it| life.utilisation(it, last));
     let largest = largest.fold(0.0, f64::max);
     let why = if largest == 0.0 && is_pressed(lives, deformation) {
         ": it is compressed, which none of its criteria counts"
@@ -262,7 +300,7 @@ pub(super) fn no_bond(run: &StoredRun, [a, b]: [u32; 2], pair: Option<usize>) ->
 #[cfg(test)]
 mod tests {
     use ligament_model::failure::softening::{brittle, linear, plastic};
-    use ligament_model::failure::{AfterLimit, Measure};
+    use ligament_model::failure::AfterLimit;
 
     use super::*;
     use crate::explain::life::life_of;

@@ -1,0 +1,103 @@
+//! Strains of the points around bonds, from the stored motions and the bonds that the points had left.
+
+use std::array::from_fn;
+use std::collections::BTreeMap;
+
+use ligament_model::Absence;
+use ligament_model::stress::point_strain::{Fit, StrainAround, mean_strain, weight};
+use ligament_model::tensor::SymTensor;
+use ligament_output::results::stored::{Motions, StoredRun};
+
+use super::life::Life;
+use super::strains::breakages;
+
+/// The families of the ends of some bonds, and when their bonds broke.
+pub(super) struct Around<'a> {
+    run: &'a StoredRun,
+    /// Bonds of the points that are asked for.
+    families: BTreeMap<u32, Vec<usize>>,
+    /// Step in which each bond broke, shape (n_bonds).
+    broke_in: Vec<Option<usize>>,
+    /// Whether a moment is just before the breakages of its step.
+    before_breakages: bool,
+}
+
+impl<'a> Around<'a> {
+    /// The families of the ends of bonds; None where no criterion takes the stress around them.
+    pub(super) fn from_run(run: &'a StoredRun, lives: &[Life], before_breakages: bool) -> Option<Self> {
+        let limits = lives.iter().flat_map(|life| &life.limits);
+        if !limits.into_iter().any(|it| it.measure.takes_stress()) {
+            return None;
+        }
+        let ends = lives.iter().flat_map(|life| life.ends);
+        let mut families: BTreeMap<u32, Vec<usize>> = ends.map(|it| (it, Vec::new())).collect();
+        let bonds = &run.model.bonds;
+        let is_bond = |absence: &&Option<Absence>| absence.is_none();
+        let n_bonds = bonds.absence.iter().take_while(is_bond).count();
+        for (bond, ends) in bonds.ends[..n_bonds].iter().enumerate() {
+            for end in ends {
+                if let Some(family) = families.get_mut(end) {
+                    family.push(bond);
+                }
+            }
+        }
+        Some(Self {
+            run,
+            families,
+            broke_in: breakages(run, &bonds.ends[..n_bonds]),
+            before_breakages,
+        })
+    }
+
+    /// The strain around a bond in the moment of a step; None where the bonds of neither end span the space.
+    pub(super) fn strain(&self, life: &Life, motions: &Motions, step: usize) -> Option<StrainAround> {
+        match self.run.model.in_space {
+            true => self.strain_in::<3>(life, motions, step),
+            false => self.strain_in::<2>(life, motions, step),
+        }
+    }
+
+    fn strain_in<const D: usize>(
+        &self,
+        life: &Life,
+        motions: &Motions,
+        step: usize,
+    ) -> Option<StrainAround> {
+        let of_ends = life.ends.map(|end| self.of_point::<D>(end, motions, step));
+        let n = from_fn(|axis| life.direction[axis]);
+        Some(StrainAround::new(&mean_strain(of_ends)?, n))
+    }
+
+    /// Strain of a point without what the temperature gives it.
+    fn of_point<const D: usize>(
+        &self,
+        point: u32,
+        motions: &Motions,
+        step: usize,
+    ) -> Option<SymTensor<D>> {
+        let model = &self.run.model;
+        let is_intact = |bond: &usize| match self.broke_in[*bond] {
+            None => true,
+            Some(broke) if self.before_breakages => step <= broke,
+            Some(broke) => step < broke,
+        };
+        let mut fit = Fit::<D>::default();
+        for &bond in self.families[&point].iter().filter(|it| is_intact(it)) {
+            let ends = model.bonds.ends[bond];
+            let other = if ends[0] == point { ends[1] } else { ends[0] };
+            let [here, there] = [point, other].map(|it| it as usize);
+            let difference = |of: &[[f64; 3]]| from_fn(|axis| of[there][axis] - of[here][axis]);
+            let along: [f64; D] = difference(&model.positions);
+            let length = along.iter().map(|it| it * it).sum::<f64>().sqrt();
+            let weight = weight(model.volumes[there], length, model.bonds.horizon[bond]);
+            let moved = difference(&motions.displacement);
+            fit.add(along.map(|it| it / length), moved, length, weight);
+        }
+        let strain = fit.strain()?;
+        if motions.thermal_strain.is_empty() {
+            return Some(strain);
+        }
+        let free = motions.thermal_strain.times(1.0).of_point(point as usize);
+        Some(strain.plus(&free.resized().scaled(-1.0)))
+    }
+}
