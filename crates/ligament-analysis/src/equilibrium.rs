@@ -21,6 +21,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use ligament_linalg::{Factorisation, HalfSolved};
+use ligament_model::failure::Criteria;
 use ligament_model::portion::any;
 
 use crate::balanced::{Attempt, Balanced, Stability};
@@ -157,6 +158,11 @@ impl Equilibrium {
     /// Takes other loads in the place of those of the problem; they must prescribe the same degrees of freedom.
     pub fn load_with(&mut self, loads: Arc<dyn LoadProgram>) {
         self.equations.load_with(loads);
+    }
+
+    /// Takes other criteria in the place of those of the problem, of the same bonds and measures.
+    pub(crate) fn judge_by(&mut self, criteria: Arc<Criteria>) {
+        self.equations.problem.criteria = criteria;
     }
 
     /// From now on seeks equilibrium with this held, whatever the load factor; None: at the load factor of the state.

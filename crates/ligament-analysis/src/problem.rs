@@ -31,12 +31,30 @@ pub struct Problem {
 impl Problem {
     /// The criteria with the limits and measures that the bonds have in an equilibrium.
     pub fn criteria_in(&self, state: &State, balanced: &Balanced) -> Cow<'_, Criteria> {
-        let motion = Motion {
-            intact: &state.intact,
-            displacement: &state.displacement,
-            expansion: self.loads.thermal_strain(state.load_factor),
-        };
+        let sound = state.softening.sound(&state.intact);
+        let motion = self.motion(state, &sound);
         let (system, deformations) = (&*self.system, &balanced.deformations);
         self.criteria.in_state(system, motion, deformations)
+    }
+
+    /// The deformations at which bonds began to soften by the stress around them, with those that begin in an equilibrium; None where
+    /// none begins.
+    pub(crate) fn beginning(&self, state: &State, balanced: &Balanced) -> Option<Vec<Vec<f64>>> {
+        let begun = &state.softening.begun;
+        if begun.iter().all(Vec::is_empty) {
+            return None;
+        }
+        let sound = state.softening.sound(&state.intact);
+        let (motion, system) = (self.motion(state, &sound), &*self.system);
+        let deformations = &balanced.deformations;
+        self.criteria.beginning(begun, system, motion, deformations)
+    }
+
+    fn motion<'a>(&'a self, state: &'a State, intact: &'a [bool]) -> Motion<'a> {
+        Motion {
+            intact,
+            displacement: &state.displacement,
+            expansion: self.loads.thermal_strain(state.load_factor),
+        }
     }
 }

@@ -4,6 +4,8 @@
 //! left of its stiffness. What an opened bond lost it lacks in tension, shear and rotation, not in compression; see
 //! [`Weakened`].
 
+use std::borrow::Cow;
+
 use ligament_model::Bonds;
 use ligament_model::element::{BondDeformation, Remaining};
 use ligament_model::failure::{Criteria, Criterion, Softened, Weakened};
@@ -26,12 +28,16 @@ pub struct Softening {
     trial: Vec<Vec<f64>>,
     /// Remaining stiffness for the deformations of the iterate, shape (n_bonds).
     pub remaining: Vec<Remaining>,
+    /// Deformations at which bonds began to soften by the stress around them, infinite for those that did not, shape (n_bonds) for each
+    /// criterion; empty for those that ask for no stress.
+    pub begun: Vec<Vec<f64>>,
 }
 
 serial!(Softening {
     largest,
     trial,
-    remaining
+    remaining,
+    begun
 });
 
 impl Softening {
@@ -39,23 +45,25 @@ impl Softening {
     pub(crate) fn fits(&self, criteria: &Criteria, n_bonds: usize) -> bool {
         let lengths = |it: &Self| {
             let of = |lists: &[Vec<f64>]| lists.iter().map(Vec::len).collect::<Vec<usize>>();
-            (of(&it.largest), of(&it.trial), it.remaining.len())
+            let (largest, trial, begun) = (of(&it.largest), of(&it.trial), of(&it.begun));
+            (largest, trial, begun, it.remaining.len())
         };
         lengths(self) == lengths(&Self::of_sound_bonds(criteria, n_bonds))
     }
 
     /// The softening of the bonds of all processes on rank 0, see [`State::of_all`](crate::state::State).
     pub(crate) fn of_all(&self, numbers: &BondNumbers) -> Self {
-        let of = |lists: &[Vec<f64>]| {
+        let of = |lists: &[Vec<f64>], sound: f64| {
             let told = |list: &Vec<f64>| match list.is_empty() {
                 true => Vec::new(),
-                false => numbers.of_all(list, 0.0),
+                false => numbers.of_all(list, sound),
             };
             lists.iter().map(told).collect()
         };
         Self {
-            largest: of(&self.largest),
-            trial: of(&self.trial),
+            largest: of(&self.largest, 0.0),
+            trial: of(&self.trial, 0.0),
+            begun: of(&self.begun, f64::INFINITY),
             remaining: match self.remaining.is_empty() {
                 true => Vec::new(),
                 false => numbers.of_all(&self.remaining, Remaining::WHOLE),
@@ -80,6 +88,7 @@ impl Softening {
             largest: lists(from)?,
             trial: lists(from)?,
             remaining: numbers.read(from)?,
+            begun: lists(from)?,
         })
     }
 
@@ -94,6 +103,7 @@ impl Softening {
             trial: largest.clone(),
             largest,
             remaining: vec![Remaining::WHOLE; n_bonds],
+            begun: criteria.none_begun(),
         }
     }
 
@@ -131,6 +141,25 @@ impl Softening {
                 *remaining = remaining_of(criteria, trial, bond, is_open);
             }
         });
+    }
+
+    /// The bonds that are neither broken nor have begun to soften: those that show the strain of the body.
+    pub fn sound<'a>(&self, intact: &'a [bool]) -> Cow<'a, [bool]> {
+        if self.largest.iter().all(Vec::is_empty) {
+            return Cow::Borrowed(intact);
+        }
+        let begun = |bond: usize| {
+            let began = self
+                .begun
+                .iter()
+                .any(|it| it.get(bond).is_some_and(|it| it.is_finite()));
+            let mut largest = self.largest.iter();
+            began || largest.any(|it| it.get(bond).is_some_and(|it| *it > 1.0))
+        };
+        let numbered = intact.iter().enumerate();
+        numbered
+            .map(|(bond, intact)| *intact && !begun(bond))
+            .collect()
     }
 
     /// The iterate is in equilibrium: its extremes count from now on.

@@ -11,6 +11,7 @@ use crate::contact::{ClosedPair, ContactPair, Overlap};
 use crate::deformation::Deformations;
 use crate::element::{BondDeformation, Remaining, Rigidities, Term};
 use crate::failure::Criterion;
+use crate::failure::starting::Starting;
 use crate::layout::{Component, Layout};
 use crate::material::Stiffness;
 use crate::portion::Portion;
@@ -263,6 +264,15 @@ pub trait BondReadings: BondTopology {
     /// Strains of the points around each bond in a motion of which some bonds are left, shape (n_bonds); None where the bonds of
     /// neither end span the space.
     fn strains_around(&self, motion: Motion<'_>) -> Vec<Option<StrainAround>>;
+
+    /// Largest principal stress around each bond over the strength at which it begins to soften, shape (n_bonds); 0 where the bond is not
+    /// pulled across by a share of it.
+    fn principal_stresses(
+        &self,
+        motion: Motion<'_>,
+        deformations: &[BondDeformation],
+        starting: &Starting,
+    ) -> Vec<f64>;
 
     /// Sum of a component of what the far ends of some bonds exert on the near ones, which are the first where marked, N; of
     /// bonds of two points alone.

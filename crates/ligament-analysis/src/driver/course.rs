@@ -1,5 +1,7 @@
 //! How far a run is: what a checkpoint holds of it beside the state, and the run that is read back from one.
 
+use std::sync::Arc;
+
 use super::recorder::{Energies, StepCounters};
 use super::start::ElasticAnswer;
 use crate::balanced::Balanced;
@@ -157,7 +159,16 @@ impl Restored {
             Some(numbers) => State::read_known(numbers, from)?,
         };
         let course: Course = Serial::read(from).map_err(damaged)?;
-        let problem = course.problem(problem).ok_or(CheckpointError::OtherModel)?;
+        let mut problem = course.problem(problem).ok_or(CheckpointError::OtherModel)?;
+        let begun = &state.softening.begun;
+        let has_all = problem.criteria.none_begun();
+        let lengths = |of: &[Vec<f64>]| of.iter().map(Vec::len).collect::<Vec<usize>>();
+        if !begun.is_empty() {
+            if lengths(begun) != lengths(&has_all) {
+                return Err(CheckpointError::OtherModel.into());
+            }
+            problem.criteria = Arc::new(problem.criteria.begun_at(begun));
+        }
         let (equilibrium, state, balanced) =
             Equilibrium::restored(&problem, energy_tolerance, (numbers, state), from)?;
         let energies = Energies::read(&problem, &state, &balanced, from)?;

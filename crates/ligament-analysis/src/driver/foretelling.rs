@@ -167,7 +167,9 @@ pub(super) fn foretell(
     steps: Option<&[f64]>,
 ) -> Result<Foretold, SetupError> {
     let system = &path.problem.system;
-    if !system.is_linear() {
+    let criteria = &path.problem.criteria.list;
+    let begins_by_stress = criteria.iter().any(|it| it.starting().is_some());
+    if !system.is_linear() || begins_by_stress {
         return Ok(Foretold::Nonlinear);
     }
     match path.problem.loads.course() {

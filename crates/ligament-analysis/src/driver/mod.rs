@@ -1,5 +1,6 @@
 //! Drivers: one file for each way to follow a loading.
 
+mod beginning;
 mod breaks;
 mod course;
 mod dissipation;

@@ -258,6 +258,13 @@ impl Stepping<'_> {
     ) -> Result<Option<Termination>, SetupError> {
         let step = counters.step;
         loop {
+            if self.path.begin_softening(&balanced) {
+                balanced = match self.balance_again(&counters, &Breakage::default())? {
+                    Ok(balanced) => balanced,
+                    Err(end) => return self.record(&balanced, counters, Some(end)),
+                };
+                continue;
+            }
             let next = self.next_to_break(&balanced);
             counters.at_rest = next.is_empty();
             let end = self.end(&balanced, &counters);
@@ -273,15 +280,27 @@ impl Stepping<'_> {
             if self.path.collapsed {
                 return self.record(&balanced, counters, Some(Termination::Collapsed));
             }
-            self.path.enter(step, counters.rounds)?;
-            balanced = match self.path.balance(step, &breakage)? {
-                Attempt::Balanced(balanced) => balanced,
-                Attempt::Unbalanced(reason) => {
-                    let end = Some(self.path.without_equilibrium(step, reason));
-                    return self.record(&balanced, counters, end);
-                }
+            balanced = match self.balance_again(&counters, &breakage)? {
+                Ok(balanced) => balanced,
+                Err(end) => return self.record(&balanced, counters, Some(end)),
             };
-            self.path.account(step, &breakage, &balanced)?;
+        }
+    }
+
+    /// The equilibrium after a breakage in a load step, accounted for; the reason why the run ends where there is none.
+    fn balance_again(
+        &mut self,
+        counters: &StepCounters,
+        breakage: &Breakage,
+    ) -> Result<Result<Balanced, Termination>, SetupError> {
+        let step = counters.step;
+        self.path.enter(step, counters.rounds)?;
+        match self.path.balance(step, breakage)? {
+            Attempt::Balanced(balanced) => {
+                self.path.account(step, breakage, &balanced)?;
+                Ok(Ok(balanced))
+            }
+            Attempt::Unbalanced(reason) => Ok(Err(self.path.without_equilibrium(step, reason))),
         }
     }
 

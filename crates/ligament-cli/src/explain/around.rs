@@ -24,7 +24,11 @@ pub(super) struct Around<'a> {
 
 impl<'a> Around<'a> {
     /// The families of the ends of bonds; None where no criterion takes the stress around them.
-    pub(super) fn from_run(run: &'a StoredRun, lives: &[Life], before_breakages: bool) -> Option<Self> {
+    pub(super) fn from_run(
+        run: &'a StoredRun,
+        lives: &[Life],
+        before_breakages: bool,
+    ) -> Option<Self> {
         let limits = lives.iter().flat_map(|life| &life.limits);
         if !limits.into_iter().any(|it| it.measure.takes_stress()) {
             return None;
@@ -50,7 +54,12 @@ impl<'a> Around<'a> {
     }
 
     /// The strain around a bond in the moment of a step; None where the bonds of neither end span the space.
-    pub(super) fn strain(&self, life: &Life, motions: &Motions, step: usize) -> Option<StrainAround> {
+    pub(super) fn strain(
+        &self,
+        life: &Life,
+        motions: &Motions,
+        step: usize,
+    ) -> Option<StrainAround> {
         match self.run.model.in_space {
             true => self.strain_in::<3>(life, motions, step),
             false => self.strain_in::<2>(life, motions, step),

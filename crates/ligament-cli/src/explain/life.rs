@@ -176,7 +176,8 @@ impl Limit {
         }
         let mut there = self.clone();
         let coefficients = &mut there.coefficients;
-        self.measure.follow_stress(coefficients, around, deformation);
+        self.measure
+            .follow_stress(coefficients, around, deformation);
         Cow::Owned(there)
     }
 }

@@ -299,8 +299,8 @@ pub(super) fn no_bond(run: &StoredRun, [a, b]: [u32; 2], pair: Option<usize>) ->
 
 #[cfg(test)]
 mod tests {
-    use ligament_model::failure::softening::{brittle, linear, plastic};
     use ligament_model::failure::AfterLimit;
+    use ligament_model::failure::softening::{brittle, linear, plastic};
 
     use super::*;
     use crate::explain::life::life_of;

@@ -8,7 +8,7 @@ use super::kind::{After, Choice, Kind};
 use super::measure::Measure;
 use super::setting::Setting;
 use super::sliding;
-use super::softening::{AfterLimit, LAWS, Law};
+use super::softening::{AfterLimit, LAWS, Law, brittle, linear};
 use super::unfit::{NoLimit, Unfit};
 use crate::advice::Advice;
 use crate::scatter::Scattered;
@@ -42,7 +42,10 @@ pub fn criteria<const D: usize>(
                     _ => measure.word(),
                 },
                 measure,
-                after: after(&choice.after, &limits.limit, basis).map_err(at_place)?,
+                after: match limits.is_brittle {
+                    true => AfterLimit::new(brittle::LAW, Vec::new()),
+                    false => after(&choice.after, &limits.limit, basis).map_err(at_place)?,
+                },
                 limit: limits.limit,
                 coefficient: limits.coefficient,
                 surroundings: limits.surroundings,
@@ -231,6 +234,18 @@ impl Choice {
     /// What bonds may do after their limit depends on the criterion and on what drives the load.
     fn refuse_softening(&self, on_exact_path: bool) -> Result<(), Unfit> {
         let law = &self.after.law;
+        if let Some(reason) = self.kind.softens_because.filter(|_| !law.softens) {
+            return Err(Unfit::Missing {
+                field: "after",
+                reason: Advice::new(
+                    format!("with {{}}, such as {{}}: {reason}"),
+                    [
+                        Setting::Criterion(self.kind.word),
+                        Setting::After(linear::LAW.word),
+                    ],
+                ),
+            });
+        }
         if !law.softens {
             return Ok(());
         }

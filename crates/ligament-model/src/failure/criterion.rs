@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::measure::{Measure, Weakened};
 use super::softening::{AfterLimit, brittle};
+use super::starting::Starting;
 use super::surroundings::{Surroundings, follow_stress};
 use crate::element::{BondDeformation, Rigidities};
 use crate::interface::Bonds;
@@ -44,6 +45,14 @@ impl Criterion {
     /// Whether the measure follows the stress around the bonds.
     pub fn follows_stress(&self) -> bool {
         matches!(self.surroundings.as_deref(), Some(Surroundings::Stress))
+    }
+
+    /// Where bonds begin to soften, if the stress around them says so.
+    pub fn starting(&self) -> Option<&Starting> {
+        match self.surroundings.as_deref()? {
+            Surroundings::Starting(starting) => Some(starting),
+            Surroundings::Stress | Surroundings::CrackAtPoints(_) => None,
+        }
     }
 
     /// Whether the limits follow the bonds that are left.
@@ -151,7 +160,7 @@ impl Criteria {
         let around = LazyCell::new(|| system.strains_around(motion));
         for criterion in &mut criteria.list {
             match criterion.surroundings.as_deref() {
-                None => {}
+                None | Some(Surroundings::Starting(_)) => {}
                 Some(Surroundings::CrackAtPoints(crack)) => {
                     criterion.limit = crack.limits(&criterion.limit, motion.intact, deformations);
                 }

@@ -28,6 +28,8 @@ pub struct Kind {
     pub keys: &'static [&'static str],
     /// Reason why bonds always break at their limit, if they do.
     pub brittle_because: Option<&'static str>,
+    /// Reason why bonds never do, if they do not.
+    pub softens_because: Option<&'static str>,
     /// Further check of what is chosen of the kind.
     pub check: fn(&Choice) -> Result<(), Unfit>,
     /// Further check of a material, beyond the properties that the kind [takes](Self::takes).
@@ -109,6 +111,8 @@ pub struct Limits {
     pub coefficient: Vec<f64>,
     /// What the limits or the measure follow while the body deforms and bonds break; None where both depend on the bond alone.
     pub surroundings: Option<Arc<Surroundings>>,
+    /// Whether bonds break there, whatever they do after other limits of the kind.
+    pub is_brittle: bool,
 }
 
 impl Limits {
@@ -123,6 +127,7 @@ impl Limits {
             limit,
             coefficient,
             surroundings: None,
+            is_brittle: false,
         }
     }
 
@@ -199,6 +204,7 @@ impl Kind {
             takes: &[],
             keys: &[],
             brittle_because: None,
+            softens_because: None,
             check: |_| Ok(()),
             suits: |_, _| Ok(()),
             limits,
@@ -291,13 +297,16 @@ impl Choice {
     pub fn feels(&self, of: Scattered) -> bool {
         let of_softening =
             of == Scattered::FractureEnergy && self.parameter_from_energy().is_some();
-        self.limits_from() == of || of_softening
+        // What lets bonds begin to soften is a strength, and what lets them end an energy.
+        let of_beginning = of == Scattered::Strength && self.kind.softens_because.is_some();
+        self.limits_from() == of || of_softening || of_beginning
     }
 
     /// Whether a bond takes all of the fracture energy up to its limit.
     pub fn spends_fracture_energy(&self) -> bool {
         let mut takes = self.takes().iter();
-        takes.any(|it| it.key == FRACTURE_ENERGY.key) && !self.kind.takes_strains()
+        let is_taken = takes.any(|it| it.key == FRACTURE_ENERGY.key);
+        is_taken && !self.kind.takes_strains() && self.kind.softens_because.is_none()
     }
 
     /// The key of the law of softening whose parameter comes from the fracture energy, if it does.

@@ -9,6 +9,7 @@
 //! | [`strength`] | tension | from the energy at the tensile strength (NHPD eqs 14 to 16) |
 //! | [`bond_rankine`] | normal stress | F_t |
 //! | [`mohr_coulomb`] | normal stress, stress of Mohr and Coulomb | F_t, cohesion |
+//! | [`rankine`] | principal stress, at which bonds begin to soften; then energy | F_t, from G_c |
 //! | [`stretch`] | tension, compression | F/E (MPPD eqs 44 to 46) |
 //! | [`fibre`] | fibre | F/E (MPPD eqs 28, 44) |
 //! | [`sliding`] | sliding | s_0t (1 + nu)/2 (MPPD eq. 49) |
@@ -34,9 +35,11 @@ mod measure;
 pub mod mixed_mode;
 pub mod mohr_coulomb;
 pub mod printed;
+pub mod rankine;
 mod setting;
 pub mod sliding;
 pub mod softening;
+pub mod starting;
 pub mod strength;
 pub mod stretch;
 pub mod surroundings;
@@ -52,9 +55,10 @@ pub use softening::{AfterLimit, Softened};
 pub use unfit::{NoLimit, Unfit};
 
 /// All kinds of criteria.
-pub const KINDS: [&Kind; 14] = [
+pub const KINDS: [&Kind; 15] = [
     &strength::STRENGTH,
     &bond_rankine::BOND_RANKINE,
+    &rankine::RANKINE,
     &mohr_coulomb::MOHR_COULOMB,
     &stretch::TENSION,
     &stretch::COMPRESSION,

@@ -69,5 +69,6 @@ fn limits(mode: Mode, basis: &Basis<'_>) -> Vec<Limits> {
         limit: crack.limits(&unbreakable, &whole, &[]),
         coefficient: system.bonds.direction.iter().map(tangent).collect(),
         surroundings: Some(Arc::new(Surroundings::CrackAtPoints(crack))),
+        is_brittle: false,
     }]
 }

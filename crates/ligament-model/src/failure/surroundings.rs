@@ -6,6 +6,7 @@ use super::basis::{Basis, weakest_materials};
 use super::crack_at_points::CrackAtPoints;
 use super::kind::Limits;
 use super::measure::Measure;
+use super::starting::Starting;
 use crate::element::BondDeformation;
 use crate::material::{Isotropic, Plane, Space};
 use crate::stress::point_strain::StrainAround;
@@ -17,6 +18,8 @@ pub enum Surroundings {
     CrackAtPoints(CrackAtPoints),
     /// Measures follow the stress around the bonds ([`Moduli`]).
     Stress,
+    /// Bonds begin to soften by the stress around them.
+    Starting(Starting),
 }
 
 /// Moduli of a bond over the modulus E' of a strain along the bond alone. With them the stresses on the plane across the bond are
@@ -46,7 +49,7 @@ pub struct Moduli {
 
 impl Moduli {
     /// Moduli of a bar without Poisson's effect.
-    const BAR: Self = Self {
+    pub(super) const BAR: Self = Self {
         lateral: 0.0,
         shear: 1.0,
         bar: 1.0,
@@ -97,6 +100,7 @@ pub(super) fn of_stress<const D: usize, const N: usize>(
         limit: basis.weakest(of_materials),
         coefficient: materials.flat_map(|it| of_material[it]).collect(),
         surroundings: Some(Surroundings::Stress.into()),
+        is_brittle: false,
     }
 }
 

@@ -10,6 +10,7 @@ use crate::contact::{ClosedPair, ContactPair, Overlap};
 use crate::deformation::{Deformation, Deformations};
 use crate::element::{BondDeformation, DeformationOf, Element, Elements, Remaining, Term};
 use crate::failure::Criterion;
+use crate::failure::starting::Starting;
 use crate::interface::{
     BondContact, BondKinetics, BondReadings, BondTopology, CentralMotions, CoupledPoints,
     PointStiffness, StressReading, Stresses,
@@ -354,6 +355,16 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
 
     fn strains_around(&self, motion: Motion<'_>) -> Vec<Option<StrainAround>> {
         self.system.strains_around(self.layout(), motion)
+    }
+
+    fn principal_stresses(
+        &self,
+        motion: Motion<'_>,
+        deformations: &[BondDeformation],
+        starting: &Starting,
+    ) -> Vec<f64> {
+        let (system, layout) = (&self.system, self.layout());
+        system.principal_stresses(layout, motion, deformations, starting)
     }
 
     fn force_through(
