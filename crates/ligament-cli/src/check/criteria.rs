@@ -2,17 +2,16 @@
 
 use std::io::{self, Write};
 
-use ligament::Setup;
 use ligament::crack_energy::crack_energies;
 use ligament_model::Material;
 use ligament_model::failure::crack_opening::CrackEnergy;
 use ligament_model::failure::{Choice, Criterion};
-use ligament_model::material::Space;
 use ligament_model::scatter::{Distribution, Scattered};
 use ligament_output::quantity::{between, four_digits, quantity};
 use ligament_run::model::Model;
 use ligament_run::summary::{ScatterSummary, Spread};
 
+use super::characteristic_length::{self, young};
 use super::entry::entry;
 
 /// Writes the criteria with their limits over the bonds.
@@ -30,6 +29,7 @@ pub(super) fn write(out: &mut dyn Write, model: &Model) -> io::Result<()> {
         }
     }
     write_cracks(out, model)?;
+    characteristic_length::write(out, model)?;
     write_scatter(out, model)
 }
 
@@ -188,15 +188,6 @@ fn write_energy(out: &mut dyn Write, model: &Model, criterion: &Criterion) -> io
         )?;
     }
     Ok(())
-}
-
-/// Young's modulus of a bar of a material with the constants that the law makes of it, Pa; none for one with axes.
-fn young(setup: &Setup, material: &Material) -> Option<f64> {
-    let constants = setup.law.constants(material, setup.space())?;
-    Some(match setup.space() {
-        Space::Plane(plane) => constants.in_plane(plane).young,
-        Space::Solid => constants.young,
-    })
 }
 
 /// Smallest, median (the lower of two) and largest of some numbers.

@@ -2,6 +2,7 @@
 
 mod bending_test;
 mod body;
+mod characteristic_length;
 mod criteria;
 mod entry;
 mod equations;
