@@ -11,7 +11,7 @@ use thiserror::Error;
 use crate::body::{Body, Origin};
 use crate::implausible::Implausible;
 use crate::plausibility::corners;
-use crate::setup::{Horizon, Setup};
+use crate::setup::{Horizon, Setup, Surface};
 
 /// Below this the domain correction is not known to have a fixed point.
 const SMALLEST_SAFE_FACTOR: f64 = 2.0;
@@ -197,6 +197,15 @@ pub enum Warning {
         /// The law.
         law: &'static str,
     },
+    /// A criterion of stress where a uniform stress is no equilibrium.
+    #[error(
+        "criterion \"{criterion}\": without correction.surface = \"patch\" a uniform stress is no equilibrium of the bonds, and the first of \
+         them fails at about half of the strength"
+    )]
+    StressWithoutPatch {
+        /// The criterion.
+        criterion: &'static str,
+    },
     /// A criterion of energy where shear gives energy back, so that bonds nearly along a crack have none to reach a limit with.
     #[error(
         "criterion \"bond-energy\": above Poisson's ratio {limit:.4} (here {poisson}) shear lowers the energy of the bonds, and \
@@ -268,6 +277,7 @@ pub(crate) fn of_model(
     warnings.extend(constants.iter().filter_map(|it| of_poisson(setup, it)));
     warnings.extend(constants.iter().find_map(|it| rotation_resisted(setup, it)));
     warnings.extend(rotation_as_sliding(setup));
+    warnings.extend(stress_without_patch(setup));
     warnings.extend(
         constants
             .iter()
@@ -413,6 +423,15 @@ fn rotation_as_sliding(setup: &Setup) -> Option<Warning> {
     kind.map(|kind| Warning::RotationAsSliding {
         criterion: kind.word,
         law: law.name(),
+    })
+}
+
+fn stress_without_patch(setup: &Setup) -> Option<Warning> {
+    let mut kinds = setup.criteria.iter().map(|it| it.kind);
+    let kind = kinds.find(|it| it.measures.iter().any(|it| it.takes_stress()))?;
+    let is_patch = matches!(setup.correction.surface, Surface::Patch(_));
+    (!is_patch).then_some(Warning::StressWithoutPatch {
+        criterion: kind.word,
     })
 }
 
