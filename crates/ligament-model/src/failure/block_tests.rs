@@ -218,7 +218,7 @@ fn criteria_of_the_plane_are_refused_by_name() {
     let expected = ["mixed-mode", "printed-opening", "printed-sliding", "printed-mixed"].map(|it| {
         let words = format!(
             "the criterion \"{it}\" exists in the plane alone; in space take one of \"strength\", \"bond-rankine\", \
-             \"mohr-coulomb\", \"tension\", \"compression\", \"fibre\", \"sliding\", \"frictional\", \"critical-stretch\", \"bond-energy\""
+             \"rankine\", \"mohr-coulomb\", \"tension\", \"compression\", \"fibre\", \"sliding\", \"frictional\", \"critical-stretch\", \"bond-energy\""
         );
         (it, words)
     });
