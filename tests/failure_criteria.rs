@@ -581,6 +581,47 @@ fn both_drivers_break_by_the_same_criteria() {
     assert!(counts.iter().all(|&count| count > 5));
 }
 
+/// Stresses sigma_1 along an axis at an angle, with sigma_2 across it, fail where they meet the surface on the plane across some bond of the
+/// lattice: sigma_n = F_t, or |tau| + sigma_n tan(phi) = c with the circles of both strengths, by Mohr's circle for each direction of a
+/// bond. Along the axes there are bonds, so that a bar fails at F_t itself. 1e-6: what displacements leave inside the frame.
+#[test]
+fn criteria_of_stress_fail_at_the_stress_across_a_bond() {
+    let sine = (COMPRESSIVE - TENSILE) / (COMPRESSIVE + TENSILE);
+    let (slope, cohesion) = (
+        sine / (1.0 - sine * sine).sqrt(),
+        0.5 * (COMPRESSIVE * TENSILE).sqrt(),
+    );
+    for kind in ["bond-rankine", "mohr-coulomb"] {
+        let bench = patch(&format!("kind = \"{kind}\""), &[]);
+        for (ratio, angle) in [
+            (0.0, 0.0),
+            (1.0, 0.3),
+            (-1.0, 0.3),
+            (-3.0, 0.0),
+            (-10.0, 0.2),
+        ] {
+            let stresses = [1e6, ratio * 1e6];
+            let strains = [0, 1].map(|axis| (stresses[axis] - 0.25 * stresses[1 - axis]) / YOUNG);
+            let utilisation = |&[x, y]: &[f64; 2]| {
+                let (sin, cos) = (2.0 * (y.atan2(x) - angle)).sin_cos();
+                let [mean, half] = [1.0, -1.0].map(|it| 0.5 * (stresses[0] + it * stresses[1]));
+                let (normal, shear) = (mean + half * cos, half * sin);
+                let sheared = (shear.abs() + normal * slope) / cohesion;
+                let of_shear = if kind == "mohr-coulomb" { sheared } else { 0.0 };
+                of_shear.max(normal / TENSILE)
+            };
+            let directions = bench.model.plane().bonds.direction.iter();
+            let largest = directions.map(utilisation).fold(0.0, f64::max);
+            let factor = first_breakage(&bench, strains, angle);
+            let error = relative_error(factor, 1.0 / largest);
+            assert!(error < 1e-6, "{kind} {ratio} {angle}: {error:e}");
+            if ratio == 0.0 {
+                assert!(relative_error(factor * stresses[0], TENSILE) < 1e-6);
+            }
+        }
+    }
+}
+
 /// The words of all kinds of criteria for bonds between two points.
 fn kinds() -> impl Iterator<Item = &'static str> {
     let of_points = KINDS.iter().filter(|kind| !kind.takes_strains());
@@ -591,15 +632,17 @@ fn kinds() -> impl Iterator<Item = &'static str> {
 #[test]
 fn protected_bonds_have_no_limit() {
     for kind in kinds() {
-        let fibre = if kind == "fibre" {
-            ", fibre_distance = 1e-3"
-        } else {
-            ""
+        let fibre = match kind {
+            "fibre" => ", fibre_distance = 1e-3",
+            "rankine" => ", after = \"linear\"",
+            _ => "",
         };
-        let bench = patch(
-            &format!("kind = \"{kind}\"{fibre}"),
-            &["no_fail=[{ box = [[-0.0021, -0.0021], [0.0021, 0.0021]] }]"],
-        );
+        // Bonds that soften need load steps.
+        let mut settings = vec!["no_fail=[{ box = [[-0.0021, -0.0021], [0.0021, 0.0021]] }]"];
+        if kind == "rankine" {
+            settings.extend(["fracture.control=stepped", "fracture.steps=1"]);
+        }
+        let bench = patch(&format!("kind = \"{kind}\"{fibre}"), &settings);
         let inside = |point: u32| {
             let [x, y] = bench.positions()[point as usize];
             x.abs().max(y.abs()) < 0.0021

@@ -6,9 +6,10 @@ use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
 use ligament_analysis::driver::stepped::SteppedSettings;
 use ligament_analysis::driver::{LoadPoint, StopRules};
 use ligament_analysis::{Component, ControlKind, SetupError, Termination, fields};
+use ligament_model::failure::rankine::RANKINE as RANKINE_KIND;
 use ligament_model::failure::softening::exponential::LAST_FORCE;
-use ligament_model::failure::softening::{exponential, linear, plastic};
-use ligament_model::failure::{AfterLimit, Weakened};
+use ligament_model::failure::softening::{brittle, exponential, linear, plastic};
+use ligament_model::failure::{After, AfterLimit, Choice, Weakened};
 use verification::bench::{self, Bench, Run};
 use verification::numbers::relative_error;
 use verification::trusses::{Rod, Truss};
@@ -461,6 +462,81 @@ fn a_bar_has_its_tensile_strength() {
         println!("{after}: {stress:.3} F_t");
         assert!((0.95..1.0).contains(&stress), "{after}: {stress}");
     }
+}
+
+/// A bar of an irregular mesh under the patch correction, pulled along x.
+const RANKINE: &str = r#"
+[mesh]
+file = "../meshes/plate-coarse.msh"
+thickness = 1.0
+[material]
+young = 15e9
+poisson = 0.21
+tensile_strength = 3.81e6
+[model]
+law = "nhpd"
+horizon_factor = 3.0
+[correction]
+surface = "patch"
+regularisation = 1e-7
+[[support]]
+group = "left"
+displacement = { x = 0.0 }
+[[support]]
+group = "corner"
+displacement = { y = 0.0 }
+[[load]]
+group = "right"
+displacement = { x = 5.08e-5 }
+[fracture]
+steps = [0.5, 0.9, 0.95, 0.96, 0.97, 0.98, 0.985, 0.99, 0.995, 1.0, 1.005, 1.01, 1.02, 1.03, 1.05]
+"#;
+
+/// The strength of a bar is F_t whatever the fracture energy, because all bonds that are pulled begin to soften at it: with G_c = 60 J/m^2, of which
+/// l_ch = E G_c/F_t^2 is a horizon, and 16 times as much. 0.97 to 1.01: load steps of 0.5 %, and what the patch correction leaves. Each bond
+/// that began takes what one of `bond-energy` takes up to its limit e_c, e_i e_f = e_c^2; 1e-12: rounding.
+#[test]
+fn rankine_has_its_strength_whatever_the_fracture_energy() {
+    for energy in ["60.0", "960.0"] {
+        let material = format!("material.fracture_energy={energy}");
+        let bench = |criterion: &str| {
+            let criterion = format!("fracture.criterion=[{{ {criterion} }}]");
+            Bench::new(RANKINE, &[&material, &criterion])
+        };
+        let brittle = bench(r#"kind = "bond-energy""#);
+        let bench = bench(r#"kind = "rankine", after = "linear""#);
+        let outcome = bench.break_up().outcome;
+        let strength = outcome.peak().unwrap().reaction / (0.1 * 3.81e6);
+        println!("G_c = {energy} J/m^2: {strength:.4} F_t");
+        assert!((0.97..1.01).contains(&strength), "{energy}: {strength}");
+        let begun = &outcome.state.softening.begun;
+        let criterion = &bench.model.criteria.begun_at(begun).list[1];
+        let mut count = 0;
+        for (bond, &limit) in criterion
+            .limit
+            .iter()
+            .enumerate()
+            .filter(|it| it.1.is_finite())
+        {
+            let taken = criterion.after.total_dissipated(bond) * limit * limit;
+            assert!(relative_error(taken, brittle.limits()[bond].powi(2)) < 1e-12);
+            count += 1;
+        }
+        assert!(count > criterion.limit.len() / 4, "{count}");
+    }
+}
+
+/// Bonds that break at once at a principal stress are those of another criterion, and a life of their own would not take the fracture energy.
+#[test]
+fn rankine_softens_by_the_fracture_energy_alone() {
+    let choice = |law, parameter| Choice {
+        after: After { law, parameter },
+        ..RANKINE_KIND.into()
+    };
+    let field = |choice: Choice| choice.check(false).err().and_then(|it| it.field());
+    assert_eq!(field(choice(brittle::LAW, None)), Some("after"));
+    assert_eq!(field(choice(linear::LAW, Some(4.0))), Some("end"));
+    assert_eq!(field(choice(linear::LAW, None)), None);
 }
 
 /// The older word for one straight line is accepted with a warning that names the word for two.

@@ -168,7 +168,7 @@ fn model<const D: usize>(body: &Body<D>, law: Law) -> String {
     };
     let correction = match law.row.correction {
         PaperCorrection::None => "",
-        PaperCorrection::Volumes | PaperCorrection::LengthAndDomain if D > 2 && is_lattice => {
+        _ if !has_patch(body, law) => {
             "
 # Makes the energies of stretches along the axes those of the material. Others: volume, none; for meshes patch.
 [correction]
@@ -180,6 +180,7 @@ surface = \"domain\"
 # Makes the body as stiff as its material, with every uniform strain in equilibrium. Others: domain (NHPD), volume, none.
 [correction]
 surface = \"patch\"
+regularisation = 1e-7 # the finer, the nearer to its strength a body fails
 "
         }
     };
@@ -194,6 +195,12 @@ horizon_factor = 3.0
         words(others.collect()).join(", "),
         law.name()
     )
+}
+
+/// Whether the case has the patch correction: of laws whose paper corrects surfaces, and not of lattices in space.
+fn has_patch<const D: usize>(body: &Body<D>, law: Law) -> bool {
+    let is_lattice = matches!(body.section, Section::Lattice { .. });
+    law.row.correction != PaperCorrection::None && !(D > 2 && is_lattice)
 }
 
 /// The displacement of the load, m.
@@ -281,6 +288,14 @@ limit = {} # stretch, EXAMPLE
 ",
             exact(STRETCH)
         ),
+        (Materials::Isotropic | Materials::Anisotropic, _) if has_patch(body, law) => "\
+# When a bond fails: where the stress on the plane across it is F_t. With a crack or notch, and for concrete: rankine with after =
+# \"linear\", with `tensile_strength` and `fracture_energy`. Under pressure: mohr-coulomb, with `compressive_strength`. Others: tension,
+# strength (NHPD), sliding, frictional, critical-stretch, bond-energy, ...
+[[fracture.criterion]]
+kind = \"bond-rankine\"
+"
+        .to_owned(),
         (Materials::Isotropic | Materials::Anisotropic, 2) => "\
 # When a bond fails: at the stretch F_t/E, whatever its length. Others: strength (NHPD), sliding, frictional, critical-stretch, ...
 # With a crack or notch in glass, ceramics or rock: critical-stretch or bond-energy, with the `fracture_energy` of the material. Concrete:
