@@ -7,12 +7,12 @@ fn misspelt_kinds_and_keys_get_the_nearest_valid_ones() {
     assert_eq!(
         error_with("kind = \"compresion\""),
         "60:8: fracture.criterion.0.kind: unknown value \"compresion\"; did you mean \"compression\"? valid values: \
-         \"strength\", \"tension\", \"compression\", \"fibre\", \"sliding\", \"frictional\", \"critical-stretch\", \"bond-energy\", \"mixed-mode\", \"printed-opening\", \"printed-sliding\", \"printed-mixed\""
+         \"strength\", \"bond-rankine\", \"rankine\", \"mohr-coulomb\", \"tension\", \"compression\", \"fibre\", \"sliding\", \"frictional\", \"critical-stretch\", \"bond-energy\", \"mixed-mode\", \"printed-opening\", \"printed-sliding\", \"printed-mixed\""
     );
     assert_eq!(
         error_with("kind = \"tension\"\nlimits = 1e-3"),
         "61:1: fracture.criterion.0.limits: unknown key `limits` in [[fracture.criterion]]; did you mean `limit`? valid keys: \
-         `kind`, `limit`, `critical_stretch`, `critical_angle`, `calibration`, `friction_angle`, `fibre_distance`, `after`, `end`, `scale`"
+         `kind`, `limit`, `critical_stretch`, `critical_angle`, `calibration`, `friction_angle`, `cohesion`, `fibre_distance`, `after`, `end`, `scale`"
     );
     assert_eq!(
         error_with("kind = \"tension\"\nafter = \"liniar\""),

@@ -180,7 +180,7 @@ surface = \"domain\"
 # Makes the body as stiff as its material, with every uniform strain in equilibrium. Others: domain (NHPD), volume, none.
 [correction]
 surface = \"patch\"
-regularisation = 1e-7 # the finer, the nearer to its strength a body fails
+regularisation = 3e-7 # the finer, the nearer to its strength a body fails
 "
         }
     };
