@@ -11,6 +11,7 @@
 //! | `limit.NAME` | limit of the criterion; infinite where it never fails by it |
 //! | `coefficient.NAME` | coefficient q of its measure, where that has one |
 //! | `toughness_ratio.NAME`, `mixed_mode_exponent.NAME` | G_IIc/G_Ic and eta of its measure, where they differ from 1 |
+//! | `coefficient_4.NAME` to `coefficient_9.NAME` | further coefficients of a measure of stress, whose second and third stand in the two above |
 //! | `after.NAME` | e_u/e_0 or e_f/e_0 of the law after the limit, where it has one |
 //! | `largest_utilisation`, `step_of_largest`, `criterion_of_largest` | over the run, from its end on |
 
@@ -34,9 +35,19 @@ pub(super) fn model_file(folder: &Path) -> Option<PathBuf> {
     names.into_iter().find(|path| path.is_file())
 }
 
-/// Names of the fields that hold the coefficients of a measure, in their order; most measures have none or one.
-pub(super) const COEFFICIENTS: [&str; 3] =
-    ["coefficient", "toughness_ratio", "mixed_mode_exponent"];
+/// Names of the fields that hold the coefficients of a measure, in their order; most measures have none or one, those of stress the
+/// stress around the bond (none in the sound body) and moduli.
+pub(super) const COEFFICIENTS: [&str; 9] = [
+    "coefficient",
+    "toughness_ratio",
+    "mixed_mode_exponent",
+    "coefficient_4",
+    "coefficient_5",
+    "coefficient_6",
+    "coefficient_7",
+    "coefficient_8",
+    "coefficient_9",
+];
 
 /// Writes the model, and how near its bonds came to their limits once that is known.
 pub(super) fn write(
