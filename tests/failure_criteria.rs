@@ -600,7 +600,7 @@ fn criteria_of_stress_fail_at_the_stress_across_a_bond() {
             (-3.0, 0.0),
             (-10.0, 0.2),
         ] {
-            let stresses = [1e6, ratio * 1e6];
+            let stresses = [2e7, ratio * 2e7];
             let strains = [0, 1].map(|axis| (stresses[axis] - 0.25 * stresses[1 - axis]) / YOUNG);
             let utilisation = |&[x, y]: &[f64; 2]| {
                 let (sin, cos) = (2.0 * (y.atan2(x) - angle)).sin_cos();

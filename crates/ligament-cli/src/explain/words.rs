@@ -146,22 +146,25 @@ pub(super) fn fate(run: &StoredRun, lives: &Lives, life: &Life) -> Vec<String> {
 fn plane_words(life: &Life, limit: &Limit, utilisation: f64) -> Option<String> {
     let of_limit = |share: f64, modulus: f64| quantity(share * limit.limit * modulus, "Pa");
     let normal = words_of_normal(life);
-    match (limit.measure, limit.coefficients.as_slice()) {
-        (Measure::NormalStress, &[.., modulus]) => {
-            let [stress, strength] = [utilisation, 1.0].map(|it| of_limit(it, modulus));
-            Some(format!(
-                "That is sigma_n = {stress} on the plane across it, whose normal is {normal}; the surface is sigma_n = {strength}."
-            ))
-        }
-        (Measure::CoulombStress, &[.., modulus, slope]) => {
-            let [stress, cohesion] = [utilisation, 1.0].map(|it| of_limit(it, modulus));
-            Some(format!(
-                "That is |tau| + {} sigma_n = {stress} on the plane across it, whose normal is {normal}; the surface is the cohesion {cohesion}.",
-                number(slope)
-            ))
-        }
-        _ => None,
+    let sees = |measure: Measure| limit.measure == measure;
+    if sees(Measure::NormalStress)
+        && let &[.., modulus] = limit.coefficients.as_slice()
+    {
+        let [stress, strength] = [utilisation, 1.0].map(|it| of_limit(it, modulus));
+        return Some(format!(
+            "That is sigma_n = {stress} on the plane across it, whose normal is {normal}; the surface is sigma_n = {strength}."
+        ));
     }
+    if sees(Measure::CoulombStress)
+        && let &[.., modulus, slope] = limit.coefficients.as_slice()
+    {
+        let [stress, cohesion] = [utilisation, 1.0].map(|it| of_limit(it, modulus));
+        return Some(format!(
+            "That is |tau| + {} sigma_n = {stress} on the plane across it, whose normal is {normal}; the surface is the cohesion {cohesion}.",
+            number(slope)
+        ));
+    }
+    None
 }
 
 /// The direction of a bond in words.
