@@ -8,7 +8,6 @@ use ligament_model::stress::point_strain::{Fit, StrainAround, mean_strain, weigh
 use ligament_model::tensor::SymTensor;
 use ligament_output::results::stored::{Motions, StoredRun};
 
-use super::life::Life;
 use super::strains::breakages;
 
 /// The families of the ends of some bonds, and when their bonds broke.

@@ -4,9 +4,10 @@
 //! without any stress along it. Limits of stretch fail there at a part of the strength of the material (a Brazilian disk at half of it).
 
 use super::basis::Basis;
+use super::hooke::modulus;
 use super::kind::{Choice, Kind, Limits, PerSpace, TENSILE_STRENGTH};
 use super::measure::Measure;
-use super::surroundings::{modulus, of_stress};
+use super::of_stress::of_stress;
 use super::unfit::NoLimit;
 
 /// Reason why bonds break at once where a stress lets them fail.

@@ -1,16 +1,13 @@
 //! Criteria with the limits of their bonds.
 
 use std::borrow::Cow;
-use std::cell::LazyCell;
 use std::sync::Arc;
 
 use super::measure::{Measure, Weakened};
 use super::softening::{AfterLimit, brittle};
 use super::starting::Starting;
-use super::surroundings::{Surroundings, follow_stress};
+use super::surroundings::Surroundings;
 use crate::element::{BondDeformation, Rigidities};
-use crate::interface::Bonds;
-use crate::stress::point_strain::Motion;
 
 /// A failure criterion with its limits.
 #[derive(Debug, Clone, PartialEq)]
@@ -143,34 +140,6 @@ impl Criteria {
     /// Whether bonds may do anything but break at once.
     pub fn soften(&self) -> bool {
         self.list.iter().any(|it| !it.after.is_brittle())
-    }
-
-    /// The criteria with the limits and coefficients that they have in a motion of a body of which some bonds are left, with the
-    /// deformations (n_bonds) in it.
-    pub fn in_state(
-        &self,
-        system: &dyn Bonds,
-        motion: Motion<'_>,
-        deformations: &[BondDeformation],
-    ) -> Cow<'_, Self> {
-        if self.list.iter().all(|it| it.surroundings.is_none()) {
-            return Cow::Borrowed(self);
-        }
-        let mut criteria = self.clone();
-        let around = LazyCell::new(|| system.strains_around(motion));
-        for criterion in &mut criteria.list {
-            match criterion.surroundings.as_deref() {
-                None | Some(Surroundings::Starting(_)) => {}
-                Some(Surroundings::CrackAtPoints(crack)) => {
-                    criterion.limit = crack.limits(&criterion.limit, motion.intact, deformations);
-                }
-                Some(Surroundings::Stress) => {
-                    let coefficients = &mut criterion.coefficient;
-                    follow_stress(criterion.measure, coefficients, &around, deformations);
-                }
-            }
-        }
-        Cow::Owned(criteria)
     }
 
     /// The criteria on the straight line between two motions, of the same body with the same bonds: from that of some criteria, or none

@@ -25,7 +25,7 @@ pub enum Measure {
     /// counts.
     Energy,
     /// s + q: stress on the plane across the bond over the modulus E', with what the strains across the bond add to it
-    /// ([`Moduli`](super::surroundings::Moduli)).
+    /// ([`Moduli`](super::hooke::Moduli)).
     NormalStress,
     /// |tau|/E' + (s + q) tan(phi): shear stress on the plane across the bond with what friction takes off it under pressure, after
     /// Mohr and Coulomb.

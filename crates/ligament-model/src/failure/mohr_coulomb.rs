@@ -7,9 +7,10 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::basis::Basis;
 use super::bond_rankine::{BRITTLE, tensile};
+use super::hooke::modulus;
 use super::kind::{COMPRESSIVE_STRENGTH, Choice, Kind, Limits, PerSpace, TENSILE_STRENGTH};
 use super::measure::Measure;
-use super::surroundings::{modulus, of_stress};
+use super::of_stress::of_stress;
 use super::unfit::{NoLimit, Unfit};
 use crate::material::Material;
 

@@ -10,14 +10,19 @@
 //! strength and fracture energy do not depend on each other. A bond that never began breaks where it is pulled across by the stress
 //! E e_c: in a body with a horizon of several l_ch = E G_c/F_t^2, in which a crack spends its energy before its bonds get to the strength.
 
-use super::basis::Basis;
+use std::sync::Arc;
+
+use super::basis::{Basis, weakest_materials};
 use super::bond_rankine::tensile;
 use super::fracture_energy::critical_stretches;
+use super::hooke::Moduli;
 use super::kind::{Choice, FRACTURE_ENERGY, Kind, Limits, PerSpace, TENSILE_STRENGTH};
 use super::measure::Measure;
 use super::setting::Setting;
-use super::starting::{Starting, moduli};
+use super::starting::Starting;
+use super::surroundings::Surroundings;
 use super::unfit::{NoLimit, Unfit};
+use crate::material::Space;
 use crate::scatter::Scattered;
 
 /// Principal stress around the bond, which then softens by the fracture energy.
@@ -72,6 +77,39 @@ fn limits<const D: usize>(_: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits
             is_brittle: true,
             ..never_began
         },
-        starting.limits(basis),
+        begun_limits(starting, basis),
     ])
+}
+
+/// Moduli of the bonds (n_bonds), between materials those of the one with the smaller strength.
+fn moduli<const D: usize>(basis: &Basis<'_, D>) -> Vec<Moduli> {
+    let strength = basis.each(|_, material| material.tensile_strength);
+    let of_materials = basis.constants.iter();
+    let of_materials: Vec<Moduli> = of_materials
+        .map(|it| it.map_or(Moduli::BAR, |it| Moduli::new(&it, basis.space)))
+        .collect();
+    let materials = weakest_materials(basis.system, &strength).into_iter();
+    materials.map(|it| of_materials[it]).collect()
+}
+
+/// Limits of bonds none of which began, with k_t/k_n as the law has it: corrections change it from bond to bond, and a bond whose
+/// shear they make stiff would be at its end from the start.
+fn begun_limits<const D: usize>(starting: Starting, basis: &Basis<'_, D>) -> Limits {
+    let ratio = |it: &Moduli| {
+        // Poisson's ratio of the plane, lambda/E' = nu; of space nu/(1 - nu).
+        let ratio = match basis.space {
+            Space::Plane(_) => (1.0 - 3.0 * it.lateral) / (1.0 + it.lateral),
+            Space::Solid => {
+                let nu = it.lateral / (1.0 + it.lateral);
+                (1.0 - 4.0 * nu) / (1.0 + nu)
+            }
+        };
+        ratio.max(0.0)
+    };
+    Limits {
+        limit: vec![f64::INFINITY; starting.strength.len()],
+        coefficient: starting.moduli.iter().map(ratio).collect(),
+        surroundings: Some(Arc::new(Surroundings::Starting(starting))),
+        is_brittle: false,
+    }
 }

@@ -1,0 +1,93 @@
+//! Moduli of the stresses around a bond, by Hooke's law.
+
+use crate::material::{Isotropic, Plane, Space};
+
+/// Moduli of a bond over the modulus E' of a strain along the bond alone. With them the stresses on the plane across the bond are
+///
+/// sigma_n/E' = s + q, q = (lambda/E') (tr(eps) - n . eps n), tau/E' = (2 mu/E') (eps n - (n . eps n) n),
+///
+/// with the own stretch s of the bond and the strain eps of the points ([`crate::stress::point_strain`]), by Hooke's law:
+///
+/// | | E' | lambda/E' | 2 mu/E' |
+/// |---|---|---|---|
+/// | plane stress | E/(1 - nu^2) | nu | 1 - nu |
+/// | plane strain, space | E (1 - nu)/((1 + nu)(1 - 2 nu)) | nu/(1 - nu) | (1 - 2 nu)/(1 - nu) |
+///
+/// The strain n . eps n in the place of s would blunt notches and stop cracks: it knows nothing of what is between the ends. Where the
+/// bonds of neither end span the space a bond is a bar, sigma_n = E s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moduli {
+    /// lambda/E'.
+    pub lateral: f64,
+    /// 2 mu/E'.
+    pub shear: f64,
+    /// E/E' of a bar.
+    pub bar: f64,
+    /// E', Pa.
+    pub along: f64,
+}
+
+impl Moduli {
+    /// Moduli of a bar without Poisson's effect.
+    pub(super) const BAR: Self = Self {
+        lateral: 0.0,
+        shear: 1.0,
+        bar: 1.0,
+        along: 1.0,
+    };
+
+    /// Moduli of a material in a space.
+    pub fn new(material: &Isotropic, space: Space) -> Self {
+        let (nu, along) = (across(material, space).poisson, modulus(material, space));
+        Self {
+            lateral: nu,
+            shear: 1.0 - nu,
+            bar: material.of_bar(space).young / along,
+            along,
+        }
+    }
+}
+
+/// Modulus E' of a strain along one direction alone, Pa.
+pub fn modulus(material: &Isotropic, space: Space) -> f64 {
+    let Isotropic { young, poisson: nu } = across(material, space);
+    young / (1.0 - nu * nu)
+}
+
+/// The constants with which the equations of plane stress describe strains in a plane, and in space.
+fn across(material: &Isotropic, space: Space) -> Isotropic {
+    material.in_plane(match space {
+        Space::Plane(plane) => plane,
+        Space::Solid => Plane::Strain,
+    })
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+mod tests {
+    use super::*;
+    use crate::material::Elasticity;
+
+    /// Hooke's law of a strain in the plane and in space is what the moduli say: sigma_n = E' (s + q), tau = E' (2 mu/E') gamma/2.
+    #[test]
+    fn stresses_are_those_of_hooke() {
+        let material = Isotropic {
+            young: 30.0,
+            poisson: 0.2,
+        };
+        for space in [
+            Space::Plane(Plane::Stress),
+            Space::Plane(Plane::Strain),
+            Space::Solid,
+        ] {
+            let moduli = Moduli::new(&material, space);
+            let stiffness = Elasticity::Isotropic(material).stiffness_in(space).unwrap();
+            let (along, across, shear) = (0.3, -0.1, 0.07);
+            let normal = stiffness[(0, 0)] * along + stiffness[(0, 1)] * across;
+            let modulus = modulus(&material, space);
+            assert!((modulus * (along + moduli.lateral * across) - normal).abs() < 1e-12);
+            let sheared = stiffness[(2, 2)] * 2.0 * shear;
+            assert!((modulus * moduli.shear * shear - sheared).abs() < 1e-12);
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Criteria in a state of the body: with the limits and measures that the bonds have then.
+
+use std::borrow::Cow;
+use std::cell::LazyCell;
+
+use super::criterion::{Criteria, Criterion};
+use super::of_stress::follow_stress;
+use super::softening::AfterLimit;
+use super::surroundings::Surroundings;
+use crate::element::BondDeformation;
+use crate::interface::Bonds;
+use crate::stress::point_strain::Motion;
+
+impl Criteria {
+    /// The criteria with the limits and coefficients that they have in a motion of a body of which some bonds are left, with the
+    /// deformations (n_bonds) in it.
+    pub fn in_state(
+        &self,
+        system: &dyn Bonds,
+        motion: Motion<'_>,
+        deformations: &[BondDeformation],
+    ) -> Cow<'_, Self> {
+        if self.list.iter().all(|it| it.surroundings.is_none()) {
+            return Cow::Borrowed(self);
+        }
+        let mut criteria = self.clone();
+        let around = LazyCell::new(|| system.strains_around(motion));
+        for criterion in &mut criteria.list {
+            match criterion.surroundings.as_deref() {
+                None | Some(Surroundings::Starting(_)) => {}
+                Some(Surroundings::CrackAtPoints(crack)) => {
+                    criterion.limit = crack.limits(&criterion.limit, motion.intact, deformations);
+                }
+                Some(Surroundings::Stress) => {
+                    let coefficients = &mut criterion.coefficient;
+                    follow_stress(criterion.measure, coefficients, &around, deformations);
+                }
+            }
+        }
+        Cow::Owned(criteria)
+    }
+
+    /// The deformations at which bonds began to soften, those that begin in a motion among them, from those that had begun: shape (n_bonds)
+    /// for each criterion by which bonds begin, and infinite for bonds that did not; None where none begins now. `motion` has the bonds
+    /// intact that are neither broken nor soften, and no other begins.
+    pub fn beginning(
+        &self,
+        begun: &[Vec<f64>],
+        system: &dyn Bonds,
+        motion: Motion<'_>,
+        deformations: &[BondDeformation],
+    ) -> Option<Vec<Vec<f64>>> {
+        let mut begun = begun.to_vec();
+        let mut some = false;
+        for (criterion, begun) in self.list.iter().zip(&mut begun) {
+            let Some(starting) = criterion.starting() else {
+                continue;
+            };
+            let least = criterion
+                .after
+                .law()
+                .parameter
+                .map_or(1.0, |it| it.least_energy);
+            let stresses = system.principal_stresses(motion, deformations, starting);
+            for (bond, &utilisation) in stresses.iter().enumerate() {
+                if utilisation >= 1.0 && motion.intact[bond] {
+                    let deformation = criterion.measure(bond, &deformations[bond]);
+                    begun[bond] = starting.began_at(bond, deformation, utilisation, least);
+                    some = true;
+                }
+            }
+        }
+        some.then_some(begun)
+    }
+
+    /// The criteria of bonds that began to soften at these deformations, as [`beginning`](Self::beginning) gives them.
+    pub fn begun_at(&self, begun: &[Vec<f64>]) -> Self {
+        let mut criteria = self.clone();
+        for (place, begun) in begun.iter().enumerate() {
+            let Some(starting) = self.list[place].starting() else {
+                continue;
+            };
+            let law = *self.list[place].after.law();
+            let of_energy = law.parameter.map(|it| it.for_energy);
+            let parameter = begun
+                .iter()
+                .zip(&starting.critical)
+                .map(|(began, critical)| {
+                    let energy = (critical / began).powi(2);
+                    match began.is_finite() {
+                        true => of_energy.map_or(f64::NAN, |parameter| parameter(energy)),
+                        false => f64::INFINITY,
+                    }
+                });
+            criteria.list[place].after = AfterLimit::new(law, parameter.collect());
+            criteria.list[place].limit.clone_from(begun);
+            // The criterion before it is that of bonds that never began.
+            let never_began = criteria.list[place - 1].limit.iter_mut().zip(begun);
+            for (limit, _) in never_began.filter(|(_, began)| began.is_finite()) {
+                *limit = f64::INFINITY;
+            }
+        }
+        criteria
+    }
+
+    /// Deformations at which bonds began to soften where none did yet, shape (n_bonds) for each criterion by which they begin.
+    pub fn none_begun(&self) -> Vec<Vec<f64>> {
+        let of = |it: &Criterion| match it.starting() {
+            Some(_) => vec![f64::INFINITY; it.limit.len()],
+            None => Vec::new(),
+        };
+        self.list.iter().map(of).collect()
+    }
+}
