@@ -22,17 +22,13 @@ pub(super) struct Around<'a> {
 }
 
 impl<'a> Around<'a> {
-    /// The families of the ends of bonds; None where no criterion takes the stress around them.
-    pub(super) fn from_run(
+    /// The families of the ends of bonds.
+    pub(super) fn new(
         run: &'a StoredRun,
-        lives: &[Life],
+        of_bonds: impl Iterator<Item = [u32; 2]>,
         before_breakages: bool,
-    ) -> Option<Self> {
-        let limits = lives.iter().flat_map(|life| &life.limits);
-        if !limits.into_iter().any(|it| it.measure.takes_stress()) {
-            return None;
-        }
-        let ends = lives.iter().flat_map(|life| life.ends);
+    ) -> Self {
+        let ends = of_bonds.flatten();
         let mut families: BTreeMap<u32, Vec<usize>> = ends.map(|it| (it, Vec::new())).collect();
         let bonds = &run.model.bonds;
         let is_bond = |absence: &&Option<Absence>| absence.is_none();
@@ -44,35 +40,35 @@ impl<'a> Around<'a> {
                 }
             }
         }
-        Some(Self {
+        Self {
             run,
             families,
             broke_in: breakages(run, &bonds.ends[..n_bonds]),
             before_breakages,
-        })
+        }
     }
 
-    /// The strain around a bond in the moment of a step; None where the bonds of neither end span the space.
+    /// The strain around a bond with these ends and this direction in the moment of a step; None where the bonds of neither end span the space.
     pub(super) fn strain(
         &self,
-        life: &Life,
+        (ends, direction): ([u32; 2], [f64; 3]),
         motions: &Motions,
         step: usize,
     ) -> Option<StrainAround> {
         match self.run.model.in_space {
-            true => self.strain_in::<3>(life, motions, step),
-            false => self.strain_in::<2>(life, motions, step),
+            true => self.strain_in::<3>((ends, direction), motions, step),
+            false => self.strain_in::<2>((ends, direction), motions, step),
         }
     }
 
     fn strain_in<const D: usize>(
         &self,
-        life: &Life,
+        (ends, direction): ([u32; 2], [f64; 3]),
         motions: &Motions,
         step: usize,
     ) -> Option<StrainAround> {
-        let of_ends = life.ends.map(|end| self.of_point::<D>(end, motions, step));
-        let n = from_fn(|axis| life.direction[axis]);
+        let of_ends = ends.map(|end| self.of_point::<D>(end, motions, step));
+        let n = from_fn(|axis| direction[axis]);
         Some(StrainAround::new(&mean_strain(of_ends)?, n))
     }
 

@@ -113,7 +113,11 @@ impl Lives {
             lives.of_bonds.push(Life::begin(run, pair)?);
         }
         let mut strains = Strains::from_run(run, loading.follows_path);
-        let around = Around::from_run(run, &lives.of_bonds, loading.follows_path);
+        let ends = lives.of_bonds.iter().map(|it| it.ends);
+        let mut limits = lives.of_bonds.iter().flat_map(|it| &it.limits);
+        let around = limits
+            .any(|it| it.measure.takes_stress())
+            .then(|| Around::new(run, ends, loading.follows_path));
         for step in run.field_steps() {
             // A run that is under way may have fields of a step before its row.
             let (Some(row), Some(motions)) = (run.step(step), run.motions(step)?) else {
@@ -129,7 +133,8 @@ impl Lives {
                     None => life.deformed(run, &motions),
                 });
                 if let Some(around) = &around {
-                    life.around.push(around.strain(life, &motions, step));
+                    life.around
+                        .push(around.strain((life.ends, life.direction), &motions, step));
                 }
             }
         }
