@@ -4,7 +4,7 @@
 //! said by the number that one process alone would give the bond: bonds are in the order of their ends.
 
 use ligament_model::Bonds;
-use ligament_model::element::Remaining;
+use ligament_model::element::StiffnessFactors;
 use ligament_model::portion::{Portion, counts};
 use thiserror::Error;
 
@@ -227,7 +227,7 @@ impl Told<1> for Option<u8> {
 /// Numbers that say what is left of a bond.
 const OF_REMAINING: usize = 3;
 
-impl Told<OF_REMAINING> for Remaining {
+impl Told<OF_REMAINING> for StiffnessFactors {
     fn numbers(&self) -> [f64; OF_REMAINING] {
         [self.axial, self.shear, self.rotational]
     }

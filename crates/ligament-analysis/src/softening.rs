@@ -7,7 +7,7 @@
 use std::borrow::Cow;
 
 use ligament_model::Bonds;
-use ligament_model::element::{BondDeformation, Remaining};
+use ligament_model::element::{BondDeformation, StiffnessFactors};
 use ligament_model::failure::{Criteria, Criterion, Softened, Weakened};
 use rayon::prelude::*;
 
@@ -27,7 +27,7 @@ pub struct Softening {
     /// Largest e/e_0 with the iterate that equilibrium is sought from, shape (n_bonds) for each criterion.
     trial: Vec<Vec<f64>>,
     /// Remaining stiffness for the deformations of the iterate, shape (n_bonds).
-    pub remaining: Vec<Remaining>,
+    pub remaining: Vec<StiffnessFactors>,
     /// Deformations at which bonds began to soften by the stress around them, infinite for those that did not, shape (n_bonds) for each
     /// criterion; empty for those that ask for no stress.
     pub begun: Vec<Vec<f64>>,
@@ -66,7 +66,7 @@ impl Softening {
             begun: of(&self.begun, f64::INFINITY),
             remaining: match self.remaining.is_empty() {
                 true => Vec::new(),
-                false => numbers.of_all(&self.remaining, Remaining::WHOLE),
+                false => numbers.of_all(&self.remaining, StiffnessFactors::WHOLE),
             },
         }
     }
@@ -102,7 +102,7 @@ impl Softening {
         Self {
             trial: largest.clone(),
             largest,
-            remaining: vec![Remaining::WHOLE; n_bonds],
+            remaining: vec![StiffnessFactors::WHOLE; n_bonds],
             begun: criteria.none_begun(),
         }
     }
@@ -223,7 +223,7 @@ fn remaining_of(
     largest: &[Vec<f64>],
     bond: usize,
     is_open: bool,
-) -> Remaining {
+) -> StiffnessFactors {
     let [mut opening, mut crushing, mut sliding] = [1.0_f64; 3];
     for (criterion, largest) in criteria.list.iter().zip(largest) {
         let Some(&largest) = largest.get(bond) else {
@@ -240,7 +240,7 @@ fn remaining_of(
         };
         *weakest = weakest.min(secant);
     }
-    Remaining {
+    StiffnessFactors {
         axial: if is_open { opening } else { crushing },
         shear: opening.min(crushing).min(sliding),
         rotational: opening.min(crushing),

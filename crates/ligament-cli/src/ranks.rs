@@ -1,6 +1,6 @@
 //! The processes that a run is one of, where the program is built for several and a launcher of MPI started it.
 
-pub(crate) use processes::{abort, is_beside_the_first, join, part};
+pub(crate) use processes::{abort, is_not_root, join, part};
 
 #[cfg(feature = "petsc")]
 mod processes {
@@ -37,7 +37,7 @@ mod processes {
     }
 
     /// Whether this process is one of several and not their first, which alone tells and writes.
-    pub(crate) fn is_beside_the_first() -> bool {
+    pub(crate) fn is_not_root() -> bool {
         PROCESSES.get().is_some_and(|it| it.rank() > 0)
     }
 
@@ -88,7 +88,7 @@ mod processes {
     }
 
     /// This process is the first.
-    pub(crate) fn is_beside_the_first() -> bool {
+    pub(crate) fn is_not_root() -> bool {
         false
     }
 

@@ -57,7 +57,7 @@ pub use cloud::lattice::Lattice;
 pub use correction::Correction;
 pub use deformation::{Deformations, SpaceDeformation};
 pub use element::ElementKind;
-pub use fixed::{Absence, AbsentBond, EnergyRatio, FixedFields};
+pub use fixed::{Absence, AbsentBond, EnergyRatio, ConstantFields};
 pub use grid::{BodyGrid, Canvas, box_corners, raised};
 pub use horizon::Horizons;
 pub use interface::{BondContact, BondKinetics, BondReadings, BondTopology, Bonds};
@@ -68,4 +68,4 @@ pub use material::{Anisotropic, Elasticity, Expansion, Isotropic, Material, Orth
 pub use scatter::Scatter;
 pub use shape::Shape;
 pub use system::elements::System;
-pub use system::{BondSystem, BondsLeft};
+pub use system::{BondSystem, UnbrokenBonds};

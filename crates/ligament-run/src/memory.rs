@@ -117,7 +117,7 @@ pub fn foresee_lattice(
     let of_factor = |factor: f64| PI * factor * factor;
     let family = spacings.or(model.horizon_factor.map(of_factor));
     let processes = ranks.map_or(1, |Together(ranks)| ranks.n_ranks());
-    foresee_bonds(case, points, family.unwrap_or_default(), processes)
+    require_memory_for_bonds(case, points, family.unwrap_or_default(), processes)
 }
 
 /// Fails where the bonds of a body that one process has of it, not yet searched, would take more memory than there is.
@@ -143,12 +143,12 @@ pub fn foresee_model(case: &CaseFile, setup: &Setup) -> Result<(), TooLarge> {
         }
     };
     let processes = sharing(setup).map_or(1, |it| it.n_ranks());
-    foresee_bonds(case, points, family, processes)
+    require_memory_for_bonds(case, points, family, processes)
 }
 
 /// Each bond is one of two families; no point has more neighbours than there are others. Of several processes each has all points and its
 /// part of the bonds, or a little more.
-fn foresee_bonds(
+fn require_memory_for_bonds(
     case: &CaseFile,
     points: f64,
     family: f64,

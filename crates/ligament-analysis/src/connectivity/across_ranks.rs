@@ -66,7 +66,7 @@ pub(super) fn parted(
 
 /// Whether a body may come apart, of which this process does not hold the ends of some bonds together any more: what any process holds
 /// together does so whatever the others have.
-pub(super) fn may_part(portion: &Portion, apart: &[[u32; 2]]) -> bool {
+pub(super) fn may_split(portion: &Portion, apart: &[[u32; 2]]) -> bool {
     let apart: Vec<_> = apart.iter().map(|ends| ends.map(f64::from)).collect();
     let mut of_all: Vec<[u32; 2]> = (portion.concatenated(&apart).into_iter())
         .map(|ends| ends.map(|end| end as u32))

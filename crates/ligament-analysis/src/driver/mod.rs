@@ -7,7 +7,7 @@ mod dissipation;
 pub mod elastic;
 mod ends;
 pub mod event;
-mod foretelling;
+mod prediction;
 mod outcome;
 mod parts;
 mod path;
@@ -19,6 +19,6 @@ mod stop;
 
 pub use crate::problem::Problem;
 pub use course::Restored;
-pub use foretelling::{FirstFailure, Foretold, StepOfFailure};
+pub use prediction::{FirstFailure, Prediction, StepOfFailure};
 pub use outcome::{LoadPoint, Outcome, Rows};
 pub use stop::StopRules;

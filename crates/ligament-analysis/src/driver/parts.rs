@@ -2,7 +2,7 @@
 
 use super::path::Path;
 use crate::bond_numbers::sum_over_bonds;
-use crate::equilibrium::{Dissipation, Held, Target};
+use crate::equilibrium::{Dissipation, ControlledQuantity, Target};
 use crate::history::StepRecord;
 use crate::load_program::{LoadCourse, PartControl};
 
@@ -43,14 +43,14 @@ impl Path<'_> {
             let rate = loads.in_course(course.rate())?;
             let value = start + share * way;
             Some(match control {
-                PartControl::Motion(motion) => Held::Motion(Target {
+                PartControl::Motion(motion) => ControlledQuantity::Motion(Target {
                     portion: portion.cloned(),
                     weights: Target::own_weights(portion, layout, motion.weights.iter().copied()),
                     rate,
                     value,
                     way,
                 }),
-                PartControl::DissipatedEnergy { .. } => Held::Energy(Dissipation {
+                PartControl::DissipatedEnergy { .. } => ControlledQuantity::Energy(Dissipation {
                     step: way / course.n_steps() as f64,
                     energy: value,
                     rate,

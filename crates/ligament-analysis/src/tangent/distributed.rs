@@ -14,15 +14,15 @@ use std::time::Instant;
 use ligament_linalg::{FactorError, Inertia};
 use ligament_model::Bonds;
 use ligament_model::contact::ClosedPair;
-use ligament_model::element::Remaining;
+use ligament_model::element::StiffnessFactors;
 use ligament_model::portion::{Partition, concatenated};
 use ligament_model::thermal::ThermalStrain;
 
-use self::kept::Kept;
+use self::kept::PreconditionerState;
 use self::rows::{OwnRows, Taken};
-use super::making::Making;
+use super::making::FactorRecord;
 use super::terms::due_bonds;
-use super::{Left, TangentSolver, Unsolved};
+use super::{AllowedResidual, TangentSolver, Unsolved};
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
@@ -54,7 +54,7 @@ pub(crate) struct DistributedSolver {
     /// Points whose columns have entries in own rows.
     columns: Vec<u32>,
     matrix: Option<Box<dyn RankMatrix>>,
-    kept: Kept,
+    kept: PreconditionerState,
     /// Pivots of the factor, where there is one.
     pivots: Option<Pivots>,
 }
@@ -94,7 +94,7 @@ impl DistributedSolver {
             numbers,
             columns,
             matrix: None,
-            kept: Kept::new(),
+            kept: PreconditionerState::new(),
             pivots: None,
         }
     }
@@ -119,7 +119,7 @@ impl DistributedSolver {
 
     /// Makes the matrix one of the bonds as they are, in some columns or all; gives the degrees of freedom of all ranks that nothing
     /// resists.
-    fn assemble(&mut self, making: &Making, columns: Option<&[u32]>) -> Vec<usize> {
+    fn assemble(&mut self, making: &FactorRecord, columns: Option<&[u32]>) -> Vec<usize> {
         let matrix = self.matrix.take();
         let rows = self.rows();
         let mut matrix = matrix.unwrap_or_else(|| {
@@ -149,7 +149,7 @@ impl DistributedSolver {
     }
 
     /// The preconditioner anew, with the rigid motions of the body as far as nothing holds them.
-    fn precondition(&mut self, making: &Making) {
+    fn precondition(&mut self, making: &FactorRecord) {
         let layout = self.unknowns.layout();
         let free = self.free(&making.held);
         let all: Vec<u32> = (0..self.system.n_points() as u32).collect();
@@ -181,7 +181,7 @@ impl DistributedSolver {
     }
 
     /// The columns that are out of date, those beside newly held degrees of freedom included.
-    fn stale_columns(&mut self, making: &Making) -> Vec<u32> {
+    fn stale_columns(&mut self, making: &FactorRecord) -> Vec<u32> {
         let layout = self.unknowns.layout();
         let held = making.held.iter().zip(&self.kept.matrix_of.held);
         let newly_held = held.enumerate().filter(|(_, (now, before))| now != before);
@@ -203,7 +203,7 @@ impl DistributedSolver {
         let remaining = &state.softening.remaining;
         let left = |&bond: &u32| {
             let (number, bond) = (numbers.number(bond as usize), bond as usize);
-            let left = remaining.get(bond).copied().unwrap_or(Remaining::WHOLE);
+            let left = remaining.get(bond).copied().unwrap_or(StiffnessFactors::WHOLE);
             let bits = [left.axial, left.shear, left.rotational].map(f64::to_bits);
             let is_left = u64::from(state.intact[bond]);
             let mixed = mixed([u64::from(number), is_left].into_iter().chain(bits));
@@ -285,10 +285,10 @@ impl TangentSolver for DistributedSolver {
         None
     }
 
-    fn weaken(&mut self, state: &State, _: &mut Costs) {
+    fn update_for_softening(&mut self, state: &State, _: &mut Costs) {
         let n_bonds = state.softening.remaining.len();
         let mut in_matrix = self.kept.matrix_of.remaining.clone();
-        in_matrix.resize(n_bonds, Remaining::WHOLE);
+        in_matrix.resize(n_bonds, StiffnessFactors::WHOLE);
         let ends = self.system.ends();
         let due = due_bonds(&in_matrix, state);
         let of_due = due.into_iter().flat_map(|bond| ends[bond]);
@@ -299,7 +299,7 @@ impl TangentSolver for DistributedSolver {
 
     fn prepare(&mut self, state: &State, costs: &mut Costs) -> Result<Vec<usize>, FactorError> {
         let start = Instant::now();
-        let making = Making::begun(state, state.held.clone(), Vec::new());
+        let making = FactorRecord::begun(state, state.held.clone(), Vec::new());
         let is_new = self.kept.is_due || self.matrix.is_none();
         let stale = self.stale_columns(&making);
         let mut some_stale = [f64::from(u8::from(!stale.is_empty()))];
@@ -340,7 +340,7 @@ impl TangentSolver for DistributedSolver {
         &mut self,
         state: &State,
         force: Vec<f64>,
-        left: Left,
+        left: AllowedResidual,
         costs: &mut Costs,
     ) -> Result<Vec<f64>, Unsolved> {
         let start = Instant::now();
@@ -353,14 +353,14 @@ impl TangentSolver for DistributedSolver {
         let free = self.free(&self.kept.matrix_of.held);
         let own_force = self.at_own(&force, &free, 0.0);
         let found = match left {
-            Left::Share(share) => {
+            AllowedResidual::Share(share) => {
                 let numbers = self.numbers.as_ref();
                 let square = dot_of_chunks(&force, &force);
                 let square = numbers.map_or(square, |it| it.portion().total(square));
                 let norm = share * square.sqrt();
                 matrix.solve(&own_force, Tolerated::Norm(norm))
             }
-            Left::AtMost(sizes) => {
+            AllowedResidual::AtMost(sizes) => {
                 let sizes = self.at_own(&sizes, &free, f64::INFINITY);
                 matrix.solve(&own_force, Tolerated::Sizes(&sizes))
             }
@@ -388,7 +388,7 @@ impl TangentSolver for DistributedSolver {
         false
     }
 
-    fn forget(&mut self) {
+    fn discard(&mut self) {
         self.kept.is_due = true;
     }
 
@@ -414,18 +414,18 @@ impl TangentSolver for DistributedSolver {
         }
         let _ = u64::read(from)?;
         let has_matrix = bool::read(from)?;
-        self.kept = Kept::read_known(self.numbers.as_deref(), from)?;
+        self.kept = PreconditionerState::read_known(self.numbers.as_deref(), from)?;
         if !has_matrix {
             return Ok(());
         }
-        let Kept {
+        let PreconditionerState {
             preconditioner_of,
             matrix_of,
             stale,
             ..
         } = &self.kept;
         let n_points = self.system.n_points();
-        let fits = |making: &Making| making.fits(&*self.system, &self.unknowns);
+        let fits = |making: &FactorRecord| making.fits(&*self.system, &self.unknowns);
         if !fits(preconditioner_of)
             || !fits(matrix_of)
             || stale.iter().any(|it| *it as usize >= n_points)
@@ -464,9 +464,9 @@ pub(crate) fn was_written(from: &[u8]) -> bool {
 /// # Errors
 ///
 /// If the bytes are damaged.
-pub(crate) fn pass_over(from: &mut &[u8]) -> Result<(), CheckpointError> {
+pub(crate) fn skip_checkpoint(from: &mut &[u8]) -> Result<(), CheckpointError> {
     let _ = u64::read(from)?;
     let _ = bool::read(from)?;
-    let _ = Kept::read_known(None, from)?;
+    let _ = PreconditionerState::read_known(None, from)?;
     Ok(())
 }

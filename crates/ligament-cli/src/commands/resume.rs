@@ -52,7 +52,7 @@ impl ResumeArgs {
             is_stopped: &|| stop.came(),
             ranks: ranks::join()?,
         };
-        if ranks::is_beside_the_first() {
+        if ranks::is_not_root() {
             request.assist()?;
             return Ok(ExitCode::SUCCESS);
         }

@@ -15,7 +15,7 @@ use crate::terminal;
 use ligament_plot::picture::{asks_for_pictures, draw_run};
 use ligament_run::progress::ProgressMode;
 use ligament_run::run::{Report, Request};
-use ligament_study::sweep::take_leash;
+use ligament_study::sweep::bind_to_parent;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -59,7 +59,7 @@ impl RunArgs {
     /// Does it.
     pub(super) fn execute(self) -> anyhow::Result<ExitCode> {
         if let Some(lock) = &self.leash {
-            take_leash(lock)?;
+            bind_to_parent(lock)?;
         }
         // A run of a sweep is one process, whoever started the sweep.
         let ranks = match &self.leash {
@@ -83,7 +83,7 @@ impl RunArgs {
             is_stopped: &|| stop.came(),
             ranks,
         };
-        if ranks::is_beside_the_first() {
+        if ranks::is_not_root() {
             request.assist()?;
             return Ok(ExitCode::SUCCESS);
         }

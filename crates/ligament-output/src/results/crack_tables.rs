@@ -46,7 +46,7 @@ pub const CRACK_COLUMNS: [&[&str]; 3] = [
 ];
 
 /// A record of the history with its cracks.
-struct Grown<'a> {
+struct CrackSize<'a> {
     record: &'a CrackRecord,
     lines: Vec<CrackLine>,
 }
@@ -64,8 +64,8 @@ pub fn write_cracks(
     let lines = cracks.lines(step);
     write_lines(&folder.join(CRACK_FILES[0]), step, &lines)?;
     write_grid(&folder.join(CRACK_FILES[1]), &lines)?;
-    let grown: Vec<Grown<'_>> = (cracks.grown_records().into_iter())
-        .map(|record| Grown {
+    let grown: Vec<CrackSize<'_>> = (cracks.grown_records().into_iter())
+        .map(|record| CrackSize {
             lines: cracks.lines_at(record),
             record,
         })
@@ -122,9 +122,9 @@ fn write_grid(path: &Path, lines: &[CrackLine]) -> Result<(), Error> {
     vtu::write_vtu(path, &grid)
 }
 
-fn write_tips(path: &Path, grown: &[Grown<'_>]) -> Result<(), Error> {
+fn write_tips(path: &Path, grown: &[CrackSize<'_>]) -> Result<(), Error> {
     let mut table = Table::create(path, CRACK_COLUMNS[1])?;
-    for Grown { record, lines } in grown {
+    for CrackSize { record, lines } in grown {
         for (number, line) in (1_u32..).zip(lines) {
             for [x, y] in line.tips() {
                 table.append(&[
@@ -141,11 +141,11 @@ fn write_tips(path: &Path, grown: &[Grown<'_>]) -> Result<(), Error> {
     Ok(())
 }
 
-fn write_growth(path: &Path, cracks: &StoredCracks, grown: &[Grown<'_>]) -> Result<(), Error> {
+fn write_growth(path: &Path, cracks: &StoredCracks, grown: &[CrackSize<'_>]) -> Result<(), Error> {
     let mut table = Table::create(path, CRACK_COLUMNS[2])?;
     // A sum of nothing would be -0.0.
-    let length = |it: &Grown<'_>| (it.lines.iter()).fold(0.0, |sum, line| sum + line.length());
-    let state = |it: &Grown<'_>| GrowthState {
+    let length = |it: &CrackSize<'_>| (it.lines.iter()).fold(0.0, |sum, line| sum + line.length());
+    let state = |it: &CrackSize<'_>| GrowthState {
         area: cracks.thickness * length(it),
         displacement: it.record.displacement,
         reaction: it.record.reaction,

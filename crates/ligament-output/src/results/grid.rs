@@ -6,14 +6,14 @@ use std::path::Path;
 
 use ligament_mesh::{Cell, SolidCell};
 use ligament_model::portion::Portion;
-use ligament_model::{BodyGrid, Canvas, FixedFields, box_corners, raised};
+use ligament_model::{BodyGrid, Canvas, ConstantFields, box_corners, raised};
 
 use crate::Error;
 use crate::vtu::{self, Chosen, Field, Held, SharedCells, UnstructuredGrid};
 
 /// Fields of a model that a run does not change, with volumes (n_points) and distances to the nearest point (n_points).
 pub fn fixed_fields<'a>(
-    fixed: &'a FixedFields,
+    fixed: &'a ConstantFields,
     volumes: &'a [f64],
     spacing: &'a [f64],
 ) -> Vec<Field<'a>> {
@@ -40,7 +40,7 @@ pub fn point_grid(
     grid: &BodyGrid,
     volumes: &[f64],
     spacing: &[f64],
-    fixed: &FixedFields,
+    fixed: &ConstantFields,
 ) -> Result<(), Error> {
     write_points(path, grid, &fixed_fields(fixed, volumes, spacing))
 }

@@ -40,7 +40,7 @@ mod tables;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
-use ligament_model::{BodyGrid, FixedFields};
+use ligament_model::{BodyGrid, ConstantFields};
 
 use crate::Error;
 use crate::folder::ResultFolder;
@@ -58,7 +58,7 @@ use outputs::remove_others;
 pub use pieces::PieceWriter;
 pub use point_fields::{FieldValues, PointFields, displacements};
 pub use rule::{Time, WriteRule};
-pub use so_far::SoFar;
+pub use so_far::OutputState;
 use softening_table::SofteningTable;
 pub use softening_table::{OPEN, SoftenedBond, SoftenedBonds};
 pub use surface_files::{SURFACE_FILES, write_series, write_surface};
@@ -73,7 +73,7 @@ pub struct ResultWriter<'a> {
     folder: &'a ResultFolder,
     grid: &'a BodyGrid,
     problem: Problem,
-    fixed: &'a FixedFields,
+    fixed: &'a ConstantFields,
     rule: WriteRule,
     tables: Tables,
     /// Where bonds soften.
@@ -96,7 +96,7 @@ impl<'a> ResultWriter<'a> {
     pub fn new(
         folder: &'a ResultFolder,
         grid: &'a BodyGrid,
-        fixed: &'a FixedFields,
+        fixed: &'a ConstantFields,
         rule: WriteRule,
         problem: &Problem,
     ) -> Result<Self, Error> {
@@ -134,12 +134,12 @@ impl<'a> ResultWriter<'a> {
     pub fn cut_back(
         folder: &'a ResultFolder,
         grid: &'a BodyGrid,
-        fixed: &'a FixedFields,
+        fixed: &'a ConstantFields,
         rule: WriteRule,
         problem: &Problem,
-        so_far: SoFar,
+        so_far: OutputState,
     ) -> Result<Self, Error> {
-        let SoFar {
+        let OutputState {
             tables,
             softening,
             first,
@@ -184,8 +184,8 @@ impl<'a> ResultWriter<'a> {
     /// # Errors
     ///
     /// If the system cannot get it there.
-    pub fn so_far(&self) -> Result<SoFar, Error> {
-        Ok(SoFar {
+    pub fn so_far(&self) -> Result<OutputState, Error> {
+        Ok(OutputState {
             tables: self.tables.progress()?,
             softening: self
                 .softening

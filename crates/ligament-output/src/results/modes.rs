@@ -7,7 +7,7 @@
 
 use ligament_analysis::Bonds;
 use ligament_analysis::modal::ModalOutcome;
-use ligament_model::{BodyGrid, FixedFields};
+use ligament_model::{BodyGrid, ConstantFields};
 
 use super::grid::{fixed_fields, write_grid};
 use super::point_fields::{Rotations, vectors};
@@ -57,7 +57,7 @@ pub fn write_modes(
     folder: &ResultFolder,
     grid: &BodyGrid,
     system: &dyn Bonds,
-    fixed: &FixedFields,
+    fixed: &ConstantFields,
     outcome: &ModalOutcome,
 ) -> Result<(), Error> {
     let layout = system.layout();

@@ -9,7 +9,7 @@ use ligament_analysis::{Component, Layout};
 use ligament_model::ghosts::Ghosts;
 use ligament_model::portion::Portion;
 use ligament_model::tensor::SymTensor;
-use ligament_model::{BodyGrid, Canvas, FixedFields};
+use ligament_model::{BodyGrid, Canvas, ConstantFields};
 
 use super::grid::{fixed_fields, write_grid};
 use super::rule::WriteRule;
@@ -43,7 +43,7 @@ const DISSIPATED: &str = "dissipated_energy_density";
 pub(super) fn write(
     path: &Path,
     grid: &BodyGrid,
-    fixed: &FixedFields,
+    fixed: &ConstantFields,
     rule: WriteRule,
     view: &View<'_>,
 ) -> Result<(), Error> {

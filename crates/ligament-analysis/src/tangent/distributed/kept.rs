@@ -5,14 +5,14 @@ use std::collections::BTreeSet;
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
 use crate::serial::Serial;
-use crate::tangent::making::Making;
+use crate::tangent::making::FactorRecord;
 
 /// What a preconditioner came from and how it serves: the same on all ranks.
-pub(super) struct Kept {
+pub(super) struct PreconditionerState {
     /// What the preconditioner was made of.
-    pub(super) preconditioner_of: Making,
+    pub(super) preconditioner_of: FactorRecord,
     /// What the matrix is of.
-    pub(super) matrix_of: Making,
+    pub(super) matrix_of: FactorRecord,
     /// Points whose columns are out of date.
     pub(super) stale: BTreeSet<u32>,
     /// Whether the preconditioner is to be made anew.
@@ -23,12 +23,12 @@ pub(super) struct Kept {
     pub(super) excess: f64,
 }
 
-impl Kept {
+impl PreconditionerState {
     /// Nothing is made yet.
     pub(super) fn new() -> Self {
         Self {
-            preconditioner_of: Making::default(),
-            matrix_of: Making::default(),
+            preconditioner_of: FactorRecord::default(),
+            matrix_of: FactorRecord::default(),
             stale: BTreeSet::new(),
             is_due: true,
             pace: None,
@@ -46,8 +46,8 @@ impl Kept {
         from: &mut &[u8],
     ) -> Result<Self, CheckpointError> {
         let mut making = || match numbers {
-            None => Ok(Making::read(from)?),
-            Some(numbers) => Making::read_known(numbers, from),
+            None => Ok(FactorRecord::read(from)?),
+            Some(numbers) => FactorRecord::read_known(numbers, from),
         };
         let (preconditioner_of, matrix_of) = (making()?, making()?);
         let stale: Vec<u32> = Serial::read(from)?;

@@ -3,7 +3,7 @@ use crate::layout::Component;
 use crate::material::{Elasticity, Orthotropic, Plane, Space};
 use crate::shape::{Region, Shape, SolidShape};
 use crate::stress::point_strain::tests::{GRADIENT, MATERIAL, affine, springs};
-use crate::thermal::{FreeStrains, ThermalStrain};
+use crate::thermal::{StressFreeStrains, ThermalStrain};
 
 const IN_PLANE: &[Component] = &[Component::X, Component::Y];
 
@@ -101,7 +101,7 @@ fn a_material_with_axes_is_pulled_along_its_own() {
 #[test]
 fn what_the_temperature_gives_is_no_stress() {
     let system = springs::<2, Shape>(Space::Plane(Plane::Stress));
-    let free = FreeStrains::new(vec![SymTensor::<2>::isotropic(0.02); system.cloud.len()]);
+    let free = StressFreeStrains::new(vec![SymTensor::<2>::isotropic(0.02); system.cloud.len()]);
     let motion = Motion {
         intact: &vec![true; system.bonds.len()],
         displacement: &affine(&system, [[0.01, 0.0, 0.0], [0.0, 0.01, 0.0], [0.0; 3]]),
