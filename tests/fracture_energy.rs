@@ -354,7 +354,8 @@ impl Separation {
                 0.5 * system.rigidities.axial[bond] * deformation.stretch().max(0.0).powi(2);
             let sliding = 0.5 * system.rigidities.shear[bond] * deformation.shear().powi(2);
             sum.counted += (opening + sliding) * per_energy;
-            let energy = system.stored_energy(&intact, bond, &StiffnessFactors::WHOLE, &deformation);
+            let energy =
+                system.stored_energy(&intact, bond, &StiffnessFactors::WHOLE, &deformation);
             sum.stored += energy * per_energy;
         }
         sum

@@ -67,7 +67,11 @@ fn bond_forces(model: &Model, displacement: &[f64]) -> Vec<[f64; 2]> {
     let system = &**model.plane();
     let intact = vec![true; system.bonds.len()];
     let deformations = system.deformations(&intact, displacement, ThermalStrain::NONE);
-    let sweep = system.forces(UnbrokenBonds::whole(&intact), deformations, ThermalStrain::NONE);
+    let sweep = system.forces(
+        UnbrokenBonds::whole(&intact),
+        deformations,
+        ThermalStrain::NONE,
+    );
     let of_points = sweep.internal.values.chunks(system.components().len());
     of_points.map(|force| [force[0], force[1]]).collect()
 }

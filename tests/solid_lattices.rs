@@ -1,7 +1,7 @@
 //! Boxes of cells in space with holes and sets: a thick sphere cut out of a lattice, against what its cells leave exactly and against Lame.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament::run::{Solution, NoObserver};
+use ligament::run::{NoObserver, Solution};
 use ligament_case::case::CaseFile;
 use ligament_model::thermal::ThermalStrain;
 use verification::numbers::relative_error;

@@ -4,7 +4,7 @@
 
 use std::f64::consts::PI;
 
-use ligament::run::{Solution, NoObserver};
+use ligament::run::{NoObserver, Solution};
 use ligament::setup::Setup;
 use ligament::{Model, Warning};
 use ligament_analysis::Component;

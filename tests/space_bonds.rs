@@ -24,8 +24,8 @@ use ligament_model::material::Space;
 use ligament_model::tensor::{SymTensor, cross, dot, minus};
 use ligament_model::thermal::{StressFreeStrains, ThermalStrain};
 use ligament_model::{
-    BondSet, BondSystem, UnbrokenBonds, Elasticity, ElementKind, Horizons, Isotropic, Plane,
-    PointCloud, System,
+    BondSet, BondSystem, Elasticity, ElementKind, Horizons, Isotropic, Plane, PointCloud, System,
+    UnbrokenBonds,
 };
 use nalgebra::{DMatrix, DVector};
 

@@ -80,9 +80,14 @@ fn stresses_have_the_mean_of_the_forces() {
             .map(|_| random.uniform() < 0.6)
             .collect();
         assert!(intact.contains(&false));
-        let forces = internal::sweep(system, UnbrokenBonds::whole(&intact), &u, ThermalStrain::NONE)
-            .internal
-            .values;
+        let forces = internal::sweep(
+            system,
+            UnbrokenBonds::whole(&intact),
+            &u,
+            ThermalStrain::NONE,
+        )
+        .internal
+        .values;
         let (of_bonds, of_planes) = stresses(&bench, &intact, &u);
         let cloud = &system.cloud;
         // The force's direction first, then the place's.

@@ -46,7 +46,11 @@ fn solids(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements(intact.len() as u64));
         group.bench_function("product with the matrix", |bencher| {
             bencher.iter(|| {
-                system.multiply(UnbrokenBonds::whole(&intact), black_box(&motions), &mut forces);
+                system.multiply(
+                    UnbrokenBonds::whole(&intact),
+                    black_box(&motions),
+                    &mut forces,
+                );
             });
         });
         group.finish();

@@ -104,11 +104,14 @@ impl Fragments {
     ) -> Vec<AddedSupport> {
         let of_fragment = |fragment: u32| {
             let points = &self.points[fragment as usize];
-            let found = restraints::missing_supports(system, restraints, points, &is_fixed, &can_hold);
-            found.into_iter().map(move |degree_of_freedom| AddedSupport {
-                degree_of_freedom,
-                fragment,
-            })
+            let found =
+                restraints::missing_supports(system, restraints, points, &is_fixed, &can_hold);
+            found
+                .into_iter()
+                .map(move |degree_of_freedom| AddedSupport {
+                    degree_of_freedom,
+                    fragment,
+                })
         };
         fragments.into_iter().flat_map(of_fragment).collect()
     }

@@ -8,7 +8,7 @@
 use ligament_model::Bonds;
 pub use ligament_model::rigid_motions::FreeMotion;
 
-use crate::connectivity::{Fragments, AddedSupport};
+use crate::connectivity::{AddedSupport, Fragments};
 use crate::load_program::LoadProgram;
 use crate::unknowns::{Component, Unknowns};
 

@@ -48,10 +48,7 @@ fn conclude(done: anyhow::Result<ExitCode>) -> ExitCode {
         print_error(error);
     }
     let all_came = ranks::part(error.is_some());
-    if let Some(error) = error
-        .as_ref()
-        .filter(|_| ranks::is_not_root() && !all_came)
-    {
+    if let Some(error) = error.as_ref().filter(|_| ranks::is_not_root() && !all_came) {
         print_error(error);
     }
     if !all_came {

@@ -11,7 +11,8 @@ use criterion::{
     BenchmarkGroup, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
 use ligament_linalg::{
-    Elimination, FactorKind, Factorisation, ForwardSubstituted, Pattern, RankOne, Symbolic, SymmetricMatrix,
+    Elimination, FactorKind, Factorisation, ForwardSubstituted, Pattern, RankOne, Symbolic,
+    SymmetricMatrix,
 };
 use rayon::ThreadPoolBuilder;
 

@@ -14,7 +14,7 @@ use crate::branches::Branch;
 use crate::factor_error::FactorError;
 use crate::matrix::Pattern;
 use crate::parts::Part;
-use crate::sources::{UpdatingSupernodes, Sources};
+use crate::sources::{Sources, UpdatingSupernodes};
 use crate::supernodes::Supernodes;
 
 /// Operations per entry of the factor above which there are supernodes. faer's own `FORCE_SUPERNODAL` is zero, which a

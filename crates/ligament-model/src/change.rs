@@ -4,7 +4,7 @@
 
 use crate::deformation::Deformation;
 use crate::element::{Element, Elements, Term};
-use crate::system::{UnbrokenBonds, ElementSystem};
+use crate::system::{ElementSystem, UnbrokenBonds};
 use crate::thermal::ThermalStrain;
 
 /// The elements that bonds change which break together.

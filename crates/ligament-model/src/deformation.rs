@@ -41,7 +41,11 @@ pub trait Deformation: Copy + Default + PartialEq + fmt::Debug + Send + Sync + '
     fn of_bonds(deformations: &Deformations) -> &[Self];
 
     /// Deformations of so many bonds that a function writes: all of them, and each by its number.
-    fn written(room: &DeformationPool, n_bonds: usize, write: impl FnOnce(&mut [Self])) -> Deformations;
+    fn written(
+        room: &DeformationPool,
+        n_bonds: usize,
+        write: impl FnOnce(&mut [Self]),
+    ) -> Deformations;
 }
 
 impl Deformation for BondDeformation {
@@ -69,7 +73,11 @@ impl Deformation for BondDeformation {
         deformations.measured()
     }
 
-    fn written(room: &DeformationPool, n_bonds: usize, write: impl FnOnce(&mut [Self])) -> Deformations {
+    fn written(
+        room: &DeformationPool,
+        n_bonds: usize,
+        write: impl FnOnce(&mut [Self]),
+    ) -> Deformations {
         let mut measured = room.taken(n_bonds, |it| &mut it.measured);
         write(&mut measured);
         Deformations {
@@ -118,7 +126,11 @@ impl Deformation for SpaceDeformation {
         &deformations.in_space
     }
 
-    fn written(room: &DeformationPool, n_bonds: usize, write: impl FnOnce(&mut [Self])) -> Deformations {
+    fn written(
+        room: &DeformationPool,
+        n_bonds: usize,
+        write: impl FnOnce(&mut [Self]),
+    ) -> Deformations {
         let mut in_space = room.taken(n_bonds, |it| &mut it.in_space);
         write(&mut in_space);
         let mut measured = room.taken(n_bonds, |it| &mut it.measured);

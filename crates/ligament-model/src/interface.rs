@@ -9,7 +9,7 @@ use crate::bonds::{BondSet, Incidence};
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
 use crate::deformation::Deformations;
-use crate::element::{BondDeformation, StiffnessFactors, Rigidities, Term};
+use crate::element::{BondDeformation, Rigidities, StiffnessFactors, Term};
 use crate::failure::Criterion;
 use crate::failure::starting::Starting;
 use crate::layout::{Component, Layout};
@@ -236,10 +236,16 @@ pub trait BondReadings: BondTopology {
     ) -> f64;
 
     /// Strain energy density of a point, J/m^3: its share of the energy of its bonds over its volume.
-    fn energy_density(&self, bonds: UnbrokenBonds<'_>, deformations: &Deformations, point: u32) -> f64;
+    fn energy_density(
+        &self,
+        bonds: UnbrokenBonds<'_>,
+        deformations: &Deformations,
+        point: u32,
+    ) -> f64;
 
     /// Components of the virial stress of a point, Pa.
-    fn stress(&self, bonds: UnbrokenBonds<'_>, deformations: &Deformations, point: u32) -> Vec<f64>;
+    fn stress(&self, bonds: UnbrokenBonds<'_>, deformations: &Deformations, point: u32)
+    -> Vec<f64>;
 
     /// Stress of every point in one reading of the forces of the bonds.
     fn stresses(

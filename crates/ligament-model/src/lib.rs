@@ -57,7 +57,7 @@ pub use cloud::lattice::Lattice;
 pub use correction::Correction;
 pub use deformation::{Deformations, SpaceDeformation};
 pub use element::ElementKind;
-pub use fixed::{Absence, AbsentBond, EnergyRatio, ConstantFields};
+pub use fixed::{Absence, AbsentBond, ConstantFields, EnergyRatio};
 pub use grid::{BodyGrid, Canvas, box_corners, raised};
 pub use horizon::Horizons;
 pub use interface::{BondContact, BondKinetics, BondReadings, BondTopology, Bonds};

@@ -8,7 +8,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::element::{Element, Elements};
-use crate::system::{UnbrokenBonds, ElementSystem};
+use crate::system::{ElementSystem, UnbrokenBonds};
 
 /// Parts into which the bonds are divided; fixed, so that the order of summation is fixed too. Each part but the first adds to
 /// forces of its own at all points.

@@ -9,7 +9,7 @@ use crate::deformation::{Deformation, Deformations};
 use crate::element::{DeformationOf, Element, Elements};
 use crate::layout::Component;
 use crate::portion::{Portion, Share, Whole, counts};
-use crate::system::{UnbrokenBonds, ElementSystem};
+use crate::system::{ElementSystem, UnbrokenBonds};
 use crate::thermal::ThermalStrain;
 
 /// Parts into which the bonds are divided when their forces are added up; fixed, so that the order of summation is fixed

@@ -12,7 +12,7 @@ use crate::cloud::PointCloud;
 use crate::contact::Faces;
 use crate::deformation::DeformationPool;
 use crate::element::strain_stiffness::StrainStiffness;
-use crate::element::{Element, ElementKind, Elements, StiffnessFactors, Rigidities};
+use crate::element::{Element, ElementKind, Elements, Rigidities, StiffnessFactors};
 use crate::law::BondStiffness;
 
 /// Points and bonds in D dimensions with their rigidities; it never changes after construction.

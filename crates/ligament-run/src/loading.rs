@@ -7,7 +7,7 @@ use ligament::{Loading, Model};
 use ligament_analysis::driver::Restored;
 use ligament_case::case::{CaseFile, StressField};
 use ligament_output::folder::ResultFolder;
-use ligament_output::results::{ResultWriter, OutputState, Time, WriteRule};
+use ligament_output::results::{OutputState, ResultWriter, Time, WriteRule};
 
 use crate::checkpoints::{Checkpoints, IsStopped};
 use crate::inputs::{Contents, Inputs, unread};

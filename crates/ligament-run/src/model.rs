@@ -8,7 +8,7 @@ use ligament_analysis::ranks::Together;
 use rayon::ThreadPoolBuildError;
 
 use crate::memory;
-use crate::processors::{tasks_of_others, free_threads};
+use crate::processors::{free_threads, tasks_of_others};
 use crate::progress::Progress;
 use crate::stages::Stages;
 use crate::summary;

@@ -83,7 +83,9 @@ impl Entry {
                 false => Verdict::Failed,
             },
             Reliability::Sound if !agrees(&self.known) => Verdict::Failed,
-            Reliability::Sound | Reliability::Missed { .. } if self.known.is_rounded_from(computed) => {
+            Reliability::Sound | Reliability::Missed { .. }
+                if self.known.is_rounded_from(computed) =>
+            {
                 Verdict::Rounded
             }
             Reliability::Sound | Reliability::Missed { .. } => Verdict::Within,
@@ -192,7 +194,11 @@ mod tests {
     fn a_truncated_value_is_met_by_what_was_cut() {
         use Verdict::{Failed, Truncated};
         let reason = String::from("cut");
-        let cut = entry("0.01085", Allowed::Digits, Reliability::Truncated { reason });
+        let cut = entry(
+            "0.01085",
+            Allowed::Digits,
+            Reliability::Truncated { reason },
+        );
         let found = verdicts(&cut, &[0.010856, 0.01085, 0.010849, 0.010861]);
         assert_eq!(found, [Truncated, Truncated, Failed, Failed]);
         let reason = String::from("cut");

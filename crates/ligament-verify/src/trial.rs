@@ -5,7 +5,7 @@ use std::path::Path;
 
 use anyhow::Context;
 use ligament::body::{AnyBody, MeshBody};
-use ligament::run::{Solution, NoObserver};
+use ligament::run::{NoObserver, Solution};
 use ligament::{Model, Setup};
 use ligament_analysis::history::BreakRecord;
 use ligament_analysis::modal::Mode;

@@ -20,9 +20,7 @@ pub fn predict(
     observer: &mut dyn Observer,
 ) -> Result<Option<Prediction>, Error> {
     Ok(match analysis {
-        Analysis::Stepped(settings) => {
-            Some(driver::stepped::predict(problem, settings, observer)?)
-        }
+        Analysis::Stepped(settings) => Some(driver::stepped::predict(problem, settings, observer)?),
         Analysis::Event(settings) => Some(driver::event::predict(problem, settings, observer)?),
         Analysis::Elastic { .. } | Analysis::Modal(_) => {
             let outcome = follow(problem, analysis, observer)?;

@@ -11,7 +11,7 @@ use ligament_model::law::calibration;
 use ligament_model::law::rotational::{self, RotationalScale};
 use ligament_model::material::{Stiffness, with_reduced_contrast};
 use ligament_model::{
-    BondStiffness, BondSystem, Elasticity, ElementKind, EnergyRatio, ConstantFields, Horizons,
+    BondStiffness, BondSystem, ConstantFields, Elasticity, ElementKind, EnergyRatio, Horizons,
     Isotropic, PointCloud,
 };
 
@@ -110,7 +110,9 @@ impl<'a, const D: usize> Formulation<'a, D> {
     ) -> Correction {
         let largest = self.setup.correction.surface.largest_contrast();
         let materials = self.setup.materials();
-        let Some(with_reduced_contrast) = with_reduced_contrast(&materials, self.setup.plane(), largest) else {
+        let Some(with_reduced_contrast) =
+            with_reduced_contrast(&materials, self.setup.plane(), largest)
+        else {
             return self.corrected(bonds, stiffness, alpha);
         };
         let setup = self.setup.of_materials(with_reduced_contrast);

@@ -9,8 +9,8 @@ use ligament_model::correction::{Correction, CorrectionReport};
 use ligament_model::failure::Criteria;
 use ligament_model::portion::{Exchange, Portion};
 use ligament_model::{
-    Absence, AbsentBond, BondSet, BondStiffness, BondSystem, EnergyRatio, ConstantFields, PointCloud,
-    System,
+    Absence, AbsentBond, BondSet, BondStiffness, BondSystem, ConstantFields, EnergyRatio,
+    PointCloud, System,
 };
 
 use crate::body::{AnyBody, Body, BodyOutline, Geometry};

@@ -5,7 +5,7 @@ use ligament_model::failure::Measure;
 use ligament_model::failure::softening::linear;
 use ligament_model::law::stability::NegativeShear;
 use ligament_model::material::Space;
-use ligament_model::{ElementKind, ConstantFields, Isotropic};
+use ligament_model::{ConstantFields, ElementKind, Isotropic};
 use thiserror::Error;
 
 use crate::body::{Body, Origin};

@@ -8,7 +8,7 @@ use ligament_model::Bonds;
 use ligament_model::interface::Topology;
 use ligament_model::portion::Portion;
 
-use super::{Fragments, AddedSupport, across_ranks};
+use super::{AddedSupport, Fragments, across_ranks};
 use crate::restraints::Restraints;
 
 /// The fragments of a body whose bonds break, numbered as [`Fragments::find`] numbers them.

@@ -16,9 +16,9 @@ use std::mem;
 use std::rc::Rc;
 
 use super::course::{Place, Restored, ToEvent};
-use super::prediction::{self, Prediction};
 use super::outcome::{Outcome, Rows};
 use super::path::Path;
+use super::prediction::{self, Prediction};
 use super::recorder::{Energies, StepCounters, largest_ratio};
 use super::stop::StopRules;
 use crate::balanced::{Attempt, Balanced};
@@ -30,7 +30,7 @@ use crate::lagging::Body;
 use crate::problem::Problem;
 use crate::state::State;
 use passing::Passed;
-use way::{Goal, EquilibriumLine};
+use way::{EquilibriumLine, Goal};
 
 /// Settings of the exact path: how it is followed, and when to stop. The path ends at load factor one in any case, or with the last stage.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::path::Path;
 use crate::bond_numbers::sum_over_bonds;
-use crate::equilibrium::{Dissipation, ControlledQuantity, Target};
+use crate::equilibrium::{ControlledQuantity, Dissipation, Target};
 use crate::history::StepRecord;
 use crate::load_program::{LoadCourse, PartControl};
 

@@ -10,7 +10,7 @@ use ligament_model::element::BondDeformation;
 use ligament_model::failure::Criteria;
 
 use super::breaks::{Breaking, CriteriaAtDeformations};
-use super::course::{Course, Place, CheckValues, Restored};
+use super::course::{CheckValues, Course, Place, Restored};
 use super::dissipation;
 use super::outcome::{Outcome, Rows};
 use super::recorder::{Energies, StepCounters, step_record};

@@ -3,7 +3,7 @@
 use super::outcome::LoadPoint;
 use super::recorder::{Energies, StepCounters, largest_ratio, step_record};
 use crate::balanced::{Attempt, Balanced, Stability};
-use crate::connectivity::{Fragments, AddedSupport};
+use crate::connectivity::{AddedSupport, Fragments};
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::gauges;

@@ -6,9 +6,9 @@
 use std::time::Instant;
 
 use super::course::{InLoadStep, Place, Restored};
-use super::prediction::{self, Prediction};
 use super::outcome::{LoadPoint, Outcome, Rows};
 use super::path::Path;
+use super::prediction::{self, Prediction};
 use super::recorder::{StepCounters, largest_ratio};
 use super::start::ElasticAnswer;
 use super::stop::StopRules;

@@ -117,7 +117,9 @@ fn sought(
         previous_energy = iterate.stored_energy;
         let is_one_way = iterations > ONE_WAY_AFTER;
         let curvature = &mut precedents.curvature;
-        equations.solver.update_for_softening(state, &mut equations.costs);
+        equations
+            .solver
+            .update_for_softening(state, &mut equations.costs);
         let next = equations.make_ready(state, &iterate).and_then(|held| {
             if !held.is_empty() {
                 curvature.discard();

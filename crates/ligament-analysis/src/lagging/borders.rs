@@ -89,7 +89,9 @@ impl Border {
             blocks.resize(start + n * n, 0.0);
             dofs.extend(range.clone().map(|dof| dof as u32));
             for &(_, _, bond) in of_point {
-                for (rigidity, entries) in system.terms(whole, bond as usize, &StiffnessFactors::WHOLE) {
+                for (rigidity, entries) in
+                    system.terms(whole, bond as usize, &StiffnessFactors::WHOLE)
+                {
                     let own = entries.iter().filter(|(dof, _)| range.contains(dof));
                     let own: Vec<(usize, f64)> = own
                         .map(|(dof, value)| (dof - range.start, *value))

@@ -12,7 +12,7 @@ use ligament_model::element::StiffnessFactors;
 use super::iterative;
 use super::making::FactorRecord;
 use super::terms::{Coupled, due_bonds};
-use super::{HalfUpdated, AllowedResidual, SOFT_HOLD, TangentSolver, Unsolved};
+use super::{AllowedResidual, HalfUpdated, SOFT_HOLD, TangentSolver, Unsolved};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::contact;

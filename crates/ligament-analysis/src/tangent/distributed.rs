@@ -203,7 +203,10 @@ impl DistributedSolver {
         let remaining = &state.softening.remaining;
         let left = |&bond: &u32| {
             let (number, bond) = (numbers.number(bond as usize), bond as usize);
-            let left = remaining.get(bond).copied().unwrap_or(StiffnessFactors::WHOLE);
+            let left = remaining
+                .get(bond)
+                .copied()
+                .unwrap_or(StiffnessFactors::WHOLE);
             let bits = [left.axial, left.shear, left.rotational].map(f64::to_bits);
             let is_left = u64::from(state.intact[bond]);
             let mixed = mixed([u64::from(number), is_left].into_iter().chain(bits));

@@ -149,7 +149,10 @@ impl IterativeSolver {
     }
 
     /// Both levels anew; or the degrees of freedom that nothing resists.
-    fn levels_of(&self, making: &FactorRecord) -> Result<Result<TwoLevels, Vec<usize>>, FactorError> {
+    fn levels_of(
+        &self,
+        making: &FactorRecord,
+    ) -> Result<Result<TwoLevels, Vec<usize>>, FactorError> {
         let moment = self.moment(making);
         let operator = self.operator(&moment, making.bonds());
         let (blocks, loose) = PointBlocks::new(&operator)?;
@@ -349,7 +352,9 @@ impl TangentSolver for IterativeSolver {
         };
         let given = at_dofs(&force, 0.0);
         let limit = match left {
-            AllowedResidual::Share(share) => Limit::Norm(share * dot_of_chunks(&given, &given).sqrt()),
+            AllowedResidual::Share(share) => {
+                Limit::Norm(share * dot_of_chunks(&given, &given).sqrt())
+            }
             AllowedResidual::AtMost(sizes) => Limit::Sizes(at_dofs(&sizes, f64::INFINITY)),
         };
         let operator = self.operator(&moment, state.bonds());

@@ -8,7 +8,7 @@ use std::path::{Component, Path, PathBuf};
 use ligament_mesh::{AnyMesh, Group};
 
 use crate::mesh_file::{MeshFileError, bounding_box, read_any_mesh};
-use groups::{Ends, Named, LoadPlace};
+use groups::{Ends, LoadPlace, Named};
 use ligament::setup::Law;
 use ligament::warning::{SUSPICIOUSLY_LARGE, Warning};
 use ligament_model::law::{listed, suited};

@@ -7,7 +7,7 @@ use ligament_output::csv::{Value, line};
 use ligament_output::results::stored::StoredRun;
 use serde_json::json;
 
-use super::life::{BondHistory, BondHistories};
+use super::life::{BondHistories, BondHistory};
 use super::report::angle;
 
 /// A table with a row a bond and step with fields.

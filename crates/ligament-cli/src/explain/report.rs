@@ -8,7 +8,7 @@ use ligament_model::Absence;
 use ligament_output::quantity::quantity;
 use ligament_output::results::stored::{StoredRun, StoredStep};
 
-use super::life::{BondHistory, BondHistories};
+use super::life::{BondHistories, BondHistory};
 use super::words::{self, label, metres, number, place};
 use crate::lines::{self, Columns};
 use ligament::units::Units;
@@ -309,7 +309,8 @@ fn family_path(run: &StoredRun, point: u32, lives: &BondHistories) -> Columns {
 /// Share of the broken bonds in the sum of alpha Omega over all (NHPD eq. 17).
 fn damage(run: &StoredRun, lives: &BondHistories, place: usize) -> f64 {
     let bonds = &run.model.bonds;
-    let weight = |life: &BondHistory| bonds.length_factor[life.pair] * bonds.domain_factor[life.pair];
+    let weight =
+        |life: &BondHistory| bonds.length_factor[life.pair] * bonds.domain_factor[life.pair];
     // The sum of no floats is -0.
     let sum = |lives: &mut dyn Iterator<Item = &BondHistory>| lives.map(weight).fold(0.0, f64::add);
     let all = sum(&mut lives.of_bonds.iter());

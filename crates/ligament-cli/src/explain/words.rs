@@ -6,7 +6,7 @@ use ligament_model::failure::{Measure, Softened};
 use ligament_output::quantity::quantity;
 use ligament_output::results::stored::StoredRun;
 
-use super::life::{BondHistory, Limit, BondHistories, Nearest};
+use super::life::{BondHistories, BondHistory, Limit, Nearest};
 
 /// A number without a unit.
 pub(super) fn number(value: f64) -> String {
@@ -90,7 +90,11 @@ pub(super) fn limits(life: &BondHistory) -> Vec<(String, String)> {
 }
 
 /// What happened to a bond, a sentence a line.
-pub(super) fn bond_description(run: &StoredRun, lives: &BondHistories, life: &BondHistory) -> Vec<String> {
+pub(super) fn bond_description(
+    run: &StoredRun,
+    lives: &BondHistories,
+    life: &BondHistory,
+) -> Vec<String> {
     if let Some((broke, criterion)) = &life.breakage {
         let mut lines = vec![format!(
             "It broke in step {}, round {}, as number {} of {} broken bonds, by `{}`.",
@@ -252,7 +256,11 @@ fn softened_words(lives: &BondHistories, life: &BondHistory) -> Vec<String> {
 }
 
 /// What happened to a bond, in a few words.
-pub(super) fn short_bond_description(run: &StoredRun, lives: &BondHistories, life: &BondHistory) -> String {
+pub(super) fn short_bond_description(
+    run: &StoredRun,
+    lives: &BondHistories,
+    life: &BondHistory,
+) -> String {
     let is_free = life.limits.iter().all(|limit| limit.limit.is_infinite());
     let is_held = life.ends.iter().any(|end| run.model.no_fail[*end as usize]);
     let was_seen = life.nearest.is_some_and(|it| it.utilisation > 0.0);

@@ -11,7 +11,7 @@ use pulp::Arch;
 use rayon::prelude::*;
 
 use super::diagonal::DiagonalEntry;
-use super::square::{Below, Rows, Square, AppliedRotations};
+use super::square::{AppliedRotations, Below, Rows, Square};
 use crate::panels::FactorKind;
 use crate::substitution::BLOCK;
 

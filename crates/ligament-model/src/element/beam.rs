@@ -8,7 +8,7 @@
 
 use super::pair::{PairBond, PairKinematics};
 use super::spring::SpringBond;
-use super::{Block, BondDeformation, StiffnessFactors, Rigidities};
+use super::{Block, BondDeformation, Rigidities, StiffnessFactors};
 use crate::bonds::BondSet;
 use crate::deformation::SpaceDeformation;
 use crate::layout::Component;

@@ -27,7 +27,7 @@ mod surroundings;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
 pub use super::strain_stiffness::{StrainStiffness, SymmetricEntries};
-use super::{Block, BondDeformation, Element, Elements, StiffnessFactors, Rigidities, Term};
+use super::{Block, BondDeformation, Element, Elements, Rigidities, StiffnessFactors, Term};
 use crate::bonds::{BondSet, Incidence};
 use crate::layout::Component;
 use crate::tensor::SymTensor;

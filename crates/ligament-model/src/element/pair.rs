@@ -2,7 +2,7 @@
 
 use std::marker::PhantomData;
 
-use super::{Block, BondDeformation, Element, Elements, StiffnessFactors, Rigidities, Term};
+use super::{Block, BondDeformation, Element, Elements, Rigidities, StiffnessFactors, Term};
 use crate::bonds::BondSet;
 use crate::deformation::Deformation;
 use crate::layout::Component;

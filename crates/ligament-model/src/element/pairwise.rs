@@ -13,7 +13,7 @@
 //! form is here to show what the printed equations give.
 
 use super::imaginary::{BondClass, ImaginaryElement, ImaginaryElements};
-use super::{Block, BondDeformation, Element, Elements, StiffnessFactors, Rigidities, Term};
+use super::{Block, BondDeformation, Element, Elements, Rigidities, StiffnessFactors, Term};
 use crate::bonds::{BondSet, Incidence};
 use crate::layout::Component;
 use crate::tensor::SymTensor;

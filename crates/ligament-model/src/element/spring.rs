@@ -4,7 +4,7 @@
 //! rigid rotation costs energy.
 
 use super::pair::{PairBond, PairKinematics};
-use super::{Block, BondDeformation, StiffnessFactors, Rigidities};
+use super::{Block, BondDeformation, Rigidities, StiffnessFactors};
 use crate::bonds::BondSet;
 use crate::deformation::SpaceDeformation;
 use crate::layout::Component;

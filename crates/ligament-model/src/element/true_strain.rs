@@ -10,7 +10,7 @@
 //! a strain's share of itself.
 
 use super::imaginary::{Axis, ImaginaryElement, ImaginaryElements, Quotients};
-use super::{Block, BondDeformation, Element, Elements, StiffnessFactors, Rigidities, Term};
+use super::{Block, BondDeformation, Element, Elements, Rigidities, StiffnessFactors, Term};
 use crate::bonds::{BondSet, Incidence};
 use crate::layout::Component;
 use crate::tensor::SymTensor;

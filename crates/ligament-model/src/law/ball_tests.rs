@@ -7,7 +7,7 @@ use crate::deformation::SpaceDeformation;
 use crate::element::beam::BeamBond;
 use crate::element::pair::PairKinematics;
 use crate::element::spring::SpringBond;
-use crate::element::{StiffnessFactors, Rigidities};
+use crate::element::{Rigidities, StiffnessFactors};
 use crate::law::BondStiffness;
 use crate::material::{Elasticity, Isotropic, Space};
 use crate::tensor::SymTensor;

@@ -140,7 +140,10 @@ impl BondStiffness {
     /// with the layer it would be 1 + 3 beta^2, but the bonds to held ends hold them too.) Where k_t is negative, k_n' is at least k_n/2. What
     /// strains along the layer do to its faces is then that of bonds without k_t; stiff parts beside it keep such strains small. The
     /// equations are this project's own.
-    pub(crate) fn joined<const D: usize>(mut self, do_points_turn: bool) -> (Self, Vec<StiffnessFactors>) {
+    pub(crate) fn joined<const D: usize>(
+        mut self,
+        do_points_turn: bool,
+    ) -> (Self, Vec<StiffnessFactors>) {
         if !do_points_turn {
             self.held.clear();
         }

@@ -9,7 +9,7 @@ use rstar::{AABB, RTree};
 use crate::cloud::PointCloud;
 use crate::contact::ClosedPair;
 use crate::element::{DeformationOf, Element, Elements};
-use crate::system::{BondSystem, UnbrokenBonds, ElementSystem};
+use crate::system::{BondSystem, ElementSystem, UnbrokenBonds};
 use crate::tensor::minus;
 
 /// Names of the components of a traction: on the planes with each normal along an axis the stress along the normal, then those across it;

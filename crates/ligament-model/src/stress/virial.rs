@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::element::{DeformationOf, Element, Elements};
 use crate::interface::BondTopology;
-use crate::system::{UnbrokenBonds, ElementSystem};
+use crate::system::{ElementSystem, UnbrokenBonds};
 use crate::tensor::SymTensor;
 
 impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {

@@ -3,7 +3,7 @@
 use ligament_mesh::Numbering;
 
 use super::contact::Moved;
-use super::{BondSystem, UnbrokenBonds, ElementSystem};
+use super::{BondSystem, ElementSystem, UnbrokenBonds};
 use crate::bonds::Incidence;
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
@@ -289,7 +289,12 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
         element.mutual_energy(&deformation, &deformation)
     }
 
-    fn energy_density(&self, bonds: UnbrokenBonds<'_>, deformations: &Deformations, point: u32) -> f64 {
+    fn energy_density(
+        &self,
+        bonds: UnbrokenBonds<'_>,
+        deformations: &Deformations,
+        point: u32,
+    ) -> f64 {
         let deformations: &[DeformationOf<D, M, E>] = of_bonds(deformations);
         let family = self.system.bonds.incidence.at(point).iter();
         let shares = family.filter_map(|&bond| {
@@ -301,7 +306,12 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
         shares.sum::<f64>() / self.system.cloud.volumes[point as usize]
     }
 
-    fn stress(&self, bonds: UnbrokenBonds<'_>, deformations: &Deformations, point: u32) -> Vec<f64> {
+    fn stress(
+        &self,
+        bonds: UnbrokenBonds<'_>,
+        deformations: &Deformations,
+        point: u32,
+    ) -> Vec<f64> {
         let stress = self.virial_stress(bonds, of_bonds(deformations), point);
         stress.components().collect()
     }

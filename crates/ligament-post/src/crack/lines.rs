@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::faces::{Faces, Part, distance};
-use super::paths::{Corner, Graph, Way, ShortestPaths};
+use super::paths::{Corner, Graph, ShortestPaths, Way};
 use super::smooth::smooth;
 
 /// A crack, or a branch of one, as a line.

@@ -32,7 +32,10 @@ pub fn crack_surface(tetrahedra: &Tetrahedra, links: &Links) -> CrackSurface {
         found: HashMap::new(),
     };
     for corners in &tetrahedra.corners {
-        finder.add(corners, sides(tetrahedra, &with_detached_points_assigned, corners));
+        finder.add(
+            corners,
+            sides(tetrahedra, &with_detached_points_assigned, corners),
+        );
     }
     measures::completed(finder.surface)
 }

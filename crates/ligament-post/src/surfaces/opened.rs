@@ -43,7 +43,8 @@ pub fn opened_cells(
     let mut is_cut = vec![false; cells.len()];
     let all = || tetrahedra.corners.iter().zip(&tetrahedra.cells);
     for (corners, cell) in all() {
-        is_cut[*cell as usize] |= sides(tetrahedra, &with_detached_points_assigned, corners) != [0; 4];
+        is_cut[*cell as usize] |=
+            sides(tetrahedra, &with_detached_points_assigned, corners) != [0; 4];
     }
     let mut found = Found::new();
     for ((number, cell), is_cut) in (0..).zip(cells).zip(&is_cut) {

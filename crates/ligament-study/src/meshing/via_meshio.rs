@@ -362,7 +362,10 @@ mod tests {
             }
         }
         for (from, to) in [("0 2 3\n", "0 2 4\n"), ("part\n1\n", "part\n2\n")] {
-            assert!(ScriptOutput::parse(&HANDED.replace(from, to)).is_none(), "{to}");
+            assert!(
+                ScriptOutput::parse(&HANDED.replace(from, to)).is_none(),
+                "{to}"
+            );
         }
     }
 

@@ -224,7 +224,12 @@ fn case_key() -> KeyPath {
 }
 
 /// The error of a case, at the value of the study that makes it wrong; where it is the case file itself, as it is.
-fn error_at_study_value(study: &Study, run: &str, settings: &[Setting], source: CaseError) -> StudyError {
+fn error_at_study_value(
+    study: &Study,
+    run: &str,
+    settings: &[Setting],
+    source: CaseError,
+) -> StudyError {
     let given = match &source {
         CaseError::Override { given, .. }
         | CaseError::Key {

@@ -13,7 +13,7 @@
 use std::mem;
 use std::time::Instant;
 
-use super::way::{Goal, EquilibriumLine};
+use super::way::{EquilibriumLine, Goal};
 use crate::balanced::Balanced;
 use crate::breaking::FirstToBreak;
 use crate::driver::path::Path;

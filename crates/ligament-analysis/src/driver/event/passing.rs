@@ -242,7 +242,9 @@ impl Passing<'_, '_> {
             forces[dofs.clone()].fill(0.0);
             let bonds = system.incidence().at(point).iter();
             for &bond in bonds.filter(|&&bond| intact[bond as usize]) {
-                for (rigidity, entries) in system.terms(intact, bond as usize, &StiffnessFactors::WHOLE) {
+                for (rigidity, entries) in
+                    system.terms(intact, bond as usize, &StiffnessFactors::WHOLE)
+                {
                     let strains = entries.iter().map(|(dof, value)| value * motions[*dof]);
                     let strain: f64 = strains.sum();
                     for (dof, value) in entries.iter().filter(|it| dofs.contains(&it.0)) {

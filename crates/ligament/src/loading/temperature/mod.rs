@@ -217,5 +217,7 @@ fn thermal_strain<const D: usize>(
         Ok(strain)
     };
     let strains = change.iter().enumerate().map(at_point);
-    Ok(StressFreeStrains::new(strains.collect::<Result<Vec<_>, _>>()?))
+    Ok(StressFreeStrains::new(
+        strains.collect::<Result<Vec<_>, _>>()?,
+    ))
 }
