@@ -183,7 +183,7 @@ fn a_resumed_run_gives_the_same_bits() {
             out: &out,
             force: false,
             build: Build::default(),
-            ranks: None,
+            communicator: std::sync::Arc::new(ligament_analysis::distributed_matrix::Solo),
             is_stopped: &|| asked.fetch_add(1, Ordering::Relaxed) > 20,
         };
         assert!(request.run(ProgressMode::Quiet).unwrap().is_stopped());
@@ -193,7 +193,7 @@ fn a_resumed_run_gives_the_same_bits() {
             settings: &[],
             threads: None,
             build: Build::default(),
-            ranks: None,
+            communicator: std::sync::Arc::new(ligament_analysis::distributed_matrix::Solo),
             is_stopped: &|| false,
         };
         request.resume(ProgressMode::Quiet).unwrap();

@@ -3,7 +3,7 @@
 use ligament_model::Bonds;
 use ligament_model::change::ChangedElements;
 use ligament_model::element::Term;
-use ligament_model::portion::Portion;
+use ligament_model::subdomain::Subdomain;
 use ligament_model::thermal::ThermalStrain;
 
 use crate::connectivity::Hold;
@@ -18,8 +18,8 @@ pub struct Breakage {
     pub holds: Vec<Hold>,
     /// Elements that change: those of the bonds, in their order, and then those that lean on them, ascending.
     elements: Option<Box<dyn ChangedElements>>,
-    /// Elements of the bonds that are counted here, where processes share the body out.
-    counted: Option<(Portion, Box<dyn ChangedElements>)>,
+    /// Elements of the owned bonds, where the body is divided between processes.
+    owned: Option<(Subdomain, Box<dyn ChangedElements>)>,
 }
 
 impl Breakage {
@@ -31,16 +31,17 @@ impl Breakage {
         bonds: &[u32],
     ) -> Self {
         let (left, displacement) = (state.bonds(), &state.displacement);
+        let subdomain = system.subdomain();
         Self {
             bonds: bonds.to_vec(),
             holds: Vec::new(),
-            counted: system.portion().map(|portion| {
+            owned: (!subdomain.is_whole()).then(|| {
                 let ends = system.ends();
-                let counted = bonds.iter().copied();
-                let counted = counted.filter(|&bond| portion.counts(ends[bond as usize]));
-                let counted: Vec<u32> = counted.collect();
-                let elements = system.changed(left, displacement, expansion, &counted);
-                (portion.clone(), elements)
+                let owned = bonds.iter().copied();
+                let owned = owned.filter(|&bond| subdomain.owns_bond(ends[bond as usize]));
+                let owned: Vec<u32> = owned.collect();
+                let elements = system.changed(left, displacement, expansion, &owned);
+                (subdomain.clone(), elements)
             }),
             elements: Some(system.changed(left, displacement, expansion, bonds)),
         }
@@ -77,10 +78,8 @@ impl Breakage {
     /// Energy released at a fixed load, with the displacements after it (n_degrees_of_freedom), J:
     /// 1/2 u^T (K_before - K_after) u'.
     pub fn released(&self, displacement: &[f64], expansion: ThermalStrain<'_>) -> f64 {
-        if let Some((portion, counted)) = &self.counted {
-            let mut released = [counted.released(displacement, expansion)];
-            portion.sum(&mut released);
-            return released[0];
+        if let Some((subdomain, owned)) = &self.owned {
+            return subdomain.sum(owned.released(displacement, expansion));
         }
         self.elements
             .as_ref()

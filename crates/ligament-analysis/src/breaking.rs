@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 
+use ligament_model::communicator::Wire;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::{Criteria, Verdict};
 use rayon::prelude::*;
@@ -39,20 +40,9 @@ pub struct BreakingRule {
 /// The bond that leads the order takes the whole group tied with it along, also members just under their limit, so that
 /// symmetric problems stay symmetric; the group is in the order of the numbers that `in_file` gives the ends of a bond, and never
 /// split. Groups follow until `bonds_per_iteration` is reached or passed.
+///
+/// Bonds are given by their numbers among all bonds of the body. Collective.
 pub fn next_to_break(
-    rule: &BreakingRule,
-    deformations: &[BondDeformation],
-    criteria: &Criteria,
-    intact: &[bool],
-    in_file: impl Fn(u32) -> [u32; 2],
-) -> Vec<u32> {
-    let mut near = near_limit(rule, deformations, criteria, intact);
-    near.iter_mut().for_each(|it| it.in_file = in_file(it.bond));
-    chosen(rule, near)
-}
-
-/// The bonds of a body that processes share out which are to break now, by their numbers among all of its bonds.
-pub(crate) fn next_of_all(
     numbers: &BondNumbers,
     rule: &BreakingRule,
     deformations: &[BondDeformation],
@@ -60,24 +50,11 @@ pub(crate) fn next_of_all(
     intact: &[bool],
     in_file: impl Fn(u32) -> [u32; 2],
 ) -> Vec<u32> {
-    let counted = numbers.counted_of(intact);
-    let here = near_limit(rule, deformations, criteria, &counted).into_iter();
-    let here = here.map(|it| {
-        let number = f64::from(numbers.number(it.bond as usize));
-        let exceeds = f64::from(u8::from(it.exceeds));
-        let [a, b] = in_file(it.bond).map(f64::from);
-        [number, it.rank, it.tie_scale, exceeds, a, b]
-    });
-    let here: Vec<[f64; 6]> = here.collect();
-    let of_ranks = numbers.portion().concatenated(&here).into_iter();
-    let of_ranks = of_ranks.map(|[number, rank, tie_scale, exceeds, a, b]| Candidate {
-        bond: number as u32,
-        in_file: [a as u32, b as u32],
-        rank,
-        tie_scale,
-        exceeds: exceeds > 0.0,
-    });
-    chosen(rule, of_ranks.collect())
+    let mut near = near_limit(rule, deformations, criteria, &numbers.owned_of(intact));
+    for it in &mut near {
+        (it.in_file, it.bond) = (in_file(it.bond), numbers.number(it.bond));
+    }
+    chosen(rule, numbers.subdomain().all_gather_list(near))
 }
 
 /// The intact bonds that are beyond their limits, or so near to them that they may be tied with one that is.
@@ -157,7 +134,7 @@ pub fn first_to_break(
     leaders(tie_tolerance, deformations, criteria, intact).first_to_break()
 }
 
-/// The bonds of a body that processes share out which are nearest to breakage, by their numbers among all of its bonds.
+/// The bonds of a body that are nearest to breakage, by their numbers among all bonds and in the order of their ends in the file. Collective.
 pub(crate) fn first_of_all(
     numbers: &BondNumbers,
     tie_tolerance: f64,
@@ -166,17 +143,15 @@ pub(crate) fn first_of_all(
     intact: &[bool],
     in_file: impl Fn(u32) -> [u32; 2],
 ) -> FirstToBreak {
-    let counted = numbers.counted_of(intact);
-    let here = leaders(tie_tolerance, deformations, criteria, &counted);
+    let owned = numbers.owned_of(intact);
+    let here = leaders(tie_tolerance, deformations, criteria, &owned);
     let here = here.tied().map(|(bond, ratio)| {
-        let number = f64::from(numbers.number(bond as usize));
         let [a, b] = in_file(bond).map(f64::from);
-        [number, ratio, a, b]
+        [f64::from(numbers.number(bond)), ratio, a, b]
     });
-    let here: Vec<_> = here.collect();
     let mut leaders = Leaders::new(tie_tolerance);
     let mut ends = BTreeMap::new();
-    for [number, ratio, a, b] in numbers.portion().concatenated(&here) {
+    for [number, ratio, a, b] in numbers.subdomain().all_gather_list(here.collect()) {
         leaders.meet(number as u32, ratio);
         ends.insert(number as u32, [a as u32, b as u32]);
     }
@@ -291,6 +266,24 @@ struct Candidate {
     exceeds: bool,
 }
 
+impl Wire<6> for Candidate {
+    fn numbers(&self) -> [f64; 6] {
+        let [number, a, b] = [self.bond, self.in_file[0], self.in_file[1]].map(f64::from);
+        let exceeds = f64::from(u8::from(self.exceeds));
+        [number, self.rank, self.tie_scale, exceeds, a, b]
+    }
+
+    fn from_numbers([number, rank, tie_scale, exceeds, a, b]: [f64; 6]) -> Self {
+        Self {
+            bond: number as u32,
+            in_file: [a as u32, b as u32],
+            rank,
+            tie_scale,
+            exceeds: exceeds > 0.0,
+        }
+    }
+}
+
 impl Candidate {
     fn new(order: BreakingOrder, bond: u32, verdict: &Verdict) -> Self {
         let (rank, tie_scale) = match order {
@@ -324,6 +317,7 @@ mod tests {
             .map(|&stretch| BondDeformation::new([stretch, 0.0, 0.0]))
             .collect();
         next_to_break(
+            &BondNumbers::whole(0),
             rule,
             &deformations,
             &stretch_limits(limit),

@@ -9,7 +9,6 @@ mod across_ranks;
 pub mod decremental;
 
 use ligament_model::Bonds;
-use ligament_model::portion::Portion;
 
 use crate::restraints::{self, Restraints};
 
@@ -34,43 +33,14 @@ pub struct Hold {
 impl Fragments {
     /// Parts connected by intact bonds; where processes share the body out all of them ask for it.
     pub fn find(system: &dyn Bonds, intact: &[bool]) -> Self {
-        if let Some(portion) = system.portion() {
-            let whole = Self::of_first_points(&vec![0; system.n_points()]);
-            return whole.parted(system, portion, intact);
-        }
-        let n_points = system.n_points();
-        let topology = system.topology();
-        let mut of_point = vec![u32::MAX; n_points];
-        let mut points = Vec::new();
-        for start in 0..n_points as u32 {
-            if of_point[start as usize] != u32::MAX {
-                continue;
-            }
-            let fragment = points.len() as u32;
-            of_point[start as usize] = fragment;
-            let mut reached = vec![start];
-            let mut next = 0;
-            while next < reached.len() {
-                let point = reached[next];
-                next += 1;
-                for &bond in topology.incidence.at(point) {
-                    let neighbour = topology.neighbour(bond, point);
-                    if intact[bond as usize] && of_point[neighbour as usize] == u32::MAX {
-                        of_point[neighbour as usize] = fragment;
-                        reached.push(neighbour);
-                    }
-                }
-            }
-            reached.sort_unstable();
-            points.push(reached);
-        }
-        Self { of_point, points }
+        let whole = Self::of_first_points(&vec![0; system.n_points()]);
+        whole.parted(system, intact)
     }
 
     /// The parts that intact bonds leave of these, where processes share the body out.
-    fn parted(&self, system: &dyn Bonds, portion: &Portion, intact: &[bool]) -> Self {
+    fn parted(&self, system: &dyn Bonds, intact: &[bool]) -> Self {
         let before = (&*self.of_point, &*self.points);
-        Self::of_first_points(&across_ranks::parted(system, portion, intact, before))
+        Self::of_first_points(&across_ranks::parted(system, intact, before))
     }
 
     /// Fragments by the first point of that of each point.

@@ -21,7 +21,6 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use ligament_linalg::{Factorisation, HalfSolved};
-use ligament_model::portion::any;
 
 use crate::balanced::{Attempt, Balanced, Stability};
 use crate::bond_numbers::BondNumbers;
@@ -70,8 +69,8 @@ pub(crate) enum Held {
 pub struct Equilibrium {
     equations: Equations,
     connectivity: Connectivity,
-    /// Where processes share the body out.
-    numbers: Option<Arc<BondNumbers>>,
+    /// Numbers of the bonds among all bonds of the body.
+    numbers: Arc<BondNumbers>,
     iteration: Iteration,
     held: Option<Held>,
 }
@@ -88,16 +87,16 @@ impl Equilibrium {
         Self::numbered(problem, numbers, energy_tolerance)
     }
 
-    /// The equilibrium of bonds with their numbers, where processes share the body out.
+    /// The equilibrium of bonds with their numbers.
     fn numbered(
         problem: &Problem,
-        numbers: Option<BondNumbers>,
+        numbers: BondNumbers,
         energy_tolerance: f64,
     ) -> Result<Self, SetupError> {
-        let numbers = numbers.map(Arc::new);
+        let numbers = Arc::new(numbers);
         Ok(Self {
             held: None,
-            equations: Equations::new(problem, numbers.as_ref(), energy_tolerance)?,
+            equations: Equations::new(problem, &numbers, energy_tolerance)?,
             numbers,
             connectivity: Connectivity::new(&*problem.system),
             iteration: if problem.system.faces_close() {
@@ -113,8 +112,8 @@ impl Equilibrium {
         self.equations.write(out);
     }
 
-    /// The equilibrium of a state as it was when the bytes were written, with what it was measured to be; `numbers` are those of the bonds
-    /// that are known here, where processes share the body out.
+    /// The equilibrium of a state as it was when the bytes were written, with what it was measured to be; `numbers` are those of the
+    /// local bonds among all.
     ///
     /// # Errors
     ///
@@ -122,18 +121,20 @@ impl Equilibrium {
     pub(crate) fn restored(
         problem: &Problem,
         energy_tolerance: f64,
-        (numbers, mut state): (Option<BondNumbers>, State),
+        (numbers, mut state): (BondNumbers, State),
         from: &mut &[u8],
     ) -> Result<(Self, State, Balanced), SetupError> {
         let n_bonds = problem.system.ends().len();
         let fits = state.fits(&*problem.system, n_bonds, &problem.criteria);
-        if any(problem.system.portion(), !fits) {
+        if problem.system.subdomain().any(!fits) {
             return Err(CheckpointError::OtherModel.into());
         }
         let mut equilibrium = Self::numbered(problem, numbers, energy_tolerance)?;
         state = equilibrium.known(state);
         equilibrium.connectivity = Connectivity::held(&*problem.system, &state.intact);
-        let balanced = equilibrium.equations.restore(&state, from)?;
+        let balanced = equilibrium
+            .equations
+            .restore(&state, &equilibrium.numbers, from)?;
         if !state.softening.remaining.is_empty() {
             equilibrium.soften();
         }
@@ -143,8 +144,7 @@ impl Equilibrium {
     /// Number of the broken bonds of a state, over all processes.
     pub(crate) fn broken_bonds(&self, state: &State) -> usize {
         let broken = state.intact.iter().map(|intact| !intact);
-        self.numbers()
-            .map_or_else(|| state.broken_bonds(), |it| it.count(broken))
+        self.numbers.count(broken)
     }
 
     /// Goes on with bonds that soften, if those of the criteria do.
@@ -218,9 +218,9 @@ impl Equilibrium {
         self.equations.costs.bonds += start.elapsed();
     }
 
-    /// Numbers of the bonds among all of the body, where processes share it out.
-    pub(crate) fn numbers(&self) -> Option<&BondNumbers> {
-        self.numbers.as_deref()
+    /// Numbers of the bonds among all of the body.
+    pub(crate) fn numbers(&self) -> &BondNumbers {
+        &self.numbers
     }
 
     /// Breaks bonds, by their numbers among all of the body: takes them out of the state and holds what came loose.
@@ -237,13 +237,12 @@ impl Equilibrium {
         } = &mut self.equations;
         let (system, loads) = (&*problem.system, &problem.loads);
         let expansion = loads.thermal_strain(state.load_factor);
-        let known = self.numbers.as_ref().map(|it| it.all_known(bonds));
-        let known = known.as_deref().unwrap_or(bonds);
-        let mut breakage = Breakage::new(system, expansion, state, known);
+        let local = self.numbers.all_local(bonds);
+        let mut breakage = Breakage::new(system, expansion, state, &local);
         breakage.bonds = bonds.to_vec();
         let start = Instant::now();
         self.connectivity
-            .bonds_broke(system, &mut state.intact, known);
+            .bonds_broke(system, &mut state.intact, &local);
         let held = &state.held;
         breakage.holds = self.connectivity.missing_holds(
             system,
@@ -324,9 +323,8 @@ impl Equilibrium {
 
     /// A state with motions that are known here alone.
     pub(crate) fn known(&self, mut state: State) -> State {
-        if let Some(neighbours) = &self.equations.neighbours {
-            neighbours.hide(&mut state.displacement);
-        }
+        let halo = &self.equations.halo;
+        halo.poison_unknown(&mut state.displacement);
         state
     }
 

@@ -12,7 +12,7 @@ use crate::costs::Costs;
 use crate::gauges::FreeBody;
 use crate::load_program::LoadProgram;
 use crate::serial;
-use crate::softened::{self, FarthestSoftened, SoftenedOfAll};
+use crate::softened::{FarthestSoftened, SoftenedOfAll};
 use crate::state::State;
 
 pub use crate::termination::Termination;
@@ -256,7 +256,7 @@ pub enum Notice {
 
 /// A state in equilibrium, for observers that want fields.
 ///
-/// Where processes share the body out ([`Bonds::portion`]), motions and forces are those of all points, bonds are those that this process
+/// Where processes share the body out ([`Bonds::subdomain`]), motions and forces are those of all points, bonds are those that this process
 /// knows, and what follows from the bonds of a point is right at own points alone; each observer may ask for it by itself.
 pub struct View<'a> {
     /// The system.
@@ -273,8 +273,8 @@ pub struct View<'a> {
     pub fragments: &'a Fragments,
     /// What the equations have cost so far.
     pub costs: &'a Costs,
-    /// What softened over all processes that share the body out; none where one has all of it, or nothing softens.
-    pub softened: Option<SoftenedOfAll>,
+    /// What softened over all processes.
+    pub softened: SoftenedOfAll,
     /// Whether the run ends with this state.
     pub is_last: bool,
     /// Whether all of the body is known: otherwise motions and forces are those of supported and loaded points alone, and there are no
@@ -285,14 +285,12 @@ pub struct View<'a> {
 impl View<'_> {
     /// Number of the unbroken bonds whose force has begun to fall beyond a limit.
     pub fn softened_bonds(&self) -> usize {
-        (self.softened).map_or_else(|| self.state.softened_bonds(), |it| it.bonds)
+        self.softened.bonds
     }
 
     /// The bond farthest beyond its limit under a law that softens.
     pub fn farthest_softened(&self) -> Option<FarthestSoftened> {
-        let ends = self.system.ends();
-        let alone = || softened::farthest(self.state, ends, |_| true);
-        self.softened.map_or_else(alone, |it| it.farthest)
+        self.softened.farthest
     }
 }
 

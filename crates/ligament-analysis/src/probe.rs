@@ -91,21 +91,18 @@ pub(crate) fn values(
     balanced: &Balanced,
 ) -> Vec<f64> {
     let readings = probes.iter().map(|it| &it.reading);
-    let Some(portion) = system.portion() else {
-        let values = readings.map(|it| it.value(system, criteria, state, balanced));
-        return values.collect();
-    };
-    let first_is_own =
-        |place: &Shares| (place.first()).is_some_and(|(point, _)| portion.is_own(*point));
+    let subdomain = system.subdomain();
+    let first_is_owned =
+        |place: &Shares| (place.first()).is_some_and(|(point, _)| subdomain.owns(*point));
     let parts = readings.map(|reading| match reading {
         // The motions of points that are read are known to all: one process reads the whole.
-        Reading::RelativeDisplacement { places, .. } if !first_is_own(&places[0]) => 0.0,
+        Reading::RelativeDisplacement { places, .. } if !first_is_owned(&places[0]) => 0.0,
         Reading::Field {
             place,
             field: PointField::Motion(_),
-        } if !first_is_own(place) => 0.0,
+        } if !first_is_owned(place) => 0.0,
         Reading::Field { place, field } if !matches!(field, PointField::Motion(_)) => {
-            let own = place.iter().filter(|(point, _)| portion.is_own(*point));
+            let own = place.iter().filter(|(point, _)| subdomain.owns(*point));
             let own = Reading::Field {
                 place: own.copied().collect(),
                 field: *field,
@@ -114,20 +111,20 @@ pub(crate) fn values(
         }
         Reading::SectionForce { bonds, component } => {
             let ends = system.ends();
-            let counted = bonds.iter().filter(|(bond, _)| {
+            let owned = bonds.iter().filter(|(bond, _)| {
                 let ends = ends.get(*bond as usize);
-                ends.is_some_and(|ends| portion.counts(*ends))
+                ends.is_some_and(|ends| subdomain.owns_bond(*ends))
             });
-            let counted = Reading::SectionForce {
-                bonds: counted.copied().collect(),
+            let owned = Reading::SectionForce {
+                bonds: owned.copied().collect(),
                 component: *component,
             };
-            counted.value(system, criteria, state, balanced)
+            owned.value(system, criteria, state, balanced)
         }
         reading => reading.value(system, criteria, state, balanced),
     });
     let mut values: Vec<f64> = parts.collect();
-    portion.sum(&mut values);
+    subdomain.all_reduce_sum(&mut values);
     values
 }
 

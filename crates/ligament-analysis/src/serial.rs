@@ -276,10 +276,15 @@ impl<T: Serial> Serial for Option<T> {
     }
 }
 
+/// Appends the bytes of a list, as those of a vector.
+pub(crate) fn write_list<T: Serial>(list: &[T], out: &mut Vec<u8>) {
+    list.len().write(out);
+    T::write_list(list, out);
+}
+
 impl<T: Serial> Serial for Vec<T> {
     fn write(&self, out: &mut Vec<u8>) {
-        self.len().write(out);
-        T::write_list(self, out);
+        write_list(self, out);
     }
 
     fn read(from: &mut &[u8]) -> Result<Self, Damaged> {

@@ -11,7 +11,6 @@ use rayon::prelude::*;
 
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
-use crate::serial;
 use crate::serial::Serial;
 
 /// Relative difference below which a bond is as far as it ever was.
@@ -28,12 +27,6 @@ pub struct Softening {
     pub remaining: Vec<Remaining>,
 }
 
-serial!(Softening {
-    largest,
-    trial,
-    remaining
-});
-
 impl Softening {
     /// Whether all arrays are those of bonds with these criteria.
     pub(crate) fn fits(&self, criteria: &Criteria, n_bonds: usize) -> bool {
@@ -44,34 +37,21 @@ impl Softening {
         lengths(self) == lengths(&Self::of_sound_bonds(criteria, n_bonds))
     }
 
-    /// The softening of the bonds of all processes on rank 0, see [`State::of_all`](crate::state::State).
-    pub(crate) fn of_all(&self, numbers: &BondNumbers) -> Self {
-        let of = |lists: &[Vec<f64>]| {
-            let told = |list: &Vec<f64>| match list.is_empty() {
-                true => Vec::new(),
-                false => numbers.of_all(list, 0.0),
-            };
-            lists.iter().map(told).collect()
-        };
-        Self {
-            largest: of(&self.largest),
-            trial: of(&self.trial),
-            remaining: match self.remaining.is_empty() {
-                true => Vec::new(),
-                false => numbers.of_all(&self.remaining, Remaining::WHOLE),
-            },
+    /// Appends the softening of all bonds of the body, see [`BondNumbers::write`].
+    pub(crate) fn write(&self, numbers: &BondNumbers, out: &mut Vec<u8>) {
+        for lists in [&self.largest, &self.trial] {
+            lists.len().write(out);
+            lists.iter().for_each(|list| numbers.write(list, 0.0, out));
         }
+        numbers.write(&self.remaining, Remaining::WHOLE, out);
     }
 
-    /// Reads the softening of the bonds that are known here, from that of all.
+    /// Reads the softening of the local bonds, from that of all.
     ///
     /// # Errors
     ///
     /// If the bytes are damaged or of another body.
-    pub(crate) fn read_known(
-        numbers: &BondNumbers,
-        from: &mut &[u8],
-    ) -> Result<Self, CheckpointError> {
+    pub(crate) fn read(numbers: &BondNumbers, from: &mut &[u8]) -> Result<Self, CheckpointError> {
         let lists = |from: &mut &[u8]| -> Result<Vec<Vec<f64>>, CheckpointError> {
             let count = usize::read(from)?;
             (0..count).map(|_| numbers.read(from)).collect()

@@ -1,18 +1,20 @@
 //! Settings of the solver of the equations, and what is chosen where they are left open.
 
 use std::fmt::{self, Display, Formatter};
+use std::sync::Arc;
 
 use ligament_linalg::Elimination;
 pub use ligament_linalg::FactorKind;
 use ligament_model::Bonds;
+use ligament_model::communicator::Solo;
 use thiserror::Error;
 
 use crate::dissection;
-use crate::ranks::Together;
+use crate::distributed_matrix::MatrixCommunicator;
 use crate::unknowns::Unknowns;
 
 /// How the equations are solved; what is left open is chosen for the problem.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct SolverSettings {
     /// Method; open: a factor up to [`points_for_iteration`], conjugate gradients beyond where they can; in the plane, where `memory` is
     /// known, a factor as long as it fits.
@@ -33,8 +35,8 @@ pub struct SolverSettings {
     pub rebuild_every: usize,
     /// Bytes that the matrix and its factor may take; open: not known.
     pub memory: Option<usize>,
-    /// Processes that solve the equations together; none: this one alone.
-    pub ranks: Option<Together>,
+    /// The processes that solve the equations.
+    pub communicator: Arc<dyn MatrixCommunicator>,
 }
 
 /// A way to solve the equations.
@@ -202,7 +204,7 @@ impl Default for SolverSettings {
             update: None,
             rebuild_every: 1000,
             memory: None,
-            ranks: None,
+            communicator: Arc::new(Solo),
         }
     }
 }
@@ -289,7 +291,7 @@ impl SolverSettings {
     ) -> Result<DistributedChoice, Unfit> {
         let open = Self {
             method: None,
-            ..*self
+            ..self.clone()
         };
         let (is_definite, reason) = match (open.unfit(system), self.method) {
             (None, Some(Method::Direct)) => (false, Reason::Named),

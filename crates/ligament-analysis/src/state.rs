@@ -6,8 +6,7 @@ use ligament_model::failure::Criteria;
 
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
-use crate::serial;
-use crate::serial::Serial;
+use crate::serial::{Serial, write_list};
 use crate::softening::Softening;
 
 /// Motion of the points and what is left of the bonds.
@@ -28,16 +27,6 @@ pub struct State {
     /// Degrees of freedom held because nothing else would hold them, shape (n_degrees_of_freedom).
     pub held: Vec<bool>,
 }
-
-serial!(State {
-    load_factor,
-    displacement,
-    intact,
-    broken_by,
-    softening,
-    dissipated,
-    held
-});
 
 impl State {
     /// Whether all arrays are those of a body with so many bonds and these criteria.
@@ -71,37 +60,29 @@ impl State {
         }
     }
 
-    /// The state with the bonds of all processes on rank 0, and without any elsewhere.
-    pub(crate) fn of_all(&self, numbers: &BondNumbers) -> Self {
-        let mut displacement = self.displacement.clone();
-        let n_components = displacement.len() / numbers.portion().partition().len();
-        numbers.portion().complete(&mut displacement, n_components);
-        Self {
-            load_factor: self.load_factor,
-            displacement,
-            held: self.held.clone(),
-            intact: numbers.of_all(&self.intact, true),
-            broken_by: numbers.of_all(&self.broken_by, None),
-            softening: self.softening.of_all(numbers),
-            dissipated: numbers.of_all(&self.dissipated, 0.0),
-        }
+    /// Appends the state with all points and bonds of the body, from those of each process; rank 0 alone may use the bytes. Collective.
+    pub(crate) fn write(&self, numbers: &BondNumbers, out: &mut Vec<u8>) {
+        self.load_factor.write(out);
+        write_list(&numbers.subdomain().gathered(&self.displacement), out);
+        numbers.write(&self.intact, true, out);
+        numbers.write(&self.broken_by, None, out);
+        self.softening.write(numbers, out);
+        numbers.write(&self.dissipated, 0.0, out);
+        self.held.write(out);
     }
 
-    /// Reads a state with the bonds that are known here alone, from that of all bonds.
+    /// Reads a state with the local bonds alone, from that of all bonds.
     ///
     /// # Errors
     ///
     /// If the bytes are damaged or of another body.
-    pub(crate) fn read_known(
-        numbers: &BondNumbers,
-        from: &mut &[u8],
-    ) -> Result<Self, CheckpointError> {
+    pub(crate) fn read(numbers: &BondNumbers, from: &mut &[u8]) -> Result<Self, CheckpointError> {
         Ok(Self {
             load_factor: Serial::read(from)?,
             displacement: Serial::read(from)?,
             intact: numbers.read(from)?,
             broken_by: numbers.read(from)?,
-            softening: Softening::read_known(numbers, from)?,
+            softening: Softening::read(numbers, from)?,
             dissipated: numbers.read(from)?,
             held: Serial::read(from)?,
         })

@@ -42,7 +42,7 @@ impl Stiffness {
     pub(crate) fn new(
         system: &Arc<dyn Bonds>,
         unknowns: Arc<Unknowns>,
-        settings: SolverSettings,
+        settings: &SolverSettings,
         reason: Reason,
     ) -> Result<Self, SetupError> {
         let start = Instant::now();

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use ligament_model::Bonds;
 pub use ligament_model::layout::{Component, Layout};
-use ligament_model::portion::Portion;
+use ligament_model::subdomain::Subdomain;
 
 use crate::restraints::Restraints;
 
@@ -57,13 +57,10 @@ impl Unknowns {
         }
     }
 
-    /// The unknowns of this process alone, numbered; those of the others are without numbers.
-    pub(crate) fn of_own(mut self, portion: Option<&Portion>) -> Self {
-        let Some(portion) = portion else {
-            return self;
-        };
+    /// The unknowns at owned points, numbered; those at other points are without numbers.
+    pub(crate) fn of_owned(mut self, subdomain: &Subdomain) -> Self {
         let layout = self.layout;
-        (self.degrees_of_freedom).retain(|&dof| portion.is_own(layout.point(dof as usize)));
+        (self.degrees_of_freedom).retain(|&dof| subdomain.owns(layout.point(dof as usize)));
         let unknown = self.number.iter_mut().filter(|it| **it != KNOWN);
         unknown.for_each(|it| *it = ELSEWHERE);
         for (number, &dof) in (0..).zip(&self.degrees_of_freedom) {

@@ -1,6 +1,6 @@
 //! Arithmetic on long arrays whose bits depend on nothing but the arrays: sums go in a fixed order, whatever the number of threads.
 
-use ligament_model::portion::Portion;
+use ligament_model::subdomain::Subdomain;
 use rayon::prelude::*;
 
 /// Entries that are added up by one thread in one go.
@@ -20,13 +20,9 @@ pub(crate) fn dot(one: &[f64], other: &[f64]) -> f64 {
     sums.into_iter().chain(rest).sum()
 }
 
-/// The scalar product of two arrays of the same shape, of which each process that shares a body out has a part.
-pub(crate) fn dot_of_all(portion: Option<&Portion>, one: &[f64], other: &[f64]) -> f64 {
-    let mut sum = [dot(one, other)];
-    if let Some(portion) = portion {
-        portion.sum(&mut sum);
-    }
-    sum[0]
+/// The scalar product of two arrays of the same shape, each distributed over the processes.
+pub(crate) fn dot_of_all(subdomain: &Subdomain, one: &[f64], other: &[f64]) -> f64 {
+    subdomain.sum(dot(one, other))
 }
 
 /// The scalar product of two arrays of the same shape, of chunks on all threads.

@@ -23,8 +23,8 @@ pub mod commands;
 pub mod explain;
 pub mod inspect;
 mod lines;
+mod processes;
 pub mod program;
-mod ranks;
 mod stop_signal;
 pub mod terminal;
 

@@ -8,7 +8,7 @@ use clap::Parser;
 use ligament_run::end::StoppedBeforeSolution;
 
 use crate::stop_signal::report_large_files;
-use crate::{Cli, ranks, terminal};
+use crate::{Cli, processes, terminal};
 
 /// Does what the arguments ask for, the name of the program first, and gives the exit code; `program` is the command that calls
 /// this program, for runs that it starts as processes of their own.
@@ -44,18 +44,18 @@ fn conclude(done: anyhow::Result<ExitCode>) -> ExitCode {
         Err(error) => (code_of(&error), Some(error)),
     };
     // What all processes meet the first one tells of.
-    if let Some(error) = error.as_ref().filter(|_| !ranks::is_beside_the_first()) {
+    if let Some(error) = error.as_ref().filter(|_| !processes::is_beside_the_first()) {
         print_error(error);
     }
-    let all_came = ranks::part(error.is_some());
+    let all_came = processes::part(error.is_some());
     if let Some(error) = error
         .as_ref()
-        .filter(|_| ranks::is_beside_the_first() && !all_came)
+        .filter(|_| processes::is_beside_the_first() && !all_came)
     {
         print_error(error);
     }
     if !all_came {
-        ranks::abort();
+        processes::abort();
     }
     code
 }

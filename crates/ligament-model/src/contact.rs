@@ -15,6 +15,7 @@
 //! What strain along the crack adds to it (Poisson) is not recovered, nor is shear along the crack: there is no friction.
 
 use crate::bonds::{BondSet, Incidence};
+use crate::communicator::Wire;
 use crate::layout::Component;
 use crate::tensor::SymTensor;
 use crate::thermal::ThermalStrain;
@@ -74,6 +75,18 @@ pub struct Overlap {
     pub depth: f64,
     /// The points.
     pub ends: [u32; 2],
+}
+
+impl Wire<3> for Overlap {
+    fn numbers(&self) -> [f64; 3] {
+        let [a, b] = self.ends.map(f64::from);
+        [self.depth, a, b]
+    }
+
+    fn from_numbers([depth, a, b]: [f64; 3]) -> Self {
+        let ends = [a as u32, b as u32];
+        Self { depth, ends }
+    }
 }
 
 impl ContactPair {

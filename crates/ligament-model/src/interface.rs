@@ -12,8 +12,8 @@ use crate::deformation::Deformations;
 use crate::element::{BondDeformation, Remaining, Rigidities, Term};
 use crate::failure::Criterion;
 use crate::layout::{Component, Layout};
-use crate::portion::Portion;
 use crate::rigid_motions::FreeMotion;
+use crate::subdomain::Subdomain;
 use crate::sweep::BondSweep;
 use crate::system::BondsLeft;
 use crate::thermal::ThermalStrain;
@@ -37,8 +37,8 @@ pub trait BondTopology: std::fmt::Debug + Send + Sync {
     /// How the points are numbered: here, and in the file.
     fn numbering(&self) -> &Numbering;
 
-    /// The part of this process in the body; none where it has the whole body.
-    fn portion(&self) -> Option<&Portion>;
+    /// The points and bonds of the body on this process.
+    fn subdomain(&self) -> &Subdomain;
 
     /// Components of the motion of a point, in the order of the arrays over degrees of freedom.
     fn components(&self) -> &'static [Component];
@@ -340,7 +340,7 @@ impl PointStiffness {
     pub(crate) fn of_bonds<const D: usize>(
         rigidities: &Rigidities,
         bonds: &BondSet<D>,
-        portion: Option<&Portion>,
+        subdomain: &Subdomain,
     ) -> Vec<Self> {
         let of_point = |point: u32| {
             let (mut force, mut moment) = (0.0, 0.0);
@@ -350,19 +350,15 @@ impl PointStiffness {
                 force += (rigidities.axial[bond].abs() + shear) / length.powi(2);
                 moment += (shear + rigidities.rotational[bond].abs()) / length;
             }
-            Self { force, moment }
+            [force, moment]
         };
         let points = (0..bonds.incidence.n_points() as u32).into_par_iter();
-        let mut of_points: Vec<Self> = points.map(of_point).collect();
-        if let Some(portion) = portion {
-            let both = of_points.iter().flat_map(|it| [it.force, it.moment]);
-            let mut both: Vec<f64> = both.collect();
-            portion.complete(&mut both, 2);
-            for (it, told) in of_points.iter_mut().zip(both.chunks_exact(2)) {
-                (it.force, it.moment) = (told[0], told[1]);
-            }
-        }
+        let mut of_points: Vec<[f64; 2]> = points.map(of_point).collect();
+        subdomain.all_gather_points(of_points.as_flattened_mut(), 2);
+        let of_points = of_points.into_iter();
         of_points
+            .map(|[force, moment]| Self { force, moment })
+            .collect()
     }
 }
 

@@ -8,7 +8,7 @@ use crate::cloud::PointCloud;
 use crate::deformation::{Deformation, Deformations};
 use crate::element::{DeformationOf, Element, Elements};
 use crate::layout::Component;
-use crate::portion::{Portion, Share, Whole, counts};
+use crate::subdomain::{Share, Subdomain, Whole};
 use crate::system::{BondsLeft, ElementSystem};
 use crate::thermal::ThermalStrain;
 
@@ -97,13 +97,13 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
         expansion: ThermalStrain<'_>,
     ) -> BondSweep {
         let n_bonds = deformations.len();
-        let portion = self.system.cloud.portion.as_ref();
+        let subdomain = &self.system.cloud.subdomain;
         let of_bonds: &[DeformationOf<D, M, E>] = Deformation::of_bonds(&deformations);
         let made = |number: usize| {
             let of_part = || number * n_bonds / PARTS..(number + 1) * n_bonds / PARTS;
-            let mut part = match portion {
-                None => Part::of_bonds(self, Whole, bonds, of_bonds, of_part()),
-                Some(portion) => Part::of_bonds(self, portion, bonds, of_bonds, of_part()),
+            let mut part = match subdomain.is_whole() {
+                true => Part::of_bonds(self, Whole, bonds, of_bonds, of_part()),
+                false => Part::of_bonds(self, subdomain, bonds, of_bonds, of_part()),
             };
             if !expansion.is_none() {
                 part.add_expansion(self, bonds, of_bonds, expansion, of_part());
@@ -111,17 +111,17 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
             part
         };
         let parts: Vec<Part<M>> = (0..PARTS).into_par_iter().map(made).collect();
-        BondSweep::of_parts(&parts, &E::COMPONENTS, deformations, portion)
+        BondSweep::of_parts(&parts, &E::COMPONENTS, deformations, subdomain)
     }
 }
 
 impl BondSweep {
-    /// The sweep over the bonds of some parts, between points with these components; of all ranks, where they share the body out.
+    /// The sweep over the bonds of some parts, between points with these components; summed over the processes.
     fn of_parts<const M: usize>(
         parts: &[Part<M>],
         components: &[Component; M],
         deformations: Deformations,
-        portion: Option<&Portion>,
+        subdomain: &Subdomain,
     ) -> Self {
         let sums: Vec<PointForces<M>> = (0..parts[0].forces.len())
             .into_par_iter()
@@ -133,10 +133,7 @@ impl BondSweep {
             .collect();
         let collected = |of_point: fn(&PointForces<M>) -> [f64; M]| {
             let of_points: Vec<[f64; M]> = sums.iter().map(of_point).collect();
-            match portion {
-                None => of_points.into_flattened(),
-                Some(portion) => portion.spread(&of_points),
-            }
+            subdomain.from_owned(of_points)
         };
         let (values, sizes) = (
             collected(|forces| forces.sum),
@@ -154,10 +151,8 @@ impl BondSweep {
             of_parts(|part| part.energy),
             of_parts(|part| part.expansion_energy),
         ];
-        if let Some(portion) = portion {
-            portion.sum(&mut over_bonds);
-            portion.largest(&mut scales);
-        }
+        subdomain.all_reduce_sum(&mut over_bonds);
+        subdomain.all_reduce_max(&mut scales);
         let [force_scale, moment_scale] = scales;
         let [thermal, stored_energy, expansion_energy] = over_bonds;
         Self {
@@ -177,7 +172,7 @@ impl BondSweep {
 
 /// What the bonds of one part give.
 struct Part<const M: usize> {
-    /// Of all points, or of the own ones.
+    /// At the owned points.
     forces: Vec<PointForces<M>>,
     energy: f64,
     thermal: f64,
@@ -215,11 +210,10 @@ impl<const M: usize> PointForces<M> {
 }
 
 impl<const M: usize> Part<M> {
-    /// A part without bonds, for the points of a cloud, or the own ones of it.
+    /// A part without bonds, for the owned points of a cloud.
     fn new<const D: usize>(cloud: &PointCloud<D>) -> Self {
-        let own = cloud.portion.as_ref().map(|it| it.own().len());
         Self {
-            forces: vec![PointForces::NONE; own.unwrap_or(cloud.len())],
+            forces: vec![PointForces::NONE; cloud.subdomain.owned().len()],
             energy: 0.0,
             thermal: 0.0,
             expansion_energy: 0.0,
@@ -243,7 +237,7 @@ impl<const M: usize> Part<M> {
                 continue;
             };
             let deformation = &deformations[bond];
-            if share.counts(typed.system.bonds.ends[bond]) {
+            if share.owns_bond(typed.system.bonds.ends[bond]) {
                 energy += element.mutual_energy(deformation, deformation);
             }
             element.forces(deformation, |point, force| {
@@ -270,10 +264,12 @@ impl<const M: usize> Part<M> {
         of_part: Range<usize>,
     ) {
         let at_full_load = expansion.at_full_load();
-        let portion = typed.system.cloud.portion.as_ref();
+        let subdomain = &typed.system.cloud.subdomain;
         for bond in of_part {
             let ends = typed.system.bonds.ends[bond];
-            let element = typed.left(bonds, bond).filter(|_| counts(portion, ends));
+            let element = typed
+                .left(bonds, bond)
+                .filter(|_| subdomain.owns_bond(ends));
             let Some(element) = element else {
                 continue;
             };

@@ -12,7 +12,7 @@
 //! | [`end`] | how a run ended, as its exit code tells |
 //! | [`summary`] | `summary.json`, and the lines at the end of a run |
 //! | [`watch`], [`progress`] | the observer that writes results, and how far the run is |
-//! | `ranks`, `assist` | what several processes tell each other, and the part of those beside the first |
+//! | `processes`, `pieces` | what processes exchange, and what those beside rank 0 write |
 //! | [`stages`], [`memory`], [`disk`] | time, memory and room on a disk that a run takes |
 //! | `processors` | threads that other programs leave a processor to |
 //! | [`gauges`] | rigid motions that nothing holds, in words |
@@ -21,7 +21,6 @@
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
 )]
 
-mod assist;
 mod checkpoints;
 mod comparison;
 mod destination;
@@ -34,10 +33,11 @@ pub mod memory;
 pub mod model;
 mod modes;
 pub mod notices;
+mod pieces;
+mod processes;
 mod processors;
 pub mod progress;
 pub mod provenance;
-mod ranks;
 pub mod repeat;
 pub mod resume;
 pub mod run;

@@ -7,13 +7,14 @@ use ligament::{Loading, Model};
 use ligament_analysis::driver::Restored;
 use ligament_case::case::{CaseFile, StressField};
 use ligament_output::folder::ResultFolder;
-use ligament_output::results::{ResultWriter, SoFar, Time, WriteRule};
+use ligament_output::results::{PieceWriter, ResultWriter, SoFar, Time, WriteRule};
 
 use crate::checkpoints::{Checkpoints, IsStopped};
 use crate::inputs::{Contents, Inputs, unread};
+use crate::pieces::Pieces;
+use crate::processes::broadcast_path;
 use crate::progress::Progress;
 use crate::provenance::{Build, Provenance};
-use crate::ranks::tell_folder;
 use crate::stages::Stages;
 use crate::summary::{Noted, Summary};
 use crate::watch::Watch;
@@ -21,12 +22,11 @@ use crate::watch::Watch;
 /// Name of the file with all numbers of a run.
 pub(crate) const SUMMARY: &str = "summary.json";
 
-/// A body under loads, and the folder of its results.
+/// A body under loads.
 pub(crate) struct LoadedBody<'a> {
     pub(crate) case: &'a CaseFile,
     pub(crate) model: &'a Model,
     pub(crate) loading: &'a Loading,
-    pub(crate) folder: &'a ResultFolder,
     pub(crate) build: Build,
     pub(crate) is_stopped: IsStopped<'a>,
 }
@@ -39,9 +39,10 @@ pub(crate) struct Kept {
 }
 
 impl LoadedBody<'_> {
-    /// Follows the loads from the unloaded body on or from what was kept, and writes all results into the folder.
+    /// Follows the loads from the unloaded body on or from what was kept, and writes all results into the folder: what rank 0 does.
     pub(crate) fn follow(
         &self,
+        folder: &ResultFolder,
         kept: Option<Kept>,
         stages: &mut Stages,
         progress: &mut Progress,
@@ -50,14 +51,13 @@ impl LoadedBody<'_> {
             case,
             model,
             loading,
-            folder,
             build,
             is_stopped,
         } = *self;
         let problem = loading.problem(model);
         let analysis = &model.setup.analysis;
         let grid = model.body().grid();
-        tell_folder(loading.solver.ranks, folder.path());
+        broadcast_path(&*loading.solver.communicator, Some(folder.path()))?;
         let (fixed, rule) = (&model.fixed, write_rule(case, analysis));
         let mut contents = Contents::default();
         let inputs = Inputs::of_course(case, &mut contents).map_err(unread)?;
@@ -97,6 +97,34 @@ impl LoadedBody<'_> {
         folder.write_text(SUMMARY, &(text + "\n"))?;
         checkpoints.end(&outcome.termination)?;
         Ok(summary)
+    }
+}
+
+impl LoadedBody<'_> {
+    /// Follows the loads as [`LoadedBody::follow`] does on rank 0, from the unloaded body or from a restored run, and writes the pieces of
+    /// grids of this process into the folder of rank 0.
+    pub(crate) fn follow_beside(&self, restored: Option<Restored>) -> anyhow::Result<()> {
+        let Self {
+            case,
+            model,
+            loading,
+            is_stopped,
+            ..
+        } = *self;
+        let problem = loading.problem(model);
+        let analysis = &model.setup.analysis;
+        let (grid, fixed) = (model.body().grid(), &model.fixed);
+        let folder = broadcast_path(&*loading.solver.communicator, None)?;
+        let writer =
+            || PieceWriter::new(folder, &grid, fixed, write_rule(case, analysis), &problem);
+        let is_divided = !model.system.subdomain().is_whole();
+        let writer = is_divided.then(writer).transpose()?;
+        let mut pieces = Pieces::new(writer, is_stopped);
+        match restored {
+            None => follow(&problem, analysis, &mut pieces)?,
+            Some(restored) => resume(analysis, restored, &mut pieces)?,
+        };
+        Ok(())
     }
 }
 

@@ -4,12 +4,11 @@ use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
 
-use ligament::model::sharing;
+use ligament::model::dividing;
 use ligament::plausibility::corners;
 use ligament::setup::{ELASTIC_ENERGY_TOLERANCE, Horizon, Setup};
 use ligament_analysis::Equilibrium;
 use ligament_analysis::driver::Problem;
-use ligament_analysis::ranks::Together;
 use ligament_analysis::solver::n_axes;
 use ligament_analysis::stiffness::Stiffness;
 use ligament_case::case::{CaseFile, LatticeSection};
@@ -106,7 +105,7 @@ pub fn of_run(equations: usize) -> u64 {
 pub fn foresee_lattice(
     case: &CaseFile,
     lattice: &LatticeSection,
-    ranks: Option<Together>,
+    processes: usize,
 ) -> Result<(), TooLarge> {
     let points = lattice.cells.iter().map(|&it| f64::from(it)).product();
     let [dx, dy] = lattice.spacing.0;
@@ -116,7 +115,6 @@ pub fn foresee_lattice(
         .map(|length| PI * (length / dx) * (length / dy));
     let of_factor = |factor: f64| PI * factor * factor;
     let family = spacings.or(model.horizon_factor.map(of_factor));
-    let processes = ranks.map_or(1, |Together(ranks)| ranks.n_ranks());
     foresee_bonds(case, points, family.unwrap_or_default(), processes)
 }
 
@@ -142,8 +140,7 @@ pub fn foresee_model(case: &CaseFile, setup: &Setup) -> Result<(), TooLarge> {
             ball * length.powi(dimensions as i32) * points / box_of_body
         }
     };
-    let processes = sharing(setup).map_or(1, |it| it.n_ranks());
-    foresee_bonds(case, points, family, processes)
+    foresee_bonds(case, points, family, dividing(setup).size())
 }
 
 /// Each bond is one of two families; no point has more neighbours than there are others. Of several processes each has all points and its

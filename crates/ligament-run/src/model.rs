@@ -1,10 +1,12 @@
 //! The discrete model of a case, with the stages of its preparation timed and shown.
 
+use std::sync::Arc;
+
 pub use ligament::Model;
 use ligament::run::on_threads;
 use ligament::stage::{Finding, StageWatcher};
 use ligament::warning::of_virial_stress;
-use ligament_analysis::ranks::Together;
+use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use rayon::ThreadPoolBuildError;
 
 use crate::memory;
@@ -62,7 +64,7 @@ pub fn build_model(
     stages: &mut Stages,
     progress: &Progress,
 ) -> anyhow::Result<Model> {
-    build_model_on(case, None, stages, progress)
+    build_model_on(case, Arc::new(Solo), stages, progress)
 }
 
 /// Reads the body of a case in the plane and builds its model.
@@ -79,24 +81,24 @@ pub fn build_model_in_plane(
     build_model(case, stages, progress)
 }
 
-/// Reads the body of a case and builds its model, with bonds that processes share out.
+/// Reads the body of a case and builds its model, divided between processes.
 ///
 /// # Errors
 ///
 /// As of [`build_model`].
 pub fn build_model_on(
     case: &CaseFile,
-    ranks: Option<Together>,
+    communicator: Arc<dyn MatrixCommunicator>,
     stages: &mut Stages,
     progress: &Progress,
 ) -> anyhow::Result<Model> {
     if let Some(lattice) = &case.case.lattice {
-        memory::foresee_lattice(case, lattice, ranks)?;
+        memory::foresee_lattice(case, lattice, communicator.size())?;
     }
     let mut preparation = Preparation { stages, progress };
     let tasks_before = tasks_of_others();
     let mut setup = case.setup(&mut preparation)?;
-    setup.solver.ranks = ranks;
+    setup.solver.communicator = communicator;
     memory::foresee_model(case, &setup)?;
     let tasks = tasks_before.min(tasks_of_others());
     let model = on_free_processors(tasks, || Model::build(setup, &mut preparation))?;

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use ligament::units::Units;
+use ligament_analysis::distributed_matrix::Communicator;
 use ligament_output::quantity::quantity;
 use ligament_output::terminal::plain;
 
@@ -105,6 +106,14 @@ impl Progress {
             started: Instant::now(),
             pace: LogPace::default(),
         }
+    }
+
+    /// Progress that rank 0 shows in the given way.
+    pub(crate) fn on(communicator: &dyn Communicator, mode: ProgressMode) -> Self {
+        Self::new(match communicator.is_root() {
+            true => mode,
+            false => ProgressMode::Quiet,
+        })
     }
 
     /// Tells of a stage that is done: "bonds: 2716 points, 38120 bonds".

@@ -4,9 +4,11 @@ use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use anyhow::{Context, bail, ensure};
 use ligament_analysis::Termination;
+use ligament_analysis::distributed_matrix::Solo;
 use ligament_case::case::CaseFile;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::read_text;
@@ -161,7 +163,7 @@ impl Request<'_> {
             out,
             force: false,
             build: self.build,
-            ranks: None,
+            communicator: Arc::new(Solo),
             is_stopped: &|| (self.is_stopped)() || is_at_its_end(),
         };
         let report = request

@@ -1,12 +1,12 @@
 //! Going on with a run that was stopped or killed, in the folder of its results.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use anyhow::{Context, bail, ensure};
 use ligament::run::{on_threads, restore};
-use ligament::setup::Analysis;
-use ligament_analysis::driver::Problem;
-use ligament_analysis::ranks::Together;
+use ligament_analysis::distributed_matrix::MatrixCommunicator;
+use ligament_analysis::driver::{Problem, Restored};
 use ligament_analysis::serial::Serial;
 use ligament_case::case::CaseFile;
 use ligament_output::checkpoint::Checkpoint;
@@ -21,9 +21,9 @@ use crate::destination::make_results;
 use crate::inputs::{Contents, Inputs, MAY_CHANGE, unread};
 use crate::loading::{Kept, LoadedBody, SUMMARY};
 use crate::model::build_model_on;
+use crate::processes::{any_stopped, broadcast_path, broadcast_solution, loading};
 use crate::progress::{Progress, ProgressMode};
 use crate::provenance::Build;
-use crate::ranks::{any_stopped, loading, tell_checkpoint, tell_folder};
 use crate::run::Report;
 use crate::stages::Stages;
 
@@ -39,8 +39,8 @@ pub struct Request<'a> {
     pub build: Build,
     /// Tells whether the user wants it to stop again.
     pub is_stopped: IsStopped<'a>,
-    /// The processes that solve its equations together; none: this one alone. This one is the first of them.
-    pub ranks: Option<Together>,
+    /// The processes that go on with it together; rank 0 writes all but the pieces of grids that each writes.
+    pub communicator: Arc<dyn MatrixCommunicator>,
 }
 
 impl Request<'_> {
@@ -53,28 +53,39 @@ impl Request<'_> {
     /// used.
     pub fn resume(&self, mode: ProgressMode) -> anyhow::Result<Report> {
         self.settings.iter().try_for_each(|it| check_setting(it))?;
+        let is_root = self.communicator.is_root();
+        let folder = is_root.then(|| self.open()).transpose()?;
+        let path = folder.as_ref().map(ResultFolder::path);
+        let path = broadcast_path(&*self.communicator, path)?;
+        let mut case = CaseFile::load(&path.join(RESOLVED_CASE), self.settings)?;
+        let threads = &mut case.case.solver.threads;
+        *threads = self.threads.or(*threads);
+        on_threads(case.threads(), || self.resume_here(&case, folder, mode))?
+    }
+
+    /// The folder, locked, with the results of a run.
+    fn open(&self) -> anyhow::Result<ResultFolder> {
         let folder = ResultFolder::resumed(self.folder);
         // That there are no results says more than that a folder cannot be locked.
         let folder = folder.map_err(|error| require_results(self.folder).err().unwrap_or(error))?;
         require_results(folder.path())?;
-        let mut case = CaseFile::load(&folder.file(RESOLVED_CASE), self.settings)?;
-        let threads = &mut case.case.solver.threads;
-        *threads = self.threads.or(*threads);
-        tell_folder(self.ranks, folder.path());
-        on_threads(case.threads(), || self.resume_here(&case, folder, mode))?
+        Ok(folder)
     }
 
-    /// Goes on with the run of a case on the threads of the caller.
+    /// Goes on with the run of a case on the threads of the caller; rank 0 alone has the folder.
     fn resume_here(
         &self,
         case: &CaseFile,
-        folder: ResultFolder,
+        folder: Option<ResultFolder>,
         mode: ProgressMode,
     ) -> anyhow::Result<Report> {
-        let progress = Progress::new(mode);
-        let found = find_checkpoint(&folder, case, &progress)?;
-        if found.is_none() {
-            ensure_unfinished(&folder)?;
+        let progress = Progress::on(&*self.communicator, mode);
+        let found = match &folder {
+            Some(folder) => find_checkpoint(folder, case, &progress)?,
+            None => None,
+        };
+        if let (Some(folder), None) = (&folder, &found) {
+            ensure_unfinished(folder)?;
             progress.stage("the run has no checkpoint yet: it starts anew");
         }
         self.go_on(case, folder, found, progress)
@@ -84,26 +95,44 @@ impl Request<'_> {
     fn go_on(
         &self,
         case: &CaseFile,
-        folder: ResultFolder,
+        folder: Option<ResultFolder>,
         found: Option<(Checkpoint, SoFar)>,
         mut progress: Progress,
     ) -> anyhow::Result<Report> {
         let mut stages = Stages::default();
-        let model = build_model_on(case, self.ranks, &mut stages, &progress)?;
-        let loading = loading(case, &model, self.ranks)?;
+        let model = build_model_on(case, self.communicator.clone(), &mut stages, &progress)?;
+        let loading = loading(case, &model)?;
         let problem = loading.problem(&model);
-        let solution = found.as_ref().map(|(checkpoint, _)| &checkpoint.solution);
-        tell_checkpoint(self.ranks, solution);
-        let is_stopped = || any_stopped(self.ranks, self.is_stopped);
-        let kept = found.map(|(checkpoint, results)| {
-            let kept = kept(checkpoint, results, &problem, &model.setup.analysis)?;
-            progress.stage(&format!(
-                "going on at load factor {:.4}, {} broken",
-                kept.restored.load_factor(),
-                kept.restored.broken_bonds()
-            ));
-            anyhow::Ok(kept)
-        });
+        let communicator = &*self.communicator;
+        let mut found = found;
+        let solution =
+            (found.as_mut()).map(|(checkpoint, _)| std::mem::take(&mut checkpoint.solution));
+        let solution = broadcast_solution(communicator, solution)?;
+        let restored = solution.map(|it| restore(&problem, &model.setup.analysis, &it));
+        let restored = restored.transpose()?;
+        let is_stopped = || any_stopped(communicator, self.is_stopped);
+        let body = LoadedBody {
+            case,
+            model: &model,
+            loading: &loading,
+            build: self.build,
+            is_stopped: &is_stopped,
+        };
+        let Some(folder) = folder else {
+            body.follow_beside(restored)?;
+            return Ok(Report::OfRankZero);
+        };
+        let kept = found
+            .zip(restored)
+            .map(|((checkpoint, results), restored)| {
+                let kept = kept(checkpoint, results, restored, &problem)?;
+                progress.stage(&format!(
+                    "going on at load factor {:.4}, {} broken",
+                    kept.restored.load_factor(),
+                    kept.restored.broken_bonds()
+                ));
+                anyhow::Ok(kept)
+            });
         let kept = kept.transpose()?;
         // From here on the results of the run change.
         folder.remove(SUMMARY)?;
@@ -115,15 +144,7 @@ impl Request<'_> {
             case,
             || Ok(folder),
             |folder| {
-                let body = LoadedBody {
-                    case,
-                    model: &model,
-                    loading: &loading,
-                    folder,
-                    build: self.build,
-                    is_stopped: &is_stopped,
-                };
-                let summary = body.follow(kept, &mut stages, &mut progress)?;
+                let summary = body.follow(folder, kept, &mut stages, &mut progress)?;
                 progress.finish(&summary.termination_message);
                 let is_complete = !summary.is_stopped();
                 Ok((summary, is_complete))
@@ -202,10 +223,9 @@ fn check_inputs(checkpoint: &Checkpoint, case: &CaseFile) -> anyhow::Result<()> 
 fn kept(
     checkpoint: Checkpoint,
     results: SoFar,
+    restored: Restored,
     problem: &Problem,
-    analysis: &Analysis,
 ) -> anyhow::Result<Kept> {
-    let restored = restore(problem, analysis, &checkpoint.solution)?;
     ensure!(
         results.fits(problem),
         "the checkpoint is of another model: points or bonds differ"

@@ -2,10 +2,11 @@
 
 use std::io::{self, Write};
 use std::path::Path;
+use std::sync::Arc;
 
 use ligament::run::on_threads;
 use ligament::setup::Analysis;
-use ligament_analysis::ranks::Together;
+use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use ligament_output::folder::ResultFolder;
 
 use crate::destination::{self, make_results};
@@ -15,9 +16,9 @@ use crate::loading::LoadedBody;
 use crate::memory;
 use crate::model::{Model, build_model_on};
 use crate::modes::find_modes;
+use crate::processes::{any_stopped, loading};
 use crate::progress::{Progress, ProgressMode};
 use crate::provenance::{Build, Provenance};
-use crate::ranks::{any_stopped, loading};
 use crate::stages::Stages;
 use crate::summary::{ModalSummary, Summary};
 use ligament_case::case::CaseFile;
@@ -31,6 +32,8 @@ pub enum Report {
     Loading(Box<Summary>),
     /// Natural modes.
     Modes(Box<ModalSummary>),
+    /// This process is not rank 0, which alone has the report.
+    OfRankZero,
 }
 
 impl Report {
@@ -39,6 +42,7 @@ impl Report {
         match self {
             Self::Loading(summary) => summary.write(out),
             Self::Modes(summary) => summary.write(out),
+            Self::OfRankZero => Ok(()),
         }
     }
 
@@ -48,7 +52,7 @@ impl Report {
             Self::Loading(summary) if summary.without_equilibrium => {
                 Some(&summary.termination_message)
             }
-            Self::Loading(_) | Self::Modes(_) => None,
+            Self::Loading(_) | Self::Modes(_) | Self::OfRankZero => None,
         }
     }
 
@@ -56,7 +60,7 @@ impl Report {
     pub fn end(&self) -> End {
         match self {
             Self::Loading(summary) => summary.end(),
-            Self::Modes(_) => End::Done,
+            Self::Modes(_) | Self::OfRankZero => End::Done,
         }
     }
 
@@ -78,8 +82,8 @@ pub struct Request<'a> {
     pub build: Build,
     /// Tells whether the user wants it to stop.
     pub is_stopped: IsStopped<'a>,
-    /// The processes that solve its equations together; none: this one alone. This one is the first of them.
-    pub ranks: Option<Together>,
+    /// The processes that run it together; rank 0 writes all but the pieces of grids that each writes.
+    pub communicator: Arc<dyn MatrixCommunicator>,
 }
 
 /// Runs a case and writes its results into a new folder; the record of these says nothing of the build.
@@ -90,7 +94,7 @@ pub fn run(case: &CaseFile, out: &Path, force: bool, mode: ProgressMode) -> anyh
         force,
         build: Build::default(),
         is_stopped: &|| false,
-        ranks: None,
+        communicator: Arc::new(Solo),
     };
     request.run(mode)
 }
@@ -107,10 +111,13 @@ impl Request<'_> {
 
     /// Runs the case on the threads of the caller.
     fn run_here(&self, mode: ProgressMode) -> anyhow::Result<Report> {
-        ResultFolder::check(self.out, self.force)?;
+        let communicator = &self.communicator;
+        if communicator.is_root() {
+            ResultFolder::check(self.out, self.force)?;
+        }
         let mut stages = Stages::default();
-        let progress = Progress::new(mode);
-        let model = build_model_on(self.case, self.ranks, &mut stages, &progress)?;
+        let progress = Progress::on(&**communicator, mode);
+        let model = build_model_on(self.case, communicator.clone(), &mut stages, &progress)?;
         self.solve(&model, stages, progress)
     }
 
@@ -125,6 +132,10 @@ impl Request<'_> {
             progress.stage(&format!("warning: {warning}"));
         }
         if let Analysis::Modal(settings) = model.setup.analysis {
+            // Modes need the whole body on one process.
+            if !self.communicator.is_root() {
+                return Ok(Report::OfRankZero);
+            }
             let create = || ResultFolder::create(self.out, self.force);
             let provenance = Provenance::new(self.build, self.case, &mut Contents::default());
             let provenance = provenance.map_err(unread)?;
@@ -133,8 +144,7 @@ impl Request<'_> {
             progress.finish(&format!("{} modes found", summary.modes.len()));
             Ok(Report::Modes(Box::new(summary)))
         } else {
-            let summary = follow_loads(self, model, stages, progress)?;
-            Ok(Report::Loading(Box::new(summary)))
+            follow_loads(self, model, stages, progress)
         }
     }
 }
@@ -145,32 +155,36 @@ fn follow_loads(
     model: &Model,
     mut stages: Stages,
     mut progress: Progress,
-) -> anyhow::Result<Summary> {
-    let case = request.case;
-    let loading = loading(case, model, request.ranks)?;
-    if request.ranks.is_none() {
+) -> anyhow::Result<Report> {
+    let (case, communicator) = (request.case, &*request.communicator);
+    let loading = loading(case, model)?;
+    if !communicator.has_matrices() {
         let problem = loading.problem(model);
         memory::foresee_equations(case, &*model.system, &problem)?;
     }
-    let is_stopped = || any_stopped(request.ranks, request.is_stopped);
+    let is_stopped = || any_stopped(communicator, request.is_stopped);
     anyhow::ensure!(!is_stopped(), StoppedBeforeSolution);
+    let body = LoadedBody {
+        case,
+        model,
+        loading: &loading,
+        build: request.build,
+        is_stopped: &is_stopped,
+    };
+    if !communicator.is_root() {
+        body.follow_beside(None)?;
+        return Ok(Report::OfRankZero);
+    }
     // Nothing is written, and nothing replaced, before all input was found good.
     let create = || ResultFolder::create(request.out, request.force);
-    make_results(case, create, |folder| {
+    let summary = make_results(case, create, |folder| {
         if let Some(words) = destination::words(folder) {
             progress.stage(&words);
         }
-        let body = LoadedBody {
-            case,
-            model,
-            loading: &loading,
-            folder,
-            build: request.build,
-            is_stopped: &is_stopped,
-        };
-        let summary = body.follow(None, &mut stages, &mut progress)?;
+        let summary = body.follow(folder, None, &mut stages, &mut progress)?;
         progress.finish(&summary.termination_message);
         let is_complete = !summary.is_stopped();
         Ok((summary, is_complete))
-    })
+    })?;
+    Ok(Report::Loading(Box::new(summary)))
 }

@@ -41,8 +41,8 @@ impl BondCounts {
 /// Number of bonds that cross a material which neither of their ends has.
 fn across_layers<const D: usize>(cloud: &PointCloud<D>, bonds: &BondSet<D>) -> usize {
     let across = bonds.composition.across_layers(&bonds.ends, cloud);
-    let counted = across.filter(|&bond| cloud.counts(bonds.ends[bond]));
-    cloud.total(counted.count())
+    let counted = across.filter(|&bond| cloud.subdomain.owns_bond(bonds.ends[bond]));
+    cloud.subdomain.count(counted.count())
 }
 
 /// What the search of bonds has found.
@@ -60,6 +60,6 @@ pub(crate) fn finding<const D: usize>(
 
 /// Number of pairs that are no bonds for a reason.
 fn count<const D: usize>(cloud: &PointCloud<D>, absent: &[AbsentBond], absence: Absence) -> usize {
-    let counted = |it: &&AbsentBond| it.absence == absence && cloud.counts(it.ends);
-    cloud.total(absent.iter().filter(counted).count())
+    let counted = |it: &&AbsentBond| it.absence == absence && cloud.subdomain.owns_bond(it.ends);
+    cloud.subdomain.count(absent.iter().filter(counted).count())
 }

@@ -2,12 +2,11 @@
 
 use std::sync::Arc;
 
-use ligament_analysis::ranks::Together;
 use ligament_model::bonds::precrack::Crack;
+use ligament_model::communicator::{Communicator, Solo};
 use ligament_model::contact::Faces;
 use ligament_model::correction::{Correction, CorrectionReport};
 use ligament_model::failure::Criteria;
-use ligament_model::portion::{Exchange, Portion};
 use ligament_model::{
     Absence, AbsentBond, BondSet, BondStiffness, BondSystem, EnergyRatio, FixedFields, PointCloud,
     System,
@@ -198,25 +197,22 @@ impl Model {
     }
 }
 
-/// The processes that share the bonds of a setup out; none where each has all of them. Elements that lean on bonds beside them, faces that
-/// close and natural modes ask for the whole body.
-pub fn sharing(setup: &Setup) -> Option<&'static dyn Exchange> {
-    let Together(ranks) = setup.solver.ranks?;
+/// The processes between which the body of a setup is divided. Elements that lean on bonds beside them, faces that close and natural modes
+/// need the whole body on each process.
+pub fn dividing(setup: &Setup) -> Arc<dyn Communicator> {
     let needs_all = setup.closing
         || !setup.law.row.couples_ends_alone
         || matches!(setup.analysis, Analysis::Modal(_));
-    (!needs_all).then_some(ranks)
-}
-
-/// The part of this process in the points of a setup that several share out; none where it has all of them.
-pub(crate) fn portion_of<const D: usize>(setup: &Setup, cloud: &PointCloud<D>) -> Option<Portion> {
-    sharing(setup).map(|exchange| cloud.portion_of(exchange))
+    match needs_all {
+        true => Arc::new(Solo),
+        false => setup.solver.communicator.clone(),
+    }
 }
 
 /// The outline of a meshed body that bonds do not leave.
 type Bounds<'a, const D: usize> = Option<Box<dyn BodyOutline<D> + 'a>>;
 
-/// The points of the body, with the index of the material of each cell (n_cells) and the part of this process in them, and the outline of a
+/// The points of the body, with the index of the material of each cell (n_cells) and those that this process owns, and the outline of a
 /// mesh that bonds do not leave.
 fn points<'a, const D: usize>(
     setup: &Setup,
@@ -231,10 +227,10 @@ fn points<'a, const D: usize>(
     }
     let outline = outline.filter(|_| !setup.bonds_through_voids);
     let spacing = outline.as_ref().map(|it| it.spacing(&cloud));
-    let portion = portion_of(setup, &cloud);
+    let subdomain = cloud.divided(dividing(setup));
     let cloud = PointCloud {
         spacing: spacing.unwrap_or(cloud.spacing),
-        portion,
+        subdomain,
         ..cloud
     };
     Ok((cloud, outline))
@@ -425,5 +421,8 @@ fn warnings<const D: usize>(
 /// Smallest and largest Omega of the bonds of a body.
 fn correction_range<const D: usize>(correction: &Correction, cloud: &PointCloud<D>) -> (f64, f64) {
     let (smallest, largest) = correction.domain_factor_range();
-    (-cloud.largest(-smallest), cloud.largest(largest))
+    (
+        -cloud.subdomain.max(-smallest),
+        cloud.subdomain.max(largest),
+    )
 }

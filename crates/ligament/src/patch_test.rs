@@ -149,7 +149,7 @@ fn displacements(
         system: system.to_bonds(),
         criteria: Arc::default(),
         loads: loads[0].clone(),
-        solver: setup.solver,
+        solver: setup.solver.clone(),
         probes: Arc::default(),
     };
     let mut equilibrium = Equilibrium::new(&problem, ELASTIC_ENERGY_TOLERANCE)?;

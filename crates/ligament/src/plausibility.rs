@@ -186,7 +186,7 @@ fn of_limits<const D: usize>(cloud: &PointCloud<D>, criteria: &Criteria) -> Vec<
             .iter()
             .copied()
             .fold(f64::INFINITY, f64::min);
-        (criterion, -cloud.largest(-smallest))
+        (criterion, -cloud.subdomain.max(-smallest))
     });
     let smallest: Vec<_> = smallest.collect();
     if !smallest.is_empty() && smallest.iter().all(|(_, limit)| limit.is_infinite()) {

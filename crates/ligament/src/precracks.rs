@@ -100,7 +100,11 @@ impl Precracked {
         cloud: &PointCloud<D>,
     ) -> Self {
         let is_cut = cut_bonds(cracks, bonds, cloud);
-        let count = |is_cut: &[bool]| cloud.total(is_cut.iter().filter(|it| **it).count());
+        let count = |is_cut: &[bool]| {
+            cloud
+                .subdomain
+                .count(is_cut.iter().filter(|it| **it).count())
+        };
         let is_idle = |index: &usize| match cracks {
             [_] => count(&is_cut) == 0,
             _ => count(&cut_bonds(&cracks[*index..=*index], bonds, cloud)) == 0,
@@ -117,7 +121,7 @@ impl Precracked {
 /// Share of the bonds of each point that pre-cracks cut, by number, shape (n_points).
 fn share<const D: usize>(cloud: &PointCloud<D>, bonds: &BondSet<D>, is_cut: &[bool]) -> Vec<f64> {
     let n_cut = is_cut.iter().filter(|is_cut| **is_cut).count();
-    if cloud.total(n_cut) == 0 {
+    if cloud.subdomain.count(n_cut) == 0 {
         return vec![0.0; cloud.len()];
     }
     let shares = cloud.over_families(|point| {

@@ -155,7 +155,7 @@ fn first_of<const D: usize>(
     ends: &[[u32; 2]],
 ) -> Option<[String; 2]> {
     let wrong = wrong.map(|bond| ends[bond].map(f64::from));
-    let first = (cloud.portion.as_ref()).map_or(wrong, |portion| portion.least(wrong));
+    let first = cloud.subdomain.all_reduce_min(wrong);
     let ends = first?.map(|it| it as u32);
     Some((cloud.numbering.ordered(ends)).map(|end| body.place(end)))
 }
@@ -183,7 +183,7 @@ fn require_rigidities<const D: usize>(
     }
     // The square of a strain of one in 10^14 counts as well.
     let sizes = axial.iter().map(|it| it.abs());
-    let largest = cloud.largest(sizes.fold(f64::NEG_INFINITY, f64::max));
+    let largest = cloud.subdomain.max(sizes.fold(f64::NEG_INFINITY, f64::max));
     // Without any bond there is no largest one.
     if largest < 0.0 || (1e-270..1e270).contains(&largest) {
         return Ok(());
@@ -220,17 +220,15 @@ impl Parts {
     /// Points of a body that hang together by its bonds.
     fn of_bonds<const D: usize>(cloud: &PointCloud<D>, bonds: &BondSet<D>) -> Self {
         let known = Self::new(cloud.len(), bonds.ends.iter().copied());
-        let Some(portion) = &cloud.portion else {
+        if cloud.subdomain.is_whole() {
             return known;
-        };
+        }
         let numbered = (0..)
             .zip(known.first)
             .filter(|(point, first)| point != first);
-        let pairs: Vec<[f64; 2]> = numbered
-            .map(|(point, first)| [point, first].map(f64::from))
-            .collect();
-        let all = portion.concatenated(&pairs).into_iter();
-        Self::new(cloud.len(), all.map(|pair| pair.map(|it| it as u32)))
+        let pairs = numbered.map(|(point, first)| [point, first]).collect();
+        let all = cloud.subdomain.all_gather_list(pairs);
+        Self::new(cloud.len(), all.into_iter())
     }
 
     fn part(&self, point: u32) -> u32 {

@@ -8,18 +8,18 @@ use std::collections::BTreeMap;
 
 use ligament_model::Bonds;
 use ligament_model::ghosts::Ghosts;
-use ligament_model::portion::Portion;
+use ligament_model::subdomain::Subdomain;
 
 /// The first point of the part of each point by intact bonds of all processes, shape (n_points); these are parts of earlier ones, given by
 /// that of each point and by the points of each.
 pub(super) fn parted(
     system: &dyn Bonds,
-    portion: &Portion,
     intact: &[bool],
     (of_point, points): (&[u32], &[Vec<u32>]),
 ) -> Vec<u32> {
-    let firsts = first_points(system, portion, intact);
-    let named = || portion.own().iter().copied().zip(firsts.iter().copied());
+    let subdomain = system.subdomain();
+    let firsts = first_points(system, intact);
+    let named = || subdomain.owned().zip(firsts.iter().copied());
     let of = |point: u32| of_point[point as usize];
     let first_before = |fragment: u32| points[fragment as usize][0];
     let mut here: BTreeMap<[u32; 2], usize> = BTreeMap::new();
@@ -31,7 +31,7 @@ pub(super) fn parted(
         .map(|([of, first], count)| [f64::from(of), f64::from(first), count as f64])
         .collect();
     let mut sizes: BTreeMap<[u32; 2], usize> = BTreeMap::new();
-    for [of, first, count] in portion.concatenated(&rows) {
+    for [of, first, count] in subdomain.all_gather_list(rows) {
         *sizes.entry([of as u32, first as u32]).or_default() += count as usize;
     }
     // The largest part of each of those before: it is what the others leave.
@@ -49,64 +49,61 @@ pub(super) fn parted(
         let rest = largest.get(&of(point));
         rest.is_some_and(|rest| rest.0 != first)
     };
-    let told: Vec<_> = named()
-        .filter(leaves)
-        .map(|(point, first)| [point, first].map(f64::from))
-        .collect();
+    let leaving = named().filter(leaves);
+    let leaving = leaving.map(|(point, first)| [point, first]).collect();
     let first_of = |&fragment: &u32| {
         let rest = largest.get(&fragment);
         rest.map_or_else(|| first_before(fragment), |rest| rest.0)
     };
     let mut first_of_each: Vec<u32> = of_point.iter().map(first_of).collect();
-    for [point, first] in portion.concatenated(&told) {
-        first_of_each[point as usize] = first as u32;
+    for [point, first] in subdomain.all_gather_list(leaving) {
+        first_of_each[point as usize] = first;
     }
     first_of_each
 }
 
 /// Whether a body may come apart, of which this process does not hold the ends of some bonds together any more: what any process holds
 /// together does so whatever the others have.
-pub(super) fn may_part(portion: &Portion, apart: &[[u32; 2]]) -> bool {
-    let apart: Vec<_> = apart.iter().map(|ends| ends.map(f64::from)).collect();
-    let mut of_all: Vec<[u32; 2]> = (portion.concatenated(&apart).into_iter())
-        .map(|ends| ends.map(|end| end as u32))
-        .collect();
+pub(super) fn may_part(subdomain: &Subdomain, apart: Vec<[u32; 2]>) -> bool {
+    let mut of_all = subdomain.all_gather_list(apart);
     of_all.sort_unstable();
     let mut of_bonds = of_all.chunk_by(|one, other| one == other);
     of_bonds.any(|same| {
-        let [one, other] = same[0].map(|end| portion.partition().rank(end));
+        let [one, other] = same[0].map(|end| subdomain.partition().rank(end));
         same.len() == if one == other { 1 } else { 2 }
     })
 }
 
 /// The first of the points that hang together with each own point by intact bonds of all processes.
-fn first_points(system: &dyn Bonds, portion: &Portion, intact: &[bool]) -> Vec<u32> {
+fn first_points(system: &dyn Bonds, intact: &[bool]) -> Vec<u32> {
+    let subdomain = system.subdomain();
     let n_points = system.n_points();
     let mut here = Parts::new(n_points);
     let bonds = system.ends().iter().zip(intact);
     for (ends, _) in bonds.filter(|(_, intact)| **intact) {
         here.join(*ends);
     }
-    let ghosts = Ghosts::new(portion, system.ends().iter().flatten().copied());
+    let ghosts = Ghosts::new(subdomain, system.ends().iter().flatten().copied());
     let mut names: Vec<f64> = (0..n_points).map(|point| point as f64).collect();
     let mut told = vec![0.0; n_points];
     loop {
-        for &point in portion.own() {
+        for point in subdomain.owned() {
             told[point as usize] = names[here.first(point) as usize];
         }
-        ghosts.tell(&mut told, 1);
+        ghosts.update(&mut told, 1);
         let mut is_earlier = false;
-        for &ghost in ghosts.seen() {
+        for &ghost in ghosts.points() {
             let name = &mut names[here.first(ghost) as usize];
             is_earlier |= told[ghost as usize] < *name;
             *name = name.min(told[ghost as usize]);
         }
-        if !portion.any(is_earlier) {
+        if !subdomain.any(is_earlier) {
             break;
         }
     }
-    let own = portion.own().iter();
-    own.map(|&point| names[here.first(point) as usize] as u32)
+    let owned = subdomain.owned();
+    owned
+        .map(|point| names[here.first(point) as usize] as u32)
         .collect()
 }
 

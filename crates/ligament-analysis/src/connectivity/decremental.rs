@@ -6,7 +6,6 @@
 
 use ligament_model::Bonds;
 use ligament_model::interface::Topology;
-use ligament_model::portion::Portion;
 
 use super::{Fragments, Hold, across_ranks};
 use crate::restraints::Restraints;
@@ -77,7 +76,8 @@ impl Connectivity {
             intact[bond as usize] = true;
         }
         let topology = system.topology();
-        if let Some(portion) = system.portion() {
+        let subdomain = system.subdomain();
+        if !subdomain.is_whole() {
             let mut apart = Vec::new();
             for &bond in bonds {
                 intact[bond as usize] = false;
@@ -86,8 +86,8 @@ impl Connectivity {
                     apart.push(ends);
                 }
             }
-            if across_ranks::may_part(portion, &apart) {
-                self.find_again(system, portion, intact);
+            if across_ranks::may_part(subdomain, apart) {
+                self.find_again(system, intact);
             }
             return;
         }
@@ -104,8 +104,8 @@ impl Connectivity {
     }
 
     /// Finds the fragments anew, and which of them are parts of earlier ones.
-    fn find_again(&mut self, system: &dyn Bonds, portion: &Portion, intact: &[bool]) {
-        let found = self.fragments.parted(system, portion, intact);
+    fn find_again(&mut self, system: &dyn Bonds, intact: &[bool]) {
+        let found = self.fragments.parted(system, intact);
         let before = std::mem::replace(&mut self.fragments, found);
         let is_part = |points: &&Vec<u32>| {
             let of = before.of_point[points[0] as usize];

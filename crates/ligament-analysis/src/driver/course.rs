@@ -152,10 +152,7 @@ impl Restored {
         let damaged = CheckpointError::Damaged;
         let place = Serial::read(from).map_err(damaged)?;
         let numbers = BondNumbers::new(&*problem.system)?;
-        let state = match &numbers {
-            None => State::read(from).map_err(damaged)?,
-            Some(numbers) => State::read_known(numbers, from)?,
-        };
+        let state = State::read(&numbers, from)?;
         let course: Course = Serial::read(from).map_err(damaged)?;
         let problem = course.problem(problem).ok_or(CheckpointError::OtherModel)?;
         let (equilibrium, state, balanced) =
@@ -224,9 +221,9 @@ serial!(Proof {
 impl Proof {
     /// The numbers of an equilibrium of a problem.
     pub(super) fn new(problem: &Problem, balanced: &Balanced) -> Self {
-        let portion = problem.system.portion();
+        let subdomain = problem.system.subdomain();
         Self {
-            n_ranks: portion.map_or(0, |it| it.exchange().n_ranks()),
+            n_ranks: subdomain.partition().n_ranks(),
             stored_energy: balanced.stored_energy,
             force_scale: balanced.internal.force_scale,
         }

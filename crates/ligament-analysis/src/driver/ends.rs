@@ -4,7 +4,6 @@ use super::path::Path;
 use crate::balanced::Balanced;
 use crate::history::{Notice, ObserverError, Termination};
 use crate::load_program::{ControlKind, LoadCourse};
-use crate::ranks::Together;
 use crate::unbalanced::Unbalanced;
 
 /// Below this fraction of the peak a body carries no load any more: what is left is rounding.
@@ -36,8 +35,9 @@ impl Path<'_> {
     pub(super) fn interruption(&self) -> Option<Termination> {
         let mut seconds = [self.started.elapsed().as_secs_f64()];
         // All processes stop at the same time, or none does.
-        if let (Some(_), Some(Together(ranks))) = (self.stop.wall_time, self.problem.solver.ranks) {
-            ranks.largest(&mut seconds);
+        if self.stop.wall_time.is_some() {
+            let communicator = &self.problem.solver.communicator;
+            communicator.all_reduce_max(&mut seconds);
         }
         let [seconds] = seconds;
         if let Some(bonds) = self.stop.bonds.filter(|&bonds| self.course.broken >= bonds) {

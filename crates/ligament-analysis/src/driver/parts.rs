@@ -36,7 +36,10 @@ impl Path<'_> {
     pub(super) fn aim(&mut self, share: f64) {
         let loads = &self.problem.loads;
         let control = (loads.course()).and_then(|it| Some((it, it.control()?)));
-        let (portion, layout) = (self.problem.system.portion(), self.problem.system.layout());
+        let (subdomain, layout) = (
+            self.problem.system.subdomain(),
+            self.problem.system.layout(),
+        );
         let held = control.and_then(|(course, control)| {
             let start = self.course.control_start;
             let way = control.end() - start;
@@ -44,8 +47,12 @@ impl Path<'_> {
             let value = start + share * way;
             Some(match control {
                 PartControl::Motion(motion) => Held::Motion(Target {
-                    portion: portion.cloned(),
-                    weights: Target::own_weights(portion, layout, motion.weights.iter().copied()),
+                    subdomain: subdomain.clone(),
+                    weights: Target::owned_weights(
+                        subdomain,
+                        layout,
+                        motion.weights.iter().copied(),
+                    ),
                     rate,
                     value,
                     way,

@@ -19,7 +19,7 @@ use super::start::{Start, begin, report_loose, report_mechanisms};
 use super::stop::StopRules;
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
-use crate::breaking::{FirstToBreak, first_of_all, first_to_break};
+use crate::breaking::{FirstToBreak, first_of_all};
 use crate::connectivity::Hold;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
@@ -206,28 +206,21 @@ impl<'a> Path<'a> {
         let checkpoint = || {
             let mut out = Vec::new();
             place().write(&mut out);
-            match numbers {
-                None => state.write(&mut out),
-                Some(numbers) => state.of_all(numbers).write(&mut out),
-            }
+            state.write(numbers, &mut out);
             course.write(&mut out);
             equilibrium.write(&mut out);
             energies.write(&mut out);
             Proof::new(problem, balanced).write(&mut out);
             out
         };
-        // Where processes share the body out all of them make it, and the one that asked has it.
-        let made = numbers
-            .filter(|it| it.portion().any(asked))
-            .map(|_| checkpoint());
+        // Where the body is divided all processes make it, and the one that asked has it.
+        let is_divided = !numbers.subdomain().is_whole();
+        let is_made = is_divided && numbers.subdomain().any(asked);
+        let made = is_made.then(checkpoint);
         let made = || made.clone().unwrap_or_default();
         let moment = Moment {
             end: end.as_ref(),
-            checkpoint: if numbers.is_some() {
-                &made
-            } else {
-                &checkpoint
-            },
+            checkpoint: if is_divided { &made } else { &checkpoint },
         };
         let onward = observer.moment(&moment)?;
         Ok(end.or_else(|| (onward == Onward::Stop).then_some(Termination::Stopped)))
@@ -258,17 +251,14 @@ impl<'a> Path<'a> {
     ) -> FirstToBreak {
         let (intact, system) = (&self.state.intact, &self.problem.system);
         let in_file = |bond| system.ends_in_file(bond);
-        match self.equilibrium.numbers() {
-            None => first_to_break(tie_tolerance, deformations, criteria, intact).sorted(in_file),
-            Some(numbers) => first_of_all(
-                numbers,
-                tie_tolerance,
-                deformations,
-                criteria,
-                intact,
-                in_file,
-            ),
-        }
+        first_of_all(
+            self.equilibrium.numbers(),
+            tie_tolerance,
+            deformations,
+            criteria,
+            intact,
+            in_file,
+        )
     }
 
     /// Breaks bonds of an equilibrium and holds what came loose.
@@ -318,15 +308,11 @@ impl<'a> Path<'a> {
             judged,
             moment,
         };
-        let records = match numbers {
-            None => breaking.records(bonds),
-            Some(numbers) => breaking.records_of_all(numbers, bonds),
-        };
+        let records = breaking.records(numbers, bonds);
         self.course.broken += bonds.len();
         self.observer.broke(&records)?;
         for record in &records {
-            let bond = numbers.map_or(Some(record.bond as usize), |it| it.known(record.bond));
-            if let Some(bond) = bond {
+            if let Some(bond) = numbers.local(record.bond) {
                 dissipation::break_bond(&self.problem, &mut self.state, bond, record);
             }
         }
@@ -419,11 +405,8 @@ impl<'a> Path<'a> {
         let force = balanced.internal.force_scale;
         self.course.largest_force = self.course.largest_force.max(force);
         let criteria = (self.problem.criteria).in_state(&self.state.intact, &balanced.deformations);
-        let numbers = self.equilibrium.numbers();
-        let softened = numbers.filter(|_| !self.state.softening.largest.is_empty());
         let view = View {
-            softened: softened
-                .map(|it| SoftenedOfAll::in_state(&self.state, it, self.problem.system.ends())),
+            softened: self.softened(),
             system: &*self.problem.system,
             state: &self.state,
             balanced,
@@ -451,22 +434,20 @@ impl<'a> Path<'a> {
         Ok(())
     }
 
+    /// What has softened in the present state. Collective.
+    fn softened(&self) -> SoftenedOfAll {
+        let ends = self.problem.system.ends();
+        SoftenedOfAll::in_state(&self.state, self.equilibrium.numbers(), ends)
+    }
+
     /// What the run was.
     pub(super) fn into_outcome(mut self, termination: Termination, rows: Rows) -> Outcome {
-        let numbers = self.equilibrium.numbers();
-        if let Some(numbers) = numbers {
-            let n_components = self.problem.system.layout().components.len();
-            let motions = &mut self.state.displacement;
-            numbers.portion().complete(motions, n_components);
-        }
+        let n_components = self.problem.system.layout().components.len();
+        let subdomain = self.problem.system.subdomain();
+        subdomain.all_gather_points(&mut self.state.displacement, n_components);
         Outcome {
             broken_bonds: self.equilibrium.broken_bonds(&self.state),
-            softened_bonds: match numbers {
-                None => self.state.softened_bonds(),
-                Some(numbers) => {
-                    SoftenedOfAll::in_state(&self.state, numbers, self.problem.system.ends()).bonds
-                }
-            },
+            softened_bonds: self.softened().bonds,
             history: self.course.history,
             rows,
             termination,

@@ -2,11 +2,10 @@
 
 use ligament_model::deformation::Deformations;
 use ligament_model::element::Remaining;
-use ligament_model::portion::largest;
 use rayon::prelude::*;
 
 use crate::balanced::Balanced;
-use crate::bond_numbers::sum_over_bonds;
+use crate::bond_numbers::{add_over_bonds, sum_over_bonds};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::connectivity::Fragments;
@@ -171,10 +170,8 @@ impl Energies {
             }
         };
         let by_bond = left.iter().enumerate().map(released);
-        if problem.system.portion().is_none() {
-            by_bond.for_each(|released| self.released += released);
-        } else if !left.is_empty() {
-            self.released += sum_over_bonds(&*problem.system, by_bond);
+        if !left.is_empty() {
+            add_over_bonds(&*problem.system, &mut self.released, by_bond);
         }
         self.keep(state, balanced);
     }
@@ -306,5 +303,5 @@ pub(super) fn largest_ratio(problem: &Problem, state: &State, balanced: &Balance
         .filter(|(_, (intact, _))| **intact)
         .map(|(bond, (_, deformation))| criteria.utilisation(bond, deformation))
         .reduce(|| 0.0, f64::max);
-    largest(problem.system.portion(), ratio)
+    problem.system.subdomain().max(ratio)
 }

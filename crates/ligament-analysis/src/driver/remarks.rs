@@ -1,7 +1,6 @@
 //! What a record gives reason to tell the user, once a run.
 
 use ligament_model::contact::Overlap;
-use ligament_model::portion;
 
 use crate::connectivity::Fragments;
 use crate::history::{LargestOverlap, Notice, StepRecord};
@@ -89,7 +88,7 @@ fn largest(problem: &Problem, state: &State, fragments: &Fragments) -> Option<Ov
     let layout = system.layout();
     let displacements = layout.displacements(&state.displacement);
     let displacement = displacements.fold(0.0, |largest: f64, it| largest.max(it.abs()));
-    let displacement = portion::largest(system.portion(), displacement);
+    let displacement = system.subdomain().max(displacement);
     let mut holds = vec![0; fragments.points.len()];
     for (dof, _) in state.held.iter().enumerate().filter(|(_, held)| **held) {
         holds[fragments.of_point[layout.point(dof) as usize] as usize] += 1;

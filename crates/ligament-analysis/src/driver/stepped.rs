@@ -14,7 +14,7 @@ use super::start::ElasticAnswer;
 use super::stop::StopRules;
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
-use crate::breaking::{BreakingRule, next_of_all, next_to_break};
+use crate::breaking::{BreakingRule, next_to_break};
 use crate::checkpoint::CheckpointError;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
@@ -295,10 +295,8 @@ impl Stepping<'_> {
         let (deformations, criteria) = (&balanced.deformations, self.path.criteria(balanced));
         let (intact, system) = (&self.path.state.intact, &self.path.problem.system);
         let in_file = |bond| system.ends_in_file(bond);
-        let next = match self.path.equilibrium.numbers() {
-            None => next_to_break(&rule, deformations, &criteria, intact, in_file),
-            Some(numbers) => next_of_all(numbers, &rule, deformations, &criteria, intact, in_file),
-        };
+        let numbers = self.path.equilibrium.numbers();
+        let next = next_to_break(numbers, &rule, deformations, &criteria, intact, in_file);
         self.path.equilibrium.count_bond_work(start);
         next
     }

@@ -1,7 +1,7 @@
 //! How near to equilibrium a state is, and how near it is to come.
 
 use ligament_model::Bonds;
-use ligament_model::portion::{Portion, largest};
+use ligament_model::subdomain::Subdomain;
 
 use super::residual::{Extents, LocalStiffness, RESIDUAL_TOLERANCE, Residual, Scales};
 use crate::breakage::Breakage;
@@ -34,8 +34,7 @@ pub(super) struct Accuracy {
     pub(super) largest_extents: Extents,
     /// Tolerance of a solver that iterates.
     tolerance: Option<f64>,
-    /// Where processes share the body out.
-    portion: Option<Portion>,
+    subdomain: Subdomain,
 }
 
 /// A state with its loads and unknowns.
@@ -61,20 +60,19 @@ impl Accuracy {
             loaded: loaded(loads),
             largest_extents: Extents::default(),
             tolerance,
-            portion: system.portion().cloned(),
+            subdomain: system.subdomain().clone(),
         }
     }
 
     /// Extents of the sizes of the forces at the points of the body (n_degrees_of_freedom), N and N m.
     pub(super) fn extents(&self, sizes: &[f64]) -> Extents {
         let here = self.local_stiffness.extents(sizes);
-        (self.portion.as_ref()).map_or(here, |it| here.of_all(it))
+        here.of_all(&self.subdomain)
     }
 
     /// The largest displacement of a point of a state along an axis, m.
     pub(super) fn largest_displacement(&self, layout: Layout, state: &State) -> f64 {
-        let here = largest_displacement(layout, state);
-        largest(self.portion.as_ref(), here)
+        self.subdomain.max(largest_displacement(layout, state))
     }
 
     /// Takes other loads.
@@ -102,8 +100,7 @@ impl Accuracy {
         let residual = scales.residual(of_unknowns.chain(of_others), |dof| {
             at.state.held[dof] || is_known(dof)
         });
-        let portion = self.portion.as_ref();
-        portion.map_or(residual, |it| scales.residual_of_all(residual, it))
+        scales.residual_of_all(residual, &self.subdomain)
     }
 
     /// Relative residual that is sought after a breakage, or without one.

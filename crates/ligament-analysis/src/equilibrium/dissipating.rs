@@ -20,7 +20,6 @@ use rayon::prelude::*;
 use ligament_model::BondsLeft;
 use ligament_model::deformation::Deformations;
 use ligament_model::element::{BondDeformation, Remaining};
-use ligament_model::portion::{self, any};
 use ligament_model::thermal::ThermalStrain;
 
 use super::equations::Equations;
@@ -152,7 +151,7 @@ fn ahead(
         .filter(|(bond, _)| state.intact[*bond])
         .map(|(bond, slope)| problem.criteria.utilisation(bond, slope))
         .reduce(|| 0.0, f64::max);
-    let largest = portion::largest(problem.system.portion(), largest);
+    let largest = problem.system.subdomain().max(largest);
     let at = |by: f64| here.ahead(&slopes, by);
     let excess = |by: f64| dissipated(problem, state, &at(by)) - goal.energy;
     let (mut low, mut high) = (0.0, 1.0 / largest);
@@ -209,12 +208,12 @@ fn opening(
     };
     let forces = system.forces(bonds, deformations.clone(), ThermalStrain::NONE);
     let values = (0..).zip(forces.internal.values);
-    let portion = system.portion();
+    let subdomain = system.subdomain();
     let weights = values.filter(|(_, weight)| *weight != 0.0);
-    let weights = Target::own_weights(portion, system.layout(), weights);
-    let opens = any(portion, !weights.is_empty());
+    let weights = Target::owned_weights(subdomain, system.layout(), weights);
+    let opens = subdomain.any(!weights.is_empty());
     let mut target = Target {
-        portion: portion.cloned(),
+        subdomain: subdomain.clone(),
         rate: goal.rate.clone(),
         weights,
         value: 0.0,

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use ligament_linalg::FactorKind;
 use ligament_model::deformation::Deformations;
-use ligament_model::portion::Portion;
+use ligament_model::subdomain::Subdomain;
 use ligament_model::thermal::ThermalStrain;
 
 use super::accuracy::{Accuracy, Loaded};
@@ -20,9 +20,9 @@ use crate::checkpoint::CheckpointError;
 use crate::contact::{self, Contact};
 use crate::costs::Costs;
 use crate::error::SetupError;
+use crate::halo::HaloExchange;
 use crate::internal::{BondSweep, InternalForces};
 use crate::load_program::LoadProgram;
-use crate::neighbours::Neighbours;
 use crate::problem::Problem;
 use crate::serial::Serial;
 use crate::solver::SolverChoice;
@@ -42,8 +42,7 @@ const CANCELLED: f64 = 1e-10;
 pub(super) struct Equations {
     pub(super) problem: Problem,
     pub(super) unknowns: Arc<Unknowns>,
-    /// Where processes share the body out.
-    pub(super) neighbours: Option<Neighbours>,
+    pub(super) halo: HaloExchange,
     /// None where the solver has no matrix.
     pub(super) stiffness: Option<Arc<Stiffness>>,
     pub(super) choice: SolverChoice,
@@ -62,18 +61,18 @@ impl Equations {
     /// Numbers the unknowns, analyses the pattern and chooses the solver; nothing is factorised yet.
     pub(super) fn new(
         problem: &Problem,
-        numbers: Option<&Arc<BondNumbers>>,
+        numbers: &Arc<BondNumbers>,
         energy_tolerance: f64,
     ) -> Result<Self, SetupError> {
         let (system, loads) = (&problem.system, &problem.loads);
         let unknowns = Unknowns::all_but(&**system, |dof| loads.is_prescribed(dof));
-        let unknowns = unknowns.of_own(system.portion());
+        let unknowns = unknowns.of_owned(system.subdomain());
         let unknowns = Arc::new(unknowns.restrained_by(loads.restraints()));
         let Solving {
             stiffness,
             choice,
             solver,
-        } = Solving::new(system, &unknowns, problem.solver, numbers)?;
+        } = Solving::new(system, &unknowns, &problem.solver, numbers)?;
         let analysis = stiffness.as_ref().map(|it| it.analysis_time());
         let accuracy = Accuracy::new(&**system, &**loads, solver.tolerance());
         Ok(Self {
@@ -90,7 +89,7 @@ impl Equations {
                 analysis: analysis.unwrap_or_default(),
                 ..Costs::default()
             },
-            neighbours: Neighbours::new(problem),
+            halo: HaloExchange::new(problem),
             problem: problem.clone(),
             unknowns,
             stiffness,
@@ -113,7 +112,7 @@ impl Equations {
             solver,
             problem,
             unknowns,
-            neighbours: _,
+            halo,
             stiffness: _,
             choice: _,
             energy_tolerance: _,
@@ -124,10 +123,7 @@ impl Equations {
         costs.write(out);
         solver.write(out);
         if problem.criteria.soften() {
-            match &self.neighbours {
-                None => precedents.write(out),
-                Some(it) => precedents.of_all(it.portion(), unknowns).write(out),
-            }
+            precedents.write_all(halo.subdomain(), unknowns, out);
         }
     }
 
@@ -135,6 +131,7 @@ impl Equations {
     pub(super) fn restore(
         &mut self,
         state: &State,
+        numbers: &BondNumbers,
         from: &mut &[u8],
     ) -> Result<Balanced, CheckpointError> {
         self.accuracy.largest_extents = Serial::read(from)?;
@@ -142,7 +139,7 @@ impl Equations {
         let is_shared = matches!(self.choice, SolverChoice::Distributed(_));
         if !is_shared && distributed::was_written(from) {
             // One process goes on with the state alone.
-            distributed::pass_over(from)?;
+            distributed::pass_over(numbers, from)?;
         } else {
             self.solver.restore(from)?;
         }
@@ -219,14 +216,7 @@ impl Equations {
         for (&dof, value) in self.degrees_of_freedom().iter().zip(correction) {
             state.displacement[dof as usize] += part * value;
         }
-        self.tell_motions(&mut state.displacement);
-    }
-
-    /// Takes over motions (n_degrees_of_freedom) from the processes that have their points.
-    fn tell_motions(&self, motions: &mut [f64]) {
-        if let Some(neighbours) = &self.neighbours {
-            neighbours.tell_motions(motions);
-        }
+        self.halo.update_motions(&mut state.displacement);
     }
 
     /// What motions are judged by.
@@ -234,19 +224,19 @@ impl Equations {
         Measure {
             accuracy: &self.accuracy,
             unknowns: &self.unknowns,
-            portion: self.portion(),
+            subdomain: self.subdomain(),
             some_negative: self.problem.system.some_negative(),
         }
     }
 
-    /// The part of this process in the body, where several share it out.
-    pub(super) fn portion(&self) -> Option<&Portion> {
-        self.neighbours.as_ref().map(Neighbours::portion)
+    /// The points and bonds of the body on this process.
+    pub(super) fn subdomain(&self) -> &Subdomain {
+        self.halo.subdomain()
     }
 
     /// The scalar product of two arrays over the unknowns of all processes.
     pub(super) fn dot(&self, one: &[f64], other: &[f64]) -> f64 {
-        dot_of_all(self.portion(), one, other)
+        dot_of_all(self.subdomain(), one, other)
     }
 
     /// Takes a breakage to the solver, and its correction to the state; tells whether there was one.
@@ -360,9 +350,7 @@ impl Equations {
         contact::add_to(&mut swept, &closed, self.layout(), expansion);
         let factor = self.problem.loads.temperature_factor(state.load_factor);
         let energy_of_motion = swept.energy_of_motion(factor);
-        if let Some(neighbours) = &self.neighbours {
-            neighbours.tell_forces(&mut swept.internal.values);
-        }
+        self.halo.update_forces(&mut swept.internal.values);
         let BondSweep {
             deformations,
             internal,
@@ -398,9 +386,7 @@ impl Equations {
         let system = &self.problem.system;
         let deformations = system.deformations(&state.intact, &state.displacement, expansion);
         let mut swept = system.forces(state.bonds(), deformations, expansion);
-        if let Some(neighbours) = &self.neighbours {
-            neighbours.tell_forces(&mut swept.internal.values);
-        }
+        self.halo.update_forces(&mut swept.internal.values);
         swept
     }
 
@@ -416,7 +402,7 @@ impl Equations {
         for (&dof, value) in self.degrees_of_freedom().iter().zip(values) {
             all[dof as usize] = *value;
         }
-        self.tell_motions(&mut all);
+        self.halo.update_motions(&mut all);
         all
     }
 

@@ -47,10 +47,10 @@ pub(super) fn imbalance(
     let of_points = external
         .chunks(n_components)
         .zip(rounding.chunks(n_components));
-    let portion = equations.portion();
-    let counted = (0..).zip(of_points.zip(&fragments.of_point));
-    let counted = counted.filter(|(point, _)| portion.is_none_or(|it| it.is_own(*point)));
-    for (_, ((forces, rounding), &fragment)) in counted {
+    let subdomain = equations.subdomain();
+    let of_each = (0..).zip(of_points.zip(&fragments.of_point));
+    let owned = of_each.filter(|(point, _)| subdomain.owns(*point));
+    for (_, ((forces, rounding), &fragment)) in owned {
         let of_part = &mut sums[n_components * fragment as usize..];
         for ((sum, force), rounding) in of_part.iter_mut().zip(forces).zip(rounding) {
             let of_point = [*force, force.abs(), *rounding];
@@ -59,9 +59,7 @@ pub(super) fn imbalance(
                 .for_each(|(it, part)| *it += part);
         }
     }
-    if let Some(portion) = portion {
-        portion.sum(sums.as_flattened_mut());
-    }
+    subdomain.all_reduce_sum(sums.as_flattened_mut());
     let of_body = equations.largest_force(balanced.internal.force_scale);
     let bound = equations.accuracy.bound(equations.loaded(state));
     let is_off = |(place, [resultant, size, rounding]): &(usize, &Sum)| {

@@ -3,7 +3,7 @@
 //! An exact solver finds such a motion by a vanishing pivot, holds one degree of freedom of it and reads the force on that hold. Here
 //! the motion itself is known, and that force is the work of the forces on it, over how far the degree of freedom moves in it.
 
-use ligament_model::portion::Portion;
+use ligament_model::subdomain::Subdomain;
 
 use super::accuracy::Accuracy;
 use crate::load_program::LoadProgram;
@@ -18,15 +18,14 @@ use crate::vectors::dot_of_all;
 pub(super) struct Measure<'a> {
     pub(super) accuracy: &'a Accuracy,
     pub(super) unknowns: &'a Unknowns,
-    /// The part of this process in the body, where several share it out.
-    pub(super) portion: Option<&'a Portion>,
+    pub(super) subdomain: &'a Subdomain,
     /// Whether some bonds have a negative stiffness.
     pub(super) some_negative: bool,
 }
 
 impl Measure<'_> {
     fn dot(self, one: &[f64], other: &[f64]) -> f64 {
-        dot_of_all(self.portion, one, other)
+        dot_of_all(self.subdomain, one, other)
     }
 
     /// Whether the stiffness K resists a solution u of K u = f, both of shape (n_unknowns), by more than the rounding of the stiffnesses of
@@ -59,8 +58,8 @@ impl Measure<'_> {
                 most
             }
         });
-        let of_all = self.portion.map(|it| it.least(Some(farthest)));
-        let [size, dof, moved] = of_all.flatten().unwrap_or(farthest);
+        let of_all = self.subdomain.all_reduce_min(Some(farthest));
+        let [size, dof, moved] = of_all.unwrap_or(farthest);
         if size == 0.0 {
             return Unbalanced::NegativeCurvature;
         }

@@ -7,7 +7,7 @@ use crate::serial;
 use crate::serial::Serial;
 use crate::state::State;
 use crate::unknowns::Unknowns;
-use ligament_model::portion::Portion;
+use ligament_model::subdomain::Subdomain;
 
 /// Largest growth of a load step over the one before with which the body is taken to go on as it did.
 const GROWTH: f64 = 2.0;
@@ -57,24 +57,27 @@ impl Precedents {
         }
     }
 
-    /// The precedents at the unknowns and points of all processes, of which each has those of its own.
-    pub(super) fn of_all(&self, portion: &Portion, unknowns: &Unknowns) -> Self {
-        let n_components = unknowns.layout().components.len();
+    /// Appends the precedents at the unknowns and points of all processes; collective.
+    pub(super) fn write_all(&self, subdomain: &Subdomain, unknowns: &Unknowns, out: &mut Vec<u8>) {
+        match subdomain.is_whole() {
+            true => self.write(out),
+            false => self.of_all(subdomain, unknowns).write(out),
+        }
+    }
+
+    /// The precedents at the unknowns and points of all processes, from those at owned points.
+    fn of_all(&self, subdomain: &Subdomain, unknowns: &Unknowns) -> Self {
         let curvature = self.curvature.mapped(|own| {
             let mut all = vec![0.0; unknowns.layout().n_degrees_of_freedom()];
             for (&dof, value) in unknowns.degrees_of_freedom().iter().zip(own) {
                 all[dof as usize] = *value;
             }
-            portion.complete(&mut all, n_components);
+            let all = subdomain.gathered(&all);
             unknowns.of_all().map(|dof| all[dof]).collect()
         });
-        let equilibria = self.equilibria.iter().map(|it| {
-            let mut displacement = it.displacement.clone();
-            portion.complete(&mut displacement, n_components);
-            Precedent {
-                displacement,
-                ..*it
-            }
+        let equilibria = self.equilibria.iter().map(|it| Precedent {
+            load_factor: it.load_factor,
+            displacement: subdomain.gathered(&it.displacement).into_owned(),
         });
         Self {
             equilibria: equilibria.collect(),

@@ -6,7 +6,7 @@
 
 use ligament_model::Bonds;
 use ligament_model::interface::PointStiffness;
-use ligament_model::portion::Portion;
+use ligament_model::subdomain::Subdomain;
 
 use crate::restraints::Restraints;
 use crate::serial;
@@ -193,12 +193,12 @@ impl Extents {
     }
 
     /// The largest over all processes.
-    pub(super) fn of_all(self, portion: &Portion) -> Self {
+    pub(super) fn of_all(self, subdomain: &Subdomain) -> Self {
         let mut all = [0.0; 4];
         for (both, it) in all.as_chunks_mut().0.iter_mut().zip(self.0) {
             *both = [it.force, it.deformation];
         }
-        portion.largest(&mut all);
+        subdomain.all_reduce_max(&mut all);
         let [force, deformation, moment, turn] = all;
         let extent = |force, deformation| Extent { force, deformation };
         Self([extent(force, deformation), extent(moment, turn)])
@@ -238,16 +238,19 @@ impl Scales<'_> {
         }
     }
 
-    /// The residual of all processes, of which each has that of its part; of equal ones the first.
-    pub(super) fn residual_of_all(self, here: Residual, portion: &Portion) -> Residual {
+    /// The largest residual over all processes, from that at owned points; of equal ones the first.
+    pub(super) fn residual_of_all(self, here: Residual, subdomain: &Subdomain) -> Residual {
+        if subdomain.is_whole() {
+            return here;
+        }
         let (dof, force) = here.carried.unwrap_or_default();
         let carried = here
             .carried
             .map_or(0.0, |_| force.abs() / self.at(dof as usize));
         let largest = [-here.relative, f64::from(here.degree_of_freedom)];
         let held = [-carried, f64::from(dof), force];
-        let [relative, at] = portion.least(Some(largest)).unwrap_or(largest);
-        let [most, dof, force] = portion.least(Some(held)).unwrap_or(held);
+        let [relative, at] = subdomain.all_reduce_min(Some(largest)).unwrap_or(largest);
+        let [most, dof, force] = subdomain.all_reduce_min(Some(held)).unwrap_or(held);
         Residual {
             relative: -relative,
             degree_of_freedom: at as u32,

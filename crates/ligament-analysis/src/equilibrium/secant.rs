@@ -195,8 +195,8 @@ fn correction(
     curvature: &Curvature,
     target: Option<&Target>,
 ) -> Result<Correction, Unbalanced> {
-    let portion = equations.portion().cloned();
-    let dot = |one: &[f64], other: &[f64]| dot_of_all(portion.as_ref(), one, other);
+    let subdomain = equations.subdomain().clone();
+    let dot = |one: &[f64], other: &[f64]| dot_of_all(&subdomain, one, other);
     let mut solve = |it| equations.solve(state, it, Left::Share(SOLVED));
     let mut step = curvature.correction(force, &dot, &mut solve)?;
     let mut force = force.to_vec();
@@ -243,7 +243,7 @@ fn next(
     let Correction { force, step, .. } = &found;
     state.load_factor += found.load_change;
     let start = state.displacement.clone();
-    let portion = equations.portion().cloned();
+    let subdomain = equations.subdomain().clone();
     let mut go = |part: f64| {
         state.displacement.clone_from(&start);
         equations.add_correction(state, part, step);
@@ -255,10 +255,10 @@ fn next(
     let (mut iterate, mut left) = go(1.0);
     let mut part = 1.0;
     if is_searched {
-        let works = [force, &left].map(|it| dot_of_all(portion.as_ref(), it, step));
+        let works = [force, &left].map(|it| dot_of_all(&subdomain, it, step));
         part = line_search::part(works[0], works[1], |part| {
             (iterate, left) = go(part);
-            dot_of_all(portion.as_ref(), &left, step)
+            dot_of_all(&subdomain, &left, step)
         });
     }
     let change: Vec<f64> = force.iter().zip(&left).map(|(was, is)| was - is).collect();

@@ -10,7 +10,7 @@
 use std::sync::Arc;
 
 use ligament_model::layout::Layout;
-use ligament_model::portion::{Portion, largest};
+use ligament_model::subdomain::Subdomain;
 
 use crate::load_program::LoadProgram;
 use crate::unbalanced::Unbalanced;
@@ -27,9 +27,8 @@ const UNMOVED: f64 = 1e-12;
 pub(crate) struct Target {
     /// What grows with the load factor, for a load factor of one.
     pub(crate) rate: Arc<dyn LoadProgram>,
-    /// Where processes share the body out: the motion is the sum over them.
-    pub(crate) portion: Option<Portion>,
-    /// Degrees of freedom with their weights in the motion; each process has those of its own points.
+    pub(crate) subdomain: Subdomain,
+    /// Degrees of freedom of owned points with their weights in the motion, which is the sum over all processes.
     pub(crate) weights: Vec<(u32, f64)>,
     /// The value of the motion, m or rad.
     pub(crate) value: f64,
@@ -38,27 +37,21 @@ pub(crate) struct Target {
 }
 
 impl Target {
-    /// The weights of the points that a process has.
-    pub(crate) fn own_weights(
-        portion: Option<&Portion>,
+    /// The weights at owned points.
+    pub(crate) fn owned_weights(
+        subdomain: &Subdomain,
         layout: Layout,
         weights: impl Iterator<Item = (u32, f64)>,
     ) -> Vec<(u32, f64)> {
-        let is_own = |dof| portion.is_none_or(|it| it.is_own(layout.point(dof as usize)));
-        weights.filter(|&(dof, _)| is_own(dof)).collect()
+        let is_owned = |dof| subdomain.owns(layout.point(dof as usize));
+        weights.filter(|&(dof, _)| is_owned(dof)).collect()
     }
 
     /// The motion in displacements (n_degrees_of_freedom).
     pub(super) fn motion(&self, displacement: &[f64]) -> f64 {
         let terms = self.weights.iter();
         let terms = terms.map(|&(dof, weight)| weight * displacement[dof as usize]);
-        let here = terms.sum();
-        let Some(portion) = &self.portion else {
-            return here;
-        };
-        let mut sum = [here];
-        portion.sum(&mut sum);
-        sum[0]
+        self.subdomain.sum(terms.sum())
     }
 
     /// Whether the motion has its value in displacements (n_degrees_of_freedom).
@@ -80,7 +73,7 @@ impl Target {
         growth: &[f64],
     ) -> Result<f64, Unbalanced> {
         let here = growth.iter().fold(0.0_f64, |size, it| size.max(it.abs()));
-        let largest = largest(self.portion.as_ref(), here);
+        let largest = self.subdomain.max(here);
         let gained = self.motion(growth);
         let missing = self.value - self.motion(displacement) - self.motion(moved);
         let change = missing / gained;

@@ -92,7 +92,7 @@ impl ModalAnalysis {
             None => Reason::Unfit(Unfit::Modes),
         };
         let unknowns = Arc::new(unknowns);
-        let stiffness = Stiffness::new(&problem.system, unknowns, problem.solver, reason)?;
+        let stiffness = Stiffness::new(&problem.system, unknowns, &problem.solver, reason)?;
         Ok(Self {
             problem: problem.clone(),
             settings,

@@ -1,7 +1,6 @@
 //! Solution by several ranks: a matrix whose rows are shared out, conjugate gradients with multigrid, or a factor.
 //!
-//! A rank has the rows of its own points and the correction there: the unknowns are shared out as they are; where each rank knows all bonds it
-//! takes the whole correction. The matrix is always that of the bonds as they are. The preconditioner is kept while it serves: it is made anew where a part came loose, and where
+//! A rank has the rows of its own points and the correction there; where each rank holds all bonds of the body it takes the whole correction. The matrix is always that of the bonds as they are. The preconditioner is kept while it serves: it is made anew where a part came loose, and where
 //! the iterations beyond what it took when it was new have cost as much as that. A factor is made anew after every breakage.
 
 mod kept;
@@ -13,9 +12,10 @@ use std::time::Instant;
 
 use ligament_linalg::{FactorError, Inertia};
 use ligament_model::Bonds;
+use ligament_model::communicator::Communicator;
 use ligament_model::contact::ClosedPair;
 use ligament_model::element::Remaining;
-use ligament_model::portion::{Partition, concatenated};
+use ligament_model::subdomain::Partition;
 use ligament_model::thermal::ThermalStrain;
 
 use self::kept::Kept;
@@ -27,7 +27,7 @@ use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
-use crate::ranks::{Pivots, RankMatrix, Ranks, Solved, Tolerated};
+use crate::distributed_matrix::{DistributedMatrix, MatrixCommunicator, Pivots, Solved, Tolerated};
 use crate::serial::Serial;
 use crate::state::State;
 use crate::unknowns::Unknowns;
@@ -43,17 +43,17 @@ const MARK: u64 = 0x736b_6e61_7220_669c;
 pub(crate) struct DistributedSolver {
     system: Arc<dyn Bonds>,
     unknowns: Arc<Unknowns>,
-    ranks: &'static dyn Ranks,
+    communicator: Arc<dyn MatrixCommunicator>,
     /// Force left out of balance by an iteration, relative to what may act; none: a factor.
     tolerance: Option<f64>,
     partition: Arc<Partition>,
-    /// Where the processes share the bonds out as well.
-    numbers: Option<Arc<BondNumbers>>,
+    /// Numbers of the bonds, which are distributed as well unless each process needs the whole body.
+    numbers: Arc<BondNumbers>,
     /// Bonds between own points and others.
     between: Vec<u32>,
     /// Points whose columns have entries in own rows.
     columns: Vec<u32>,
-    matrix: Option<Box<dyn RankMatrix>>,
+    matrix: Option<Box<dyn DistributedMatrix>>,
     kept: Kept,
     /// Pivots of the factor, where there is one.
     pivots: Option<Pivots>,
@@ -64,19 +64,26 @@ impl DistributedSolver {
     pub(crate) fn new(
         system: Arc<dyn Bonds>,
         unknowns: Arc<Unknowns>,
-        (ranks, numbers): (&'static dyn Ranks, Option<Arc<BondNumbers>>),
+        communicator: Arc<dyn MatrixCommunicator>,
+        numbers: Arc<BondNumbers>,
         tolerance: Option<f64>,
     ) -> Self {
-        let evenly = || {
+        let subdomain = system.subdomain();
+        let partition = if subdomain.is_whole() {
             let halve = |points: &mut [u32]| system.halve(points);
-            Arc::new(Partition::new(system.n_points(), ranks.n_ranks(), &halve))
+            Arc::new(Partition::new(
+                system.n_points(),
+                communicator.size(),
+                &halve,
+            ))
+        } else {
+            subdomain.partition().clone()
         };
-        let partition = (system.portion()).map_or_else(evenly, |it| it.partition().clone());
         let rows = OwnRows {
             system: &*system,
             unknowns: &unknowns,
             partition: &partition,
-            rank: ranks.rank(),
+            rank: communicator.rank(),
         };
         let columns = rows.columns();
         let between = (0..).zip(system.ends()).filter(|(_, ends)| {
@@ -88,7 +95,7 @@ impl DistributedSolver {
             between,
             system,
             unknowns,
-            ranks,
+            communicator,
             tolerance,
             partition,
             numbers,
@@ -104,7 +111,7 @@ impl DistributedSolver {
             system: &*self.system,
             unknowns: &self.unknowns,
             partition: &self.partition,
-            rank: self.ranks.rank(),
+            rank: self.communicator.rank(),
         }
     }
 
@@ -122,10 +129,13 @@ impl DistributedSolver {
     fn assemble(&mut self, making: &Making, columns: Option<&[u32]>) -> Vec<usize> {
         let matrix = self.matrix.take();
         let rows = self.rows();
-        let mut matrix = matrix.unwrap_or_else(|| {
+        let new = || {
             let couplings = rows.couplings(&self.columns);
-            self.ranks.matrix(&rows.rows(&couplings))
-        });
+            self.communicator.matrix(&rows.rows(&couplings))
+        };
+        let Some(mut matrix) = matrix.or_else(new) else {
+            return Vec::new();
+        };
         let free = self.free(&making.held);
         let bonds = making.bonds();
         let taken = Taken { bonds, free: &free };
@@ -141,9 +151,10 @@ impl DistributedSolver {
 
     /// Degrees of freedom that some rank has found.
     fn of_all(&self, found: &[usize]) -> Vec<usize> {
-        let found: Vec<[f64; 1]> = found.iter().map(|&dof| [dof as f64]).collect();
-        let all = concatenated(self.ranks, &found).into_iter();
-        let mut all: Vec<usize> = all.map(|[dof]| dof as usize).collect();
+        let found: Vec<f64> = found.iter().map(|&dof| dof as f64).collect();
+        let communicator: &dyn Communicator = &*self.communicator;
+        let all = communicator.all_gather_list(found).into_iter();
+        let mut all: Vec<usize> = all.map(|dof| dof as usize).collect();
         all.sort_unstable();
         all
     }
@@ -153,9 +164,9 @@ impl DistributedSolver {
         let layout = self.unknowns.layout();
         let free = self.free(&making.held);
         let all: Vec<u32> = (0..self.system.n_points() as u32).collect();
-        let own = self.partition.points(self.ranks.rank());
+        let own = self.partition.points(self.communicator.rank());
         let of_own = |shape: Vec<f64>| -> Vec<f64> {
-            let dofs = own.iter().flat_map(|&point| layout.range(point));
+            let dofs = own.clone().flat_map(|point| layout.range(point));
             dofs.map(|dof| if free[dof] { shape[dof] } else { 0.0 })
                 .collect()
         };
@@ -197,22 +208,23 @@ impl DistributedSolver {
     /// Whether all ranks are to solve for the same forces, to the bit: they go the same way if they compute the same. Where the forces are
     /// shared out, the load factor and what is left of the bonds between two ranks must be the same.
     fn agree(&self, state: &State, force: &[f64]) -> bool {
-        let Some(numbers) = &self.numbers else {
+        let numbers = &self.numbers;
+        if numbers.subdomain().is_whole() {
             return self.are_equal(force.iter().map(|value| value.to_bits()));
-        };
+        }
         let remaining = &state.softening.remaining;
         let left = |&bond: &u32| {
-            let (number, bond) = (numbers.number(bond as usize), bond as usize);
+            let (number, bond) = (numbers.number(bond), bond as usize);
             let left = remaining.get(bond).copied().unwrap_or(Remaining::WHOLE);
             let bits = [left.axial, left.shear, left.rotational].map(f64::to_bits);
             let is_left = u64::from(state.intact[bond]);
             let mixed = mixed([u64::from(number), is_left].into_iter().chain(bits));
             // Sums of as many as there are bonds are exact.
             let part = (mixed >> 44) as f64;
-            if numbers.counts(bond) { part } else { -part }
+            if numbers.owns(bond) { part } else { -part }
         };
         let mut of_both = [self.between.iter().map(left).sum::<f64>()];
-        numbers.portion().sum(&mut of_both);
+        numbers.subdomain().all_reduce_sum(&mut of_both);
         self.are_equal([state.load_factor.to_bits()].into_iter()) && of_both == [0.0]
     }
 
@@ -222,15 +234,15 @@ impl DistributedSolver {
         // Halves are numbers that doubles hold.
         let halves = [(mixed >> 32) as f64, (mixed & 0xffff_ffff) as f64];
         let mut both = [halves[0], halves[1], -halves[0], -halves[1]];
-        self.ranks.largest(&mut both);
+        self.communicator.all_reduce_max(&mut both);
         both[0] == -both[2] && both[1] == -both[3]
     }
 
     /// Values at the unknowns as those at the own degrees of freedom, with another one where nothing is unknown or free.
     fn at_own(&self, values: &[f64], free: &[bool], other: f64) -> Vec<f64> {
         let layout = self.unknowns.layout();
-        let own = self.partition.points(self.ranks.rank()).iter();
-        let dofs = own.flat_map(|&point| layout.range(point));
+        let own = self.partition.points(self.communicator.rank());
+        let dofs = own.flat_map(|point| layout.range(point));
         let value = |dof: usize| self.unknowns.number(dof).filter(|_| free[dof]);
         dofs.map(|dof| value(dof).map_or(other, |number| values[number]))
             .collect()
@@ -256,13 +268,15 @@ impl DistributedSolver {
         let dofs = self.unknowns.degrees_of_freedom().iter();
         let dofs = dofs.map(|&dof| dof as usize);
         let place = |dof: usize| self.partition.place(layout.point(dof));
-        if self.numbers.is_some() {
-            let first = self.partition.first(self.ranks.rank());
+        if !self.numbers.subdomain().is_whole() {
+            let first = self.partition.first(self.communicator.rank());
             return dofs
                 .map(|dof| motions[n * (place(dof) - first) + dof % n])
                 .collect();
         }
-        let all = self.ranks.gather(&motions, &self.partition.counts(n));
+        let all = self
+            .communicator
+            .all_gather(&motions, &self.partition.counts(n));
         dofs.map(|dof| all[n * place(dof) + dof % n]).collect()
     }
 }
@@ -303,7 +317,7 @@ impl TangentSolver for DistributedSolver {
         let is_new = self.kept.is_due || self.matrix.is_none();
         let stale = self.stale_columns(&making);
         let mut some_stale = [f64::from(u8::from(!stale.is_empty()))];
-        self.ranks.largest(&mut some_stale);
+        self.communicator.all_reduce_max(&mut some_stale);
         if !is_new && some_stale == [0.0] {
             return Ok(Vec::new());
         }
@@ -354,9 +368,8 @@ impl TangentSolver for DistributedSolver {
         let own_force = self.at_own(&force, &free, 0.0);
         let found = match left {
             Left::Share(share) => {
-                let numbers = self.numbers.as_ref();
                 let square = dot_of_chunks(&force, &force);
-                let square = numbers.map_or(square, |it| it.portion().total(square));
+                let square = self.numbers.subdomain().sum(square);
                 let norm = share * square.sqrt();
                 matrix.solve(&own_force, Tolerated::Norm(norm))
             }
@@ -402,10 +415,7 @@ impl TangentSolver for DistributedSolver {
     fn write(&self, out: &mut Vec<u8>) {
         MARK.write(out);
         self.matrix.is_some().write(out);
-        match &self.numbers {
-            None => self.kept.write(out),
-            Some(numbers) => self.kept.of_all(numbers).write(out),
-        }
+        self.kept.write(&self.numbers, out);
     }
 
     fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError> {
@@ -414,7 +424,7 @@ impl TangentSolver for DistributedSolver {
         }
         let _ = u64::read(from)?;
         let has_matrix = bool::read(from)?;
-        self.kept = Kept::read_known(self.numbers.as_deref(), from)?;
+        self.kept = Kept::read(&self.numbers, from)?;
         if !has_matrix {
             return Ok(());
         }
@@ -464,9 +474,9 @@ pub(crate) fn was_written(from: &[u8]) -> bool {
 /// # Errors
 ///
 /// If the bytes are damaged.
-pub(crate) fn pass_over(from: &mut &[u8]) -> Result<(), CheckpointError> {
+pub(crate) fn pass_over(numbers: &BondNumbers, from: &mut &[u8]) -> Result<(), CheckpointError> {
     let _ = u64::read(from)?;
     let _ = bool::read(from)?;
-    let _ = Kept::read_known(None, from)?;
+    let _ = Kept::read(numbers, from)?;
     Ok(())
 }

@@ -61,28 +61,21 @@ impl Making {
         }
     }
 
-    /// The making with the bonds of all processes on rank 0, and without any elsewhere; without changes.
-    pub(super) fn of_all(&self, numbers: &BondNumbers) -> Self {
-        Self {
-            intact: match self.intact.is_empty() {
-                true => Vec::new(),
-                false => numbers.of_all(&self.intact, true),
-            },
-            remaining: match self.remaining.is_empty() {
-                true => Vec::new(),
-                false => numbers.of_all(&self.remaining, Remaining::WHOLE),
-            },
-            held: self.held.clone(),
-            ..Self::default()
-        }
+    /// Appends the making with all bonds of the body, see [`BondNumbers::write`].
+    pub(super) fn write_all(&self, numbers: &BondNumbers, out: &mut Vec<u8>) {
+        numbers.write(&self.intact, true, out);
+        numbers.write(&self.remaining, Remaining::WHOLE, out);
+        self.held.write(out);
+        self.beside.write(out);
+        self.changes.write(out);
     }
 
-    /// Reads a making with the bonds that are known here alone, from that of all.
+    /// Reads a making with the local bonds alone, from that of all bonds.
     ///
     /// # Errors
     ///
     /// If the bytes are damaged or of another body.
-    pub(super) fn read_known(
+    pub(super) fn read_local(
         numbers: &BondNumbers,
         from: &mut &[u8],
     ) -> Result<Self, CheckpointError> {

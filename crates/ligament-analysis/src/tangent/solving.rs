@@ -11,7 +11,6 @@ use super::iterative::IterativeSolver;
 use super::unsymmetric::UnsymmetricSolver;
 use crate::bond_numbers::BondNumbers;
 use crate::error::SetupError;
-use crate::ranks::Together;
 use crate::solver::{Method, Reason, SolverChoice, SolverSettings};
 use crate::stiffness::{self, Stiffness};
 use crate::unknowns::Unknowns;
@@ -25,7 +24,7 @@ pub(crate) struct Solving {
 }
 
 impl Solving {
-    /// Chooses a solver for some unknowns, with the numbers of bonds that processes share out; nothing is factorised yet.
+    /// Chooses a solver for some unknowns, with the numbers of the bonds among all of the body; nothing is factorised yet.
     ///
     /// # Errors
     ///
@@ -33,15 +32,20 @@ impl Solving {
     pub(crate) fn new(
         system: &Arc<dyn Bonds>,
         unknowns: &Arc<Unknowns>,
-        settings: SolverSettings,
-        numbers: Option<&Arc<BondNumbers>>,
+        settings: &SolverSettings,
+        numbers: &Arc<BondNumbers>,
     ) -> Result<Self, SetupError> {
-        if let Some(Together(ranks)) = settings.ranks {
-            let choice = settings.distributed_choice(&**system, ranks.n_ranks());
+        let communicator = &settings.communicator;
+        if communicator.has_matrices() {
+            let choice = settings.distributed_choice(&**system, communicator.size());
             let choice = choice.map_err(SetupError::NotDistributed)?;
-            let (system, unknowns) = (system.clone(), unknowns.clone());
-            let shared = (ranks, numbers.cloned());
-            let solver = DistributedSolver::new(system, unknowns, shared, choice.tolerance);
+            let solver = DistributedSolver::new(
+                system.clone(),
+                unknowns.clone(),
+                communicator.clone(),
+                numbers.clone(),
+                choice.tolerance,
+            );
             return Ok(Self {
                 stiffness: None,
                 choice: SolverChoice::Distributed(choice),
@@ -82,7 +86,7 @@ impl Solving {
     fn iterating(
         system: &Arc<dyn Bonds>,
         unknowns: &Arc<Unknowns>,
-        settings: SolverSettings,
+        settings: &SolverSettings,
         reason: Reason,
     ) -> Self {
         let choice = settings.iterative_choice(&**system, reason);

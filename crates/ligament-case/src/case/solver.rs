@@ -54,8 +54,7 @@ impl Solver {
             ordering: self.ordering.0,
             update: self.update.0,
             rebuild_every: rebuild_every.unwrap_or(default.rebuild_every),
-            memory: None,
-            ranks: None,
+            ..default
         }
     }
 }

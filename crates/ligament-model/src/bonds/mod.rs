@@ -47,12 +47,11 @@ impl<const D: usize> BondSet<D> {
         self.ends.len()
     }
 
-    /// Number of the bonds of the whole body between the points of a cloud, of which these are known here.
+    /// Number of the bonds of the whole body between the points of a cloud, of which a process holds some.
     pub fn count(&self, cloud: &PointCloud<D>) -> usize {
-        match cloud.portion {
-            None => self.len(),
-            Some(_) => cloud.total(self.ends.iter().filter(|it| cloud.counts(**it)).count()),
-        }
+        let owned = self.ends.iter();
+        let owned = owned.filter(|it| cloud.subdomain.owns_bond(**it));
+        cloud.subdomain.count(owned.count())
     }
 
     /// Whether there is no bond.

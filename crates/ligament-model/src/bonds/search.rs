@@ -20,7 +20,8 @@ impl<const D: usize> BondSet<D> {
     /// only that one holds the other point.
     pub fn search(cloud: &PointCloud<D>, horizons: &Horizons) -> Self {
         let tree = search_tree(&cloud.positions);
-        let known = |pair: &[u32; 2]| cloud.portion.as_ref().is_none_or(|it| it.knows(*pair));
+        let subdomain = &cloud.subdomain;
+        let is_held = |pair: &[u32; 2]| subdomain.is_whole() || subdomain.contains_bond(*pair);
         let found: Vec<Vec<[u32; 2]>> = reaching(cloud, horizons)
             .par_chunks(BLOCK)
             .map(|points| {
@@ -35,7 +36,7 @@ impl<const D: usize> BondSet<D> {
                             .map(|neighbour| neighbour.data)
                             .filter(|&other| is_recorded_by(point, other, cloud, horizons))
                             .map(|other| [point.min(other), point.max(other)])
-                            .filter(known),
+                            .filter(is_held),
                     );
                 }
                 pairs
@@ -71,13 +72,14 @@ impl<const D: usize> BondSet<D> {
     }
 }
 
-/// Points along the curve whose horizons may reach own points, with these; all points of one process.
+/// Points along the curve whose horizons may reach owned points, and these.
 fn reaching<'a, const D: usize>(cloud: &'a PointCloud<D>, horizons: &Horizons) -> Cow<'a, [u32]> {
-    let Some(portion) = &cloud.portion else {
+    let subdomain = &cloud.subdomain;
+    if subdomain.is_whole() {
         return Cow::Borrowed(&cloud.curve);
-    };
-    let own = portion.own().iter();
-    let [lower, upper] = bounding_box(own.map(|&it| cloud.positions[it as usize]));
+    }
+    let owned = subdomain.owned();
+    let [lower, upper] = bounding_box(owned.map(|it| cloud.positions[it as usize]));
     let reaches = |point: u32| {
         let position = cloud.positions[point as usize];
         let nearest = std::array::from_fn(|axis| position[axis].max(lower[axis]).min(upper[axis]));
@@ -85,7 +87,7 @@ fn reaching<'a, const D: usize>(cloud: &'a PointCloud<D>, horizons: &Horizons) -
     };
     let points = cloud.curve.iter().copied();
     points
-        .filter(|&it| portion.is_own(it) || reaches(it))
+        .filter(|&it| subdomain.owns(it) || reaches(it))
         .collect()
 }
 

@@ -6,6 +6,7 @@ use super::PointCloud;
 use super::points::whole_shares;
 use crate::horizon::INCLUSION_TOLERANCE;
 use crate::shape::{Region, Shape, SolidShape};
+use crate::subdomain::Subdomain;
 
 /// No cell is left at a place.
 const NONE: u32 = u32::MAX;
@@ -277,7 +278,7 @@ impl<const D: usize> PointCloud<D> {
             n_materials,
             material_shares: whole_shares(material_of_cell, n_materials),
             numbering: Numbering::default(),
-            portion: None,
+            subdomain: Subdomain::whole(n_points),
         }
     }
 }

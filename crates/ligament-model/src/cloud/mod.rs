@@ -5,13 +5,17 @@ pub(crate) mod lumping;
 mod points;
 mod precision;
 
+use std::borrow::Cow;
+use std::sync::Arc;
+
 use ligament_mesh::Numbering;
 use rayon::prelude::*;
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
+use crate::communicator::Communicator;
 use crate::geometry::bounding_box;
-use crate::portion::{Exchange, Partition, Portion, largest};
+use crate::subdomain::{Partition, Subdomain};
 use crate::tensor::{dot, minus, norm};
 
 /// Material points with their volumes, nearest-neighbour distances and materials.
@@ -43,8 +47,8 @@ pub struct PointCloud<const D: usize = 2> {
     pub curve: Vec<u32>,
     /// How the points are numbered: in what follows, and in the file.
     pub numbering: Numbering,
-    /// The part of this process in the points, where it is one of several.
-    pub portion: Option<Portion>,
+    /// The points that this process owns.
+    pub subdomain: Subdomain,
 }
 
 /// A point of the search tree, with its number.
@@ -85,19 +89,14 @@ impl<const D: usize> PointCloud<D> {
         self.over_some(&self.curve, T::default(), value)
     }
 
-    /// Values that each point has from its bonds, shape (n_points, N), computed in parallel along the curve: those of own points, which are
-    /// told to the other processes where there are any.
+    /// Values that each point has from its bonds, shape (n_points, N): computed at owned points, in parallel along the curve, and gathered
+    /// from all processes.
     pub fn over_families<const N: usize>(
         &self,
         values: impl Fn(u32) -> [f64; N] + Sync,
     ) -> Vec<[f64; N]> {
-        let zeros = [0.0; N];
-        let Some(portion) = &self.portion else {
-            return self.over_some(&self.curve, zeros, values);
-        };
-        let own: Vec<u32> = portion.own_along(&self.curve).collect();
-        let mut all = self.over_some(&own, zeros, values);
-        portion.complete(all.as_flattened_mut(), N);
+        let mut all = self.over_some(&self.owned_along_curve(), [0.0; N], values);
+        self.subdomain.all_gather_points(all.as_flattened_mut(), N);
         all
     }
 
@@ -116,24 +115,13 @@ impl<const D: usize> PointCloud<D> {
         values
     }
 
-    /// Whether a bond, of which the ends A < B are given, is counted here: by one process alone.
-    pub fn counts(&self, ends: [u32; 2]) -> bool {
-        (self.portion.as_ref()).is_none_or(|portion| portion.counts(ends))
-    }
-
-    /// The largest of a value over all processes.
-    pub fn largest(&self, value: f64) -> f64 {
-        largest(self.portion.as_ref(), value)
-    }
-
-    /// The sum of what each process has counted.
-    pub fn total(&self, counted: usize) -> usize {
-        let Some(portion) = &self.portion else {
-            return counted;
-        };
-        let mut sum = [counted as f64];
-        portion.sum(&mut sum);
-        sum[0] as usize
+    /// The owned points in the order of the curve.
+    pub(crate) fn owned_along_curve(&self) -> Cow<'_, [u32]> {
+        if self.subdomain.is_whole() {
+            return Cow::Borrowed(&self.curve);
+        }
+        let points = self.curve.iter().copied();
+        points.filter(|&it| self.subdomain.owns(it)).collect()
     }
 
     /// Takes a position of the case to the coordinates of [`PointCloud::positions`].
@@ -222,11 +210,11 @@ impl<const D: usize> PointCloud<D> {
         });
     }
 
-    /// The part of this process in the body, where it is shared out among several.
-    pub fn portion_of(&self, exchange: &'static dyn Exchange) -> Portion {
+    /// The points that this process owns where the body is divided between processes.
+    pub fn divided(&self, communicator: Arc<dyn Communicator>) -> Subdomain {
         let halve = |points: &mut [u32]| self.halve(points);
-        let partition = Partition::new(self.len(), exchange.n_ranks(), &halve);
-        Portion::new(partition, exchange)
+        let partition = Partition::new(self.len(), communicator.size(), &halve);
+        Subdomain::new(partition, communicator)
     }
 
     /// Displacements u_i = x_j, u_j = x_i for each pair of axes i <= j, of points with so many components of motion, each of shape

@@ -5,6 +5,7 @@ use ligament_mesh::{Numbering, along_hilbert_curve};
 use super::precision::precision_of_coordinates;
 use super::{PointCloud, distance, search_tree};
 use crate::geometry::bounding_box;
+use crate::subdomain::Subdomain;
 use crate::tensor::minus;
 
 impl<const D: usize> PointCloud<D> {
@@ -44,6 +45,7 @@ impl<const D: usize> PointCloud<D> {
         let precision = precision_of_coordinates(positions);
         let positions: Vec<[f64; D]> = positions.iter().map(|p| minus(*p, origin)).collect();
         Self {
+            subdomain: Subdomain::whole(positions.len()),
             curve: along_hilbert_curve(&positions),
             positions,
             precision,
@@ -55,7 +57,6 @@ impl<const D: usize> PointCloud<D> {
             n_materials,
             material_shares: Vec::new(),
             numbering: Numbering::default(),
-            portion: None,
         }
     }
 }

@@ -6,20 +6,20 @@
 
 use rayon::prelude::*;
 
-use super::seats::Seats;
+use super::sweep_order::SweepOrder;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 
 /// Points whose sums one thread makes; fixed, so that sums are the same for any number of threads.
 pub(crate) const BLOCK: usize = 1024;
 
-/// The bonds seen from their points: each stands in the family of either end that is an own point. `rank` is the place of a point in the
+/// The bonds seen from their points: each stands in the family of either end that is an own point. `index` is the place of a point in the
 /// order of the sweeps.
 pub(crate) struct Members<'a, const D: usize> {
     bonds: &'a BondSet<D>,
     cloud: &'a PointCloud<D>,
-    pub(crate) seats: Seats<'a>,
-    /// Index of the first member of the family of each rank, and behind the last family the number of all members.
+    pub(crate) order: SweepOrder<'a>,
+    /// First member of the family of each point, and behind the last family the number of all members.
     starts: Vec<usize>,
     /// Rank of the other end of each member.
     pub(crate) neighbour: Vec<u32>,
@@ -28,23 +28,23 @@ pub(crate) struct Members<'a, const D: usize> {
 impl<'a, const D: usize> Members<'a, D> {
     /// The members of the families of own points.
     pub(crate) fn new(bonds: &'a BondSet<D>, cloud: &'a PointCloud<D>) -> Self {
-        let seats = Seats::new(bonds, cloud);
-        let ranks = seats.ranks(cloud.len());
+        let order = SweepOrder::new(bonds, cloud);
+        let indices = order.indices();
         let mut starts = vec![0];
         let mut size = 0;
-        for &point in seats.own() {
+        for &point in order.owned() {
             size += bonds.incidence.at(point).len();
             starts.push(size);
         }
         let mut members = Self {
             bonds,
             cloud,
-            seats,
+            order,
             starts,
             neighbour: Vec::new(),
         };
         members.neighbour = members.values(0, |point, bond| {
-            ranks[bonds.neighbour(bond, point) as usize]
+            indices[bonds.neighbour(bond, point) as usize]
         });
         members
     }
@@ -56,7 +56,7 @@ impl<'a, const D: usize> Members<'a, D> {
 
     /// The largest of a value over all processes.
     pub(crate) fn largest(&self, value: f64) -> f64 {
-        self.cloud.largest(value)
+        self.cloud.subdomain.max(value)
     }
 
     /// Number of own points.
@@ -64,10 +64,10 @@ impl<'a, const D: usize> Members<'a, D> {
         self.starts.len() - 1
     }
 
-    /// Members of the family of a rank.
+    /// Members of the family of a point.
     #[inline(always)]
-    pub(crate) fn family(&self, rank: usize) -> std::ops::Range<usize> {
-        self.starts[rank]..self.starts[rank + 1]
+    pub(crate) fn family(&self, index: usize) -> std::ops::Range<usize> {
+        self.starts[index]..self.starts[index + 1]
     }
 
     /// A value of each member, from its point and its bond, in the place of a first one.
@@ -77,8 +77,8 @@ impl<'a, const D: usize> Members<'a, D> {
         value: impl Fn(u32, u32) -> T + Sync,
     ) -> Vec<T> {
         let mut values = vec![first; self.starts[self.n_points()]];
-        self.over_blocks(&mut values, |rank, values| {
-            let point = self.seats.own()[rank];
+        self.over_blocks(&mut values, |index, values| {
+            let point = self.order.owned()[index];
             for (slot, &bond) in values.iter_mut().zip(self.bonds.incidence.at(point)) {
                 *slot = value(point, bond);
             }
@@ -97,10 +97,10 @@ impl<'a, const D: usize> Members<'a, D> {
             .enumerate()
             .for_each(|(number, mut values)| {
                 let last = ((number + 1) * BLOCK).min(self.n_points());
-                for rank in number * BLOCK..last {
+                for index in number * BLOCK..last {
                     let own;
-                    (own, values) = values.split_at_mut(self.family(rank).len());
-                    each(rank, own);
+                    (own, values) = values.split_at_mut(self.family(index).len());
+                    each(index, own);
                 }
             });
     }
@@ -119,7 +119,7 @@ impl<'a, const D: usize> Members<'a, D> {
 
     /// The value of each bond from those of the members, which are the same at either end, shape (n_bonds).
     pub(crate) fn of_bonds<T: Copy + Default + Send + Sync>(&self, values: &[T]) -> Vec<T> {
-        if self.cloud.portion.is_some() {
+        if !self.cloud.subdomain.is_whole() {
             return self.of_known_bonds(values);
         }
         // The bonds whose first end is a point follow one another, at the end of its family.
@@ -136,12 +136,12 @@ impl<'a, const D: usize> Members<'a, D> {
                 rest.split_off_mut(..count).unwrap_or_default()
             })
             .collect();
-        let of_rank = |(rank, &point): (usize, &u32)| {
+        let of_index = |(index, &point): (usize, &u32)| {
             let others = of_others[point as usize];
-            let from = &values[self.family(rank)][others..];
+            let from = &values[self.family(index)][others..];
             (std::mem::take(&mut own[point as usize]), from)
         };
-        let along_curve: Vec<_> = self.cloud.curve.iter().enumerate().map(of_rank).collect();
+        let along_curve: Vec<_> = self.cloud.curve.iter().enumerate().map(of_index).collect();
         (along_curve.into_par_iter().with_min_len(BLOCK))
             .for_each(|(own, from)| own.copy_from_slice(from));
         of_bonds
@@ -150,7 +150,7 @@ impl<'a, const D: usize> Members<'a, D> {
     /// The value of each known bond, of which the first end may be a point of another process.
     fn of_known_bonds<T: Copy + Default>(&self, values: &[T]) -> Vec<T> {
         let mut of_bonds = vec![T::default(); self.bonds.len()];
-        let families = self.seats.own().iter();
+        let families = self.order.owned().iter();
         let members = families.flat_map(|&point| self.bonds.incidence.at(point));
         for (&bond, &value) in members.zip(values) {
             of_bonds[bond as usize] = value;

@@ -14,9 +14,9 @@ pub mod length;
 mod members;
 pub mod partial_volume;
 pub mod patch;
-mod seats;
 mod strain_mode;
 pub mod surface;
+mod sweep_order;
 mod sweeps;
 
 pub use domain::energy_ratios;

@@ -23,9 +23,10 @@ pub mod strain_stiffness;
 pub mod true_strain;
 
 use crate::bonds::{BondSet, Incidence};
+use crate::communicator::Wire;
 use crate::deformation::Deformation;
 use crate::layout::{Component, Layout};
-use crate::portion::Portion;
+use crate::subdomain::Subdomain;
 use crate::tensor::SymTensor;
 pub use bond_deformation::BondDeformation;
 use strain_stiffness::StrainStiffness;
@@ -94,7 +95,7 @@ impl Rigidities {
         &self,
         ends: &[[u32; 2]],
         layout: Layout,
-        portion: Option<&Portion>,
+        subdomain: &Subdomain,
     ) -> Vec<bool> {
         let all = 0..layout.n_degrees_of_freedom();
         let mut resisted: Vec<bool> = all
@@ -106,13 +107,12 @@ impl Rigidities {
         for end in resisting.flat_map(|(_, ends)| ends) {
             resisted[layout.range(*end)].fill(true);
         }
-        if let Some(portion) = portion {
-            let mut marks: Vec<f64> =
-                (resisted.iter().map(|&it| f64::from(u8::from(it)))).collect();
-            portion.largest(&mut marks);
-            return marks.into_iter().map(|it| it > 0.0).collect();
+        if subdomain.is_whole() {
+            return resisted;
         }
-        resisted
+        let mut marks: Vec<f64> = (resisted.iter().map(|&it| f64::from(u8::from(it)))).collect();
+        subdomain.all_reduce_max(&mut marks);
+        marks.into_iter().map(|it| it > 0.0).collect()
     }
 }
 
@@ -125,6 +125,20 @@ pub struct Remaining {
     pub shear: f64,
     /// Of the one against relative rotation.
     pub rotational: f64,
+}
+
+impl Wire<3> for Remaining {
+    fn numbers(&self) -> [f64; 3] {
+        [self.axial, self.shear, self.rotational]
+    }
+
+    fn from_numbers([axial, shear, rotational]: [f64; 3]) -> Self {
+        Self {
+            axial,
+            shear,
+            rotational,
+        }
+    }
 }
 
 impl Remaining {

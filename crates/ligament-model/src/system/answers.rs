@@ -15,9 +15,9 @@ use crate::interface::{
     PointStiffness, StressReading, Stresses,
 };
 use crate::layout::Component;
-use crate::portion::{Portion, any};
 use crate::rigid_motions::{self, FreeMotion, RigidMotions, Turn};
 use crate::stress::traction;
+use crate::subdomain::Subdomain;
 use crate::sweep::BondSweep;
 use crate::tensor::SymTensor;
 use crate::thermal::ThermalStrain;
@@ -31,8 +31,8 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondTopology for Element
         &self.system.cloud.numbering
     }
 
-    fn portion(&self) -> Option<&Portion> {
-        self.system.cloud.portion.as_ref()
+    fn subdomain(&self) -> &Subdomain {
+        &self.system.cloud.subdomain
     }
 
     fn components(&self) -> &'static [Component] {
@@ -111,28 +111,34 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for Element
 
     fn all_positive(&self) -> bool {
         let mut of_springs = self.system.rigidities.of_springs();
-        !any(self.portion(), !of_springs.all(|&rigidity| rigidity > 0.0))
+        !self
+            .subdomain()
+            .any(!of_springs.all(|&rigidity| rigidity > 0.0))
     }
 
     fn some_negative(&self) -> bool {
         let here = self.elements.some_negative(&self.system.rigidities);
-        any(self.portion(), here)
+        self.subdomain().any(here)
     }
 
     fn some_negative_shear(&self) -> bool {
         let mut shear = self.system.rigidities.shear.iter();
-        any(self.portion(), shear.any(|&rigidity| rigidity < 0.0))
+        self.subdomain().any(shear.any(|&rigidity| rigidity < 0.0))
     }
 
     fn resisted(&self) -> Vec<bool> {
-        let (layout, portion) = (self.layout(), self.portion());
+        let (layout, subdomain) = (self.layout(), self.subdomain());
         self.system
             .rigidities
-            .resisted(&self.system.bonds.ends, layout, portion)
+            .resisted(&self.system.bonds.ends, layout, subdomain)
     }
 
     fn point_stiffness(&self) -> Vec<PointStiffness> {
-        PointStiffness::of_bonds(&self.system.rigidities, &self.system.bonds, self.portion())
+        PointStiffness::of_bonds(
+            &self.system.rigidities,
+            &self.system.bonds,
+            self.subdomain(),
+        )
     }
 
     fn holds(
@@ -402,7 +408,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
         } = &self.system;
         let mut bonds = (points.iter()).flat_map(|&point| bonds.incidence.at(point));
         let resist = bonds.any(|&bond| rigidities.resist_rotations(bond as usize));
-        let resist = any(self.portion(), resist);
+        let resist = self.subdomain().any(resist);
         let turn_points = E::COMPONENTS.iter().any(|it| it.is_rotation());
         let turn = match (resist, self.elements.turns_freely()) {
             (true, true) if turn_points => Turn::OfPointsAlong,

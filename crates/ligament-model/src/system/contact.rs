@@ -8,7 +8,6 @@ use crate::contact::{ClosedPair, ContactPair, CutBond, Overlap};
 use crate::ghosts::Ghosts;
 use crate::interface::StressReading;
 use crate::layout::{Component, Layout};
-use crate::portion::{any, counts};
 use crate::tensor::{SymTensor, cross, dot, minus, norm};
 use crate::thermal::ThermalStrain;
 
@@ -71,13 +70,14 @@ impl<const D: usize> BondSystem<D> {
             }
         }
         let seen = parted().flat_map(|(ends, _)| ends);
-        let ghosts = self.cloud.portion.as_ref().map(|it| Ghosts::new(it, seen));
+        let subdomain = &self.cloud.subdomain;
+        let ghosts = Ghosts::new(subdomain, seen);
         let complete = |sums: &mut Vec<AxisSum<D>>| {
-            let Some(ghosts) = &ghosts else {
+            if subdomain.is_whole() {
                 return;
-            };
+            }
             let mut values: Vec<f64> = sums.iter().flat_map(|it| it.values()).collect();
-            ghosts.tell(&mut values, AxisSum::<D>::N_VALUES);
+            ghosts.update(&mut values, AxisSum::<D>::N_VALUES);
             *sums = (values.chunks(AxisSum::<D>::N_VALUES))
                 .map(AxisSum::from_values)
                 .collect();
@@ -135,7 +135,7 @@ impl<const D: usize> BondSystem<D> {
             motions,
             expansion,
         } = moved;
-        let portion = self.cloud.portion.as_ref();
+        let subdomain = &self.cloud.subdomain;
         let is_asked = |ends: [u32; 2]| ends.iter().all(|&end| asked[end as usize]);
         let approaches = |bond: usize| {
             let [a, b] = self.bonds.ends[bond].map(|end| layout.range(end).start);
@@ -145,15 +145,15 @@ impl<const D: usize> BondSystem<D> {
         let has_cut = !self.faces.cut().is_empty();
         let broken = || (0..intact.len()).filter(|&bond| !intact[bond]);
         // Normals of cracks that grew are not worth while where nothing comes nearer.
-        if !any(portion, has_cut || broken().any(approaches)) {
+        if !subdomain.any(has_cut || broken().any(approaches)) {
             return None;
         }
         let pairs = self.contact_pairs(layout, intact);
         let mut motions = Cow::Borrowed(motions);
-        if let Some(portion) = portion {
+        if !subdomain.is_whole() {
             // Cut bonds lead to points that intact ones need not lead to.
-            let ghosts = Ghosts::new(portion, pairs.iter().flat_map(|it| it.ends));
-            ghosts.tell(motions.to_mut(), layout.components.len());
+            let ghosts = Ghosts::new(subdomain, pairs.iter().flat_map(|it| it.ends));
+            ghosts.update(motions.to_mut(), layout.components.len());
         }
         let (pairs, motions) = (pairs.into_iter(), &*motions);
         let overlaps = pairs
@@ -164,20 +164,9 @@ impl<const D: usize> BondSystem<D> {
             });
         let beyond = overlaps.filter(|it| it.depth > beyond);
         let larger = |most: Overlap, it: Overlap| if it.depth > most.depth { it } else { most };
-        let Some(portion) = portion else {
-            return beyond.reduce(larger);
-        };
-        let counted = beyond.filter(|it| counts(Some(portion), it.ends));
-        let here = counted.reduce(larger).map(|it| {
-            let [a, b] = it.ends.map(f64::from);
-            [it.depth, a, b]
-        });
-        let of_ranks = portion.concatenated(here.as_slice()).into_iter();
-        let of_ranks = of_ranks.map(|[depth, a, b]| Overlap {
-            depth,
-            ends: [a as u32, b as u32],
-        });
-        of_ranks.reduce(larger)
+        let owned = beyond.filter(|it| subdomain.owns_bond(it.ends));
+        let here = owned.reduce(larger).into_iter().collect();
+        subdomain.all_gather_list(here).into_iter().reduce(larger)
     }
 
     /// Adds the stresses of the forces of closed pairs to those of the bonds in a reading, shape (n_points, n_components), Pa.

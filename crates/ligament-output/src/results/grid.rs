@@ -5,7 +5,7 @@ use std::iter::repeat_n;
 use std::path::Path;
 
 use ligament_mesh::{Cell, SolidCell};
-use ligament_model::portion::Portion;
+use ligament_model::subdomain::Subdomain;
 use ligament_model::{BodyGrid, Canvas, FixedFields, box_corners, raised};
 
 use crate::Error;
@@ -49,7 +49,13 @@ pub fn point_grid(
 pub fn write_points(path: &Path, grid: &BodyGrid, fields: &[Field<'_>]) -> Result<(), Error> {
     let tags = Field::integer(grid.tagged, &grid.tags);
     let all: Vec<Field<'_>> = fields.iter().copied().chain([tags]).collect();
-    write_grid(path, grid, None, &all, None)
+    write_grid(
+        path,
+        grid,
+        None,
+        &all,
+        &Subdomain::whole(grid.positions.len()),
+    )
 }
 
 /// Bonds as lines between the points of a body, in the order of the file.
@@ -91,7 +97,7 @@ impl Lines {
         body: &BodyGrid,
         point_fields: &[Field<'_>],
         cell_fields: &[Field<'_>],
-        portion: Option<&Portion>,
+        subdomain: &Subdomain,
     ) -> Result<(), Error> {
         let of_points = body.numbering.order_of_file();
         let point_fields: Vec<Field<'_>> = point_fields
@@ -107,11 +113,11 @@ impl Lines {
             point_fields: &point_fields,
             cell_fields: &cell_fields,
         };
-        let shared = portion.map(|portion| SharedCells {
-            portion,
+        let shared = SharedCells {
+            subdomain,
             points: &self.first_ends,
             held: Held::OwnCells,
-        });
+        };
         vtu::write_shared(path, &grid, shared)
     }
 }
@@ -122,10 +128,10 @@ pub(super) fn write_grid(
     body: &BodyGrid,
     displacement: Option<&[[f64; 3]]>,
     fields: &[Field<'_>],
-    portion: Option<&Portion>,
+    subdomain: &Subdomain,
 ) -> Result<(), Error> {
     if matches!(body.canvas, Canvas::Around(_) | Canvas::Boxes(_)) {
-        return write_around(path, body, displacement, fields, portion);
+        return write_around(path, body, displacement, fields, subdomain);
     }
     let order = body.numbering.order_of_file();
     let displacement = displacement.map(|it| body.numbering.to_file(it.to_vec()));
@@ -134,16 +140,13 @@ pub(super) fn write_grid(
     let mut all: Vec<Field<'_>> = displacement.as_deref().map(moved).into_iter().collect();
     all.extend(fields.iter().map(|it| it.ordered(order)));
     let cells = cells(&body.canvas);
-    let points_of_cells = portion.map(|_| {
-        let in_file = cells.iter().map(|it| it.points()[0]);
-        in_file.map(|it| numbering.point(it)).collect::<Vec<u32>>()
-    });
-    let shared = points_of_cells.as_deref().zip(portion);
-    let shared = shared.map(|(points, portion)| SharedCells {
-        portion,
-        points,
+    let in_file = cells.iter().map(|it| it.points()[0]);
+    let points_of_cells: Vec<u32> = in_file.map(|it| numbering.point(it)).collect();
+    let shared = SharedCells {
+        subdomain,
+        points: &points_of_cells,
         held: Held::All,
-    });
+    };
     let grid = UnstructuredGrid {
         points: &body.positions,
         cells: &cells,
@@ -164,13 +167,10 @@ fn write_around(
     body: &BodyGrid,
     displacement: Option<&[[f64; 3]]>,
     fields: &[Field<'_>],
-    portion: Option<&Portion>,
+    subdomain: &Subdomain,
 ) -> Result<(), Error> {
     let numbering = &body.numbering;
-    let points: Vec<u32> = match portion {
-        None => (0..body.positions.len() as u32).collect(),
-        Some(portion) => portion.own().to_vec(),
-    };
+    let points: Vec<u32> = subdomain.owned().collect();
     let points = numbering.sorted(&points);
     let canvas = around(&body.canvas, &points);
     let displacement = displacement.map(|it| at(it, &points));
@@ -194,21 +194,18 @@ fn write_around(
         point_fields: &of_corners,
         cell_fields: &in_order,
     };
-    let Some(portion) = portion else {
-        return vtu::write_shared(path, &grid, None);
-    };
     let in_file: Vec<u32> = points.iter().map(|&it| numbering.in_file(it)).collect();
     let of_cell = |&cell: &u32| (0..n_corners as u32).map(move |it| n_corners as u32 * cell + it);
     let corners_in_file: Vec<u32> = in_file.iter().flat_map(of_cell).collect();
     let shared = SharedCells {
-        portion,
+        subdomain,
         points: &points,
         held: Held::Own {
             points: &corners_in_file,
             cells: &in_file,
         },
     };
-    vtu::write_shared(path, &grid, Some(shared))
+    vtu::write_shared(path, &grid, shared)
 }
 
 /// The cells around some points.
@@ -273,7 +270,14 @@ mod tests {
             Field::scalar("damage", &damage),
             Field::integer(grid.tagged, &grid.tags),
         ];
-        write_grid(&path, &grid, Some(&moved), &fields, None).unwrap();
+        write_grid(
+            &path,
+            &grid,
+            Some(&moved),
+            &fields,
+            &Subdomain::whole(grid.positions.len()),
+        )
+        .unwrap();
         let DataSet::UnstructuredGrid { pieces, .. } = Vtk::import(&path).unwrap().data else {
             panic!("not an unstructured grid");
         };

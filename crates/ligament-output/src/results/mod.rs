@@ -104,7 +104,7 @@ impl<'a> ResultWriter<'a> {
             model_file::write(folder.path(), grid, fixed, problem, None)?;
         }
         // Where processes share the body each would know the largest utilisations of its own bonds alone.
-        let can_fail = !problem.criteria.list.is_empty() && problem.system.portion().is_none();
+        let can_fail = !problem.criteria.list.is_empty() && problem.system.subdomain().is_whole();
         let largest = (rule.model && can_fail).then(|| Largest::new(problem.system.ends().len()));
         let mut writer = Self {
             folder,
@@ -150,7 +150,7 @@ impl<'a> ResultWriter<'a> {
             whole,
         } = so_far;
         // Where processes share the body out this one does not follow all bonds.
-        let is_whole = problem.system.portion().is_none();
+        let is_whole = problem.system.subdomain().is_whole();
         let (softening, largest) = (softening.filter(|_| is_whole), largest.filter(|_| is_whole));
         if rule.model {
             model_file::write(folder.path(), grid, fixed, problem, None)?;
@@ -261,7 +261,7 @@ impl<'a> ResultWriter<'a> {
             self.grid,
             &displacement,
             &cell_fields,
-            None,
+            system.subdomain(),
         )?;
         self.keep(&name)?;
         self.bonds_collection
@@ -345,7 +345,7 @@ fn mark(step_of_breaking: &mut [i64], problem: &Problem, breaks: &[([u32; 2], u3
 /// Name of the file of the fields in a state.
 fn fields_file(record: &StepRecord, view: &View<'_>) -> String {
     let stem = format!("fields_{:04}", record.step);
-    vtu::file_name(&stem, view.system.portion())
+    vtu::file_name(&stem, view.system.subdomain())
 }
 
 fn failed(result: Result<(), Error>) -> Result<(), ObserverError> {

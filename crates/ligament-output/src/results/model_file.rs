@@ -87,9 +87,9 @@ pub(super) fn write(
         Field::integer("no_fail", &no_fail),
         Field::integer(grid.tagged, &grid.tags),
     ];
-    let portion = system.portion();
-    let path = folder.join(vtu::file_name(MODEL, portion));
-    lines.write(&path, grid, &point_fields, &cell_fields, portion)
+    let subdomain = system.subdomain();
+    let path = folder.join(vtu::file_name(MODEL, subdomain));
+    lines.write(&path, grid, &point_fields, &cell_fields, subdomain)
 }
 
 /// The limits and coefficients that each criterion has for each bond, with the names of their fields.

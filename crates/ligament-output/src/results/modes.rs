@@ -96,7 +96,7 @@ pub fn write_modes(
             grid,
             Some(&displacement),
             &fields,
-            None,
+            system.subdomain(),
         )?;
         collection.append(f64::from(number), name)?;
     }

@@ -7,7 +7,7 @@ use ligament_analysis::history::View;
 use ligament_analysis::interface::{StressReading, Stresses};
 use ligament_analysis::{Component, Layout};
 use ligament_model::ghosts::Ghosts;
-use ligament_model::portion::Portion;
+use ligament_model::subdomain::Subdomain;
 use ligament_model::tensor::SymTensor;
 use ligament_model::{BodyGrid, Canvas, FixedFields};
 
@@ -49,11 +49,9 @@ pub(super) fn write(
 ) -> Result<(), Error> {
     let mut read = PointFields::read(rule, view);
     let mut displacements = displacements(view);
-    let ghosts = view.system.portion().map(|it| corners(grid, it));
-    if let Some(ghosts) = &ghosts {
-        read.tell(ghosts);
-        ghosts.tell(displacements.as_flattened_mut(), 3);
-    }
+    let ghosts = corners(grid, view.system.subdomain());
+    read.update_ghosts(&ghosts);
+    ghosts.update(displacements.as_flattened_mut(), 3);
     let mut fields = read.motion.fields(&read.damage.share);
     fields.push(Field::integer(grid.tagged, &grid.tags));
     fields.extend(read.damage.fields());
@@ -62,7 +60,13 @@ pub(super) fn write(
     fields.extend(of_stress.map(|(name, it)| Field::components(name, it.names, &it.values)));
     let system = view.system;
     fields.extend(fixed_fields(fixed, system.volumes(), system.spacing()));
-    write_grid(path, grid, Some(&displacements), &fields, system.portion())
+    write_grid(
+        path,
+        grid,
+        Some(&displacements),
+        &fields,
+        system.subdomain(),
+    )
 }
 
 /// Fields on the points in a state of a run, as the files of fields have them.
@@ -93,8 +97,8 @@ impl PointFields {
         }
     }
 
-    /// Takes over what other processes know of the points that are seen: sums over the bonds of a point are those of its own process.
-    fn tell(&mut self, ghosts: &Ghosts) {
+    /// Replaces the values at ghosts by those of their owners, which alone hold all bonds of a point.
+    fn update_ghosts(&mut self, ghosts: &Ghosts) {
         let Damage {
             share,
             by_way,
@@ -103,16 +107,16 @@ impl PointFields {
         let by_way = by_way.iter_mut().map(|(_, values)| values);
         let motion = &mut self.motion;
         match &mut motion.rotation {
-            Rotations::InPlane(values) => ghosts.tell(values, 1),
-            Rotations::InSpace(values) => ghosts.tell(values.as_flattened_mut(), 3),
+            Rotations::InPlane(values) => ghosts.update(values, 1),
+            Rotations::InSpace(values) => ghosts.update(values.as_flattened_mut(), 3),
         }
-        ghosts.tell(motion.reaction.as_flattened_mut(), 3);
+        ghosts.update(motion.reaction.as_flattened_mut(), 3);
         let of_points = [&mut motion.density, share];
         for values in of_points.into_iter().chain(by_way).chain(dissipated) {
-            ghosts.tell(values, 1);
+            ghosts.update(values, 1);
         }
         for (_, stresses) in &mut self.stresses {
-            ghosts.tell(&mut stresses.values, stresses.names.len());
+            ghosts.update(&mut stresses.values, stresses.names.len());
         }
     }
 
@@ -316,9 +320,12 @@ pub fn displacements(view: &View<'_>) -> Vec<[f64; 3]> {
     vectors(view.system.layout(), &view.state.displacement)
 }
 
-/// The points of others at the corners of the cells that a process writes: those whose first corner it has.
-fn corners(grid: &BodyGrid, portion: &Portion) -> Ghosts {
-    let of_own = |corners: &[u32]| match portion.is_own(corners[0]) {
+/// Ghosts at the corners of the cells that a process writes: the cells whose first corner it owns.
+fn corners(grid: &BodyGrid, subdomain: &Subdomain) -> Ghosts {
+    if subdomain.is_whole() {
+        return Ghosts::new(subdomain, std::iter::empty());
+    }
+    let of_own = |corners: &[u32]| match subdomain.owns(corners[0]) {
         true => corners.to_vec(),
         false => Vec::new(),
     };
@@ -327,7 +334,7 @@ fn corners(grid: &BodyGrid, portion: &Portion) -> Ghosts {
         Canvas::Solid(cells) => cells.iter().flat_map(|it| of_own(it.corners())).collect(),
         Canvas::Around(_) | Canvas::Boxes(_) => Vec::new(),
     };
-    Ghosts::new(portion, seen.into_iter())
+    Ghosts::new(subdomain, seen.into_iter())
 }
 
 /// The x, y and z components, of which those that points do not have are zero, shape (n_points).

@@ -46,7 +46,7 @@ impl SoFar {
         let is_bond = |ends: &[u32; 2]| ends.iter().all(|&end| end < n_points);
         let mut bonds = self.breaks.iter();
         // One process goes on with what several have written of bonds, and several with what one has.
-        let n_bonds = problem.system.portion().is_none().then_some(n_bonds);
+        let n_bonds = problem.system.subdomain().is_whole().then_some(n_bonds);
         let mut largest = self.largest.iter();
         let mut first = [self.first.broken, self.first.softened]
             .into_iter()

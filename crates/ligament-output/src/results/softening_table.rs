@@ -66,7 +66,7 @@ impl SofteningTable {
         problem: &Problem,
         tagged: &str,
     ) -> Result<Option<Self>, Error> {
-        if !problem.criteria.soften() || problem.system.portion().is_some() {
+        if !problem.criteria.soften() || !problem.system.subdomain().is_whole() {
             return Ok(None);
         }
         let ends = ["a", "b"].map(|end| format!("{tagged}_{end}"));

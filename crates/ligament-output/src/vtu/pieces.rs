@@ -11,7 +11,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use ligament_model::portion::Portion;
+use ligament_model::subdomain::Subdomain;
 
 use super::field::Chosen;
 use super::{Cell, Field, UnstructuredGrid, push_fields, write_vtu};
@@ -31,9 +31,12 @@ pub const SINGLE: &str = "vtu";
 /// Ending of the name of a grid in pieces.
 pub const IN_PIECES: &str = "pvtu";
 
-/// Name of the file of a grid: with pieces where processes share the body.
-pub fn file_name(stem: &str, portion: Option<&Portion>) -> String {
-    let ending = portion.map_or(SINGLE, |_| IN_PIECES);
+/// Name of the file of a grid: in pieces where the body is divided between processes.
+pub fn file_name(stem: &str, subdomain: &Subdomain) -> String {
+    let ending = match subdomain.is_whole() {
+        true => SINGLE,
+        false => IN_PIECES,
+    };
     format!("{stem}.{ending}")
 }
 
@@ -59,8 +62,8 @@ fn piece(path: &Path, rank: usize) -> PathBuf {
 /// Cells of a grid, with what tells whose process they are of.
 #[derive(Clone, Copy)]
 pub struct SharedCells<'a> {
-    /// The part of this process in the body.
-    pub portion: &'a Portion,
+    /// The points and bonds of the body on this process.
+    pub subdomain: &'a Subdomain,
     /// For each cell, the point of the body by which its rank is known (n_cells).
     pub points: &'a [u32],
     /// What of the whole grid is here.
@@ -99,7 +102,7 @@ impl Held<'_> {
     }
 }
 
-/// Writes a grid to `path`, in pieces if processes share it: then all of them call this, the fields of each are right where its cells are,
+/// Writes a grid to `path`, in pieces where the body is divided: then all processes call this, the fields of each are right where its cells are,
 /// and it returns when all have written theirs.
 ///
 /// # Errors
@@ -108,26 +111,27 @@ impl Held<'_> {
 pub fn write_shared(
     path: impl AsRef<Path>,
     grid: &UnstructuredGrid<'_>,
-    shared: Option<SharedCells<'_>>,
+    shared: SharedCells<'_>,
 ) -> Result<(), Error> {
     let path = path.as_ref();
-    let Some(shared) = shared else {
+    if shared.subdomain.is_whole() {
         return write_vtu(path, grid);
-    };
-    let exchange = shared.portion.exchange();
+    }
+    let communicator = shared.subdomain.communicator();
     let own: Vec<u32> = (0..)
         .zip(shared.points)
-        .filter(|(_, point)| shared.portion.is_own(**point))
+        .filter(|(_, point)| shared.subdomain.owns(**point))
         .map(|(cell, _)| cell)
         .collect();
     let written = if own.is_empty() {
         Ok(())
     } else {
-        write_piece(&piece(path, exchange.rank()), grid, &own, shared.held)
+        write_piece(&piece(path, communicator.rank()), grid, &own, shared.held)
     };
-    let counts = shared
-        .portion
-        .concatenated(&[[own.len() as f64, f64::from(u8::from(written.is_err()))]]);
+    let counts = shared.subdomain.all_gather_list(vec![[
+        own.len() as f64,
+        f64::from(u8::from(written.is_err())),
+    ]]);
     written?;
     if let Some(rank) = counts.iter().position(|[_, failed]| *failed > 0.0) {
         return Err(Error::Refused {
@@ -135,7 +139,7 @@ pub fn write_shared(
             reason: format!("process {rank} could not write it"),
         });
     }
-    if exchange.rank() > 0 {
+    if communicator.rank() > 0 {
         return Ok(());
     }
     let ranks = counts.iter().enumerate();

@@ -10,10 +10,12 @@ mod request;
 pub mod search;
 
 use std::io::Write;
+use std::sync::Arc;
 
 use anyhow::Context;
 
 use crate::quantities::Quantities;
+use ligament_analysis::distributed_matrix::Solo;
 use ligament_case::case::{CaseError, CaseFile, Fault};
 use ligament_run::inputs::{Contents, Inputs};
 use ligament_run::progress::ProgressMode;
@@ -143,7 +145,7 @@ fn one_run(request: &Request, record: &Record, key: f64) -> anyhow::Result<Run> 
         out: &folder,
         force: true,
         build: request.build,
-        ranks: None,
+        communicator: Arc::new(Solo),
         is_stopped: &|| false,
     };
     one.run(ProgressMode::Quiet)

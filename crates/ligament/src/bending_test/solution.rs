@@ -117,7 +117,7 @@ impl Solver {
             system,
             criteria: Arc::default(),
             loads: free_loading(layout, vec![0.0; layout.n_degrees_of_freedom()]),
-            solver: strip.setup.solver,
+            solver: strip.setup.solver.clone(),
             probes: Arc::default(),
         };
         Ok(Self {

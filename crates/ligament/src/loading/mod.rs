@@ -15,7 +15,7 @@ use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::solver::SolverSettings;
 use ligament_analysis::{LoadProgram, ProportionalLoading, StagedLoading};
 use ligament_model::System;
-use ligament_model::portion::{self, Portion};
+use ligament_model::subdomain::Subdomain;
 
 use places::Places;
 pub use places::{material_of_cell, no_fail};
@@ -62,14 +62,14 @@ impl Loading {
         places.require_probes_on_body()?;
         let probes = (setup.probes.iter()).map(|it| probes::on(it, setup, system));
         let probes: Arc<[Probe]> = probes.collect();
-        sections_are_crossed(&probes, system.portion())?;
+        sections_are_crossed(&probes, system.subdomain())?;
         let staged = staged(setup, system, &probes)?;
         let boundary = restrained(setup, system, boundary, Acting::All)?;
         Ok(Self {
             staged: staged.map(Arc::new),
             boundary: Arc::new(boundary),
             probes,
-            solver: setup.solver,
+            solver: setup.solver.clone(),
         })
     }
 
@@ -83,16 +83,16 @@ impl Loading {
             system: model.system.to_bonds(),
             criteria: model.criteria.clone(),
             loads,
-            solver: self.solver,
+            solver: self.solver.clone(),
             probes: self.probes.clone(),
         }
     }
 }
 
 /// Refuses probes of a force through a line that no bond crosses.
-fn sections_are_crossed(probes: &[Probe], portion: Option<&Portion>) -> Result<(), SetupError> {
+fn sections_are_crossed(probes: &[Probe], subdomain: &Subdomain) -> Result<(), SetupError> {
     let crossed = |probe: &Probe| match &probe.reading {
-        Reading::SectionForce { bonds, .. } => portion::any(portion, !bonds.is_empty()),
+        Reading::SectionForce { bonds, .. } => subdomain.any(!bonds.is_empty()),
         _ => true,
     };
     match probes.iter().position(|probe| !crossed(probe)) {

@@ -40,7 +40,7 @@ impl Vibration {
         Ok(Self {
             supports: Arc::new(supports(setup, system)?),
             mass: Arc::new(LumpedMass::new(&system.cloud, &densities)),
-            solver: setup.solver,
+            solver: setup.solver.clone(),
         })
     }
 
@@ -50,7 +50,7 @@ impl Vibration {
             system: model.system.to_bonds(),
             mass: self.mass.clone(),
             supports: self.supports.clone(),
-            solver: self.solver,
+            solver: self.solver.clone(),
         }
     }
 }

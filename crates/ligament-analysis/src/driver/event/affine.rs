@@ -24,7 +24,7 @@ use crate::unbalanced::Unbalanced;
 use ligament_model::deformation::Deformations;
 use ligament_model::failure::Criteria;
 use ligament_model::failure::along_line::{EVERYWHERE, Interval};
-use ligament_model::portion::Portion;
+use ligament_model::subdomain::Subdomain;
 
 /// Lines of the parts of a programme.
 pub(super) struct Affine {
@@ -84,7 +84,7 @@ impl Way for Affine {
             None => [begins - now, ends - now],
         };
         let admissible = criteria.admissible(intact, [&line.deformations, &slopes], reach);
-        let goal = match on_all_ranks(path.problem.system.portion(), admissible) {
+        let goal = match on_all_processes(path.problem.system.subdomain(), admissible) {
             None => held(self.tie_tolerance, line, &criteria, path),
             Some([_, upper]) if upper.is_infinite() => Goal {
                 load_factor: now,
@@ -133,14 +133,11 @@ impl Way for Affine {
     }
 }
 
-/// What the bonds of all processes admit, where they share the body out.
-fn on_all_ranks(portion: Option<&Portion>, here: Option<Interval>) -> Option<Interval> {
-    let Some(portion) = portion else {
-        return here;
-    };
+/// The interval that the bonds of all processes admit.
+fn on_all_processes(subdomain: &Subdomain, here: Option<Interval>) -> Option<Interval> {
     let [lower, upper] = here.unwrap_or(EVERYWHERE);
     let mut most = [f64::from(u8::from(here.is_none())), lower, -upper];
-    portion.largest(&mut most);
+    subdomain.all_reduce_max(&mut most);
     let [is_none, lower, upper] = [most[0], most[1], -most[2]];
     (is_none == 0.0 && lower <= upper).then_some([lower, upper])
 }

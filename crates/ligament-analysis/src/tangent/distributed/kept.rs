@@ -36,19 +36,13 @@ impl Kept {
         }
     }
 
-    /// Reads what was kept, of bonds those that are known here where processes share the body out.
+    /// Reads what was kept, with the local bonds alone.
     ///
     /// # Errors
     ///
     /// If the bytes are damaged or of another body.
-    pub(super) fn read_known(
-        numbers: Option<&BondNumbers>,
-        from: &mut &[u8],
-    ) -> Result<Self, CheckpointError> {
-        let mut making = || match numbers {
-            None => Ok(Making::read(from)?),
-            Some(numbers) => Making::read_known(numbers, from),
-        };
+    pub(super) fn read(numbers: &BondNumbers, from: &mut &[u8]) -> Result<Self, CheckpointError> {
+        let mut making = || Making::read_local(numbers, from);
         let (preconditioner_of, matrix_of) = (making()?, making()?);
         let stale: Vec<u32> = Serial::read(from)?;
         Ok(Self {
@@ -61,25 +55,16 @@ impl Kept {
         })
     }
 
-    /// Appends what it takes to make it again.
-    pub(super) fn write(&self, out: &mut Vec<u8>) {
-        self.preconditioner_of.write(out);
-        self.matrix_of.write(out);
-        self.stale.iter().copied().collect::<Vec<u32>>().write(out);
+    /// Appends what it takes to make it again, with all bonds of the body, see [`BondNumbers::write`].
+    pub(super) fn write(&self, numbers: &BondNumbers, out: &mut Vec<u8>) {
+        self.preconditioner_of.write_all(numbers, out);
+        self.matrix_of.write_all(numbers, out);
+        let stale = self.stale.iter().map(|&point| [point]).collect();
+        let stale = numbers.subdomain().all_gather_list(stale).into_iter();
+        let stale: BTreeSet<u32> = stale.map(|[point]| point).collect();
+        stale.into_iter().collect::<Vec<u32>>().write(out);
         self.is_due.write(out);
         self.pace.write(out);
         self.excess.write(out);
-    }
-
-    /// What all processes know of it, with their bonds on rank 0.
-    pub(super) fn of_all(&self, numbers: &BondNumbers) -> Self {
-        let stale: Vec<_> = self.stale.iter().map(|&point| [f64::from(point)]).collect();
-        let stale = numbers.portion().concatenated(&stale).into_iter();
-        Self {
-            preconditioner_of: self.preconditioner_of.of_all(numbers),
-            matrix_of: self.matrix_of.of_all(numbers),
-            stale: stale.map(|[point]| point as u32).collect(),
-            ..*self
-        }
     }
 }

@@ -3,11 +3,11 @@
 //! The blocks in the columns of a point come from its bonds at rows of smaller number; what stands above the diagonal is what stands
 //! below it. A rank goes through the columns of its own points and of those of larger number beside them, and keeps its own rows.
 
-use ligament_model::portion::Partition;
+use ligament_model::subdomain::Partition;
 use ligament_model::{Bonds, BondsLeft};
 use rayon::prelude::*;
 
-use crate::ranks::{RankMatrix, Rows};
+use crate::distributed_matrix::{DistributedMatrix, Rows};
 use crate::tangent::iterative::vanishing_of_block;
 use crate::unknowns::Unknowns;
 
@@ -46,8 +46,17 @@ impl OwnRows<'_> {
         restraints.lower_points(layout, self.system.coupled_points(), point as usize)
     }
 
+    /// Place of a point among the own ones.
+    fn own_place(&self, point: u32) -> Option<usize> {
+        let (place, own) = (
+            self.partition.place(point),
+            self.partition.places(self.rank),
+        );
+        own.contains(&place).then(|| place - own.start)
+    }
+
     pub(super) fn is_own(&self, point: u32) -> bool {
-        self.partition.has(self.rank, point)
+        self.own_place(point).is_some()
     }
 
     /// The points whose columns have entries in own rows, ascending.
@@ -61,10 +70,9 @@ impl OwnRows<'_> {
 
     /// Numbers of the blocks in the rows of each own point, in own columns and others.
     pub(super) fn couplings(&self, columns: &[u32]) -> Vec<[usize; 2]> {
-        let own = self.partition.points(self.rank);
-        let mut couplings = vec![[0, 0]; own.len()];
+        let mut couplings = vec![[0, 0]; self.partition.places(self.rank).len()];
         let mut count = |row: u32, column: u32| {
-            if let Ok(place) = own.binary_search(&row) {
+            if let Some(place) = self.own_place(row) {
                 couplings[place][usize::from(!self.is_own(column))] += 1;
             }
         };
@@ -107,7 +115,7 @@ impl OwnRows<'_> {
         &self,
         columns: &[u32],
         taken: Taken<'_>,
-        matrix: &mut dyn RankMatrix,
+        matrix: &mut dyn DistributedMatrix,
     ) -> Vec<usize> {
         let mut loose = Vec::new();
         for points in columns.chunks(TASK) {
@@ -158,7 +166,7 @@ impl OwnRows<'_> {
         }
     }
 
-    fn set_column(&self, column: &Column, matrix: &mut dyn RankMatrix) {
+    fn set_column(&self, column: &Column, matrix: &mut dyn DistributedMatrix) {
         let n = self.n_components();
         let Column {
             point,

@@ -141,9 +141,10 @@ pub fn count_touched_bonds<const D: usize, C: Cut<D>>(
     }
     let pieces = Pieces::new(cracks, cloud);
     let whole = bonds.ends.par_iter().zip(is_cut).filter(|(_, cut)| !**cut);
-    let here =
-        whole.filter(|(ends, _)| cloud.counts(**ends) && pieces.any(cloud, **ends, C::touches));
-    cloud.total(here.count())
+    let here = whole.filter(|(ends, _)| {
+        cloud.subdomain.owns_bond(**ends) && pieces.any(cloud, **ends, C::touches)
+    });
+    cloud.subdomain.count(here.count())
 }
 
 /// Unit normals of pre-cracks where they cut some bonds, from the first end to the second, shape (n_cut): of the piece that the bond

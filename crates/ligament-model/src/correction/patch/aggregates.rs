@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use super::equations::{Equations, Multipliers};
 use super::pairs::BLOCK;
 use crate::cloud::{PointCloud, distance};
-use crate::correction::seats::Seats;
+use crate::correction::sweep_order::SweepOrder;
 
 /// Aggregates at most: the dense matrix of their multipliers is to cost less than a product.
 const MOST: usize = 64;
@@ -32,8 +32,8 @@ const SHARE: f64 = 1e-3;
 /// Distances decide, and volumes of the points where distances are equal: a body that is turned, or whose nodes have other numbers, has the
 /// same aggregates. The numbers in the file count only where a body is as symmetric as its mesh.
 pub(crate) struct Aggregates<'a> {
-    seats: &'a Seats<'a>,
-    /// Place of the first number of the aggregate of each rank.
+    order: &'a SweepOrder<'a>,
+    /// Place of the first number of the aggregate of each point.
     first: Vec<u32>,
     count: usize,
     /// Numbers of an aggregate: one for each equation of forces.
@@ -44,7 +44,7 @@ impl<'a> Aggregates<'a> {
     /// Aggregates of the points of a cloud in the order of sweeps, with some numbers each.
     pub(crate) fn new<const D: usize>(
         cloud: &PointCloud<D>,
-        seats: &'a Seats<'a>,
+        order: &'a SweepOrder<'a>,
         width: usize,
     ) -> Self {
         let count = (cloud.len() / FEWEST_POINTS).clamp(1, MOST);
@@ -62,8 +62,8 @@ impl<'a> Aggregates<'a> {
         }
         let first = |&point: &u32| (width * aggregate[point as usize]) as u32;
         Self {
-            first: seats.all().iter().map(first).collect(),
-            seats,
+            first: order.all().iter().map(first).collect(),
+            order,
             count,
             width,
         }
@@ -71,8 +71,8 @@ impl<'a> Aggregates<'a> {
 
     /// The numbers of the aggregate of a point.
     #[inline(always)]
-    pub(super) fn at<'b>(&self, of_aggregates: &'b [f64], rank: usize) -> &'b [f64] {
-        &of_aggregates[self.first[rank] as usize..][..self.width]
+    pub(super) fn at<'b>(&self, of_aggregates: &'b [f64], index: usize) -> &'b [f64] {
+        &of_aggregates[self.first[index] as usize..][..self.width]
     }
 
     /// Sums over the points of each aggregate, from the values of own points.
@@ -83,8 +83,8 @@ impl<'a> Aggregates<'a> {
         let zeros = || vec![0.0; self.width * self.count];
         let of_block = |(block, firsts): (usize, &[u32])| {
             let mut sums = zeros();
-            for (rank, &first) in (block * BLOCK..).zip(firsts) {
-                let values = value(rank);
+            for (index, &first) in (block * BLOCK..).zip(firsts) {
+                let values = value(index);
                 let of_aggregate = &mut sums[first as usize..][..self.width];
                 for (sum, value) in of_aggregate.iter_mut().zip(values) {
                     *sum += value;
@@ -92,7 +92,7 @@ impl<'a> Aggregates<'a> {
             }
             sums
         };
-        let own = &self.first[..self.seats.own().len()];
+        let own = &self.first[..self.order.owned().len()];
         let blocks = own.par_chunks(BLOCK).enumerate().map(of_block);
         let mut all = zeros();
         for sums in blocks.collect::<Vec<_>>() {
@@ -100,7 +100,7 @@ impl<'a> Aggregates<'a> {
                 *all += sum;
             }
         }
-        self.seats.sum(&mut all);
+        self.order.subdomain.all_reduce_sum(&mut all);
         all
     }
 }
@@ -136,7 +136,7 @@ fn farthest<const D: usize>(cloud: &PointCloud<D>, distances: &[f64]) -> usize {
 
 /// What holds the multipliers of each point at a centre: r/d^2 times their distance from it, less what an aggregate has in common.
 pub(super) struct Regularisation<'a, const N: usize> {
-    /// r/d^2 of own points, by rank.
+    /// r/d^2 of own points, by index.
     pub(super) of_points: Multipliers<N>,
     pub(super) aggregates: &'a Aggregates<'a>,
     /// Sums of r/d^2 over the aggregates.
@@ -145,7 +145,7 @@ pub(super) struct Regularisation<'a, const N: usize> {
 
 impl<'a, const N: usize> Regularisation<'a, N> {
     pub(super) fn new(of_points: Multipliers<N>, aggregates: &'a Aggregates<'a>) -> Self {
-        let totals = aggregates.sums(|rank| of_points[rank]);
+        let totals = aggregates.sums(|index| of_points[index]);
         Self {
             of_points,
             aggregates,
@@ -155,8 +155,8 @@ impl<'a, const N: usize> Regularisation<'a, N> {
 
     /// What the aggregates have in common of distances (n_own) from a centre, but for the share that is held.
     pub(super) fn common(&self, distance: impl Fn(usize) -> [f64; N] + Sync) -> Vec<f64> {
-        let weighted = |rank: usize| {
-            let (distance, weight) = (distance(rank), &self.of_points[rank]);
+        let weighted = |index: usize| {
+            let (distance, weight) = (distance(index), &self.of_points[index]);
             std::array::from_fn(|k| weight[k] * distance[k])
         };
         let sums = self.aggregates.sums::<N>(weighted);
@@ -168,12 +168,12 @@ impl<'a, const N: usize> Regularisation<'a, N> {
 
     /// The force of a point at a distance from its centre.
     #[inline(always)]
-    pub(super) fn force(&self, rank: usize, mut distance: [f64; N], common: &[f64]) -> [f64; N] {
-        let of_aggregate = self.aggregates.at(common, rank);
+    pub(super) fn force(&self, index: usize, mut distance: [f64; N], common: &[f64]) -> [f64; N] {
+        let of_aggregate = self.aggregates.at(common, index);
         for (distance, common) in distance.iter_mut().zip(of_aggregate) {
             *distance -= common;
         }
-        std::array::from_fn(|k| self.of_points[rank][k] * distance[k])
+        std::array::from_fn(|k| self.of_points[index][k] * distance[k])
     }
 }
 
@@ -192,18 +192,18 @@ impl Coarse {
     ) -> Self {
         let (pairs, aggregates) = (equations.pairs(), regularisation.aggregates);
         let mut held = DVector::from_vec(regularisation.totals.clone());
-        if !pairs.seats.is_first() {
+        if !pairs.order.subdomain.communicator().is_root() {
             held.fill(0.0);
         }
         let mut matrix = SHARE * DMatrix::from_diagonal(&held);
-        for rank in 0..pairs.n_points() {
-            let own = aggregates.first[rank] as usize;
-            for pair in pairs.inner(rank).chain(pairs.outer(rank)) {
+        for index in 0..pairs.n_points() {
+            let own = aggregates.first[index] as usize;
+            for pair in pairs.inner(index).chain(pairs.outer(index)) {
                 let other = aggregates.first[pairs.other[pair] as usize] as usize;
                 if other == own {
                     continue;
                 }
-                let is_inner = pairs.inner(rank).contains(&pair);
+                let is_inner = pairs.inner(index).contains(&pair);
                 let rows = [[1.0, 0.0], [0.0, 1.0]].map(|it| equations.forces(pair, it));
                 for i in 0..aggregates.width {
                     let weighted = [0, 1].map(|factor| slopes[pair][factor] * rows[factor][i]);
@@ -219,7 +219,7 @@ impl Coarse {
                 }
             }
         }
-        pairs.seats.sum(matrix.as_mut_slice());
+        pairs.order.subdomain.all_reduce_sum(matrix.as_mut_slice());
         Self {
             factor: Cholesky::new(matrix),
         }

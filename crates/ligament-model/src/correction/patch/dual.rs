@@ -81,7 +81,7 @@ struct Dual<'a, E> {
 
 /// A place on the way.
 struct Place<const N: usize> {
-    /// Of the points by rank; what has no bonds in it is of own points alone.
+    /// Of the points by index; what has no bonds in it is of own points alone.
     mu: Multipliers<N>,
     /// z of the pairs.
     z: Vec<[f64; 2]>,
@@ -145,14 +145,14 @@ impl<const N: usize> Place<N> {
         regularisation: &Regularisation<'_, N>,
         centre: &Multipliers<N>,
     ) -> Multipliers<N> {
-        let away = |rank: usize| {
-            let (mu, centre) = (&self.mu[rank], &centre[rank]);
+        let away = |index: usize| {
+            let (mu, centre) = (&self.mu[index], &centre[index]);
             std::array::from_fn(|k| mu[k] - centre[k])
         };
         let common = regularisation.common(away);
         let mut gradient = self.unbalanced.clone();
-        for (rank, gradient) in gradient.iter_mut().enumerate() {
-            let force = regularisation.force(rank, away(rank), &common);
+        for (index, gradient) in gradient.iter_mut().enumerate() {
+            let force = regularisation.force(index, away(index), &common);
             (0..N).for_each(|k| gradient[k] += force[k]);
         }
         gradient
@@ -204,8 +204,8 @@ impl<E> Dual<'_, E> {
     where
         E: Equations<N>,
     {
-        let of_rank = |rank: usize| {
-            self.equations.scale(rank).map(|scale| {
+        let of_index = |index: usize| {
+            self.equations.scale(index).map(|scale| {
                 if scale > 0.0 {
                     r / (scale * scale)
                 } else {
@@ -215,7 +215,7 @@ impl<E> Dual<'_, E> {
             })
         };
         let pairs = self.equations.pairs();
-        let of_points = (0..pairs.n_points()).map(of_rank).collect();
+        let of_points = (0..pairs.n_points()).map(of_index).collect();
         Regularisation::new(of_points, &self.aggregates)
     }
 
@@ -224,14 +224,14 @@ impl<E> Dual<'_, E> {
     where
         E: Equations<N>,
     {
-        let squares = (values.iter().enumerate()).map(|(rank, values)| {
-            let scaled = values.iter().zip(self.equations.scale(rank));
+        let squares = (values.iter().enumerate()).map(|(index, values)| {
+            let scaled = values.iter().zip(self.equations.scale(index));
             scaled
                 .map(|(value, scale)| (value * scale).powi(2))
                 .sum::<f64>()
         });
-        let Pairs { seats, n_all, .. } = self.equations.pairs();
-        (seats.total(squares.sum::<f64>()) / (n_all * N) as f64).sqrt()
+        let Pairs { order, n_all, .. } = self.equations.pairs();
+        (order.subdomain.sum(squares.sum::<f64>()) / (n_all * N) as f64).sqrt()
     }
 
     /// The place of the uncorrected factors.
@@ -240,7 +240,7 @@ impl<E> Dual<'_, E> {
         E: Equations<N>,
     {
         let pairs = self.equations.pairs();
-        let zeros = vec![[0.0; N]; pairs.seats.all().len()];
+        let zeros = vec![[0.0; N]; pairs.order.all().len()];
         let mut place = Place {
             mu: zeros.clone(),
             z: vec![[self.offset; 2]; pairs.len()],
@@ -261,7 +261,7 @@ impl<E> Dual<'_, E> {
             *mu += direction;
         }
         let pairs = self.equations.pairs();
-        pairs.seats.complete(&mut place.mu);
+        pairs.order.update_ghosts(&mut place.mu);
         let mu = &place.mu;
         let (start, stiffness) = (self.equations.start(), self.equations.stiffness());
         let mut sums = self.minus_right();
@@ -315,8 +315,8 @@ impl<E> Dual<'_, E> {
             });
         });
         let residual: Vec<f64> = (left.iter().enumerate())
-            .map(|(rank, left)| {
-                let scaled = left.iter().zip(self.equations.scale(rank));
+            .map(|(index, left)| {
+                let scaled = left.iter().zip(self.equations.scale(index));
                 scaled.fold(0.0, |most: f64, (left, scale)| {
                     most.max((left * scale).abs())
                 })
@@ -329,7 +329,7 @@ impl<E> Dual<'_, E> {
                 steps,
                 products,
                 left: self.root_mean_square(&left),
-                residual: pairs.seats.of_points(&residual, pairs.n_all),
+                residual: pairs.order.of_points(&residual),
             },
         }
     }

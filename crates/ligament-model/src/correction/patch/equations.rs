@@ -2,10 +2,10 @@
 
 use super::pairs::Pairs;
 
-/// A number for each equation of some points, by rank.
+/// A number for each equation of some points, by index.
 pub(crate) type Multipliers<const N: usize> = Vec<[f64; N]>;
 
-/// Linear equations G q = f in two factors a bond, N a point. Points go by their ranks, bonds by pairs.
+/// Linear equations G q = f in two factors a bond, N a point. Points go by their indices, bonds by pairs.
 pub(crate) trait Equations<const N: usize>: Sync {
     /// Number of the equations of forces, in which the ends of a bond have opposite terms; those behind them, of moments, have the
     /// same terms at both ends.
@@ -24,7 +24,7 @@ pub(crate) trait Equations<const N: usize>: Sync {
     fn right(&self) -> &[[f64; N]];
 
     /// Scales d of the equations of an own point.
-    fn scale(&self, rank: usize) -> [f64; N];
+    fn scale(&self, index: usize) -> [f64; N];
 
     /// Terms of a pair in the equations of its other end, for given products of factors and stiffness.
     fn forces(&self, pair: usize, products: [f64; 2]) -> [f64; N];
@@ -64,23 +64,23 @@ pub(crate) trait Equations<const N: usize>: Sync {
         mut products: impl FnMut(usize, [f64; 2]) -> [f64; 2],
     ) {
         let pairs = self.pairs();
-        let ranks = pairs.ranks(block);
-        let first = ranks.start;
-        for rank in ranks {
-            let own = Self::at_own(mu[rank]);
-            let mut own_sum = sums[rank - first];
-            for pair in pairs.inner(rank) {
+        let indices = pairs.indices(block);
+        let first = indices.start;
+        for index in indices {
+            let own = Self::at_own(mu[index]);
+            let mut own_sum = sums[index - first];
+            for pair in pairs.inner(index) {
                 let terms = self.terms(pair, own, mu, &mut products);
                 add(&mut own_sum, Self::at_own(terms));
                 add(&mut sums[pairs.other[pair] as usize - first], terms);
             }
-            for pair in pairs.outer(rank) {
+            for pair in pairs.outer(index) {
                 add(
                     &mut own_sum,
                     Self::at_own(self.terms(pair, own, mu, &mut products)),
                 );
             }
-            sums[rank - first] = own_sum;
+            sums[index - first] = own_sum;
         }
     }
 }

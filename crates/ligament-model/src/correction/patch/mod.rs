@@ -86,7 +86,7 @@ fn nearest<const D: usize, const N: usize>(
 ) -> Factors {
     let weight = settings.moment_weight;
     let rows = Rows::<D, N>::new(bonds, points, stiffness, nearest_to, weight);
-    let aggregates = Aggregates::new(points.cloud, &rows.pairs().seats, Rows::<D, N>::FORCES);
+    let aggregates = Aggregates::new(points.cloud, &rows.pairs().order, Rows::<D, N>::FORCES);
     dual::minimise(&rows, aggregates, settings)
 }
 

@@ -16,7 +16,7 @@ pub(super) struct Hessian<'a, E, const N: usize> {
     regularisation: &'a Regularisation<'a, N>,
     /// D of the pairs, times the squares of their stiffness.
     slopes: &'a [[f64; 2]],
-    /// Inverses of the blocks of own points, by rank; in single precision they would be rounded along the axes, and factors of a turned
+    /// Inverses of the blocks of own points, by index; in single precision they would be rounded along the axes, and factors of a turned
     /// body would differ.
     inverses: Vec<[[f64; N]; N]>,
     coarse: Coarse,
@@ -57,21 +57,21 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
     /// Adds the blocks of the points of a block of points.
     fn add_blocks(&self, block: usize, sums: &mut [[[f64; N]; N]]) {
         let pairs = self.equations.pairs();
-        let ranks = pairs.ranks(block);
-        let first = ranks.start;
-        for rank in ranks {
-            let own = &mut sums[rank - first];
-            for (k, r) in self.regularisation.of_points[rank].iter().enumerate() {
+        let indices = pairs.indices(block);
+        let first = indices.start;
+        for index in indices {
+            let own = &mut sums[index - first];
+            for (k, r) in self.regularisation.of_points[index].iter().enumerate() {
                 own[k][k] += r;
             }
-            for pair in pairs.inner(rank).chain(pairs.outer(rank)) {
+            for pair in pairs.inner(index).chain(pairs.outer(index)) {
                 let rows = [[1.0, 0.0], [0.0, 1.0]].map(|it| self.equations.forces(pair, it));
                 add_squares(
-                    &mut sums[rank - first],
+                    &mut sums[index - first],
                     rows.map(E::at_own),
                     self.slopes[pair],
                 );
-                if pairs.inner(rank).contains(&pair) {
+                if pairs.inner(index).contains(&pair) {
                     let other = pairs.other[pair] as usize;
                     add_squares(&mut sums[other - first], rows, self.slopes[pair]);
                 }
@@ -89,8 +89,8 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
             points: zeros.clone(),
             aggregates: Vec::new(),
         };
-        let n_seats = self.equations.pairs().seats.all().len();
-        let mut direction = vec![[0.0; N]; n_seats];
+        let n_points = self.equations.pairs().order.all().len();
+        let mut direction = vec![[0.0; N]; n_points];
         let (mut step, mut product) = (zeros.clone(), zeros);
         let way = Way {
             direction: &direction,
@@ -121,36 +121,40 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         let points = direction.par_iter_mut().zip(&solved.points).enumerate();
         points
             .with_min_len(BLOCK)
-            .for_each(|(rank, (direction, solved_here))| {
+            .for_each(|(index, (direction, solved_here))| {
                 for (direction, solved) in direction.iter_mut().zip(solved_here) {
                     *direction = solved + share * *direction;
                 }
                 let aggregates = self.regularisation.aggregates;
-                let common = aggregates.at(&solved.aggregates, rank);
+                let common = aggregates.at(&solved.aggregates, index);
                 for (direction, common) in direction.iter_mut().zip(common) {
                     *direction += common;
                 }
             });
-        self.equations.pairs().seats.complete(direction);
+        self.equations.pairs().order.update_ghosts(direction);
     }
 
-    /// Makes the product with values by rank, and gives the inner product of both.
+    /// Makes the product with values by index, and gives the inner product of both.
     fn multiply(&self, values: &Multipliers<N>, product: &mut Multipliers<N>) -> f64 {
-        let common = self.regularisation.common(|rank| values[rank]);
+        let common = self.regularisation.common(|index| values[index]);
         let of_block = |(block, product): (usize, &mut [[f64; N]])| {
-            let ranks = self.equations.pairs().ranks(block);
-            for (rank, product) in ranks.clone().zip(product.iter_mut()) {
-                *product = self.regularisation.force(rank, values[rank], &common);
+            let indices = self.equations.pairs().indices(block);
+            for (index, product) in indices.clone().zip(product.iter_mut()) {
+                *product = self.regularisation.force(index, values[index], &common);
             }
             (self.equations).add(block, values, product, |pair, [axial, shear]| {
                 let slopes = self.slopes[pair];
                 [slopes[0] * axial, slopes[1] * shear]
             });
-            dot(values[ranks].as_flattened(), product.as_flattened())
+            dot(values[indices].as_flattened(), product.as_flattened())
         };
         let blocks = product.par_chunks_mut(BLOCK).enumerate();
         let of_blocks: Vec<f64> = blocks.map(of_block).collect();
-        self.equations.pairs().seats.total(of_blocks.iter().sum())
+        self.equations
+            .pairs()
+            .order
+            .subdomain
+            .sum(of_blocks.iter().sum())
     }
 
     /// Goes a length in a direction with a known product: changes the step and what is left, solves with the preconditioner, and gives
@@ -164,12 +168,12 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         solved: &mut Solved<N>,
     ) -> f64 {
         let Way { direction, product } = way;
-        let of_point = |rank: usize, step: &mut [f64; N], left: &mut [f64; N]| {
+        let of_point = |index: usize, step: &mut [f64; N], left: &mut [f64; N]| {
             let mut solved = [0.0; N];
             for k in 0..N {
-                step[k] += length * direction[rank][k];
-                left[k] -= length * product[rank][k];
-                for (solved, entry) in solved.iter_mut().zip(self.inverses[rank][k]) {
+                step[k] += length * direction[index][k];
+                left[k] -= length * product[index][k];
+                for (solved, entry) in solved.iter_mut().zip(self.inverses[index][k]) {
                     *solved += entry * left[k];
                 }
             }
@@ -181,14 +185,14 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
             solved.points.par_chunks_mut(BLOCK),
         );
         let sums = (blocks.into_par_iter().enumerate()).map(|(block, (step, left, solved))| {
-            for (k, rank) in self.equations.pairs().ranks(block).enumerate() {
-                solved[k] = of_point(rank, &mut step[k], &mut left[k]);
+            for (k, index) in self.equations.pairs().indices(block).enumerate() {
+                solved[k] = of_point(index, &mut step[k], &mut left[k]);
             }
             dot(left.as_flattened(), solved.as_flattened())
         });
         let of_points: f64 = sums.collect::<Vec<f64>>().iter().sum();
-        let of_points = self.equations.pairs().seats.total(of_points);
-        let of_aggregates = self.regularisation.aggregates.sums(|rank| left[rank]);
+        let of_points = self.equations.pairs().order.subdomain.sum(of_points);
+        let of_aggregates = self.regularisation.aggregates.sums(|index| left[index]);
         solved.aggregates = self.coarse.solve(&of_aggregates);
         of_points + dot(&of_aggregates, &solved.aggregates)
     }

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
-use crate::correction::seats::Seats;
+use crate::correction::sweep_order::SweepOrder;
 
 /// Sweeps over the points. On a block of tetrahedra graded four to one they leave 8 % of T_P/T - I as a root mean square, of 180 % before, most
 /// of it at edges and corners; with four times as many the energy that a crack in the block releases changes by less than 1 %.
@@ -48,24 +48,24 @@ pub fn reference<const D: usize>(
     if kind.unwrap_or(Reference::of_dimension(D)) == Reference::Body {
         return alpha.to_vec();
     }
-    let (seats, axial) = (Seats::new(bonds, cloud), axial());
+    let (order, axial) = (SweepOrder::new(bonds, cloud), axial());
     let families = Families {
         bonds,
         cloud,
-        ranks: seats.ranks(cloud.len()),
+        indices: order.indices(),
         weights: (0..bonds.len())
             .map(|bond| alpha[bond] * axial[bond] * bonds.length[bond])
             .collect(),
     };
-    let mut tensors = vec![[[0.0; D]; D]; seats.all().len()];
-    let mean = families.mean_stress(&seats, &tensors);
+    let mut tensors = vec![[[0.0; D]; D]; order.all().len()];
+    let mean = families.mean_stress(&order, &tensors);
     for _ in 0..SWEEPS {
-        let stresses = families.stresses(&seats, &tensors);
+        let stresses = families.stresses(&order, &tensors);
         for (tensor, stress) in tensors.iter_mut().zip(stresses) {
             approach(tensor, stress.map(|row| row.map(|it| it / mean)));
         }
         let values = tensors.as_flattened_mut().as_flattened_mut();
-        seats.complete_rows(values, D * D);
+        order.ghosts.update(values, D * D);
     }
     let factors = (0..bonds.len()).map(|bond| alpha[bond] * families.factor(bond, &tensors));
     factors.collect()
@@ -89,7 +89,7 @@ struct Families<'a, const D: usize> {
     bonds: &'a BondSet<D>,
     cloud: &'a PointCloud<D>,
     /// Rank of each point.
-    ranks: Vec<u32>,
+    indices: Vec<u32>,
     /// alpha k_n l of the bonds.
     weights: Vec<f64>,
 }
@@ -107,21 +107,21 @@ impl Reference {
 }
 
 impl<const D: usize> Families<'_, D> {
-    /// T for tensors M by rank.
-    fn mean_stress(&self, seats: &Seats<'_>, tensors: &[Tensor<D>]) -> f64 {
+    /// T for tensors M by index.
+    fn mean_stress(&self, order: &SweepOrder<'_>, tensors: &[Tensor<D>]) -> f64 {
         let mut sums = [0.0; 2];
-        for (&point, stress) in seats.own().iter().zip(self.stresses(seats, tensors)) {
+        for (&point, stress) in order.owned().iter().zip(self.stresses(order, tensors)) {
             let volume = self.cloud.volumes[point as usize];
             sums[0] += volume * trace(&stress) / D as f64;
             sums[1] += volume;
         }
-        seats.sum(&mut sums);
+        order.subdomain.all_reduce_sum(&mut sums);
         sums[0] / sums[1]
     }
 
-    /// T_P of the own points, by rank, for tensors M by rank.
-    fn stresses(&self, seats: &Seats<'_>, tensors: &[Tensor<D>]) -> Vec<Tensor<D>> {
-        let own = seats.own().par_iter();
+    /// T_P of the own points, by index, for tensors M by index.
+    fn stresses(&self, order: &SweepOrder<'_>, tensors: &[Tensor<D>]) -> Vec<Tensor<D>> {
+        let own = order.owned().par_iter();
         own.map(|&point| self.stress(point, tensors)).collect()
     }
 
@@ -145,8 +145,8 @@ impl<const D: usize> Families<'_, D> {
     fn factor(&self, bond: usize, tensors: &[Tensor<D>]) -> f64 {
         let direction = &self.bonds.direction[bond];
         let [one, other] = self.bonds.ends[bond].map(|end| {
-            let rank = self.ranks[end as usize] as usize;
-            along(direction, &tensors[rank])
+            let index = self.indices[end as usize] as usize;
+            along(direction, &tensors[index])
         });
         (0.5 * (one + other)).exp().clamp(1.0 / LARGEST, LARGEST)
     }

@@ -6,7 +6,7 @@ use super::harmonics::{count, second, third, third_of_tensor};
 use super::pairs::Pairs;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
-use crate::correction::seats::Seats;
+use crate::correction::sweep_order::SweepOrder;
 use crate::law::BondStiffness;
 use crate::tensor::{SymTensor, dot};
 
@@ -47,9 +47,9 @@ pub(super) struct Rows<'a, const D: usize, const N: usize> {
     stiffness: Vec<[f64; 2]>,
     /// Factors q_0 of the pairs, to which those of the correction are the nearest.
     start: Vec<f64>,
-    /// Scales of the forces and the moments of own points, by rank: one over the norm of their rows with the weights q_0.
+    /// Scales of the forces and the moments of own points, by index: one over the norm of their rows with the weights q_0.
     scale: Vec<[f64; 2]>,
-    /// f of own points, by rank.
+    /// f of own points, by index.
     right: Vec<[f64; N]>,
 }
 
@@ -112,7 +112,7 @@ impl<'a, const D: usize, const N: usize> Rows<'a, D, N> {
     ) -> Self {
         let Points { cloud, forces, .. } = points;
         let pairs = Pairs::new(bonds, cloud);
-        let body_factor = body_factor(bonds, points, stiffness, nearest_to, &pairs.seats);
+        let body_factor = body_factor(bonds, points, stiffness, nearest_to, &pairs.order);
         let of_bond = |bond: usize| {
             let [a, b] = bonds.ends[bond].map(|end| cloud.volumes[end as usize]);
             [stiffness.axial[bond], stiffness.shear[bond]].map(|density| a * b * density)
@@ -147,8 +147,8 @@ impl<'a, const D: usize, const N: usize> Rows<'a, D, N> {
             places: pairs.values(place),
             stiffness: pairs.values(|_, bond| of_bond(bond as usize)),
             start: pairs.values(|_, bond| body_factor * nearest_to[bond as usize]),
-            scale: pairs.seats.own().iter().map(scale).collect(),
-            right: pairs.seats.own().iter().map(right).collect(),
+            scale: pairs.order.owned().iter().map(scale).collect(),
+            right: pairs.order.owned().iter().map(right).collect(),
             pairs,
         }
     }
@@ -202,7 +202,7 @@ fn body_factor<const D: usize>(
     points: &Points<'_, D>,
     stiffness: &BondStiffness,
     nearest_to: &[f64],
-    seats: &Seats<'_>,
+    order: &SweepOrder<'_>,
 ) -> f64 {
     let Points { cloud, forces, .. } = points;
     let of_bond = |bond: usize| {
@@ -211,8 +211,8 @@ fn body_factor<const D: usize>(
         let densities = stiffness.axial[bond] + shear_share(D) * stiffness.shear[bond];
         nearest_to[bond] * a * b * bonds.length[bond] * densities
     };
-    let counted = (0..bonds.len()).filter(|&bond| cloud.counts(bonds.ends[bond]));
-    work(cloud, forces) / seats.total(counted.map(of_bond).sum::<f64>())
+    let counted = (0..bonds.len()).filter(|&bond| cloud.subdomain.owns_bond(bonds.ends[bond]));
+    work(cloud, forces) / order.subdomain.sum(counted.map(of_bond).sum::<f64>())
 }
 
 /// The work of the cells in all strains, J.
@@ -249,8 +249,8 @@ impl<const D: usize, const N: usize> Equations<N> for Rows<'_, D, N> {
     }
 
     #[inline(always)]
-    fn scale(&self, rank: usize) -> [f64; N] {
-        let [force, moment] = self.scale[rank];
+    fn scale(&self, index: usize) -> [f64; N] {
+        let [force, moment] = self.scale[index];
         std::array::from_fn(|row| if row < Self::FORCES { force } else { moment })
     }
 

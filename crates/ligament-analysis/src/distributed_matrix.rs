@@ -1,16 +1,26 @@
-//! Processes that solve the equations of a body together, and what the equations ask of them.
-//!
-//! Each process, a rank, runs the same program and calls the same functions here in the same order; what comes back is the same to the
-//! bit on all of them, so that all go the same way. How they reach each other is the business of who implements the interface.
+//! Matrices whose rows are distributed over processes, and what the equations ask of them.
 
 use std::fmt::Debug;
 
-pub use ligament_model::portion::Exchange;
+pub use ligament_model::communicator::{Communicator, Solo};
 
-/// Processes that solve equations together; what is said of [`Exchange`] holds here as well.
-pub trait Ranks: Exchange {
-    /// A matrix without values, whose rows are shared out among the ranks.
-    fn matrix(&self, rows: &Rows<'_>) -> Box<dyn RankMatrix>;
+/// The processes of a run with the matrices that they share.
+pub trait MatrixCommunicator: Communicator {
+    /// Whether equations are solved with distributed matrices; a run without a launcher of MPI has its own solvers.
+    fn has_matrices(&self) -> bool;
+
+    /// A matrix without values, whose rows are distributed over the processes; none where there are no such matrices.
+    fn matrix(&self, rows: &Rows<'_>) -> Option<Box<dyn DistributedMatrix>>;
+}
+
+impl MatrixCommunicator for Solo {
+    fn has_matrices(&self) -> bool {
+        false
+    }
+
+    fn matrix(&self, _: &Rows<'_>) -> Option<Box<dyn DistributedMatrix>> {
+        None
+    }
 }
 
 /// A matrix of blocks, one for each two points that are coupled, of which each rank has the rows of its own points. Points have numbers
@@ -25,8 +35,8 @@ pub struct Rows<'a> {
     pub couplings: &'a [[usize; 2]],
 }
 
-/// A symmetric matrix whose rows are shared out among ranks.
-pub trait RankMatrix: Debug {
+/// A symmetric matrix whose rows are distributed over ranks.
+pub trait DistributedMatrix: Debug {
     /// Takes the blocks in the rows of an own point and the columns of some points, shape (components, n, components), in the place of
     /// what was there. For each rank by itself.
     fn set(&mut self, row: usize, columns: &[usize], blocks: &[f64]);
@@ -77,14 +87,4 @@ pub struct Solved {
     pub decades: f64,
     /// Whether no motion was met that costs no energy.
     pub is_definite: bool,
-}
-
-/// The processes that a run is one of. A copy is of the same ones, and two are equal if they are the same ones.
-#[derive(Debug, Clone, Copy)]
-pub struct Together(pub &'static dyn Ranks);
-
-impl PartialEq for Together {
-    fn eq(&self, other: &Self) -> bool {
-        std::ptr::addr_eq(self.0, other.0)
-    }
 }

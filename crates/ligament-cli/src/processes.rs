@@ -1,14 +1,14 @@
-//! The processes that a run is one of, where the program is built for several and a launcher of MPI started it.
+//! The processes of a run, where a launcher of MPI started them and the program is built for several.
 
 pub(crate) use processes::{abort, is_beside_the_first, join, part};
 
 #[cfg(feature = "petsc")]
 mod processes {
     use std::env;
-    use std::sync::OnceLock;
+    use std::sync::Arc;
 
     use anyhow::Context;
-    use ligament_analysis::ranks::{Exchange, Together};
+    use ligament_analysis::distributed_matrix::{Communicator, MatrixCommunicator, Solo};
     use ligament_petsc::Processes;
     use rayon::ThreadPoolBuilder;
 
@@ -18,32 +18,29 @@ mod processes {
     /// Time for which a process that failed waits for the others: those that met the same error are there at once.
     const PATIENCE: f64 = 5.0;
 
-    static PROCESSES: OnceLock<Processes> = OnceLock::new();
-
-    /// Joins the processes that a launcher of MPI started; none where nothing did. A process has one thread unless its case says
+    /// The processes that a launcher of MPI started; this one alone where nothing did. A process has one thread unless its case says
     /// otherwise: there is one process for each processor.
     ///
     /// # Errors
     ///
     /// If MPI was started before, or threads cannot be started.
-    pub(crate) fn join() -> anyhow::Result<Option<Together>> {
+    pub(crate) fn join() -> anyhow::Result<Arc<dyn MatrixCommunicator>> {
         if !LAUNCHED.iter().any(|name| env::var_os(name).is_some()) {
-            return Ok(None);
+            return Ok(Arc::new(Solo));
         }
         let pool = ThreadPoolBuilder::new().num_threads(1).build_global();
         pool.context("the threads were started before the processes")?;
-        let started = Processes::start()?;
-        Ok(Some(Together(PROCESSES.get_or_init(|| started))))
+        Ok(Arc::new(Processes::start()?))
     }
 
-    /// Whether this process is one of several and not their first, which alone tells and writes.
+    /// Whether this process is one of several and not rank 0, which alone prints and writes.
     pub(crate) fn is_beside_the_first() -> bool {
-        PROCESSES.get().is_some_and(|it| it.rank() > 0)
+        Processes::started().is_some_and(|it| !it.is_root())
     }
 
     /// Waits for the others at the end, not for long after an error; tells whether all came.
     pub(crate) fn part(has_failed: bool) -> bool {
-        let Some(processes) = PROCESSES.get() else {
+        let Some(processes) = Processes::started() else {
             return true;
         };
         let all_came = processes.meet(has_failed.then_some(PATIENCE));
@@ -55,7 +52,7 @@ mod processes {
 
     /// Ends all processes.
     pub(crate) fn abort() {
-        if let Some(processes) = PROCESSES.get() {
+        if let Some(processes) = Processes::started() {
             processes.abort(1);
         }
     }
@@ -64,19 +61,20 @@ mod processes {
 #[cfg(not(feature = "petsc"))]
 mod processes {
     use std::env;
+    use std::sync::Arc;
 
     use anyhow::ensure;
-    use ligament_analysis::ranks::Together;
+    use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 
     /// The variable by which Open MPI tells how many processes it has started.
     const LAUNCHED: &str = "OMPI_COMM_WORLD_SIZE";
 
-    /// None: this program is one process.
+    /// This process alone: the program is built for one.
     ///
     /// # Errors
     ///
     /// If several were started together: all of them would do the same, into the same folder.
-    pub(crate) fn join() -> anyhow::Result<Option<Together>> {
+    pub(crate) fn join() -> anyhow::Result<Arc<dyn MatrixCommunicator>> {
         let started = env::var(LAUNCHED).ok().and_then(|it| it.parse().ok());
         let started: usize = started.unwrap_or(1);
         ensure!(
@@ -84,7 +82,7 @@ mod processes {
             "{started} processes were started together, and this program was built to be one: build it with `cargo build --release \
              --features petsc`, or start it without mpirun"
         );
-        Ok(None)
+        Ok(Arc::new(Solo))
     }
 
     /// This process is the first.
