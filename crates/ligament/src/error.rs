@@ -95,7 +95,7 @@ pub enum Fault {
     },
     /// A criterion does not go together with itself, with a material or with the analysis.
     #[error(transparent)]
-    Unfit(Unfit),
+    Unfit(Box<Unfit>),
     /// A criterion leaves bonds without a limit, or nothing after it.
     #[error("{reason}{}", cause.as_ref().map_or(String::new(), |it| format!(". {it}")))]
     NoLimit {

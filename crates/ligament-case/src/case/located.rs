@@ -24,7 +24,7 @@ impl Case {
                 key = unfit
                     .field()
                     .map_or(key.clone(), |it| format!("{key}.{it}"));
-                unfit.into()
+                (*unfit).into()
             }
             SetupFault::NameTwice { name, first } => Fault::NotUnique {
                 name,

@@ -115,7 +115,7 @@ impl Setup {
             let field = Field::element("criteria", index);
             choice
                 .check(on_exact_path)
-                .map_err(|unfit| field.error(Fault::Unfit(unfit)))?;
+                .map_err(|unfit| field.error(Fault::Unfit(unfit.into())))?;
             let (kind, law) = (choice.kind.word, self.law.name());
             if choice.kind.takes_strains() != takes_strains {
                 let (text, laws) = if takes_strains {
@@ -144,7 +144,7 @@ impl Setup {
             for (place, region) in self.materials.iter().enumerate() {
                 let field = Field::element("materials", place);
                 let suits = choice.suits(&region.material);
-                suits.map_err(|unfit| field.error(Fault::Unfit(unfit)))?;
+                suits.map_err(|unfit| field.error(Fault::Unfit(unfit.into())))?;
             }
         }
         Ok(())
