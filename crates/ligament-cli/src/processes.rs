@@ -1,9 +1,12 @@
 //! The processes of a run, where a launcher of MPI started them and the program is built for several.
 
-pub(crate) use processes::{abort, is_beside_the_first, join, part};
+#[cfg(feature = "petsc")]
+pub(crate) use mpi::{abort, is_beside_the_first, join, part};
+#[cfg(not(feature = "petsc"))]
+pub(crate) use serial::{abort, is_beside_the_first, join, part};
 
 #[cfg(feature = "petsc")]
-mod processes {
+mod mpi {
     use std::env;
     use std::sync::Arc;
 
@@ -59,7 +62,7 @@ mod processes {
 }
 
 #[cfg(not(feature = "petsc"))]
-mod processes {
+mod serial {
     use std::env;
     use std::sync::Arc;
 
