@@ -34,6 +34,7 @@ pub mod probe;
 pub mod problem;
 pub mod ranks;
 pub mod restraints;
+pub mod result_fields;
 pub mod serial;
 pub mod softened;
 pub mod softening;
