@@ -1,7 +1,7 @@
 //! Names of fields of results stand in the table of fields alone.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use ligament_output::results::fields::{FIELDS, ResultField};
 use verification::repository;
@@ -57,7 +57,7 @@ fn names_of_fields_stand_in_their_table() {
             let text = fs::read_to_string(&path).unwrap();
             let text = text.split("#[cfg(test)]").next().unwrap_or("");
             let below = path.strip_prefix(&crates).unwrap().to_owned();
-            if below.ends_with("tests.rs") || below == PathBuf::from(TABLE) {
+            if below.ends_with("tests.rs") || below == Path::new(TABLE) {
                 continue;
             }
             let names = FIELDS.iter().map(|ResultField { name, .. }| *name);
