@@ -125,7 +125,7 @@ pub(crate) const ARROWS: [(&str, &[&str]); 16] = [
 ];
 
 /// Packages that few crates may use, in their tests too: texts of cases and records, the command line, errors for people.
-const RESERVED: [(&str, &[&str]); 13] = [
+const RESERVED: [(&str, &[&str]); 14] = [
     ("clap", &["ligament-cli", "ligament-verify"]),
     ("clap_complete", &["ligament-cli"]),
     ("indicatif", &["ligament-run", "ligament-study"]),
@@ -159,6 +159,7 @@ const RESERVED: [(&str, &[&str]); 13] = [
             "ligament-study",
         ],
     ),
+    ("serde_path_to_error", &["ligament-case"]),
     ("toml", &["ligament-case", "ligament-cli", "ligament-plot"]),
     ("toml_edit", &["ligament-case", "ligament-study"]),
     ("resvg", &["ligament-cli", "ligament-plot"]),

@@ -32,6 +32,14 @@ const LARGE_FOR_A_REASON: [(&str, &str); 1] = [(
 /// Crates that see points, bonds and degrees of freedom as numbers: where points lie is behind the interface of the bonds.
 const WITHOUT_SPACE: [&str; 2] = ["ligament-analysis", "ligament-linalg"];
 
+/// Crates whose messages name fields of Rust types, and no keys or sections of a case file: these are for the layers above.
+const WITHOUT_CASES: [&str; 4] = [
+    "ligament-analysis",
+    "ligament-linalg",
+    "ligament-mesh",
+    "ligament-model",
+];
+
 /// Words of the space that bodies lie in.
 const OF_SPACE: [&str; 10] = [
     "BondSystem",
@@ -142,6 +150,57 @@ fn equations_know_no_dimension() {
             found.iter().any(|it| is_open(it, open)),
             "take it off the list: {open} ({reason})"
         );
+    }
+}
+
+/// Messages of the crates below `ligament` have no sections, settings or other words of a case file.
+#[test]
+fn messages_below_the_setup_know_no_case_file() {
+    let mut found: Vec<String> = Vec::new();
+    for (name, tree) in trees() {
+        if !WITHOUT_CASES.contains(&name.as_str()) {
+            continue;
+        }
+        for module in tree.modules() {
+            let of_cases = module.tokens.iter().filter(|it| is_of_cases(&it.literal));
+            found.extend(
+                of_cases.map(|it| format!("{name}/{}: {}", label(&module.file), it.literal)),
+            );
+        }
+    }
+    assert!(found.is_empty(), "words of the case file: {found:#?}");
+}
+
+/// Whether a literal has a section in brackets, a key that is set to a word, or speaks of the case.
+fn is_of_cases(literal: &str) -> bool {
+    let is_key = |text: &str| {
+        let mut characters = text.chars();
+        !text.is_empty() && characters.all(|it| it.is_ascii_lowercase() || "_.".contains(it))
+    };
+    let mut brackets = literal
+        .split('[')
+        .skip(1)
+        .filter_map(|it| it.split_once(']'));
+    brackets.any(|(section, _)| is_key(section))
+        || ["= \\\"", "the case ", "a case "]
+            .iter()
+            .any(|it| literal.contains(it))
+}
+
+#[test]
+fn words_of_case_files_are_known_in_literals() {
+    for (source, is_of_case_files) in [
+        ("\"hold it by a [[support]]\"", true),
+        ("\"the section [fracture.stop] says\"", true),
+        ("\"take kind = \\\"sliding\\\"\"", true),
+        ("\"as the case says\"", true),
+        ("\"the criterion \\\"sliding\\\" takes `limit`\"", false),
+        ("\"loads[1], [x, y] and {found:?}\"", false),
+        ("// [fracture]", false),
+    ] {
+        let tokens = text::tokens(source);
+        let found = tokens.iter().any(|it| is_of_cases(&it.literal));
+        assert_eq!(found, is_of_case_files, "{source}");
     }
 }
 

@@ -1,10 +1,11 @@
 //! Source text as its tokens: without comments, without what strings hold, without tests.
 
-/// A token and its line, counted from 1.
+/// A token and its line, counted from 1, with what a literal is in the source.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Token {
     pub(super) text: String,
     pub(super) line: usize,
+    pub(super) literal: String,
 }
 
 /// The tokens of a source file without its comments and without the items behind `#[cfg(test)]`.
@@ -21,8 +22,14 @@ fn scan(source: &str) -> Vec<Token> {
     let (mut at, mut line) = (0, 1);
     while at < text.len() {
         let (end, token) = next_token(&text, at);
-        if let Some(text) = token {
-            tokens.push(Token { text, line });
+        if let Some(token) = token {
+            let is_literal = token == "\"\"";
+            let literal = text[at..end].iter().filter(|_| is_literal).collect();
+            tokens.push(Token {
+                text: token,
+                line,
+                literal,
+            });
         }
         line += text[at..end].iter().filter(|&&c| c == '\n').count();
         at = end;

@@ -30,19 +30,19 @@ pub enum CheckpointError {
     },
     /// One process wrote it, and several are to go on.
     #[error(
-        "one process wrote it: go on with one, or run the case anew with several; what several wrote any number can go on with"
+        "one process wrote it: go on with one, or begin the run anew with several; what several wrote any number can go on with"
     )]
     OfOneProcess,
     /// A factor was taken, and conjugate gradients are now, or the other way round.
     #[error(
         "the equations were solved by the other method when it was written: where solver.method is open the memory that there is \
-         decides, so go on where there is as much, or run the case anew"
+         decides, so go on where there is as much, or begin the run anew"
     )]
     OtherMethod,
     /// Numbers come out with other bits.
     #[error(
-        "this machine, or this version of the program, does not compute the same bits as the one that wrote it; go on there, or run \
-         the case anew"
+        "this machine, or this version of the program, does not compute the same bits as the one that wrote it; go on there, or begin \
+         the run anew"
     )]
     OtherArithmetic,
     /// The analysis breaks no bonds.

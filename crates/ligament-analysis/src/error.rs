@@ -19,11 +19,11 @@ pub enum SetupError {
     Analysis(#[from] FactorError),
     /// Conjugate gradients were asked for where they cannot solve the equations.
     #[error(
-        "conjugate gradients cannot solve these equations: {0}; let solver.method be \"direct\" or \"auto\""
+        "conjugate gradients cannot solve these equations: {0}; let solver.method be direct, or leave it open"
     )]
     NotIterative(#[from] Unfit),
     /// Several processes cannot solve the equations.
-    #[error("several processes cannot solve these equations: {0}; run the case with one")]
+    #[error("several processes cannot solve these equations: {0}; run it with one process")]
     NotDistributed(Unfit),
     /// A body has no bonds for one of the processes that share it out.
     #[error(transparent)]
@@ -45,7 +45,7 @@ pub enum SetupError {
     /// The loads of a body that is to break deform nothing.
     #[error(
         "nothing resists the loads: they move the body as a whole and do not deform it, so that no bond would ever break; hold a \
-         part of it by a [[support]]"
+         part of it by a support"
     )]
     NothingResists,
     /// The exact path through stages was asked for with faces of cracks that close.

@@ -219,8 +219,8 @@ pub enum Notice {
     },
     /// A force has passed what the body carries.
     #[error(
-        "step {step}: no larger force has an equilibrium any more; to follow the body past its peak, let a probe control the force \
-         (`control` of a [[stage]]), or follow the exact path (fracture.control = \"event\")"
+        "step {step}: no larger force has an equilibrium any more; to follow the body past its peak, let a probe control a stage (its \
+         `control`), or follow the exact path"
     )]
     PastPeak {
         /// The last load step.
@@ -240,7 +240,7 @@ pub enum Notice {
     /// Faces of cracks pass through each other.
     #[error(
         "step {}: the faces of a crack pass through each other, by {:.2e} m between points {} and {}, and nothing keeps them from \
-         it; `closing = true` in [model] lets them carry pressure", .0.step, .0.depth, .0.ends[0], .0.ends[1]
+         it; `closing` lets them carry pressure", .0.step, .0.depth, .0.ends[0], .0.ends[1]
     )]
     Overlap(LargestOverlap),
     /// The body breaks in the first load step.
@@ -249,15 +249,15 @@ pub enum Notice {
     /// The loads move the body as a whole.
     #[error(
         "nothing resists the loads: they move the body as a whole and do not deform it, so that all forces are rounding; hold a \
-         part of it by a [[support]]"
+         part of it by a support"
     )]
     Undeformed,
 }
 
 /// A state in equilibrium, for observers that want fields.
 ///
-/// Where processes share the body out ([`Bonds::portion`]), motions and forces are those of all points, bonds are those that this process
-/// knows, and what follows from the bonds of a point is right at own points alone; each observer may ask for it by itself.
+/// Where processes share the body out ([`BondTopology::portion`](ligament_model::BondTopology::portion)), motions and forces are those of
+/// all points, bonds are those that this process knows, and what follows from the bonds of a point is right at own points alone; each observer may ask for it by itself.
 pub struct View<'a> {
     /// The system.
     pub system: &'a dyn Bonds,

@@ -158,7 +158,7 @@ result_fields! {
     ROTATION "rotation" ["rad"] TURN Main(6),
         "Rotation of the point: in the plane counter-clockwise, in space about x, y and z, right-handed."
         => InState(|view| numbers(rotations(view.system.layout(), &view.state.displacement)));
-    DAMAGE "damage" ["-"] SCALAR Pictured(1), "Share of the point's bonds that are broken, 0 to 1."
+    DAMAGE "damage" ["-"] SCALAR Pictured(1), "Share of the point's bonds that are broken, weighted with volumes, 0 to 1."
         => Probed(|it| Some(fields::damage(it.system, &it.state.intact)), |it, point| fields::point_damage(it.system, &it.state.intact, point));
     STRAIN_ENERGY_DENSITY "strain_energy_density" ["J/m^3"] SCALAR Pictured(3),
         "Strain energy density, J/m^3: energy stored in the point's bonds, half of each."
@@ -167,7 +167,7 @@ result_fields! {
         => InState(|view| numbers(reactions(view)));
     FRAGMENT "fragment" ["-"] INTEGER Low, "Number of the part that the point belongs to."
         => InState(|view| Some(FieldValues::Integers(fragments(view))));
-    HELD "held" ["-"] INTEGER Low, "1 where the program holds a motion of the point because it came loose."
+    HELD "held" ["-"] INTEGER Low, "1 where the program fixes a displacement of the point because its part is detached."
         => InState(|view| Some(FieldValues::Integers(held(view))));
     DAMAGE_TENSION "damage_tension" ["-"] SCALAR Main(1), "Damage by opening of bonds, d_t, 0 to 1."
         => Probed(|it| damage_by(it, Weakened::Opening), |it, point| point_damage_by(it, Weakened::Opening, point));

@@ -71,8 +71,10 @@ pub enum Reason {
 impl Display for Reason {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Named => f.write_str("as the case says"),
-            Self::NamedForFactor(word) => write!(f, "the case says what solver.{word} is to be"),
+            Self::Named => f.write_str("as solver.method says"),
+            Self::NamedForFactor(word) => {
+                write!(f, "solver.{word} is given, which a factor alone has")
+            }
             Self::Unfit(unfit) => unfit.fmt(f),
             &Self::Memory { needed, available } => {
                 let [needed, available] = [needed, available].map(|bytes| bytes as f64 / 1e9);

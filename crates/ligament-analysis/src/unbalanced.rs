@@ -152,7 +152,7 @@ impl Unbalanced {
                 place.words(name)
             ),
             Self::NegativeCurvature => "the stiffness is not positive definite, as conjugate gradients need: some motion costs no energy; let \
-                                        solver.method be \"direct\", which tells where"
+                                        solver.method be direct, which tells where"
                 .to_owned(),
             Self::NegativeEnergy { energy } => {
                 format!("the stiffness lost stability: negative strain energy {energy:.3e} J")

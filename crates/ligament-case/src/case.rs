@@ -35,6 +35,7 @@ mod resolved;
 mod scatter;
 mod schema;
 mod sections;
+mod setting;
 mod solid_lattice_section;
 mod solver;
 pub mod source;

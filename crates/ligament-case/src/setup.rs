@@ -3,6 +3,7 @@
 use ligament::body::{AnyBody, MeshBody, SolidMeshBody};
 use ligament::setup::{Setup, TemperatureChange};
 use ligament::stage::{StageWatcher, stage};
+use ligament_analysis::SetupError;
 use ligament_mesh::AnyMesh;
 
 use crate::case::{CaseError, CaseFile, lattice_keys};
@@ -92,10 +93,13 @@ impl CaseFile {
         self.case.solver.threads.map(|threads| threads as usize)
     }
 
-    /// The error of a computation, with a faulty field of the setup at the key that it comes from.
+    /// The error of a computation in the words of the case, with a faulty field of the setup at the key that it comes from.
     pub fn explained(&self, error: ligament::Error) -> anyhow::Error {
         match error {
             ligament::Error::Setup(error) => self.located(error).into(),
+            ligament::Error::Equations(SetupError::NothingResists) => {
+                anyhow::anyhow!("{error} ([[support]])")
+            }
             other => other.into(),
         }
     }

@@ -16,6 +16,7 @@
 //! All quantities are in SI units. No matrices, no files and no printing here. Equations carry the key of their source, such
 //! as NHPD or MPPD: `docs/references.md` lists the papers.
 
+pub mod advice;
 pub mod bonds;
 pub mod change;
 pub mod cloud;
@@ -49,6 +50,7 @@ pub mod tensor;
 pub mod thermal;
 pub mod uniform_strain;
 
+pub use advice::Advice;
 pub use bonds::{BondSet, Incidence};
 pub use cloud::PointCloud;
 pub use cloud::lattice::Lattice;

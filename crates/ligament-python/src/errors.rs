@@ -30,10 +30,7 @@ pub(crate) enum Failure {
 impl Failure {
     /// The failure of a computation of a case, at the key that it comes from.
     pub(crate) fn computing(case: &CaseFile, error: ligament::Error) -> Self {
-        match error {
-            ligament::Error::Setup(error) => Self::setup(case, error),
-            other => Self::Other(other.into()),
-        }
+        Self::Other(case.explained(error))
     }
 
     /// The failure of a setup of a case, at the key that it comes from.

@@ -81,7 +81,8 @@ impl LoadedBody<'_> {
         let outcome = stages.time("solution", || match restored {
             None => follow(&problem, analysis, &mut watch),
             Some(restored) => resume(analysis, restored, &mut watch),
-        })?;
+        });
+        let outcome = outcome.map_err(|it| case.explained(it))?;
 
         let (notices, first, checkpoints) = watch.into_parts();
         let boundary = &loading.boundary;

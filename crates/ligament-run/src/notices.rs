@@ -41,10 +41,10 @@ pub fn words(notice: &Notice, body: &dyn Body, closing: bool) -> String {
                  keeps them from it; `closing = true` in [model] lets them carry pressure"
             )
         }
+        Notice::PastPeak { .. } => format!("{notice} (fracture.control = \"event\")"),
+        Notice::Undeformed => format!("{notice} ([[support]])"),
         Notice::Unstable { .. }
         | Notice::AtOnce(_)
-        | Notice::Undeformed
-        | Notice::PastPeak { .. }
         | Notice::NegativeEnergy { .. }
         | Notice::EnergyUnbalanced { .. }
         | Notice::DissipatedBeyondWork { .. } => notice.to_string(),

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::fmt;
 
 use ligament_analysis::modal::ModalError;
+use ligament_model::Advice;
 use ligament_model::failure::{NoLimit, Unfit};
 use rayon::ThreadPoolBuildError;
 use thiserror::Error;
@@ -11,6 +12,7 @@ use thiserror::Error;
 use crate::body::OffOutline;
 use crate::coordinates::coordinates;
 use crate::implausible::Implausible;
+use crate::setup::setting::Setting;
 use crate::suggestion::hint;
 
 /// Why a computation could not begin. How it went is in its outcome.
@@ -93,7 +95,7 @@ pub enum Fault {
     },
     /// A criterion does not go together with itself, with a material or with the analysis.
     #[error(transparent)]
-    Unfit(Unfit),
+    Unfit(Box<Unfit>),
     /// A criterion leaves bonds without a limit, or nothing after it.
     #[error("{reason}{}", cause.as_ref().map_or(String::new(), |it| format!(". {it}")))]
     NoLimit {
@@ -145,7 +147,7 @@ pub enum Fault {
     #[error(
         "the surface correction has gone astray: its factor for the bond from {} to {} is not a number. Its equations bear no cells that are much \
          longer than wide, nor sizes that change this steeply (the nearest neighbours of points are {:.1e} to {:.1e} m away): take cells \
-         of about equal sides, or correction.surface = \"volume\"", places[0], places[1], spacing[0], spacing[1]
+         of about equal sides, or the correction by volume (correction.surface)", places[0], places[1], spacing[0], spacing[1]
     )]
     NoCorrection {
         /// Ends of the bond, in words.
@@ -323,7 +325,7 @@ pub enum Fault {
     },
     /// Choices that do not go together.
     #[error("{0}")]
-    Contradiction(Cow<'static, str>),
+    Contradiction(Advice<Setting>),
 }
 
 /// A body that its cells hold together and its bonds do not: sides of cells are longer than the horizon.

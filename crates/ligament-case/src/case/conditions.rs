@@ -16,22 +16,29 @@ use ligament::setup::{self, Position};
 #[schemars(extend("minProperties" = 1))]
 pub struct Displacement {
     /// Along x, m.
+    #[schemars(extend("x-unit" = "m"))]
     pub x: Option<f64>,
     /// Along y, m.
+    #[schemars(extend("x-unit" = "m"))]
     pub y: Option<f64>,
     /// Rotation in the plane, rad, counter-clockwise.
+    #[schemars(extend("x-unit" = "rad"))]
     pub rotation: Option<f64>,
     /// Along z of a solid, m.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m"))]
     pub z: Option<f64>,
     /// Rotation about x in a solid, rad, right-handed.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "rad"))]
     pub rotation_x: Option<f64>,
     /// Rotation about y in a solid, rad, right-handed.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "rad"))]
     pub rotation_y: Option<f64>,
     /// Rotation about z in a solid, rad, right-handed.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "rad"))]
     pub rotation_z: Option<f64>,
 }
 
@@ -81,20 +88,20 @@ impl Vector {
 #[schemars(extend("minProperties" = 1))]
 pub struct SpringStiffness {
     /// Along x, N/m.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "N/m"))]
     pub x: Option<f64>,
     /// Along y, N/m.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "N/m"))]
     pub y: Option<f64>,
     /// Against rotations of the points, in N m/rad.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub rotation: Option<f64>,
     /// Along z of a solid, N/m.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "N/m"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub z: Option<f64>,
     /// Along the `normal` of the support, N/m.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "N/m"))]
     pub normal: Option<f64>,
 }
 
@@ -106,8 +113,10 @@ pub struct Support {
     /// The points of this physical group of the mesh, or of this set or hole of the lattice.
     pub group: Option<String>,
     /// The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, in a solid in this box, m.
+    #[schemars(extend("x-unit" = "m"))]
     pub r#box: Option<Corners>,
     /// The point nearest to `[x, y]`, in a solid to `[x, y, z]`, m.
+    #[schemars(extend("x-unit" = "m"))]
     pub at: Option<Coordinates>,
     /// The components that are held, each at 0: `{ x = 0.0 }`, `{ x = 0.0, y = 0.0 }`; m, rotation in rad.
     pub displacement: Option<Displacement>,

@@ -22,17 +22,17 @@ pub struct Criterion {
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub critical_stretch: Option<f64>,
     /// Shear at which a bond that does not open fails, rad; of `mixed-mode`, with `critical_stretch`.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "rad"))]
     pub critical_angle: Option<f64>,
     /// How the limit of `frictional` comes from the strengths.
     #[schemars(extend("default" = Word(Calibration::default())))]
     pub calibration: Option<Word<Calibration>>,
     /// Angle beta of the friction of a bond, rad: compression by s makes its limit of sliding larger by s tan(beta). Of `frictional`, in
     /// the place of the compressive strength; that of the material, phi', is another.
-    #[schemars(range(min = 0))]
+    #[schemars(range(min = 0), extend("x-unit" = "rad"))]
     pub friction_angle: Option<f64>,
     /// Distance of the outermost fibre from the axis of a bond, m; of `fibre`.
-    #[schemars(range(min = 0))]
+    #[schemars(range(min = 0), extend("x-unit" = "m"))]
     pub fibre_distance: Option<f64>,
     /// What a bond does after its limit.
     #[serde(default)]
@@ -73,8 +73,8 @@ impl Criterion {
     pub(super) fn setup(&self, key: &KeyPath) -> Result<Choice, KeyFault> {
         let keys = [("end", self.end), ("scale", self.scale)];
         let after = After::from_keys(self.after.0, &keys).map_err(|unfit| {
-            let key = unfit.key().map_or(key.clone(), |it| key.child(it));
-            KeyFault::new(key, unfit.to_string())
+            let key = unfit.field().map_or(key.clone(), |it| key.child(it));
+            KeyFault::new(key, unfit)
         })?;
         Ok(Choice {
             kind: self.kind.0,

@@ -91,13 +91,13 @@ pub struct Stop {
     #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
     pub load_fraction: Option<f64>,
     /// When the displacement of the first load reaches this, m; in rad, m^3 or K where that is its unit.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
     pub displacement: Option<f64>,
     /// When so many bonds are broken.
     #[schemars(range(min = 1))]
     pub bonds: Option<u64>,
     /// After so much time, s.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "s"))]
     pub wall_time: Option<f64>,
     /// When the stored energy becomes negative, as it may where Poisson's ratio makes the bonds' shear stiffness negative.
     pub negative_energy: bool,

@@ -9,34 +9,18 @@ use super::document::{Node, Value};
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::schema::schema;
-use super::values::RANGE;
+use super::values::{RANGE, UNIT};
 
 static SCHEMA: LazyLock<Json> = LazyLock::new(schema);
-
-/// Units as they stand in the description of a key, after a comma: "Thickness of the body, m."
-const UNITS: [&str; 14] = [
-    "1/K", "J/m^2", "K", "N", "N m", "N m/m^3", "N/m", "N/m^3", "Pa", "kg/m^3", "m", "m/s^2",
-    "rad", "s",
-];
 
 /// Unit of the number at a key path, where it has one: its own, or that of the table or list which it is in.
 pub fn unit_of(key: &KeyPath) -> Option<&'static str> {
     let (mut schema, mut unit) = (&*SCHEMA, None);
     for part in &key.0 {
         schema = below(schema, part)?;
-        let description = schema["description"].as_str().unwrap_or_default();
-        unit = unit_in(description).or(unit);
+        unit = schema[UNIT].as_str().or(unit);
     }
     unit.filter(|_| schema["type"] != "object")
-}
-
-fn unit_in(description: &str) -> Option<&'static str> {
-    let sentence = description.lines().next()?;
-    let mut parts = sentence.split([',', ';', '.', ':']).skip(1);
-    parts.find_map(|part| {
-        let word = part.strip_prefix(' ')?;
-        UNITS.into_iter().find(|unit| *unit == word)
-    })
 }
 
 /// The schema of the table that a key takes, if it may take something else as well.
@@ -187,8 +171,24 @@ mod tests {
         KeyPath::parse(key).and_then(|key| unit_of(&key))
     }
 
+    /// Descriptions that do not name the unit of their key.
+    fn without_unit(schema: &Json) -> Vec<&Json> {
+        let parts = schema.as_object().into_iter().flat_map(|it| it.values());
+        let parts = parts.chain(schema.as_array().into_iter().flatten());
+        let below = parts.flat_map(without_unit);
+        let unit = schema[UNIT].as_str().map(|it| format!(", {it}"));
+        let description = schema["description"].as_str().unwrap_or_default();
+        let is_named = unit.is_none_or(|it| description.contains(&it));
+        below.chain((!is_named).then_some(schema)).collect()
+    }
+
     #[test]
-    fn units_are_those_of_the_descriptions() {
+    fn descriptions_name_the_units_of_their_keys() {
+        assert_eq!(without_unit(&SCHEMA), Vec::<&Json>::new());
+    }
+
+    #[test]
+    fn keys_of_tables_and_lists_have_the_unit_of_these() {
         for (key, expected) in [
             ("material.young", "Pa"),
             ("material.steel.density", "kg/m^3"),
@@ -201,6 +201,7 @@ mod tests {
             ("lattice.spacing.0", "m"),
             ("load.0.force.x", "N"),
             ("load.0.force_per_length.y", "N/m"),
+            ("load.0.force_per_area.y", "N/m^2"),
             ("load.1.body_force.y", "N/m^3"),
             ("load.1.acceleration.x", "m/s^2"),
             ("load.0.displacement.rotation", "rad"),

@@ -22,13 +22,15 @@ pub struct LatticeSection {
     #[schemars(inner(range(min = 1)))]
     pub cells: [u32; 2],
     /// Side of the cells, or their sides `[dx, dy]`, m.
+    #[schemars(extend("x-unit" = "m"))]
     pub spacing: Spacing,
     /// Lower left corner of the lattice, m.
     #[serde(default)]
+    #[schemars(extend("x-unit" = "m"))]
     pub corner: Point,
     /// Thickness of the body, m.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("exclusiveMinimum" = 0, "default" = 1.0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "default" = 1.0, "x-unit" = "m"))]
     pub thickness: Option<f64>,
     /// Plane stress or plane strain.
     #[serde(default)]
@@ -52,9 +54,10 @@ pub struct Hole {
     /// A disk, m.
     pub circle: Option<Circle>,
     /// A rectangle by two opposite corners, m.
+    #[schemars(extend("x-unit" = "m"))]
     pub rectangle: Option<Rectangle>,
     /// A polygon by its corners, three or more, m.
-    #[schemars(length(min = 3))]
+    #[schemars(length(min = 3), extend("x-unit" = "m"))]
     pub polygon: Option<Polygon>,
     /// Everything outside of a disk, m.
     pub outside: Option<Circle>,
@@ -78,11 +81,12 @@ pub struct CellSet {
     #[schemars(range(min = 1))]
     pub right: Option<u32>,
     /// Cells whose centre lies in a rectangle, by two opposite corners, m.
+    #[schemars(extend("x-unit" = "m"))]
     pub r#box: Option<Rectangle>,
     /// Cells whose centre lies in a disk, m.
     pub circle: Option<Circle>,
     /// Cells whose centre lies in a polygon, by its corners, three or more, m.
-    #[schemars(length(min = 3))]
+    #[schemars(length(min = 3), extend("x-unit" = "m"))]
     pub polygon: Option<Polygon>,
 }
 
@@ -91,9 +95,10 @@ pub struct CellSet {
 #[serde(deny_unknown_fields)]
 pub struct Circle {
     /// Centre, m.
+    #[schemars(extend("x-unit" = "m"))]
     pub centre: Point,
     /// Radius, m.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
     pub radius: f64,
 }
 

@@ -24,33 +24,43 @@ pub struct Load {
     /// The points of this physical group of the mesh, or of this set or hole of the lattice.
     pub group: Option<String>,
     /// The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, in a solid in this box, m.
+    #[schemars(extend("x-unit" = "m"))]
     pub r#box: Option<Corners>,
     /// The point nearest to `[x, y]`, in a solid to `[x, y, z]`, m.
+    #[schemars(extend("x-unit" = "m"))]
     pub at: Option<Coordinates>,
     /// Prescribed displacements, m, rotation in rad.
     pub displacement: Option<Displacement>,
     /// A force in total over the points, N.
+    #[schemars(extend("x-unit" = "N"))]
     pub force: Option<Vector>,
     /// A force along the edges of a group, N/m.
+    #[schemars(extend("x-unit" = "N/m"))]
     pub force_per_length: Option<Vector>,
     /// A force over the surface of a group of a solid, N/m^2.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "N/m^2"))]
     pub force_per_area: Option<Vector>,
     /// A force in the volume, N/m^3; on the whole body without a place.
+    #[schemars(extend("x-unit" = "N/m^3"))]
     pub body_force: Option<Vector>,
     /// An acceleration that acts on all masses, as gravity does, m/s^2; on the whole body without a place, and the materials need a
     /// `density`.
+    #[schemars(extend("x-unit" = "m/s^2"))]
     pub acceleration: Option<Vector>,
     /// A couple in total over the points, N m: counter-clockwise, in a solid `{ x = 0.0, y = 0.0, z = 1.0 }`, right-handed.
+    #[schemars(extend("x-unit" = "N m"))]
     pub moment: Option<Couple>,
     /// A couple in the volume, N m/m^3, as a `moment`; on the whole body without a place.
+    #[schemars(extend("x-unit" = "N m/m^3"))]
     pub body_couple: Option<Couple>,
     /// A pressure on the outline of a group, Pa; positive pushes on the body.
+    #[schemars(extend("x-unit" = "Pa"))]
     pub pressure: Option<f64>,
     /// How the load varies along an axis: what a point takes is multiplied by (c - zero)/(one - zero).
     pub profile: Option<Profile>,
     /// Stiffness in total of springs through which a `displacement` moves the points, N/m: what gives way in a testing machine.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "N/m"))]
     pub stiffness: Option<f64>,
     /// Whether a `displacement` or `force` acts through a rigid platen that may tilt: it moves by the mean of its points.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -65,8 +75,10 @@ pub struct Profile {
     /// The coordinate.
     pub along: Word<Axis>,
     /// Coordinate in the mesh file at which the load is zero, m.
+    #[schemars(extend("x-unit" = "m"))]
     pub zero: f64,
     /// Coordinate in the mesh file at which it is as given, m.
+    #[schemars(extend("x-unit" = "m"))]
     pub one: f64,
 }
 

@@ -2,37 +2,13 @@
 
 use ligament::error::Fault as SetupFault;
 use ligament::{Field, SetupError};
-use ligament_model::law::{BondLaw, LAWS};
 
 use super::fault::{CaseError, Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::sections::Case;
+use super::setting;
 use super::source::Source;
 use crate::temperature_table;
-
-/// What a setup calls by the names of its types, and the words of a case for it.
-const WORDS: [(&str, &str); 11] = [
-    ("`Scattered::Strength`", "\"strength\""),
-    ("`Scattered::FractureEnergy`", "\"fracture-energy\""),
-    ("`LatticeBody`", "[lattice] in the place of [mesh]"),
-    ("`Alpha::None`", "\"none\""),
-    ("`Surface::None`", "\"none\""),
-    ("`CorrectionDomain::Whole`", "\"whole\""),
-    (
-        "`Calibration::Integral`",
-        "model.calibration = \"integral\"",
-    ),
-    (
-        "`RotationalStiffness::Decaying`",
-        "rotational_stiffness = \"decaying\"",
-    ),
-    ("`Form::Full`", "\"full\""),
-    ("`Strains::Small`", "strains = \"small\""),
-    (
-        "`Place::Group`, `Place::Box` or `Place::Everywhere`",
-        "`group`, `box`, or neither for the whole body",
-    ),
-];
 
 impl Case {
     /// The error of a faulty field of the setup at the key that it comes from.
@@ -45,8 +21,10 @@ impl Case {
                 reason,
             },
             SetupFault::Unfit(unfit) => {
-                key = unfit.key().map_or(key.clone(), |it| format!("{key}.{it}"));
-                Fault::Other(unfit.to_string())
+                key = unfit
+                    .field()
+                    .map_or(key.clone(), |it| format!("{key}.{it}"));
+                (*unfit).into()
             }
             SetupFault::NameTwice { name, first } => Fault::NotUnique {
                 name,
@@ -58,11 +36,7 @@ impl Case {
                     _ => "",
                 },
             },
-            SetupFault::Contradiction(reason) => {
-                let in_words = |text: String, (name, word)| text.replace(name, word);
-                let of_laws = LAWS.into_iter().fold(reason.into_owned(), law_in_words);
-                Fault::Other(WORDS.into_iter().fold(of_laws, in_words))
-            }
+            SetupFault::Contradiction(reason) => Fault::Other(reason.said(setting::of_setup)),
             SetupFault::NothingHappens => {
                 "there is no [[load]] and no point whose temperature changes: nothing would happen"
                     .into()
@@ -168,13 +142,6 @@ impl Case {
         let file = file.display();
         format!("{file}:{second}: {place} has a row already, in line {first}").into()
     }
-}
-
-/// A text that calls a law by its word in the place of its constant.
-fn law_in_words(text: String, law: &BondLaw) -> String {
-    let (constant, word) = (law.constant(), law.quoted());
-    text.replace(&format!(" or {constant}"), &format!(" or {word}"))
-        .replace(&constant, &format!("model.law = {word}"))
 }
 
 /// The key of a material that a part of the setup's comes from.

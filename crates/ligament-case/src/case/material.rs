@@ -28,76 +28,79 @@ pub struct Material {
     /// The physical surface of the mesh, or the set of the lattice, that the material fills.
     pub group: Option<String>,
     /// Young's modulus, Pa.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "Pa"))]
     pub young: Option<f64>,
     /// Poisson's ratio.
     #[schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5))]
     pub poisson: Option<f64>,
     /// Young's modulus along the axis 1, Pa.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "Pa"))]
     pub young_1: Option<f64>,
     /// Young's modulus along the axis 2, Pa.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "Pa"))]
     pub young_2: Option<f64>,
     /// Poisson's ratio: contraction along 2 under stress along 1.
     pub poisson_12: Option<f64>,
     /// Shear modulus in the plane, Pa.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "Pa"))]
     pub shear_modulus: Option<f64>,
     /// From the x axis to the axis 1, counter-clockwise, rad.
-    #[schemars(extend("default" = 0.0))]
+    #[schemars(extend("default" = 0.0, "x-unit" = "rad"))]
     pub angle: Option<f64>,
     /// Young's modulus across the plane, Pa; for plane strain.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "Pa"))]
     pub young_3: Option<f64>,
     /// Poisson's ratio: contraction across the plane under stress along 1; for plane strain.
     pub poisson_13: Option<f64>,
     /// Poisson's ratio: contraction across the plane under stress along 2; for plane strain.
     pub poisson_23: Option<f64>,
     /// Stiffness of sigma_xx by eps_xx, Pa.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "Pa"))]
     pub c11: Option<f64>,
     /// Stiffness of sigma_xx by eps_yy, Pa.
+    #[schemars(extend("x-unit" = "Pa"))]
     pub c12: Option<f64>,
     /// Stiffness of sigma_xx by gamma_xy, Pa.
+    #[schemars(extend("x-unit" = "Pa"))]
     pub c16: Option<f64>,
     /// Stiffness of sigma_yy by eps_yy, Pa.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "Pa"))]
     pub c22: Option<f64>,
     /// Stiffness of sigma_yy by gamma_xy, Pa.
+    #[schemars(extend("x-unit" = "Pa"))]
     pub c26: Option<f64>,
     /// Stiffness of sigma_xy by gamma_xy, Pa.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "Pa"))]
     pub c66: Option<f64>,
     /// Tensile strength, Pa.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "Pa"))]
     pub tensile_strength: Option<f64>,
     /// Compressive strength, Pa, positive.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "Pa"))]
     pub compressive_strength: Option<f64>,
     /// Fracture energy of opening, J/m^2.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "J/m^2"))]
     pub fracture_energy: Option<f64>,
     /// Fracture energy of sliding where it is another, J/m^2; for `mixed-mode`.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "J/m^2"))]
     pub fracture_energy_sliding: Option<f64>,
     /// Exponent eta between the two fracture energies; for `mixed-mode`.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub mixed_mode_exponent: Option<f64>,
     /// Mass density, kg/m^3; for natural modes.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "kg/m^3"))]
     pub density: Option<f64>,
     /// Coefficient of linear thermal expansion, 1/K, the same in all directions; steel has 12e-6.
-    #[schemars(transform = kind::expansion_range)]
+    #[schemars(transform = kind::expansion_range, extend("x-unit" = "1/K"))]
     pub thermal_expansion: Option<f64>,
     /// Thermal expansion along the axis 1, 1/K.
-    #[schemars(transform = kind::expansion_range)]
+    #[schemars(transform = kind::expansion_range, extend("x-unit" = "1/K"))]
     pub thermal_expansion_1: Option<f64>,
     /// Thermal expansion along the axis 2, 1/K.
-    #[schemars(transform = kind::expansion_range)]
+    #[schemars(transform = kind::expansion_range, extend("x-unit" = "1/K"))]
     pub thermal_expansion_2: Option<f64>,
     /// Thermal expansion across the plane, 1/K; for plane strain.
-    #[schemars(transform = kind::expansion_range)]
+    #[schemars(transform = kind::expansion_range, extend("x-unit" = "1/K"))]
     pub thermal_expansion_3: Option<f64>,
 }
 

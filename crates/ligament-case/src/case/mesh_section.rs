@@ -22,7 +22,7 @@ pub struct MeshSection {
     pub file: PathBuf,
     /// Thickness of a body in the plane, m; a mesh of solid cells has none.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("exclusiveMinimum" = 0, "default" = 1.0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "default" = 1.0, "x-unit" = "m"))]
     pub thickness: Option<f64>,
     /// Plane stress or plane strain of a body in the plane; a mesh of solid cells has none.
     #[serde(skip_serializing_if = "Option::is_none")]

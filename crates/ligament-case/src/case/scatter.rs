@@ -29,7 +29,7 @@ pub struct Scatter {
     pub seed: u64,
     /// Distance over which the correlation exp(-(r/L)^2) of two places falls to 1/e, m; 0: each point for itself.
     #[serde(default)]
-    #[schemars(range(min = 0))]
+    #[schemars(range(min = 0), extend("x-unit" = "m"))]
     pub correlation_length: f64,
 }
 

@@ -17,9 +17,11 @@ pub struct SolidLatticeSection {
     #[schemars(inner(range(min = 1)))]
     pub cells: [u32; 3],
     /// Sides of the cells `[dx, dy, dz]`, m.
+    #[schemars(extend("x-unit" = "m"))]
     pub spacing: [f64; 3],
     /// Corner of the box with the lowest coordinates, m.
     #[serde(default)]
+    #[schemars(extend("x-unit" = "m"))]
     pub corner: [f64; 3],
     /// Holes: cells whose centre lies in one are removed, and bonds across it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -42,6 +44,7 @@ pub struct SolidHoleKeys {
     /// A cylinder with flat ends, m.
     pub cylinder: Option<Cylinder>,
     /// A box by two opposite corners `[[x, y, z], [x, y, z]]`, m.
+    #[schemars(extend("x-unit" = "m"))]
     pub r#box: Option<[[f64; 3]; 2]>,
     /// Everything outside of a ball, m.
     pub outside_sphere: Option<Sphere>,
@@ -73,6 +76,7 @@ pub struct SolidCellSetKeys {
     #[schemars(range(min = 1))]
     pub top: Option<u32>,
     /// Cells whose centre lies in a box, by two opposite corners, m.
+    #[schemars(extend("x-unit" = "m"))]
     pub r#box: Option<[[f64; 3]; 2]>,
     /// Cells whose centre lies in a ball, m.
     pub sphere: Option<Sphere>,
@@ -85,9 +89,10 @@ pub struct SolidCellSetKeys {
 #[serde(deny_unknown_fields)]
 pub struct Sphere {
     /// Centre, m.
+    #[schemars(extend("x-unit" = "m"))]
     pub centre: [f64; 3],
     /// Radius, m.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
     pub radius: f64,
 }
 
@@ -96,9 +101,10 @@ pub struct Sphere {
 #[serde(deny_unknown_fields)]
 pub struct Cylinder {
     /// Middles of its two ends, m.
+    #[schemars(extend("x-unit" = "m"))]
     pub ends: [[f64; 3]; 2],
     /// Radius, m.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
     pub radius: f64,
 }
 

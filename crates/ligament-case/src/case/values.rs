@@ -15,6 +15,9 @@ pub type Point = [f64; 2];
 /// Keyword of the schema for a range in words, where these say more than its bounds.
 pub(super) const RANGE: &str = "x-range";
 
+/// Keyword of the schema for the unit of a number, or of the numbers of a table or list.
+pub(super) const UNIT: &str = "x-unit";
+
 /// The rule that exactly one of the keys is there, as a value of `oneOf`.
 pub(super) fn exactly_one(keys: &[&str]) -> serde_json::Value {
     keys.iter()

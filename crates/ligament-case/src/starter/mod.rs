@@ -11,7 +11,7 @@ use crate::mesh_file::{MeshFileError, bounding_box, read_any_mesh};
 use groups::{Ends, Named, Spot};
 use ligament::setup::Law;
 use ligament::warning::{SUSPICIOUSLY_LARGE, Warning};
-use ligament_model::law::listed;
+use ligament_model::law::{listed, suited};
 use ligament_model::material::Space;
 use text::{Body, Section};
 
@@ -116,7 +116,9 @@ fn check_solid(law: Law) -> Result<(), StarterError> {
 
 /// The laws of solids.
 fn of_solids() -> String {
-    listed(|it| it.exists_in(Space::Solid), |it| it.word.to_owned())
+    listed(&suited(|it| it.exists_in(Space::Solid)), |it| {
+        it.word.to_owned()
+    })
 }
 
 /// The starter case of a mesh with points at a distance; `file` is its path in the case, `name` that of the body.

@@ -6,8 +6,11 @@ use super::criterion::{Criteria, Criterion};
 use super::fracture_energy;
 use super::kind::{After, Choice, Kind};
 use super::measure::Measure;
+use super::setting::Setting;
+use super::sliding;
 use super::softening::{AfterLimit, LAWS, Law};
 use super::unfit::{NoLimit, Unfit};
+use crate::advice::Advice;
 use crate::scatter::Scattered;
 
 /// The criteria on the bonds, in the order of their choices, which must be [right](Choice::check) and [suit](Choice::suits) all
@@ -123,14 +126,14 @@ impl After {
     pub fn from_keys(law: Law, given: &[(&'static str, Option<f64>)]) -> Result<Self, Unfit> {
         let of_law = law.parameter.map(|it| it.key);
         let is_given = |wanted: &str| given.iter().any(|(key, it)| *key == wanted && it.is_some());
-        let others = LAWS.iter().filter_map(|it| it.parameter);
-        let mut refused = others.filter(|it| Some(it.key) != of_law && is_given(it.key));
-        if let Some(other) = refused.next() {
+        let others = LAWS.iter().filter_map(|it| Some((it.word, it.parameter?)));
+        let mut refused = others.filter(|(_, it)| Some(it.key) != of_law && is_given(it.key));
+        if let Some((word, other)) = refused.next() {
             return Err(Unfit::NotWith {
-                key: other.key,
-                named: other.key.to_owned(),
-                setting: format!("after = \"{}\"", law.word),
-                reason: other.of_it_alone.into(),
+                field: other.key,
+                named: Setting::Field(other.key),
+                setting: Setting::After(law.word),
+                reason: Advice::new(other.of_it_alone, [Setting::After(word)]),
             });
         }
         let own = given.iter().find(|(key, _)| Some(*key) == of_law);
@@ -159,7 +162,7 @@ impl Choice {
             if let Some(found) = value.filter(|value| value.is_nan() || *value <= above) {
                 let expected = format!("greater than {above}");
                 return Err(Unfit::OutOfRange {
-                    key,
+                    field: key,
                     expected,
                     found,
                 });
@@ -199,9 +202,9 @@ impl Choice {
             _ => format!("only {takers} has a limit for opening and one for shear"),
         };
         Err(Unfit::NotWith {
-            key,
-            named: key.to_owned(),
-            setting: format!("kind = \"{}\"", self.kind.word),
+            field: key,
+            named: Setting::Field(key),
+            setting: Setting::Criterion(self.kind.word),
             reason: reason.into(),
         })
     }
@@ -212,11 +215,12 @@ impl Choice {
             (self.own_limits().into_iter()).filter(|(key, _)| self.kind.keys.contains(key));
         let (given, missing): (Vec<_>, Vec<_>) = of_kind.partition(|(_, limit)| limit.is_some());
         match (given.first(), missing.first()) {
-            (Some((given, _)), Some((key, _))) => Err(Unfit::Missing {
-                key,
+            (Some((given, _)), Some((field, _))) => Err(Unfit::Missing {
+                field,
                 reason: format!(
                     "beside `{given}`: the limits of opening and of shear are given together, or both come from the fracture energies"
-                ),
+                )
+                .into(),
             }),
             _ => Ok(()),
         }
@@ -228,30 +232,34 @@ impl Choice {
         if !law.softens {
             return Ok(());
         }
-        let kind = format!("kind = \"{}\"", self.kind.word);
-        let refused = |setting: String, reason: &'static str| Unfit::NotWith {
-            key: "after",
-            named: format!("after = \"{}\"", law.word),
+        let kind = Setting::Criterion(self.kind.word);
+        let refused = |setting: Setting, reason: Advice<Setting>| Unfit::NotWith {
+            field: "after",
+            named: Setting::After(law.word),
             setting,
-            reason: reason.into(),
+            reason,
         };
         if let Some(reason) = self.kind.brittle_because {
-            return Err(refused(kind, reason));
+            return Err(refused(kind, reason.into()));
         }
         let slides = self.kind.measures == [Measure::Sliding];
         if let Some(reason) = law.sliding_because.filter(|_| !slides) {
-            return Err(refused(kind, reason));
+            let sliding = Setting::Criterion(sliding::SLIDING.word);
+            return Err(refused(kind, Advice::new(reason, [sliding])));
         }
         if on_exact_path {
-            let reason = "the exact path is straight between breakages, and softening bends it: take load steps (`steps`)";
-            return Err(refused("control = \"event\"".to_owned(), reason));
+            let reason =
+                "the exact path is straight between breakages, and softening bends it: take {}";
+            let reason = Advice::new(reason, [Setting::LoadSteps]);
+            return Err(refused(Setting::ExactPath, reason));
         }
         match self.parameter_from_energy() {
-            Some(key) if self.spends_fracture_energy() => Err(Unfit::Missing {
-                key,
-                reason: format!(
-                    "with {kind}: up to the limit a bond takes all of the fracture energy, and nothing is left to soften by; or take \
-                     kind = \"bond-energy\", whose limit comes from the `tensile_strength`"
+            Some(field) if self.spends_fracture_energy() => Err(Unfit::Missing {
+                field,
+                reason: Advice::new(
+                    "with {}: up to the limit a bond takes all of the fracture energy, and nothing is left to soften by; or take \
+                     {}, whose limit comes from the `tensile_strength`",
+                    [kind, Setting::Criterion(fracture_energy::BOND_ENERGY.word)],
                 ),
             }),
             _ => Ok(()),

@@ -33,12 +33,12 @@ pub const FIBRE: Kind = Kind {
 fn check(choice: &Choice) -> Result<(), Unfit> {
     match choice.fibre_distance {
         None => Err(Unfit::Missing {
-            key: "fibre_distance",
+            field: "fibre_distance",
             reason: "(in m) by the criterion \"fibre\": it is how far the outermost fibre lies from the axis of the bond"
-                .to_owned(),
+                .into(),
         }),
         Some(found) if !(found >= 0.0 && found.is_finite()) => Err(Unfit::OutOfRange {
-            key: "fibre_distance",
+            field: "fibre_distance",
             expected: "at least 0".to_owned(),
             found,
         }),

@@ -5,6 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::basis::{Basis, weakest_materials};
 use super::kind::{COMPRESSIVE_STRENGTH, Choice, Kind, Limits, PerSpace, TENSILE_STRENGTH};
 use super::measure::Measure;
+use super::setting::Setting;
 use super::stretch;
 use super::unfit::{NoLimit, Unfit};
 use crate::material::{Isotropic, Material, Space};
@@ -33,18 +34,18 @@ pub const FRICTIONAL: Kind = Kind {
 fn check(choice: &Choice) -> Result<(), Unfit> {
     match (choice.limit, choice.friction_angle) {
         (Some(_), None) => Err(Unfit::Missing {
-            key: "friction_angle",
-            reason: "(in rad) beside `limit`: a bond fails at |gamma| + s tan(beta) = a, and `limit` is a alone".to_owned(),
+            field: "friction_angle",
+            reason: "(in rad) beside `limit`: a bond fails at |gamma| + s tan(beta) = a, and `limit` is a alone".into(),
         }),
         (_, Some(angle)) if !(0.0..FRAC_PI_2).contains(&angle) => Err(Unfit::OutOfRange {
-            key: "friction_angle",
+            field: "friction_angle",
             expected: "at least 0 and less than pi/2 (rad)".to_owned(),
             found: angle,
         }),
         (Some(_), Some(_)) if choice.calibration.is_some() => Err(Unfit::NotWith {
-            key: "calibration",
-            named: "calibration".to_owned(),
-            setting: "limit".to_owned(),
+            field: "calibration",
+            named: Setting::Field("calibration"),
+            setting: Setting::Field("limit"),
             reason: "cohesion and friction are given, and no strength is used".into(),
         }),
         _ => Ok(()),
@@ -58,7 +59,7 @@ fn suits(choice: &Choice, material: &Material) -> Result<(), Unfit> {
     }
     match (material.tensile_strength, material.compressive_strength) {
         (Some(tensile), Some(compressive)) if compressive < tensile => Err(Unfit::OutOfRange {
-            key: COMPRESSIVE_STRENGTH.key,
+            field: COMPRESSIVE_STRENGTH.key,
             expected: "at least the tensile_strength for the criterion \"frictional\"".to_owned(),
             found: compressive,
         }),

@@ -5,8 +5,10 @@ use std::sync::Arc;
 use super::basis::Basis;
 use super::crack_at_points::CrackAtPoints;
 use super::measure::Measure;
+use super::setting::Setting;
 use super::softening::{Law, brittle};
 use super::unfit::{NoLimit, Unfit};
+use crate::advice::Advice;
 use crate::dimension::cast;
 use crate::material::{Elasticity, Material};
 use crate::scatter::Scattered;
@@ -69,7 +71,7 @@ impl PerSpace {
 /// A property of materials that limits come from.
 #[derive(Debug, Clone, Copy)]
 pub struct Property {
-    /// Key of the property in a case file.
+    /// Field of a [`Material`] that holds the property.
     pub key: &'static str,
     /// Unit of the property.
     pub unit: &'static str,
@@ -311,14 +313,12 @@ impl Choice {
             }
             if (property.value)(material).is_none() {
                 let instead = instead.map(|it| format!(" without `{it}`"));
-                let reason = format!(
-                    "(in {}) because the case has a [fracture] section with the criterion \"{}\"{}",
-                    property.unit,
-                    kind.word,
-                    instead.unwrap_or_default()
-                );
-                let key = property.key;
-                return Err(Unfit::Missing { key, reason });
+                let instead = instead.unwrap_or_default();
+                let text = format!("(in {}) because {{}}{instead}", property.unit);
+                return Err(Unfit::Missing {
+                    field: property.key,
+                    reason: Advice::new(text, [Setting::FailureBy(kind.word)]),
+                });
             }
         }
         (kind.suits)(self, material)

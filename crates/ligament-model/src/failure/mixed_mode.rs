@@ -40,8 +40,8 @@ pub(super) fn suits(choice: &Choice, material: &Material) -> Result<(), Unfit> {
         return Ok(());
     }
     Err(Unfit::Missing {
-        key: "mixed_mode_exponent",
-        reason: "because fracture_energy_sliding is not fracture_energy: G_c = G_Ic + (G_IIc - G_Ic) (G_II/G)^exponent".to_owned(),
+        field: "mixed_mode_exponent",
+        reason: "because fracture_energy_sliding is not fracture_energy: G_c = G_Ic + (G_IIc - G_Ic) (G_II/G)^exponent".into(),
     })
 }
 

@@ -30,6 +30,7 @@ mod kind;
 mod measure;
 pub mod mixed_mode;
 pub mod printed;
+mod setting;
 pub mod sliding;
 pub mod softening;
 pub mod strength;
@@ -41,6 +42,7 @@ pub use choosing::criteria;
 pub use criterion::{Criteria, Criterion, Verdict};
 pub use kind::{After, Calibration, Choice, Kind, Limits, MakeLimits, PerSpace, Property};
 pub use measure::{Measure, Weakened};
+pub use setting::Setting;
 pub use softening::{AfterLimit, Softened};
 pub use unfit::{NoLimit, Unfit};
 

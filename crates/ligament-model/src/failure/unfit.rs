@@ -1,33 +1,35 @@
 //! Why a choice of a criterion cannot be.
 
-use std::borrow::Cow;
 use std::fmt;
 
-/// Fault of a choice, or of a material for it; all but one name the key.
+use super::setting::Setting;
+use crate::advice::Advice;
+
+/// Fault of a choice, or of a material for it; all but one name the field.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Unfit {
-    /// A key, or a setting of it, that means nothing with another setting.
+    /// A setting that means nothing with another one.
     NotWith {
-        /// The key.
-        key: &'static str,
-        /// The key, or its setting.
-        named: String,
-        /// The setting with which it means nothing.
-        setting: String,
+        /// The field.
+        field: &'static str,
+        /// The field, or what it is set to.
+        named: Setting,
+        /// The other setting.
+        setting: Setting,
         /// The reason.
-        reason: Cow<'static, str>,
+        reason: Advice<Setting>,
     },
-    /// A key that is not there.
+    /// A field without a value.
     Missing {
-        /// The key.
-        key: &'static str,
-        /// The setting that makes the key necessary.
-        reason: String,
+        /// The field.
+        field: &'static str,
+        /// The setting that makes the field necessary.
+        reason: Advice<Setting>,
     },
     /// A number outside of what makes sense.
     OutOfRange {
-        /// The key.
-        key: &'static str,
+        /// The field.
+        field: &'static str,
         /// Range of numbers that make sense, in words.
         expected: String,
         /// The number.
@@ -39,60 +41,62 @@ pub enum Unfit {
         property: &'static str,
         /// The word of the criterion.
         kind: &'static str,
-        /// The key that spares the property.
+        /// The field of the criterion that spares the property.
         instead: Option<&'static str>,
     },
 }
 
 impl Unfit {
-    /// The key of the criterion, or of the material, that is wrong; none where it is the material as a whole.
-    pub fn key(&self) -> Option<&'static str> {
+    /// The field of the criterion, or of the material, that is wrong; none where it is the material as a whole.
+    pub fn field(&self) -> Option<&'static str> {
         match self {
-            Self::NotWith { key, .. }
-            | Self::Missing { key, .. }
-            | Self::OutOfRange { key, .. } => Some(key),
+            Self::NotWith { field, .. }
+            | Self::Missing { field, .. }
+            | Self::OutOfRange { field, .. } => Some(field),
             Self::WithAxes { .. } => None,
         }
     }
-}
 
-impl fmt::Display for Unfit {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+    /// The fault with the words of a layer for each setting.
+    pub fn said(&self, words: impl Fn(&Setting) -> String) -> String {
         match self {
             Self::NotWith {
                 named,
                 setting,
                 reason,
                 ..
-            } => write!(
-                formatter,
-                "`{named}` does not apply with {setting}: {reason}; remove it"
+            } => format!(
+                "`{}` does not apply with {}: {}; remove it",
+                words(named),
+                words(setting),
+                reason.said(words)
             ),
-            Self::Missing { key, reason } => {
-                write!(formatter, "missing key `{key}`: it is required {reason}")
+            Self::Missing { field, reason } => {
+                format!("missing {field}: it is required {}", reason.said(words))
             }
             Self::OutOfRange {
                 expected, found, ..
-            } => write!(formatter, "must be {expected}, found {found:?}"),
+            } => format!("must be {expected}, found {found:?}"),
             Self::WithAxes {
                 property,
                 kind,
                 instead,
-            } => {
-                write!(
-                    formatter,
-                    "`{property}` gives limits of isotropic materials only, and the criterion \"{kind}\" of [fracture] takes them \
-                     from it: "
-                )?;
+            } => format!(
+                "`{property}` gives limits of isotropic materials only, and {} takes them from it: {}",
+                words(&Setting::OneOfCriteria(kind)),
                 match instead {
-                    Some(instead) => write!(formatter, "give it its own `{instead}`"),
-                    None => write!(
-                        formatter,
-                        "take \"tension\", \"compression\" or \"sliding\" with a `limit`"
-                    ),
+                    Some(instead) => format!("give it its own `{instead}`"),
+                    None =>
+                        "take \"tension\", \"compression\" or \"sliding\" with a `limit`".to_owned(),
                 }
-            }
+            ),
         }
+    }
+}
+
+impl fmt::Display for Unfit {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.said(Setting::to_string))
     }
 }
 
@@ -145,7 +149,7 @@ impl fmt::Display for NoLimit {
             } => write!(
                 formatter,
                 "a bar with Poisson's ratio {poisson:.4} (in plane strain nu/(1 - nu)) and strengths {tensile:.4e} and {compressive:.4e} Pa fits no \
-                 friction: calibration = \"two-point\" needs poisson < tensile_strength/compressive_strength = {:.4}; take \
+                 friction: the calibration \"two-point\" needs poisson < tensile_strength/compressive_strength = {:.4}; take \
                  \"printed\", or strengths that lie closer together",
                 tensile / compressive
             ),

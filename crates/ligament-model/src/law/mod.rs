@@ -58,10 +58,14 @@ impl Law {
     };
 }
 
-/// Names of the laws of which something is true, as in `a, b or c`.
-pub fn listed(suits: impl Fn(&BondLaw) -> bool, name: impl Fn(&BondLaw) -> String) -> String {
-    let suited = LAWS.into_iter().filter(|it| suits(it));
-    let names: Vec<String> = suited.map(name).collect();
+/// The laws of which something is true.
+pub fn suited(suits: impl Fn(&BondLaw) -> bool) -> Vec<&'static BondLaw> {
+    LAWS.into_iter().filter(|it| suits(it)).collect()
+}
+
+/// Names of laws, as in `a, b or c`.
+pub fn listed(laws: &[&BondLaw], name: impl Fn(&BondLaw) -> String) -> String {
+    let names: Vec<String> = laws.iter().map(|it| name(it)).collect();
     match names.as_slice() {
         [others @ .., last] if !others.is_empty() => format!("{} or {last}", others.join(", ")),
         alone => alone.concat(),

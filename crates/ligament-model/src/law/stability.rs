@@ -63,7 +63,7 @@ impl fmt::Display for NegativeShear {
             None => write!(
                 formatter,
                 "and without rotations of the points a rigid rotation gives energy away, so that a free body is ill-posed; take \
-                 law = \"nhpd\", or a Poisson's ratio of at most {central}"
+                 the law \"nhpd\", or a Poisson's ratio of at most {central}"
             ),
             Some(from) if poisson >= from => write!(
                 formatter,

@@ -5,9 +5,10 @@ use std::fmt::Debug;
 
 use ligament_analysis::Component;
 use ligament_model::correction::patch;
-use ligament_model::law::{BondLaw, Materials, PaperCorrection, listed};
-use ligament_model::{Anisotropic, Elasticity, Isotropic, Material, Orthotropic, Plane};
+use ligament_model::law::{BondLaw, Materials, PaperCorrection, suited};
+use ligament_model::{Advice, Anisotropic, Elasticity, Isotropic, Material, Orthotropic, Plane};
 
+use super::setting::Setting;
 use super::{Action, Alpha, Analysis, Calibration, CorrectionDomain, Couple, Horizon, Load, Place};
 use super::{Reading, Setup, Surface};
 use crate::body::Origin;
@@ -76,14 +77,14 @@ impl Setup {
         let needed = Materials::of_elasticity(&material.elasticity);
         let taken = self.law.row.materials;
         if taken < needed {
-            let reason = format!(
-                "an {} material needs {}: \"{}\" is a law for {} ones",
+            let text = format!(
+                "an {} material needs {{}}: \"{}\" is a law for {} ones",
                 needed.word(),
-                listed(|it| it.materials >= needed, BondLaw::constant),
                 self.law.name(),
                 taken.word()
             );
-            return contradiction(elasticity, reason);
+            let laws = Setting::Law(suited(|it| it.materials >= needed));
+            return contradiction(elasticity, Advice::new(text, [laws]));
         }
         // Six constants are those of the plane whichever it is, and so is what the temperature does to it.
         if matches!(material.elasticity, Elasticity::Anisotropic(_))
@@ -114,24 +115,24 @@ impl Setup {
             let field = Field::element("criteria", index);
             choice
                 .check(on_exact_path)
-                .map_err(|unfit| field.error(Fault::Unfit(unfit)))?;
+                .map_err(|unfit| field.error(Fault::Unfit(unfit.into())))?;
             let (kind, law) = (choice.kind.word, self.law.name());
             if choice.kind.takes_strains() != takes_strains {
-                let reason = if takes_strains {
-                    format!(
-                        "\"{kind}\" looks at stretch and sliding of a bond between two points, and the bonds of {} have \
+                let (text, laws) = if takes_strains {
+                    let text = format!(
+                        "\"{kind}\" looks at stretch and sliding of a bond between two points, and the bonds of {{}} have \
                          strains of their own: take \"{}\"",
-                        self.law.row.constant(),
                         self.law.row.criterion.word
-                    )
+                    );
+                    (text, vec![self.law.row])
                 } else {
-                    format!(
-                        "\"{kind}\" looks at strains of the bond's own, which only {} has: for \"{law}\" take \
-                         \"critical-stretch\" or \"bond-energy\"",
-                        listed(BondLaw::has_own_strains, BondLaw::constant)
-                    )
+                    let text = format!(
+                        "\"{kind}\" looks at strains of the bond's own, which only {{}} has: for \"{law}\" take \
+                         \"critical-stretch\" or \"bond-energy\""
+                    );
+                    (text, suited(BondLaw::has_own_strains))
                 };
-                return contradiction(field.part("kind"), reason);
+                return contradiction(field.part("kind"), Advice::new(text, [Setting::Law(laws)]));
             }
             let bends = choice.kind.measures.iter().any(|it| it.takes_rotations());
             if bends && self.law.rotational_profile().is_none() {
@@ -143,7 +144,7 @@ impl Setup {
             for (place, region) in self.materials.iter().enumerate() {
                 let field = Field::element("materials", place);
                 let suits = choice.suits(&region.material);
-                suits.map_err(|unfit| field.error(Fault::Unfit(unfit)))?;
+                suits.map_err(|unfit| field.error(Fault::Unfit(unfit.into())))?;
             }
         }
         Ok(())
@@ -154,7 +155,13 @@ impl Setup {
         let field = Field::whole("correction");
         let is_discrete = self.law.options.calibration == Some(Calibration::Discrete);
         if is_discrete && surface == Surface::Volume {
-            let reason = "the discrete calibration has the surfaces in its sums: take `Surface::None`, or `Calibration::Integral`";
+            let reason = Advice::new(
+                "the discrete calibration has the surfaces in its sums: take {}, or {}",
+                [
+                    Setting::Surface(Surface::None),
+                    Setting::Calibration(Calibration::Integral),
+                ],
+            );
             return contradiction(field.part("surface"), reason);
         }
         if let Surface::Patch(settings) = surface {
@@ -165,24 +172,27 @@ impl Setup {
         }
         let (part, instead) = match (alpha, surface) {
             (Alpha::None, Surface::None) => return Ok(()),
-            (Alpha::None, _) => ("surface", "`Surface::None`"),
-            (Alpha::PartialVolume | Alpha::Length, _) => ("alpha", "`Alpha::None`"),
+            (Alpha::None, _) => ("surface", Setting::Surface(Surface::None)),
+            (Alpha::PartialVolume | Alpha::Length, _) => ("alpha", Setting::Alpha(Alpha::None)),
         };
-        let law = self.law.row.constant();
-        let reason = format!("the factors psi of {law} make all energies right: take {instead}");
-        contradiction(field.part(part), reason)
+        let text = "the factors psi of {} make all energies right: take {}";
+        let law = Setting::Law(vec![self.law.row]);
+        contradiction(field.part(part), Advice::new(text, [law, instead]))
     }
 
     /// Forces of uniform strains are those of whole cells.
     fn check_patch(&self, field: Field, settings: patch::Settings) -> Checked {
         if matches!(self.body.origin(), Origin::Points) {
-            let reason = "the forces of uniform strains are those of the cells of a body, and points from arrays have none: take a mesh or a \
-                          lattice, or `Surface::Volume`";
-            return contradiction(field, reason);
+            let text = "the forces of uniform strains are those of the cells of a body, and points from arrays have none: take a mesh or a \
+                        lattice, or {}";
+            let volume = Setting::Surface(Surface::Volume);
+            return contradiction(field, Advice::new(text, [volume]));
         }
         if self.correction.domain == CorrectionDomain::Cracked {
-            let reason = "the cells of the body know nothing of its pre-cracks: take `CorrectionDomain::Whole`";
-            return contradiction(Field::whole("correction").part("domain"), reason);
+            let text = "the cells of the body know nothing of its pre-cracks: take {}";
+            let whole = Setting::Domain(CorrectionDomain::Whole);
+            let field = Field::whole("correction").part("domain");
+            return contradiction(field, Advice::new(text, [whole]));
         }
         let (lowest, highest) = (settings.lowest, settings.highest);
         let is_share = |value: f64| value > 0.0 && value < 1.0;
@@ -236,12 +246,10 @@ impl Setup {
             let field = Field::element("probes", index).part("reading");
             if matches!(probe.reading, Reading::Section { .. }) && !self.law.row.couples_ends_alone
             {
-                let reason = format!(
-                    "the elements of {} couple up to six points, so that their forces go through no line: the forces of supports and \
-                     loads are in the history",
-                    self.law.row.constant()
-                );
-                return contradiction(field, reason);
+                let text = "the elements of {} couple up to six points, so that their forces go through no line: the forces of supports and \
+                            loads are in the history";
+                let law = Setting::Law(vec![self.law.row]);
+                return contradiction(field, Advice::new(text, [law]));
             }
             if let Reading::Between {
                 positions: ends, ..
@@ -347,10 +355,8 @@ fn check_load(field: Field, load: &Load, dimensions: usize) -> Checked {
     }
     match (load.action, &load.place) {
         (Action::BodyForce(_) | Action::Acceleration(_) | Action::BodyCouple(_), Place::At(_)) => {
-            contradiction(
-                field.part("place"),
-                "a body force or couple acts on a volume: give `Place::Group`, `Place::Box` or `Place::Everywhere`",
-            )
+            let text = "a body force or couple acts on a volume: give {}";
+            contradiction(field.part("place"), Advice::new(text, [Setting::Volumes]))
         }
         (
             Action::ForcePerLength(_) | Action::ForcePerArea(_) | Action::Pressure(_),
@@ -419,7 +425,7 @@ pub(super) fn positive(field: Field, value: Option<f64>) -> Checked {
     require(value > 0.0, field, "greater than 0", value)
 }
 
-pub(crate) fn contradiction(field: Field, reason: impl Into<Cow<'static, str>>) -> Checked {
+pub(crate) fn contradiction(field: Field, reason: impl Into<Advice<Setting>>) -> Checked {
     Err(field.error(Fault::Contradiction(reason.into())))
 }
 

@@ -2,13 +2,14 @@
 
 use ligament_analysis::Component;
 use ligament_analysis::probe::{PointField, PointReading};
-use ligament_model::Elasticity;
 use ligament_model::horizon::INCLUSION_TOLERANCE;
 use ligament_model::law::rotational::RotationalScale;
-use ligament_model::law::{BondLaw, listed};
+use ligament_model::law::{BondLaw, listed, suited};
 use ligament_model::material::Space;
+use ligament_model::{Advice, Elasticity};
 
 use super::check::{Checked, contradiction, positive, require};
+use super::setting::Setting;
 use super::{
     Action, Analysis, CrackShape, Displacement, Form, Place, Position, Reading, Section, Setup,
     Strains, Support,
@@ -68,15 +69,14 @@ impl Setup {
             let reason = format!(
                 "\"{}\" is a law of the plane: solids take {}",
                 self.law.name(),
-                listed(|it| it.exists_in(space), BondLaw::quoted)
+                listed(&suited(|it| it.exists_in(space)), BondLaw::quoted)
             );
             return contradiction(field, reason);
         }
         if let Some(option) = self.law.misplaced_option() {
-            let law = self.law.row.constant();
-            let reason =
-                format!("{law} leaves other options open: choose what its row has, and that alone");
-            return contradiction(field.part(option), reason);
+            let text = "{} leaves other options open: choose what its row has, and that alone";
+            let law = Setting::Law(vec![self.law.row]);
+            return contradiction(field.part(option), Advice::new(text, [law]));
         }
         match (self.rotational_scale, space) {
             (RotationalScale::CosseratLength(_), Space::Solid) => {
@@ -222,12 +222,10 @@ impl Setup {
         if !row.needs_lattice {
             return Ok(());
         }
-        let (law, name) = (Field::whole("law"), row.constant());
+        let (law, name) = (Field::whole("law"), Setting::Law(vec![row]));
         let Origin::Lattice(lattice) = self.body.origin() else {
-            let reason = format!(
-                "{name} classes bonds by the rows and columns of a lattice: give `LatticeBody`, or take another law"
-            );
-            return contradiction(law, reason);
+            let text = "{} classes bonds by the rows and columns of a lattice: give {}, or take another law";
+            return contradiction(law, Advice::new(text, [name, Setting::Lattice]));
         };
         let [shorter, longer] = {
             let [dx, dy] = lattice.spacing;
@@ -235,31 +233,34 @@ impl Setup {
         };
         let horizon = self.horizon.at_spacing(shorter);
         if horizon * (1.0 + INCLUSION_TOLERANCE) < longer {
-            let reason = format!(
-                "{name} takes strains between neighbours along rows and along columns: make it at least {longer:?} m, the longer side \
+            let text = format!(
+                "{{}} takes strains between neighbours along rows and along columns: make it at least {longer:?} m, the longer side \
                  of the cells (it is {horizon:?} m)"
             );
-            return contradiction(Field::whole("horizon"), reason);
+            return contradiction(Field::whole("horizon"), Advice::new(text, [name]));
         }
         let is_elastic = matches!(self.analysis, Analysis::Elastic { .. });
         if options.form == Some(Form::Pairwise) {
-            let reason = if !is_elastic {
-                "the printed forces are not those of an energy, so that there is no stiffness whose modes or breakages could be \
-                 followed: it is for elastic analyses; take `Form::Full`"
+            let (text, instead) = if !is_elastic {
+                let text = "the printed forces are not those of an energy, so that there is no stiffness whose modes or breakages could be \
+                            followed: it is for elastic analyses; take {}";
+                (text, Setting::Form(Form::Full))
             } else if !self.precracks.is_empty() {
-                "the printed factors are those of whole families: it takes no pre-cracks; take `Form::Full`"
+                let text = "the printed factors are those of whole families: it takes no pre-cracks; take {}";
+                (text, Setting::Form(Form::Full))
             } else if options.strains == Some(Strains::True) {
-                "it takes `Strains::Small` alone"
+                ("it takes {} alone", Setting::Strains(Strains::Small))
             } else {
                 return Ok(());
             };
-            return contradiction(law.part("form"), reason);
+            return contradiction(law.part("form"), Advice::new(text, [instead]));
         }
         let has_steps = matches!(self.analysis, Analysis::Stepped(_));
         if options.strains == Some(Strains::True) && !is_elastic && !has_steps {
-            let reason = "true strains are not proportional to the load, as the exact path and modes are: they are for elastic analyses and \
-                          load steps; take `Strains::Small`";
-            return contradiction(law.part("strains"), reason);
+            let text = "true strains are not proportional to the load, as the exact path and modes are: they are for elastic analyses and \
+                        load steps; take {}";
+            let small = Setting::Strains(Strains::Small);
+            return contradiction(law.part("strains"), Advice::new(text, [small]));
         }
         Ok(())
     }

@@ -88,7 +88,7 @@ impl Setup {
         if let Some(settings) = stepped {
             let list = Field::whole("analysis.load_factors");
             if !settings.load_factors.is_empty() {
-                let reason = "the load steps are those of the stages: give each [[stage]] its `steps` in the place of these";
+                let reason = "the load steps are those of the stages: give each stage its `steps` in the place of these";
                 return contradiction(list, reason);
             }
             if settings.refine_first_break != 0 {

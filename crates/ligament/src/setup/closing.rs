@@ -1,9 +1,10 @@
 //! Faces that close ask something of law, correction and analysis.
 
-use ligament_model::ElementKind;
-use ligament_model::law::{BondLaw, listed};
+use ligament_model::law::{BondLaw, listed, suited};
+use ligament_model::{Advice, ElementKind};
 
 use super::check::{Checked, contradiction};
+use super::setting::Setting;
 use super::{Analysis, CorrectionDomain, Setup};
 use crate::error::Field;
 
@@ -17,15 +18,15 @@ impl Setup {
         if self.law.element() != ElementKind::Beam {
             let reason = format!(
                 "faces can slide on each other without turning moments only where points turn, and those of \"{law}\" do not: take {}",
-                listed(|it| it.shear_form.is_some(), BondLaw::quoted)
+                listed(&suited(|it| it.shear_form.is_some()), BondLaw::quoted)
             );
             return contradiction(field, reason);
         }
         let cut_first = self.correction.domain == CorrectionDomain::Cracked;
         if cut_first && !self.precracks.is_empty() {
-            let reason = "the bonds that pre-cracks cut have the stiffness of the whole body when their faces close: take \
-                          `CorrectionDomain::Whole`";
-            return contradiction(field, reason);
+            let text = "the bonds that pre-cracks cut have the stiffness of the whole body when their faces close: take {}";
+            let whole = Setting::Domain(CorrectionDomain::Whole);
+            return contradiction(field, Advice::new(text, [whole]));
         }
         if matches!(self.analysis, Analysis::Modal(_)) {
             let reason = "natural modes are of a body whose faces stay as they are: leave it out";

@@ -14,6 +14,7 @@ mod restraint;
 mod rotation;
 mod scatter;
 mod section;
+pub mod setting;
 pub mod stage;
 mod temperature;
 

@@ -1,7 +1,10 @@
 //! What supports and loads with springs, rollers and platens must be.
 
+use ligament_model::Advice;
+
 use super::check::{Checked, contradiction, positive};
 use super::conditions::axis_along;
+use super::setting::Setting;
 use super::{Action, Analysis, Form, Load, Position, Setup, Support};
 use crate::error::Field;
 
@@ -59,8 +62,9 @@ impl Setup {
             return contradiction(field, reason);
         }
         if self.law.options.form == Some(Form::Pairwise) {
-            let reason = "springs, inclined rollers and platens need a stiffness with symmetry: take `Form::Full`";
-            return contradiction(field, reason);
+            let text =
+                "springs, inclined rollers and platens need a stiffness with symmetry: take {}";
+            return contradiction(field, Advice::new(text, [Setting::Form(Form::Full)]));
         }
         Ok(())
     }

@@ -1,11 +1,13 @@
 //! The size of the rotational stiffness must go with law and materials.
 
+use ligament_model::Advice;
 use ligament_model::law::orthotropic;
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
-use ligament_model::law::{BondLaw, listed};
+use ligament_model::law::{BondLaw, listed, suited};
 
 use super::Setup;
 use super::check::{Checked, contradiction, positive, require};
+use super::setting::Setting;
 use crate::error::Field;
 
 impl Setup {
@@ -17,13 +19,14 @@ impl Setup {
             (None, _) => {
                 let reason = format!(
                     "the points of \"{law}\" have no rotations, so that nothing resists them: take {}",
-                    listed(|it| it.shear_form.is_some(), BondLaw::quoted)
+                    listed(&suited(|it| it.shear_form.is_some()), BondLaw::quoted)
                 );
                 return contradiction(field, reason);
             }
             (Some(profile), _) if profile.rotational == RotationalStiffness::Zero => {
-                let reason = "there is no rotational stiffness to give a size to: take `RotationalStiffness::Decaying`";
-                return contradiction(field, reason);
+                let text = "there is no rotational stiffness to give a size to: take {}";
+                let decaying = Setting::RotationalStiffness(RotationalStiffness::Decaying);
+                return contradiction(field, Advice::new(text, [decaying]));
             }
             _ => {}
         }

@@ -1,9 +1,11 @@
 //! Properties that vary at random.
 
+use ligament_model::Advice;
 use ligament_model::scatter::{Distribution, Scattered};
 
 use super::Setup;
 use super::check::{Checked, contradiction, require};
+use super::setting::Setting;
 use crate::error::Field;
 
 impl Setup {
@@ -42,14 +44,17 @@ impl Setup {
         if self.criteria.iter().any(|it| it.feels(scatter.of)) {
             return Ok(());
         }
-        let reason = match scatter.of {
-            Scattered::Strength => {
-                "no criterion has a limit from a strength or of its own, so that nothing varies: take `Scattered::FractureEnergy`"
-            }
-            Scattered::FractureEnergy => {
-                "no criterion takes the fracture energy, so that nothing varies: take `Scattered::Strength`"
-            }
+        let (text, other) = match scatter.of {
+            Scattered::Strength => (
+                "no criterion has a limit from a strength or of its own, so that nothing varies: take {}",
+                Scattered::FractureEnergy,
+            ),
+            Scattered::FractureEnergy => (
+                "no criterion takes the fracture energy, so that nothing varies: take {}",
+                Scattered::Strength,
+            ),
         };
-        contradiction(field.part("of"), reason)
+        let other = Setting::Scattered(other);
+        contradiction(field.part("of"), Advice::new(text, [other]))
     }
 }

@@ -14,7 +14,7 @@ pub const LAW: Law = Law {
     parameter: Some(Parameter {
         key: "scale",
         above: 0.0,
-        of_it_alone: "only a force that falls exponentially, after = \"exponential\", has a scale",
+        of_it_alone: "only a force that falls exponentially, {}, has a scale",
         least_energy: 1.0,
         for_energy: |energy| 0.5 * (energy - 1.0) / (1.0 - LAST_FORCE),
     }),

@@ -15,7 +15,7 @@ pub struct Law {
     pub parameter: Option<Parameter>,
     /// Whether a bond goes on after its limit at all.
     pub softens: bool,
-    /// Reason why only bonds that slide may follow the law, if that is so.
+    /// Reason why only bonds that slide may follow the law, if that is so, with `{}` for the criterion of sliding.
     pub sliding_because: Option<&'static str>,
     /// The bond past its limit.
     pub at: fn(f64, f64) -> Softened,
@@ -28,11 +28,11 @@ pub struct Law {
 /// The parameter of a law of softening.
 #[derive(Debug, Clone, Copy)]
 pub struct Parameter {
-    /// Key of the parameter in a case file.
+    /// Name of the parameter.
     pub key: &'static str,
     /// Value that the parameter must exceed.
     pub above: f64,
-    /// Why no other law takes the key.
+    /// Reason why no other law has the parameter, with `{}` for this one.
     pub of_it_alone: &'static str,
     /// Energy of the whole life of a bond, over what it stores at its limit, that any parameter exceeds.
     pub least_energy: f64,

@@ -10,7 +10,7 @@ pub const LAW: Law = Law {
     parameter: Some(Parameter {
         key: "end",
         above: 1.0,
-        of_it_alone: "only a force that falls in straight lines, after = \"linear\" or \"two-branch\", has an end",
+        of_it_alone: "only a force that falls in straight lines, {} or \"two-branch\", has an end",
         least_energy: 1.0,
         for_energy: |energy| energy,
     }),

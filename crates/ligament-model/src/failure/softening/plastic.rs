@@ -9,7 +9,7 @@ pub const LAW: Law = Law {
     force: "force stays",
     parameter: None,
     softens: true,
-    sliding_because: Some("only bonds that slide, kind = \"sliding\", keep their force"),
+    sliding_because: Some("only bonds that slide, {}, keep their force"),
     at,
     end: |_| f64::INFINITY,
     total: |_| f64::INFINITY,

@@ -20,7 +20,7 @@ pub const LAW: Law = Law {
     parameter: Some(Parameter {
         key: "end",
         above: 3.0,
-        of_it_alone: "only a force that falls in straight lines, after = \"linear\" or \"two-branch\", has an end",
+        of_it_alone: "only a force that falls in straight lines, {} or \"two-branch\", has an end",
         least_energy: 5.0 / 3.0,
         for_energy: |energy| energy / ENERGY,
     }),
