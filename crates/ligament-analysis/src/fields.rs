@@ -30,24 +30,6 @@ pub fn point_damage(system: &dyn Bonds, intact: &[bool], point: u32) -> f64 {
     if all > 0.0 { broken / all } else { 0.0 }
 }
 
-/// Damage of every point by each way in which some criterion lets bonds fail, with its name.
-pub fn damages(
-    system: &dyn Bonds,
-    criteria: &Criteria,
-    state: &State,
-) -> Vec<(&'static str, Vec<f64>)> {
-    let ways = [
-        ("damage_tension", Weakened::Opening),
-        ("damage_compression", Weakened::Crushing),
-        ("damage_sliding", Weakened::Sliding),
-    ];
-    let occurs = |way: Weakened| criteria.list.iter().any(|it| it.measure.weakens() == way);
-    ways.into_iter()
-        .filter(|&(_, way)| occurs(way))
-        .map(|(name, way)| (name, damage_by(system, criteria, state, way)))
-        .collect()
-}
-
 /// Damage of every point by one way of failing (MPPD eqs 47, 48 and 51, as corrected): 1 - sum mu Omega alpha V_B / sum Omega alpha
 /// V_B over its bonds, with the force factor mu of the criteria that weaken bonds in this way.
 ///

@@ -34,6 +34,7 @@ pub mod modal;
 pub mod probe;
 pub mod problem;
 pub mod restraints;
+pub mod result_fields;
 pub mod serial;
 pub mod softened;
 pub mod softening;

@@ -1,12 +1,7 @@
 //! Probes: numbers read off the body at every load step.
 
-use ligament_model::Bonds;
-use ligament_model::failure::{Criteria, Weakened};
-
-use crate::balanced::Balanced;
 use crate::contact;
-use crate::fields;
-use crate::state::State;
+use crate::result_fields::{FIELDS, FieldReading, Solution};
 use crate::unknowns::{Component, Layout};
 
 /// A column of the history.
@@ -49,20 +44,144 @@ pub enum Reading {
     },
 }
 
-/// Fields that a probe can read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PointField {
-    /// Damage phi.
-    Damage,
-    /// Damage by one way of failing, see [`fields::damage_by`].
-    DamageBy(Weakened),
+/// A field that a probe can read at a point.
+#[derive(Debug, Clone, Copy)]
+pub struct PointField {
+    /// Word for the field, each different.
+    pub word: &'static str,
+    /// Meaning of the word, with the unit.
+    pub meaning: &'static str,
+    /// Reading of the field.
+    pub reading: PointReading,
+}
+
+/// How a probe reads a field at a point.
+#[derive(Debug, Clone, Copy)]
+pub enum PointReading {
     /// A displacement or the rotation, m or rad; zero where points do not have it.
     Motion(Component),
-    /// Strain energy density, J/m^3.
-    StrainEnergyDensity,
     /// A component of the virial stress, Pa.
     Stress(StressComponent),
+    /// A scalar of the [table of fields](FIELDS).
+    Scalar(fn(Solution<'_>, u32) -> f64),
 }
+
+/// Components of the vectors and tensors that a probe can read.
+const COMPONENTS: [PointField; 13] = [
+    motion("displacement_x", "Displacement along x, m.", Component::X),
+    motion("displacement_y", "Displacement along y, m.", Component::Y),
+    motion(
+        "rotation",
+        "Rotation in the plane, rad, counter-clockwise.",
+        Component::Rotation,
+    ),
+    motion(
+        "displacement_z",
+        "Displacement along z of a solid, m.",
+        Component::Z,
+    ),
+    motion(
+        "rotation_x",
+        "Rotation about x in a solid, rad, right-handed.",
+        Component::RotationX,
+    ),
+    motion(
+        "rotation_y",
+        "Rotation about y in a solid, rad, right-handed.",
+        Component::RotationY,
+    ),
+    motion(
+        "rotation_z",
+        "Rotation about z in a solid, rad, right-handed.",
+        Component::RotationZ,
+    ),
+    stress("stress_xx", "Virial stress xx, Pa.", StressComponent::Xx),
+    stress("stress_yy", "Virial stress yy, Pa.", StressComponent::Yy),
+    stress("stress_xy", "Virial stress xy, Pa.", StressComponent::Xy),
+    stress(
+        "stress_zz",
+        "Virial stress zz of a solid, Pa.",
+        StressComponent::Zz,
+    ),
+    stress(
+        "stress_xz",
+        "Virial stress xz of a solid, Pa.",
+        StressComponent::Xz,
+    ),
+    stress(
+        "stress_yz",
+        "Virial stress yz of a solid, Pa.",
+        StressComponent::Yz,
+    ),
+];
+
+const fn motion(word: &'static str, meaning: &'static str, component: Component) -> PointField {
+    let reading = PointReading::Motion(component);
+    PointField {
+        word,
+        meaning,
+        reading,
+    }
+}
+
+const fn stress(word: &'static str, meaning: &'static str, it: StressComponent) -> PointField {
+    let reading = PointReading::Stress(it);
+    PointField {
+        word,
+        meaning,
+        reading,
+    }
+}
+
+impl PartialEq for PointField {
+    fn eq(&self, other: &Self) -> bool {
+        self.word == other.word
+    }
+}
+
+impl PointField {
+    /// All fields: the scalars of the [table of fields](FIELDS) that are read at a point, then the components of vectors and tensors.
+    pub const ALL: [Self; N_SCALARS + COMPONENTS.len()] = {
+        let mut all = [COMPONENTS[0]; N_SCALARS + COMPONENTS.len()];
+        let (mut row, mut place) = (0, 0);
+        while row < FIELDS.len() {
+            if let FieldReading::Probed(_, at) = FIELDS[row].reading {
+                all[place] = Self {
+                    word: FIELDS[row].name,
+                    meaning: FIELDS[row].meaning,
+                    reading: PointReading::Scalar(at),
+                };
+                place += 1;
+            }
+            row += 1;
+        }
+        while place < all.len() {
+            all[place] = COMPONENTS[place - N_SCALARS];
+            place += 1;
+        }
+        all
+    };
+
+    /// The field of a word.
+    pub fn named(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|it| it.word == word)
+    }
+
+    /// Whether the field is a motion.
+    pub fn is_motion(&self) -> bool {
+        matches!(self.reading, PointReading::Motion(_))
+    }
+}
+
+/// Scalars that a probe can read.
+const N_SCALARS: usize = {
+    let (mut row, mut count) = (0, 0);
+    while row < FIELDS.len() {
+        count += matches!(FIELDS[row].reading, FieldReading::Probed(..)) as usize;
+        row += 1;
+    }
+    count
+};
 
 /// A component of a symmetric stress, in the order in which bonds give them: the three of the plane, and those that a solid has
 /// beside them.
@@ -83,13 +202,8 @@ pub enum StressComponent {
 }
 
 /// The values of probes in a state of equilibrium.
-pub(crate) fn values(
-    probes: &[Probe],
-    system: &dyn Bonds,
-    criteria: &Criteria,
-    state: &State,
-    balanced: &Balanced,
-) -> Vec<f64> {
+pub(crate) fn values(probes: &[Probe], solution: Solution<'_>) -> Vec<f64> {
+    let system = solution.system;
     let readings = probes.iter().map(|it| &it.reading);
     let subdomain = system.subdomain();
     let first_is_owned =
@@ -97,17 +211,14 @@ pub(crate) fn values(
     let parts = readings.map(|reading| match reading {
         // The motions of points that are read are known to all: one process reads the whole.
         Reading::RelativeDisplacement { places, .. } if !first_is_owned(&places[0]) => 0.0,
-        Reading::Field {
-            place,
-            field: PointField::Motion(_),
-        } if !first_is_owned(place) => 0.0,
-        Reading::Field { place, field } if !matches!(field, PointField::Motion(_)) => {
+        Reading::Field { place, field } if field.is_motion() && !first_is_owned(place) => 0.0,
+        Reading::Field { place, field } if !field.is_motion() => {
             let own = place.iter().filter(|(point, _)| subdomain.owns(*point));
             let own = Reading::Field {
                 place: own.copied().collect(),
                 field: *field,
             };
-            own.value(system, criteria, state, balanced)
+            own.value(solution)
         }
         Reading::SectionForce { bonds, component } => {
             let ends = system.ends();
@@ -119,9 +230,9 @@ pub(crate) fn values(
                 bonds: owned.copied().collect(),
                 component: *component,
             };
-            owned.value(system, criteria, state, balanced)
+            owned.value(solution)
         }
-        reading => reading.value(system, criteria, state, balanced),
+        reading => reading.value(solution),
     });
     let mut values: Vec<f64> = parts.collect();
     subdomain.all_reduce_sum(&mut values);
@@ -140,7 +251,11 @@ impl Reading {
             }
             Self::Field {
                 place,
-                field: PointField::Motion(component),
+                field:
+                    PointField {
+                        reading: PointReading::Motion(component),
+                        ..
+                    },
             } => (place.clone(), *component),
             Self::Field { .. } | Self::SectionForce { .. } => return None,
         };
@@ -152,13 +267,13 @@ impl Reading {
     }
 
     /// The value in a state of equilibrium; where processes share the body out, this one's part of it.
-    fn value(
-        &self,
-        system: &dyn Bonds,
-        criteria: &Criteria,
-        state: &State,
-        balanced: &Balanced,
-    ) -> f64 {
+    fn value(&self, solution: Solution<'_>) -> f64 {
+        let Solution {
+            system,
+            state,
+            balanced,
+            ..
+        } = solution;
         let motion = |point: u32, component: Component| {
             system.layout().value(point, component, &state.displacement)
         };
@@ -168,25 +283,15 @@ impl Reading {
                     (places.each_ref()).map(|it| mean(it, |point| motion(point, *component)));
                 second - first
             }
-            Self::Field { place, field } => mean(place, |point| match field {
-                PointField::Damage => fields::point_damage(system, &state.intact, point),
-                PointField::DamageBy(way) => {
-                    fields::point_damage_by(system, criteria, state, *way, point)
-                }
-                PointField::Motion(component) => motion(point, *component),
-                PointField::Stress(component) => {
+            Self::Field { place, field } => mean(place, |point| match field.reading {
+                PointReading::Motion(component) => motion(point, component),
+                PointReading::Stress(component) => {
                     let deformations = &balanced.deformations;
                     let mut stress = system.stress(state.bonds(), deformations, point);
                     contact::add_virial(system, &balanced.closed, point, &mut stress);
-                    stress.get(*component as usize).copied().unwrap_or(0.0)
+                    stress.get(component as usize).copied().unwrap_or(0.0)
                 }
-                PointField::StrainEnergyDensity => fields::point_energy_density(
-                    system,
-                    state.bonds(),
-                    &balanced.deformations,
-                    &balanced.closed,
-                    point,
-                ),
+                PointReading::Scalar(at) => at(solution, point),
             }),
             Self::SectionForce { bonds, component } => {
                 let deformations = &balanced.deformations;

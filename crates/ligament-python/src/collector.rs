@@ -10,14 +10,11 @@ use ligament_analysis::history::{
 };
 use ligament_model::BodyGrid;
 use ligament_output::results::{
-    FieldValues, PointFields, SoftenedBonds, WriteRule, break_columns, break_row,
-    deformation_names, displacements, history_columns, history_row, labels_of,
+    PointFields, SoftenedBonds, WriteRule, break_columns, break_row, deformation_names,
+    history_columns, history_row, labels_of, point_fields,
 };
 
 use crate::table::Table;
-
-/// Fields of a state by their names.
-pub(crate) type Fields = Vec<(&'static str, FieldValues)>;
 
 /// How far a run is: number of the step, load factor, displacement and force of the control load, broken bonds.
 #[derive(Debug, Clone, Copy)]
@@ -62,7 +59,7 @@ pub(crate) struct Collector<'a> {
 pub(crate) struct Kept {
     pub(crate) history: Table,
     pub(crate) breaks: Table,
-    pub(crate) fields: Vec<(usize, Fields)>,
+    pub(crate) fields: Vec<(usize, PointFields)>,
     pub(crate) notices: Vec<String>,
     pub(crate) first: FirstBonds,
     /// Ends of the bonds that broke, in their order.
@@ -162,9 +159,7 @@ impl Observer for Collector<'_> {
             }
         }
         if self.rule.writes_fields(record, view) {
-            let displacement = displacements(view).into_flattened();
-            let mut fields = PointFields::read(self.rule, view).into_named();
-            fields.push(("displacement", FieldValues::Numbers(3, displacement)));
+            let fields = point_fields(self.rule, view);
             kept.fields.push((record.step, fields));
         }
         // Nobody listens any more where the user has gone away.

@@ -4,10 +4,11 @@ use std::borrow::Cow;
 
 use ligament_mesh::Cell;
 use ligament_model::{BodyGrid, Canvas};
+use ligament_output::results::fields::unit_of;
 use ligament_output::vtu;
+use ligament_plot::picture::PictureError;
 use ligament_plot::picture::maps::{MappedBody, Maps};
 use ligament_plot::picture::units::Shown;
-use ligament_plot::picture::{PictureError, unit_of};
 use ligament_plot::plots::pdf::to_pdf;
 use ligament_plot::plots::png::to_png;
 use ligament_plot::plots::{Colour, Plot, Series};

@@ -3,8 +3,11 @@
 use ligament_analysis::driver::Outcome;
 use ligament_mesh::Cell;
 use ligament_model::{Absence, BodyGrid, Canvas, FixedFields, box_corners};
-use ligament_output::results::FieldValues;
+use ligament_output::results::PointFields;
 use ligament_output::results::cracks::{PartedPairs, StoredCracks};
+use ligament_output::results::fields::{
+    FieldValues, HORIZON, NEAREST_DISTANCE, PATCH_RESIDUAL, PRECRACK_SHARE, VOLUME,
+};
 use numpy::PyReadonlyArray1;
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
@@ -12,7 +15,7 @@ use pyo3::types::PyDict;
 
 use crate::arrays::{array, rows};
 use crate::case::Case;
-use crate::collector::{Fields, Kept};
+use crate::collector::Kept;
 use crate::drawing::{self, Picture};
 use crate::errors;
 use crate::in_file::in_order_of_file;
@@ -127,14 +130,14 @@ impl Run {
         } = kept;
         let by_step = PyDict::new(py);
         for (step, of_step) in fields {
-            by_step.set_item(step, named(py, of_step)?)?;
+            by_step.set_item(step, named(py, of_step, grid.canvas.is_solid())?)?;
         }
         let points = PyDict::new(py);
         points.set_item(grid.tagged, array(py, grid.tags.clone()))?;
         points.set_item("position", positions(py, &grid)?)?;
         fixed(&points, of_points)?;
-        points.set_item("volume", array(py, arrays.volumes))?;
-        points.set_item("nearest_distance", array(py, arrays.spacing))?;
+        points.set_item(VOLUME.name, array(py, arrays.volumes))?;
+        points.set_item(NEAREST_DISTANCE.name, array(py, arrays.spacing))?;
         let bonds = PyDict::new(py);
         bonds.set_item("step_of_breaking", array(py, step_of_breaking))?;
         of_outcome(&bonds, outcome)?;
@@ -197,15 +200,15 @@ fn cracks(solved: &Solved) -> Option<StoredCracks> {
 }
 
 /// Fields of the points by their names.
-fn named(py: Python<'_>, fields: Fields) -> PyResult<Bound<'_, PyDict>> {
+fn named(py: Python<'_>, fields: PointFields, in_space: bool) -> PyResult<Bound<'_, PyDict>> {
     let named = PyDict::new(py);
-    for (name, values) in fields {
-        let values = match values {
-            FieldValues::Numbers(1, values) => array(py, values),
-            FieldValues::Numbers(columns, values) => rows(py, values, columns)?,
-            FieldValues::Integers(values) => array(py, values),
+    for (field, values) in fields {
+        let values = match (values, field.components(in_space).count()) {
+            (FieldValues::Numbers(values), 1) => array(py, values),
+            (FieldValues::Numbers(values), columns) => rows(py, values, columns)?,
+            (FieldValues::Integers(values), _) => array(py, values),
         };
-        named.set_item(name, values)?;
+        named.set_item(field.name, values)?;
     }
     Ok(named)
 }
@@ -215,11 +218,11 @@ fn fixed(points: &Bound<'_, PyDict>, fixed: FixedFields) -> PyResult<()> {
     let py = points.py();
     let ratios = fixed.energy_ratios.into_iter();
     let mut fields = vec![
-        ("horizon", fixed.horizon),
-        ("precrack_share", fixed.precrack_share),
+        (HORIZON.name, fixed.horizon),
+        (PRECRACK_SHARE.name, fixed.precrack_share),
     ];
     fields.extend(ratios.map(|it| (it.field, it.at_points)));
-    fields.push(("patch_residual", fixed.patch_residual));
+    fields.push((PATCH_RESIDUAL.name, fixed.patch_residual));
     for (name, values) in fields {
         if !values.is_empty() {
             points.set_item(name, array(py, values))?;

@@ -1,5 +1,6 @@
 //! The body of a run: its points in the order of the page, and the triangles that are drawn.
 
+use ligament_output::results::location;
 use ligament_output::vtu::Cell;
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::{Error, FieldLocation};
@@ -34,12 +35,8 @@ impl Body {
     /// If the file cannot be used.
     pub(crate) fn read(file: &VtuFile) -> Result<Self, Error> {
         let (corners, cells) = (file.points_in_plane()?, file.cells()?);
-        let is_mesh = file.components(FieldLocation::Point, "horizon").is_some();
-        let location = if is_mesh {
-            FieldLocation::Point
-        } else {
-            FieldLocation::Cell
-        };
+        let location = location(file);
+        let is_mesh = location == FieldLocation::Point;
         let (tagged, tags) = file.tags(location)?;
         let around = |cell: &Cell| {
             cell.points()

@@ -3,24 +3,13 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use ligament_output::results::fields::{Components, Interest, ResultField, unit_of};
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::{Error, FieldLocation};
-use ligament_plot::picture::unit_of;
 use rayon::prelude::*;
 
 use crate::body::{Body, ordered};
 use crate::columns::{Column, Digits, Encoder};
-
-/// Beginnings of names of fields, those first that a reader wants first; all others follow in the order of the files.
-const FIRST: [&str; 7] = [
-    "displacement",
-    "damage",
-    "stress",
-    "strain_energy",
-    "dissipated",
-    "temperature",
-    "rotation",
-];
 
 /// Share of the points whose size is at most the usual one.
 const USUAL: f64 = 0.98;
@@ -47,12 +36,11 @@ pub(crate) struct Field {
 impl Field {
     /// Whether a reader wants it first.
     pub(crate) fn is_main(&self) -> bool {
-        self.rank() < FIRST.len()
+        self.interest() != Interest::Low
     }
 
-    fn rank(&self) -> usize {
-        let place = FIRST.iter().position(|it| self.name.starts_with(it));
-        place.unwrap_or(FIRST.len())
+    fn interest(&self) -> Interest {
+        ResultField::named(&self.name).map_or(Interest::Low, |it| it.interest)
     }
 
     /// Letters that it takes in a page.
@@ -94,7 +82,7 @@ pub(crate) fn read(
             .try_for_each(|it| it.append(&file, body))?;
     }
     let mut fields: Vec<Field> = growing.into_iter().map(Growing::finish).collect();
-    fields.sort_by_key(Field::rank);
+    fields.sort_by_key(|it| it.interest().rank());
     Ok(fields)
 }
 
@@ -111,8 +99,9 @@ fn begin(file: &VtuFile, location: FieldLocation, digits: u32) -> Vec<Growing> {
             (_, []) => (0..stride).map(|it| it.to_string()).collect(),
             _ => names.to_vec(),
         };
-        let digits = match name {
-            "fragment" | "held" => Digits::Whole,
+        let known = ResultField::named(name);
+        let digits = match known.map(|it| it.components(false)) {
+            Some(Components::Integer) => Digits::Whole,
             _ => Digits::OfLargest(digits),
         };
         let count = components.len().max(1);

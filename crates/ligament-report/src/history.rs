@@ -4,6 +4,7 @@ use std::path::Path;
 
 use ligament_output::Error;
 use ligament_output::csv::read::Sheet;
+use ligament_output::results::columns::unit_of;
 use ligament_plot::picture::units::Shown;
 use ligament_plot::stored_loading::stored_loading;
 use serde_json::{Value, json};
@@ -32,12 +33,7 @@ pub(crate) fn read(folder: &Path) -> Result<Value, Error> {
         let unit = match name.as_str() {
             "displacement" => units.displacement,
             "reaction" => units.force,
-            name if name.ends_with("_energy") || name == "external_work" => "J",
-            name => match name.rsplit_once('.') {
-                Some((_, "force_x" | "force_y" | "force_z")) => "N",
-                Some((_, "moment" | "moment_x" | "moment_y" | "moment_z")) => "N m",
-                _ => "-",
-            },
+            name => unit_of(name),
         };
         columns.push(column(name, unit, &values));
     }

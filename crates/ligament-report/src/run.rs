@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use ligament_output::csv::read::Sheet;
 use ligament_output::folder::RESOLVED_CASE;
 use ligament_output::results::cracks::StoredCracks;
+use ligament_output::results::fields::DISPLACEMENT;
 use ligament_output::results::outputs::{OutputKind, Outputs};
 use ligament_output::results::solid_cracks::has_solid;
 use ligament_output::results::stored::StoredRun;
@@ -118,7 +119,7 @@ fn drawn(
     let body = Body::read(first)?;
     let bonds = stored(of.folder)?.map(|run| Bonds::new(&run, &body));
     let fields = fields::read(of.files, &body, choice.digits)?;
-    let moved = fields.iter().find(|it| it.name == "displacement");
+    let moved = fields.iter().find(|it| it.name == DISPLACEMENT.name);
     let before = texts.letters();
     let described = describe_body(&body, moved.map_or(0.0, |it| it.usual), texts);
     let of_body = texts.letters() - before;

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
+use ligament_output::results::fields::{Interest, OPENING, ResultField, SLIDING};
 use ligament_output::results::outputs::OutputKind;
 use ligament_output::results::solid_body::SolidBody;
 use ligament_output::results::steps::{StepChoice, StepName};
@@ -21,9 +22,6 @@ use serde_json::{Value, json};
 use crate::error::ReportError;
 use crate::parts::{Budget, Choice, Drawn, Stored, Texts};
 
-/// Fields of the points that a crack surface has of its own.
-const OF_CRACK: [&str; 2] = ["opening", "sliding"];
-
 /// Level of compression: higher ones take several times as long for a hundredth.
 const LEVEL: u8 = 6;
 
@@ -32,15 +30,6 @@ const AT_ONCE: usize = 8;
 
 /// Width of a picture, mm: letters of nine pixels are read well on a screen.
 const WIDTH: f64 = 100.0;
-
-/// Fields of the points of which there are pictures, by the beginnings of their names, those first that a reader wants first.
-const SHOWN: [&str; 5] = [
-    "displacement",
-    "damage",
-    "stress",
-    "strain_energy",
-    "temperature",
-];
 
 /// Fields, of those that a reader wants first, that are shown from behind and in sections too.
 const EVERYWHERE: usize = 2;
@@ -181,8 +170,11 @@ fn sights(of: &Stored<'_>, body: &SolidBody) -> Result<Vec<Sight>, Error> {
 }
 
 /// The place of a field among those of which there are pictures.
-fn rank(name: &str) -> Option<usize> {
-    SHOWN.iter().position(|it| name.starts_with(it))
+fn rank(name: &str) -> Option<u8> {
+    match ResultField::named(name)?.interest {
+        Interest::Pictured(rank) => Some(rank),
+        Interest::Main(_) | Interest::Low => None,
+    }
 }
 
 /// A coordinate in mm without digits that nobody reads.
@@ -199,8 +191,7 @@ fn fields(of: &Stored<'_>, location: FieldLocation) -> Result<[Vec<String>; 2], 
     for path in of.files.values() {
         let file = VtuFile::open(path)?;
         for (place, name) in file.fields(location).enumerate() {
-            // Damage of single criteria tells little more than all of it.
-            let Some(rank) = rank(name).filter(|_| !name.starts_with("damage_")) else {
+            let Some(rank) = rank(name) else {
                 continue;
             };
             let is_zero = |it: &f64| rank > 0 && (*it == 0.0 || !it.is_finite());
@@ -240,7 +231,10 @@ fn series<'a>(sights: &'a [Sight], [fields, components]: &[Vec<String>; 2]) -> V
         series.collect::<Vec<Series<'a>>>()
     };
     let mut all = of("outside", fields);
-    all.extend(of("crack", &OF_CRACK.map(str::to_owned)));
+    all.extend(of(
+        "crack",
+        &[&OPENING, &SLIDING].map(|it| it.name.to_owned()),
+    ));
     let few = &fields[..fields.len().min(EVERYWHERE)];
     all.extend(of("section", few));
     all.extend(of("behind", few));

@@ -13,6 +13,7 @@ use crate::contact::ContactEnergy;
 use crate::history::StepRecord;
 use crate::probe;
 use crate::problem::Problem;
+use crate::result_fields::Solution;
 use crate::serial;
 use crate::serial::Serial;
 use crate::state::State;
@@ -269,10 +270,12 @@ pub(super) fn step_record(
         group_forces: group_forces(problem, state.load_factor, &reactions),
         probes: probe::values(
             &problem.probes,
-            &*problem.system,
-            &problem.criteria,
-            state,
-            balanced,
+            Solution {
+                system: &*problem.system,
+                criteria: &problem.criteria,
+                state,
+                balanced,
+            },
         ),
     }
 }

@@ -17,6 +17,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use ligament_analysis::connectivity::Fragments;
+use ligament_output::results::fields::ModelPoints;
 use ligament_output::results::point_grid;
 
 use ligament::Model;
@@ -98,13 +99,12 @@ fn tell(
         std::fs::create_dir_all(folder)?;
         let path = folder.join(FIELDS);
         let (grid, system) = (model.body().grid(), &model.system);
-        point_grid(
-            &path,
-            &grid,
-            system.volumes(),
-            system.spacing(),
-            &model.fixed,
-        )?;
+        let points = ModelPoints {
+            fixed: &model.fixed,
+            volumes: system.volumes(),
+            spacing: system.spacing(),
+        };
+        point_grid(&path, &grid, points)?;
         writeln!(out, "fields written to {}", path.display())?;
     }
     Ok(())

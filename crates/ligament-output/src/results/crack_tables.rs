@@ -8,10 +8,11 @@
 
 use std::path::Path;
 
-use ligament_analysis::energy_release::{GrowthState, ReleaseRates, release_rates};
 use ligament_model::raised;
 use ligament_post::crack::CrackLine;
 
+use super::columns::{CRACK, CRACK_TIPS, names};
+use super::crack_growth::{Grown, write_growth};
 use super::cracks::{CrackRecord, StoredCracks};
 use crate::Error;
 use crate::atomic::remove_file;
@@ -26,27 +27,8 @@ pub const CRACK_FILES: [&str; 4] = [
     "crack_growth.csv",
 ];
 
-/// Columns of `crack.csv`, of `crack_tips.csv` and of `crack_growth.csv`.
-pub const CRACK_COLUMNS: [&[&str]; 3] = [
-    &["step", "line", "x", "y", "along", "end"],
-    &["step", "load_factor", "displacement", "line", "x", "y"],
-    &[
-        "step",
-        "load_factor",
-        "displacement",
-        "reaction",
-        "lines",
-        "tips",
-        "length",
-        "area",
-        "release_rate_compliance",
-        "release_rate_energy",
-        "dissipated_per_area",
-    ],
-];
-
 /// A record of the history with its cracks.
-struct Grown<'a> {
+struct WithLines<'a> {
     record: &'a CrackRecord,
     lines: Vec<CrackLine>,
 }
@@ -64,19 +46,25 @@ pub fn write_cracks(
     let lines = cracks.lines(step);
     write_lines(&folder.join(CRACK_FILES[0]), step, &lines)?;
     write_grid(&folder.join(CRACK_FILES[1]), &lines)?;
-    let grown: Vec<Grown<'_>> = (cracks.grown_records().into_iter())
-        .map(|record| Grown {
+    let grown: Vec<WithLines<'_>> = (cracks.grown_records().into_iter())
+        .map(|record| WithLines {
             lines: cracks.lines_at(record),
             record,
         })
         .collect();
     write_tips(&folder.join(CRACK_FILES[2]), &grown)?;
-    write_growth(&folder.join(CRACK_FILES[3]), cracks, &grown)?;
+    let least = cracks.thickness * cracks.mean_horizon();
+    write_growth(
+        &folder.join(CRACK_FILES[3]),
+        false,
+        &sizes(cracks, &grown),
+        least,
+    )?;
     Ok(lines)
 }
 
 fn write_lines(path: &Path, step: usize, lines: &[CrackLine]) -> Result<(), Error> {
-    let mut table = Table::create(path, CRACK_COLUMNS[0])?;
+    let mut table = Table::create(path, &names(CRACK, false))?;
     for (number, line) in (1_u32..).zip(lines) {
         let last = line.places.len() - 1;
         for (place, (&[x, y], along)) in line.places.iter().zip(line.along()).enumerate() {
@@ -122,9 +110,9 @@ fn write_grid(path: &Path, lines: &[CrackLine]) -> Result<(), Error> {
     vtu::write_vtu(path, &grid)
 }
 
-fn write_tips(path: &Path, grown: &[Grown<'_>]) -> Result<(), Error> {
-    let mut table = Table::create(path, CRACK_COLUMNS[1])?;
-    for Grown { record, lines } in grown {
+fn write_tips(path: &Path, grown: &[WithLines<'_>]) -> Result<(), Error> {
+    let mut table = Table::create(path, &names(CRACK_TIPS, false))?;
+    for WithLines { record, lines } in grown {
         for (number, line) in (1_u32..).zip(lines) {
             for [x, y] in line.tips() {
                 table.append(&[
@@ -141,37 +129,17 @@ fn write_tips(path: &Path, grown: &[Grown<'_>]) -> Result<(), Error> {
     Ok(())
 }
 
-fn write_growth(path: &Path, cracks: &StoredCracks, grown: &[Grown<'_>]) -> Result<(), Error> {
-    let mut table = Table::create(path, CRACK_COLUMNS[2])?;
-    // A sum of nothing would be -0.0.
-    let length = |it: &Grown<'_>| (it.lines.iter()).fold(0.0, |sum, line| sum + line.length());
-    let state = |it: &Grown<'_>| GrowthState {
-        area: cracks.thickness * length(it),
-        displacement: it.record.displacement,
-        reaction: it.record.reaction,
-        released_energy: it.record.released_energy,
-        dissipated_energy: it.record.dissipated_energy,
+/// Sizes of the cracks in the records.
+fn sizes<'a>(cracks: &StoredCracks, records: &[WithLines<'a>]) -> Vec<Grown<'a>> {
+    let size = |WithLines { record, lines }: &WithLines<'a>| {
+        // A sum of nothing would be -0.0.
+        let length = lines.iter().fold(0.0, |sum, line| sum + line.length());
+        let tips = lines.iter().flat_map(CrackLine::tips).count();
+        Grown {
+            record,
+            area: cracks.thickness * length,
+            counts: vec![lines.len().into(), tips.into(), length.into()],
+        }
     };
-    let states: Vec<GrowthState> = grown.iter().map(state).collect();
-    let rates = release_rates(&states, cracks.thickness * cracks.mean_horizon());
-    for ((it, state), rates) in grown.iter().zip(&states).zip(rates) {
-        let tips = it.lines.iter().flat_map(CrackLine::tips).count();
-        let rate = |of: fn(&ReleaseRates) -> f64| {
-            rates.as_ref().map_or(Value::Missing, |it| of(it).into())
-        };
-        table.append(&[
-            it.record.step.into(),
-            it.record.load_factor.into(),
-            it.record.displacement.into(),
-            it.record.reaction.into(),
-            it.lines.len().into(),
-            tips.into(),
-            length(it).into(),
-            state.area.into(),
-            rate(|it| it.by_compliance),
-            rate(|it| it.by_energy),
-            rate(|it| it.dissipated),
-        ])?;
-    }
-    Ok(())
+    records.iter().map(size).collect()
 }

@@ -4,11 +4,13 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use ligament_analysis::history::StepRecord;
+use ligament_analysis::result_fields::{HORIZON, VOLUME};
 use ligament_mesh::Cell;
 use ligament_model::{BodyGrid, Canvas};
 use ligament_post::crack::{CrackLine, Faces, Part, crack_lines};
 
 use super::outputs::{OutputKind, Outputs, cut_pairs};
+use super::point_fields::location;
 use super::softening_table;
 use crate::csv::read::{Row, Sheet};
 use crate::vtu::read::VtuFile;
@@ -293,19 +295,19 @@ impl StoredBody {
         let cells =
             cells.ok_or_else(|| file.strange("its cells are no triangles or quadrangles"))?;
         let area: f64 = cells.iter().map(|cell| cell.area(&corners).abs()).sum();
-        let is_mesh = file.components(FieldLocation::Point, "horizon").is_some();
-        let (location, positions, canvas) = if is_mesh {
-            (FieldLocation::Point, corners, Canvas::Between(cells))
+        let location = location(&file);
+        let (positions, canvas) = if location == FieldLocation::Point {
+            (corners, Canvas::Between(cells))
         } else {
             let (positions, squares) = squares(&cells, &corners);
-            (FieldLocation::Cell, positions, Canvas::Around(squares))
+            (positions, Canvas::Around(squares))
         };
-        let volumes = file.finite_numbers(location, "volume")?;
+        let volumes = file.finite_numbers(location, VOLUME.name)?;
         let (_, tags) = file.tags(location)?;
         Ok(Self {
             positions,
             canvas,
-            horizon: file.finite_numbers(location, "horizon")?,
+            horizon: file.finite_numbers(location, HORIZON.name)?,
             thickness: volumes.iter().sum::<f64>() / area,
             places: tags.into_iter().zip(0..).collect(),
         })

@@ -53,14 +53,10 @@ pub fn write_level_set(
     let names: Vec<Vec<&str>> = (fields.iter())
         .map(|it| it.components.iter().map(String::as_str).collect())
         .collect();
-    let point_fields = fields.iter().zip(&names).map(|(field, names)| {
-        let values = &field.values;
-        match field.stride {
-            1 => Field::scalar(&field.name, values),
-            3 if names.is_empty() => Field::vector(&field.name, values.as_chunks().0),
-            _ => Field::components(&field.name, names, values),
-        }
-    });
+    let point_fields = fields
+        .iter()
+        .zip(&names)
+        .map(|(field, names)| Field::numbers(&field.name, field.stride, names, &field.values));
     let cells: Vec<Cell> = (found.triangles.iter().copied())
         .map(Cell::Triangle)
         .collect();

@@ -16,6 +16,8 @@
 //! So is the surface in a solid on which a field has a value ([`write_level_set`]).
 //! A modal analysis writes `modes.csv`, `mode_NNNN.vtu` and `modes.pvd` instead ([`write_modes`]).
 
+pub mod columns;
+mod crack_growth;
 mod crack_tables;
 pub mod cracks;
 mod grid;
@@ -40,7 +42,10 @@ mod tables;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
+use ligament_analysis::result_fields::{DISPLACEMENT, displacements};
 use ligament_model::{BodyGrid, FixedFields};
+
+pub use ligament_analysis::result_fields as fields;
 
 use crate::Error;
 use crate::folder::ResultFolder;
@@ -48,15 +53,15 @@ use crate::pvd::Collection;
 use crate::vtu::{self, Field};
 use crate::written::Written;
 
-pub use crack_tables::{CRACK_COLUMNS, CRACK_FILES, write_cracks};
+pub use crack_tables::{CRACK_FILES, write_cracks};
 use grid::Lines;
-pub use grid::{fixed_fields, point_grid, write_points};
+pub use grid::{point_grid, write_points};
 use largest::Largest;
 pub use level_files::write_level_set;
 pub use modes::write_modes;
 use outputs::remove_others;
 pub use pieces::PieceWriter;
-pub use point_fields::{FieldValues, PointFields, displacements};
+pub use point_fields::{PointFields, location, point_fields};
 pub use rule::{Time, WriteRule};
 pub use so_far::SoFar;
 use softening_table::SofteningTable;
@@ -241,7 +246,7 @@ impl<'a> ResultWriter<'a> {
             .collect();
         let intact = view.state.intact.iter();
         let state: Vec<i64> = intact.map(|&intact| i64::from(intact)).collect();
-        let displacement = point_fields::displacements(view);
+        let displacement = displacements(view);
         let lines = Lines::new(self.grid, system.ends(), &[]);
         let mut cell_fields = vec![
             Field::integer("intact", &state),
@@ -255,7 +260,7 @@ impl<'a> ResultWriter<'a> {
         let named = names.iter().zip(&deformations);
         cell_fields.extend(named.map(|(name, values)| Field::scalar(name, values)));
         let name = format!("bonds_{:04}.vtu", record.step);
-        let displacement = [Field::vector("displacement", &displacement)];
+        let displacement = [Field::numbers(DISPLACEMENT.name, 3, &[], &displacement)];
         lines.write(
             &self.folder.file(&name),
             self.grid,

@@ -17,6 +17,7 @@
 use std::path::{Path, PathBuf};
 
 use ligament_analysis::driver::Problem;
+use ligament_analysis::result_fields::{HORIZON, VOLUME};
 use ligament_model::{BodyGrid, FixedFields};
 
 use super::grid::Lines;
@@ -82,8 +83,8 @@ pub(super) fn write(
     );
     cell_fields.extend(largest.iter().flat_map(|columns| columns.fields()));
     let point_fields = [
-        Field::scalar("volume", system.volumes()),
-        Field::scalar("horizon", &fixed.horizon),
+        Field::scalar(VOLUME.name, system.volumes()),
+        Field::scalar(HORIZON.name, &fixed.horizon),
         Field::integer("no_fail", &no_fail),
         Field::integer(grid.tagged, &grid.tags),
     ];

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use ligament_analysis::result_fields::{DAMAGE, DISPLACEMENT, ResultField, STRAIN_ENERGY_DENSITY};
 use ligament_model::Canvas;
 use ligament_post::surfaces::opened_cells;
 
@@ -11,7 +12,7 @@ use crate::vtu::{self, Cell, Field, UnstructuredGrid};
 use crate::{Error, FieldLocation};
 
 /// Fields of the points that the file has, beside the displacement.
-const FIELDS: [&str; 2] = ["damage", "strain_energy_density"];
+const FIELDS: [&ResultField; 2] = [&DAMAGE, &STRAIN_ENERGY_DENSITY];
 
 /// Whether points share cells, which can be opened; the boxes of a lattice move each with its point.
 pub(super) fn has_cells(cracks: &SolidCracks) -> bool {
@@ -36,24 +37,24 @@ pub(super) fn write_opened(
         let sum: f64 = points.iter().map(|it| value(*it as usize)).sum();
         sum / points.len() as f64
     };
-    let displacement = cracks.body.vectors(fields, "displacement")?;
+    let displacement = cracks.body.vectors(fields, DISPLACEMENT.name)?;
     let follows = opened.follows.iter();
     let moved: Vec<[f64; 3]> = follows
         .map(|points| [0, 1, 2].map(|axis| mean(points, &|it| displacement[it][axis])))
         .collect();
     let mut named = Vec::new();
-    for name in FIELDS {
+    for ResultField { name, .. } in FIELDS {
         if let Some(values) = fields.numbers(FieldLocation::Point, name)? {
             let follows = opened.follows.iter();
             let values: Vec<f64> = follows
                 .map(|points| mean(points, &|it| values[it]))
                 .collect();
-            named.push((name, values));
+            named.push((*name, values));
         }
     }
     let cells: Vec<Cell> = opened.cells.iter().copied().map(Cell::Solid).collect();
     let of: Vec<i64> = opened.of.iter().map(|it| i64::from(*it)).collect();
-    let mut point_fields = vec![Field::vector("displacement", &moved)];
+    let mut point_fields = vec![Field::vector(DISPLACEMENT.name, &moved)];
     point_fields.extend(
         named
             .iter()

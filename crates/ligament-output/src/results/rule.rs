@@ -2,6 +2,7 @@
 
 use ligament_analysis::ControlKind;
 use ligament_analysis::history::{StepRecord, View};
+use ligament_analysis::interface::StressReading;
 
 /// Rules of what is written, and how often.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,6 +31,14 @@ pub enum Time {
 }
 
 impl WriteRule {
+    /// Whether the fields have a stress.
+    pub(super) fn has(&self, stress: StressReading) -> bool {
+        match stress {
+            StressReading::Virial => self.virial,
+            StressReading::Traction => self.traction,
+        }
+    }
+
     /// Whether fields are written in the state of a record.
     pub fn writes_fields(&self, record: &StepRecord, view: &View<'_>) -> bool {
         view.is_last || self.is_due(record.step)

@@ -6,7 +6,8 @@ use ligament_analysis::serial;
 use ligament_model::BodyGrid;
 use ligament_model::failure::Weakened;
 
-use super::tables::labels_of;
+use super::columns::{SOFTENED_BY, SOFTENING, names};
+use super::tables::{ends, labels_of};
 use crate::Error;
 use crate::csv::{Table, Value};
 use crate::folder::ResultFolder;
@@ -20,8 +21,6 @@ pub const OPEN: f64 = 0.1;
 
 /// Words for the two things that a row tells.
 pub(super) const EVENTS: [&str; 2] = ["begins", "opens"];
-
-const COLUMNS: [&str; 5] = ["step", "load_factor", "displacement", "reaction", "event"];
 
 /// The table of a run whose bonds soften.
 pub(super) struct SofteningTable {
@@ -69,10 +68,9 @@ impl SofteningTable {
         if !problem.criteria.soften() || !problem.system.subdomain().is_whole() {
             return Ok(None);
         }
-        let ends = ["a", "b"].map(|end| format!("{tagged}_{end}"));
-        let columns: Vec<&str> = (COLUMNS.into_iter())
-            .chain(ends.iter().map(String::as_str))
-            .chain(["criterion"])
+        let columns: Vec<&str> = (names(SOFTENING, false).into_iter())
+            .chain(ends(tagged))
+            .chain(names(SOFTENED_BY, false))
             .collect();
         Ok(Some(Self {
             table: Table::create(folder.file(FILE), &columns)?,
@@ -87,7 +85,7 @@ impl SofteningTable {
         problem: &Problem,
         told: Told,
     ) -> Result<Self, Error> {
-        let n_columns = COLUMNS.len() + 3;
+        let n_columns = SOFTENING.len() + 2 + SOFTENED_BY.len();
         Ok(Self {
             table: Table::cut_back(folder.file(FILE), n_columns, told.written.length)?,
             criteria: labels_of(problem),

@@ -6,6 +6,7 @@ use std::path::Path;
 use ligament_mesh::SolidCell;
 use ligament_model::{BodyGrid, Canvas, Numbering};
 
+use super::point_fields::location;
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation, vtu};
 
@@ -44,11 +45,8 @@ impl SolidBody {
         };
         let cells: Option<Vec<SolidCell>> = file.cells()?.into_iter().map(solid).collect();
         let cells = cells.ok_or_else(|| file.strange("its cells are not those of a solid"))?;
-        let is_mesh = file.components(FieldLocation::Point, "horizon").is_some();
-        let location = match is_mesh {
-            true => FieldLocation::Point,
-            false => FieldLocation::Cell,
-        };
+        let location = location(file);
+        let is_mesh = location == FieldLocation::Point;
         let (tagged, tags) = file.tags(location)?;
         let (positions, canvas) = match is_mesh {
             true => (corners, Canvas::Solid(cells)),

@@ -3,6 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
+use ligament_analysis::result_fields::HORIZON;
 use ligament_post::surfaces::{CrackSurface, Link, Links, Tetrahedra, crack_surface};
 
 use super::cracks::{CrackRecord, Moment, broken_pairs, grown, softened_pairs};
@@ -62,7 +63,7 @@ impl SolidCracks {
         };
         let file = VtuFile::open(path)?;
         let body = SolidBody::read(&file)?;
-        let horizon = file.finite_numbers(body.location, "horizon")?;
+        let horizon = file.finite_numbers(body.location, HORIZON.name)?;
         let records = Sheet::read(folder.join("history.csv"))?.rows(CrackRecord::read)?;
         let opened = opened(folder, &body, &records)?;
         let cut = cut_pairs(folder)?.unwrap_or_default();

@@ -3,6 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use ligament_analysis::result_fields::{
+    DISPLACEMENT, HORIZON, ROTATION, THERMAL_STRAIN, VOLUME, thermal_strain_places,
+};
 use ligament_analysis::{BondDeformation, ElementKind};
 use ligament_model::Absence;
 use ligament_model::tensor::SymTensor;
@@ -10,7 +13,6 @@ use ligament_model::thermal::FreeStrains;
 
 use super::model_file::{COEFFICIENTS, model_file};
 use super::outputs::{OutputKind, kind_of, numbered_files, require_results};
-use super::point_fields::{THERMAL_STRAIN, place_of, thermal_strain_names};
 use super::tables::told;
 use crate::csv::read::{Row, Sheet};
 use crate::vtu::read::VtuFile;
@@ -201,8 +203,8 @@ impl StoredRun {
         } else {
             FieldLocation::Point
         };
-        let displacement = file.finite_numbers(location, "displacement")?;
-        let rotation = file.finite_numbers(location, "rotation")?;
+        let displacement = file.finite_numbers(location, DISPLACEMENT.name)?;
+        let rotation = file.finite_numbers(location, ROTATION.name)?;
         let rotation: Vec<[f64; 3]> = match self.model.in_space {
             true => rotation.as_chunks().0.to_vec(),
             false => rotation
@@ -211,8 +213,8 @@ impl StoredRun {
                 .collect(),
         };
         let n_points = self.model.positions.len();
-        let thermal = match file.components(location, THERMAL_STRAIN) {
-            Some(_) => file.finite_numbers(location, THERMAL_STRAIN)?,
+        let thermal = match file.components(location, THERMAL_STRAIN.name) {
+            Some(_) => file.finite_numbers(location, THERMAL_STRAIN.name)?,
             None => Vec::new(),
         };
         if rotation.len() != n_points {
@@ -230,17 +232,15 @@ impl StoredRun {
 
 /// Strains of the points from the values of their components in a file.
 fn free_strains(in_space: bool, values: &[f64]) -> FreeStrains {
-    let names = thermal_strain_names(in_space);
     let of_point = |values: &[f64]| {
         let mut strains = [0.0; 6];
-        for (name, value) in names.iter().zip(values) {
-            if let Some(place) = place_of(name) {
-                strains[place] = *value;
-            }
+        for (place, value) in thermal_strain_places(in_space).zip(values) {
+            strains[place] = *value;
         }
         SymTensor::<3>::from_engineering(&strains)
     };
-    FreeStrains::new(values.chunks(names.len()).map(of_point))
+    let count = THERMAL_STRAIN.components(in_space).count();
+    FreeStrains::new(values.chunks(count).map(of_point))
 }
 
 fn require_run(folder: &Path) -> Result<(), Error> {
@@ -281,8 +281,8 @@ impl StoredModel {
             tags,
             in_space: positions.iter().any(|it| it[2] != 0.0),
             positions,
-            volumes: numbers("volume")?,
-            horizon: numbers("horizon")?,
+            volumes: numbers(VOLUME.name)?,
+            horizon: numbers(HORIZON.name)?,
             no_fail: no_fail.into_iter().map(|flag| flag != 0).collect(),
             criteria: criteria(folder, &file, &bonds.absence)?,
             largest: StoredLargest::read(&file, &bonds.absence)?,

@@ -13,16 +13,15 @@
 
 use std::path::Path;
 
-use ligament_analysis::energy_release::{GrowthState, ReleaseRates, release_rates};
+use ligament_analysis::result_fields::{DISPLACEMENT, OPENING, SLIDING};
 use ligament_post::surfaces::CrackSurface;
 
-use super::cracks::CrackRecord;
+use super::crack_growth::{Grown, write_growth};
 use super::opened_files::{has_cells, write_opened};
 use super::outputs::Outputs;
 use super::solid_cracks::SolidCracks;
 use crate::Error;
 use crate::atomic::remove_file;
-use crate::csv::{Table, Value};
 use crate::pvd::Collection;
 use crate::replace_file;
 use crate::vtu::read::VtuFile;
@@ -30,18 +29,6 @@ use crate::vtu::{self, Cell, Field, UnstructuredGrid};
 
 /// Files that are written beside the results of a run of a solid.
 pub const SURFACE_FILES: [&str; 4] = ["crack.vtu", "crack.stl", "opened.vtu", "crack_growth.csv"];
-
-const GROWTH: [&str; 9] = [
-    "step",
-    "load_factor",
-    "displacement",
-    "reaction",
-    "parts",
-    "area",
-    "release_rate_compliance",
-    "release_rate_energy",
-    "dissipated_per_area",
-];
 
 /// Writes the surface of a step, and how it grew over all steps; gives the surface.
 ///
@@ -65,7 +52,8 @@ pub fn write_surface(
         Some(fields) => write_opened(&opened, cracks, step, &fields)?,
         None => remove_file(&opened)?,
     }
-    write_growth(&growth, cracks)?;
+    let least = cracks.mean_horizon().powi(2);
+    write_growth(&growth, true, &sizes(cracks), least)?;
     Ok(surface)
 }
 
@@ -113,7 +101,7 @@ fn write_grid(
         return remove_file(path);
     }
     let jumps = match fields {
-        Some(file) => cracks.jumps(surface, &cracks.body.vectors(file, "displacement")?),
+        Some(file) => cracks.jumps(surface, &cracks.body.vectors(file, DISPLACEMENT.name)?),
         None => vec![[f64::NAN; 2]; surface.places.len()],
     };
     let [opening, sliding]: [Vec<f64>; 2] =
@@ -143,8 +131,8 @@ fn write_grid(
         points: &surface.places,
         cells: &cells,
         point_fields: &[
-            Field::scalar("opening", &opening),
-            Field::scalar("sliding", &sliding),
+            Field::scalar(OPENING.name, &opening),
+            Field::scalar(SLIDING.name, &sliding),
             Field::scalar("load_factor", &load_factor),
             Field::integer("step", &step),
         ],
@@ -188,35 +176,15 @@ fn unit_normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
     }
 }
 
-fn write_growth(path: &Path, cracks: &SolidCracks) -> Result<(), Error> {
-    let mut table = Table::create(path, &GROWTH)?;
-    let grown: Vec<(&CrackRecord, CrackSurface)> = (cracks.grown_records().into_iter())
-        .map(|record| (record, cracks.surface(record.step)))
-        .collect();
-    let state = |(record, surface): &(&CrackRecord, CrackSurface)| GrowthState {
-        area: surface.area(),
-        displacement: record.displacement,
-        reaction: record.reaction,
-        released_energy: record.released_energy,
-        dissipated_energy: record.dissipated_energy,
-    };
-    let states: Vec<GrowthState> = grown.iter().map(state).collect();
-    let rates = release_rates(&states, cracks.mean_horizon().powi(2));
-    for (((record, surface), state), rates) in grown.iter().zip(&states).zip(rates) {
-        let rate = |of: fn(&ReleaseRates) -> f64| {
-            rates.as_ref().map_or(Value::Missing, |it| of(it).into())
-        };
-        table.append(&[
-            record.step.into(),
-            record.load_factor.into(),
-            record.displacement.into(),
-            record.reaction.into(),
-            surface.parts().len().into(),
-            state.area.into(),
-            rate(|it| it.by_compliance),
-            rate(|it| it.by_energy),
-            rate(|it| it.dissipated),
-        ])?;
-    }
-    Ok(())
+/// Sizes of the surface in the records of the history in which it grew.
+fn sizes(cracks: &SolidCracks) -> Vec<Grown<'_>> {
+    let surfaces = cracks.grown_records().into_iter();
+    let surfaces = surfaces.map(|record| (record, cracks.surface(record.step)));
+    surfaces
+        .map(|(record, surface)| Grown {
+            record,
+            area: surface.area(),
+            counts: vec![surface.parts().len().into()],
+        })
+        .collect()
 }

@@ -73,6 +73,21 @@ impl<'a> Field<'a> {
         Self::new(name, Numbers::Double(values), names.len(), names)
     }
 
+    /// A field of so many numbers a point or cell, shape (n, n_components), whose components have names or not.
+    pub fn numbers(
+        name: &'a str,
+        n_components: usize,
+        component_names: &'a [&'a str],
+        values: &'a [f64],
+    ) -> Self {
+        Self::new(name, Numbers::Double(values), n_components, component_names)
+    }
+
+    /// Whether the field has a name.
+    pub(crate) fn is(&self, name: &str) -> bool {
+        self.name == name
+    }
+
     /// The field with its points or cells written in an order, if there is one.
     pub fn ordered(self, order: Option<&'a [u32]>) -> Self {
         Self { order, ..self }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use ligament_output::csv::read::Sheet;
 use ligament_output::read_text;
+use ligament_output::results::columns::unit_of;
 use ligament_output::results::outputs::{OutputKind, kind_of, require_results};
 use ligament_output::results::steps::{StepChoice, StepName};
 
@@ -237,15 +238,4 @@ fn shown(curves: &[Curve], axis: usize, request: &CurveRequest) -> Result<Shown,
     let values = points.map(|point| point[axis].abs());
     let largest = values.filter(|it| it.is_finite()).fold(0.0, f64::max);
     Ok(Shown::new(unit, largest))
-}
-
-/// SI unit of a column of a history; that of a probe is not written.
-fn unit_of(column: &str) -> &'static str {
-    match column {
-        "stored_energy" | "released_energy" | "dissipated_energy" | "external_work"
-        | "energy_error" => "J",
-        name if name.ends_with(".force_x") || name.ends_with(".force_y") => "N",
-        name if name.ends_with(".moment") => "N m",
-        _ => "-",
-    }
 }

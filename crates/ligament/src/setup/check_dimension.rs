@@ -1,7 +1,7 @@
 //! What a setup says must exist in the dimension of its body.
 
 use ligament_analysis::Component;
-use ligament_analysis::probe::PointField;
+use ligament_analysis::probe::{PointField, PointReading};
 use ligament_model::horizon::INCLUSION_TOLERANCE;
 use ligament_model::law::rotational::RotationalScale;
 use ligament_model::law::{BondLaw, listed, suited};
@@ -114,7 +114,11 @@ impl Setup {
                 }
                 Reading::Between { component, .. } => (component, "component"),
                 Reading::At {
-                    field: PointField::Motion(component),
+                    field:
+                        PointField {
+                            reading: PointReading::Motion(component),
+                            ..
+                        },
                     ..
                 } => (component, "field"),
                 Reading::At { .. } | Reading::Section { .. } => continue,

@@ -1,7 +1,7 @@
 //! Probes: what the history records beside displacement and load.
 
 use ligament_analysis::Component;
-use ligament_analysis::probe::PointField;
+use ligament_analysis::probe::{PointField, PointReading};
 
 use super::conditions::{Axis, Position};
 
@@ -44,15 +44,15 @@ pub enum Reading {
 impl Reading {
     /// Whether it is a virial stress.
     pub(crate) fn is_stress(&self) -> bool {
-        let stress = |field: &PointField| matches!(field, PointField::Stress(_));
-        matches!(self, Self::At { field, .. } if stress(field))
+        let is_stress = |it: &PointField| matches!(it.reading, PointReading::Stress(_));
+        matches!(self, Self::At { field, .. } if is_stress(field))
     }
 
     /// Whether it is a motion of points, or a difference of such.
     pub(crate) fn is_motion(&self) -> bool {
         match self {
             Self::Between { .. } => true,
-            Self::At { field, .. } => matches!(field, PointField::Motion(_)),
+            Self::At { field, .. } => field.is_motion(),
             Self::Section { .. } => false,
         }
     }
