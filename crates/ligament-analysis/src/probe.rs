@@ -67,7 +67,7 @@ pub enum PointReading {
 }
 
 /// Components of the vectors and tensors that a probe can read.
-const COMPONENTS: [PointField; 13] = [
+const OF_VECTORS_AND_TENSORS: [PointField; 13] = [
     motion("displacement_x", "Displacement along x, m.", Component::X),
     motion("displacement_y", "Displacement along y, m.", Component::Y),
     motion(
@@ -141,8 +141,8 @@ impl PartialEq for PointField {
 
 impl PointField {
     /// All fields: the scalars of the [table of fields](FIELDS) that are read at a point, then the components of vectors and tensors.
-    pub const ALL: [Self; N_SCALARS + COMPONENTS.len()] = {
-        let mut all = [COMPONENTS[0]; N_SCALARS + COMPONENTS.len()];
+    pub const ALL: [Self; N_SCALARS + OF_VECTORS_AND_TENSORS.len()] = {
+        let mut all = [OF_VECTORS_AND_TENSORS[0]; N_SCALARS + OF_VECTORS_AND_TENSORS.len()];
         let (mut row, mut place) = (0, 0);
         while row < FIELDS.len() {
             if let FieldReading::Probed(_, at) = FIELDS[row].reading {
@@ -156,7 +156,7 @@ impl PointField {
             row += 1;
         }
         while place < all.len() {
-            all[place] = COMPONENTS[place - N_SCALARS];
+            all[place] = OF_VECTORS_AND_TENSORS[place - N_SCALARS];
             place += 1;
         }
         all
