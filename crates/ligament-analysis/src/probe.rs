@@ -222,10 +222,9 @@ pub(crate) fn values(probes: &[Probe], solution: Solution<'_>) -> Vec<f64> {
         }
         Reading::SectionForce { bonds, component } => {
             let ends = system.ends();
-            // Pairs that pre-cracks cut stand beyond the bonds; they carry forces on one process alone.
             let owned = bonds.iter().filter(|(bond, _)| {
                 let ends = ends.get(*bond as usize);
-                ends.is_none_or(|ends| subdomain.owns_bond(*ends))
+                ends.is_some_and(|ends| subdomain.owns_bond(*ends))
             });
             let owned = Reading::SectionForce {
                 bonds: owned.copied().collect(),

@@ -1,6 +1,8 @@
 //! What this program was built from, as its build script found it.
 
-use ligament_run::provenance::Build;
+use std::borrow::Cow;
+
+use ligament_output::summary::{Build, Text};
 
 /// The build of this program.
 pub const BUILD: Build = Build {
@@ -19,6 +21,10 @@ pub const BUILD: Build = Build {
 pub(crate) const VERSION: &str = env!("LIGAMENT_VERSION");
 
 /// What is not empty.
-const fn known(text: &'static str) -> Option<&'static str> {
-    if text.is_empty() { None } else { Some(text) }
+const fn known(text: &'static str) -> Option<Text> {
+    if text.is_empty() {
+        None
+    } else {
+        Some(Cow::Borrowed(text))
+    }
 }

@@ -8,6 +8,7 @@
 //! | [`columns`] | words in columns, for people |
 //! | [`checkpoint`] | a run at a moment, from which it can go on |
 //! | [`folder`] | the folder that holds them, without destroying what was there |
+//! | [`summary`] | a run in numbers |
 //! | [`results`] | all of these from a run, as its observer |
 //!
 //! A file is either appended to by whole rows (CSV) or replaced as a whole by a rename (all others), so the results of
@@ -24,6 +25,7 @@ pub mod pvd;
 pub mod quantity;
 pub mod results;
 mod single_file;
+pub mod summary;
 pub mod terminal;
 pub mod vtu;
 mod written;

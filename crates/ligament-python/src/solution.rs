@@ -14,9 +14,9 @@ use ligament_case::case::CaseFile;
 use ligament_model::{BodyGrid, BondSystem, FixedFields};
 use ligament_run::loading::write_rule;
 use ligament_run::memory;
-use ligament_run::provenance::Provenance;
+use ligament_run::provenance::of_inputs;
 use ligament_run::stages::Stages;
-use ligament_run::summary::{Noted, Summary};
+use ligament_run::summary::{self, Noted};
 use pyo3::prelude::*;
 
 use crate::case::Case;
@@ -204,13 +204,13 @@ fn summary(
     (outcome, kept): (&Outcome, &Kept),
     stages: &Stages,
 ) -> Result<String, Failure> {
-    let provenance = Provenance::of_inputs(ligament_cli::BUILD, Vec::new());
+    let provenance = of_inputs(ligament_cli::BUILD, Vec::new());
     let noted = Noted {
         provenance,
         notices: kept.notices.clone(),
         first: kept.first,
         stages: stages.done().to_vec(),
     };
-    let summary = Summary::new(case, model, boundary, outcome, noted);
+    let summary = summary::summary(case, model, boundary, outcome, noted);
     serde_json::to_string(&summary).map_err(|error| Failure::Other(error.into()))
 }

@@ -67,7 +67,7 @@ impl PageRun {
         let is_solid = has_solid(folder)?;
         let usual = if is_solid { PICTURED } else { DRAWN };
         let files = chosen(&outputs, choice.steps.unwrap_or(usual))?;
-        let summary = summary_of(folder)?;
+        let words = summary::in_words(folder, outputs.kind)?;
         let case = read_text(&folder.join(RESOLVED_CASE))?;
         let steps: Vec<usize> = files.keys().copied().collect();
         let first = VtuFile::open(first(&files, folder)?)?;
@@ -85,7 +85,7 @@ impl PageRun {
             true => modes(folder)?,
             false => history::read(folder)?,
         };
-        let title = summary["title"].as_str().unwrap_or(label).to_owned();
+        let title = words.title.unwrap_or_else(|| label.to_owned());
         let follows_path = stored_loading(folder)?.follows_path;
         let mut description = json!({
             "label": label,
@@ -99,7 +99,7 @@ impl PageRun {
             all.extend(parts);
         }
         Ok(Self {
-            html: summary::html(&summary, outputs.kind, &case),
+            html: words.html + &summary::case_html(&case),
             points: drawn.points,
             steps: steps.len(),
             left_out: drawn.left_out,
@@ -183,19 +183,6 @@ fn first<'a>(files: &'a BTreeMap<usize, PathBuf>, folder: &Path) -> Result<&'a P
     first.ok_or_else(|| Error::NoResults {
         path: folder.to_path_buf(),
         reason: "no step of it was chosen".to_owned(),
-    })
-}
-
-/// The summary; empty where the run has not come to its end.
-fn summary_of(folder: &Path) -> Result<Value, Error> {
-    let path = folder.join("summary.json");
-    if !path.is_file() {
-        let words = "The run did not come to its end: what is here is what it wrote so far.";
-        return Ok(json!({ "warnings": [words] }));
-    }
-    serde_json::from_str(&read_text(&path)?).map_err(|error| Error::Unreadable {
-        path,
-        reason: error.to_string(),
     })
 }
 

@@ -1,6 +1,7 @@
 //! How a run ended, as its exit code tells: one rule for all ways to load a body.
 
 use ligament_analysis::Termination;
+use ligament_output::summary::Summary;
 
 /// What the end of a run makes of its results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,17 +19,17 @@ pub enum End {
 }
 
 impl End {
-    /// The end of a run by the name of its [`Termination`], whether no state under load is in equilibrium, and whether the last one is
-    /// not at rest.
-    pub fn from_termination(termination: &str, has_no_result: bool, is_not_at_rest: bool) -> Self {
+    /// The end of a run by its summary.
+    pub fn of(summary: &Summary) -> Self {
         const ASKED_FOR: [&str; 2] = ["bonds-broken", "wall-time"];
+        let termination = &*summary.termination;
         if termination == Termination::Stopped.name() {
             Self::Stopped
-        } else if has_no_result {
+        } else if summary.without_equilibrium {
             Self::NoResult
         } else if termination == NO_EQUILIBRIUM {
             Self::NoEquilibrium
-        } else if is_not_at_rest && !ASKED_FOR.contains(&termination) {
+        } else if summary.last_state_not_at_rest && !ASKED_FOR.contains(&termination) {
             Self::NotAtRest
         } else {
             Self::Done

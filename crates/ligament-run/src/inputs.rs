@@ -1,13 +1,12 @@
 //! What decides about the results of a run: its resolved case and the content of the files that it reads.
 
 use std::collections::HashMap;
-use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use ligament_case::case::{CaseFile, Stop};
 use ligament_case::input_file;
-use serde::{Deserialize, Serialize};
+use ligament_output::summary::Identity;
 
 /// All inputs of a run as text, which depends neither on where its files lie nor on the number of threads.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -26,31 +25,6 @@ pub const MAY_CHANGE: [&str; 9] = [
     "output.checkpoint_every",
     "output.picture",
 ];
-
-/// The identity of the content of a file.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Identity {
-    /// Size, bytes.
-    pub bytes: u64,
-    /// XXH64 digest of all bytes, 16 hexadecimal digits.
-    pub xxh64: String,
-}
-
-impl Identity {
-    /// The identity of some bytes.
-    pub fn new(bytes: &[u8]) -> Self {
-        Self {
-            bytes: bytes.len() as u64,
-            xxh64: format!("{:016x}", twox_hash::XxHash64::oneshot(0, bytes)),
-        }
-    }
-}
-
-impl fmt::Display for Identity {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} bytes, xxh64 {}", self.bytes, self.xxh64)
-    }
-}
 
 /// Contents of files by their path, each read once.
 #[derive(Debug, Default)]

@@ -11,16 +11,14 @@ use ligament_analysis::Termination;
 use ligament_analysis::distributed_matrix::Solo;
 use ligament_case::case::CaseFile;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
-use ligament_output::read_text;
 use ligament_output::results::outputs::require_results;
-use serde_json::Value;
+use ligament_output::summary::{self, Build, Input, Provenance, SUMMARY, Summary};
 
 use crate::checkpoints::{IsStopped, VERSION};
 use crate::comparison::{Comparison, Ending};
 use crate::inputs::{Contents, files, unread};
-use crate::loading::SUMMARY;
 use crate::progress::ProgressMode;
-use crate::provenance::{Build, Input, Provenance};
+use crate::provenance::provenance;
 use crate::run;
 
 /// What the folder of a repetition has behind the name of the results.
@@ -72,14 +70,12 @@ impl Request<'_> {
         require_results(&folder)?;
         let summary = summary_of(&folder)?;
         let case = self.case(&folder)?;
-        let record = &summary["provenance"];
-        let has_record = record.is_object();
         let mut contents = Contents::default();
-        if has_record {
+        if let Some(record) = &summary.provenance {
             check_inputs(&folder, record, &case, &mut contents)?;
         }
         let out = self.place(&folder)?;
-        let now = Provenance::new(self.build, &case, &mut contents).map_err(unread)?;
+        let now = provenance(self.build.clone(), &case, &mut contents).map_err(unread)?;
         if let Err(error) = self.run_again(&case, &folder, &out, &summary, mode) {
             if self.out.is_none() {
                 // Nothing was there before; what cannot be removed harms nobody.
@@ -87,9 +83,9 @@ impl Request<'_> {
             }
             return Err(error);
         }
-        let ending = match summary["termination"].as_str() {
-            Some(name) if name == WALL_TIME => Ending::ByTime,
-            _ => Ending::ByCourse,
+        let ending = match summary.termination == WALL_TIME {
+            true => Ending::ByTime,
+            false => Ending::ByCourse,
         };
         let comparison = Comparison::new(&folder, &out, ending)?;
         let kept = (self.out.is_some() || !comparison.is_same()).then(|| out.clone());
@@ -97,9 +93,9 @@ impl Request<'_> {
             fs::remove_dir_all(&out).with_context(|| format!("cannot remove {}", out.display()))?;
         }
         Ok(Repetition {
-            notes: notes(&summary, has_record),
-            circumstances: circumstances(&summary, &serde_json::to_value(now)?),
-            is_explained: !has_record || record["resumed"] == true,
+            notes: notes(&summary),
+            circumstances: circumstances(&summary, &now),
+            is_explained: summary.provenance.as_ref().is_none_or(|it| it.resumed),
             folder: self.folder.to_path_buf(),
             kept,
             comparison,
@@ -149,12 +145,12 @@ impl Request<'_> {
         case: &CaseFile,
         folder: &Path,
         out: &Path,
-        summary: &Value,
+        summary: &Summary,
         mode: ProgressMode,
     ) -> anyhow::Result<()> {
         let was_cut_short = [Termination::Stopped.name(), WALL_TIME]
             .iter()
-            .any(|name| summary["termination"] == *name);
+            .any(|name| summary.termination == *name);
         let length = |folder: &Path| TOLD.iter().map(|name| length_of(&folder.join(name))).sum();
         let end: u64 = length(folder);
         let is_at_its_end = || was_cut_short && length(out) >= end;
@@ -162,7 +158,7 @@ impl Request<'_> {
             case,
             out,
             force: false,
-            build: self.build,
+            build: self.build.clone(),
             communicator: Arc::new(Solo),
             is_stopped: &|| (self.is_stopped)() || is_at_its_end(),
         };
@@ -199,40 +195,32 @@ fn length_of(path: &Path) -> u64 {
 }
 
 /// The summary of a run that has ended or was stopped.
-fn summary_of(folder: &Path) -> anyhow::Result<Value> {
-    let path = folder.join(SUMMARY);
-    ensure!(
-        path.is_file(),
-        "the run in {0} has not come to its end, for it has no {SUMMARY}: `ligament resume {0}` goes on with it",
-        folder.display()
-    );
-    serde_json::from_str(&read_text(&path)?)
-        .with_context(|| format!("cannot use {}", path.display()))
+fn summary_of(folder: &Path) -> anyhow::Result<Summary> {
+    let summary = summary::read(folder)?;
+    summary.with_context(|| {
+        format!(
+            "the run in {0} has not come to its end, for it has no {SUMMARY}: `ligament resume {0}` goes on with it",
+            folder.display()
+        )
+    })
 }
 
 /// Refuses to repeat a run whose case or files are others than they were, with their names.
 fn check_inputs(
     folder: &Path,
-    record: &Value,
+    record: &Provenance,
     case: &CaseFile,
     contents: &mut Contents,
 ) -> anyhow::Result<()> {
-    let inputs: Vec<Input> =
-        serde_json::from_value(record["inputs"].clone()).with_context(|| {
-            format!(
-                "cannot use the record in {}",
-                folder.join(SUMMARY).display()
-            )
-        })?;
     let now = files(case);
     let mut changed = Vec::new();
-    for Input { key, file, content } in inputs {
+    for Input { key, file, content } in &record.inputs {
         let named = |key: &String| now.iter().find(|(other, _)| other == key);
-        let (what, path) = match &key {
-            None => ("the case of the run".to_owned(), folder.join(&file)),
+        let (what, path) = match key {
+            None => ("the case of the run".to_owned(), folder.join(file)),
             Some(key) => (
                 format!("`{key}`"),
-                named(key).map_or(file, |(_, path)| path.clone()),
+                named(key).map_or_else(|| file.clone(), |(_, path)| path.clone()),
             ),
         };
         let found = contents.identity(&path).map_err(|error| {
@@ -242,7 +230,7 @@ fn check_inputs(
             };
             unread((path.clone(), error)).context(format!("{what} cannot be read{hint}"))
         })?;
-        if found != content {
+        if found != *content {
             let path = path.display();
             changed.push(format!("{what}, {path}: {content} then, {found} now"));
         }
@@ -257,60 +245,61 @@ fn check_inputs(
 }
 
 /// What the user should know of a run that is compared.
-fn notes(summary: &Value, has_record: bool) -> Vec<String> {
-    let mut notes = Vec::new();
-    if !has_record {
-        notes.push(
+fn notes(summary: &Summary) -> Vec<String> {
+    let is_cut_short =
+        summary.termination == Termination::Stopped.name() || summary.termination == WALL_TIME;
+    let record = summary.provenance.as_ref();
+    let all = [
+        (
+            record.is_none(),
             "the results have no record of commit and inputs, for they are of an earlier version; the files that the case names were \
-             taken as they are now"
-                .to_owned(),
-        );
-    }
-    if summary["provenance"]["resumed"] == true {
-        notes.push(
-            "the run was resumed: what came before may be from other settings of its output, or another build"
-                .to_owned(),
-        );
-    }
-    if summary["without_equilibrium"] == true {
-        notes.push(
-            "the run has no equilibrium under load: only the way there was compared".to_owned(),
-        );
-    }
-    if summary["termination"] == Termination::Stopped.name() || summary["termination"] == WALL_TIME
-    {
-        notes.push("the run was cut short: it was compared up to there".to_owned());
-    }
-    notes
+             taken as they are now",
+        ),
+        (
+            record.is_some_and(|it| it.resumed),
+            "the run was resumed: what came before may be from other settings of its output, or another build",
+        ),
+        (
+            summary.without_equilibrium,
+            "the run has no equilibrium under load: only the way there was compared",
+        ),
+        (
+            is_cut_short,
+            "the run was cut short: it was compared up to there",
+        ),
+    ];
+    let said = all.into_iter().filter(|(applies, _)| *applies);
+    said.map(|(_, note)| note.to_owned()).collect()
 }
 
 /// What was otherwise when the run was done, and may explain a difference: what, then, now.
-fn circumstances(then: &Value, now: &Value) -> Vec<[String; 3]> {
-    let word = |value: &Value| match value {
-        Value::Null => "not known".to_owned(),
-        Value::String(text) => text.clone(),
-        other => other.to_string(),
+fn circumstances(summary: &Summary, now: &Provenance) -> Vec<[String; 3]> {
+    let word = |it: Option<&str>| it.unwrap_or("not known").to_owned();
+    let then = summary.provenance.as_ref();
+    let commit = |of: &Build| match of.uncommitted_changes {
+        Some(true) => format!("{} with uncommitted changes", word(of.commit.as_deref())),
+        _ => word(of.commit.as_deref()),
     };
-    let record = &then["provenance"];
-    let has_record = record.is_object();
-    let commit = |of: &Value| match of["uncommitted_changes"].as_bool() {
-        Some(true) => format!("{} with uncommitted changes", word(&of["commit"])),
-        _ => word(&of["commit"]),
+    let named = |it: &Provenance| {
+        let build = &it.build;
+        [
+            ("commit", commit(build)),
+            ("profile", word(build.profile.as_deref())),
+            ("target", word(build.target.as_deref())),
+            ("compiler", word(build.compiler.as_deref())),
+            ("processor", word(it.processor.as_deref())),
+            ("vectors", word(it.vector_instructions.as_deref())),
+        ]
     };
-    let named = |key: &str| [word(&record[key]), word(&now[key])];
-    [
-        ("version", [word(&then["version"]), VERSION.to_owned()]),
-        ("commit", [commit(record), commit(now)]),
-        ("profile", named("profile")),
-        ("target", named("target")),
-        ("compiler", named("compiler")),
-        ("processor", named("processor")),
-        ("vectors", named("vector_instructions")),
-    ]
-    .into_iter()
-    .filter(|(what, [then, now])| then != now && (has_record || *what == "version"))
-    .map(|(what, [then, now])| [what.to_owned(), then, now])
-    .collect()
+    let version = [summary.model.version.to_string(), VERSION.to_owned()];
+    let recorded = then
+        .into_iter()
+        .flat_map(|then| named(then).into_iter().zip(named(now)));
+    let recorded = recorded.map(|((what, then), (_, now))| (what, [then, now]));
+    let all = [("version", version)].into_iter().chain(recorded);
+    all.filter(|(_, [then, now])| then != now)
+        .map(|(what, [then, now])| [what.to_owned(), then, now])
+        .collect()
 }
 
 impl Repetition {

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use anyhow::{Context, bail, ensure};
+use anyhow::{bail, ensure};
 use ligament::run::{on_threads, restore};
 use ligament_analysis::distributed_matrix::MatrixCommunicator;
 use ligament_analysis::driver::{Problem, Restored};
@@ -11,19 +11,18 @@ use ligament_analysis::serial::Serial;
 use ligament_case::case::CaseFile;
 use ligament_output::checkpoint::Checkpoint;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
-use ligament_output::read_text;
 use ligament_output::results::SoFar;
 use ligament_output::results::outputs::{clear, require_results};
-use serde_json::Value;
+use ligament_output::summary::{self, Build, SUMMARY, Summary};
 
 use crate::checkpoints::{IsStopped, VERSION};
 use crate::destination::make_results;
+use crate::end::End;
 use crate::inputs::{Contents, Inputs, MAY_CHANGE, unread};
-use crate::loading::{Kept, LoadedBody, SUMMARY};
+use crate::loading::{Kept, LoadedBody};
 use crate::model::build_model_on;
 use crate::processes::{any_stopped, broadcast_path, broadcast_solution, loading};
 use crate::progress::{Progress, ProgressMode};
-use crate::provenance::Build;
 use crate::run::Report;
 use crate::stages::Stages;
 
@@ -115,7 +114,7 @@ impl Request<'_> {
             case,
             model: &model,
             loading: &loading,
-            build: self.build,
+            build: self.build.clone(),
             is_stopped: &is_stopped,
         };
         let Some(folder) = folder else {
@@ -146,7 +145,7 @@ impl Request<'_> {
             |folder| {
                 let summary = body.follow(folder, kept, &mut stages, &mut progress)?;
                 progress.finish(&summary.termination_message);
-                let is_complete = !summary.is_stopped();
+                let is_complete = End::of(&summary) != End::Stopped;
                 Ok((summary, is_complete))
             },
         )?;
@@ -239,13 +238,10 @@ fn kept(
 
 /// Refuses a run that has come to its end.
 fn ensure_unfinished(folder: &ResultFolder) -> anyhow::Result<()> {
-    let path = folder.file(SUMMARY);
-    if !path.is_file() {
+    let Some(summary) = summary::read::<Summary>(folder.path())? else {
         return Ok(());
-    }
-    let summary: Value = serde_json::from_str(&read_text(&path)?)
-        .with_context(|| format!("cannot use {}", path.display()))?;
-    let end = summary["termination_message"].as_str();
+    };
+    let end = Some(&*summary.termination_message).filter(|it| !it.is_empty());
     bail!(
         "the run in {} has come to its end ({}): there is nothing to go on with",
         folder.path().display(),

@@ -8,6 +8,7 @@ use ligament::run::on_threads;
 use ligament::setup::Analysis;
 use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use ligament_output::folder::ResultFolder;
+use ligament_output::summary::{Build, ModalSummary, Summary};
 
 use crate::destination::{self, make_results};
 use crate::end::{End, StoppedBeforeSolution};
@@ -18,9 +19,9 @@ use crate::model::{Model, build_model_on};
 use crate::modes::find_modes;
 use crate::processes::{any_stopped, loading};
 use crate::progress::{Progress, ProgressMode};
-use crate::provenance::{Build, Provenance};
+use crate::provenance::provenance;
 use crate::stages::Stages;
-use crate::summary::{ModalSummary, Summary};
+use crate::summary::{write, write_modal};
 use ligament_case::case::CaseFile;
 
 pub use crate::checkpoints::IsStopped;
@@ -40,8 +41,8 @@ impl Report {
     /// The lines that a user sees at the end of a run.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         match self {
-            Self::Loading(summary) => summary.write(out),
-            Self::Modes(summary) => summary.write(out),
+            Self::Loading(summary) => write(summary, out),
+            Self::Modes(summary) => write_modal(summary, out),
             Self::OfRankZero => Ok(()),
         }
     }
@@ -59,7 +60,7 @@ impl Report {
     /// How the run ended.
     pub fn end(&self) -> End {
         match self {
-            Self::Loading(summary) => summary.end(),
+            Self::Loading(summary) => End::of(summary),
             Self::Modes(_) | Self::OfRankZero => End::Done,
         }
     }
@@ -137,7 +138,7 @@ impl Request<'_> {
                 return Ok(Report::OfRankZero);
             }
             let create = || ResultFolder::create(self.out, self.force);
-            let provenance = Provenance::new(self.build, self.case, &mut Contents::default());
+            let provenance = provenance(self.build.clone(), self.case, &mut Contents::default());
             let provenance = provenance.map_err(unread)?;
             let body = (model, provenance);
             let summary = find_modes(self.case, settings, body, create, stages)?;
@@ -168,7 +169,7 @@ fn follow_loads(
         case,
         model,
         loading: &loading,
-        build: request.build,
+        build: request.build.clone(),
         is_stopped: &is_stopped,
     };
     if !communicator.is_root() {
@@ -183,7 +184,7 @@ fn follow_loads(
         }
         let summary = body.follow(folder, None, &mut stages, &mut progress)?;
         progress.finish(&summary.termination_message);
-        let is_complete = !summary.is_stopped();
+        let is_complete = End::of(&summary) != End::Stopped;
         Ok((summary, is_complete))
     })?;
     Ok(Report::Loading(Box::new(summary)))

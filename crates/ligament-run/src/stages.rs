@@ -2,18 +2,7 @@
 
 use std::time::Instant;
 
-use serde::Serialize;
-
-/// What a stage took.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Stage {
-    /// Name of the stage.
-    pub name: &'static str,
-    /// Wall time, s.
-    pub seconds: f64,
-    /// Peak memory of the process up to its end, bytes; not known on every system.
-    pub peak_bytes: Option<u64>,
-}
+use ligament_output::summary::Stage;
 
 /// The stages done so far.
 #[derive(Debug, Default)]
@@ -40,7 +29,7 @@ impl Stages {
     pub(crate) fn end(&mut self, name: &'static str) {
         let start = self.begun.take();
         self.done.push(Stage {
-            name,
+            name: name.into(),
             seconds: start.map_or(0.0, |start| start.elapsed().as_secs_f64()),
             peak_bytes: peak_memory(),
         });

@@ -10,8 +10,9 @@ use ligament_model::failure::{Choice, Criterion};
 use ligament_model::material::Space;
 use ligament_model::scatter::{Distribution, Scattered};
 use ligament_output::quantity::{between, four_digits, quantity};
+use ligament_output::summary::Spread;
 use ligament_run::model::Model;
-use ligament_run::summary::{ScatterSummary, Spread};
+use ligament_run::summary::scatter;
 
 use super::entry::entry;
 
@@ -109,7 +110,7 @@ fn spent_words([x, y]: [f64; 2], given: Option<f64>) -> String {
 
 /// Writes what varies at random: limits of bonds above have its factors.
 fn write_scatter(out: &mut dyn Write, model: &Model) -> io::Result<()> {
-    let (Some(scatter), Some(summary)) = (model.setup.scatter, ScatterSummary::new(model)) else {
+    let (Some(scatter), Some(summary)) = (model.setup.scatter, scatter(model)) else {
         return Ok(());
     };
     let distribution = match scatter.distribution {

@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::io::{self, Write};
 
 use ligament_output::quantity::{between, quantity};
-use ligament_run::summary::Spread;
+use ligament_output::summary::Spread;
 
 use crate::lines;
 

@@ -25,10 +25,11 @@ use ligament::plausibility::notes;
 use ligament::run::on_threads;
 use ligament::setup::Analysis;
 use ligament_case::case::CaseFile;
+use ligament_output::summary::Stage;
 use ligament_run::disk;
 use ligament_run::model::build_model;
 use ligament_run::progress::{Progress, ProgressMode};
-use ligament_run::stages::{Stage, Stages};
+use ligament_run::stages::Stages;
 
 use entry::{entry, megabytes};
 pub use extent::Extent;

@@ -7,8 +7,9 @@ use ligament::setup::Section;
 use ligament_case::case::CaseFile;
 use ligament_model::{Elasticity, Plane};
 use ligament_output::quantity::quantity;
+use ligament_output::summary::Spread;
 use ligament_run::model::Model;
-use ligament_run::summary::{Spread, correction_line, family, formulation_line, heading};
+use ligament_run::summary::{correction_line, family, formulation_line, heading};
 
 use super::entry::{entry, spread};
 use super::{body, criteria};

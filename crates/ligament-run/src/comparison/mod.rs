@@ -13,7 +13,7 @@ use std::path::Path;
 use anyhow::Context;
 use ligament_output::folder::{Kind, RESOLVED_CASE, is_made_later};
 
-use crate::loading::SUMMARY;
+use ligament_output::summary::SUMMARY;
 
 pub(crate) use summaries::Ending;
 

@@ -144,7 +144,7 @@ fn one_run(request: &Request, record: &Record, key: f64) -> anyhow::Result<Run> 
         case: &case,
         out: &folder,
         force: true,
-        build: request.build,
+        build: request.build.clone(),
         communicator: Arc::new(Solo),
         is_stopped: &|| false,
     };

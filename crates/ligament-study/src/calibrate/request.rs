@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use ligament_run::provenance::Build;
+use ligament_output::summary::Build;
 use serde::Serialize;
 
 use crate::quantities::QuantityError;
