@@ -59,7 +59,7 @@ pub(super) struct Bound {
 }
 
 impl Bound {
-    /// The bound with the points of the border, by their degrees of freedom, `places` and `blocks`.
+    /// Bound from the points of the border, by their degrees of freedom, `places` and `blocks`.
     pub(super) fn new(
         modes: &Modes,
         (dofs, places): (Vec<u32>, Vec<u32>),
