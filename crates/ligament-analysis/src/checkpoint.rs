@@ -7,7 +7,7 @@ use crate::serial::Damaged;
 /// Reason why a run cannot continue from a checkpoint.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum CheckpointError {
-    /// The bytes are not those of a checkpoint.
+    /// The bytes are no checkpoint.
     #[error(transparent)]
     Damaged(#[from] Damaged),
     /// Points, bonds or unknowns differ from those of the problem.
@@ -33,7 +33,7 @@ pub enum CheckpointError {
         "one process wrote it: go on with one, or begin the run anew with several; what several wrote any number can go on with"
     )]
     OfOneProcess,
-    /// The checkpoint was written with the other one of direct and iterative solution.
+    /// The checkpoint was written with a direct solver and the present one is iterative, or the reverse.
     #[error(
         "the equations were solved by the other method when it was written: where solver.method is open the memory that there is \
          decides, so go on where there is as much, or begin the run anew"

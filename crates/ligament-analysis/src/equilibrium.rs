@@ -164,7 +164,7 @@ impl Equilibrium {
         self.held = held;
     }
 
-    /// The unknowns.
+    /// Unknowns of the equations.
     pub fn unknowns(&self) -> &Unknowns {
         &self.equations.unknowns
     }
@@ -321,7 +321,7 @@ impl Equilibrium {
         self.equations.solver.factor()
     }
 
-    /// The state with displacements kept only where this process knows them; the others become invalid.
+    /// Invalidates the displacements of the state that this process does not know.
     pub(crate) fn known(&self, mut state: State) -> State {
         let halo = &self.equations.halo;
         halo.poison_unknown(&mut state.displacement);

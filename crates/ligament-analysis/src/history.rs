@@ -260,7 +260,7 @@ pub enum Notice {
 /// all points, bonds are the local ones, and quantities computed from the bonds of a point are valid at owned points alone. Any
 /// observer may read a view without the other processes.
 pub struct View<'a> {
-    /// The system.
+    /// Bond system of the state.
     pub system: &'a dyn Bonds,
     /// State of the system.
     pub state: &'a State,
@@ -313,9 +313,9 @@ pub struct Moment<'a> {
 /// Continuation of a run after a restart point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Onward {
-    /// The run goes on.
+    /// The run continues.
     Go,
-    /// The run stops here.
+    /// The run ends here.
     Stop,
 }
 

@@ -1,6 +1,6 @@
 //! Equations and algorithms: unknowns, assembly, equilibrium and the drivers that follow a loading.
 //!
-//! A [`LoadProgram`] on a bond system makes a [`Problem`]. [`driver::elastic`] solves it once, [`driver::stepped`] follows the load
+//! A [`LoadProgram`] and a bond system form a [`Problem`]. [`driver::elastic`] solves it once, [`driver::stepped`] follows the load
 //! program in load steps while bonds break in ordered groups, and [`driver::event`] follows the exact equilibrium path from
 //! breakage to breakage. [`modal`] finds the natural modes of a body fixed by [`Supports`]. Results are passed to an [`Observer`]
 //! during the run; the end of a run is a [`Termination`], never an error.

@@ -80,7 +80,7 @@ pub trait LoadProgram: Debug + Send + Sync {
         None
     }
 
-    /// The same loads with another course of their factors; None where all grow with one load factor.
+    /// Copy of the loads with another course of their factors; None where all grow with one load factor.
     fn in_course(&self, _course: LoadCourse) -> Option<Arc<dyn LoadProgram>> {
         None
     }

@@ -12,7 +12,7 @@ use crate::solver::SolverSettings;
 /// Problem: bonds, loads, criteria, solver and probes. A copy shares its data.
 #[derive(Clone)]
 pub struct Problem {
-    /// The bond system.
+    /// Bonds between the points of the body.
     pub system: Arc<dyn Bonds>,
     /// Failure criteria; empty in an elastic analysis.
     pub criteria: Arc<Criteria>,

@@ -78,9 +78,9 @@ impl Softening {
 
     /// Updates the trial extremes and the remaining stiffness of the bonds to the deformations of an iterate (n_bonds).
     ///
-    /// A bond within its largest deformation keeps its stiffness; beyond, it follows its law, and at the end of its law it keeps
-    /// its state until it breaks ([`AfterLimit::extreme`](ligament_model::failure::AfterLimit::extreme)). With `is_one_way` the
-    /// extremes of the iterates count as well, as in a body that loses its bonds faster than it is loaded.
+    /// A bond within its largest deformation keeps its stiffness; beyond, it follows its law, and past the end of its law it keeps
+    /// a small remainder until it breaks ([`AfterLimit::extreme`](ligament_model::failure::AfterLimit::extreme)). With `is_one_way`
+    /// the extremes of the iterates count as well, as in a body that loses its bonds faster than it is loaded.
     pub fn follow(
         &mut self,
         criteria: &Criteria,

@@ -57,7 +57,7 @@ pub enum Reason {
     NamedForFactor(&'static str),
     /// Conjugate gradients cannot solve these equations.
     Unfit(Unfit),
-    /// The number of points is below this limit, or not.
+    /// Limit of the number of points, below which a factor costs less than conjugate gradients.
     Points(usize),
     /// The memory of the matrix and its factor, compared with the available memory.
     Memory {

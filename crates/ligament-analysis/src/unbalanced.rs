@@ -10,7 +10,7 @@ use crate::unknowns::Component;
 const RANKS_DISAGREE: &str = "the processes that solve the equations together have computed different forces: let all of them run the \
                               same program on processors of one kind";
 
-/// A component of the motion of a point, as the place of an error.
+/// Component of the motion of a point, as the place of an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Place {
     /// Point index.

@@ -82,7 +82,7 @@ impl Path<'_> {
     fn carries_no_part(&self, course: &LoadCourse, balanced: &Balanced) -> bool {
         let factors = course.factors(self.state.load_factor);
         let acts = factors.iter().any(|factor| *factor != 0.0);
-        // Where the first load step breaks the body, the largest force met counts instead of that at rest, as with one load.
+        // Where the first load step breaks the body, the largest force in any state counts instead of that at rest.
         let (at_rest, met) = (self.course.largest_force, self.equilibrium.largest_force());
         let largest = if at_rest <= NO_LOAD * met {
             met

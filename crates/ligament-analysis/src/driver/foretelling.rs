@@ -87,9 +87,9 @@ pub struct StepOfFailure {
 }
 
 impl Path<'_> {
-    /// Notifies the observer of loads that break the body at once, without meaningful results: the first bond reaches its limit
-    /// early in the first load step, which ends at `load_factor`, as the step counts in stages. The equilibrium at load factor one,
-    /// in stages of the load of the curve alone, is `at_one`.
+    /// Notifies the observer of loads that break the body at once, without meaningful results, if the first bond reaches its limit
+    /// early in the first load step. The step ends at load factor `load_factor`, in stages at that share of a controlling motion.
+    /// The equilibrium at load factor one, in stages of the control load alone, is `at_one`.
     pub(super) fn report_first_step(
         &mut self,
         at_one: &State,

@@ -140,7 +140,7 @@ impl Outcome {
 }
 
 impl LoadPoint {
-    /// Point on the same line through the origin.
+    /// Point on the line through the origin, scaled by a factor.
     fn scaled(self, factor: f64) -> Self {
         Self {
             displacement: factor * self.displacement,

@@ -212,7 +212,7 @@ impl<'a> Path<'a> {
             Proof::new(problem, balanced).write(&mut out);
             out
         };
-        // On a divided body all processes take part in the checkpoint, and the one that asked receives it.
+        // On a divided body all processes take part in the checkpoint, and those that need it receive it.
         let is_divided = !numbers.subdomain().is_whole();
         let is_made = is_divided && numbers.subdomain().any(asked);
         let made = is_made.then(checkpoint);

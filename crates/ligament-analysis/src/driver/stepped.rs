@@ -315,8 +315,8 @@ impl Stepping<'_> {
         })
     }
 
-    /// What ends the run in an equilibrium that is at rest. A load that is taken back is no failure, and shows what the body
-    /// can carry only when it is again as large as it was.
+    /// Reason why the run ends in an equilibrium at rest. Unloading is no failure, and the load fraction counts only where the load
+    /// is as large as it was before.
     fn end_at_rest(&self, balanced: &Balanced, step: usize) -> Option<Termination> {
         if self.path.is_controlled() {
             let end = self.path.end_at_rest(balanced);
@@ -336,7 +336,7 @@ impl Stepping<'_> {
         end.or(fallen.flatten())
     }
 
-    /// Offers the moment of an equilibrium of a load step.
+    /// Offers an equilibrium of a load step to the observer.
     fn offer(
         &mut self,
         balanced: &Balanced,
@@ -357,7 +357,7 @@ impl Stepping<'_> {
         self.path.offer(&place, balanced, end)
     }
 
-    /// Ends the load step: records it and tells whether it was the last.
+    /// Records the end of the load step, and returns the reason why the run ends, if it does.
     fn record(
         &mut self,
         balanced: &Balanced,

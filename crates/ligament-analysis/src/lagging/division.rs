@@ -9,7 +9,7 @@ use crate::solver::{DirectChoice, Ordering, Update};
 use crate::stiffness::Stiffness;
 use crate::unknowns::Layout;
 
-/// A part is divided no further below this inverse share of the values of the factor.
+/// Inverse of the share of the factor's values below which a part is not divided any further.
 const SMALLEST: usize = 256;
 
 /// Division of a body into parts.

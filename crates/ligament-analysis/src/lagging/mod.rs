@@ -279,7 +279,7 @@ struct Waiting {
 
 impl Ord for Waiting {
     fn cmp(&self, other: &Self) -> Ordering {
-        // Of equal bounds, the first part comes first.
+        // Ties of the bound are resolved in favour of the first part.
         let by_bound = self.at_most.total_cmp(&other.at_most);
         by_bound.then(other.part.cmp(&self.part))
     }

@@ -1,4 +1,4 @@
-//! Load programme of consecutive stages, in which every load has its own factor.
+//! Load program of consecutive stages, in which every load has its own factor.
 
 use std::sync::Arc;
 

@@ -33,7 +33,7 @@ pub use participation::Moving;
 /// Body whose modes are computed. A copy shares its data.
 #[derive(Clone)]
 pub struct ModalProblem {
-    /// The bond system.
+    /// Bonds between the points of the body.
     pub system: Arc<dyn Bonds>,
     /// Masses of the points.
     pub mass: Arc<LumpedMass>,

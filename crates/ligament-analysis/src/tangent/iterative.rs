@@ -241,7 +241,7 @@ impl IterativeSolver {
         }
     }
 
-    /// Those degrees of freedom that are unknowns.
+    /// Unknowns among some degrees of freedom.
     fn unknown_of(&self, mut dofs: Vec<usize>) -> Vec<usize> {
         dofs.retain(|&dof| self.unknowns.is_unknown(dof));
         dofs

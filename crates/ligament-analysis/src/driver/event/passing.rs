@@ -27,7 +27,7 @@ const WHOLE_EVERY: usize = 64;
 pub(super) enum Passed {
     /// No event was skipped, because the run may end with the next one.
     Nothing,
-    /// An equilibrium of the whole body, or none.
+    /// An equilibrium of the whole body, or the reason why there is none.
     Line(Attempt),
     /// A breakage that cannot be applied to delayed parts, and the equilibrium of the whole body before it.
     Broke(Balanced, Breakage),
