@@ -279,7 +279,7 @@ impl Element<2, 2> for ImaginaryElement {
 
     #[inline]
     fn weakened(self, remaining: &Remaining) -> Self {
-        // Shear and stretch have no separate entries in D.
+        // The axial factor scales the whole matrix D, which has no separate entries for stretch and shear.
         Self {
             stiffness: self.stiffness.map(|entry| remaining.axial * entry),
             ..self
