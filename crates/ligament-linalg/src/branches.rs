@@ -30,7 +30,7 @@ impl Branch {
         Self::cut(supernodes, (total / MOST_TASKS).max(SMALLEST_TASK))
     }
 
-    /// The whole factor, cut where two ranges of supernodes with more than `most` values meet.
+    /// The whole factor, cut where two adjacent ranges of supernodes have more than `most` values each.
     pub(crate) fn cut(supernodes: Supernodes<'_>, most: usize) -> Self {
         let cutting = Cutting {
             first: first_supernodes(supernodes),

@@ -35,7 +35,7 @@ impl<'a> Cursor<'a> {
 
     /// Switches from the text of the format line to binary values, the first of which is the integer 1.
     pub(super) fn begin_binary(&mut self) -> Result<(), GmshError> {
-        // Skips the end of the line, at which the cursor stands.
+        // Skips the end of the line, which the cursor has reached.
         self.offset += 1;
         self.encoding = Encoding::LittleEndian;
         let begin = self.offset;
@@ -135,7 +135,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Rest of the line, without blanks around it; the cursor then stands at the end of the line.
+    /// Rest of the line, without blanks around it; the cursor moves to the end of the line.
     fn rest_of_line(&mut self) -> &'a [u8] {
         let begin = self.offset;
         self.skip_while(|byte| byte != b'\n');
@@ -144,7 +144,7 @@ impl<'a> Cursor<'a> {
 
     /// Next line that is not blank, and its offset: text, also in a binary file.
     ///
-    /// The cursor then stands behind the end of the line, where binary values begin.
+    /// The cursor moves behind the end of the line, where binary values begin.
     pub(super) fn text_line(&mut self) -> Result<(usize, &'a [u8]), GmshError> {
         self.skip_while(|byte| byte.is_ascii_whitespace());
         let begin = self.offset;

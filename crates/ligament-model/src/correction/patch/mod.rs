@@ -1,14 +1,13 @@
 //! The patch-exact correction: two factors a bond, for which a uniform strain is an equilibrium with the right tractions.
 //!
-//! The energy correction of NHPD makes the energies of two uniform strains right at every point, and nothing makes the forces
-//! right: under a uniform strain the points of an irregular mesh are not in equilibrium, and the body does something else than
-//! strain uniformly. A mesh knows the forces of a uniform strain eps: with linear shape functions N_P on its cells
+//! The energy correction of NHPD makes the energies of two uniform strains right at every point, but not the forces: under a uniform strain
+//! the points of an irregular mesh are not in equilibrium, and the strain of the body is not uniform. A mesh determines the forces of a
+//! uniform strain eps: with linear shape functions N_P on its cells
 //!
 //! f_P(eps) = sum over the cells c at P of V_c sigma_c grad N_P, sigma_c = C_c : eps,
 //!
-//! zero inside a homogeneous body, the consistent traction on its outline, the jump at an interface. Each bond gets two positive
-//! factors, q_n of its axial and q_t of its shear and rotational stiffness, in the place of alpha Omega, for which at every point
-//! and for every uniform strain
+//! zero inside a homogeneous body, the consistent traction on its outline, the jump at an interface. Each bond has two positive factors, q_n
+//! of its axial and q_t of its shear and rotational stiffness, instead of alpha Omega, for which at every point and for every uniform strain
 //!
 //! forces of the bonds = f_P(eps), moments of the bonds = 0.
 //!

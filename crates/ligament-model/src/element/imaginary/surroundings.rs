@@ -3,7 +3,7 @@
 use super::BondClass;
 use crate::bonds::{BondSet, Incidence};
 
-/// Number that stands for no bond.
+/// Number of a missing bond.
 const NONE: u32 = u32::MAX;
 
 /// Bonds around each point and each bond of a lattice.
