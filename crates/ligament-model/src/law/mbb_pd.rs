@@ -26,7 +26,7 @@ use crate::element::ElementKind;
 use crate::failure::mixed_mode;
 use matrices::{of_matrices, plane_stiffnesses};
 
-/// Law of MBB-PD in its energy form.
+/// Law of MBB-PD.
 pub const LAW: BondLaw = BondLaw {
     options: Options {
         form: Some(Form::Full),
