@@ -6,7 +6,7 @@ use ligament_model::element::Term;
 use ligament_model::subdomain::Subdomain;
 use ligament_model::thermal::ThermalStrain;
 
-use crate::connectivity::Hold;
+use crate::connectivity::AddedSupport;
 use crate::state::State;
 
 /// Bonds that break together, and the resulting changes.
@@ -15,7 +15,7 @@ pub struct Breakage {
     /// Global numbers of the breaking bonds, in order.
     pub bonds: Vec<u32>,
     /// Supports added for rigid motions of detached parts.
-    pub holds: Vec<Hold>,
+    pub holds: Vec<AddedSupport>,
     /// Elements that change: those of the bonds, in order, and then those that depend on them, ascending.
     elements: Option<Box<dyn ChangedElements>>,
     /// Elements of the owned bonds, on a divided body.

@@ -22,7 +22,7 @@ pub struct Fragments {
 
 /// Added support of an unsupported rigid motion of a fragment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Hold {
+pub struct AddedSupport {
     /// Degree of freedom that is fixed.
     pub degree_of_freedom: usize,
     /// Fragment of the degree of freedom.
@@ -64,21 +64,24 @@ impl Fragments {
     ///
     /// `is_fixed` returns whether a degree of freedom is prescribed by supports, loads or earlier added supports; `can_hold`
     /// whether it has a stiffness.
-    pub fn missing_holds(
+    pub fn missing_supports(
         &self,
         fragments: impl IntoIterator<Item = u32>,
         system: &dyn Bonds,
         restraints: &Restraints,
         is_fixed: impl Fn(usize) -> bool,
         can_hold: impl Fn(usize) -> bool,
-    ) -> Vec<Hold> {
+    ) -> Vec<AddedSupport> {
         let of_fragment = |fragment: u32| {
             let points = &self.points[fragment as usize];
-            let found = restraints::missing_holds(system, restraints, points, &is_fixed, &can_hold);
-            found.into_iter().map(move |degree_of_freedom| Hold {
-                degree_of_freedom,
-                fragment,
-            })
+            let found =
+                restraints::missing_supports(system, restraints, points, &is_fixed, &can_hold);
+            found
+                .into_iter()
+                .map(move |degree_of_freedom| AddedSupport {
+                    degree_of_freedom,
+                    fragment,
+                })
         };
         fragments.into_iter().flat_map(of_fragment).collect()
     }

@@ -20,7 +20,7 @@ mod target;
 use std::sync::Arc;
 use std::time::Instant;
 
-use ligament_linalg::{Factorisation, HalfSolved};
+use ligament_linalg::{Factorisation, ForwardSubstituted};
 
 use crate::balanced::{Attempt, Balanced, Stability};
 use crate::bond_numbers::BondNumbers;
@@ -58,7 +58,7 @@ enum Iteration {
 
 /// Quantity prescribed in place of the load factor, which is then an unknown.
 #[derive(Debug, Clone)]
-pub(crate) enum Held {
+pub(crate) enum ControlledQuantity {
     /// A motion (a weighted sum of displacements).
     Motion(Target),
     /// The energy dissipated by bonds.
@@ -72,7 +72,7 @@ pub struct Equilibrium {
     /// Global numbers of the local bonds.
     numbers: Arc<BondNumbers>,
     iteration: Iteration,
-    held: Option<Held>,
+    held: Option<ControlledQuantity>,
 }
 
 impl Equilibrium {
@@ -160,7 +160,7 @@ impl Equilibrium {
     }
 
     /// Sets the quantity prescribed in later equilibria; None solves at the load factor of the state.
-    pub(crate) fn aim(&mut self, held: Option<Held>) {
+    pub(crate) fn aim(&mut self, held: Option<ControlledQuantity>) {
         self.held = held;
     }
 
@@ -244,7 +244,7 @@ impl Equilibrium {
         self.connectivity
             .bonds_broke(system, &mut state.intact, &local);
         let held = &state.held;
-        breakage.holds = self.connectivity.missing_holds(
+        breakage.holds = self.connectivity.missing_supports(
             system,
             loads.restraints(),
             |dof| loads.is_prescribed(dof) || held[dof],
@@ -275,24 +275,24 @@ impl Equilibrium {
         loads: &dyn LoadProgram,
     ) -> Result<Vec<f64>, Unbalanced> {
         let growth = line::growth(&mut self.equations, state, loads)?;
-        match line::carried_by_hold(&self.equations, state, &growth, loads) {
+        match line::load_on_added_support(&self.equations, state, &growth, loads) {
             Some(reason) => Err(reason),
             None => Ok(growth),
         }
     }
 
-    /// Whether [`Equilibrium::half_follow`] can update the factor for a breakage.
-    pub(crate) fn takes_in(&self, breakage: &Breakage) -> bool {
-        breakage.holds.is_empty() && self.equations.solver.takes_in(breakage.n_elements())
+    /// Whether [`Equilibrium::update_and_forward_solve`] can update the factor for a breakage.
+    pub(crate) fn can_update(&self, breakage: &Breakage) -> bool {
+        breakage.holds.is_empty() && self.equations.solver.can_update(breakage.n_elements())
     }
 
     /// Updates the factor for a breakage and passes the half-solved correction to `finish`, which does the backward substitution;
     /// None where the update failed.
-    pub(crate) fn half_follow<T>(
+    pub(crate) fn update_and_forward_solve<T>(
         &mut self,
         state: &State,
         breakage: &Breakage,
-        finish: impl FnOnce(&dyn Factorisation, &HalfSolved) -> T,
+        finish: impl FnOnce(&dyn Factorisation, &ForwardSubstituted) -> T,
     ) -> Option<T> {
         let Equations {
             solver,
@@ -301,7 +301,7 @@ impl Equilibrium {
             ..
         } = &mut self.equations;
         let expansion = problem.loads.thermal_strain(state.load_factor);
-        let half = solver.half_follow(breakage, state, expansion, costs)?;
+        let half = solver.update_and_forward_solve(breakage, state, expansion, costs)?;
         let start = Instant::now();
         let finished = finish(half.factor, &half.correction);
         costs.backward += start.elapsed();
@@ -342,13 +342,13 @@ impl Equilibrium {
     ) -> Result<Attempt, ObserverError> {
         let equations = &mut self.equations;
         let attempt = match (&self.held, self.iteration) {
-            (Some(Held::Motion(target)), Iteration::Secants) => {
+            (Some(ControlledQuantity::Motion(target)), Iteration::Secants) => {
                 secant::balance_at(equations, state, breakage, target, observer)
             }
-            (Some(Held::Motion(target)), _) => {
+            (Some(ControlledQuantity::Motion(target)), _) => {
                 controlled::balance(equations, state, breakage, target, observer)
             }
-            (Some(Held::Energy(goal)), _) => {
+            (Some(ControlledQuantity::Energy(goal)), _) => {
                 dissipating::balance(equations, state, breakage, goal, observer)
             }
             (None, Iteration::Newton) => newton::balance(equations, state, breakage, observer),

@@ -4,7 +4,7 @@
 //! opened bond loses stiffness in tension, shear and rotation, not in compression; see [`Weakened`].
 
 use ligament_model::Bonds;
-use ligament_model::element::{BondDeformation, Remaining};
+use ligament_model::element::{BondDeformation, StiffnessFactors};
 use ligament_model::failure::{Criteria, Criterion, Softened, Weakened};
 use rayon::prelude::*;
 
@@ -23,7 +23,7 @@ pub struct Softening {
     /// Largest e/e_0 including the present iterate, shape (n_bonds) for each criterion.
     trial: Vec<Vec<f64>>,
     /// Remaining stiffness at the deformations of the iterate, shape (n_bonds).
-    pub remaining: Vec<Remaining>,
+    pub remaining: Vec<StiffnessFactors>,
 }
 
 impl Softening {
@@ -42,7 +42,7 @@ impl Softening {
             lists.len().write(out);
             lists.iter().for_each(|list| numbers.write(list, 0.0, out));
         }
-        numbers.write(&self.remaining, Remaining::WHOLE, out);
+        numbers.write(&self.remaining, StiffnessFactors::WHOLE, out);
     }
 
     /// Reads the softening of all bonds, and keeps that of the local bonds.
@@ -72,7 +72,7 @@ impl Softening {
         Self {
             trial: largest.clone(),
             largest,
-            remaining: vec![Remaining::WHOLE; n_bonds],
+            remaining: vec![StiffnessFactors::WHOLE; n_bonds],
         }
     }
 
@@ -173,7 +173,7 @@ fn remaining_of(
     largest: &[Vec<f64>],
     bond: usize,
     is_open: bool,
-) -> Remaining {
+) -> StiffnessFactors {
     let [mut opening, mut crushing, mut sliding] = [1.0_f64; 3];
     for (criterion, largest) in criteria.list.iter().zip(largest) {
         let Some(&largest) = largest.get(bond) else {
@@ -190,7 +190,7 @@ fn remaining_of(
         };
         *weakest = weakest.min(secant);
     }
-    Remaining {
+    StiffnessFactors {
         axial: if is_open { opening } else { crushing },
         shear: opening.min(crushing).min(sliding),
         rotational: opening.min(crushing),

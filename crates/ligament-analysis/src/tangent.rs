@@ -8,7 +8,7 @@ pub(crate) mod solving;
 mod terms;
 pub(crate) mod unsymmetric;
 
-use ligament_linalg::{FactorError, Factorisation, HalfSolved, Inertia};
+use ligament_linalg::{FactorError, Factorisation, ForwardSubstituted, Inertia};
 
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
@@ -27,7 +27,7 @@ pub(crate) const UNRESISTED: f64 = 1e-14;
 
 /// Residual of the linear equations that an iterative solver may leave; a direct one leaves rounding.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Left {
+pub(crate) enum AllowedResidual {
     /// Share of the norm of the force.
     Share(f64),
     /// Largest residuals at the unknowns, shape (n_unknowns), N and N m.
@@ -35,9 +35,9 @@ pub(crate) enum Left {
 }
 
 /// A factor updated for a breakage, and the resulting correction after its forward substitution.
-pub(crate) struct HalfFollowed<'a> {
+pub(crate) struct HalfUpdated<'a> {
     pub(crate) factor: &'a dyn Factorisation,
-    pub(crate) correction: HalfSolved,
+    pub(crate) correction: ForwardSubstituted,
 }
 
 /// Reason why a solver that is ready has no solution.
@@ -66,7 +66,7 @@ pub(crate) trait TangentSolver {
     ) -> Option<Vec<f64>>;
 
     /// Whether the solver can be updated for changes of this number of elements.
-    fn takes_in(&self, _n_elements: usize) -> bool {
+    fn can_update(&self, _n_elements: usize) -> bool {
         false
     }
 
@@ -77,18 +77,18 @@ pub(crate) trait TangentSolver {
 
     /// Updates the solver for a breakage like [`TangentSolver::follow`], but leaves the backward substitution to the caller; None
     /// where the solver has no factor or must compute it anew.
-    fn half_follow(
+    fn update_and_forward_solve(
         &mut self,
         _breakage: &Breakage,
         _state: &State,
         _expansion: ThermalStrain<'_>,
         _costs: &mut Costs,
-    ) -> Option<HalfFollowed<'_>> {
+    ) -> Option<HalfUpdated<'_>> {
         None
     }
 
     /// Updates the solver for the softening of bonds.
-    fn weaken(&mut self, state: &State, costs: &mut Costs);
+    fn update_for_softening(&mut self, state: &State, costs: &mut Costs);
 
     /// Updates the solver for the closed pairs across cracks; none are closed where faces do not close.
     fn close(&mut self, closed: &[ClosedPair], costs: &mut Costs);
@@ -110,7 +110,7 @@ pub(crate) trait TangentSolver {
         &mut self,
         state: &State,
         force: Vec<f64>,
-        left: Left,
+        left: AllowedResidual,
         costs: &mut Costs,
     ) -> Result<Vec<f64>, Unsolved>;
 
@@ -121,7 +121,7 @@ pub(crate) trait TangentSolver {
     fn is_changed(&self) -> bool;
 
     /// Makes the solver recompute K from the bonds the next time.
-    fn forget(&mut self);
+    fn discard(&mut self);
 
     /// Numbers of positive and negative eigenvalues of K; none where they are not known.
     fn inertia(&self) -> Option<Inertia>;

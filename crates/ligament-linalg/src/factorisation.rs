@@ -29,14 +29,14 @@ pub trait Factorisation: Send + Sync {
         &mut self,
         terms: &[RankOne],
         right_hand_side: &[(usize, f64)],
-    ) -> Result<HalfSolved, FactorError>;
+    ) -> Result<ForwardSubstituted, FactorError>;
 
     /// Backward substitution of a half-solved right-hand side, before the factor changes again; returns x, shape (n).
-    fn finish(&self, half_solved: HalfSolved) -> Vec<f64>;
+    fn finish(&self, half_solved: ForwardSubstituted) -> Vec<f64>;
 
     /// Backward substitution in a part, in place: in `vector` (n), in the order of elimination, the rows of the part enter with the
     /// half-solved right-hand side and leave with the solution; the rows of its border already have the solution.
-    fn finish_part(&self, part: &Part, vector: &mut [f64]);
+    fn solve_backward_part(&self, part: &Part, vector: &mut [f64]);
 
     /// Pivots in the order of the matrix (the entries of D in L D L^T), shape (n).
     fn pivots(&self) -> Vec<f64>;
@@ -50,9 +50,9 @@ pub trait Factorisation: Send + Sync {
 
 /// A right-hand side after the forward substitution, in the order of elimination.
 #[derive(Debug, Clone, PartialEq)]
-pub struct HalfSolved(pub(crate) Vec<f64>);
+pub struct ForwardSubstituted(pub(crate) Vec<f64>);
 
-impl HalfSolved {
+impl ForwardSubstituted {
     /// The values by row, shape (n).
     pub fn by_row(&self) -> &[f64] {
         &self.0

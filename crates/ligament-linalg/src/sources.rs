@@ -54,14 +54,14 @@ impl Sources {
 
 /// For each supernode, the supernodes before it that update it: those with rows among its columns.
 #[derive(Debug)]
-pub(crate) struct Reaching {
+pub(crate) struct UpdatingSupernodes {
     /// First updating supernode of each supernode in the list, then the length of the list, shape (n_supernodes + 1).
     starts: Vec<usize>,
     /// Updating supernodes, ascending for each supernode.
     supernodes: Vec<u32>,
 }
 
-impl Reaching {
+impl UpdatingSupernodes {
     pub(crate) fn new(supernodes: Supernodes<'_>) -> Self {
         let of_row = supernodes.of_rows();
         let reached = |supernode: usize| {

@@ -4,7 +4,7 @@ use crate::scatter::Factors;
 
 /// Constant fields of points and bonds, in addition to those of the bond system.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FixedFields {
+pub struct ConstantFields {
     /// Horizons, shape (n_points), m.
     pub horizon: Vec<f64>,
     /// Fraction of the bonds of each point that pre-cracks cut, shape (n_points).

@@ -9,13 +9,13 @@ use crate::bonds::{BondSet, Incidence};
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
 use crate::deformation::Deformations;
-use crate::element::{BondDeformation, Remaining, Rigidities, Term};
+use crate::element::{BondDeformation, Rigidities, StiffnessFactors, Term};
 use crate::failure::Criterion;
 use crate::layout::{Component, Layout};
 use crate::rigid_motions::FreeMotion;
 use crate::subdomain::Subdomain;
 use crate::sweep::BondSweep;
-use crate::system::BondsLeft;
+use crate::system::UnbrokenBonds;
 use crate::thermal::ThermalStrain;
 
 /// The bonds of a body, as equations use them. Points, bonds and degrees of freedom are numbers; coordinates and the number of dimensions
@@ -180,23 +180,23 @@ pub trait BondKinetics: BondTopology {
     /// after another.
     fn forces(
         &self,
-        bonds: BondsLeft<'_>,
+        bonds: UnbrokenBonds<'_>,
         deformations: Deformations,
         expansion: ThermalStrain<'_>,
     ) -> BondSweep;
 
     /// Stiffness of a bond with its remaining factors, as a sum of terms.
-    fn terms(&self, intact: &[bool], bond: usize, remaining: &Remaining) -> Vec<Term>;
+    fn terms(&self, intact: &[bool], bond: usize, remaining: &StiffnessFactors) -> Vec<Term>;
 
     /// Adds the blocks of the stiffness in the columns of a point at the rows of its `lower` coupled points (ascending) and of itself, shape
     /// (n_lower + 1, n_components, n_components).
-    fn add_blocks(&self, bonds: BondsLeft<'_>, point: u32, lower: &[u32], blocks: &mut [f64]);
+    fn add_blocks(&self, bonds: UnbrokenBonds<'_>, point: u32, lower: &[u32], blocks: &mut [f64]);
 
     /// The product K u of the stiffness of the unbroken bonds with motions u, shape (n_degrees_of_freedom) both; for bonds whose forces are
     /// linear in the displacements. The result overwrites `forces`.
     ///
     /// The result does not depend on the number of threads, as in [`BondKinetics::forces`].
-    fn multiply(&self, bonds: BondsLeft<'_>, motions: &[f64], forces: &mut [f64]);
+    fn multiply(&self, bonds: UnbrokenBonds<'_>, motions: &[f64], forces: &mut [f64]);
 
     /// Adds the derivatives of the forces by the displacements: row, column, value.
     fn add_derivatives(&self, intact: &[bool], add: &mut dyn FnMut(usize, usize, f64));
@@ -204,7 +204,7 @@ pub trait BondKinetics: BondTopology {
     /// Elements that change when some of the bonds that are `left` break, at displacements (n_degrees_of_freedom).
     fn changed(
         &self,
-        left: BondsLeft<'_>,
+        left: UnbrokenBonds<'_>,
         displacement: &[f64],
         expansion: ThermalStrain<'_>,
         bonds: &[u32],
@@ -218,7 +218,7 @@ pub trait BondReadings: BondTopology {
         &self,
         intact: &[bool],
         bond: usize,
-        remaining: &Remaining,
+        remaining: &StiffnessFactors,
         deformations: [&Deformations; 2],
     ) -> f64;
 
@@ -227,21 +227,27 @@ pub trait BondReadings: BondTopology {
         &self,
         intact: &[bool],
         bond: usize,
-        remaining: &Remaining,
+        remaining: &StiffnessFactors,
         measured: &BondDeformation,
     ) -> f64;
 
     /// Strain energy density of a point, J/m^3: its part of the energy of its bonds over its volume.
-    fn energy_density(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> f64;
+    fn energy_density(
+        &self,
+        bonds: UnbrokenBonds<'_>,
+        deformations: &Deformations,
+        point: u32,
+    ) -> f64;
 
     /// Components of the virial stress of a point, Pa.
-    fn stress(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> Vec<f64>;
+    fn stress(&self, bonds: UnbrokenBonds<'_>, deformations: &Deformations, point: u32)
+    -> Vec<f64>;
 
     /// Stresses of all points by one reading of the forces of the bonds.
     fn stresses(
         &self,
         reading: StressReading,
-        bonds: BondsLeft<'_>,
+        bonds: UnbrokenBonds<'_>,
         deformations: &Deformations,
     ) -> Stresses;
 
@@ -249,7 +255,7 @@ pub trait BondReadings: BondTopology {
     /// marks its first end as near.
     fn force_through(
         &self,
-        bonds: BondsLeft<'_>,
+        bonds: UnbrokenBonds<'_>,
         deformations: &Deformations,
         crossing: &[(u32, bool)],
         component: Component,

@@ -8,8 +8,8 @@ use ligament_model::contact::Faces;
 use ligament_model::correction::{Correction, CorrectionReport};
 use ligament_model::failure::Criteria;
 use ligament_model::{
-    Absence, AbsentBond, BondSet, BondStiffness, BondSystem, EnergyRatio, FixedFields, PointCloud,
-    System,
+    Absence, AbsentBond, BondSet, BondStiffness, BondSystem, ConstantFields, EnergyRatio,
+    PointCloud, System,
 };
 
 use crate::body::{AnyBody, Body, BodyOutline, Geometry};
@@ -36,7 +36,7 @@ pub struct Model {
     /// Points and corrected bonds.
     pub system: AnySystem,
     /// Fields that an analysis does not change.
-    pub fixed: FixedFields,
+    pub fixed: ConstantFields,
     /// Report on the domain correction, where there was one.
     pub correction: Option<CorrectionReport>,
     /// Smallest and largest Omega.
@@ -98,7 +98,7 @@ impl Model {
         });
         let report = correction.report.as_ref();
         watcher.found(&Finding::Correction(&setup.correction, report));
-        let fixed = FixedFields {
+        let fixed = ConstantFields {
             horizon: horizons.radius,
             precrack_share: std::mem::take(&mut crossed.share),
             energy_ratios,
@@ -387,8 +387,8 @@ fn of_bonds<const D: usize>(formulation: &Formulation<'_, D>, bonds: BondSet<D>)
 }
 
 /// What a correction leaves in the fields of a model, with the points where bonds never fail (n_points); the other fields are empty.
-fn of_correction(correction: &Correction, no_fail: Vec<bool>) -> FixedFields {
-    FixedFields {
+fn of_correction(correction: &Correction, no_fail: Vec<bool>) -> ConstantFields {
+    ConstantFields {
         horizon: Vec::new(),
         precrack_share: Vec::new(),
         energy_ratios: Vec::new(),
@@ -406,7 +406,7 @@ fn warnings<const D: usize>(
     setup: &Setup,
     cloud: &PointCloud<D>,
     report: Option<&CorrectionReport>,
-    fixed: &FixedFields,
+    fixed: &ConstantFields,
     criteria: &Criteria,
     crossed: Precracked,
 ) -> Vec<Warning> {

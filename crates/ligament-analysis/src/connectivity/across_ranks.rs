@@ -63,7 +63,7 @@ pub(super) fn parted(
 }
 
 /// Whether a body may split, where this process no longer connects the ends of some bonds: a connection on any process suffices.
-pub(super) fn may_part(subdomain: &Subdomain, apart: Vec<[u32; 2]>) -> bool {
+pub(super) fn may_split(subdomain: &Subdomain, apart: Vec<[u32; 2]>) -> bool {
     let mut of_all = subdomain.all_gather_list(apart);
     of_all.sort_unstable();
     let mut of_bonds = of_all.chunk_by(|one, other| one == other);

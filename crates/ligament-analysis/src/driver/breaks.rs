@@ -9,7 +9,7 @@ use crate::history::BreakRecord;
 
 /// Criteria and the deformations to which they apply.
 #[derive(Clone, Copy)]
-pub(super) struct Judged<'a> {
+pub(super) struct CriteriaAtDeformations<'a> {
     pub(super) criteria: &'a Criteria,
     /// Deformation of a bond, by its index among the breaking bonds and its local number.
     pub(super) deformation: &'a dyn Fn(usize, usize) -> BondDeformation,
@@ -19,7 +19,7 @@ pub(super) struct Judged<'a> {
 pub(super) struct Breaking<'a> {
     /// Ends of all local bonds, shape (n_bonds).
     pub(super) ends: &'a [[u32; 2]],
-    pub(super) judged: Judged<'a>,
+    pub(super) judged: CriteriaAtDeformations<'a>,
     /// Fields common to all records, with the number of bonds broken before.
     pub(super) moment: BreakRecord,
 }

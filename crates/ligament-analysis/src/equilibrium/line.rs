@@ -65,7 +65,7 @@ pub(super) fn growth(
 }
 
 /// Reason why loads cannot grow along a line (n_degrees_of_freedom) of a state: an added support would carry a load.
-pub(super) fn carried_by_hold(
+pub(super) fn load_on_added_support(
     equations: &Equations,
     state: &State,
     growth: &[f64],
@@ -77,7 +77,7 @@ pub(super) fn carried_by_hold(
     let line = at_one(state, growth.to_vec());
     let (dof, force) = measured(equations, &line, loads).residual.carried?;
     let place = equations.place(dof as usize);
-    Some(Unbalanced::CarriedByHold { place, force })
+    Some(Unbalanced::LoadOnAddedSupport { place, force })
 }
 
 /// Prescribed motions at load factor 1 (n_degrees_of_freedom), and the residual forces (n_unknowns) that they and the loads cause

@@ -14,7 +14,7 @@ const GROWTH: f64 = 2.0;
 
 /// Curvature and equilibria from earlier iterations.
 #[derive(Default)]
-pub(super) struct Precedents {
+pub(super) struct EarlierEquilibria {
     /// Stiffness along the last corrections.
     pub(super) curvature: Curvature,
     /// Equilibria of the last two load steps, the older one first.
@@ -28,7 +28,7 @@ struct Precedent {
     displacement: Vec<f64>,
 }
 
-serial!(Precedents {
+serial!(EarlierEquilibria {
     curvature,
     equilibria
 });
@@ -37,8 +37,8 @@ serial!(Precedent {
     displacement
 });
 
-impl Precedents {
-    /// Restores precedents from bytes of [`Precedents::write_all`].
+impl EarlierEquilibria {
+    /// Restores precedents from bytes of [`EarlierEquilibria::write_all`].
     ///
     /// # Errors
     ///

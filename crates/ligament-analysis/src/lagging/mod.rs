@@ -27,10 +27,10 @@ use crate::state::State;
 use crate::stiffness::Stiffness;
 
 use borders::Bounds;
-use descent::{Descent, Rooms};
+use descent::{Descent, WorkVectors};
 use division::Division;
 
-pub(crate) use descent::HalfSolved;
+pub(crate) use descent::ForwardSubstituted;
 
 /// Relative margin by which a bound must be below the leading bonds; the rounding of a bound is smaller.
 const SURELY: f64 = 1e-6;
@@ -71,7 +71,7 @@ pub(crate) struct Lagging<'a> {
     at_most: Vec<f64>,
     /// Present bound of these ratios.
     now: Vec<f64>,
-    rooms: Rooms,
+    rooms: WorkVectors,
 }
 
 impl<'a> Lagging<'a> {
@@ -93,14 +93,14 @@ impl<'a> Lagging<'a> {
             references: vec![Vec::new(); n_parts],
             at_most: vec![0.0; n_parts],
             now: vec![0.0; n_parts],
-            rooms: Rooms::default(),
+            rooms: WorkVectors::default(),
         };
         for part in (0..n_parts).rev() {
-            lagging.refer(part);
+            lagging.store_border_motions(part);
             let bonds = division.bonds(part).iter();
             let of_bond = |&bond: &u32| lagging.ratio(bond, &deformations[bond as usize], state);
             lagging.now[part] = bonds.map(of_bond).fold(0.0, f64::max);
-            lagging.take_in_below(part);
+            lagging.combine_child_bounds(part);
         }
         lagging
     }
@@ -108,7 +108,7 @@ impl<'a> Lagging<'a> {
     /// Applies a correction after a breakage at some points; returns the bonds that break first now.
     pub(crate) fn follow(
         &mut self,
-        correction: HalfSolved<'_>,
+        correction: ForwardSubstituted<'_>,
         points: impl Iterator<Item = u32>,
         state: &State,
     ) -> FirstToBreak {
@@ -133,14 +133,14 @@ impl<'a> Lagging<'a> {
             substituted.push(part);
         }
         for part in substituted.into_iter().rev() {
-            self.take_in_below(part);
+            self.combine_child_bounds(part);
         }
         leaders.first_to_break()
     }
 
     /// Substitutes all parts, so that all displacements are up to date.
     pub(crate) fn catch_up(&mut self, factor: &dyn Factorisation, state: &State) {
-        let nothing = HalfSolved {
+        let nothing = ForwardSubstituted {
             factor,
             by_row: &[],
             scale: 0.0,
@@ -151,7 +151,7 @@ impl<'a> Lagging<'a> {
 
     fn descent<'b>(
         &'b self,
-        correction: HalfSolved<'b>,
+        correction: ForwardSubstituted<'b>,
         broken_in: &'b [bool],
         held: &'b [bool],
     ) -> Descent<'b> {
@@ -169,7 +169,7 @@ impl<'a> Lagging<'a> {
     /// Updates the displacements of required parts; returns these parts, each after its parent.
     fn substitute_all(
         &mut self,
-        correction: HalfSolved<'_>,
+        correction: ForwardSubstituted<'_>,
         broken_in: &[bool],
         is_asked_for: &[bool],
         state: &State,
@@ -195,7 +195,7 @@ impl<'a> Lagging<'a> {
                 self.displacement[dof as usize] += change;
             }
         }
-        self.refer(part);
+        self.store_border_motions(part);
     }
 
     /// Queues the children of substituted parts, except those that are required.
@@ -217,7 +217,7 @@ impl<'a> Lagging<'a> {
     }
 
     /// Stores the present motions of the border of a part as those at its last substitution.
-    fn refer(&mut self, part: usize) {
+    fn store_border_motions(&mut self, part: usize) {
         let Division {
             parts,
             degree_of_freedom,
@@ -235,7 +235,7 @@ impl<'a> Lagging<'a> {
         let judged: Vec<(f64, Leaders)> = judged.collect();
         for (&part, (largest, of_part)) in parts.iter().zip(judged) {
             self.now[part] = largest;
-            leaders.meet_all(of_part);
+            leaders.merge(of_part);
         }
     }
 
@@ -249,7 +249,7 @@ impl<'a> Lagging<'a> {
         for (&bond, deformation) in bonds.iter().zip(&deformations) {
             let ratio = self.ratio(bond, deformation, state);
             largest = largest.max(ratio);
-            leaders.meet(bond, ratio);
+            leaders.add(bond, ratio);
         }
         (largest, leaders)
     }
@@ -264,7 +264,7 @@ impl<'a> Lagging<'a> {
     }
 
     /// Sets the bound of a part that was substituted to the largest bound of its own bonds and of its children.
-    fn take_in_below(&mut self, part: usize) {
+    fn combine_child_bounds(&mut self, part: usize) {
         let below = self.division.below[part].iter().map(|&it| self.now[it]);
         let at_most = below.fold(self.now[part], f64::max);
         (self.now[part], self.at_most[part]) = (at_most, at_most);

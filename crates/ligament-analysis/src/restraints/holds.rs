@@ -13,7 +13,7 @@ const FREE: f64 = 1e-9;
 ///
 /// `is_fixed` returns whether a degree of freedom is prescribed by supports, loads or earlier added supports; `can_hold` whether it
 /// has a stiffness.
-pub fn missing_holds(
+pub fn missing_supports(
     system: &dyn Bonds,
     restraints: &Restraints,
     points: &[u32],
@@ -42,7 +42,7 @@ pub fn missing_holds(
             break;
         };
         holds.push(dofs[place]);
-        free = left_by_hold(free, place);
+        free = motions_after_fixing(free, place);
     }
     holds
 }
@@ -95,7 +95,7 @@ fn unrestrained(
 }
 
 /// Motions that remain when one degree of freedom of the part is fixed.
-fn left_by_hold(mut motions: Vec<Vec<f64>>, place: usize) -> Vec<Vec<f64>> {
+fn motions_after_fixing(mut motions: Vec<Vec<f64>>, place: usize) -> Vec<Vec<f64>> {
     let most = (0..motions.len()).max_by(|&one, &other| {
         motions[one][place]
             .abs()

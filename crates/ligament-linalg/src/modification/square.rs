@@ -29,7 +29,7 @@ pub(super) struct Square<'a, 'b> {
 }
 
 /// The action of terms on columns.
-pub(super) struct Turned {
+pub(super) struct AppliedRotations {
     /// Rotations of the columns by each term, for each block of columns, shape (n_blocks, n_terms).
     pub(super) rotations: Vec<[Rotation; BLOCK]>,
     /// Right-hand side at the pivots after the forward substitution; empty without one.
@@ -40,7 +40,7 @@ pub(super) struct Turned {
 
 /// Returns the action of the terms, or the column of a vanishing pivot.
 impl WithSimd for Square<'_, '_> {
-    type Output = Result<Turned, usize>;
+    type Output = Result<AppliedRotations, usize>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
@@ -77,7 +77,7 @@ impl WithSimd for Square<'_, '_> {
             }
         }
         let solved = right_hand_side.map_or_else(Vec::new, |it| it[..first].to_vec());
-        Ok(Turned {
+        Ok(AppliedRotations {
             rotations,
             solved,
             more_negative,
@@ -88,7 +88,7 @@ impl WithSimd for Square<'_, '_> {
 /// Rows below the pivots of columns.
 pub(super) struct Below<'a, 'b> {
     pub(super) rows: &'a mut Rows<'b>,
-    pub(super) turned: &'a Turned,
+    pub(super) turned: &'a AppliedRotations,
 }
 
 impl WithSimd for Below<'_, '_> {

@@ -43,7 +43,7 @@ use ligament_analysis::driver::Problem;
 use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::result_fields::{DISPLACEMENT, displacements};
-use ligament_model::{BodyGrid, FixedFields};
+use ligament_model::{BodyGrid, ConstantFields};
 
 pub use ligament_analysis::result_fields as fields;
 
@@ -78,7 +78,7 @@ pub struct ResultWriter<'a> {
     folder: &'a ResultFolder,
     grid: &'a BodyGrid,
     problem: Problem,
-    fixed: &'a FixedFields,
+    fixed: &'a ConstantFields,
     rule: WriteRule,
     tables: Tables,
     /// Where bonds soften.
@@ -101,7 +101,7 @@ impl<'a> ResultWriter<'a> {
     pub fn new(
         folder: &'a ResultFolder,
         grid: &'a BodyGrid,
-        fixed: &'a FixedFields,
+        fixed: &'a ConstantFields,
         rule: WriteRule,
         problem: &Problem,
     ) -> Result<Self, Error> {
@@ -139,7 +139,7 @@ impl<'a> ResultWriter<'a> {
     pub fn cut_back(
         folder: &'a ResultFolder,
         grid: &'a BodyGrid,
-        fixed: &'a FixedFields,
+        fixed: &'a ConstantFields,
         rule: WriteRule,
         problem: &Problem,
         so_far: SoFar,

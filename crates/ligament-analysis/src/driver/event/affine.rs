@@ -12,7 +12,7 @@
 use std::mem;
 use std::time::Instant;
 
-use super::way::{Goal, Way};
+use super::way::{EquilibriumLine, Goal};
 use crate::balanced::Balanced;
 use crate::breaking::FirstToBreak;
 use crate::driver::path::Path;
@@ -59,7 +59,7 @@ impl Affine {
     }
 }
 
-impl Way for Affine {
+impl EquilibriumLine for Affine {
     fn goal(&mut self, path: &mut Path<'_>, line: &Balanced) -> Result<Goal, Unbalanced> {
         let loads = path.problem.loads.clone();
         let Some((course, rate)) =

@@ -6,7 +6,7 @@ use crate::history::Termination;
 use crate::unbalanced::Unbalanced;
 
 /// A line between two breakages.
-pub(super) trait Way {
+pub(super) trait EquilibriumLine {
     /// End of the line of an equilibrium: the critical load, or the end of the run or of the part of the programme before it.
     fn goal(&mut self, path: &mut Path<'_>, line: &Balanced) -> Result<Goal, Unbalanced>;
 

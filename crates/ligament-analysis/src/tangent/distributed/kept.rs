@@ -5,14 +5,14 @@ use std::collections::BTreeSet;
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
 use crate::serial::Serial;
-use crate::tangent::making::Making;
+use crate::tangent::making::FactorRecord;
 
 /// Origin and performance of a preconditioner, equal on all ranks.
-pub(super) struct Kept {
+pub(super) struct PreconditionerState {
     /// Bonds and supports from which the preconditioner was built.
-    pub(super) preconditioner_of: Making,
+    pub(super) preconditioner_of: FactorRecord,
     /// Bonds and supports of the matrix.
-    pub(super) matrix_of: Making,
+    pub(super) matrix_of: FactorRecord,
     /// Points whose columns are outdated.
     pub(super) stale: BTreeSet<u32>,
     /// Whether the preconditioner must be rebuilt.
@@ -23,12 +23,12 @@ pub(super) struct Kept {
     pub(super) excess: f64,
 }
 
-impl Kept {
+impl PreconditionerState {
     /// State before the first matrix.
     pub(super) fn new() -> Self {
         Self {
-            preconditioner_of: Making::default(),
-            matrix_of: Making::default(),
+            preconditioner_of: FactorRecord::default(),
+            matrix_of: FactorRecord::default(),
             stale: BTreeSet::new(),
             is_due: true,
             pace: None,
@@ -42,7 +42,7 @@ impl Kept {
     ///
     /// If the bytes are damaged or belong to another body.
     pub(super) fn read(numbers: &BondNumbers, from: &mut &[u8]) -> Result<Self, CheckpointError> {
-        let mut making = || Making::read_local(numbers, from);
+        let mut making = || FactorRecord::read_local(numbers, from);
         let (preconditioner_of, matrix_of) = (making()?, making()?);
         let stale: Vec<u32> = Serial::read(from)?;
         Ok(Self {

@@ -5,7 +5,7 @@
 //! rows.
 
 use ligament_model::subdomain::Partition;
-use ligament_model::{Bonds, BondsLeft};
+use ligament_model::{Bonds, UnbrokenBonds};
 use rayon::prelude::*;
 
 use crate::distributed_matrix::{DistributedMatrix, Rows};
@@ -26,7 +26,7 @@ pub(super) struct OwnRows<'a> {
 /// Bonds, and whether each degree of freedom is free (n_degrees_of_freedom); the others are decoupled, with a diagonal entry alone.
 #[derive(Clone, Copy)]
 pub(super) struct Taken<'a> {
-    pub(super) bonds: BondsLeft<'a>,
+    pub(super) bonds: UnbrokenBonds<'a>,
     pub(super) free: &'a [bool],
 }
 

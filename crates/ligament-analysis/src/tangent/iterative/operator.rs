@@ -1,7 +1,7 @@
 //! Product with the tangent stiffness of a state, of bonds, restraints and closed pairs, without a matrix.
 
 use ligament_model::element::Term;
-use ligament_model::{Bonds, BondsLeft};
+use ligament_model::{Bonds, UnbrokenBonds};
 use rayon::prelude::*;
 
 use crate::unknowns::Unknowns;
@@ -12,7 +12,7 @@ pub(super) struct Operator<'a> {
     pub(super) system: &'a dyn Bonds,
     pub(super) unknowns: &'a Unknowns,
     /// Intact bonds and their remaining stiffness.
-    pub(super) bonds: BondsLeft<'a>,
+    pub(super) bonds: UnbrokenBonds<'a>,
     /// Whether each degree of freedom is free, shape (n_degrees_of_freedom).
     pub(super) free: &'a [bool],
     /// Additional terms at free degrees of freedom, other than bonds and restraints.

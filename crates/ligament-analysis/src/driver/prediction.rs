@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::outcome::LoadPoint;
 use super::path::Path;
 use super::recorder::largest_ratio;
-use super::start::Unobserved;
+use super::start::NoObserver;
 use crate::at_once::AtOnce;
 use crate::balanced::{Attempt, Balanced};
 use crate::bond_numbers::sum_over_bonds;
@@ -39,7 +39,7 @@ const DOUBLINGS: usize = 60;
 
 /// Prediction of the first failure of a run.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Foretold {
+pub enum Prediction {
     /// A bond reaches its limit.
     FirstFailure(FirstFailure),
     /// No bond reaches its limit.
@@ -147,7 +147,7 @@ impl Path<'_> {
             state.load_factor = load_factor;
         }
         let nothing = Breakage::default();
-        let attempt = (self.equilibrium).balance(&mut state, &nothing, &mut Unobserved)?;
+        let attempt = (self.equilibrium).balance(&mut state, &nothing, &mut NoObserver)?;
         self.equilibrium.aim(None);
         self.course.solves = [self.equilibrium.costs().solves; 2];
         Ok(match attempt {
@@ -159,18 +159,18 @@ impl Path<'_> {
 
 /// Predicts the first failure of a run that has begun; `at_one` is its equilibrium at load factor one, and `steps` are the load
 /// factors of its load steps, None along the exact path.
-pub(super) fn foretell(
+pub(super) fn predict(
     path: Path<'_>,
     at_one: Option<State>,
     steps: Option<&[f64]>,
-) -> Result<Foretold, SetupError> {
+) -> Result<Prediction, SetupError> {
     let system = &path.problem.system;
     if !system.is_linear() {
-        return Ok(Foretold::Nonlinear);
+        return Ok(Prediction::Nonlinear);
     }
     match path.problem.loads.course() {
         None => in_proportion(path, at_one, steps),
-        Some(_) if system.faces_close() => Ok(Foretold::Nonlinear),
+        Some(_) if system.faces_close() => Ok(Prediction::Nonlinear),
         Some(course) => {
             let programme = course.programme.clone();
             in_stages(path, &programme, steps.is_some())
@@ -183,10 +183,10 @@ fn in_proportion(
     mut path: Path<'_>,
     at_one: Option<State>,
     steps: Option<&[f64]>,
-) -> Result<Foretold, SetupError> {
+) -> Result<Prediction, SetupError> {
     let balanced = match at_full_load(&mut path, at_one)? {
         Attempt::Balanced(balanced) => balanced,
-        Attempt::Unbalanced(reason) => return Ok(Foretold::NoEquilibrium { part: 0, reason }),
+        Attempt::Unbalanced(reason) => return Ok(Prediction::NoEquilibrium { part: 0, reason }),
     };
     let factors = steps.unwrap_or(&[1.0]);
     let criteria = path.criteria(&balanced).into_owned();
@@ -208,13 +208,13 @@ fn in_proportion(
         let largest = factors.iter().map(|&it| utilisation(it));
         let utilisation = largest.fold(0.0, f64::max);
         return Ok(match open {
-            Some(_) => Foretold::Nonlinear,
-            None => Foretold::NoFailure { utilisation },
+            Some(_) => Prediction::Nonlinear,
+            None => Prediction::NoFailure { utilisation },
         });
     };
     let first = nearest(factors[index]);
     let load_factor = factors[index].signum() / first.utilisation;
-    Ok(Foretold::FirstFailure(FirstFailure {
+    Ok(Prediction::FirstFailure(FirstFailure {
         bond: first.bond,
         criterion: first.criterion,
         point: LoadPoint {
@@ -249,12 +249,12 @@ fn in_stages(
     mut path: Path<'_>,
     programme: &Programme,
     has_steps: bool,
-) -> Result<Foretold, SetupError> {
+) -> Result<Prediction, SetupError> {
     let nothing = Breakage::default();
     let mut largest: f64 = 0.0;
     let mut here = match path.balance(0, &nothing)? {
         Attempt::Balanced(balanced) => balanced,
-        Attempt::Unbalanced(reason) => return Ok(Foretold::NoEquilibrium { part: 0, reason }),
+        Attempt::Unbalanced(reason) => return Ok(Prediction::NoEquilibrium { part: 0, reason }),
     };
     for (index, part) in programme.parts.iter().enumerate() {
         let start = path.control(&here);
@@ -263,7 +263,7 @@ fn in_stages(
         let there = match path.balance(0, &nothing)? {
             Attempt::Balanced(balanced) => balanced,
             Attempt::Unbalanced(reason) => {
-                return Ok(Foretold::NoEquilibrium {
+                return Ok(Prediction::NoEquilibrium {
                     part: index,
                     reason,
                 });
@@ -283,7 +283,7 @@ fn in_stages(
         let steps_before: usize = programme.parts[..index].iter().map(|it| it.steps).sum();
         let step = (share * part.steps as f64 * AT_LIMIT).ceil().max(1.0);
         let is_counted = has_steps && !goes_on;
-        return Ok(Foretold::FirstFailure(FirstFailure {
+        return Ok(Prediction::FirstFailure(FirstFailure {
             bond: first.bond,
             criterion: first.criterion,
             point: LoadPoint {
@@ -300,7 +300,7 @@ fn in_stages(
             }),
         }));
     }
-    Ok(Foretold::NoFailure {
+    Ok(Prediction::NoFailure {
         utilisation: largest,
     })
 }
