@@ -31,7 +31,7 @@ pub fn parse_and_execute<A: Parser>(
             u8::try_from(told.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from)
         }
     };
-    // As part of another program, an unfinished line would not be flushed otherwise.
+    // An unfinished line would not be flushed otherwise if this is part of another program.
     let _ = io::stdout().flush();
     code
 }

@@ -193,7 +193,7 @@ fn push_value(line: &mut String, value: Value<'_>) {
 }
 
 fn push_text(line: &mut String, text: &str) {
-    // An empty text is quoted as well: alone in its row it would be a blank line, which readers skip.
+    // An empty text is quoted as well: as the only value of a row it would be a blank line, which readers skip.
     if !text.is_empty() && !text.contains([',', '"', '\n', '\r']) {
         line.push_str(text);
         return;

@@ -51,7 +51,7 @@ impl ResultFolder {
     ///
     /// # Errors
     ///
-    /// As [`ResultFolder::create`].
+    /// As for [`ResultFolder::create`].
     pub fn create_marked(path: impl AsRef<Path>, kind: Kind, replace: bool) -> Result<Self, Error> {
         let given = path.as_ref();
         Self::check_marked(given, kind, replace)?;
@@ -104,7 +104,7 @@ impl ResultFolder {
     ///
     /// # Errors
     ///
-    /// As [`ResultFolder::existing`].
+    /// As for [`ResultFolder::existing`].
     pub fn resumed(path: impl AsRef<Path>) -> Result<Self, Error> {
         let (path, kind) = (resolved(path.as_ref()), Kind::RUN);
         recover(&path, kind)?;
@@ -220,7 +220,7 @@ impl ResultFolder {
 fn locked(folder: &Path, kind: Kind) -> Result<Lock, Error> {
     refuse_links(folder, kind)?;
     let lock = Lock::take(folder)?;
-    // With the lock no other process writes files of this kind here.
+    // No other process writes files of this kind here while this one has the lock.
     remove_files(folder, |name| kind.is_unfinished(name))?;
     Ok(lock)
 }

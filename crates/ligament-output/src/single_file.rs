@@ -13,9 +13,9 @@ use crate::atomic::replace_regular;
 /// Kind of the object at the path of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Occupant {
-    /// Nothing.
+    /// The path does not exist.
     Nothing,
-    /// A file.
+    /// A regular file.
     File,
     /// A pipe, a device, or an open file of this process.
     Stream,
@@ -37,7 +37,7 @@ pub fn check_file(path: &Path, replace: bool) -> Result<(), Error> {
 ///
 /// # Errors
 ///
-/// As [`check_file`], or if the system refuses.
+/// As for [`check_file`], or if the system refuses.
 pub fn write_file(path: &Path, contents: &[u8], replace: bool) -> Result<(), Error> {
     check_file(path, replace)?;
     replace_file(path, contents)

@@ -71,7 +71,7 @@ pub fn build_model(
 ///
 /// # Errors
 ///
-/// As of [`build_model`], and if the body is a solid.
+/// As for [`build_model`], and if the body is a solid.
 pub fn build_model_in_plane(
     case: &CaseFile,
     stages: &mut Stages,
@@ -85,7 +85,7 @@ pub fn build_model_in_plane(
 ///
 /// # Errors
 ///
-/// As of [`build_model`].
+/// As for [`build_model`].
 pub fn build_model_on(
     case: &CaseFile,
     communicator: Arc<dyn MatrixCommunicator>,

@@ -70,7 +70,7 @@ impl Request<'_> {
         Ok(folder)
     }
 
-    /// Resumes the run of a case on the caller's threads; rank 0 alone has the folder.
+    /// Resumes the run of a case on the caller's threads; only rank 0 has the folder.
     fn resume_here(
         &self,
         case: &CaseFile,
@@ -132,7 +132,7 @@ impl Request<'_> {
                 anyhow::Ok(kept)
             });
         let kept = kept.transpose()?;
-        // From here on the results of the run change.
+        // The results of the run change from here on.
         folder.remove(SUMMARY)?;
         folder.remove_made_later()?;
         if kept.is_none() {

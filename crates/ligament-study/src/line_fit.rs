@@ -34,8 +34,8 @@ pub enum FitError {
 impl LineFit {
     /// The line with the least sum of squared distances along y to the points, shape (n, 2).
     ///
-    /// With S_xx = sum (x - mean x)^2 and the residual variance s^2 = sum r^2/(n - 2), the standard errors are s/sqrt(S_xx) of
-    /// the slope and s sqrt(1/n + mean(x)^2/S_xx) of the intercept.
+    /// The standard errors are s/sqrt(S_xx) of the slope and s sqrt(1/n + mean(x)^2/S_xx) of the intercept, with S_xx = sum (x - mean x)^2
+    /// and the residual variance s^2 = sum r^2/(n - 2).
     ///
     /// # Errors
     ///

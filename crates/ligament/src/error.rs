@@ -72,7 +72,7 @@ pub enum Fault {
     /// A value outside of its range.
     #[error("must be {expected}, found {found}")]
     OutOfRange {
-        /// The condition, in words.
+        /// Description of the condition.
         expected: Cow<'static, str>,
         /// The value as given.
         found: String,

@@ -36,7 +36,7 @@
 //! ```
 //!
 //! An [`Observer`](ligament_analysis::Observer) in the place of [`Unobserved`](run::Unobserved) receives the load steps of a run;
-//! [`Model::build`] makes the model alone. Nothing is printed and no file is read or written here.
+//! [`Model::build`] only builds the model. Nothing is printed and no file is read or written here.
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")

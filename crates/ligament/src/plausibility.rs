@@ -50,7 +50,7 @@ pub(crate) fn of_model<const D: usize>(
             softening.filter_map(|it| of_length(&*setup.body, cloud, &region.material, it));
         found.extend(lengths.take(1));
     }
-    // Limits follow from constants: where constants are implausible, they alone are reported.
+    // Limits follow from constants: where constants are implausible, only these are reported.
     let of_limits = of_limits(cloud, criteria).into_iter();
     let is_sound = found.is_empty();
     found.extend(of_limits.filter(|it| is_sound || *it == Implausible::NothingFails));

@@ -185,7 +185,7 @@ fn require_rigidities<const D: usize>(
     // The square of a strain of one in 10^14 counts as well.
     let sizes = axial.iter().map(|it| it.abs());
     let largest = cloud.subdomain.max(sizes.fold(f64::NEG_INFINITY, f64::max));
-    // Without any bond there is no largest one.
+    // A body without bonds has no largest rigidity.
     if largest < 0.0 || (1e-270..1e270).contains(&largest) {
         return Ok(());
     }

@@ -407,7 +407,7 @@ fn rotation_as_sliding(setup: &Setup) -> Option<Warning> {
     if law.element() != ElementKind::Spring {
         return None;
     }
-    // Without a shear stiffness there is no energy of shear.
+    // Bonds without a shear stiffness have no energy of shear.
     let counts = |it: &Measure| !(it.needs_shear_stiffness() && law.row.fixes_poisson);
     let sees_rotations = |it: &Measure| it.takes_sliding() && counts(it);
     let mut kinds = setup.criteria.iter().map(|it| it.kind);

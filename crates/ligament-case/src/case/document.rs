@@ -9,11 +9,11 @@ use super::key_path::KeyPath;
 /// Origin of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Origin {
-    /// In the file, at a byte offset.
+    /// A byte offset in the file.
     File(usize),
-    /// In the override with this index.
+    /// The override with this index.
     Override(usize),
-    /// In memory, from a program.
+    /// A program that created the value in memory.
     Memory,
 }
 

@@ -98,7 +98,7 @@ impl Source {
         let origin = match &fault {
             // An unknown key is located at the key, any other fault at the value.
             Fault::UnknownKey { .. } => self.document.key_origin_of(&key),
-            // Of keys that exclude each other, an override is reported.
+            // The error of keys that exclude each other is located at an override, if there is one.
             Fault::NotExactlyOne { found, .. } => found
                 .iter()
                 .filter_map(|name| self.document.origin_of(&key.child(name)))

@@ -86,7 +86,7 @@ impl<'a, const D: usize> Named<'a, D> {
         let mut supports = self.sides(held);
         let is_loaded = |group: &Group| has_word(&group.name, loaded);
         if supports.is_empty() && self.groups.iter().any(is_loaded) {
-            // With a load, the ends of a beam are its supports.
+            // The ends of a beam with a load are its supports.
             supports = ends.iter().flat_map(|words| self.sides(words)).collect();
             supports.retain(|group| !is_loaded(group));
         }
@@ -250,7 +250,7 @@ fn has_word(name: &str, words: &[&str]) -> bool {
     parts.any(|part| words.contains(&part))
 }
 
-/// The axis of the largest component; of equal ones the last.
+/// The axis of the largest component, the last one if several are equal.
 fn farthest<const D: usize>(components: [f64; D]) -> usize {
     let start = D - 1;
     (0..D).rev().fold(start, |best, axis| {

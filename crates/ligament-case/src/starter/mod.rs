@@ -259,7 +259,7 @@ fn relative(path: &Path, folder: &Path) -> String {
     let (to, from): (Vec<Component>, Vec<Component>) =
         (path.components().collect(), folder.components().collect());
     let shared = to.iter().zip(&from).take_while(|(a, b)| a == b).count();
-    // On another drive there is no relative path.
+    // There is no relative path to another drive.
     if shared == 0 {
         return path.to_string_lossy().into_owned();
     }

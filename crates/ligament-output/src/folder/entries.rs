@@ -55,7 +55,7 @@ pub(super) fn resolved(path: &Path) -> PathBuf {
 ///
 /// # Errors
 ///
-/// With the path.
+/// If the path is such, with the path.
 pub fn refuse_link(path: &Path) -> Result<(), Error> {
     match fs::symlink_metadata(path) {
         Ok(found) if found.is_symlink() => Err(Error::Link(path.to_path_buf())),
@@ -71,7 +71,7 @@ pub fn refuse_link(path: &Path) -> Result<(), Error> {
 ///
 /// # Errors
 ///
-/// With the path of the link, or if the folder cannot be listed.
+/// If there is such a link, with its path, or if the folder cannot be listed.
 pub fn refuse_links(folder: &Path, kind: Kind) -> Result<(), Error> {
     if !folder.is_dir() {
         return Ok(());

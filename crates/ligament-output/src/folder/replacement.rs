@@ -96,7 +96,7 @@ pub fn recover(folder: &Path, kind: Kind) -> Result<(), Error> {
     }
     if fs::symlink_metadata(folder).is_err() {
         let new = beside(folder)?;
-        // Without new results the old ones are restored.
+        // The old results are restored if there are no new ones.
         let whole = if new.join(kind.marker).is_file() {
             &new
         } else {

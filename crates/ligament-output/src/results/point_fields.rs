@@ -32,7 +32,7 @@ pub(super) fn write(
     let mut values = point_fields(rule, view);
     let ghosts = corners(grid, system.subdomain());
     for (field, values) in &mut values {
-        // Only its owner has all bonds of a point.
+        // Only the owner of a point has all of its bonds.
         if let FieldValues::Numbers(values) = values {
             ghosts.update(values, field.components(in_space).count());
         }

@@ -75,7 +75,7 @@ impl SolidBody {
     ///
     /// # Errors
     ///
-    /// As [`SolidBody::read`].
+    /// As for [`SolidBody::read`].
     pub fn open(path: &Path) -> Result<Self, Error> {
         Self::read(&VtuFile::open(path)?)
     }

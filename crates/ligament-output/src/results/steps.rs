@@ -113,7 +113,7 @@ impl FromStr for StepChoice {
 }
 
 impl StepChoice {
-    /// The selected ones of the steps `stored` in a folder, ascending.
+    /// Selects from the steps `stored` in a folder, ascending.
     ///
     /// # Errors
     ///

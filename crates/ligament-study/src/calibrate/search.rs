@@ -159,7 +159,7 @@ impl Search {
         if !trials.iter().any(|trial| trial.key == key) {
             return Next::Try(key);
         }
-        // At a limit only the other limit remains.
+        // The key is at a limit: only the other limit remains.
         let untried = |limit: &f64| limit.is_finite() && !trials.iter().any(|it| it.key == *limit);
         match self.limits.into_iter().find(untried) {
             Some(limit) => Next::Try(limit),

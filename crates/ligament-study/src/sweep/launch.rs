@@ -286,7 +286,7 @@ impl Launcher<'_> {
 
     /// The reason why a run failed: its error, or its last line and its exit status.
     fn last_words(&self, run: &Run, exit: ExitStatus) -> String {
-        // Without a log only the exit status is known.
+        // If there is no log, only the exit status is known.
         let log = fs::read(self.folder.log(run)).unwrap_or_default();
         let text = String::from_utf8_lossy(&log);
         let lines: Vec<&str> = text

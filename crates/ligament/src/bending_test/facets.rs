@@ -1,7 +1,8 @@
 //! The outline of a part of a mesh as flat sides, and integrals over the part as sums over the sides.
 //!
-//! By the divergence of x, x_i x and x_i x_j x integrals over a body with flat sides of normal N (with the area as its length) are sums over these:
-//! D V = sum p . N, (D + 1) int x_i = sum (p . N) m_i, (D + 2) int x_i x_j = sum (p . N) m_ij with the means m over a side, p any point of it.
+//! Integrals over a body with flat sides of normal N (with the area as its length) are sums over these, by the divergence of x, x_i x and
+//! x_i x_j x: D V = sum p . N, (D + 1) int x_i = sum (p . N) m_i, (D + 2) int x_i x_j = sum (p . N) m_ij with the means m over a side, p
+//! any point of it.
 
 use super::stress::Tensor;
 use crate::setup::Setup;

@@ -131,7 +131,7 @@ impl<const D: usize> Strip<D> {
 
     /// Forces of the tractions of a stress on the points, shape (n_points), N.
     ///
-    /// On a flat side the mean of N_P sigma over it is the sum of sigma at its corners, that of P twice, over D (D + 1).
+    /// The mean of N_P sigma over a flat side is the sum of sigma at its corners, with that of P counted twice, over D (D + 1).
     pub(super) fn forces(&self, stress: &LinearStress<D>) -> Vec<[f64; D]> {
         let width = self.setup.thickness();
         let mut forces = vec![[0.0; D]; self.setup.body.n_points()];
@@ -152,7 +152,7 @@ impl<const D: usize> Strip<D> {
     /// Displacements of a classical continuum at the points under a stress, without their rigid motions, shape (n_points), m; zero outside
     /// of the middle half of the strip.
     ///
-    /// With the growth E_ijk of the strain eps_ij along x_k they are u_i = 1/2 (E_ijk + E_ikj - E_jki) x_j x_k.
+    /// The displacements are u_i = 1/2 (E_ijk + E_ikj - E_jki) x_j x_k with the gradient E_ijk of the strain eps_ij along x_k.
     pub(super) fn displacement(&self, stress: &LinearStress<D>) -> Option<Vec<[f64; D]>> {
         let mut growth = [[[0.0; D]; D]; D];
         for (growth, stress) in growth.iter_mut().zip(stress) {

@@ -58,7 +58,7 @@ pub trait BodyOutline<const D: usize> {
     /// Distance of each node to the nearest other node whose connecting line stays within the outline, shape (n_points), m.
     fn spacing(&self, cloud: &PointCloud<D>) -> Vec<f64>;
 
-    /// For each bond, whether its straight line leaves the outline, shape (n_bonds).
+    /// Whether the straight line of each bond leaves the outline, shape (n_bonds).
     fn is_left_by(&self, bonds: &BondSet<D>, cloud: &PointCloud<D>) -> Vec<bool>;
 }
 
@@ -160,7 +160,7 @@ pub trait Geometry<const D: usize>: Body {
     /// Positions of the points, shape (n_points), m.
     fn positions(&self) -> &[[f64; D]];
 
-    /// The material points; `material_of_cell` (n_cells) holds the index of each cell's material.
+    /// The material points; `material_of_cell` (n_cells) has the index of each cell's material.
     fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D>;
 
     /// Points of the cell around a position (m) and their interpolation weights, which sum to one; `None` outside of all cells and for
@@ -177,7 +177,7 @@ pub trait Geometry<const D: usize>: Body {
     /// If an edge of the group is not on the outline.
     fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; D])>, OffOutline>;
 
-    /// Corners of the outline's sides of a meshed body, each side of one cell alone, ordered so that the outside is known; empty for other
+    /// Corners of the outline's sides of a meshed body, each side of only one cell, ordered so that the outside is known; empty for other
     /// bodies.
     fn outer_sides(&self) -> Vec<[u32; D]> {
         Vec::new()
@@ -193,7 +193,7 @@ pub trait Geometry<const D: usize>: Body {
         None
     }
 
-    /// For each bond, whether a hole of a lattice is between its ends, shape (n_bonds); empty where there is no hole.
+    /// Whether a hole of a lattice is between the ends of each bond, shape (n_bonds); empty where there is no hole.
     fn crosses_holes(&self, _bonds: &BondSet<D>, _cloud: &PointCloud<D>) -> Vec<bool> {
         Vec::new()
     }

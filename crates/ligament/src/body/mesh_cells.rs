@@ -199,8 +199,8 @@ impl BodyCell<3> for SolidCell {
     }
 }
 
-/// For each edge, keyed by its nodes in ascending order, the number of its cells, and its nodes in the order that has the last of these
-/// cells on the left.
+/// Edges, keyed by their nodes in ascending order: the number of cells, and the nodes in the order with the last of these cells on the
+/// left.
 fn edges_of(cells: &[Cell]) -> BTreeMap<[u32; 2], (usize, [u32; 2])> {
     let mut edges = BTreeMap::new();
     for cell in cells {

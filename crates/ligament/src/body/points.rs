@@ -222,7 +222,7 @@ impl<const D: usize> Geometry<D> for Points<D> {
     }
 
     fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D> {
-        // In space the thickness is 1.
+        // The thickness in space is 1.
         let volumes: Vec<f64> = self.sizes.iter().map(|size| size * thickness).collect();
         let positions = &self.positions;
         PointCloud {

@@ -21,12 +21,12 @@ pub(super) enum Acting {
     All,
     /// The load with this index, without temperature.
     Load(usize),
-    /// The temperature alone.
+    /// The temperature without loads.
     Temperature,
 }
 
-/// Supports and acting loads on the points, with all components of the dimension, whichever of them the bonds have. Groups and control do
-/// not depend on `acting`.
+/// Supports and acting loads on the points, with all components of the dimension, also those that the bonds do not have. Groups and control
+/// do not depend on `acting`.
 pub(super) fn boundary<const D: usize>(
     setup: &Setup,
     cloud: &PointCloud<D>,

@@ -77,7 +77,7 @@ pub fn event() -> EventSettings {
     }
 }
 
-/// Settings of an analysis of the ten lowest modes, rigid ones included.
+/// Settings of an analysis of the ten lowest modes, including rigid modes.
 pub fn modal() -> ModalSettings {
     ModalSettings {
         modes: 10,

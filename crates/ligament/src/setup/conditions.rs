@@ -107,7 +107,7 @@ pub enum Action {
     Pressure(f64),
 }
 
-/// A couple about the axes, right-handed; in the plane about z alone, counter-clockwise.
+/// A couple about the axes, right-handed; in the plane only about z, counter-clockwise.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Couple {
     /// Couples about x, y and z; their unit is that of the action.

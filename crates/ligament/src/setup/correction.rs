@@ -33,7 +33,7 @@ pub enum Alpha {
 pub enum Surface {
     /// No correction.
     None,
-    /// By the volumes of the families.
+    /// Correction by the volumes of the families.
     Volume,
     /// NHPD's iterative domain correction.
     Domain(Iteration),

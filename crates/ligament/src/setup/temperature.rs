@@ -14,7 +14,7 @@ pub struct Temperature {
 /// Change of the temperature.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TemperatureChange {
-    /// One change everywhere, K.
+    /// The same change everywhere, K.
     Uniform(f64),
     /// Changes at positions, each assigned to the point within a tenth of its distance to the nearest other point.
     Table(Vec<Sample>),
