@@ -58,7 +58,7 @@ const MARGIN: f64 = 1.5;
 pub struct TooLarge {
     /// Memory that the run needs, bytes.
     pub needed: u64,
-    /// Whether the need is a lower bound, without the factor.
+    /// Whether the need is a lower bound, without the matrix factor.
     pub is_bound: bool,
     /// Available memory, bytes.
     pub available: u64,

@@ -28,7 +28,7 @@ impl Setup {
         Ok(())
     }
 
-    /// Refuses control by probes in other analyses than load steps, and unknown probes or weights.
+    /// Refuses control by probes in other analyses than load steps, by unknown probes or ones that read no motion, and with weights of 0.
     fn check_probes_that_control(&self, part: Field, probes: &[(String, f64)]) -> Checked {
         if !matches!(self.analysis, Analysis::Stepped(_)) {
             let reason = "a probe controls load steps: the exact path passes peaks and snap-backs by itself, and an elastic answer has none";
