@@ -1,4 +1,4 @@
-//! What this program was built from, as its build script found it.
+//! The build of this program, determined by its build script.
 
 use std::borrow::Cow;
 
@@ -17,10 +17,10 @@ pub const BUILD: Build = Build {
     compiler: known(env!("LIGAMENT_COMPILER")),
 };
 
-/// Version and commit, in words.
+/// Text of version and commit.
 pub(crate) const VERSION: &str = env!("LIGAMENT_VERSION");
 
-/// What is not empty.
+/// The text, or `None` if it is empty.
 const fn known(text: &'static str) -> Option<Text> {
     if text.is_empty() {
         None

@@ -1,4 +1,4 @@
-//! `summary.json`: a run, or an analysis of natural modes, in numbers. What writes the file and what reads it share these types.
+//! `summary.json` of a run, or of an analysis of natural modes; writers and readers share these types.
 
 mod modal;
 mod model;
@@ -28,72 +28,71 @@ pub use solver::{FactorSummary, IterationSummary, SolverSummary};
 /// Name of the file.
 pub const SUMMARY: &str = "summary.json";
 
-/// A word that is a constant of the program where the summary was made, and text where it was read.
+/// A word, a constant of the program in a new summary, owned text in one that was read.
 pub type Text = Cow<'static, str>;
 
-/// All numbers of a run. Keys that an earlier version did not write have their default.
+/// Summary of a run. Keys that an earlier version did not write have their default.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Summary {
-    /// The model.
+    /// Summary of the model.
     #[serde(flatten)]
     pub model: ModelSummary,
-    /// Smallest, mean and largest change of the temperature of the points at load factor 1, where it changes, K.
+    /// Smallest, mean and largest change of the points' temperature at load factor 1, K; none without a change.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub temperature_change: Option<Spread>,
     /// Units of the displacement and the force of the first load, or of the temperature where it is the load.
     pub units: UnitsSummary,
     /// Force over displacement of the first load before the first breakage.
     pub elastic_stiffness: Option<f64>,
-    /// Where the first bond breaks, or begins to soften, as the elastic solution foretells.
+    /// First breakage or softening, predicted by the elastic solution.
     pub first_break: Option<PathPoint>,
-    /// The first bond that began to soften; only of bonds that do.
+    /// First bond that began to soften; only where bonds soften.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first_softened_bond: Option<BondEvent>,
-    /// The first bond that broke.
+    /// First bond that broke.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first_broken_bond: Option<BondEvent>,
-    /// The load step, or event of the exact path, with the largest reaction.
+    /// Load step, or event of the exact path, with the largest reaction.
     pub peak: Option<PathPoint>,
-    /// Forces that each group with supports or loads exerts on the body there, by its name in the history.
+    /// Forces that each group with supports or loads exerts on the body at the peak, by its name in the history.
     pub reactions_at_peak: BTreeMap<String, Resultant>,
-    /// The largest reaction before its first fall by more than a share that the program fixes; on the exact path as in a test
-    /// whose displacement only rises.
+    /// Largest reaction before its first decrease by more than a fixed share; on the exact path as in a test with increasing displacement.
     pub first_peak: Option<PathPoint>,
-    /// Broken bonds at the end.
+    /// Number of broken bonds at the end.
     pub broken_bonds: usize,
-    /// Unbroken bonds at the end whose force had begun to fall; only of bonds that soften.
+    /// Number of unbroken softening bonds at the end; only where bonds soften.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub softened_bonds: Option<usize>,
-    /// Load steps done, or events of the exact path, with the last state.
+    /// Number of load steps, or events of the exact path, including the last state.
     pub steps: usize,
     /// Whether [`steps`](Self::steps) counts events of the exact path.
     pub exact_path: bool,
-    /// Why the run ended, as a short name.
+    /// Reason of the run's end, as a short name.
     pub termination: Text,
-    /// Why the run ended, in words.
+    /// Reason of the run's end, as a message.
     pub termination_message: String,
-    /// Set where no state under load is at rest: there is nothing but the unloaded body.
+    /// Whether no state under load is in equilibrium without pending breakages: only the unloaded body is a result.
     #[serde(skip_serializing_if = "is_false")]
     pub without_equilibrium: bool,
-    /// Set where the last state is not at rest: its bonds would go on breaking, or no equilibrium follows.
+    /// Whether breakage continues in the last state, or no equilibrium follows it.
     #[serde(skip_serializing_if = "is_false")]
     pub last_state_not_at_rest: bool,
-    /// Largest |external work - stored - released energy| over the largest external work.
+    /// Largest |external work - stored - released energy| over the largest external work, dimensionless.
     #[serde(deserialize_with = "number")]
     pub energy_balance_error: f64,
-    /// Faces of cracks that passed through each other farthest, where they did so farther than results bear.
+    /// Deepest overlap of crack faces, where it exceeds a tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub overlap: Option<OverlapSummary>,
-    /// Negative eigenvalues of the intact stiffness, and how many its rotations explain, where Poisson's ratio is large.
+    /// Numbers of negative eigenvalues of the intact stiffness, found and expected from the rotations, where Poisson's ratio is large.
     pub stability: Option<StabilitySummary>,
     /// The solver and its work.
     pub solver: SolverSummary,
-    /// Origin of the results; none of an early version.
+    /// Origin of the results; none from an early version.
     pub provenance: Option<Provenance>,
     /// Wall time and peak memory of the stages.
     pub stages: Vec<Stage>,
-    /// What the user should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
 }
 
@@ -165,7 +164,7 @@ impl From<LoadPoint> for PathPoint {
 pub struct BondEvent {
     /// Tags of the ends of the bond.
     pub ends: [u64; 2],
-    /// Middle of the bond, m.
+    /// Midpoint of the bond, m.
     pub place: Vec<f64>,
     /// Load step or event.
     pub step: usize,
@@ -178,9 +177,9 @@ pub struct BondEvent {
     /// Force of the first load.
     #[serde(deserialize_with = "number")]
     pub reaction: f64,
-    /// The criterion.
+    /// Name of the criterion.
     pub criterion: String,
-    /// What tags are of, `node` or `cell`; not in the file.
+    /// Kind of the tags, `node` or `cell`; not in the file.
     #[serde(skip)]
     pub tagged: &'static str,
 }
@@ -202,23 +201,23 @@ impl fmt::Display for BondEvent {
 /// sum of the moments on its points, N m; in space `force_x` to `force_z` and `moment_x` to `moment_z`.
 pub type Resultant = BTreeMap<Text, f64>;
 
-/// Faces of cracks that passed through each other.
+/// Overlap of crack faces.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct OverlapSummary {
-    /// How far, m.
+    /// Depth of the overlap, m.
     pub depth: f64,
     /// Load step, or event.
     pub step: usize,
-    /// The nodes or cells on either side, and where they are.
+    /// Descriptions of the nodes or cells on either side, with positions.
     pub between: [String; 2],
 }
 
 /// Inertia of the intact stiffness.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct StabilitySummary {
-    /// Negative eigenvalues.
+    /// Number of negative eigenvalues.
     pub negative: usize,
-    /// Negative eigenvalues that are expected.
+    /// Expected number of negative eigenvalues.
     pub expected: usize,
 }
 
@@ -228,11 +227,11 @@ impl From<Stability> for StabilitySummary {
     }
 }
 
-/// The summary in a folder: a [`Summary`] or a [`ModalSummary`]; none where the run has not come to its end.
+/// Reads the summary in a folder, a [`Summary`] or a [`ModalSummary`]; `None` where the run has not ended.
 ///
 /// # Errors
 ///
-/// If the file cannot be read, or is no summary.
+/// If the file cannot be read, or is not a summary.
 pub fn read<S: DeserializeOwned>(folder: &Path) -> Result<Option<S>, Error> {
     let path = folder.join(SUMMARY);
     if !path.is_file() {
@@ -258,7 +257,7 @@ pub fn write<S: Serialize>(folder: &ResultFolder, summary: &S) -> Result<(), Err
     folder.write_text(SUMMARY, &(text + "\n"))
 }
 
-/// A number; JSON has none that is infinite or no number, and stores null instead.
+/// Reads a number; null, which JSON has for infinity and NaN, becomes NaN.
 fn number<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
 }

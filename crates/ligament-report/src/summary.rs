@@ -1,4 +1,4 @@
-//! What a run came to, in words and numbers, as HTML that is there without a script.
+//! Summary of a run as static HTML.
 
 use std::path::Path;
 
@@ -10,10 +10,10 @@ use ligament_output::summary::{
 };
 use ligament_plot::picture::units::Shown;
 
-/// Steps of a stage that a reader of results wants to know the time of, s.
+/// Shortest time of a stage that is shown, s.
 const WORTH_TELLING: f64 = 0.005;
 
-/// Text that stands for itself in HTML.
+/// Text escaped for HTML.
 pub(crate) fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -29,15 +29,15 @@ pub(crate) fn escaped(text: &str) -> String {
     escaped
 }
 
-/// A run in words.
+/// Summary of a run.
 pub(crate) struct InWords {
-    /// Title of the case; none where the run has not come to its end.
+    /// Title of the case; none where the run has not ended.
     pub(crate) title: Option<String>,
     /// The warnings, the main results and their origin as HTML.
     pub(crate) html: String,
 }
 
-/// The results in a folder in words.
+/// Summary of the results in a folder.
 ///
 /// # Errors
 ///
@@ -98,7 +98,7 @@ fn of_modes(summary: ModalSummary) -> InWords {
     }
 }
 
-/// A row of a table: a name and what is said of it.
+/// A row of a table: name and text.
 type Entry = (String, String);
 
 fn entry(name: &str, text: impl Into<String>) -> Entry {
@@ -128,7 +128,7 @@ fn warnings(texts: &[&str]) -> String {
     format!("<section class=\"card warnings\"><h3>Warnings</h3><ul>\n{items}</ul></section>\n")
 }
 
-/// A value with the prefix of its unit that gives a short number.
+/// A value with a suitable prefix of its unit.
 fn quantity(value: f64, unit: &str) -> String {
     Shown::new(unit, value.abs()).value(value)
 }

@@ -1,4 +1,4 @@
-//! A body under loads, from its first state or from a checkpoint, to results in a folder.
+//! Runs a body under loads, from its first state or from a checkpoint, and writes the results into a folder.
 
 use ligament::run::{follow, resume};
 use ligament::setup::Analysis;
@@ -6,7 +6,7 @@ use ligament::{Loading, Model};
 use ligament_analysis::driver::Restored;
 use ligament_case::case::{CaseFile, StressField};
 use ligament_output::folder::ResultFolder;
-use ligament_output::results::{PieceWriter, ResultWriter, SoFar, Time, WriteRule};
+use ligament_output::results::{OutputState, PieceWriter, ResultWriter, Time, WriteRule};
 use ligament_output::summary::{self, Build, Summary};
 
 use crate::checkpoints::{Checkpoints, IsStopped};
@@ -28,15 +28,15 @@ pub(crate) struct LoadedBody<'a> {
     pub(crate) is_stopped: IsStopped<'a>,
 }
 
-/// Where a run begins if not with the unloaded body.
+/// State of a checkpoint from which a run continues.
 pub(crate) struct Kept {
     pub(crate) restored: Restored,
-    pub(crate) results: SoFar,
+    pub(crate) results: OutputState,
     pub(crate) notices: Vec<String>,
 }
 
 impl LoadedBody<'_> {
-    /// Follows the loads from the unloaded body on or from what was kept, and writes all results into the folder: what rank 0 does.
+    /// Runs the analysis on rank 0 from the unloaded body or from a checkpoint's state, and writes all results into the folder.
     pub(crate) fn follow(
         &self,
         folder: &ResultFolder,
@@ -97,8 +97,8 @@ impl LoadedBody<'_> {
 }
 
 impl LoadedBody<'_> {
-    /// Follows the loads as [`LoadedBody::follow`] does on rank 0, from the unloaded body or from a restored run, and writes the pieces of
-    /// grids of this process into the folder of rank 0.
+    /// Runs the analysis on a rank other than 0, from the unloaded body or from a restored run, and writes this process's pieces of grids
+    /// into the folder of rank 0. The counterpart on rank 0 is [`LoadedBody::follow`].
     pub(crate) fn follow_beside(&self, restored: Option<Restored>) -> anyhow::Result<()> {
         let Self {
             case,
@@ -124,7 +124,7 @@ impl LoadedBody<'_> {
     }
 }
 
-/// The rule by which results of a case with an analysis are written.
+/// The rule by which the results of a case with an analysis are written.
 pub fn write_rule(case: &CaseFile, analysis: &Analysis) -> WriteRule {
     let output = &case.case.output;
     WriteRule {

@@ -1,4 +1,4 @@
-//! The route of a modal analysis: from the model to modes on disk.
+//! A modal analysis, from the model to modes on disk.
 
 use ligament::Vibration;
 use ligament_analysis::modal::{ModalAnalysis, ModalSettings};
@@ -29,7 +29,7 @@ pub(crate) fn find_modes(
 
     let outcome = stages.time("modes", || analysis.find())?;
 
-    // Nothing is written, and nothing replaced, before the modes are there.
+    // Nothing is written or replaced before the modes are found.
     make_results(case, create, |folder| {
         stages.time("output", || {
             let grid = model.body().grid();

@@ -1,4 +1,4 @@
-//! What results came from: the program, the processor and the files that it read, so that a run can be repeated.
+//! Origin of results, for repeating a run: program, processor and input files.
 
 use std::fs;
 use std::io;
@@ -10,7 +10,7 @@ use ligament_output::summary::{Build, Identity, Input, Provenance};
 
 use crate::inputs::{Contents, files};
 
-/// The provenance of a run of a case that a build does now.
+/// The provenance of a run of a case by a build on this computer.
 ///
 /// # Errors
 ///
@@ -20,7 +20,7 @@ pub fn provenance(
     case: &CaseFile,
     contents: &mut Contents,
 ) -> Result<Provenance, (PathBuf, io::Error)> {
-    // What cannot be written as TOML cannot be run either, and says so there.
+    // A case that cannot be written as TOML fails when it is run.
     let resolved = case.resolved_toml().unwrap_or_default();
     let mut inputs = vec![Input {
         key: None,
@@ -36,7 +36,7 @@ pub fn provenance(
     Ok(of_inputs(build, inputs))
 }
 
-/// The provenance of a run that read no files, or whose files are not looked at again.
+/// The provenance of a run with known inputs.
 pub fn of_inputs(build: Build, inputs: Vec<Input>) -> Provenance {
     Provenance {
         build,
@@ -47,14 +47,14 @@ pub fn of_inputs(build: Build, inputs: Vec<Input>) -> Provenance {
     }
 }
 
-/// Name of the processor, where the system tells (Linux).
+/// Name of the processor, where known (Linux).
 fn processor() -> Option<String> {
     let told = fs::read_to_string("/proc/cpuinfo").ok()?;
     let line = told.lines().find(|line| line.starts_with("model name"))?;
     Some(line.split_once(':')?.1.trim().to_owned())
 }
 
-/// The widest vector instructions that matter here: the dense kernels of the solver ask for these.
+/// Name of the widest vector instructions by which the solver's dense kernels are chosen.
 #[cfg(target_arch = "x86_64")]
 fn vector_instructions() -> &'static str {
     if std::is_x86_feature_detected!("avx512f") {
@@ -66,7 +66,7 @@ fn vector_instructions() -> &'static str {
     }
 }
 
-/// Kernels for other processors are chosen when the program is built.
+/// Name of the architecture: kernels for other processors are chosen when the program is built.
 #[cfg(not(target_arch = "x86_64"))]
 fn vector_instructions() -> &'static str {
     std::env::consts::ARCH

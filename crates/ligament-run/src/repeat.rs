@@ -1,4 +1,4 @@
-//! Repeating a run from the record in the folder of its results, and comparing both to the last bit.
+//! Repetition of a run from the record in its result folder, with a bitwise comparison.
 
 use std::ffi::OsString;
 use std::fs;
@@ -21,36 +21,35 @@ use crate::progress::ProgressMode;
 use crate::provenance::provenance;
 use crate::run;
 
-/// What the folder of a repetition has behind the name of the results.
+/// Suffix of the result folder's name for the folder of a repetition.
 const SUFFIX: &str = ".repeat";
 
-/// A run that is to be repeated.
+/// Request to repeat a run.
 pub struct Request<'a> {
-    /// The folder of its results.
+    /// Result folder of the run.
     pub folder: &'a Path,
-    /// The folder for the results of the repetition, which stay there; without one they are made beside those of the run, and go if
-    /// they are the same.
+    /// Folder in which the results of the repetition are kept; without one they are written beside those of the run, and removed if equal.
     pub out: Option<&'a Path>,
-    /// The mesh, where it no longer lies where the run found it.
+    /// Path of the mesh, where it has moved since the run.
     pub mesh: Option<&'a Path>,
-    /// Threads, where they are to be others.
+    /// Number of threads, if other than that of the case.
     pub threads: Option<u32>,
-    /// The program that repeats it.
+    /// Build of the repeating program.
     pub build: Build,
-    /// Tells whether the user wants it to stop.
+    /// Whether the user wants to stop the repetition.
     pub is_stopped: IsStopped<'a>,
 }
 
-/// What a repetition found.
+/// Result of a repetition.
 #[derive(Debug)]
 pub struct Repetition {
     folder: PathBuf,
-    /// The results of the repetition, where they were kept.
+    /// Folder of the repetition's results, if kept.
     kept: Option<PathBuf>,
     comparison: Comparison,
-    /// What the user should know of the run.
+    /// Notes on the run for the user.
     notes: Vec<String>,
-    /// What was otherwise when the run was done: what, then, now.
+    /// Differing circumstances of the run: name, earlier value, present value.
     circumstances: Vec<[String; 3]>,
     /// Whether a note may explain differences.
     is_explained: bool,
@@ -59,12 +58,11 @@ pub struct Repetition {
 impl Request<'_> {
     /// Repeats the run with its case and mesh and compares all tables, fields and the summary.
     ///
-    /// A run that was stopped is followed up to where it was stopped.
+    /// A stopped run is repeated up to the state where it was stopped.
     ///
     /// # Errors
     ///
-    /// If the folder holds no results of a run that has ended, another process writes to it, a file that it read is another now, or
-    /// the run fails.
+    /// If the folder has no results of a run that has ended, another process writes to it, an input file has changed, or the run fails.
     pub fn repeat(&self, mode: ProgressMode) -> anyhow::Result<Repetition> {
         let folder = ResultFolder::settled(self.folder).map_err(in_use)?;
         require_results(&folder)?;
@@ -78,7 +76,7 @@ impl Request<'_> {
         let now = provenance(self.build.clone(), &case, &mut contents).map_err(unread)?;
         if let Err(error) = self.run_again(&case, &folder, &out, &summary, mode) {
             if self.out.is_none() {
-                // Nothing was there before; what cannot be removed harms nobody.
+                // The folder did not exist before; a rest that cannot be removed is harmless.
                 let _ = fs::remove_dir_all(&out);
             }
             return Err(error);
@@ -102,7 +100,7 @@ impl Request<'_> {
         })
     }
 
-    /// The case of the run, on the threads that are wanted now.
+    /// The case of the run, with the requested number of threads.
     fn case(&self, folder: &Path) -> anyhow::Result<CaseFile> {
         let mut case = CaseFile::load(&folder.join(RESOLVED_CASE), &[])?;
         let threads = &mut case.case.solver.threads;
@@ -113,14 +111,14 @@ impl Request<'_> {
             };
             section.file = std::path::absolute(mesh)?;
         }
-        // A repetition may take its time: it is stopped where the run was.
+        // A repetition has no limit of wall time: it is stopped where the run was.
         if let Some(fracture) = &mut case.case.fracture {
             fracture.stop.wall_time = None;
         }
         Ok(case)
     }
 
-    /// The folder for the results of the repetition, where nothing is yet.
+    /// The folder for the results of the repetition, which must not exist yet.
     fn place(&self, folder: &Path) -> anyhow::Result<PathBuf> {
         let place = match self.out {
             Some(out) => out.to_path_buf(),
@@ -139,7 +137,7 @@ impl Request<'_> {
         Ok(place)
     }
 
-    /// Does the run anew, up to where it was stopped if it was.
+    /// Runs the case again, up to the state where the run was stopped, if it was.
     fn run_again(
         &self,
         case: &CaseFile,
@@ -173,13 +171,13 @@ impl Request<'_> {
     }
 }
 
-/// Name of the end by a limit of time.
+/// Name in summaries of the end by a limit of wall time.
 const WALL_TIME: &str = "wall-time";
 
-/// Tables that grow with each equilibrium, of which a run can be stopped at the end.
+/// Tables that grow with each equilibrium, after which a run can be stopped.
 const TOLD: [&str; 2] = ["iterations.csv", "breaks.csv"];
 
-/// The error of a folder that another process writes to.
+/// Converts the error of a folder that another process writes to.
 fn in_use(error: ligament_output::Error) -> anyhow::Error {
     match error {
         ligament_output::Error::Busy { path, .. } => anyhow::anyhow!(
@@ -194,7 +192,7 @@ fn length_of(path: &Path) -> u64 {
     fs::metadata(path).map_or(0, |file| file.len())
 }
 
-/// The summary of a run that has ended or was stopped.
+/// Reads the summary of a run that has ended or was stopped.
 fn summary_of(folder: &Path) -> anyhow::Result<Summary> {
     let summary = summary::read(folder)?;
     summary.with_context(|| {
@@ -205,7 +203,7 @@ fn summary_of(folder: &Path) -> anyhow::Result<Summary> {
     })
 }
 
-/// Refuses to repeat a run whose case or files are others than they were, with their names.
+/// Refuses to repeat a run whose case or files have changed, with their names.
 fn check_inputs(
     folder: &Path,
     record: &Provenance,
@@ -244,7 +242,7 @@ fn check_inputs(
     Ok(())
 }
 
-/// What the user should know of a run that is compared.
+/// Notes for the user on a run that is compared.
 fn notes(summary: &Summary) -> Vec<String> {
     let is_cut_short =
         summary.termination == Termination::Stopped.name() || summary.termination == WALL_TIME;
@@ -272,7 +270,7 @@ fn notes(summary: &Summary) -> Vec<String> {
     said.map(|(_, note)| note.to_owned()).collect()
 }
 
-/// What was otherwise when the run was done, and may explain a difference: what, then, now.
+/// Differing circumstances of the run that may explain a difference: name, earlier value, present value.
 fn circumstances(summary: &Summary, now: &Provenance) -> Vec<[String; 3]> {
     let word = |it: Option<&str>| it.unwrap_or("not known").to_owned();
     let then = summary.provenance.as_ref();
@@ -303,12 +301,12 @@ fn circumstances(summary: &Summary, now: &Provenance) -> Vec<[String; 3]> {
 }
 
 impl Repetition {
-    /// Whether all was the same to the last bit.
+    /// Whether all results are bitwise equal.
     pub fn is_same(&self) -> bool {
         self.comparison.is_same()
     }
 
-    /// The lines that a user sees.
+    /// Writes the report for the user.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let (folder, compared) = (self.folder.display(), self.comparison.compared);
         let differing = self.comparison.differing.as_slice();
@@ -357,5 +355,5 @@ impl Repetition {
     }
 }
 
-/// Files after the first whose difference is shown.
+/// Number of files after the first whose difference is shown.
 const SHOWN: usize = 5;

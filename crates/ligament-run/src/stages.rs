@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use ligament_output::summary::Stage;
 
-/// The stages done so far.
+/// Stages completed so far, with time and memory.
 #[derive(Debug, Default)]
 pub struct Stages {
     done: Vec<Stage>,
@@ -12,7 +12,7 @@ pub struct Stages {
 }
 
 impl Stages {
-    /// Does a stage and notes what it took.
+    /// Runs a stage and records its time and memory.
     pub fn time<T>(&mut self, name: &'static str, stage: impl FnOnce() -> T) -> T {
         self.begin();
         let result = stage();
@@ -25,7 +25,7 @@ impl Stages {
         self.begun = Some(Instant::now());
     }
 
-    /// Ends the stage that was begun last, and notes what it took.
+    /// Ends the current stage and records its time and memory.
     pub(crate) fn end(&mut self, name: &'static str) {
         let start = self.begun.take();
         self.done.push(Stage {
@@ -35,13 +35,13 @@ impl Stages {
         });
     }
 
-    /// The stages in their order.
+    /// Completed stages in their order.
     pub fn done(&self) -> &[Stage] {
         &self.done
     }
 }
 
-/// Peak resident memory of this process, bytes, where the system tells (Linux).
+/// Peak resident memory of this process, bytes, where known (Linux).
 fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status

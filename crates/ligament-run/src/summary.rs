@@ -1,4 +1,4 @@
-//! `summary.json`: the run in numbers, and the lines that a user sees at its end.
+//! `summary.json` of a run, and the report for the user at its end.
 
 mod modal;
 mod model;
@@ -25,41 +25,41 @@ pub use model::{correction_line, family, formulation_line, heading, scatter};
 use places::{bond_event, resultants_at_peak};
 use solver::solver_summary;
 
-/// Fall of the reaction, relative to the largest so far, that ends the first rise of the load.
+/// Decrease of the reaction, relative to its maximum so far, that ends the first rise of the load.
 pub const DROP: f64 = 0.02;
 
-/// Warnings that are shown at the end of a run; small pieces that come loose can give hundreds.
+/// Largest number of warnings shown at the end of a run; small detached parts can give hundreds.
 const WARNINGS_SHOWN: usize = 10;
 
-/// Largest load over that of the first breakage which is rounding.
+/// Largest ratio of a load to that of the first breakage that counts as rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Why a run ended, in words, with points by their tags and places.
+/// Description of the end of a run, with points by their tags and positions.
 pub(crate) fn ending(outcome: &Outcome, model: &Model) -> String {
     let body = model.body();
     outcome.termination.words(&|point| body.place(point))
 }
 
-/// Smallest, mean and largest change of the temperature of the points at load factor 1, K.
+/// Smallest, mean and largest change of the points' temperature at load factor 1, K.
 pub fn temperature_change(boundary: &ProportionalLoading) -> Option<Spread> {
     let changes = &boundary.temperature_change;
     (!changes.is_empty()).then(|| Spread::over(changes.iter().copied()))
 }
 
-/// Facts of a run beside its model and its outcome.
+/// Data of a run for the summary, beside its model and its outcome.
 #[derive(Debug, Clone)]
 pub struct Noted {
     /// Origin of the results.
     pub provenance: Provenance,
-    /// Notices of the run in words.
+    /// Messages for the notices of the run.
     pub notices: Vec<String>,
-    /// First bonds that gave way.
+    /// First bonds that softened and broke.
     pub first: FirstBonds,
     /// Stages of the run with their times.
     pub stages: Vec<Stage>,
 }
 
-/// The numbers of a run.
+/// Summary of a run.
 pub fn summary(
     case: &CaseFile,
     model: &Model,
@@ -120,7 +120,7 @@ pub fn summary(
     }
 }
 
-/// The lines that a user sees at the end of a run.
+/// Writes the report of a run for the user.
 pub fn write(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{}", heading(&summary.model.title))?;
     writeln!(out, "  {}", summary.model.formulation)?;
@@ -171,11 +171,11 @@ pub fn write(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Whether the load that was to break the first bond is more than the body ever carried, beyond all rounding: no state under load held.
-fn nothing_held(summary: &Summary) -> bool {
+/// Whether no state under load was in equilibrium: the largest load is within rounding of zero, relative to the load of the first breakage.
+fn has_no_equilibrium_under_load(summary: &Summary) -> bool {
     let event = summary.first_softened_bond.as_ref();
     let event = event.or(summary.first_broken_bond.as_ref());
-    // Stages foretell no breakage, but the elastic answer of their first step is that of its first event.
+    // Stages have no predicted breakage; the first event of their first step replaces it.
     let in_first_step = event.filter(|it| it.step == 1).map(|it| it.reaction);
     let foreseen = summary.first_break.map(|it| it.reaction).or(in_first_step);
     let foreseen = foreseen.map_or(0.0, f64::abs);
@@ -183,7 +183,7 @@ fn nothing_held(summary: &Summary) -> bool {
     held <= ROUNDING * foreseen && foreseen > 0.0
 }
 
-/// The lines of where the body gave way first.
+/// Writes the lines about the first bonds that softened and broke.
 fn write_first_bonds(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
     for (name, bond) in [
         ("first softened", &summary.first_softened_bond),
@@ -196,7 +196,7 @@ fn write_first_bonds(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// The lines of the temperature, the stiffness and the loads that stand out.
+/// Writes the lines about temperature, stiffness and characteristic loads.
 fn write_loads(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
     let UnitsSummary {
         displacement: along,
@@ -220,7 +220,7 @@ fn write_loads(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
         Some(_) => "first softening",
         None => "first breakage",
     };
-    if broke && !summary.without_equilibrium && nothing_held(summary) {
+    if broke && !summary.without_equilibrium && has_no_equilibrium_under_load(summary) {
         writeln!(
             out,
             "  largest load       none: the body broke in the first load step"

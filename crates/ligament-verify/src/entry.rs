@@ -1,102 +1,104 @@
-//! An entry of a table: a known value, whether it is to be trusted, and the verdict on what was computed.
+//! An entry of a table: a known value, its reliability, and the verdict on the computed value.
 
 use super::printed::{Allowed, Printed};
 
-/// A value that is known before it is computed.
+/// A known value for comparison with a computed one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Entry {
     /// Labels of the value, one for each key of the heading.
     pub labels: Vec<String>,
-    /// The value.
+    /// Known value.
     pub known: Printed,
     /// Allowed distance of the computed value from the known one.
     pub allowed: Allowed,
-    /// Whether the value is to be trusted.
-    pub standing: Standing,
+    /// Reliability of the value.
+    pub standing: Reliability,
     /// Whether the entry belongs to the fast subset.
     pub is_fast: bool,
 }
 
-/// Whether a known value is to be trusted.
+/// Reliability of a known value.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Standing {
-    /// The value is to be trusted.
+pub enum Reliability {
+    /// The value is reliable.
     Sound,
-    /// The value is to be trusted, but its last digit was cut off, not rounded.
+    /// The value is reliable, but truncated after its last digit, not rounded.
     Truncated {
-        /// The evidence for the cut.
+        /// Evidence for the truncation.
         reason: String,
     },
-    /// The value was printed in error.
+    /// The value is a misprint.
     Misprint {
-        /// What should stand there, and is compared with.
+        /// Correct value, for the comparison.
         instead: Printed,
-        /// The evidence for the error.
+        /// Evidence for the misprint.
         reason: String,
     },
-    /// The set-up of the table does not lead to the value, for no known reason.
+    /// The set-up of the table does not give the value, for unknown reasons.
     Open {
-        /// What an independent calculation gives, and is compared with.
+        /// Value of an independent calculation, for the comparison.
         instead: Printed,
-        /// The knowledge about the value.
+        /// Knowledge about the value.
         reason: String,
     },
-    /// The value is to be trusted, and the method does not come near enough to it.
+    /// The value is reliable, and the method does not reach it within the tolerance.
     Missed {
-        /// What the method gives, and is compared with where it misses the value.
+        /// Value of the method, for the comparison where it misses the known value.
         instead: Printed,
-        /// The reason why it misses it.
+        /// Reason why the method misses the value.
         reason: String,
     },
 }
 
-/// The outcome of comparing an entry with what was computed.
+/// Verdict on the computed value of an entry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
-    /// The computed value, rounded, is the known one to its last digit.
+    /// The computed value, rounded, equals the known one to its last digit.
     Rounded,
-    /// The computed value, cut off, is the known one to its last digit.
+    /// The computed value, truncated, equals the known one to its last digit.
     Truncated,
-    /// The computed value is as near as it should be.
+    /// The computed value is within the tolerance.
     Within,
-    /// The known value is a misprint, and the computed one is what should stand there.
+    /// The known value is a misprint, and the computed one agrees with the correct value.
     Misprint,
-    /// The known value is not met for no known reason, and the computed one is that of an independent calculation.
+    /// The known value is not met for unknown reasons, and the computed one agrees with an independent calculation.
     Differs,
-    /// The known value is right and is not met, for a known reason.
+    /// The known value is right and not met, for a known reason.
     Missed,
-    /// The entry is shown, not judged.
+    /// The entry is shown without a judgement.
     Shown,
-    /// The computed value should be near the known one, and is not.
+    /// The computed value is outside of the tolerance.
     Failed,
 }
 
 impl Entry {
-    /// What becomes of the entry with this computed value.
+    /// Verdict on a computed value.
     pub(super) fn verdict(&self, computed: f64) -> Verdict {
         let agrees = |printed: &Printed| self.allowed.admits(printed, computed);
         match &self.standing {
             _ if !computed.is_finite() => Verdict::Failed,
-            Standing::Sound if self.allowed == Allowed::Any => Verdict::Shown,
-            Standing::Missed { instead, .. } if !agrees(&self.known) => match agrees(instead) {
+            Reliability::Sound if self.allowed == Allowed::Any => Verdict::Shown,
+            Reliability::Missed { instead, .. } if !agrees(&self.known) => match agrees(instead) {
                 true => Verdict::Missed,
                 false => Verdict::Failed,
             },
-            Standing::Sound if !agrees(&self.known) => Verdict::Failed,
-            Standing::Sound | Standing::Missed { .. } if self.known.is_rounded_from(computed) => {
+            Reliability::Sound if !agrees(&self.known) => Verdict::Failed,
+            Reliability::Sound | Reliability::Missed { .. }
+                if self.known.is_rounded_from(computed) =>
+            {
                 Verdict::Rounded
             }
-            Standing::Sound | Standing::Missed { .. } => Verdict::Within,
-            Standing::Truncated { .. } if self.known.is_cut_from(computed) => Verdict::Truncated,
-            Standing::Misprint { instead, .. } if agrees(instead) => Verdict::Misprint,
-            Standing::Open { instead, .. } if agrees(instead) => Verdict::Differs,
+            Reliability::Sound | Reliability::Missed { .. } => Verdict::Within,
+            Reliability::Truncated { .. } if self.known.is_cut_from(computed) => Verdict::Truncated,
+            Reliability::Misprint { instead, .. } if agrees(instead) => Verdict::Misprint,
+            Reliability::Open { instead, .. } if agrees(instead) => Verdict::Differs,
             _ => Verdict::Failed,
         }
     }
 }
 
-impl Standing {
-    /// The reason why the known value is not taken as it is.
+impl Reliability {
+    /// Reason why the known value is not used directly, if any.
     pub(super) fn reason(&self) -> Option<&str> {
         match self {
             Self::Sound => None,
@@ -107,7 +109,7 @@ impl Standing {
         }
     }
 
-    /// What the computed value is compared with instead of the known one.
+    /// Value for the comparison in place of the known one, if any.
     pub(super) fn instead(&self) -> Option<&Printed> {
         match self {
             Self::Misprint { instead, .. }
@@ -131,7 +133,7 @@ impl Verdict {
         Self::Failed,
     ];
 
-    /// In words.
+    /// Text of the verdict.
     pub fn words(self) -> &'static str {
         match self {
             Self::Rounded => "rounded",
@@ -150,7 +152,7 @@ impl Verdict {
 mod tests {
     use super::*;
 
-    fn entry(known: &str, allowed: Allowed, standing: Standing) -> Entry {
+    fn entry(known: &str, allowed: Allowed, standing: Reliability) -> Entry {
         Entry {
             labels: Vec::new(),
             known: Printed::parse(known).unwrap(),
@@ -168,20 +170,20 @@ mod tests {
     #[test]
     fn a_sound_value_is_met_nearly_met_or_missed() {
         use Verdict::{Failed, Rounded, Shown, Within};
-        let printed = entry("2294.9", Allowed::Digits, Standing::Sound);
+        let printed = entry("2294.9", Allowed::Digits, Reliability::Sound);
         assert_eq!(
             verdicts(&printed, &[2294.94, 2294.86, 2294.96]),
             [Rounded, Rounded, Failed]
         );
-        let near = entry("2294.9", Allowed::Relative(0.01), Standing::Sound);
+        let near = entry("2294.9", Allowed::Relative(0.01), Reliability::Sound);
         assert_eq!(
             verdicts(&near, &[2294.9, 2310.0, 2272.0, 2318.0]),
             [Rounded, Within, Within, Failed]
         );
         // Half a unit of the only digit of 0 is no excuse for missing the tolerance.
-        let zero = entry("0", Allowed::Absolute(0.01), Standing::Sound);
+        let zero = entry("0", Allowed::Absolute(0.01), Reliability::Sound);
         assert_eq!(verdicts(&zero, &[-0.005, 0.3]), [Rounded, Failed]);
-        let shown = entry("0.1", Allowed::Any, Standing::Sound);
+        let shown = entry("0.1", Allowed::Any, Reliability::Sound);
         assert_eq!(verdicts(&shown, &[0.1, 7.0]), [Shown, Shown]);
         for it in [printed, near, zero, shown] {
             assert_eq!(verdicts(&it, &[f64::NAN, f64::INFINITY]), [Failed, Failed]);
@@ -192,11 +194,15 @@ mod tests {
     fn a_truncated_value_is_met_by_what_was_cut() {
         use Verdict::{Failed, Truncated};
         let reason = String::from("cut");
-        let cut = entry("0.01085", Allowed::Digits, Standing::Truncated { reason });
+        let cut = entry(
+            "0.01085",
+            Allowed::Digits,
+            Reliability::Truncated { reason },
+        );
         let found = verdicts(&cut, &[0.010856, 0.01085, 0.010849, 0.010861]);
         assert_eq!(found, [Truncated, Truncated, Failed, Failed]);
         let reason = String::from("cut");
-        let negative = entry("-0.5", Allowed::Digits, Standing::Truncated { reason });
+        let negative = entry("-0.5", Allowed::Digits, Reliability::Truncated { reason });
         assert_eq!(verdicts(&negative, &[-0.58, -0.48]), [Truncated, Failed]);
     }
 
@@ -209,7 +215,7 @@ mod tests {
         let misprint = entry(
             "2025.5",
             Allowed::Digits,
-            Standing::Misprint {
+            Reliability::Misprint {
                 instead: instead.clone(),
                 reason: reason.clone(),
             },
@@ -219,7 +225,7 @@ mod tests {
         let open = entry(
             "2025.5",
             Allowed::Relative(0.001),
-            Standing::Open { instead, reason },
+            Reliability::Open { instead, reason },
         );
         let found = verdicts(&open, &[2054.0, 2025.5]);
         assert_eq!(found, [Verdict::Differs, Verdict::Failed]);
@@ -231,7 +237,7 @@ mod tests {
         let missed = entry(
             "0.0",
             Allowed::Absolute(0.3),
-            Standing::Missed { instead, reason },
+            Reliability::Missed { instead, reason },
         );
         let found = verdicts(&missed, &[0.7, 1.2, 0.2, 0.01]);
         use Verdict::{Failed, Missed, Rounded, Within};

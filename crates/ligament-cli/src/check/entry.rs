@@ -1,4 +1,4 @@
-//! Lines of a check.
+//! Lines of the report of a check.
 
 use std::fmt::Display;
 use std::io::{self, Write};
@@ -29,7 +29,7 @@ pub(super) fn spread(
     }
 }
 
-/// Bytes in words, to a tenth of a megabyte.
+/// Text of a size in bytes, to a tenth of a megabyte.
 pub(super) fn megabytes(bytes: f64) -> String {
     format!("{:.1} MB", bytes / 1e6)
 }

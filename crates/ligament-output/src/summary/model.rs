@@ -1,10 +1,10 @@
-//! The discrete model in numbers.
+//! Summary of the discrete model.
 
 use serde::{Deserialize, Serialize};
 
 use super::{Text, number};
 
-/// The numbers of a model.
+/// Summary of a model.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ModelSummary {
@@ -12,7 +12,7 @@ pub struct ModelSummary {
     pub title: String,
     /// Version of the program.
     pub version: Text,
-    /// Law and corrections of the bonds, in words.
+    /// Description of the law and the corrections of the bonds.
     pub formulation: String,
     /// Number of points.
     pub points: usize,
@@ -28,9 +28,9 @@ pub struct ModelSummary {
     pub horizon: Spread,
     /// Smallest, mean and largest number of bonds of a point.
     pub family: Spread,
-    /// The corrections of the bonds.
+    /// Corrections of the bonds.
     pub correction: CorrectionSummary,
-    /// The property that varies at random, where one does.
+    /// Property that varies at random; none without scatter.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scatter: Option<ScatterSummary>,
 }
@@ -38,7 +38,7 @@ pub struct ModelSummary {
 /// A property that varies at random.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ScatterSummary {
-    /// The property.
+    /// Name of the property.
     pub of: Text,
     /// Seed of the random numbers.
     pub seed: u64,
@@ -52,28 +52,28 @@ pub struct ScatterSummary {
 /// Range and mean of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Spread {
-    /// Smallest.
+    /// Smallest value.
     #[serde(deserialize_with = "number")]
     pub min: f64,
-    /// Mean.
+    /// Mean value.
     #[serde(deserialize_with = "number")]
     pub mean: f64,
-    /// Largest.
+    /// Largest value.
     #[serde(deserialize_with = "number")]
     pub max: f64,
 }
 
-/// The corrections, and how the domain correction went if it is the one.
+/// The corrections, and the convergence of an iterated correction.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct CorrectionSummary {
-    /// The factor alpha.
+    /// Kind of the factor alpha.
     pub alpha: Text,
-    /// The correction of surfaces.
+    /// Kind of the correction of surfaces.
     pub surface: Text,
-    /// Sweeps.
+    /// Number of sweeps of the domain correction.
     pub sweeps: Option<usize>,
-    /// Whether it converged.
+    /// Whether the iteration converged.
     pub converged: Option<bool>,
     /// Sum over the bonds of |change of Omega| in the last sweep.
     pub last_change: Option<f64>,
@@ -85,10 +85,10 @@ pub struct CorrectionSummary {
     pub factor_max: f64,
     /// Largest |energy ratio - 1| of a point under uniaxial strain along x or y.
     pub largest_residual: Option<f64>,
-    /// Newton steps of the patch correction.
+    /// Number of Newton steps of the patch correction.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub newton_steps: Option<usize>,
-    /// Root mean square of what the patch correction leaves of its equations.
+    /// Root mean square residual of the patch correction's equations.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub left: Option<f64>,
     /// Energy ratios over the points: in the plane for uniaxial x, uniaxial y, biaxial and shear strain.
@@ -96,7 +96,7 @@ pub struct CorrectionSummary {
 }
 
 impl Spread {
-    /// Smallest, mean and largest of some values.
+    /// Smallest, mean and largest value.
     pub fn over(values: impl Iterator<Item = f64> + Clone) -> Self {
         let count = values.clone().count().max(1) as f64;
         Self {

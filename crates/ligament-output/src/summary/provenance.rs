@@ -1,4 +1,4 @@
-//! Origin of results, so that a run can be repeated, and the time that they took.
+//! Origin of results, for repeating a run, and the times of its stages.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -7,48 +7,48 @@ use serde::{Deserialize, Serialize};
 
 use super::Text;
 
-/// A build of the program; what is not known of it is left out.
+/// A build of the program; unknown properties are left out.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Build {
-    /// The commit that it was built from, by its digest.
+    /// Digest of the commit.
     pub commit: Option<Text>,
-    /// Whether sources differed from the commit.
+    /// Whether the sources differed from the commit.
     pub uncommitted_changes: Option<bool>,
     /// `release` or `debug`.
     pub profile: Option<Text>,
-    /// The kind of system and processor that it was built for.
+    /// Target system and processor of the build.
     pub target: Option<Text>,
     /// Name and version of the compiler.
     pub compiler: Option<Text>,
 }
 
-/// The record of what results came from.
+/// Record of the origin of results.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Provenance {
-    /// The program.
+    /// Build of the program.
     #[serde(flatten)]
     pub build: Build,
-    /// Name of the processor, where the system tells (Linux).
+    /// Name of the processor, where known (Linux).
     pub processor: Option<String>,
-    /// The widest vector instructions that the processor has of those that kernels are chosen by when the program starts.
+    /// Widest vector instructions of the processor by which kernels are chosen at start.
     #[serde(default)]
     pub vector_instructions: Option<Text>,
-    /// Whether the run was stopped in between; what came before may be from another build or processor.
+    /// Whether the run was resumed; its earlier part may be from another build or processor.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub resumed: bool,
-    /// The case with all defaults, and the files that it names.
+    /// The case with all defaults, and its input files.
     pub inputs: Vec<Input>,
 }
 
 /// A file that a run read.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Input {
-    /// The key of the case that names it; none for the case itself.
+    /// Key of the case that names the file; none for the case itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub key: Option<String>,
-    /// The path; the case lies in the folder of the results.
+    /// Path of the file; the case is in the result folder.
     pub file: PathBuf,
-    /// What the file held.
+    /// Identity of the file's content.
     #[serde(flatten)]
     pub content: Identity,
 }
@@ -85,6 +85,6 @@ pub struct Stage {
     pub name: Text,
     /// Wall time, s.
     pub seconds: f64,
-    /// Peak memory of the process up to its end, bytes; not known on every system.
+    /// Peak memory of the process up to the end of the stage, bytes; none where unknown.
     pub peak_bytes: Option<u64>,
 }

@@ -1,4 +1,4 @@
-//! The solver of a run and its work.
+//! Summary of the solver of a run and its work.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,26 +8,26 @@ use super::Text;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SolverSummary {
-    /// `direct`, `iterative` or, of several processes, `distributed`.
+    /// Method: `direct`, `iterative` or, with several processes, `distributed`.
     pub method: Text,
-    /// Why it was this one.
+    /// Reason for the method.
     pub reason: Text,
-    /// What was chosen for a factor.
+    /// Choices for the matrix factor.
     #[serde(flatten)]
     pub factor: Option<FactorSummary>,
-    /// What was chosen for conjugate gradients.
+    /// Choices for conjugate gradients.
     #[serde(flatten)]
     pub iteration: Option<IterationSummary>,
-    /// Processes, where several solve the equations together.
+    /// Number of processes, where several solve the equations together.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ranks: Option<usize>,
-    /// Threads.
+    /// Number of threads.
     pub threads: usize,
-    /// Factorisations; of the coarse space where the method is iterative.
+    /// Number of factorisations; of the coarse space where the method is iterative.
     pub factorisations: usize,
-    /// Changes of a factor in place.
+    /// Number of updates of the factor in place.
     pub changes: usize,
-    /// Solves, those after a change included.
+    /// Number of solves, including those after an update.
     pub solves: usize,
     /// Time in numbering, pattern and symbolic analysis, s.
     pub analysis_seconds: f64,
@@ -35,37 +35,37 @@ pub struct SolverSummary {
     pub assembly_seconds: f64,
     /// Time in factorisations, s.
     pub factorisation_seconds: f64,
-    /// Time in changes in place, with the forward substitution that goes along, s.
+    /// Time in updates in place, including their forward substitutions, s.
     pub change_seconds: f64,
-    /// Time in the backward substitutions that follow them, s.
+    /// Time in the backward substitutions after updates, s.
     pub backward_seconds: f64,
     /// Time in other solves, s.
     pub solve_seconds: f64,
-    /// Time on bonds: deformations, forces, energies, criterion, s.
+    /// Time in loops over bonds: deformations, forces, energies, criteria, s.
     pub bonds_seconds: f64,
-    /// Time in the search for loose parts, s.
+    /// Time in the search for detached parts, s.
     pub connectivity_seconds: f64,
 }
 
-/// What was chosen for a factor.
+/// Choices for the matrix factor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FactorSummary {
     /// Factorisation: `llt`, `ldlt` or, of forces without an energy, `lu`.
     pub factorisation: Text,
-    /// Order of elimination: `nested-dissection` or `minimum-degree`.
+    /// Elimination order: `nested-dissection` or `minimum-degree`.
     pub ordering: Text,
-    /// What happened to the factor when bonds broke: `incremental` or `refactor`.
+    /// Treatment of the factor when bonds break: `incremental` or `refactor`.
     pub update: Text,
 }
 
-/// What was chosen for conjugate gradients, and what they took.
+/// Choices for conjugate gradients, and the number of iterations.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct IterationSummary {
-    /// Force left out of balance after a breakage, relative to the forces that may act at a point.
+    /// Residual tolerance after a breakage, relative to the forces that may act at a point.
     pub tolerance: f64,
-    /// Points at most of the aggregates whose rigid motions are its coarse space, where it has one of its own.
+    /// Largest number of points of an aggregate whose rigid motions form the coarse space; none without a coarse space of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub aggregate: Option<usize>,
-    /// Iterations of all solves.
+    /// Number of iterations of all solves.
     pub iterations: usize,
 }

@@ -1,4 +1,4 @@
-//! `summary.json` of a modal analysis, and the table that a user sees at its end.
+//! `summary.json` of a modal analysis, and the table for the user at its end.
 
 use std::io::{self, Write};
 
@@ -14,7 +14,7 @@ use super::solver::solver_summary;
 use ligament::Model;
 use ligament_case::case::CaseFile;
 
-/// The numbers of an analysis of natural modes.
+/// Summary of an analysis of natural modes.
 pub fn modal_summary(
     case: &CaseFile,
     model: &Model,
@@ -55,7 +55,7 @@ pub fn modal_summary(
         warnings,
     }
 }
-/// The lines that a user sees at the end of an analysis.
+/// Writes the report of an analysis of natural modes for the user.
 pub fn write_modal(summary: &ModalSummary, out: &mut dyn Write) -> io::Result<()> {
     let ModelSummary {
         title,
@@ -108,7 +108,7 @@ pub fn write_modal(summary: &ModalSummary, out: &mut dyn Write) -> io::Result<()
     Ok(())
 }
 
-/// Shares as percentages in columns.
+/// Shares as text, in columns of percentages.
 fn percentages(shares: &[f64]) -> String {
     let widths = match shares.len() {
         3 => [12, 7, 11].as_slice(),

@@ -1,4 +1,4 @@
-//! The discrete model in numbers and words, whatever is then done with it.
+//! The discrete model in summaries and reports, for all analyses.
 
 use ligament_model::ElementKind;
 use ligament_model::correction::{CorrectionReport, DomainReport};
@@ -10,7 +10,7 @@ use ligament_case::case::{CaseFile, Worded};
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
 use ligament_model::material::Space;
 
-/// The first line about a case: its title.
+/// First line of the report on a case: its title.
 pub fn heading(title: &str) -> &str {
     if title.is_empty() {
         "untitled case"
@@ -19,7 +19,7 @@ pub fn heading(title: &str) -> &str {
     }
 }
 
-/// The numbers of a model.
+/// Summary of a model.
 pub(super) fn model_summary(case: &CaseFile, model: &Model) -> ModelSummary {
     ModelSummary {
         title: case.case.title.clone(),
@@ -37,7 +37,7 @@ pub(super) fn model_summary(case: &CaseFile, model: &Model) -> ModelSummary {
     }
 }
 
-/// The property of a model that varies at random; none where none does.
+/// Summary of the property of a model that varies at random; `None` without scatter.
 pub fn scatter(model: &Model) -> Option<ScatterSummary> {
     let factors = &model.fixed.scatter.as_ref()?.at_points;
     let scatter = model.setup.scatter?;
@@ -52,13 +52,13 @@ pub fn scatter(model: &Model) -> Option<ScatterSummary> {
     })
 }
 
-/// Law and corrections of the bonds, in words.
+/// Description of the law and the corrections of the bonds.
 fn formulation_words(model: &Model) -> String {
     let correction = correction_line(&model.setup.correction, model.correction.as_ref());
     format!("{}; {correction}", formulation_line(&model.setup))
 }
 
-/// Numbers of bonds of the points.
+/// Smallest, mean and largest number of bonds of a point.
 pub fn family(model: &Model) -> Spread {
     let [min, max] = model.counts.of_points.map(|it| it as f64);
     Spread {
@@ -68,7 +68,7 @@ pub fn family(model: &Model) -> Spread {
     }
 }
 
-/// The correction of a model.
+/// Summary of the correction of a model.
 fn correction(model: &Model) -> CorrectionSummary {
     let report = model.correction.as_ref();
     let domain = report.and_then(CorrectionReport::domain);
@@ -91,7 +91,7 @@ fn correction(model: &Model) -> CorrectionSummary {
     }
 }
 
-/// The law of the bonds, in a line.
+/// One-line description of the law of the bonds.
 pub fn formulation_line(setup: &Setup) -> String {
     let is_solid = setup.space() == Space::Solid;
     let (name, options) = (setup.law.name(), setup.law.options);
@@ -138,7 +138,7 @@ pub fn formulation_line(setup: &Setup) -> String {
     )
 }
 
-/// Line on the corrections of the bonds, and on how the iterated one went.
+/// One-line description of the corrections of the bonds, and of the convergence of the iterated correction.
 pub fn correction_line(correction: &Correction, report: Option<&CorrectionReport>) -> String {
     let alpha = match correction.alpha {
         Alpha::None => "no factor alpha",

@@ -1,4 +1,4 @@
-//! Where a body gave way first, and what held it at the largest load.
+//! First broken or softened bonds, and reactions at the largest load, for the summary.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use ligament_analysis::{Layout, LoadProgram};
 use ligament_output::results::criterion_labels;
 use ligament_output::summary::{BondEvent, Resultant};
 
-/// The first breakage or softening in a model.
+/// Summary of the first breakage or softening in a model.
 pub(super) fn bond_event(model: &Model, first: &FirstBond) -> BondEvent {
     let ends = model.system.numbering().ordered(first.ends);
     let criteria = model.criteria.list.iter().map(|it| it.name);
@@ -26,7 +26,7 @@ pub(super) fn bond_event(model: &Model, first: &FirstBond) -> BondEvent {
         tagged: model.body().tagged(),
     }
 }
-/// The resultants of all groups at the record at rest with the largest reaction, by their names as in the history.
+/// Resultants of the groups, by their names in the history, at the record with the largest reaction and no bond left to break.
 pub(super) fn resultants_at_peak(
     loads: &dyn LoadProgram,
     layout: Layout,

@@ -1,10 +1,10 @@
-//! The solver of a run and its work, for the summary.
+//! Choices and costs of the solver of a run, for the summary.
 
 use ligament_analysis::costs::Costs;
 use ligament_analysis::solver::{DirectChoice, FactorKind, Ordering, SolverChoice, Update};
 use ligament_output::summary::{FactorSummary, IterationSummary, SolverSummary};
 
-/// What was chosen for a factor.
+/// Summary of the choices for a matrix factor.
 fn factor(choice: &DirectChoice) -> FactorSummary {
     FactorSummary {
         factorisation: match choice.factorisation {
@@ -23,7 +23,7 @@ fn factor(choice: &DirectChoice) -> FactorSummary {
     }
 }
 
-/// What was chosen, and what it cost.
+/// Summary of the solver's choices and costs.
 pub(super) fn solver_summary(costs: &Costs, choice: &SolverChoice) -> SolverSummary {
     let iterations = costs.iterations;
     let iteration = |tolerance, aggregate| IterationSummary {

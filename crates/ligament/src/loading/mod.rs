@@ -25,7 +25,7 @@ use crate::error::{Fault, Field, SetupError};
 use crate::model::Model;
 use crate::setup::Setup;
 use crate::system::over_dimension;
-use boundary::{Acting, boundary, couples_have_stiffness};
+use boundary::{ActiveLoads, boundary, require_rotational_stiffness};
 use programme::staged;
 use restraints::restrained;
 
@@ -34,11 +34,11 @@ use restraints::restrained;
 pub struct Loading {
     /// Supports and loads as they are at load factor 1.
     pub boundary: Arc<ProportionalLoading>,
-    /// Supports and loads in the first part of the stages, if there are any.
+    /// Supports and loads at the first part of the stages; none without stages.
     pub staged: Option<Arc<StagedLoading>>,
     /// Probes.
     pub probes: Arc<[Probe]>,
-    /// How the equations are solved.
+    /// Settings of the equation solver.
     pub solver: SolverSettings,
 }
 
@@ -47,8 +47,8 @@ impl Loading {
     ///
     /// # Errors
     ///
-    /// If a name of the setup is not in the body, a probe is off it or reads nothing, supports and loads contradict
-    /// each other, or a couple acts on nothing.
+    /// If a name of the setup is not in the body, a probe is off the body or its section crosses no bond, supports and loads contradict
+    /// each other, or a couple acts on points without rotational stiffness.
     pub fn new(model: &Model) -> Result<Self, SetupError> {
         over_dimension!(&model.system, system => Self::on(&model.setup, &**system))
     }
@@ -56,15 +56,15 @@ impl Loading {
     /// The loading of a setup on the points and bonds of its model.
     fn on<const D: usize>(setup: &Setup, system: &dyn System<D>) -> Result<Self, SetupError> {
         let cloud = &system.cloud;
-        let boundary = boundary(setup, cloud, Acting::All)?;
-        couples_have_stiffness::<D>(setup, &boundary, system)?;
+        let boundary = boundary(setup, cloud, ActiveLoads::All)?;
+        require_rotational_stiffness::<D>(setup, &boundary, system)?;
         let places = Places { setup, cloud };
         places.require_probes_on_body()?;
         let probes = (setup.probes.iter()).map(|it| probes::on(it, setup, system));
         let probes: Arc<[Probe]> = probes.collect();
-        sections_are_crossed(&probes, system.subdomain())?;
+        require_crossed_sections(&probes, system.subdomain())?;
         let staged = staged(setup, system, &probes)?;
-        let boundary = restrained(setup, system, boundary, Acting::All)?;
+        let boundary = restrained(setup, system, boundary, ActiveLoads::All)?;
         Ok(Self {
             staged: staged.map(Arc::new),
             boundary: Arc::new(boundary),
@@ -73,7 +73,7 @@ impl Loading {
         })
     }
 
-    /// The problem that it makes of the bonds of its model and their failure criteria.
+    /// The problem of this loading with the bonds of its model and their failure criteria.
     pub fn problem(&self, model: &Model) -> Problem {
         let loads: Arc<dyn LoadProgram> = match &self.staged {
             None => self.boundary.clone(),
@@ -90,7 +90,7 @@ impl Loading {
 }
 
 /// Refuses probes of a force through a line that no bond crosses.
-fn sections_are_crossed(probes: &[Probe], subdomain: &Subdomain) -> Result<(), SetupError> {
+fn require_crossed_sections(probes: &[Probe], subdomain: &Subdomain) -> Result<(), SetupError> {
     let crossed = |probe: &Probe| match &probe.reading {
         Reading::SectionForce { bonds, .. } => subdomain.any(!bonds.is_empty()),
         _ => true,

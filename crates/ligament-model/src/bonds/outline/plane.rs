@@ -53,7 +53,7 @@ impl Outline<2> for PlaneOutline {
         self.within(bounds)
     }
 
-    fn is_left_by(&self, [a, b]: [u32; 2], near: &[[u32; 2]], slack: f64) -> bool {
+    fn is_crossed_by_bonds(&self, [a, b]: [u32; 2], near: &[[u32; 2]], slack: f64) -> bool {
         let ends = [a, b].map(|node| self.at(node));
         let leaves_at = |node: u32| !self.continues_in_body(node, ends[1], slack);
         let is_on_line = |node: u32| {

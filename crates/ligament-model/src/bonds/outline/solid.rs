@@ -154,7 +154,7 @@ impl Outline<3> for SolidOutline {
         self.within(bounds).map(|nodes| self.facet(nodes))
     }
 
-    fn is_left_by(&self, [a, b]: [u32; 2], near: &[Facet], slack: f64) -> bool {
+    fn is_crossed_by_bonds(&self, [a, b]: [u32; 2], near: &[Facet], slack: f64) -> bool {
         let ends = [a, b].map(|node| self.at(node));
         !self.continues_in_body(a, ends[1], slack)
             || near.iter().any(|facet| self.is_left_at(facet, ends, slack))
