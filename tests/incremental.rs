@@ -38,22 +38,21 @@ const COARSE: &str = "mesh.file=reference/disk.msh";
 const NO_SHEAR: &str = "material.poisson=0.333333333333333333";
 
 /// Changed in place, and made anew only where that costs less.
-const IN_PLACE: SolverSettings = SolverSettings {
-    method: None,
-    tolerance: 1e-8,
-    factorisation: None,
-    ordering: None,
-    update: Some(Update::Incremental),
-    rebuild_every: usize::MAX,
-    memory: None,
-    ranks: None,
-};
+fn in_place() -> SolverSettings {
+    SolverSettings {
+        update: Some(Update::Incremental),
+        rebuild_every: usize::MAX,
+        ..SolverSettings::default()
+    }
+}
 
 /// Made anew after every breakage.
-const ANEW: SolverSettings = SolverSettings {
-    update: Some(Update::Refactor),
-    ..IN_PLACE
-};
+fn anew() -> SolverSettings {
+    SolverSettings {
+        update: Some(Update::Refactor),
+        ..in_place()
+    }
+}
 
 /// The run that goes on where the stored energy is negative.
 const BEYOND: &str = "nu 0.38, beyond its stability";
@@ -199,7 +198,7 @@ fn in_place_as_anew() {
     for (name, text, settings) in &cases {
         let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
         let bench = Bench::new(text, &settings);
-        let [run, anew] = [IN_PLACE, ANEW].map(|solver| follow(&bench, solver));
+        let [run, anew] = [in_place(), anew()].map(|solver| follow(&bench, solver));
         assert!(run.0.costs.changes > 5 && anew.0.costs.changes == 0);
         assert!(run.1.breaks.len() > 50, "{name}");
         assert_same(name, &run, &anew);
@@ -219,8 +218,8 @@ fn slot_plate(settings: &[&str]) -> Bench {
 #[test]
 fn pre_cracked_plate_of_negative_shear_stiffness() {
     let bench = slot_plate(&["fracture.stop.bonds=60"]);
-    let run = follow(&bench, IN_PLACE);
-    assert_same("plate", &run, &follow(&bench, ANEW));
+    let run = follow(&bench, in_place());
+    assert_same("plate", &run, &follow(&bench, anew()));
     let (outcome, _) = &run;
     assert_eq!(factor(outcome).factorisation, FactorKind::Ldlt);
     assert_eq!(outcome.costs.factorisations, 1);
@@ -247,7 +246,7 @@ fn the_count_is_in_the_files() {
     let folder = TempDir::new().unwrap();
     let settings = [COARSE, "material.poisson=0.38", "fracture.stop.bonds=100"];
     let bench = Bench::new(DISK, &settings);
-    let history = follow(&bench, IN_PLACE).0.history;
+    let history = follow(&bench, in_place()).0.history;
     bench::run_program(&bench.case, &folder.path().join("out"));
     let table = Table::read(&folder.path().join("out/history.csv"));
     assert_eq!(table.len(), history.len());
@@ -385,7 +384,7 @@ fn broken_down_to_points() {
         };
         let system = &**bench.model.plane();
         for (seed, width) in [(5, 0.0), (6, 0.035), (7, 0.035)] {
-            let [mut run, mut anew] = [IN_PLACE, ANEW].map(|it| Tearing::intact(&bench, it));
+            let [mut run, mut anew] = [in_place(), anew()].map(|it| Tearing::intact(&bench, it));
             run.balance();
             anew.balance();
             let mut worst = 0.0_f64;
@@ -420,7 +419,7 @@ fn broken_down_to_points() {
 fn tracked_inertia_is_that_of_a_dense_elimination() {
     let bench = Bench::new(SQUARE, &["material.poisson=0.38"]);
     let system = &**bench.model.plane();
-    let mut run = Tearing::intact(&bench, IN_PLACE);
+    let mut run = Tearing::intact(&bench, in_place());
     run.balance();
     let mut counts = Vec::new();
     let order = blocks_first(system, 5, 0.0);
@@ -516,10 +515,10 @@ fn dense_count(bench: &Bench, problem: &Problem, state: &State) -> usize {
 /// those of the factor.
 #[test]
 fn broken_down_to_points_without_a_matrix() {
-    const CG: SolverSettings = SolverSettings {
+    let iterative = SolverSettings {
         method: Some(Method::Iterative),
         update: None,
-        ..IN_PLACE
+        ..in_place()
     };
     let lattice = meshes::lattice(6, 0.1, [0.0, 0.0]);
     let by_place = "{ at = [0.0, 0.0], displacement = { x = 0.0 } }";
@@ -536,7 +535,7 @@ fn broken_down_to_points_without_a_matrix() {
         } else {
             Bench::new(SQUARE, settings)
         };
-        let [mut run, mut anew] = [CG, ANEW].map(|it| Tearing::intact(&bench, it));
+        let [mut run, mut anew] = [iterative.clone(), anew()].map(|it| Tearing::intact(&bench, it));
         anew.balance();
         let whole = run.balance().stored_energy;
         let has_mechanisms = settings.contains(&NO_SHEAR);
@@ -597,7 +596,7 @@ fn two_thousand_breakages_with_one_factor() {
         "fracture.bonds_per_iteration=10",
     ];
     let bench = Bench::new(DISK, &settings);
-    let (outcome, watch) = follow(&bench, IN_PLACE);
+    let (outcome, watch) = follow(&bench, in_place());
     let (system, state) = (&**bench.model.plane(), &outcome.state);
     assert!(watch.breaks.len() >= 2000);
     assert_eq!(outcome.costs.factorisations, 1);
@@ -637,11 +636,11 @@ fn two_thousand_breakages_with_one_factor() {
 fn rebuilt_at_fixed_counts() {
     let folder = TempDir::new().unwrap();
     let bench = Bench::new(DISK, &[COARSE]);
-    let anew = follow(&bench, ANEW);
+    let anew = follow(&bench, anew());
     for every in [1, 7, 100, 400] {
         let solver = SolverSettings {
             rebuild_every: every,
-            ..IN_PLACE
+            ..in_place()
         };
         let run = follow(&bench, solver);
         assert_same(&format!("every {every}"), &run, &anew);
@@ -677,12 +676,12 @@ fn a_run_may_be_taken_up_where_its_factor_is_made_anew() {
     let bench = Bench::new(DISK, &[COARSE]);
     let solver = SolverSettings {
         rebuild_every: 100,
-        ..IN_PLACE
+        ..in_place()
     };
-    let order: Vec<u32> = (follow(&bench, IN_PLACE).1.breaks.iter())
+    let order: Vec<u32> = (follow(&bench, in_place()).1.breaks.iter())
         .map(|record| record.bond)
         .collect();
-    let mut run = Tearing::intact(&bench, solver);
+    let mut run = Tearing::intact(&bench, solver.clone());
     run.balance();
     let mut taken_up: Vec<(usize, Tearing)> = Vec::new();
     let mut worst = 0.0_f64;
@@ -696,7 +695,7 @@ fn a_run_may_be_taken_up_where_its_factor_is_made_anew() {
         if [150, 200, 300].contains(&count) {
             let mut state = start;
             state.intact[*bond as usize] = false;
-            let mut other = Tearing::from(&bench, solver, state);
+            let mut other = Tearing::from(&bench, solver.clone(), state);
             other.balance();
             taken_up.push((count, other));
         }
@@ -720,7 +719,7 @@ fn a_run_may_be_taken_up_where_its_factor_is_made_anew() {
 #[test]
 fn whatever_the_order_and_the_factorisation() {
     let bench = Bench::new(DISK, &[COARSE]);
-    let expected = follow(&bench, ANEW);
+    let expected = follow(&bench, anew());
     for (name, ordering, factorisation) in [
         ("minimum degree", Ordering::MinimumDegree, FactorKind::Llt),
         ("dissection", Ordering::NestedDissection, FactorKind::Llt),
@@ -730,7 +729,7 @@ fn whatever_the_order_and_the_factorisation() {
         let solver = SolverSettings {
             ordering: Some(ordering),
             factorisation: Some(factorisation),
-            ..IN_PLACE
+            ..in_place()
         };
         let run = follow(&bench, solver);
         let choice = factor(&run.0);

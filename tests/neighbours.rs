@@ -2,14 +2,17 @@
 //! a bond breaks. The processes are threads here.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use ligament::run::follow;
 use ligament_analysis::Termination;
+use ligament_analysis::distributed_matrix::{
+    Communicator, DistributedMatrix, MatrixCommunicator, Rows,
+};
 use ligament_analysis::history::{Observer, ObserverError, StepRecord, View};
-use ligament_analysis::ranks::{Exchange, RankMatrix, Ranks, Rows, Together};
 use ligament_model::ghosts::Ghosts;
-use ligament_model::portion::{Partition, Portion};
+use ligament_model::subdomain::{Partition, Subdomain};
 use verification::bench::Bench;
 use verification::threads_as_ranks::on_ranks;
 
@@ -19,33 +22,33 @@ const RANKS: usize = 3;
 #[test]
 fn values_of_ghosts_are_those_of_their_ranks() {
     const POINTS: usize = 20;
-    on_ranks(RANKS, |Together(ranks)| {
+    on_ranks(RANKS, |ranks| {
         let halve = |points: &mut [u32]| points.sort_unstable();
-        let portion = Portion::new(Partition::new(POINTS, RANKS, &halve), ranks);
-        let near = |&point: &u32| point.saturating_sub(2)..(point + 3).min(POINTS as u32);
-        let ghosts = Ghosts::new(&portion, portion.own().iter().flat_map(near));
+        let subdomain = Subdomain::new(Partition::new(POINTS, RANKS, &halve), ranks.clone());
+        let near = |point: u32| point.saturating_sub(2)..(point + 3).min(POINTS as u32);
+        let ghosts = Ghosts::new(&subdomain, subdomain.owned().flat_map(near));
         let value = |point: u32| [f64::from(point), f64::from(ranks.rank() as u32)];
         let mut values: Vec<[f64; 2]> = (0..POINTS as u32).map(value).collect();
-        ghosts.tell(values.as_flattened_mut(), 2);
-        let first = portion.own()[0];
-        let last = first + portion.own().len() as u32 - 1;
+        ghosts.update(values.as_flattened_mut(), 2);
+        let first = subdomain.owned().next().unwrap();
+        let last = first + subdomain.owned().len() as u32 - 1;
         for (point, told) in (0..).zip(values) {
             let is_seen = (first.saturating_sub(2)..last + 3).contains(&point);
             let from = if is_seen {
-                portion.partition().rank(point)
+                subdomain.partition().rank(point)
             } else {
                 ranks.rank()
             };
             assert_eq!(told, [f64::from(point), from as f64], "{point}");
         }
-        assert_eq!(ghosts.seen().len(), if ranks.rank() == 1 { 4 } else { 2 });
+        assert_eq!(ghosts.points().len(), if ranks.rank() == 1 { 4 } else { 2 });
     });
 }
 
 /// Ranks that count the numbers that go to all of them.
 #[derive(Debug)]
 struct Counting {
-    ranks: &'static dyn Ranks,
+    ranks: Arc<dyn MatrixCommunicator>,
     to_all: AtomicUsize,
 }
 
@@ -55,40 +58,44 @@ impl Counting {
     }
 }
 
-impl Exchange for Counting {
+impl Communicator for Counting {
     fn rank(&self) -> usize {
         self.ranks.rank()
     }
 
-    fn n_ranks(&self) -> usize {
-        self.ranks.n_ranks()
+    fn size(&self) -> usize {
+        self.ranks.size()
     }
 
-    fn largest(&self, values: &mut [f64]) {
+    fn all_reduce_max(&self, values: &mut [f64]) {
         self.count(values.len());
-        self.ranks.largest(values);
+        self.ranks.all_reduce_max(values);
     }
 
-    fn gather(&self, own: &[f64], counts: &[usize]) -> Vec<f64> {
+    fn all_gather(&self, own: &[f64], counts: &[usize]) -> Vec<f64> {
         self.count(counts.iter().sum());
-        self.ranks.gather(own, counts)
+        self.ranks.all_gather(own, counts)
     }
 
-    fn swap(&self, own: &[f64], to: &[usize], from: &[usize]) -> Vec<f64> {
-        self.ranks.swap(own, to, from)
+    fn all_to_all(&self, own: &[f64], to: &[usize], from: &[usize]) -> Vec<f64> {
+        self.ranks.all_to_all(own, to, from)
     }
 
     fn broadcast(&self, bytes: &mut Vec<u8>) {
         self.ranks.broadcast(bytes);
     }
 
-    fn stranger(&self) -> f64 {
-        self.ranks.stranger()
+    fn poison(&self) -> f64 {
+        self.ranks.poison()
     }
 }
 
-impl Ranks for Counting {
-    fn matrix(&self, rows: &Rows<'_>) -> Box<dyn RankMatrix> {
+impl MatrixCommunicator for Counting {
+    fn has_matrices(&self) -> bool {
+        true
+    }
+
+    fn matrix(&self, rows: &Rows<'_>) -> Option<Box<dyn DistributedMatrix>> {
         self.ranks.matrix(rows)
     }
 }
@@ -124,12 +131,12 @@ impl Observer for Unasking {
 
 /// Numbers that go to all ranks in a run, and its states.
 fn told(cells: usize, bonds: usize) -> [f64; 2] {
-    let told = on_ranks(RANKS, |Together(ranks)| {
-        let counting: &'static Counting = Box::leak(Box::new(Counting {
+    let told = on_ranks(RANKS, |ranks| {
+        let counting = Arc::new(Counting {
             ranks,
             to_all: AtomicUsize::new(0),
-        }));
-        let bench = Bench::on_ranks(&strip(cells, bonds), &[], Together(counting));
+        });
+        let bench = Bench::on_ranks(&strip(cells, bonds), &[], counting.clone());
         let before = counting.to_all.load(Ordering::Relaxed);
         let outcome = follow(&bench.problem(), &bench.model.setup.analysis, &mut Unasking).unwrap();
         assert!(outcome.broken_bonds >= bonds);

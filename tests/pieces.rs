@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use ligament_model::PointCloud;
+use ligament_model::subdomain::Subdomain;
 use ligament_output::FieldLocation::{self, Cell as OnCells, Point as OnPoints};
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::vtu::{
@@ -58,7 +59,7 @@ impl Body {
                 material_shares: vec![1.0; n],
                 curve: (0..n as u32).collect(),
                 numbering: Default::default(),
-                portion: None,
+                subdomain: Subdomain::whole(n),
             },
         }
     }
@@ -99,13 +100,13 @@ fn pieces_read_as_the_whole() {
     body.grid(&body.cells, &body.area, |grid| write_vtu(&single, grid))
         .unwrap();
     on_ranks(3, |ranks| {
-        let portion = body.cloud.portion_of(ranks.0);
+        let subdomain = body.cloud.divided(ranks);
         let cells = SharedCells {
-            portion: &portion,
+            subdomain: &subdomain,
             points: &Body::points(&body.cells),
             held: Held::All,
         };
-        let write = |grid: &UnstructuredGrid<'_>| write_shared(&shared, grid, Some(cells));
+        let write = |grid: &UnstructuredGrid<'_>| write_shared(&shared, grid, cells);
         body.grid(&body.cells, &body.area, write).unwrap();
     });
     let [whole, joined] = [single, shared].map(|it| VtuFile::open(it).unwrap());
@@ -149,23 +150,21 @@ fn lines_that_two_processes_know_are_written_once() {
         .map(|it| [it, it + 2])
         .collect();
     on_ranks(3, |ranks| {
-        let portion = body.cloud.portion_of(ranks.0);
+        let subdomain = body.cloud.divided(ranks);
         let known: Vec<[u32; 2]> = all
             .iter()
             .copied()
-            .filter(|it| portion.knows(*it))
+            .filter(|it| subdomain.contains_bond(*it))
             .collect();
         let lines: Vec<Cell> = known.iter().copied().map(Cell::Line).collect();
         let first: Vec<f64> = known.iter().map(|it| f64::from(it[0])).collect();
         let cells = SharedCells {
-            portion: &portion,
+            subdomain: &subdomain,
             points: &Body::points(&lines),
             held: Held::OwnCells,
         };
-        body.grid(&lines, &first, |grid| {
-            write_shared(&path, grid, Some(cells))
-        })
-        .unwrap();
+        body.grid(&lines, &first, |grid| write_shared(&path, grid, cells))
+            .unwrap();
     });
     let read = VtuFile::open(&path).unwrap();
     let (lines, first) = (read.lines().unwrap(), numbers(&read, OnCells, "area"));
@@ -191,13 +190,13 @@ fn what_is_missing_of_a_grid_in_pieces_is_told() {
     let path = folder.path().join("fields.pvtu");
     let write = |path: &Path| {
         on_ranks(2, |ranks| {
-            let portion = body.cloud.portion_of(ranks.0);
+            let subdomain = body.cloud.divided(ranks);
             let cells = SharedCells {
-                portion: &portion,
+                subdomain: &subdomain,
                 points: &Body::points(&body.cells),
                 held: Held::All,
             };
-            let write = |grid: &UnstructuredGrid<'_>| write_shared(path, grid, Some(cells));
+            let write = |grid: &UnstructuredGrid<'_>| write_shared(path, grid, cells);
             body.grid(&body.cells, &body.area, write)
                 .map_err(|it| it.to_string())
         })

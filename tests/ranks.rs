@@ -3,7 +3,9 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use ligament_analysis::SetupError;
-use ligament_analysis::ranks::Together;
+use std::sync::Arc;
+
+use ligament_analysis::distributed_matrix::MatrixCommunicator;
 use ligament_analysis::solver::{DistributedChoice, Reason, SolverChoice, Unfit};
 use verification::bench::{Bench, Run};
 use verification::numbers::deviation;
@@ -49,7 +51,7 @@ fn seen(run: &Run) -> Seen {
     }
 }
 
-fn bench(text: &str, settings: &[&str], together: Together) -> Bench {
+fn bench(text: &str, settings: &[&str], together: Arc<dyn MatrixCommunicator>) -> Bench {
     Bench::on_ranks(text, settings, together)
 }
 

@@ -1,13 +1,15 @@
 //! Runs of bodies whose bonds are shared out among several ranks, against one process with its factor. The ranks are threads.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use std::sync::Arc;
+
 use ligament::Loading;
 use ligament::run::{follow, restore, resume};
+use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use ligament_analysis::driver::{Outcome, Problem};
 use ligament_analysis::history::{
     BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, View,
 };
-use ligament_analysis::ranks::Together;
 use ligament_analysis::{Termination, fields};
 use ligament_run::model::{Model, build_model_on};
 use ligament_run::progress::{Progress, ProgressMode};
@@ -117,7 +119,7 @@ impl Observer for Seen {
         let (system, state, deformations) = (view.system, view.state, &view.balanced.deformations);
         let damage = fields::damage(system, &state.intact);
         let energy = fields::strain_energy_density(system, state.bonds(), deformations, &[]);
-        let own = |point: &u32| system.portion().is_none_or(|it| it.is_own(*point));
+        let own = |point: &u32| system.subdomain().owns(*point);
         let points = (0..system.n_points() as u32).filter(own);
         let of_point = |it: u32| [f64::from(it), damage[it as usize], energy[it as usize]];
         self.at_points.push(points.map(of_point).collect());
@@ -131,7 +133,7 @@ enum Body {
     Space(Model),
 }
 
-fn body(text: &str, settings: &[&str], ranks: Option<Together>) -> Body {
+fn body(text: &str, settings: &[&str], ranks: Arc<dyn MatrixCommunicator>) -> Body {
     let case = case(text, settings);
     let (mut stages, progress) = (Stages::default(), Progress::new(ProgressMode::Quiet));
     if case.case.is_solid() {
@@ -141,24 +143,22 @@ fn body(text: &str, settings: &[&str], ranks: Option<Together>) -> Body {
     }
 }
 
-fn problem(model: &Model, ranks: Option<Together>) -> Problem {
-    let mut loading = Loading::new(model).unwrap();
-    loading.solver.ranks = ranks;
-    loading.problem(model)
+fn problem(model: &Model) -> Problem {
+    Loading::new(model).unwrap().problem(model)
 }
 
 /// Follows a body from its unloaded state or from a checkpoint.
 fn followed(
     (text, settings): (&str, &[&str]),
-    ranks: Option<Together>,
+    ranks: Arc<dyn MatrixCommunicator>,
     from: Option<&[u8]>,
     mut seen: Seen,
 ) -> (Outcome, Seen) {
-    let (problem, analysis) = match &body(text, settings, ranks) {
-        Body::Plane(model) => (problem(model, ranks), model.setup.analysis.clone()),
-        Body::Space(model) => (problem(model, ranks), model.setup.analysis.clone()),
+    let (problem, analysis) = match &body(text, settings, ranks.clone()) {
+        Body::Plane(model) => (problem(model), model.setup.analysis.clone()),
+        Body::Space(model) => (problem(model), model.setup.analysis.clone()),
     };
-    assert_eq!(problem.system.portion().is_some(), ranks.is_some());
+    assert_eq!(problem.system.subdomain().is_whole(), ranks.size() == 1);
     let outcome = match from {
         None => follow(&problem, &analysis, &mut seen).unwrap(),
         Some(from) => {
@@ -225,7 +225,7 @@ fn off(one: &Outcome, other: &Outcome) -> f64 {
 /// Several ranks do what one process does, and agree with each other to the bit.
 fn compare((text, settings): (&str, &[&str]), (alone, expected): (Outcome, Seen), least: usize) {
     let together = on_ranks(RANKS, |ranks| {
-        followed((text, settings), Some(ranks), None, Seen::default())
+        followed((text, settings), ranks, None, Seen::default())
     });
     assert!(expected.breaks.len() >= least, "{}", expected.breaks.len());
     let first = &together[0].0;
@@ -269,7 +269,7 @@ fn compare((text, settings): (&str, &[&str]), (alone, expected): (Outcome, Seen)
 }
 
 fn against_one_process(text: &str, settings: &[&str], least: usize) {
-    let alone = followed((text, settings), None, None, Seen::default());
+    let alone = followed((text, settings), Arc::new(Solo), None, Seen::default());
     compare((text, settings), alone, least);
 }
 
@@ -299,7 +299,7 @@ fn stages_are_followed() {
 #[test]
 fn bonds_soften() {
     let one = on_ranks(1, |ranks| {
-        followed((SOFTENING, &[]), Some(ranks), None, Seen::default())
+        followed((SOFTENING, &[]), ranks, None, Seen::default())
     });
     compare((SOFTENING, &[]), one.into_iter().next().unwrap(), 60);
 }
@@ -319,23 +319,23 @@ fn any_number_goes_on_from_a_checkpoint() {
             ..Seen::default()
         };
         let whole = on_ranks(RANKS, |ranks| {
-            followed((text, settings), Some(ranks), None, keeping())
+            followed((text, settings), ranks, None, keeping())
         });
         let (outcome, seen) = &whole[0];
         let (broken, checkpoint) = seen.checkpoint.as_ref().unwrap();
-        let gone_on = |ranks: Option<Together>| {
+        let gone_on = |ranks: Arc<dyn MatrixCommunicator>| {
             let went = followed((text, settings), ranks, Some(checkpoint), Seen::default());
             assert_eq!(order(&went.1), order(seen)[*broken..]);
             assert_eq!(counts(&went.0), counts(outcome));
             assert_eq!(went.0.broken_bonds, outcome.broken_bonds);
             (off(&went.0, outcome), went.0)
         };
-        let (alone, _) = gone_on(None);
-        let two = on_ranks(2, |ranks| gone_on(Some(ranks)).0)[0];
+        let (alone, _) = gone_on(Arc::new(Solo));
+        let two = on_ranks(2, |ranks| gone_on(ranks).0)[0];
         println!("{broken} bonds before; one process off by {alone:.1e}, two ranks by {two:.1e}");
         assert!(alone < NEAR && two < NEAR);
         // As many go on to the bit.
-        let same = on_ranks(RANKS, |ranks| gone_on(Some(ranks)).1);
+        let same = on_ranks(RANKS, |ranks| gone_on(ranks).1);
         assert_eq!(same[0].history, outcome.history);
     }
 }

@@ -91,11 +91,11 @@ fn shared(name: &str, setup: &Setup, accuracy: Accuracy) -> Model {
     for n_ranks in 1..=3 {
         let known = on_ranks(n_ranks, |together| {
             let mut setup = setup.clone();
-            setup.solver.ranks = Some(together);
+            setup.solver.communicator = together.clone();
             let model = Model::build(setup, &mut ()).unwrap();
-            let portion = model.system.portion().unwrap();
+            let subdomain = model.system.subdomain();
             // Bonds, and pairs that are none, are known to the ranks of their ends and to no others, in the same order.
-            let is_known = |ends: &[u32; 2]| ends.iter().any(|&end| portion.is_own(end));
+            let is_known = |ends: &[u32; 2]| ends.iter().any(|&end| subdomain.owns(end));
             let places: Vec<usize> = (0..ends.len()).filter(|&it| is_known(&ends[it])).collect();
             let expected: Vec<[u32; 2]> = places.iter().map(|&it| ends[it]).collect();
             assert_eq!(model.system.ends(), expected);
@@ -259,7 +259,8 @@ fn faults_are_those_of_the_whole_body() {
     ];
     let told = on_ranks(3, |together| {
         let (mut torn, mut soft) = (torn.clone(), soft.clone());
-        (torn.solver.ranks, soft.solver.ranks) = (Some(together), Some(together));
+        torn.solver.communicator = together.clone();
+        soft.solver.communicator = together;
         [
             words(Model::build(torn, &mut ()).map(|_| ())),
             words(Model::build(soft, &mut ()).map(|_| ())),
@@ -277,7 +278,7 @@ fn memory_is_foreseen_for_the_bonds_of_a_process() {
     assert!(foresee_model(&case, &setup).is_err());
     let fits = on_ranks(2, |together| {
         let mut setup = setup.clone();
-        setup.solver.ranks = Some(together);
+        setup.solver.communicator = together.clone();
         foresee_model(&case, &setup).is_ok()
     });
     assert_eq!(fits, [true, true]);

@@ -11,7 +11,7 @@ use ligament_model::failure::softening::exponential::LAST_FORCE;
 use ligament_model::failure::softening::{brittle, exponential, linear, plastic};
 use ligament_model::failure::{After, AfterLimit, Choice, Weakened};
 use verification::bench::{self, Bench, Run};
-use verification::numbers::relative_error;
+use verification::numbers::{damages, relative_error};
 use verification::trusses::{Rod, Truss};
 
 /// Stiffness of the two rods in series, N/m, and elongation at the limit of the first, m.
@@ -337,7 +337,7 @@ end = 6.0
             .all(|it| it[1].dissipated_energy >= it[0].dissipated_energy)
     );
     let (system, criteria) = (&**bench.model.plane(), &bench.model.criteria);
-    let damages = fields::damages(system, criteria, anew.state());
+    let damages = damages(system, criteria, anew.state());
     let names: Vec<&str> = damages.iter().map(|(name, _)| *name).collect();
     assert_eq!(
         names,

@@ -5,9 +5,9 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use ligament_case::case::CaseFile;
+use ligament_output::summary::Build;
+use ligament_output::summary::Summary;
 use ligament_run::progress::ProgressMode;
-use ligament_run::provenance::Build;
-use ligament_run::summary::Summary;
 use ligament_run::{resume, run};
 use verification::bench::run_program;
 use verification::repository;
@@ -183,7 +183,7 @@ fn a_resumed_run_gives_the_same_bits() {
             out: &out,
             force: false,
             build: Build::default(),
-            ranks: None,
+            communicator: std::sync::Arc::new(ligament_analysis::distributed_matrix::Solo),
             is_stopped: &|| asked.fetch_add(1, Ordering::Relaxed) > 20,
         };
         assert!(request.run(ProgressMode::Quiet).unwrap().is_stopped());
@@ -193,7 +193,7 @@ fn a_resumed_run_gives_the_same_bits() {
             settings: &[],
             threads: None,
             build: Build::default(),
-            ranks: None,
+            communicator: std::sync::Arc::new(ligament_analysis::distributed_matrix::Solo),
             is_stopped: &|| false,
         };
         request.resume(ProgressMode::Quiet).unwrap();

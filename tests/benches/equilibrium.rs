@@ -10,6 +10,7 @@ use criterion::{
     BatchSize, BenchmarkGroup, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
 use ligament_analysis::Balanced;
+use ligament_analysis::bond_numbers::BondNumbers;
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule, next_to_break};
 use ligament_analysis::connectivity::Fragments;
 use ligament_analysis::connectivity::decremental::Connectivity;
@@ -68,6 +69,7 @@ fn parts(group: &mut BenchmarkGroup<'_, WallTime>, bench: &Bench) {
     let next = |count: usize| {
         let limits = &bench.model.criteria;
         next_to_break(
+            &BondNumbers::whole(0),
             &rule(count),
             black_box(&deformations),
             limits,
@@ -157,7 +159,10 @@ impl Body {
         criteria: &ligament_model::failure::Criteria,
     ) -> Duration {
         let (deformations, intact) = (&self.balanced.deformations, &self.state.intact);
-        let bonds = next_to_break(rule, deformations, criteria, intact, |bond| [bond, 0]);
+        let numbers = BondNumbers::whole(0);
+        let bonds = next_to_break(&numbers, rule, deformations, criteria, intact, |bond| {
+            [bond, 0]
+        });
         let start = Instant::now();
         let breakage = self.equilibrium.break_bonds(&mut self.state, &bonds);
         let (state, watch) = (&mut self.state, &mut self.watch);

@@ -4,8 +4,8 @@ use std::fs;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use ligament_output::checkpoint::Checkpoint;
+use ligament_output::summary::Build;
 use ligament_run::progress::ProgressMode;
-use ligament_run::provenance::Build;
 use ligament_run::resume;
 use ligament_run::run;
 
@@ -65,7 +65,7 @@ impl Stopped {
             out: &out,
             force: false,
             build: Build::default(),
-            ranks: None,
+            communicator: std::sync::Arc::new(ligament_analysis::distributed_matrix::Solo),
             is_stopped: &|| asked.fetch_add(1, Ordering::Relaxed) > 2,
         };
         assert!(request.run(ProgressMode::Quiet).unwrap().is_stopped());
@@ -102,7 +102,7 @@ impl Target for Stopped {
             settings: &[],
             threads: Some(1),
             build: Build::default(),
-            ranks: None,
+            communicator: std::sync::Arc::new(ligament_analysis::distributed_matrix::Solo),
             is_stopped: &|| false,
         };
         self.folder.make(input) && request.resume(ProgressMode::Quiet).is_ok()

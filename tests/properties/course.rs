@@ -9,7 +9,7 @@ use ligament_model::failure::sliding::SLIDING;
 use ligament_model::failure::softening::{exponential, linear, plastic};
 use ligament_model::failure::stretch::TENSION;
 use ligament_model::failure::{After, softening};
-use verification::numbers::{Random, largest, relative_error};
+use verification::numbers::{Random, damages, largest, relative_error};
 
 use super::image::Image;
 use super::invariance::{analysis, criteria};
@@ -113,7 +113,7 @@ impl Check {
     fn growth(&mut self, record: &StepRecord, view: &View<'_>) {
         let state = view.state;
         let mut damage = vec![fields::damage(view.system, &state.intact)];
-        let of_kinds = fields::damages(view.system, view.criteria, state);
+        let of_kinds = damages(view.system, view.criteria, state);
         damage.extend(of_kinds.into_iter().map(|it| it.1));
         let past = std::mem::replace(
             &mut self.past,

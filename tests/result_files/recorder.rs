@@ -11,7 +11,7 @@ use ligament_model::Absence;
 use ligament_model::interface::StressReading;
 use ligament_model::thermal::StressFreeStrains;
 use ligament_run::model::Model;
-use verification::numbers::by_point;
+use verification::numbers::{by_point, damages};
 use verification::stresses;
 
 use super::bodies::Canvas;
@@ -233,7 +233,7 @@ impl<'a> Recorder<'a> {
             .clone()
             .map(|it| i64::from(state.held[layout.range(it as u32)].contains(&true)));
         fields_of.integers("held", held);
-        for (name, values) in fields::damages(system, view.criteria, state) {
+        for (name, values) in damages(system, view.criteria, state) {
             fields_of.reals(name, values);
         }
         if !view.criteria.list.is_empty() {

@@ -3,6 +3,7 @@
 #![allow(clippy::print_stdout, reason = "a guard says what it counted")]
 
 mod dimension;
+mod fields;
 mod functions;
 mod matches;
 mod modules;

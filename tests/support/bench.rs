@@ -6,19 +6,19 @@ use std::sync::Arc;
 use ligament::Loading;
 use ligament::run::follow;
 use ligament::setup::ELASTIC_ENERGY_TOLERANCE;
+use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use ligament_analysis::driver::{self, Outcome, Problem};
 use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::probe::Probe;
-use ligament_analysis::ranks::Together;
 use ligament_analysis::{ProportionalLoading, State};
 use ligament_case::case::CaseFile;
 use ligament_mesh::Mesh;
 use ligament_model::correction::{CorrectionReport, DomainReport};
+use ligament_output::summary::Summary;
 use ligament_run::model::{Model, build_model_on};
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::run::{self, Report};
 use ligament_run::stages::Stages;
-use ligament_run::summary::Summary;
 use tempfile::TempDir;
 
 use crate::meshes;
@@ -72,7 +72,7 @@ pub fn mesh_setting(mesh: &Mesh, folder: &Path) -> String {
 pub fn run_program(case: &CaseFile, out: &Path) -> Summary {
     match run::run(case, out, false, ProgressMode::Quiet).unwrap() {
         Report::Loading(summary) => *summary,
-        Report::Modes(_) => panic!("this case has no loads"),
+        Report::Modes(_) | Report::OfRankZero => panic!("this case has no loads"),
     }
 }
 
@@ -85,12 +85,12 @@ pub fn domain(model: &Model) -> &DomainReport {
 impl Bench {
     /// A bench for a case on a mesh of the repository (named relative to `tests/`).
     pub fn new(text: &str, settings: &[&str]) -> Self {
-        Self::from_case(case(text, settings), None, None)
+        Self::from_case(case(text, settings), None, Arc::new(Solo))
     }
 
     /// A bench of one of several ranks, which share the body out.
-    pub fn on_ranks(text: &str, settings: &[&str], ranks: Together) -> Self {
-        Self::from_case(case(text, settings), None, Some(ranks))
+    pub fn on_ranks(text: &str, settings: &[&str], ranks: Arc<dyn MatrixCommunicator>) -> Self {
+        Self::from_case(case(text, settings), None, ranks)
     }
 
     /// A bench for a case on another mesh than its own.
@@ -98,10 +98,14 @@ impl Bench {
         let folder = TempDir::new().unwrap();
         let file = mesh_setting(mesh, folder.path());
         let settings: Vec<&str> = settings.iter().copied().chain([file.as_str()]).collect();
-        Self::from_case(case(text, &settings), Some(folder), None)
+        Self::from_case(case(text, &settings), Some(folder), Arc::new(Solo))
     }
 
-    fn from_case(case: CaseFile, folder: Option<TempDir>, ranks: Option<Together>) -> Self {
+    fn from_case(
+        case: CaseFile,
+        folder: Option<TempDir>,
+        ranks: Arc<dyn MatrixCommunicator>,
+    ) -> Self {
         let progress = Progress::new(ProgressMode::Quiet);
         let model = build_model_on(&case, ranks, &mut Stages::default(), &progress).unwrap();
         let Loading {
@@ -122,7 +126,7 @@ impl Bench {
             system: self.model.system.to_bonds(),
             criteria: self.model.criteria.clone(),
             loads: Arc::new(self.boundary.clone()),
-            solver: self.model.setup.solver,
+            solver: self.model.setup.solver.clone(),
             probes: self.probes.clone(),
         }
     }

@@ -60,7 +60,7 @@ impl ModalBench {
             system: self.model.system.to_bonds(),
             mass: self.mass.clone(),
             supports: self.supports.clone(),
-            solver: self.model.setup.solver,
+            solver: self.model.setup.solver.clone(),
         };
         let Analysis::Modal(settings) = self.model.setup.analysis else {
             panic!("this case is not modal");

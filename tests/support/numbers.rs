@@ -1,6 +1,7 @@
 //! Small mathematics.
 
-use ligament_analysis::{Component, Layout};
+use ligament_analysis::{Bonds, Component, Layout, State, fields};
+use ligament_model::failure::{Criteria, Weakened};
 
 /// |value / expected - 1|.
 pub fn relative_error(value: f64, expected: f64) -> f64 {
@@ -16,6 +17,24 @@ pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
             largest
         }
     })
+}
+
+/// Damage of every point by each way in which some criterion lets bonds fail, with its name in results.
+pub fn damages(
+    system: &dyn Bonds,
+    criteria: &Criteria,
+    state: &State,
+) -> Vec<(&'static str, Vec<f64>)> {
+    let ways = [
+        ("damage_tension", Weakened::Opening),
+        ("damage_compression", Weakened::Crushing),
+        ("damage_sliding", Weakened::Sliding),
+    ];
+    let occurs = |way: Weakened| criteria.list.iter().any(|it| it.measure.weakens() == way);
+    ways.into_iter()
+        .filter(|&(_, way)| occurs(way))
+        .map(|(name, way)| (name, fields::damage_by(system, criteria, state, way)))
+        .collect()
 }
 
 /// Largest |one - other| over the largest |other|.

@@ -3,8 +3,8 @@
 use std::fmt::{self, Debug, Formatter};
 use std::sync::{Arc, Barrier, Mutex};
 
-use ligament_analysis::ranks::{
-    Exchange, Pivots, RankMatrix, Ranks, Rows, Solved, Together, Tolerated,
+use ligament_analysis::distributed_matrix::{
+    Communicator, DistributedMatrix, MatrixCommunicator, Pivots, Rows, Solved, Tolerated,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -33,7 +33,10 @@ struct Dense {
 }
 
 /// Work that several ranks do at the same time, each a thread; gives what each of them makes of it, in their order.
-pub fn on_ranks<T: Send>(n_ranks: usize, work: impl Fn(Together) -> T + Sync) -> Vec<T> {
+pub fn on_ranks<T: Send>(
+    n_ranks: usize,
+    work: impl Fn(Arc<dyn MatrixCommunicator>) -> T + Sync,
+) -> Vec<T> {
     let table = Arc::new(Table {
         barrier: Barrier::new(n_ranks),
         slots: Mutex::new(vec![Vec::new(); n_ranks]),
@@ -45,8 +48,7 @@ pub fn on_ranks<T: Send>(n_ranks: usize, work: impl Fn(Together) -> T + Sync) ->
                 table: table.clone(),
             };
             let work = &work;
-            // A few bytes that stay until the tests end.
-            scope.spawn(move || work(Together(Box::leak(Box::new(thread)))))
+            scope.spawn(move || work(Arc::new(thread)))
         };
         let started: Vec<_> = (0..n_ranks).map(start).collect();
         let ended = started.into_iter().map(|thread| thread.join().unwrap());
@@ -77,16 +79,16 @@ impl Debug for Dense {
     }
 }
 
-impl Exchange for Thread {
+impl Communicator for Thread {
     fn rank(&self) -> usize {
         self.rank
     }
 
-    fn n_ranks(&self) -> usize {
+    fn size(&self) -> usize {
         self.table.slots.lock().unwrap().len()
     }
 
-    fn largest(&self, values: &mut [f64]) {
+    fn all_reduce_max(&self, values: &mut [f64]) {
         for of_one in self.exchange(values) {
             for (value, other) in values.iter_mut().zip(of_one) {
                 *value = value.max(other);
@@ -94,15 +96,15 @@ impl Exchange for Thread {
         }
     }
 
-    fn gather(&self, own: &[f64], counts: &[usize]) -> Vec<f64> {
+    fn all_gather(&self, own: &[f64], counts: &[usize]) -> Vec<f64> {
         let all = self.exchange(own);
         let lengths: Vec<usize> = all.iter().map(Vec::len).collect();
         assert_eq!(lengths, counts);
         all.concat()
     }
 
-    fn swap(&self, own: &[f64], to: &[usize], from: &[usize]) -> Vec<f64> {
-        assert_eq!([to.len(), from.len()], [self.n_ranks(); 2]);
+    fn all_to_all(&self, own: &[f64], to: &[usize], from: &[usize]) -> Vec<f64> {
+        assert_eq!([to.len(), from.len()], [self.size(); 2]);
         assert_eq!(to.iter().sum::<usize>(), own.len());
         let counts = to.iter().map(|&count| count as f64);
         let told: Vec<f64> = counts.chain(own.iter().copied()).collect();
@@ -116,7 +118,7 @@ impl Exchange for Thread {
         to_here.collect::<Vec<_>>().concat()
     }
 
-    fn stranger(&self) -> f64 {
+    fn poison(&self) -> f64 {
         f64::NAN
     }
 
@@ -126,11 +128,15 @@ impl Exchange for Thread {
     }
 }
 
-impl Ranks for Thread {
-    fn matrix(&self, rows: &Rows<'_>) -> Box<dyn RankMatrix> {
+impl MatrixCommunicator for Thread {
+    fn has_matrices(&self) -> bool {
+        true
+    }
+
+    fn matrix(&self, rows: &Rows<'_>) -> Option<Box<dyn DistributedMatrix>> {
         let counts = self.exchange(&[rows.couplings.len() as f64]);
         let own = rows.couplings.len() * rows.n_all * rows.n_components.pow(2);
-        Box::new(Dense {
+        Some(Box::new(Dense {
             thread: self.clone(),
             n_components: rows.n_components,
             n_all: rows.n_all,
@@ -138,7 +144,7 @@ impl Ranks for Thread {
             own: vec![0.0; own],
             couplings: rows.couplings.to_vec(),
             whole: DMatrix::zeros(0, 0),
-        })
+        }))
     }
 }
 
@@ -160,7 +166,7 @@ impl Dense {
     }
 }
 
-impl RankMatrix for Dense {
+impl DistributedMatrix for Dense {
     fn set(&mut self, row: usize, columns: &[usize], blocks: &[f64]) {
         let (n, size) = (self.n_components, self.size());
         let own = row.checked_sub(self.first).unwrap();

@@ -13,6 +13,7 @@ use ligament_model::deformation::DeformationPool;
 use ligament_model::element::ElementKind;
 use ligament_model::element::Rigidities;
 use ligament_model::failure::{Criteria, Criterion, Measure};
+use ligament_model::subdomain::Subdomain;
 use ligament_model::{BondSet, BondSystem, Horizons, PointCloud};
 
 use crate::bench::Watch;
@@ -66,7 +67,7 @@ impl Truss {
             n_materials: 1,
             material_shares: vec![1.0; n],
             curve: (0..n as u32).collect(),
-            portion: None,
+            subdomain: Subdomain::whole(n),
         };
         let everywhere = Horizons {
             radius: vec![1e3; n],

@@ -1,168 +1,234 @@
-//! Numbers of the bonds of a body that processes share out, among all of its bonds.
+//! Global numbers of the bonds on a process.
 //!
-//! Each process has numbers of its own for the bonds that it knows. What is said of bonds to all of them, to observers and in checkpoints is
-//! said by the number that one process alone would give the bond: bonds are in the order of their ends.
+//! Observers and checkpoints refer to a bond by its global number, as on one process alone: bonds are in the order of their ends. A
+//! process that stores some of the bonds has local numbers for them.
+
+use std::borrow::Cow;
 
 use ligament_model::Bonds;
-use ligament_model::element::StiffnessFactors;
-use ligament_model::portion::{Portion, counts};
+use ligament_model::communicator::Wire;
+use ligament_model::subdomain::Subdomain;
 use thiserror::Error;
 
 use crate::checkpoint::CheckpointError;
-use crate::serial::Serial;
+use crate::serial::{Serial, write_list};
 
-/// A body has no bonds for one of the processes that share it out.
+/// Error of a divided body without any bond on one of the processes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error("there are more processes than the body has parts with bonds: start fewer of them")]
 pub struct WithoutBonds;
 
-/// Numbers of the bonds that a process knows among all bonds of the body.
+/// Global numbers of the bonds on a process; equal to the local numbers where one process stores all bonds.
 #[derive(Debug, Clone)]
-pub(crate) struct BondNumbers {
-    portion: Portion,
-    /// Number of each bond that is known here, ascending, shape (n_bonds).
+pub struct BondNumbers {
+    subdomain: Subdomain,
+    held: StoredBonds,
+}
+
+/// Bonds stored by a process.
+#[derive(Debug, Clone)]
+enum StoredBonds {
+    /// All bonds of the body.
+    All,
+    /// Bonds at owned points.
+    Some(LocalBonds),
+}
+
+#[derive(Debug, Clone)]
+struct LocalBonds {
+    /// Global number of each bond, ascending, shape (n_bonds).
     numbers: Vec<u32>,
-    /// Whether each bond is counted here, shape (n_bonds).
-    counted: Vec<bool>,
+    /// Whether the process owns each bond, shape (n_bonds).
+    is_owned: Vec<bool>,
+    /// Number of bonds of the body.
     n_all: usize,
 }
 
 impl BondNumbers {
-    /// The numbers of the bonds of a body; none where one process has all of it.
+    /// Numbers of the bonds of a body of `n_points` points on one process.
+    pub fn whole(n_points: usize) -> Self {
+        Self {
+            subdomain: Subdomain::whole(n_points),
+            held: StoredBonds::All,
+        }
+    }
+
+    /// Numbers the bonds of a body; collective.
     ///
     /// # Errors
     ///
-    /// If a process knows no bond at all.
-    pub(crate) fn new(system: &dyn Bonds) -> Result<Option<Self>, WithoutBonds> {
-        let Some(portion) = system.portion() else {
-            return Ok(None);
-        };
-        let ends = system.ends();
-        if portion.any(ends.is_empty()) {
+    /// If a process stores no bond of a divided body.
+    pub(crate) fn new(system: &dyn Bonds) -> Result<Self, WithoutBonds> {
+        let (subdomain, ends) = (system.subdomain(), system.ends());
+        let held = if subdomain.is_whole() {
+            StoredBonds::All
+        } else if subdomain.any(ends.is_empty()) {
             return Err(WithoutBonds);
+        } else {
+            StoredBonds::Some(LocalBonds::new(subdomain, ends))
+        };
+        Ok(Self {
+            subdomain: subdomain.clone(),
+            held,
+        })
+    }
+
+    /// Points and bonds of the body on this process.
+    pub(crate) fn subdomain(&self) -> &Subdomain {
+        &self.subdomain
+    }
+
+    /// Global number of a local bond.
+    pub(crate) fn number(&self, bond: u32) -> u32 {
+        match &self.held {
+            StoredBonds::All => bond,
+            StoredBonds::Some(it) => it.numbers[bond as usize],
         }
-        let counted: Vec<bool> = ends.iter().map(|&it| portion.counts(it)).collect();
-        let mut of_points = vec![0.0; system.n_points()];
-        for ([first, _], _) in ends.iter().zip(&counted).filter(|it| *it.1) {
+    }
+
+    /// Whether this process owns a local bond.
+    pub(crate) fn owns(&self, bond: usize) -> bool {
+        match &self.held {
+            StoredBonds::All => true,
+            StoredBonds::Some(it) => it.is_owned[bond],
+        }
+    }
+
+    /// Local bond with a global number, if this process stores it.
+    pub(crate) fn local(&self, number: u32) -> Option<usize> {
+        match &self.held {
+            StoredBonds::All => Some(number as usize),
+            StoredBonds::Some(it) => it.numbers.binary_search(&number).ok(),
+        }
+    }
+
+    /// Local bonds among those with some global numbers.
+    pub(crate) fn all_local<'a>(&self, numbers: &'a [u32]) -> Cow<'a, [u32]> {
+        match &self.held {
+            StoredBonds::All => Cow::Borrowed(numbers),
+            StoredBonds::Some(_) => {
+                let local = numbers.iter().filter_map(|&number| self.local(number));
+                local.map(|bond| bond as u32).collect()
+            }
+        }
+    }
+
+    /// Marks of the owned bonds among marked ones, both of shape (n_bonds).
+    pub(crate) fn owned_of<'a>(&self, marked: &'a [bool]) -> Cow<'a, [bool]> {
+        match &self.held {
+            StoredBonds::All => Cow::Borrowed(marked),
+            StoredBonds::Some(it) => {
+                let both = marked.iter().zip(&it.is_owned);
+                both.map(|(marked, is_owned)| *marked && *is_owned)
+                    .collect()
+            }
+        }
+    }
+
+    /// Number of marked bonds over all processes, from marks (n_bonds).
+    pub(crate) fn count(&self, marked: impl Iterator<Item = bool>) -> usize {
+        let owned = marked.enumerate().filter(|(bond, _)| self.owns(*bond));
+        self.subdomain.count(owned.filter(|it| it.1).count())
+    }
+
+    /// Reads the values of all bonds of the body, and returns those of the local bonds (n_bonds); an empty list stays empty.
+    ///
+    /// # Errors
+    ///
+    /// If the bytes are damaged, or belong to a body with another number of bonds.
+    pub(crate) fn read<T: Serial>(&self, from: &mut &[u8]) -> Result<Vec<T>, CheckpointError> {
+        let StoredBonds::Some(LocalBonds { numbers, n_all, .. }) = &self.held else {
+            return Ok(Serial::read(from)?);
+        };
+        let count = usize::read(from)?;
+        if count == 0 {
+            return Ok(Vec::new());
+        }
+        if count != *n_all {
+            return Err(CheckpointError::OtherModel);
+        }
+        let mut local = Vec::with_capacity(numbers.len());
+        let mut next = numbers.iter().peekable();
+        let mut number = 0;
+        T::read_each(count, from, |value| {
+            if next.next_if_eq(&&number).is_some() {
+                local.push(value);
+            }
+            number += 1;
+        })?;
+        Ok(local)
+    }
+
+    /// Appends the values of all bonds of the body, from those of the local bonds (n_bonds); on a divided body rank 0 writes them
+    /// and the others an empty list. Values equal to `usual` are not sent. Collective.
+    pub(crate) fn write<T, const N: usize>(&self, local: &[T], usual: T, out: &mut Vec<u8>)
+    where
+        T: Serial + Wire<N> + Copy + PartialEq,
+    {
+        match &self.held {
+            StoredBonds::Some(it) if !local.is_empty() => {
+                write_list(&it.of_all(&self.subdomain, local, usual), out);
+            }
+            StoredBonds::All | StoredBonds::Some(_) => write_list(local, out),
+        }
+    }
+}
+
+impl LocalBonds {
+    /// Numbers the local bonds in the order of all ends; collective.
+    fn new(subdomain: &Subdomain, ends: &[[u32; 2]]) -> Self {
+        let is_owned: Vec<bool> = ends.iter().map(|&it| subdomain.owns_bond(it)).collect();
+        let mut of_points = vec![0.0; subdomain.partition().len()];
+        for ([first, _], _) in ends.iter().zip(&is_owned).filter(|it| *it.1) {
             of_points[*first as usize] += 1.0;
         }
-        portion.complete(&mut of_points, 1);
+        subdomain.all_gather_points(&mut of_points, 1);
         let mut n_all = 0;
         let starts = of_points.into_iter().map(|count| {
             n_all += count as usize;
             n_all - count as usize
         });
         let mut next: Vec<usize> = starts.collect();
-        let numbered = ends.iter().zip(&counted).map(|(&[first, _], &counted)| {
+        let numbered = ends.iter().zip(&is_owned).map(|(&[first, _], &is_owned)| {
             let next = &mut next[first as usize];
-            *next += usize::from(counted);
-            counted.then(|| (*next - 1) as u32)
+            *next += usize::from(is_owned);
+            is_owned.then(|| (*next - 1) as u32)
         });
         let mut numbers: Vec<Option<u32>> = numbered.collect();
-        let mut told = told(portion, ends, &numbers);
-        told.sort_unstable();
+        let mut received = received(subdomain, ends, &numbers);
+        received.sort_unstable();
         for (number, ends) in numbers.iter_mut().zip(ends) {
             if number.is_none() {
-                let place = told.binary_search_by(|it| it.0.cmp(ends));
-                *number = place.ok().map(|place| told[place].1);
+                let place = received.binary_search_by(|[a, b, _]| [*a, *b].cmp(ends));
+                *number = place.ok().map(|place| received[place][2]);
             }
         }
-        let known: Vec<u32> = numbers.iter().filter_map(|it| *it).collect();
-        debug_assert_eq!(known.len(), ends.len());
-        Ok(Some(Self {
-            portion: portion.clone(),
-            numbers: known,
-            counted,
+        let numbers: Vec<u32> = numbers.iter().filter_map(|it| *it).collect();
+        debug_assert_eq!(numbers.len(), ends.len());
+        Self {
+            numbers,
+            is_owned,
             n_all,
-        }))
-    }
-
-    /// The part of this process in the body.
-    pub(crate) fn portion(&self) -> &Portion {
-        &self.portion
-    }
-
-    /// Number of a bond that is known here.
-    pub(crate) fn number(&self, bond: usize) -> u32 {
-        self.numbers[bond]
-    }
-
-    /// Whether a bond that is known here is counted here.
-    pub(crate) fn counts(&self, bond: usize) -> bool {
-        self.counted[bond]
-    }
-
-    /// The bond with a number, if it is known here.
-    pub(crate) fn known(&self, number: u32) -> Option<usize> {
-        self.numbers.binary_search(&number).ok()
-    }
-
-    /// The bonds that are known here of those with some numbers.
-    pub(crate) fn all_known(&self, numbers: &[u32]) -> Vec<u32> {
-        let known = numbers.iter().filter_map(|&number| self.known(number));
-        known.map(|bond| bond as u32).collect()
-    }
-
-    /// Marks of the bonds that are counted here among marked ones, shape (n_bonds) both.
-    pub(crate) fn counted_of(&self, marked: &[bool]) -> Vec<bool> {
-        let both = marked.iter().zip(&self.counted);
-        both.map(|(marked, counted)| *marked && *counted).collect()
-    }
-
-    /// Reads the values of the bonds that are known here from those of all bonds of the body, without keeping these; none of none.
-    ///
-    /// # Errors
-    ///
-    /// If the bytes are damaged, or of a body with another number of bonds.
-    pub(crate) fn read<T: Serial>(&self, from: &mut &[u8]) -> Result<Vec<T>, CheckpointError> {
-        let count = usize::read(from)?;
-        if count == 0 {
-            return Ok(Vec::new());
         }
-        if count != self.n_all {
-            return Err(CheckpointError::OtherModel);
-        }
-        let mut known = Vec::with_capacity(self.numbers.len());
-        let mut next = self.numbers.iter().peekable();
-        let mut number = 0;
-        T::read_each(count, from, |value| {
-            if next.next_if_eq(&&number).is_some() {
-                known.push(value);
-            }
-            number += 1;
-        })?;
-        Ok(known)
     }
 
-    /// Number of marked bonds over all processes, of marks (n_bonds).
-    pub(crate) fn count(&self, marked: impl Iterator<Item = bool>) -> usize {
-        let counted = marked.zip(&self.counted);
-        let here = counted.filter(|(marked, counted)| *marked && **counted);
-        let mut sum = [here.count() as f64];
-        self.portion.sum(&mut sum);
-        sum[0] as usize
-    }
-
-    /// The values of all bonds of the body on rank 0, from those of the bonds that are known here; nothing elsewhere. Values that are the
-    /// `usual` one are not told.
-    pub(crate) fn of_all<T: Told<N>, const N: usize>(&self, here: &[T], usual: T) -> Vec<T> {
-        let other = here.iter().enumerate();
-        let other = other.filter(|(bond, value)| self.counts(*bond) && **value != usual);
+    /// Values of all bonds of the body on rank 0, and an empty list on other ranks.
+    fn of_all<T, const N: usize>(&self, subdomain: &Subdomain, local: &[T], usual: T) -> Vec<T>
+    where
+        T: Wire<N> + Copy + PartialEq,
+    {
+        let others = local.iter().enumerate();
+        let others = others.filter(|(bond, value)| self.is_owned[*bond] && **value != usual);
         let rows = |(bond, value): (usize, &T)| {
-            let number = [f64::from(self.number(bond))];
+            let number = [f64::from(self.numbers[bond])];
             number.into_iter().chain(value.numbers())
         };
-        let rows: Vec<f64> = other.flat_map(rows).collect();
-        let mut counts = vec![0.0; self.portion.exchange().n_ranks()];
-        counts[self.portion.exchange().rank()] = rows.len() as f64;
-        self.portion.largest(&mut counts);
-        let counts: Vec<usize> = counts.into_iter().map(|it| it as usize).collect();
-        let told = self.portion.exchange().gather(&rows, &counts);
-        if self.portion.exchange().rank() > 0 {
+        let all_rows = subdomain.all_gather_list(others.flat_map(rows).collect::<Vec<f64>>());
+        if !subdomain.communicator().is_root() {
             return Vec::new();
         }
         let mut all = vec![usual; self.n_all];
-        for row in told.chunks_exact(1 + N) {
+        for row in all_rows.chunks_exact(1 + N) {
             let mut numbers = [0.0; N];
             numbers.copy_from_slice(&row[1..]);
             all[row[0] as usize] = T::from_numbers(numbers);
@@ -171,84 +237,31 @@ impl BondNumbers {
     }
 }
 
-/// Ends and numbers of the bonds of other ranks that end here.
-fn told(portion: &Portion, ends: &[[u32; 2]], numbers: &[Option<u32>]) -> Vec<([u32; 2], u32)> {
+/// Ends and global numbers of local bonds that other ranks own.
+fn received(subdomain: &Subdomain, ends: &[[u32; 2]], numbers: &[Option<u32>]) -> Vec<[u32; 3]> {
     let numbered = ends.iter().zip(numbers);
     let across = numbered.filter_map(|(&[a, b], number)| {
-        let number = number.filter(|_| !portion.is_own(b))?;
-        Some([a, b, number].map(f64::from))
+        let number = number.filter(|_| !subdomain.owns(b))?;
+        Some([a, b, number])
     });
-    let across: Vec<_> = across.collect();
-    let of_ranks = portion.concatenated(&across).into_iter();
-    let of_ranks = of_ranks.map(|[a, b, number]| ([a as u32, b as u32], number as u32));
-    let rest = of_ranks.filter(|&(ends, _)| portion.knows(ends) && !portion.counts(ends));
-    rest.collect()
+    let mut of_ranks = subdomain.all_gather_list(across.collect());
+    let is_here = |ends| subdomain.contains_bond(ends) && !subdomain.owns_bond(ends);
+    of_ranks.retain(|&[a, b, _]| is_here([a, b]));
+    of_ranks
 }
 
-/// A value of a bond as numbers that processes exchange.
-pub(crate) trait Told<const N: usize>: Copy + PartialEq {
-    /// The numbers.
-    fn numbers(&self) -> [f64; N];
-
-    /// The value of some numbers.
-    fn from_numbers(numbers: [f64; N]) -> Self;
-}
-
-impl Told<1> for bool {
-    fn numbers(&self) -> [f64; 1] {
-        [f64::from(u8::from(*self))]
-    }
-
-    fn from_numbers([number]: [f64; 1]) -> Self {
-        number != 0.0
-    }
-}
-
-impl Told<1> for f64 {
-    fn numbers(&self) -> [f64; 1] {
-        [*self]
-    }
-
-    fn from_numbers([number]: [f64; 1]) -> Self {
-        number
-    }
-}
-
-impl Told<1> for Option<u8> {
-    fn numbers(&self) -> [f64; 1] {
-        [self.map_or(-1.0, f64::from)]
-    }
-
-    fn from_numbers([number]: [f64; 1]) -> Self {
-        (number >= 0.0).then_some(number as u8)
-    }
-}
-
-/// Numbers that say what is left of a bond.
-const OF_REMAINING: usize = 3;
-
-impl Told<OF_REMAINING> for StiffnessFactors {
-    fn numbers(&self) -> [f64; OF_REMAINING] {
-        [self.axial, self.shear, self.rotational]
-    }
-
-    fn from_numbers([axial, shear, rotational]: [f64; OF_REMAINING]) -> Self {
-        Self {
-            axial,
-            shear,
-            rotational,
-        }
-    }
-}
-
-/// The sum of values of the bonds of a body, over all processes that share it out.
+/// Sum of values of the bonds of a body (n_bonds), over all processes.
 pub(crate) fn sum_over_bonds(system: &dyn Bonds, values: impl Iterator<Item = f64>) -> f64 {
-    let Some(portion) = system.portion() else {
-        return values.sum();
-    };
+    let subdomain = system.subdomain();
     let with_ends = values.zip(system.ends());
-    let counted = with_ends.filter(|(_, ends)| counts(Some(portion), **ends));
-    let mut sum = [counted.map(|it| it.0).sum()];
-    portion.sum(&mut sum);
-    sum[0]
+    let owned = with_ends.filter(|(_, ends)| subdomain.owns_bond(**ends));
+    subdomain.sum(owned.map(|it| it.0).sum())
+}
+
+/// Adds values of the bonds of a body (n_bonds) to a sum, over all processes; on one process one by one.
+pub(crate) fn add_over_bonds(system: &dyn Bonds, sum: &mut f64, values: impl Iterator<Item = f64>) {
+    match system.subdomain().is_whole() {
+        true => values.for_each(|value| *sum += value),
+        false => *sum += sum_over_bonds(system, values),
+    }
 }

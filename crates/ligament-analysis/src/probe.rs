@@ -1,15 +1,10 @@
-//! Probes: numbers read off the body at every load step.
+//! Probes: quantities evaluated at every load step.
 
-use ligament_model::Bonds;
-use ligament_model::failure::{Criteria, Weakened};
-
-use crate::balanced::Balanced;
 use crate::contact;
-use crate::fields;
-use crate::state::State;
+use crate::result_fields::{FIELDS, FieldReading, Solution};
 use crate::unknowns::{Component, Layout};
 
-/// A column of the history.
+/// Probe, a column of the history.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Probe {
     /// Name of the column.
@@ -18,121 +13,234 @@ pub struct Probe {
     pub reading: Reading,
 }
 
-/// A place in the body: points and their shares in what is read there, which add up to one.
+/// Location in the body: points and their weights, which add up to one.
 pub type Shares = Vec<(u32, f64)>;
 
-/// What a probe reads.
+/// Quantity that a probe reads.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Reading {
-    /// Motion at the second place minus that at the first (crack mouth opening, strain gauge), m or rad.
+    /// Motion at the second location minus that at the first (crack mouth opening, strain gauge), m or rad.
     RelativeDisplacement {
-        /// The two places.
+        /// First and second location.
         places: [Shares; 2],
-        /// Component.
+        /// Component of the motion.
         component: Component,
     },
-    /// A field at a place.
+    /// A field at a location.
     Field {
-        /// Place.
+        /// Location at which the field is read.
         place: Shares,
-        /// Field.
+        /// Field that is read.
         field: PointField,
     },
-    /// Force through a line: what the part on its right exerts on the part on its left, seen along it, N; in space through a plane, what
-    /// the part before it exerts on the part behind. Only bonds of two points count.
+    /// Force through a line: force of the part on its right on the part on its left, seen along the line, N; in space through a
+    /// plane, force of the part before it on the part behind it. Only bonds of two points count.
     SectionForce {
-        /// Bonds that cross the line, ascending, and whether their first end lies on the left or behind; bonds that pre-cracks cut are
-        /// numbered on from the others.
+        /// Bonds that cross the line, ascending, and whether their first end lies on the left or behind; bonds cut by pre-cracks
+        /// are numbered after the others.
         bonds: Vec<(u32, bool)>,
-        /// Component: x or y.
+        /// Component of the force: x or y.
         component: Component,
     },
 }
 
-/// Fields that a probe can read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PointField {
-    /// Damage phi.
-    Damage,
-    /// Damage by one way of failing, see [`fields::damage_by`].
-    DamageBy(Weakened),
-    /// A displacement or the rotation, m or rad; zero where points do not have it.
-    Motion(Component),
-    /// Strain energy density, J/m^3.
-    StrainEnergyDensity,
-    /// A component of the virial stress, Pa.
-    Stress(StressComponent),
+/// A field that a probe can read at a point.
+#[derive(Debug, Clone, Copy)]
+pub struct PointField {
+    /// Name of the field, unique.
+    pub word: &'static str,
+    /// Meaning of the name, with the unit.
+    pub meaning: &'static str,
+    /// Method of evaluation.
+    pub reading: PointReading,
 }
 
-/// A component of a symmetric stress, in the order in which bonds give them: the three of the plane, and those that a solid has
-/// beside them.
+/// Method of evaluation of a field at a point.
+#[derive(Debug, Clone, Copy)]
+pub enum PointReading {
+    /// A displacement or the rotation, m or rad; zero where points have no such component.
+    Motion(Component),
+    /// A component of the virial stress, Pa.
+    Stress(StressComponent),
+    /// A scalar of the [table of fields](FIELDS).
+    Scalar(fn(Solution<'_>, u32) -> f64),
+}
+
+/// Components of the vectors and tensors that a probe can read.
+const OF_VECTORS_AND_TENSORS: [PointField; 13] = [
+    motion("displacement_x", "Displacement along x, m.", Component::X),
+    motion("displacement_y", "Displacement along y, m.", Component::Y),
+    motion(
+        "rotation",
+        "Rotation in the plane, rad, counter-clockwise.",
+        Component::Rotation,
+    ),
+    motion(
+        "displacement_z",
+        "Displacement along z of a solid, m.",
+        Component::Z,
+    ),
+    motion(
+        "rotation_x",
+        "Rotation about x in a solid, rad, right-handed.",
+        Component::RotationX,
+    ),
+    motion(
+        "rotation_y",
+        "Rotation about y in a solid, rad, right-handed.",
+        Component::RotationY,
+    ),
+    motion(
+        "rotation_z",
+        "Rotation about z in a solid, rad, right-handed.",
+        Component::RotationZ,
+    ),
+    stress("stress_xx", "Virial stress xx, Pa.", StressComponent::Xx),
+    stress("stress_yy", "Virial stress yy, Pa.", StressComponent::Yy),
+    stress("stress_xy", "Virial stress xy, Pa.", StressComponent::Xy),
+    stress(
+        "stress_zz",
+        "Virial stress zz of a solid, Pa.",
+        StressComponent::Zz,
+    ),
+    stress(
+        "stress_xz",
+        "Virial stress xz of a solid, Pa.",
+        StressComponent::Xz,
+    ),
+    stress(
+        "stress_yz",
+        "Virial stress yz of a solid, Pa.",
+        StressComponent::Yz,
+    ),
+];
+
+const fn motion(word: &'static str, meaning: &'static str, component: Component) -> PointField {
+    let reading = PointReading::Motion(component);
+    PointField {
+        word,
+        meaning,
+        reading,
+    }
+}
+
+const fn stress(word: &'static str, meaning: &'static str, it: StressComponent) -> PointField {
+    let reading = PointReading::Stress(it);
+    PointField {
+        word,
+        meaning,
+        reading,
+    }
+}
+
+impl PartialEq for PointField {
+    fn eq(&self, other: &Self) -> bool {
+        self.word == other.word
+    }
+}
+
+impl PointField {
+    /// All fields: the scalars of the [table of fields](FIELDS) that are read at a point, then the components of vectors and
+    /// tensors.
+    pub const ALL: [Self; N_SCALARS + OF_VECTORS_AND_TENSORS.len()] = {
+        let mut all = [OF_VECTORS_AND_TENSORS[0]; N_SCALARS + OF_VECTORS_AND_TENSORS.len()];
+        let (mut row, mut place) = (0, 0);
+        while row < FIELDS.len() {
+            if let FieldReading::Probed(_, at) = FIELDS[row].reading {
+                all[place] = Self {
+                    word: FIELDS[row].name,
+                    meaning: FIELDS[row].meaning,
+                    reading: PointReading::Scalar(at),
+                };
+                place += 1;
+            }
+            row += 1;
+        }
+        while place < all.len() {
+            all[place] = OF_VECTORS_AND_TENSORS[place - N_SCALARS];
+            place += 1;
+        }
+        all
+    };
+
+    /// Field with this name.
+    pub fn named(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|it| it.word == word)
+    }
+
+    /// Whether the field is a motion.
+    pub fn is_motion(&self) -> bool {
+        matches!(self.reading, PointReading::Motion(_))
+    }
+}
+
+/// Number of scalars that a probe can read.
+const N_SCALARS: usize = {
+    let (mut row, mut count) = (0, 0);
+    while row < FIELDS.len() {
+        count += matches!(FIELDS[row].reading, FieldReading::Probed(..)) as usize;
+        row += 1;
+    }
+    count
+};
+
+/// Component of a symmetric stress, in the order of the bond stresses: three in the plane, then three more in space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StressComponent {
-    /// sigma_xx.
+    /// Component sigma_xx.
     Xx,
-    /// sigma_yy.
+    /// Component sigma_yy.
     Yy,
-    /// sigma_xy.
+    /// Component sigma_xy.
     Xy,
-    /// sigma_zz.
+    /// Component sigma_zz.
     Zz,
-    /// sigma_xz.
+    /// Component sigma_xz.
     Xz,
-    /// sigma_yz.
+    /// Component sigma_yz.
     Yz,
 }
 
-/// The values of probes in a state of equilibrium.
-pub(crate) fn values(
-    probes: &[Probe],
-    system: &dyn Bonds,
-    criteria: &Criteria,
-    state: &State,
-    balanced: &Balanced,
-) -> Vec<f64> {
+/// Values of probes in an equilibrium state.
+pub(crate) fn values(probes: &[Probe], solution: Solution<'_>) -> Vec<f64> {
+    let system = solution.system;
     let readings = probes.iter().map(|it| &it.reading);
-    let Some(portion) = system.portion() else {
-        let values = readings.map(|it| it.value(system, criteria, state, balanced));
-        return values.collect();
-    };
-    let first_is_own =
-        |place: &Shares| (place.first()).is_some_and(|(point, _)| portion.is_own(*point));
+    let subdomain = system.subdomain();
+    let first_is_owned =
+        |place: &Shares| (place.first()).is_some_and(|(point, _)| subdomain.owns(*point));
     let parts = readings.map(|reading| match reading {
-        // The motions of points that are read are known to all: one process reads the whole.
-        Reading::RelativeDisplacement { places, .. } if !first_is_own(&places[0]) => 0.0,
-        Reading::Field {
-            place,
-            field: PointField::Motion(_),
-        } if !first_is_own(place) => 0.0,
-        Reading::Field { place, field } if !matches!(field, PointField::Motion(_)) => {
-            let own = place.iter().filter(|(point, _)| portion.is_own(*point));
+        // The motions of observed points are known to all processes: one process reads the whole.
+        Reading::RelativeDisplacement { places, .. } if !first_is_owned(&places[0]) => 0.0,
+        Reading::Field { place, field } if field.is_motion() && !first_is_owned(place) => 0.0,
+        Reading::Field { place, field } if !field.is_motion() => {
+            let own = place.iter().filter(|(point, _)| subdomain.owns(*point));
             let own = Reading::Field {
                 place: own.copied().collect(),
                 field: *field,
             };
-            own.value(system, criteria, state, balanced)
+            own.value(solution)
         }
         Reading::SectionForce { bonds, component } => {
             let ends = system.ends();
-            let counted = bonds.iter().filter(|(bond, _)| {
+            let owned = bonds.iter().filter(|(bond, _)| {
                 let ends = ends.get(*bond as usize);
-                ends.is_some_and(|ends| portion.counts(*ends))
+                ends.is_some_and(|ends| subdomain.owns_bond(*ends))
             });
-            let counted = Reading::SectionForce {
-                bonds: counted.copied().collect(),
+            let owned = Reading::SectionForce {
+                bonds: owned.copied().collect(),
                 component: *component,
             };
-            counted.value(system, criteria, state, balanced)
+            owned.value(solution)
         }
-        reading => reading.value(system, criteria, state, balanced),
+        reading => reading.value(solution),
     });
     let mut values: Vec<f64> = parts.collect();
-    portion.sum(&mut values);
+    subdomain.all_reduce_sum(&mut values);
     values
 }
 
 impl Reading {
-    /// Degrees of freedom whose motions, times their weights, add up to the reading; None where it is no motion.
+    /// Degrees of freedom and weights whose weighted motions add up to the reading; None for other quantities than motions.
     pub fn weights(&self, layout: Layout) -> Option<Vec<(u32, f64)>> {
         let (shares, component) = match self {
             Self::RelativeDisplacement { places, component } => {
@@ -143,7 +251,11 @@ impl Reading {
             }
             Self::Field {
                 place,
-                field: PointField::Motion(component),
+                field:
+                    PointField {
+                        reading: PointReading::Motion(component),
+                        ..
+                    },
             } => (place.clone(), *component),
             Self::Field { .. } | Self::SectionForce { .. } => return None,
         };
@@ -154,14 +266,14 @@ impl Reading {
         Some(shares.into_iter().filter_map(weight).collect())
     }
 
-    /// The value in a state of equilibrium; where processes share the body out, this one's part of it.
-    fn value(
-        &self,
-        system: &dyn Bonds,
-        criteria: &Criteria,
-        state: &State,
-        balanced: &Balanced,
-    ) -> f64 {
+    /// Value in an equilibrium state; on a divided body the share of this process.
+    fn value(&self, solution: Solution<'_>) -> f64 {
+        let Solution {
+            system,
+            state,
+            balanced,
+            ..
+        } = solution;
         let motion = |point: u32, component: Component| {
             system.layout().value(point, component, &state.displacement)
         };
@@ -171,29 +283,19 @@ impl Reading {
                     (places.each_ref()).map(|it| mean(it, |point| motion(point, *component)));
                 second - first
             }
-            Self::Field { place, field } => mean(place, |point| match field {
-                PointField::Damage => fields::point_damage(system, &state.intact, point),
-                PointField::DamageBy(way) => {
-                    fields::point_damage_by(system, criteria, state, *way, point)
-                }
-                PointField::Motion(component) => motion(point, *component),
-                PointField::Stress(component) => {
+            Self::Field { place, field } => mean(place, |point| match field.reading {
+                PointReading::Motion(component) => motion(point, component),
+                PointReading::Stress(component) => {
                     let deformations = &balanced.deformations;
                     let mut stress = system.stress(state.bonds(), deformations, point);
                     contact::add_virial(system, &balanced.closed, point, &mut stress);
-                    stress.get(*component as usize).copied().unwrap_or(0.0)
+                    stress.get(component as usize).copied().unwrap_or(0.0)
                 }
-                PointField::StrainEnergyDensity => fields::point_energy_density(
-                    system,
-                    state.bonds(),
-                    &balanced.deformations,
-                    &balanced.closed,
-                    point,
-                ),
+                PointReading::Scalar(at) => at(solution, point),
             }),
             Self::SectionForce { bonds, component } => {
                 let deformations = &balanced.deformations;
-                // Beyond the bonds stand those that pre-cracks cut.
+                // Bonds cut by pre-cracks are numbered after the others.
                 let n_bonds = system.ends().len();
                 let of_bonds = bonds.partition_point(|(bond, _)| (*bond as usize) < n_bonds);
                 let crossing = &bonds[..of_bonds];
@@ -207,7 +309,7 @@ impl Reading {
     }
 }
 
-/// The value at a place, from those of its points.
+/// Weighted mean of values at the points of a location.
 fn mean(place: &Shares, value: impl Fn(u32) -> f64) -> f64 {
     let parts = place.iter().map(|&(point, share)| share * value(point));
     parts.reduce(|sum, part| sum + part).unwrap_or(0.0)

@@ -1,4 +1,4 @@
-//! A problem: a body and what happens to it.
+//! Problem: a body with its loads, criteria and probes.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -13,18 +13,18 @@ use crate::probe::Probe;
 use crate::solver::SolverSettings;
 use crate::state::State;
 
-/// A problem: bonds, what acts on them, and what to read off. A copy shares the parts.
+/// Problem: bonds, loads, criteria, solver and probes. A copy shares its data.
 #[derive(Clone)]
 pub struct Problem {
-    /// The bond system.
+    /// Bonds between the points of the body.
     pub system: Arc<dyn Bonds>,
-    /// Failure criteria; an elastic analysis has none.
+    /// Failure criteria; empty in an elastic analysis.
     pub criteria: Arc<Criteria>,
     /// Supports and loads.
     pub loads: Arc<dyn LoadProgram>,
     /// Settings of the solver of the equations.
     pub solver: SolverSettings,
-    /// Probes.
+    /// Probes of the history.
     pub probes: Arc<[Probe]>,
 }
 

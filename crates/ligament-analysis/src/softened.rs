@@ -1,68 +1,86 @@
-//! Bonds whose force has begun to fall beyond a limit, over all processes that share a body out.
+//! Softened bonds, whose force has begun to fall beyond a limit, over all processes.
+
+use ligament_model::communicator::Wire;
 
 use crate::bond_numbers::BondNumbers;
 use crate::state::State;
 
-/// The bond farthest beyond its limit under a law that softens.
+/// Bond farthest beyond its limit under a softening law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FarthestSoftened {
     /// Number of the criterion.
     pub criterion: u32,
-    /// Number of the bond among all bonds of the body.
+    /// Global number of the bond.
     pub bond: u32,
     /// Ends A < B of the bond.
     pub ends: [u32; 2],
-    /// Largest e/e_0 of the bond, beyond 1.
+    /// Largest e/e_0 of the bond, above 1.
     largest: f64,
 }
 
-/// What softened of a body that processes share out.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Softened bonds of a body, over all processes.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SoftenedOfAll {
-    /// Number of the unbroken bonds past their limits.
+    /// Number of unbroken bonds beyond their limits.
     pub bonds: usize,
-    /// The one farthest beyond its limit, broken ones included; none where none is.
+    /// Bond farthest beyond its limit, including broken ones; None where no bond is.
     pub farthest: Option<FarthestSoftened>,
 }
 
 impl SoftenedOfAll {
-    /// What softened in a state, with the ends of the bonds that are known here (n_bonds); all processes ask for it.
+    /// Softened bonds of a state, from the ends of the local bonds (n_bonds); none where no criterion softens. Collective.
     pub(crate) fn in_state(state: &State, numbers: &BondNumbers, ends: &[[u32; 2]]) -> Self {
-        let counted = |bond: usize| numbers.counts(bond);
-        let here = farthest(state, ends, counted).map(|it| {
-            let [a, b] = it.ends.map(f64::from);
-            let bond = f64::from(numbers.number(it.bond as usize));
-            [it.largest, f64::from(it.criterion), bond, a, b]
+        if state.softening.largest.is_empty() {
+            return Self::default();
+        }
+        let here = farthest(state, ends, |bond| numbers.owns(bond));
+        let here = here.map(|it| FarthestSoftened {
+            bond: numbers.number(it.bond),
+            ..it
         });
-        let of_ranks = numbers.portion().concatenated(here.as_slice()).into_iter();
-        let of_ranks = of_ranks.map(|[largest, criterion, bond, a, b]| FarthestSoftened {
-            criterion: criterion as u32,
-            bond: bond as u32,
-            ends: [a as u32, b as u32],
-            largest,
-        });
+        let of_ranks = numbers
+            .subdomain()
+            .all_gather_list(here.into_iter().collect());
         let is_first = |it: &FarthestSoftened, than: &FarthestSoftened| {
             it.largest > than.largest
                 || (it.largest == than.largest
                     && (it.criterion, it.bond) < (than.criterion, than.bond))
         };
+        let first = |best, it| if is_first(&it, &best) { it } else { best };
         Self {
             bonds: numbers.count((0..state.intact.len()).map(|bond| state.has_softened(bond))),
-            farthest: of_ranks.reduce(|best, it| if is_first(&it, &best) { it } else { best }),
+            farthest: of_ranks.into_iter().reduce(first),
         }
     }
 }
 
-/// The criterion and the bond with the largest e/e_0 beyond 1 under a law that softens among those that count, the first of several.
-pub(crate) fn farthest(
+impl Wire<5> for FarthestSoftened {
+    fn numbers(&self) -> [f64; 5] {
+        let numbers = [self.criterion, self.bond, self.ends[0], self.ends[1]];
+        let [criterion, bond, a, b] = numbers.map(f64::from);
+        [self.largest, criterion, bond, a, b]
+    }
+
+    fn from_numbers([largest, criterion, bond, a, b]: [f64; 5]) -> Self {
+        Self {
+            criterion: criterion as u32,
+            bond: bond as u32,
+            ends: [a as u32, b as u32],
+            largest,
+        }
+    }
+}
+
+/// Criterion and owned bond with the largest e/e_0 above 1 under a softening law, the first of equal ones.
+fn farthest(
     state: &State,
     ends: &[[u32; 2]],
-    counts: impl Fn(usize) -> bool,
+    is_owned: impl Fn(usize) -> bool,
 ) -> Option<FarthestSoftened> {
     let mut best: Option<FarthestSoftened> = None;
     for (criterion, largest) in (0..).zip(&state.softening.largest) {
         for (bond, &largest) in largest.iter().enumerate() {
-            if largest > best.map_or(1.0, |it| it.largest) && counts(bond) {
+            if largest > best.map_or(1.0, |it| it.largest) && is_owned(bond) {
                 best = Some(FarthestSoftened {
                     criterion,
                     bond: bond as u32,

@@ -1,4 +1,4 @@
-//! What changes during a run.
+//! State of a body, which changes during a run.
 
 use ligament_model::Bonds;
 pub use ligament_model::UnbrokenBonds;
@@ -6,41 +6,30 @@ use ligament_model::failure::Criteria;
 
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
-use crate::serial;
-use crate::serial::Serial;
+use crate::serial::{Serial, write_list};
 use crate::softening::Softening;
 
-/// Motion of the points and what is left of the bonds.
+/// Motion of the points and state of the bonds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
     /// Load factor.
     pub load_factor: f64,
     /// Displacements and rotations, shape (n_degrees_of_freedom), m and rad.
     pub displacement: Vec<f64>,
-    /// For each bond, whether it is unbroken, shape (n_bonds).
+    /// Whether each bond is unbroken, shape (n_bonds).
     pub intact: Vec<bool>,
     /// Criterion by which each broken bond broke, shape (n_bonds).
     pub broken_by: Vec<Option<u8>>,
-    /// State of unbroken bonds past their limits; empty where no bond softens.
+    /// Softening of unbroken bonds beyond their limits; empty where no bond softens.
     pub softening: Softening,
-    /// Energy that each bond has taken for good, shape (n_bonds), J.
+    /// Energy dissipated by each bond, shape (n_bonds), J.
     pub dissipated: Vec<f64>,
-    /// Degrees of freedom held because nothing else would hold them, shape (n_degrees_of_freedom).
+    /// Whether each degree of freedom has an added support, for want of stiffness, shape (n_degrees_of_freedom).
     pub held: Vec<bool>,
 }
 
-serial!(State {
-    load_factor,
-    displacement,
-    intact,
-    broken_by,
-    softening,
-    dissipated,
-    held
-});
-
 impl State {
-    /// Whether all arrays are those of a body with so many bonds and these criteria.
+    /// Whether all arrays have the shapes for a body with this number of bonds and these criteria.
     pub(crate) fn fits(&self, system: &dyn Bonds, n_bonds: usize, criteria: &Criteria) -> bool {
         let n = system.layout().n_degrees_of_freedom();
         let of_degrees_of_freedom = [self.displacement.len(), self.held.len()];
@@ -56,7 +45,7 @@ impl State {
             && self.softening.fits(criteria, n_bonds)
     }
 
-    /// The unloaded body with all its bonds.
+    /// Unloaded body with all its bonds.
     pub fn fresh(system: &dyn Bonds) -> Self {
         let n = system.layout().n_degrees_of_freedom();
         let n_bonds = system.ends().len();
@@ -71,37 +60,29 @@ impl State {
         }
     }
 
-    /// The state with the bonds of all processes on rank 0, and without any elsewhere.
-    pub(crate) fn of_all(&self, numbers: &BondNumbers) -> Self {
-        let mut displacement = self.displacement.clone();
-        let n_components = displacement.len() / numbers.portion().partition().len();
-        numbers.portion().complete(&mut displacement, n_components);
-        Self {
-            load_factor: self.load_factor,
-            displacement,
-            held: self.held.clone(),
-            intact: numbers.of_all(&self.intact, true),
-            broken_by: numbers.of_all(&self.broken_by, None),
-            softening: self.softening.of_all(numbers),
-            dissipated: numbers.of_all(&self.dissipated, 0.0),
-        }
+    /// Appends the state of all points and bonds of the body, from those of each process; valid on rank 0 alone. Collective.
+    pub(crate) fn write(&self, numbers: &BondNumbers, out: &mut Vec<u8>) {
+        self.load_factor.write(out);
+        write_list(&numbers.subdomain().gathered(&self.displacement), out);
+        numbers.write(&self.intact, true, out);
+        numbers.write(&self.broken_by, None, out);
+        self.softening.write(numbers, out);
+        numbers.write(&self.dissipated, 0.0, out);
+        self.held.write(out);
     }
 
-    /// Reads a state with the bonds that are known here alone, from that of all bonds.
+    /// Reads a state with all bonds, and keeps the local bonds.
     ///
     /// # Errors
     ///
-    /// If the bytes are damaged or of another body.
-    pub(crate) fn read_known(
-        numbers: &BondNumbers,
-        from: &mut &[u8],
-    ) -> Result<Self, CheckpointError> {
+    /// If the bytes are damaged or belong to another body.
+    pub(crate) fn read(numbers: &BondNumbers, from: &mut &[u8]) -> Result<Self, CheckpointError> {
         Ok(Self {
             load_factor: Serial::read(from)?,
             displacement: Serial::read(from)?,
             intact: numbers.read(from)?,
             broken_by: numbers.read(from)?,
-            softening: Softening::read_known(numbers, from)?,
+            softening: Softening::read(numbers, from)?,
             dissipated: numbers.read(from)?,
             held: Serial::read(from)?,
         })
@@ -124,7 +105,7 @@ impl State {
         self.intact[bond] && largest.any(|it| it.get(bond).is_some_and(|it| *it > 1.0))
     }
 
-    /// The bonds that are left, with their remaining stiffness.
+    /// Intact bonds, with their remaining stiffness.
     pub fn bonds(&self) -> UnbrokenBonds<'_> {
         UnbrokenBonds {
             intact: &self.intact,

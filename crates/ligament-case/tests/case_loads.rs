@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use ligament::setup::{Action, Axis};
-use ligament_analysis::probe::{PointField, StressComponent};
+use ligament_analysis::probe::PointField;
 use ligament_case::case::{CaseFile, Couple, Profile, StressField, Word};
 
 const TEXT: &str = include_str!("data/brazilian-disk.toml");
@@ -149,7 +149,7 @@ fn stresses_are_asked_for_by_name() {
     let probe = "\n[[probe]]\nname = \"s\"\nat = [0.0, 0.0]\nfield = \"stress_xy\"\n";
     let case = CaseFile::parse(Path::new("case.toml"), format!("{TEXT}{probe}"), &[]).unwrap();
     let at = [0.0, 0.0].into();
-    let field = Word(PointField::Stress(StressComponent::Xy));
+    let field = Word(PointField::named("stress_xy").unwrap());
     let probe = case.case.probes.last().unwrap();
     assert_eq!((probe.at, probe.field), (Some(at), Some(field)));
 }

@@ -1,67 +1,75 @@
-//! Points of other processes that a process sees, and what it tells these of its own.
+//! Ghosts: copies of the points of other processes that a process reads.
 
-use crate::portion::{Exchange, Portion};
+use crate::subdomain::Subdomain;
 
-/// The points of others that each of several processes sees. Values at them come from the processes that have them, and go to no other.
+/// Ghosts of a process. Only the owner of a point sends its values, and only to processes that read the point.
 #[derive(Debug, Clone)]
 pub struct Ghosts {
-    exchange: &'static dyn Exchange,
-    /// Own points that others see, in the order of these ranks, and their number for each rank.
-    told: (Vec<u32>, Vec<usize>),
-    /// Points of others that are seen here, in the order of their ranks, and their number for each rank.
-    seen: (Vec<u32>, Vec<usize>),
+    subdomain: Subdomain,
+    /// Owned points that other processes read, in the order of the ranks of these, and their number for each rank.
+    sent: (Vec<u32>, Vec<usize>),
+    /// Ghosts in the order of the ranks of their owners, and their number for each rank.
+    received: (Vec<u32>, Vec<usize>),
 }
 
 impl Ghosts {
-    /// The points of others among those that a process sees; all processes call this.
-    pub fn new(portion: &Portion, seen: impl Iterator<Item = u32>) -> Self {
-        let (exchange, partition) = (portion.exchange(), portion.partition());
-        let mut seen: Vec<u32> = seen.filter(|&it| !portion.is_own(it)).collect();
-        seen.sort_unstable_by_key(|&point| partition.place(point));
-        seen.dedup();
-        let ranks = 0..exchange.n_ranks();
-        let of_rank =
-            |rank| seen.partition_point(|&it| partition.place(it) < partition.first(rank));
-        let from: Vec<usize> = ranks
-            .map(|rank| of_rank(rank + 1) - of_rank(rank))
-            .collect();
-        let numbers = |values: &[u32]| values.iter().map(|&it| f64::from(it)).collect::<Vec<_>>();
+    /// The ghosts among the points that a process reads; collective.
+    pub fn new(subdomain: &Subdomain, read: impl Iterator<Item = u32>) -> Self {
+        let partition = subdomain.partition();
+        let mut ghosts: Vec<u32> = match subdomain.is_whole() {
+            true => Vec::new(),
+            false => read.filter(|&it| !subdomain.owns(it)).collect(),
+        };
+        ghosts.sort_unstable_by_key(|&point| partition.place(point));
+        ghosts.dedup();
+        let before =
+            |rank| ghosts.partition_point(|&it| partition.place(it) < partition.first(rank));
+        let ranks = 0..partition.n_ranks();
+        let from: Vec<usize> = ranks.map(|rank| before(rank + 1) - before(rank)).collect();
+        let exchange = |values: &[f64], to: &[usize], from: &[usize]| {
+            subdomain.communicator().all_to_all(values, to, from)
+        };
         let one = vec![1; from.len()];
         let counts: Vec<f64> = from.iter().map(|&count| count as f64).collect();
-        let to = exchange.swap(&counts, &one, &one).into_iter();
+        let to = exchange(&counts, &one, &one).into_iter();
         let to: Vec<usize> = to.map(|count| count as usize).collect();
-        let told = exchange.swap(&numbers(&seen), &from, &to).into_iter();
+        let numbers: Vec<f64> = ghosts.iter().map(|&it| f64::from(it)).collect();
+        let sent = exchange(&numbers, &from, &to).into_iter();
         Self {
-            exchange,
-            told: (told.map(|point| point as u32).collect(), to),
-            seen: (seen, from),
+            subdomain: subdomain.clone(),
+            sent: (sent.map(|point| point as u32).collect(), to),
+            received: (ghosts, from),
         }
     }
 
-    /// The points of others that are seen here.
-    pub fn seen(&self) -> &[u32] {
-        &self.seen.0
+    /// Points that are ghosts, in the order of the ranks of their owners.
+    pub fn points(&self) -> &[u32] {
+        &self.received.0
     }
 
-    /// Points by other numbers.
+    /// The ghosts with points renumbered by a function.
     pub fn renumbered(mut self, number: impl Fn(u32) -> u32) -> Self {
-        let points = self.told.0.iter_mut().chain(&mut self.seen.0);
+        let points = self.sent.0.iter_mut().chain(&mut self.received.0);
         points.for_each(|point| *point = number(*point));
         self
     }
 
-    /// Takes the values of the points that are seen from those who have them; so many values a point, shape (n_points, n_values).
-    pub fn tell(&self, values: &mut [f64], n_values: usize) {
+    /// Replaces the values at the ghosts by those of their owners, shape (n_points, n_values); collective.
+    pub fn update(&self, values: &mut [f64], n_values: usize) {
+        if self.subdomain.is_whole() {
+            return;
+        }
         let rows = |point: u32| n_values * point as usize..n_values * (point as usize + 1);
         let times = |counts: &[usize]| counts.iter().map(|it| n_values * it).collect::<Vec<_>>();
-        let (told, to) = &self.told;
-        let own: Vec<f64> = (told.iter())
+        let (sent, to) = &self.sent;
+        let sent: Vec<f64> = (sent.iter())
             .flat_map(|&point| values[rows(point)].iter().copied())
             .collect();
-        let (seen, from) = &self.seen;
-        let of_others = self.exchange.swap(&own, &times(to), &times(from));
-        for (&point, of_other) in seen.iter().zip(of_others.chunks_exact(n_values)) {
-            values[rows(point)].copy_from_slice(of_other);
+        let (ghosts, from) = &self.received;
+        let communicator = self.subdomain.communicator();
+        let received = communicator.all_to_all(&sent, &times(to), &times(from));
+        for (&point, received) in ghosts.iter().zip(received.chunks_exact(n_values)) {
+            values[rows(point)].copy_from_slice(received);
         }
     }
 }

@@ -10,16 +10,17 @@
 //! | micromoduli | [`BondStiffness`] | [`law`] |
 //! | factors alpha and Omega | [`Correction`] | [`correction`] |
 //! | failure criteria with their limits | [`Criteria`](failure::Criteria) | [`failure`] |
-//! | what the equations are made of | [`BondSystem`] | [`system`] |
+//! | points, bonds and rigidities of the equations | [`BondSystem`] | [`system`] |
 //! | masses, for modes | [`LumpedMass`] | [`mass`] |
 //!
-//! All quantities are in SI units. No matrices, no files and no printing here. Equations carry the key of their source, such
-//! as NHPD or MPPD: `docs/references.md` lists the papers.
+//! All quantities are in SI units. The crate has no matrices, files or printing. Equations carry the key of their source, such as NHPD or
+//! MPPD: `docs/references.md` lists the papers.
 
 pub mod advice;
 pub mod bonds;
 pub mod change;
 pub mod cloud;
+pub mod communicator;
 pub mod contact;
 pub mod correction;
 pub mod deformation;
@@ -37,13 +38,13 @@ pub mod layout;
 pub mod mass;
 pub mod material;
 pub mod moduli;
-pub mod portion;
 mod predicates;
 mod product;
 pub mod rigid_motions;
 pub mod scatter;
 pub mod shape;
 pub mod stress;
+pub mod subdomain;
 pub mod sweep;
 pub mod system;
 pub mod tensor;

@@ -8,60 +8,60 @@ use crate::cloud::PointCloud;
 use crate::deformation::{Deformation, Deformations};
 use crate::element::{DeformationOf, Element, Elements};
 use crate::layout::Component;
-use crate::portion::{Portion, Share, Whole, counts};
+use crate::subdomain::{Share, Subdomain, Whole};
 use crate::system::{ElementSystem, UnbrokenBonds};
 use crate::thermal::ThermalStrain;
 
-/// Parts into which the bonds are divided when their forces are added up; fixed, so that the order of summation is fixed
-/// too. Each part adds to forces of its own at all points, so more parts cost memory.
+/// Number of parts into which the bonds are divided for the sum of their forces; fixed, so that the order of summation is fixed. Each part
+/// has forces of its own at all points, so more parts cost memory.
 const PARTS: usize = 4;
 
-/// Bonds that make a task worth while.
+/// Number of bonds that make a task worth while.
 const TASK: usize = 2048;
 
-/// What a sweep over all bonds gives.
+/// Results of a sweep over all bonds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BondSweep {
-    /// Deformation of every bond without what its temperature gives it, broken or not, shape (n_bonds).
+    /// Deformation of every bond less its thermal deformation, broken or not, shape (n_bonds).
     pub deformations: Deformations,
     /// Internal forces of the intact bonds.
     pub internal: InternalForces,
-    /// Sum of the sizes of the end forces that meet at each degree of freedom, shape (n_degrees_of_freedom), N and N m; of own points.
+    /// Sum of the absolute end forces at each degree of freedom, shape (n_degrees_of_freedom), N and N m; at owned points.
     pub sizes: Vec<f64>,
     /// Energy stored in the intact bonds, J (the E of NHPD's convergence rule, eq. 21).
     pub stored_energy: f64,
-    /// What they would store if what the temperature gives them at load factor 1 were their deformation, J.
+    /// Energy that the intact bonds would store with their thermal deformation at load factor 1, J.
     pub expansion_energy: f64,
 }
 
 impl BondSweep {
-    /// Energy 1/2 u^T K u that the motions of the points alone would store at a load factor lambda, J: with the deformations
-    /// beyond the expansion, B u - lambda e, the stored energy is 1/2 (B u - lambda e) C (B u - lambda e).
+    /// Energy 1/2 u^T K u of the motions of the points alone at a load factor lambda, J: with the deformations beyond the expansion, B u -
+    /// lambda e, the stored energy is 1/2 (B u - lambda e) C (B u - lambda e).
     ///
-    /// A stable body has a positive one. Its stored energy need not be: where bonds have negative stiffnesses, expansions that
-    /// do not fit together may store less than nothing.
+    /// This energy is positive for a stable body. The stored energy need not be: where bonds have negative stiffnesses, incompatible
+    /// expansions may store negative energy.
     pub fn energy_of_motion(&self, load_factor: f64) -> f64 {
         self.stored_energy
             + load_factor * (load_factor * self.expansion_energy - self.internal.thermal)
     }
 }
 
-/// Internal forces and the sizes that their residual is compared with.
+/// Internal forces and the scales of their residual.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InternalForces {
-    /// Sum of the bonds' end forces K u at each degree of freedom, shape (n_degrees_of_freedom), N and N m; where processes share the body
-    /// out, at own points.
+    /// Sum of the end forces K u of the bonds at each degree of freedom, shape (n_degrees_of_freedom), N and N m; at owned points where the
+    /// body is divided between processes.
     pub values: Vec<f64>,
-    /// Largest sum of |end forces| that meet at a point along one axis, N.
+    /// Largest sum of absolute end forces at a point along one axis, N.
     pub force_scale: f64,
-    /// Largest sum of |end moments| that meet at a point, N m.
+    /// Largest sum of absolute end moments at a point, N m.
     pub moment_scale: f64,
-    /// -sum over the bonds of force . thermal deformation, for the one at load factor 1: what does work while it grows, J.
+    /// Work -sum over the bonds of force . thermal deformation at load factor 1, J: the rate at which a growing expansion does work.
     pub thermal: f64,
 }
 
 impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
-    /// Deformation of every bond without what its temperature gives it, broken or not, shape (n_bonds).
+    /// Deformation of every bond less its thermal deformation, broken or not, shape (n_bonds).
     pub(crate) fn deformations(
         &self,
         intact: &[bool],
@@ -80,16 +80,15 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
                 }
             }
         };
-        // Written in place: a closure that gives a deformation to be collected is called bond by bond, which costs more.
+        // Written in place: a closure that returns a deformation to be collected would be called bond by bond, which costs more.
         Deformation::written(&self.system.room, ends.len(), |all| {
             all.par_chunks_mut(TASK).enumerate().for_each(of_task);
         })
     }
 
     /// Forces and energy of bonds with given deformations (n_bonds).
-    ///
-    /// Nothing depends on the number of threads: the bonds of a part are added up by one thread in their order, and the parts
-    /// after each other.
+    /// The result does not depend on the number of threads: the bonds of a part are summed by one thread in their order, and the parts one
+    /// after another.
     pub(crate) fn forces(
         &self,
         bonds: UnbrokenBonds<'_>,
@@ -97,13 +96,13 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
         expansion: ThermalStrain<'_>,
     ) -> BondSweep {
         let n_bonds = deformations.len();
-        let portion = self.system.cloud.portion.as_ref();
+        let subdomain = &self.system.cloud.subdomain;
         let of_bonds: &[DeformationOf<D, M, E>] = Deformation::of_bonds(&deformations);
         let made = |number: usize| {
             let of_part = || number * n_bonds / PARTS..(number + 1) * n_bonds / PARTS;
-            let mut part = match portion {
-                None => Part::of_bonds(self, Whole, bonds, of_bonds, of_part()),
-                Some(portion) => Part::of_bonds(self, portion, bonds, of_bonds, of_part()),
+            let mut part = match subdomain.is_whole() {
+                true => Part::of_bonds(self, Whole, bonds, of_bonds, of_part()),
+                false => Part::of_bonds(self, subdomain, bonds, of_bonds, of_part()),
             };
             if !expansion.is_none() {
                 part.add_expansion(self, bonds, of_bonds, expansion, of_part());
@@ -111,17 +110,17 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
             part
         };
         let parts: Vec<Part<M>> = (0..PARTS).into_par_iter().map(made).collect();
-        BondSweep::of_parts(&parts, &E::COMPONENTS, deformations, portion)
+        BondSweep::of_parts(&parts, &E::COMPONENTS, deformations, subdomain)
     }
 }
 
 impl BondSweep {
-    /// The sweep over the bonds of some parts, between points with these components; of all ranks, where they share the body out.
+    /// Sums the sweeps over the parts of the bonds, between points with given components, and over the processes.
     fn of_parts<const M: usize>(
         parts: &[Part<M>],
         components: &[Component; M],
         deformations: Deformations,
-        portion: Option<&Portion>,
+        subdomain: &Subdomain,
     ) -> Self {
         let sums: Vec<PointForces<M>> = (0..parts[0].forces.len())
             .into_par_iter()
@@ -133,10 +132,7 @@ impl BondSweep {
             .collect();
         let collected = |of_point: fn(&PointForces<M>) -> [f64; M]| {
             let of_points: Vec<[f64; M]> = sums.iter().map(of_point).collect();
-            match portion {
-                None => of_points.into_flattened(),
-                Some(portion) => portion.spread(&of_points),
-            }
+            subdomain.from_owned(of_points)
         };
         let (values, sizes) = (
             collected(|forces| forces.sum),
@@ -154,10 +150,8 @@ impl BondSweep {
             of_parts(|part| part.energy),
             of_parts(|part| part.expansion_energy),
         ];
-        if let Some(portion) = portion {
-            portion.sum(&mut over_bonds);
-            portion.largest(&mut scales);
-        }
+        subdomain.all_reduce_sum(&mut over_bonds);
+        subdomain.all_reduce_max(&mut scales);
         let [force_scale, moment_scale] = scales;
         let [thermal, stored_energy, expansion_energy] = over_bonds;
         Self {
@@ -175,20 +169,20 @@ impl BondSweep {
     }
 }
 
-/// What the bonds of one part give.
+/// Sums over the bonds of one part.
 struct Part<const M: usize> {
-    /// Of all points, or of the own ones.
+    /// Forces at the owned points.
     forces: Vec<PointForces<M>>,
     energy: f64,
     thermal: f64,
     expansion_energy: f64,
 }
 
-/// The end forces that meet at a point.
+/// Sum of the end forces at a point.
 #[derive(Debug, Clone, Copy)]
 struct PointForces<const M: usize> {
     sum: [f64; M],
-    /// Sum of their sizes.
+    /// Sum of their absolute values.
     size: [f64; M],
 }
 
@@ -215,11 +209,10 @@ impl<const M: usize> PointForces<M> {
 }
 
 impl<const M: usize> Part<M> {
-    /// A part without bonds, for the points of a cloud, or the own ones of it.
+    /// A part without bonds, for the owned points of a cloud.
     fn new<const D: usize>(cloud: &PointCloud<D>) -> Self {
-        let own = cloud.portion.as_ref().map(|it| it.own().len());
         Self {
-            forces: vec![PointForces::NONE; own.unwrap_or(cloud.len())],
+            forces: vec![PointForces::NONE; cloud.subdomain.owned().len()],
             energy: 0.0,
             thermal: 0.0,
             expansion_energy: 0.0,
@@ -243,7 +236,7 @@ impl<const M: usize> Part<M> {
                 continue;
             };
             let deformation = &deformations[bond];
-            if share.counts(typed.system.bonds.ends[bond]) {
+            if share.owns_bond(typed.system.bonds.ends[bond]) {
                 energy += element.mutual_energy(deformation, deformation);
             }
             element.forces(deformation, |point, force| {
@@ -260,7 +253,7 @@ impl<const M: usize> Part<M> {
         }
     }
 
-    /// Adds what the temperature does to the bonds of the part.
+    /// Adds the thermal work and energy of the bonds of the part.
     fn add_expansion<const D: usize, E: Elements<D, M>>(
         &mut self,
         typed: &ElementSystem<D, M, E>,
@@ -270,10 +263,12 @@ impl<const M: usize> Part<M> {
         of_part: Range<usize>,
     ) {
         let at_full_load = expansion.at_full_load();
-        let portion = typed.system.cloud.portion.as_ref();
+        let subdomain = &typed.system.cloud.subdomain;
         for bond in of_part {
             let ends = typed.system.bonds.ends[bond];
-            let element = typed.left(bonds, bond).filter(|_| counts(portion, ends));
+            let element = typed
+                .left(bonds, bond)
+                .filter(|_| subdomain.owns_bond(ends));
             let Some(element) = element else {
                 continue;
             };

@@ -1,6 +1,6 @@
-//! What the XML formats share.
+//! Common parts of the XML formats.
 
-/// Characters and what stands for them. The ampersand is escaped first and read back last: it stands in all others.
+/// Characters and their escapes. The ampersand is escaped first and restored last, because all other escapes contain it.
 const ESCAPED: [(&str, &str); 5] = [
     ("&", "&amp;"),
     ("<", "&lt;"),
@@ -15,7 +15,7 @@ pub(crate) fn escape_attribute(text: &str) -> String {
     ESCAPED.into_iter().fold(text.to_owned(), replace)
 }
 
-/// The value of an attribute in the text of a tag as this crate writes them, still escaped.
+/// The value of an attribute in the text of a tag written by this crate, still escaped.
 pub(crate) fn attribute<'a>(tag: &'a str, key: &str) -> Option<&'a str> {
     let mut rest = tag;
     loop {

@@ -1,6 +1,6 @@
 //! A matrix whose rows are shared out among ranks.
 
-use ligament_analysis::ranks::{Pivots, RankMatrix, Rows, Solved, Tolerated};
+use ligament_analysis::distributed_matrix::{DistributedMatrix, Pivots, Rows, Solved, Tolerated};
 
 use crate::native::{self, Handle};
 
@@ -25,7 +25,7 @@ impl Matrix {
     }
 }
 
-impl RankMatrix for Matrix {
+impl DistributedMatrix for Matrix {
     fn set(&mut self, row: usize, columns: &[usize], blocks: &[f64]) {
         self.columns.clear();
         self.columns.extend(columns.iter().map(|&it| it as i64));

@@ -11,14 +11,14 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 unsafe extern "C" {
     safe fn ligament_start();
     safe fn ligament_rank() -> c_int;
-    safe fn ligament_n_ranks() -> c_int;
-    safe fn ligament_n_ranks_here() -> c_int;
+    safe fn ligament_size() -> c_int;
+    safe fn ligament_size_here() -> c_int;
     safe fn ligament_meet(seconds: f64) -> c_int;
     safe fn ligament_end();
     safe fn ligament_abort(code: c_int);
-    fn ligament_largest(values: *mut f64, n: i64);
-    fn ligament_gather(own: *const f64, counts: *const i64, all: *mut f64);
-    fn ligament_swap(own: *const f64, to: *const i64, from: *const i64, told: *mut f64);
+    fn ligament_all_reduce_max(values: *mut f64, n: i64);
+    fn ligament_all_gather(own: *const f64, counts: *const i64, all: *mut f64);
+    fn ligament_all_to_all(own: *const f64, to: *const i64, from: *const i64, received: *mut f64);
     fn ligament_broadcast(bytes: *mut c_uchar, n: i64);
     fn ligament_matrix_new(
         block_size: i64,
@@ -74,13 +74,13 @@ pub(crate) fn rank() -> usize {
     ligament_rank() as usize
 }
 
-pub(crate) fn n_ranks() -> usize {
-    ligament_n_ranks() as usize
+pub(crate) fn size() -> usize {
+    ligament_size() as usize
 }
 
-pub(crate) fn n_ranks_here() -> usize {
+pub(crate) fn size_here() -> usize {
     let _alone = alone();
-    ligament_n_ranks_here() as usize
+    ligament_size_here() as usize
 }
 
 pub(crate) fn meet(seconds: f64) -> bool {
@@ -97,32 +97,39 @@ pub(crate) fn abort(code: i32) {
     ligament_abort(code);
 }
 
-pub(crate) fn largest(values: &mut [f64]) {
+pub(crate) fn all_reduce_max(values: &mut [f64]) {
     let _alone = alone();
     // SAFETY: as many values are read and written as there are.
-    unsafe { ligament_largest(values.as_mut_ptr(), values.len() as i64) }
+    unsafe { ligament_all_reduce_max(values.as_mut_ptr(), values.len() as i64) }
 }
 
 /// The values of all ranks; those of this one are as many as `counts` says of it.
-pub(crate) fn gather(own: &[f64], counts: &[i64]) -> Vec<f64> {
-    assert_eq!(counts.len(), n_ranks(), "a number of values for each rank");
+pub(crate) fn all_gather(own: &[f64], counts: &[i64]) -> Vec<f64> {
+    assert_eq!(counts.len(), size(), "a number of values for each rank");
     assert_eq!(counts[rank()], own.len() as i64, "the values of this rank");
     let mut all = vec![0.0; counts.iter().sum::<i64>() as usize];
     let _alone = alone();
     // SAFETY: a count a rank, as many own values as the count of this rank, and room for all.
-    unsafe { ligament_gather(own.as_ptr(), counts.as_ptr(), all.as_mut_ptr()) }
+    unsafe { ligament_all_gather(own.as_ptr(), counts.as_ptr(), all.as_mut_ptr()) }
     all
 }
 
-/// What other ranks tell this one, `from` values of each; of its own it tells them `to`.
-pub(crate) fn swap(own: &[f64], to: &[i64], from: &[i64]) -> Vec<f64> {
-    assert_eq!([to.len(), from.len()], [n_ranks(); 2], "a number a rank");
-    assert_eq!(to.iter().sum::<i64>(), own.len() as i64, "values to tell");
-    let mut told = vec![0.0; from.iter().sum::<i64>() as usize];
+/// The values that other ranks send to this one, `from` of each; it sends `to` of its own to each.
+pub(crate) fn all_to_all(own: &[f64], to: &[i64], from: &[i64]) -> Vec<f64> {
+    assert_eq!([to.len(), from.len()], [size(); 2], "a number a rank");
+    assert_eq!(to.iter().sum::<i64>(), own.len() as i64, "values to send");
+    let mut received = vec![0.0; from.iter().sum::<i64>() as usize];
     let _alone = alone();
     // SAFETY: two counts a rank, as many own values as the first of them say, and room for as many as the others do.
-    unsafe { ligament_swap(own.as_ptr(), to.as_ptr(), from.as_ptr(), told.as_mut_ptr()) }
-    told
+    unsafe {
+        ligament_all_to_all(
+            own.as_ptr(),
+            to.as_ptr(),
+            from.as_ptr(),
+            received.as_mut_ptr(),
+        )
+    }
+    received
 }
 
 pub(crate) fn broadcast(bytes: &mut [u8]) {

@@ -89,10 +89,10 @@ void ligament_start(void)
 
 int ligament_rank(void) { return world_rank; }
 
-int ligament_n_ranks(void) { return world_size; }
+int ligament_size(void) { return world_size; }
 
 /* Ranks on the machine of this one. */
-int ligament_n_ranks_here(void)
+int ligament_size_here(void)
 {
   MPI_Comm here;
   int count;
@@ -128,13 +128,13 @@ void ligament_end(void)
 void ligament_abort(int code) { MPI_Abort(MPI_COMM_WORLD, code); }
 
 /* The largest of each value over all ranks, in place. */
-void ligament_largest(double *values, int64_t n)
+void ligament_all_reduce_max(double *values, int64_t n)
 {
   CHECK(MPI_Allreduce(MPI_IN_PLACE, values, count_of(n), MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD));
 }
 
 /* The values of all ranks, `counts` of each, those of rank 0 first. */
-void ligament_gather(const double *own, const int64_t *counts, double *all)
+void ligament_all_gather(const double *own, const int64_t *counts, double *all)
 {
   int *lengths = malloc(2 * (size_t)world_size * sizeof *lengths);
   if (!lengths) fail("MPI", "out of memory");
@@ -150,7 +150,7 @@ void ligament_gather(const double *own, const int64_t *counts, double *all)
 }
 
 /* Tells each rank `to` values of the own ones, those for rank 0 first, and takes `from` values of each. */
-void ligament_swap(const double *own, const int64_t *to, const int64_t *from, double *told)
+void ligament_all_to_all(const double *own, const int64_t *to, const int64_t *from, double *told)
 {
   MPI_Request *requests = malloc(2 * (size_t)world_size * sizeof *requests);
   if (!requests) fail("MPI", "out of memory");

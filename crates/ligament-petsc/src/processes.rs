@@ -2,7 +2,9 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use ligament_analysis::ranks::{Exchange, RankMatrix, Ranks, Rows};
+use ligament_analysis::distributed_matrix::{
+    Communicator, DistributedMatrix, MatrixCommunicator, Rows,
+};
 use thiserror::Error;
 
 use crate::matrix::Matrix;
@@ -37,9 +39,14 @@ impl Processes {
         Ok(Self(()))
     }
 
+    /// The processes of this program, where they were started.
+    pub fn started() -> Option<Self> {
+        STARTED.load(Ordering::SeqCst).then_some(Self(()))
+    }
+
     /// Number of processes on the machine of this one.
-    pub fn n_ranks_here(&self) -> usize {
-        native::n_ranks_here()
+    pub fn size_here(&self) -> usize {
+        native::size_here()
     }
 
     /// Waits for all processes to come here, for so many seconds at most or, without a number, for ever; tells whether all came.
@@ -58,28 +65,28 @@ impl Processes {
     }
 }
 
-impl Exchange for Processes {
+impl Communicator for Processes {
     fn rank(&self) -> usize {
         native::rank()
     }
 
-    fn n_ranks(&self) -> usize {
-        native::n_ranks()
+    fn size(&self) -> usize {
+        native::size()
     }
 
-    fn largest(&self, values: &mut [f64]) {
-        native::largest(values);
+    fn all_reduce_max(&self, values: &mut [f64]) {
+        native::all_reduce_max(values);
     }
 
-    fn gather(&self, own: &[f64], counts: &[usize]) -> Vec<f64> {
+    fn all_gather(&self, own: &[f64], counts: &[usize]) -> Vec<f64> {
         let counts: Vec<i64> = counts.iter().map(|&it| it as i64).collect();
-        native::gather(own, &counts)
+        native::all_gather(own, &counts)
     }
 
-    fn swap(&self, own: &[f64], to: &[usize], from: &[usize]) -> Vec<f64> {
+    fn all_to_all(&self, own: &[f64], to: &[usize], from: &[usize]) -> Vec<f64> {
         let [to, from] = [to, from].map(|it| it.iter().map(|&count| count as i64).collect());
         let (to, from): (Vec<i64>, Vec<i64>) = (to, from);
-        native::swap(own, &to, &from)
+        native::all_to_all(own, &to, &from)
     }
 
     fn broadcast(&self, bytes: &mut Vec<u8>) {
@@ -90,8 +97,12 @@ impl Exchange for Processes {
     }
 }
 
-impl Ranks for Processes {
-    fn matrix(&self, rows: &Rows<'_>) -> Box<dyn RankMatrix> {
-        Box::new(Matrix::new(rows))
+impl MatrixCommunicator for Processes {
+    fn has_matrices(&self) -> bool {
+        true
+    }
+
+    fn matrix(&self, rows: &Rows<'_>) -> Option<Box<dyn DistributedMatrix>> {
+        Some(Box::new(Matrix::new(rows)))
     }
 }

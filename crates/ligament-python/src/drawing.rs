@@ -4,10 +4,11 @@ use std::borrow::Cow;
 
 use ligament_mesh::Cell;
 use ligament_model::{BodyGrid, Canvas};
+use ligament_output::results::fields::unit_of;
 use ligament_output::vtu;
+use ligament_plot::picture::PictureError;
 use ligament_plot::picture::maps::{MappedBody, Maps};
 use ligament_plot::picture::units::Shown;
-use ligament_plot::picture::{PictureError, unit_of};
 use ligament_plot::plots::pdf::to_pdf;
 use ligament_plot::plots::png::to_png;
 use ligament_plot::plots::{Colour, Plot, Series};
@@ -19,18 +20,18 @@ use crate::errors;
 /// A field on a body.
 pub(crate) struct Picture<'a> {
     pub(crate) grid: &'a BodyGrid,
-    /// Words for the quantity.
+    /// Description of the quantity.
     pub(crate) quantity: String,
-    /// The field that it is of, which has the unit.
+    /// Name of the field, which determines the unit.
     pub(crate) field: &'a str,
     /// Values, shape (n_points).
     pub(crate) values: Vec<f64>,
-    /// Displacements, shape (n_points), m.
+    /// Displacements of the points, shape (n_points), m.
     pub(crate) displacements: Vec<[f64; 2]>,
     pub(crate) title: String,
 }
 
-/// The picture as SVG of a width, mm.
+/// The picture as SVG with a width, mm.
 pub(crate) fn svg(picture: Picture<'_>, width: f64) -> Result<String, PictureError> {
     let Picture {
         grid,
@@ -64,7 +65,7 @@ pub(crate) fn svg(picture: Picture<'_>, width: f64) -> Result<String, PictureErr
     maps.to_svg(width)
 }
 
-/// The bytes of a file of a picture (SVG) with a title, of the kind that a name ends in: svg, png or pdf.
+/// Contents of a file for a picture (SVG) with a title, in the format `kind`: svg, png or pdf.
 #[pyfunction]
 pub(crate) fn picture_file(
     py: Python<'_>,
@@ -89,7 +90,7 @@ type Curve<'py> = (
     PyReadonlyArray1<'py, f64>,
 );
 
-/// Curves of one quantity over another as SVG of a width (mm), each axis by its words and its SI unit.
+/// Curves of one quantity over another as SVG with a width (mm); each axis has a label and an SI unit.
 #[pyfunction]
 pub(crate) fn draw_curves(
     py: Python<'_>,

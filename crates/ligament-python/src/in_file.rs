@@ -1,12 +1,13 @@
-//! Results in memory in the order of the file, or of the arrays, that a body comes from.
+//! Reordering of results in memory to the order of the body's file or arrays.
 
 use ligament_model::{AbsentBond, BodyGrid, ConstantFields, Numbering};
-use ligament_output::results::FieldValues;
+use ligament_output::results::PointFields;
+use ligament_output::results::fields::FieldValues;
 
-use crate::collector::{Fields, Kept};
+use crate::collector::Kept;
 use crate::solution::{Solved, SystemArrays};
 
-/// The results of a run on a body, points and bonds in the order of its file.
+/// The results of a run with points and bonds in the order of the body's file.
 pub(crate) fn in_order_of_file(solved: Solved) -> Solved {
     let order = Order::new(&solved.grid, &solved.arrays.ends);
     let mut outcome = solved.outcome;
@@ -23,21 +24,19 @@ pub(crate) fn in_order_of_file(solved: Solved) -> Solved {
 }
 
 /// Fields of the points in the order of the file.
-fn fields_in_file(numbering: &Numbering, fields: Fields) -> Fields {
+fn fields_in_file(numbering: &Numbering, fields: PointFields) -> PointFields {
     let in_file = |values| match values {
-        FieldValues::Numbers(columns, values) => {
-            FieldValues::Numbers(columns, numbering.to_file(values))
-        }
+        FieldValues::Numbers(values) => FieldValues::Numbers(numbering.to_file(values)),
         FieldValues::Integers(values) => FieldValues::Integers(numbering.to_file(values)),
     };
     let fields = fields.into_iter();
-    fields.map(|(name, it)| (name, in_file(it))).collect()
+    fields.map(|(field, it)| (field, in_file(it))).collect()
 }
 
 /// The order of the points and bonds of a file.
 struct Order {
     numbering: Numbering,
-    /// None where it is that of the bonds.
+    /// Order of the bonds; none where it is the present one.
     bonds: Option<Vec<u32>>,
 }
 

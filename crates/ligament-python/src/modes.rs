@@ -3,10 +3,11 @@
 use ligament::run::on_threads;
 use ligament::setup::Analysis;
 use ligament::{Fault, Field, Model, Setup, SetupError, Vibration};
+use ligament_analysis::Layout;
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome, Mode};
-use ligament_analysis::{Component, Layout};
 use ligament_case::case::CaseFile;
 use ligament_model::BodyGrid;
+use ligament_output::results::fields::{DISPLACEMENT, STRAIN_ENERGY_DENSITY, vectors};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -16,7 +17,7 @@ use crate::errors::Failure;
 use crate::run::positions;
 use crate::solution::watched;
 
-/// Finds the natural modes of a case: arrays over the modes, and a shape over the points for each.
+/// Finds the natural modes of a case: arrays over the modes, and for each mode a shape over the points.
 #[pyfunction]
 pub(crate) fn modes<'py>(py: Python<'py>, case: &Bound<'py, Case>) -> PyResult<Bound<'py, PyDict>> {
     let case = case.get();
@@ -48,10 +49,10 @@ pub(crate) fn modes<'py>(py: Python<'py>, case: &Bound<'py, Case>) -> PyResult<B
     let mut shapes = Vec::new();
     for mode in outcome.modes {
         let of_mode = PyDict::new(py);
-        let displacement = numbering.to_file(in_space(layout, &mode.shape));
-        of_mode.set_item("displacement", rows(py, displacement, 3)?)?;
+        let displacement = numbering.to_file(vectors(layout, &mode.shape));
+        of_mode.set_item(DISPLACEMENT.name, rows(py, displacement, 3)?)?;
         of_mode.set_item(
-            "strain_energy_density",
+            STRAIN_ENERGY_DENSITY.name,
             array(py, numbering.to_file(mode.strain_energy_density)),
         )?;
         shapes.push(of_mode);
@@ -60,21 +61,14 @@ pub(crate) fn modes<'py>(py: Python<'py>, case: &Bound<'py, Case>) -> PyResult<B
     Ok(named)
 }
 
-/// The components along x, y and z, the last zero in the plane, shape (n_points, 3).
-fn in_space(layout: Layout, shape: &[f64]) -> Vec<f64> {
-    let axes = [Component::X, Component::Y, Component::Z];
-    let of_point = |point| axes.map(|it| layout.value(point, it, shape));
-    (0..layout.n_points as u32).flat_map(of_point).collect()
-}
-
 /// Natural modes of a model.
 struct Found {
     outcome: ModalOutcome,
-    /// What the user should know of the model and of the modes.
+    /// Warnings about the model and the modes.
     warnings: Vec<String>,
     /// Layout of the shapes.
     layout: Layout,
-    /// The body.
+    /// Grid of the body.
     grid: BodyGrid,
 }
 

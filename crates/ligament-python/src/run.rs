@@ -1,10 +1,13 @@
-//! What a run gave, as arrays.
+//! Results of a run, as arrays.
 
 use ligament_analysis::driver::Outcome;
 use ligament_mesh::Cell;
 use ligament_model::{Absence, BodyGrid, Canvas, ConstantFields, box_corners};
-use ligament_output::results::FieldValues;
+use ligament_output::results::PointFields;
 use ligament_output::results::cracks::{SeparatedPairs, StoredCracks};
+use ligament_output::results::fields::{
+    FieldValues, HORIZON, NEAREST_DISTANCE, PATCH_RESIDUAL, PRECRACK_SHARE, VOLUME,
+};
 use numpy::PyReadonlyArray1;
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
@@ -12,19 +15,19 @@ use pyo3::types::PyDict;
 
 use crate::arrays::{array, rows};
 use crate::case::Case;
-use crate::collector::{Fields, Kept};
+use crate::collector::Kept;
 use crate::drawing::{self, Picture};
 use crate::errors;
 use crate::in_file::in_order_of_file;
 use crate::solution::{Solved, solve, watched};
 
-/// What a run gave.
+/// Results of a run.
 #[pyclass(frozen, module = "ligament._native")]
 pub(crate) struct Run {
-    /// The history, a column each.
+    /// Columns of the history.
     #[pyo3(get)]
     history: Py<PyDict>,
-    /// The breakages in their order, a column each.
+    /// Columns of the breakages, in the order of breaking.
     #[pyo3(get)]
     breaks: Py<PyDict>,
     /// Arrays over the points.
@@ -36,25 +39,25 @@ pub(crate) struct Run {
     /// Arrays over the points by step and name.
     #[pyo3(get)]
     fields: Py<PyDict>,
-    /// Cells that fields are drawn on, by their kind.
+    /// Cells for drawing fields, by their kind.
     #[pyo3(get)]
     cells: Py<PyDict>,
-    /// The run in numbers, as JSON.
+    /// Summary of the run, as JSON.
     #[pyo3(get)]
     summary: String,
-    /// Noun that the tags of points belong to.
+    /// Kind of the points' tags, `node`, `cell` or `point`.
     #[pyo3(get)]
     tagged: &'static str,
     grid: BodyGrid,
-    /// None of a solid.
+    /// Cracks; none for a solid.
     cracks: Option<StoredCracks>,
 }
 
-/// A line of a crack: its places (n, 2), what each end is, and its length, m.
+/// A line of a crack: vertices (n, 2), m, kinds of the ends, and length, m.
 type Line<'py> = (Bound<'py, PyAny>, [&'static str; 2], f64);
 
-/// Runs a case; calls `report` with step, load factor, displacement, force and number of broken bonds for each record. Gives the run,
-/// and whether Ctrl-C stopped it.
+/// Runs a case; calls `report` with step, load factor, displacement, force and number of broken bonds for each record. Returns the run, and
+/// whether Ctrl-C stopped it.
 #[pyfunction]
 pub(crate) fn run(
     py: Python<'_>,
@@ -81,7 +84,8 @@ impl Run {
             .collect()
     }
 
-    /// A picture of a field (n_points), by the words for its quantity, its name and a title, on the body moved by a displacement (n_points, 3), as SVG.
+    /// A picture (SVG) of a field (n_points), given by a description of its quantity, its name and a title, on the body moved by a
+    /// displacement (n_points, 3).
     fn draw(
         &self,
         py: Python<'_>,
@@ -127,14 +131,14 @@ impl Run {
         } = kept;
         let by_step = PyDict::new(py);
         for (step, of_step) in fields {
-            by_step.set_item(step, named(py, of_step)?)?;
+            by_step.set_item(step, named(py, of_step, grid.canvas.is_solid())?)?;
         }
         let points = PyDict::new(py);
         points.set_item(grid.tagged, array(py, grid.tags.clone()))?;
         points.set_item("position", positions(py, &grid)?)?;
         fixed(&points, of_points)?;
-        points.set_item("volume", array(py, arrays.volumes))?;
-        points.set_item("nearest_distance", array(py, arrays.spacing))?;
+        points.set_item(VOLUME.name, array(py, arrays.volumes))?;
+        points.set_item(NEAREST_DISTANCE.name, array(py, arrays.spacing))?;
         let bonds = PyDict::new(py);
         bonds.set_item("step_of_breaking", array(py, step_of_breaking))?;
         of_outcome(&bonds, outcome)?;
@@ -156,7 +160,7 @@ impl Run {
         })
     }
 
-    /// What is drawn as lines and maps is in the plane.
+    /// Refuses a solid, for which there are no lines and maps.
     fn require_plane(&self, py: Python<'_>, what: &str) -> PyResult<()> {
         if self.grid.canvas.is_solid() {
             let fault = format!(
@@ -169,7 +173,7 @@ impl Run {
     }
 }
 
-/// The cracks in the plane; of a solid none.
+/// The cracks of a body in the plane; `None` for a solid.
 fn cracks(solved: &Solved) -> Option<StoredCracks> {
     let Solved {
         fixed,
@@ -197,29 +201,29 @@ fn cracks(solved: &Solved) -> Option<StoredCracks> {
 }
 
 /// Fields of the points by their names.
-fn named(py: Python<'_>, fields: Fields) -> PyResult<Bound<'_, PyDict>> {
+fn named(py: Python<'_>, fields: PointFields, in_space: bool) -> PyResult<Bound<'_, PyDict>> {
     let named = PyDict::new(py);
-    for (name, values) in fields {
-        let values = match values {
-            FieldValues::Numbers(1, values) => array(py, values),
-            FieldValues::Numbers(columns, values) => rows(py, values, columns)?,
-            FieldValues::Integers(values) => array(py, values),
+    for (field, values) in fields {
+        let values = match (values, field.components(in_space).count()) {
+            (FieldValues::Numbers(values), 1) => array(py, values),
+            (FieldValues::Numbers(values), columns) => rows(py, values, columns)?,
+            (FieldValues::Integers(values), _) => array(py, values),
         };
-        named.set_item(name, values)?;
+        named.set_item(field.name, values)?;
     }
     Ok(named)
 }
 
-/// Fields of the points that never change.
+/// Adds the fields of the points that do not change.
 fn fixed(points: &Bound<'_, PyDict>, fixed: ConstantFields) -> PyResult<()> {
     let py = points.py();
     let ratios = fixed.energy_ratios.into_iter();
     let mut fields = vec![
-        ("horizon", fixed.horizon),
-        ("precrack_share", fixed.precrack_share),
+        (HORIZON.name, fixed.horizon),
+        (PRECRACK_SHARE.name, fixed.precrack_share),
     ];
     fields.extend(ratios.map(|it| (it.field, it.at_points)));
-    fields.push(("patch_residual", fixed.patch_residual));
+    fields.push((PATCH_RESIDUAL.name, fixed.patch_residual));
     for (name, values) in fields {
         if !values.is_empty() {
             points.set_item(name, array(py, values))?;
@@ -231,14 +235,14 @@ fn fixed(points: &Bound<'_, PyDict>, fixed: ConstantFields) -> PyResult<()> {
     Ok(())
 }
 
-/// What the last state says of the bonds.
+/// Adds the arrays over the bonds in the last state.
 fn of_outcome(bonds: &Bound<'_, PyDict>, outcome: Outcome) -> PyResult<()> {
     let py = bonds.py();
     bonds.set_item("intact", array(py, outcome.state.intact))?;
     bonds.set_item("dissipated_energy", array(py, outcome.state.dissipated))
 }
 
-/// Positions of the points: (n_points, 2) in the plane, (n_points, 3) in space.
+/// Positions of the points, m: (n_points, 2) in the plane, (n_points, 3) in space.
 pub(crate) fn positions<'py>(py: Python<'py>, grid: &BodyGrid) -> PyResult<Bound<'py, PyAny>> {
     match grid.canvas.is_solid() {
         true => rows(py, grid.positions.as_flattened().to_vec(), 3),
@@ -246,8 +250,8 @@ pub(crate) fn positions<'py>(py: Python<'py>, grid: &BodyGrid) -> PyResult<Bound
     }
 }
 
-/// Cells that fields are drawn on: `triangles` (n, 3) and `quadrangles` (n, 4) between the points, or `corners` (n_points, 4, 2) of
-/// the cell around each. In space `tetrahedra`, `pyramids`, `prisms` and `hexahedra`, or the `corners` (n_points, 8, 3) of boxes.
+/// Cells for drawing fields: `triangles` (n, 3) and `quadrangles` (n, 4) between the points, or `corners` (n_points, 4, 2) of the cell
+/// around each point. In space `tetrahedra`, `pyramids`, `prisms` and `hexahedra`, or the `corners` (n_points, 8, 3) of boxes.
 fn cells<'py>(py: Python<'py>, grid: &BodyGrid) -> PyResult<Bound<'py, PyDict>> {
     let cells = PyDict::new(py);
     match &grid.canvas {

@@ -3,26 +3,15 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use ligament_output::results::fields::{Components, Interest, ResultField, unit_of};
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::{Error, FieldLocation};
-use ligament_plot::picture::unit_of;
 use rayon::prelude::*;
 
 use crate::body::{Body, ordered};
 use crate::columns::{Column, Digits, Encoder};
 
-/// Beginnings of names of fields, those first that a reader wants first; all others follow in the order of the files.
-const FIRST: [&str; 7] = [
-    "displacement",
-    "damage",
-    "stress",
-    "strain_energy",
-    "dissipated",
-    "temperature",
-    "rotation",
-];
-
-/// Share of the points whose size is at most the usual one.
+/// Share of the points whose value is at most the usual one.
 const USUAL: f64 = 0.98;
 
 /// A field of all steps.
@@ -30,32 +19,31 @@ const USUAL: f64 = 0.98;
 pub(crate) struct Field {
     /// Name in the files.
     pub(crate) name: String,
-    /// SI unit, `-` without one.
+    /// SI unit, or `-`.
     pub(crate) unit: &'static str,
-    /// Names of the components; none of a scalar.
+    /// Names of the components; empty for a scalar.
     pub(crate) components: Vec<String>,
-    /// A column a component.
+    /// One column per component.
     pub(crate) columns: Vec<Column>,
     /// Smallest and largest value of each component over the steps.
     pub(crate) ranges: Vec<[f64; 2]>,
-    /// Largest size of the steps: of a vector its length, else the largest component.
+    /// Largest size over the steps: for a vector its length, otherwise the largest component.
     pub(crate) magnitude: f64,
-    /// Largest size of the steps that few points exceed, so that a piece which flew off does not count.
+    /// Largest size over the steps exceeded by few points only, so that a detached part does not count.
     pub(crate) usual: f64,
 }
 
 impl Field {
-    /// Whether a reader wants it first.
+    /// Whether the field is of main interest.
     pub(crate) fn is_main(&self) -> bool {
-        self.rank() < FIRST.len()
+        self.interest() != Interest::Low
     }
 
-    fn rank(&self) -> usize {
-        let place = FIRST.iter().position(|it| self.name.starts_with(it));
-        place.unwrap_or(FIRST.len())
+    fn interest(&self) -> Interest {
+        ResultField::named(&self.name).map_or(Interest::Low, |it| it.interest)
     }
 
-    /// Letters that it takes in a page.
+    /// Number of characters in a page.
     pub(crate) fn letters(&self) -> usize {
         self.columns.iter().map(Column::letters).sum()
     }
@@ -64,7 +52,7 @@ impl Field {
 /// A field while its steps are read.
 struct Growing {
     name: String,
-    /// Numbers a point in the files.
+    /// Number of values per point in the files.
     stride: usize,
     components: Vec<String>,
     encoders: Vec<Encoder>,
@@ -73,11 +61,11 @@ struct Growing {
     usual: f64,
 }
 
-/// The fields of the outputs, those first that a reader wants first; `digits` of the largest value of each step are kept.
+/// Reads the fields of the outputs, the most important ones first; `digits` is the number of digits of the largest value of each step.
 ///
 /// # Errors
 ///
-/// If a file cannot be used, or has other points than the first.
+/// If a file cannot be used, or has other points than the first one.
 pub(crate) fn read(
     files: &BTreeMap<usize, PathBuf>,
     body: &Body,
@@ -94,7 +82,7 @@ pub(crate) fn read(
             .try_for_each(|it| it.append(&file, body))?;
     }
     let mut fields: Vec<Field> = growing.into_iter().map(Growing::finish).collect();
-    fields.sort_by_key(Field::rank);
+    fields.sort_by_key(|it| it.interest().rank());
     Ok(fields)
 }
 
@@ -111,8 +99,9 @@ fn begin(file: &VtuFile, location: FieldLocation, digits: u32) -> Vec<Growing> {
             (_, []) => (0..stride).map(|it| it.to_string()).collect(),
             _ => names.to_vec(),
         };
-        let digits = match name {
-            "fragment" | "held" => Digits::Whole,
+        let known = ResultField::named(name);
+        let digits = match known.map(|it| it.components(false)) {
+            Some(Components::Integer) => Digits::Whole,
             _ => Digits::OfLargest(digits),
         };
         let count = components.len().max(1);

@@ -1,10 +1,12 @@
 //! The discrete model of a case, with the stages of its preparation timed and shown.
 
+use std::sync::Arc;
+
 pub use ligament::Model;
 use ligament::run::on_threads;
 use ligament::stage::{Finding, StageWatcher};
 use ligament::warning::of_virial_stress;
-use ligament_analysis::ranks::Together;
+use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use rayon::ThreadPoolBuildError;
 
 use crate::memory;
@@ -14,7 +16,7 @@ use crate::stages::Stages;
 use crate::summary;
 use ligament_case::case::{CaseFile, StressField};
 
-/// Times the stages of a case and tells of what they find.
+/// Watcher that times the stages of a case and shows their results.
 struct Preparation<'a> {
     stages: &'a mut Stages,
     progress: &'a Progress,
@@ -56,20 +58,20 @@ impl StageWatcher for Preparation<'_> {
 ///
 /// # Errors
 ///
-/// If a file cannot be read, or the case does not go together with its body.
+/// If a file cannot be read, or the case contradicts its body.
 pub fn build_model(
     case: &CaseFile,
     stages: &mut Stages,
     progress: &Progress,
 ) -> anyhow::Result<Model> {
-    build_model_on(case, None, stages, progress)
+    build_model_on(case, Arc::new(Solo), stages, progress)
 }
 
 /// Reads the body of a case in the plane and builds its model.
 ///
 /// # Errors
 ///
-/// As of [`build_model`], and if the body is a solid.
+/// As for [`build_model`], and if the body is a solid.
 pub fn build_model_in_plane(
     case: &CaseFile,
     stages: &mut Stages,
@@ -79,24 +81,24 @@ pub fn build_model_in_plane(
     build_model(case, stages, progress)
 }
 
-/// Reads the body of a case and builds its model, with bonds that processes share out.
+/// Reads the body of a case and builds its model, divided between processes.
 ///
 /// # Errors
 ///
-/// As of [`build_model`].
+/// As for [`build_model`].
 pub fn build_model_on(
     case: &CaseFile,
-    ranks: Option<Together>,
+    communicator: Arc<dyn MatrixCommunicator>,
     stages: &mut Stages,
     progress: &Progress,
 ) -> anyhow::Result<Model> {
     if let Some(lattice) = &case.case.lattice {
-        memory::foresee_lattice(case, lattice, ranks)?;
+        memory::foresee_lattice(case, lattice, communicator.size())?;
     }
     let mut preparation = Preparation { stages, progress };
     let tasks_before = tasks_of_others();
     let mut setup = case.setup(&mut preparation)?;
-    setup.solver.ranks = ranks;
+    setup.solver.communicator = communicator;
     memory::foresee_model(case, &setup)?;
     let tasks = tasks_before.min(tasks_of_others());
     let model = on_free_processors(tasks, || Model::build(setup, &mut preparation))?;
@@ -109,10 +111,10 @@ pub fn build_model_on(
     Ok(model)
 }
 
-/// Does short loops, one after the other, on as many threads as have a processor beside the tasks of others.
+/// Runs successive short loops on as many threads as there are processors beside the tasks of other programs.
 ///
-/// At the end of each loop all threads wait for the last one. One that shares its processor loses it for longer than a loop takes, so
-/// that several such threads take longer than one.
+/// At the end of each loop all threads wait for the last one. A thread that shares its processor is suspended for longer than a loop, so
+/// that several threads may take longer than one.
 fn on_free_processors<T: Send>(
     tasks: usize,
     work: impl FnOnce() -> T + Send,

@@ -1,111 +1,138 @@
-//! Going on with a run that was stopped or killed, in the folder of its results.
+//! Resuming a stopped or killed run in its result folder.
 
 use std::path::Path;
+use std::sync::Arc;
 
-use anyhow::{Context, bail, ensure};
+use anyhow::{bail, ensure};
 use ligament::run::{on_threads, restore};
-use ligament::setup::Analysis;
-use ligament_analysis::driver::Problem;
-use ligament_analysis::ranks::Together;
+use ligament_analysis::distributed_matrix::MatrixCommunicator;
+use ligament_analysis::driver::{Problem, Restored};
 use ligament_analysis::serial::Serial;
 use ligament_case::case::CaseFile;
 use ligament_output::checkpoint::Checkpoint;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
-use ligament_output::read_text;
 use ligament_output::results::OutputState;
 use ligament_output::results::outputs::{clear, require_results};
-use serde_json::Value;
+use ligament_output::summary::{self, Build, SUMMARY, Summary};
 
 use crate::checkpoints::{IsStopped, VERSION};
 use crate::destination::make_results;
+use crate::end::End;
 use crate::inputs::{Contents, Inputs, MAY_CHANGE, unread};
-use crate::loading::{Kept, LoadedBody, SUMMARY};
+use crate::loading::{Kept, LoadedBody};
 use crate::model::build_model_on;
+use crate::processes::{any_stopped, broadcast_path, broadcast_solution, loading};
 use crate::progress::{Progress, ProgressMode};
-use crate::provenance::Build;
-use crate::ranks::{any_stopped, loading, tell_checkpoint, tell_folder};
 use crate::run::Report;
 use crate::stages::Stages;
 
-/// A run that is to go on.
+/// Request to resume a run.
 pub struct Request<'a> {
-    /// The folder of its results.
+    /// Result folder of the run.
     pub folder: &'a Path,
-    /// Settings that are to be others from now on, `key=value` each.
+    /// Changed settings, `key=value` each.
     pub settings: &'a [String],
-    /// Threads, where they are to be others.
+    /// Number of threads, if other than that of the case.
     pub threads: Option<u32>,
-    /// The program that goes on with it.
+    /// Build of the resuming program.
     pub build: Build,
-    /// Tells whether the user wants it to stop again.
+    /// Whether the user wants to stop the run again.
     pub is_stopped: IsStopped<'a>,
-    /// The processes that solve its equations together; none: this one alone. This one is the first of them.
-    pub ranks: Option<Together>,
+    /// Processes of the resumed run; rank 0 writes all results but the pieces of grids of each process.
+    pub communicator: Arc<dyn MatrixCommunicator>,
 }
 
 impl Request<'_> {
-    /// Goes on with the run from its last good checkpoint, to the same results as if it had never stopped; one that has no
-    /// checkpoint yet starts anew.
+    /// Resumes the run from its last valid checkpoint, with the same results as an uninterrupted run; a run without a checkpoint starts
+    /// anew.
     ///
     /// # Errors
     ///
-    /// If the folder holds no run or one that has ended, if a setting would change what was computed, or if no checkpoint can be
-    /// used.
+    /// If the folder has no run or one that has ended, if a setting would change earlier results, or if no checkpoint can be used.
     pub fn resume(&self, mode: ProgressMode) -> anyhow::Result<Report> {
         self.settings.iter().try_for_each(|it| check_setting(it))?;
-        let folder = ResultFolder::resumed(self.folder);
-        // That there are no results says more than that a folder cannot be locked.
-        let folder = folder.map_err(|error| require_results(self.folder).err().unwrap_or(error))?;
-        require_results(folder.path())?;
-        let mut case = CaseFile::load(&folder.file(RESOLVED_CASE), self.settings)?;
+        let is_root = self.communicator.is_root();
+        let folder = is_root.then(|| self.open()).transpose()?;
+        let path = folder.as_ref().map(ResultFolder::path);
+        let path = broadcast_path(&*self.communicator, path)?;
+        let mut case = CaseFile::load(&path.join(RESOLVED_CASE), self.settings)?;
         let threads = &mut case.case.solver.threads;
         *threads = self.threads.or(*threads);
-        tell_folder(self.ranks, folder.path());
         on_threads(case.threads(), || self.resume_here(&case, folder, mode))?
     }
 
-    /// Goes on with the run of a case on the threads of the caller.
+    /// Opens and locks the folder with the results of a run.
+    fn open(&self) -> anyhow::Result<ResultFolder> {
+        let folder = ResultFolder::resumed(self.folder);
+        // The error of missing results takes precedence over that of the lock.
+        let folder = folder.map_err(|error| require_results(self.folder).err().unwrap_or(error))?;
+        require_results(folder.path())?;
+        Ok(folder)
+    }
+
+    /// Resumes the run of a case on the caller's threads; only rank 0 has the folder.
     fn resume_here(
         &self,
         case: &CaseFile,
-        folder: ResultFolder,
+        folder: Option<ResultFolder>,
         mode: ProgressMode,
     ) -> anyhow::Result<Report> {
-        let progress = Progress::new(mode);
-        let found = find_checkpoint(&folder, case, &progress)?;
-        if found.is_none() {
-            ensure_unfinished(&folder)?;
+        let progress = Progress::on(&*self.communicator, mode);
+        let found = match &folder {
+            Some(folder) => find_checkpoint(folder, case, &progress)?,
+            None => None,
+        };
+        if let (Some(folder), None) = (&folder, &found) {
+            ensure_unfinished(folder)?;
             progress.stage("the run has no checkpoint yet: it starts anew");
         }
         self.go_on(case, folder, found, progress)
     }
 
-    /// Goes on with the model of a case from what was found.
+    /// Builds the model of a case and continues from the checkpoint that was found, if any.
     fn go_on(
         &self,
         case: &CaseFile,
-        folder: ResultFolder,
+        folder: Option<ResultFolder>,
         found: Option<(Checkpoint, OutputState)>,
         mut progress: Progress,
     ) -> anyhow::Result<Report> {
         let mut stages = Stages::default();
-        let model = build_model_on(case, self.ranks, &mut stages, &progress)?;
-        let loading = loading(case, &model, self.ranks)?;
+        let model = build_model_on(case, self.communicator.clone(), &mut stages, &progress)?;
+        let loading = loading(case, &model)?;
         let problem = loading.problem(&model);
-        let solution = found.as_ref().map(|(checkpoint, _)| &checkpoint.solution);
-        tell_checkpoint(self.ranks, solution);
-        let is_stopped = || any_stopped(self.ranks, self.is_stopped);
-        let kept = found.map(|(checkpoint, results)| {
-            let kept = kept(checkpoint, results, &problem, &model.setup.analysis)?;
-            progress.stage(&format!(
-                "going on at load factor {:.4}, {} broken",
-                kept.restored.load_factor(),
-                kept.restored.broken_bonds()
-            ));
-            anyhow::Ok(kept)
-        });
+        let communicator = &*self.communicator;
+        let mut found = found;
+        let solution =
+            (found.as_mut()).map(|(checkpoint, _)| std::mem::take(&mut checkpoint.solution));
+        let solution = broadcast_solution(communicator, solution)?;
+        let restored = solution.map(|it| restore(&problem, &model.setup.analysis, &it));
+        let restored = restored.transpose()?;
+        let is_stopped = || any_stopped(communicator, self.is_stopped);
+        let body = LoadedBody {
+            case,
+            model: &model,
+            loading: &loading,
+            build: self.build.clone(),
+            is_stopped: &is_stopped,
+        };
+        let Some(folder) = folder else {
+            body.follow_beside(restored)?;
+            return Ok(Report::OfRankZero);
+        };
+        let kept = found
+            .zip(restored)
+            .map(|((checkpoint, results), restored)| {
+                let kept = kept(checkpoint, results, restored, &problem)?;
+                progress.stage(&format!(
+                    "going on at load factor {:.4}, {} broken",
+                    kept.restored.load_factor(),
+                    kept.restored.broken_bonds()
+                ));
+                anyhow::Ok(kept)
+            });
         let kept = kept.transpose()?;
-        // From here on the results of the run change.
+        // The results of the run change from here on.
         folder.remove(SUMMARY)?;
         folder.remove_made_later()?;
         if kept.is_none() {
@@ -115,17 +142,9 @@ impl Request<'_> {
             case,
             || Ok(folder),
             |folder| {
-                let body = LoadedBody {
-                    case,
-                    model: &model,
-                    loading: &loading,
-                    folder,
-                    build: self.build,
-                    is_stopped: &is_stopped,
-                };
-                let summary = body.follow(kept, &mut stages, &mut progress)?;
+                let summary = body.follow(folder, kept, &mut stages, &mut progress)?;
                 progress.finish(&summary.termination_message);
-                let is_complete = !summary.is_stopped();
+                let is_complete = End::of(&summary) != End::Stopped;
                 Ok((summary, is_complete))
             },
         )?;
@@ -133,7 +152,7 @@ impl Request<'_> {
     }
 }
 
-/// Refuses a setting that would change what was computed.
+/// Refuses a setting that would change earlier results.
 fn check_setting(setting: &str) -> anyhow::Result<()> {
     let key = setting.split_once('=').map_or(setting, |it| it.0).trim();
     ensure!(
@@ -145,8 +164,7 @@ fn check_setting(setting: &str) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The newest checkpoint that is whole, of this version and this case, and whose files are there; none where there is no
-/// checkpoint at all.
+/// The newest intact checkpoint of this version and case whose result files exist; `None` where there is no checkpoint.
 fn find_checkpoint(
     folder: &ResultFolder,
     case: &CaseFile,
@@ -198,14 +216,13 @@ fn check_inputs(checkpoint: &Checkpoint, case: &CaseFile) -> anyhow::Result<()> 
     Ok(())
 }
 
-/// The run of a checkpoint, ready to go on.
+/// The state of a checkpoint from which the run continues.
 fn kept(
     checkpoint: Checkpoint,
     results: OutputState,
+    restored: Restored,
     problem: &Problem,
-    analysis: &Analysis,
 ) -> anyhow::Result<Kept> {
-    let restored = restore(problem, analysis, &checkpoint.solution)?;
     ensure!(
         results.fits(problem),
         "the checkpoint is of another model: points or bonds differ"
@@ -217,15 +234,12 @@ fn kept(
     })
 }
 
-/// Refuses a run that has come to its end.
+/// Refuses a run that has ended.
 fn ensure_unfinished(folder: &ResultFolder) -> anyhow::Result<()> {
-    let path = folder.file(SUMMARY);
-    if !path.is_file() {
+    let Some(summary) = summary::read::<Summary>(folder.path())? else {
         return Ok(());
-    }
-    let summary: Value = serde_json::from_str(&read_text(&path)?)
-        .with_context(|| format!("cannot use {}", path.display()))?;
-    let end = summary["termination_message"].as_str();
+    };
+    let end = Some(&*summary.termination_message).filter(|it| !it.is_empty());
     bail!(
         "the run in {} has come to its end ({}): there is nothing to go on with",
         folder.path().display(),

@@ -2,11 +2,13 @@
 
 use std::io::{self, Write};
 use std::path::Path;
+use std::sync::Arc;
 
 use ligament::run::on_threads;
 use ligament::setup::Analysis;
-use ligament_analysis::ranks::Together;
+use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use ligament_output::folder::ResultFolder;
+use ligament_output::summary::{Build, ModalSummary, Summary};
 
 use crate::destination::{self, make_results};
 use crate::end::{End, StoppedBeforeSolution};
@@ -15,74 +17,77 @@ use crate::loading::LoadedBody;
 use crate::memory;
 use crate::model::{Model, build_model_on};
 use crate::modes::find_modes;
+use crate::processes::{any_stopped, loading};
 use crate::progress::{Progress, ProgressMode};
-use crate::provenance::{Build, Provenance};
-use crate::ranks::{any_stopped, loading};
+use crate::provenance::provenance;
 use crate::stages::Stages;
-use crate::summary::{ModalSummary, Summary};
+use crate::summary::{write, write_modal};
 use ligament_case::case::CaseFile;
 
 pub use crate::checkpoints::IsStopped;
 
-/// What a run found.
+/// Report of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Report {
-    /// The answer to loads.
+    /// Summary of a run under loads.
     Loading(Box<Summary>),
-    /// Natural modes.
+    /// Summary of an analysis of natural modes.
     Modes(Box<ModalSummary>),
+    /// Ranks other than 0 have no report.
+    OfRankZero,
 }
 
 impl Report {
-    /// The lines that a user sees at the end of a run.
+    /// Writes the report of a run for the user.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         match self {
-            Self::Loading(summary) => summary.write(out),
-            Self::Modes(summary) => summary.write(out),
+            Self::Loading(summary) => write(summary, out),
+            Self::Modes(summary) => write_modal(summary, out),
+            Self::OfRankZero => Ok(()),
         }
     }
 
-    /// Why no state under load is in equilibrium, where none is.
+    /// Reason why no state under load is in equilibrium, if none is.
     pub fn without_equilibrium(&self) -> Option<&str> {
         match self {
             Self::Loading(summary) if summary.without_equilibrium => {
                 Some(&summary.termination_message)
             }
-            Self::Loading(_) | Self::Modes(_) => None,
+            Self::Loading(_) | Self::Modes(_) | Self::OfRankZero => None,
         }
     }
 
-    /// How the run ended.
+    /// End of the run.
     pub fn end(&self) -> End {
         match self {
-            Self::Loading(summary) => summary.end(),
-            Self::Modes(_) => End::Done,
+            Self::Loading(summary) => End::of(summary),
+            Self::Modes(_) | Self::OfRankZero => End::Done,
         }
     }
 
-    /// Whether the run was stopped by its user, and can go on.
+    /// Whether the run was stopped by its user, and can be resumed.
     pub fn is_stopped(&self) -> bool {
         self.end() == End::Stopped
     }
 }
 
-/// A run that is asked for.
+/// Request to run a case.
 pub struct Request<'a> {
-    /// The case.
+    /// Case of the run.
     pub case: &'a CaseFile,
-    /// The folder of its results.
+    /// Folder for the results.
     pub out: &'a Path,
     /// Whether results of an earlier run may be replaced.
     pub force: bool,
-    /// The program that runs it.
+    /// Build of the running program.
     pub build: Build,
-    /// Tells whether the user wants it to stop.
+    /// Whether the user wants to stop the run.
     pub is_stopped: IsStopped<'a>,
-    /// The processes that solve its equations together; none: this one alone. This one is the first of them.
-    pub ranks: Option<Together>,
+    /// Processes of the run; rank 0 writes all results but the pieces of grids of each process.
+    pub communicator: Arc<dyn MatrixCommunicator>,
 }
 
-/// Runs a case and writes its results into a new folder; the record of these says nothing of the build.
+/// Runs a case and writes its results into a new folder, without a record of the build.
 pub fn run(case: &CaseFile, out: &Path, force: bool, mode: ProgressMode) -> anyhow::Result<Report> {
     let request = Request {
         case,
@@ -90,31 +95,34 @@ pub fn run(case: &CaseFile, out: &Path, force: bool, mode: ProgressMode) -> anyh
         force,
         build: Build::default(),
         is_stopped: &|| false,
-        ranks: None,
+        communicator: Arc::new(Solo),
     };
     request.run(mode)
 }
 
 impl Request<'_> {
-    /// Runs the case and writes its results into a new folder, until it is stopped.
+    /// Runs the case and writes its results into a new folder, up to its end or until it is stopped.
     ///
     /// # Errors
     ///
-    /// If the folder cannot be used, something is wrong with the case, or results cannot be written.
+    /// If the folder cannot be used, the case is wrong, or results cannot be written.
     pub fn run(&self, mode: ProgressMode) -> anyhow::Result<Report> {
         on_threads(self.case.threads(), || self.run_here(mode))?
     }
 
-    /// Runs the case on the threads of the caller.
+    /// Runs the case on the caller's threads.
     fn run_here(&self, mode: ProgressMode) -> anyhow::Result<Report> {
-        ResultFolder::check(self.out, self.force)?;
+        let communicator = &self.communicator;
+        if communicator.is_root() {
+            ResultFolder::check(self.out, self.force)?;
+        }
         let mut stages = Stages::default();
-        let progress = Progress::new(mode);
-        let model = build_model_on(self.case, self.ranks, &mut stages, &progress)?;
+        let progress = Progress::on(&**communicator, mode);
+        let model = build_model_on(self.case, communicator.clone(), &mut stages, &progress)?;
         self.solve(&model, stages, progress)
     }
 
-    /// Loads a model or finds its modes.
+    /// Runs the analysis of a model under loads, or of its modes.
     fn solve(
         &self,
         model: &Model,
@@ -125,52 +133,59 @@ impl Request<'_> {
             progress.stage(&format!("warning: {warning}"));
         }
         if let Analysis::Modal(settings) = model.setup.analysis {
+            // The modal analysis runs on one process with the whole body.
+            if !self.communicator.is_root() {
+                return Ok(Report::OfRankZero);
+            }
             let create = || ResultFolder::create(self.out, self.force);
-            let provenance = Provenance::new(self.build, self.case, &mut Contents::default());
+            let provenance = provenance(self.build.clone(), self.case, &mut Contents::default());
             let provenance = provenance.map_err(unread)?;
             let body = (model, provenance);
             let summary = find_modes(self.case, settings, body, create, stages)?;
             progress.finish(&format!("{} modes found", summary.modes.len()));
             Ok(Report::Modes(Box::new(summary)))
         } else {
-            let summary = follow_loads(self, model, stages, progress)?;
-            Ok(Report::Loading(Box::new(summary)))
+            follow_loads(self, model, stages, progress)
         }
     }
 }
 
-/// Loads a model, breaks its bonds if the case says so, and writes what happens into a new folder.
+/// Runs the analysis of a model under loads, and writes the results into a new folder.
 fn follow_loads(
     request: &Request<'_>,
     model: &Model,
     mut stages: Stages,
     mut progress: Progress,
-) -> anyhow::Result<Summary> {
-    let case = request.case;
-    let loading = loading(case, model, request.ranks)?;
-    if request.ranks.is_none() {
+) -> anyhow::Result<Report> {
+    let (case, communicator) = (request.case, &*request.communicator);
+    let loading = loading(case, model)?;
+    if !communicator.has_matrices() {
         let problem = loading.problem(model);
         memory::foresee_equations(case, &*model.system, &problem)?;
     }
-    let is_stopped = || any_stopped(request.ranks, request.is_stopped);
+    let is_stopped = || any_stopped(communicator, request.is_stopped);
     anyhow::ensure!(!is_stopped(), StoppedBeforeSolution);
-    // Nothing is written, and nothing replaced, before all input was found good.
+    let body = LoadedBody {
+        case,
+        model,
+        loading: &loading,
+        build: request.build.clone(),
+        is_stopped: &is_stopped,
+    };
+    if !communicator.is_root() {
+        body.follow_beside(None)?;
+        return Ok(Report::OfRankZero);
+    }
+    // Nothing is written or replaced before all input is checked.
     let create = || ResultFolder::create(request.out, request.force);
-    make_results(case, create, |folder| {
+    let summary = make_results(case, create, |folder| {
         if let Some(words) = destination::words(folder) {
             progress.stage(&words);
         }
-        let body = LoadedBody {
-            case,
-            model,
-            loading: &loading,
-            folder,
-            build: request.build,
-            is_stopped: &is_stopped,
-        };
-        let summary = body.follow(None, &mut stages, &mut progress)?;
+        let summary = body.follow(folder, None, &mut stages, &mut progress)?;
         progress.finish(&summary.termination_message);
-        let is_complete = !summary.is_stopped();
+        let is_complete = End::of(&summary) != End::Stopped;
         Ok((summary, is_complete))
-    })
+    })?;
+    Ok(Report::Loading(Box::new(summary)))
 }

@@ -1,4 +1,4 @@
-//! Pre-cracks of a setup as what cuts the bonds of its body.
+//! Pre-cracks of a setup as lines and surfaces that cut bonds.
 
 use ligament_mesh::Cell;
 use ligament_model::bonds::precrack::{
@@ -14,7 +14,7 @@ use crate::setup::{CrackShape, PreCrack};
 ///
 /// # Errors
 ///
-/// If a surface is none, or the body has no group of its name.
+/// If a surface is degenerate, or the body has no group of its name.
 pub(crate) fn cracks<const D: usize>(
     body: &dyn Geometry<D>,
     precracks: &[PreCrack],
@@ -55,7 +55,7 @@ pub(crate) fn cracks<const D: usize>(
     numbered.map(crack).collect()
 }
 
-/// The faces of a surface group as triangles, quadrangles along a diagonal.
+/// The faces of a surface group as triangles, with quadrangles split along a diagonal.
 fn triangles_of_group(
     field: Field,
     body: &dyn Body,
@@ -85,11 +85,11 @@ fn triangles_of_group(
 pub(crate) struct Precracked {
     /// Whether a pre-crack cuts each bond, shape (n_bonds).
     pub(crate) is_cut: Vec<bool>,
-    /// Number of the bonds that only touch an end of one.
+    /// Number of bonds that only touch an end of a pre-crack.
     pub(crate) touched: usize,
     /// Indices of the pre-cracks that cut no bond.
     pub(crate) idle: Vec<usize>,
-    /// Share of its bonds that each point loses, shape (n_points).
+    /// Share of each point's bonds that pre-cracks cut, shape (n_points).
     pub(crate) share: Vec<f64>,
 }
 
@@ -100,7 +100,11 @@ impl Precracked {
         cloud: &PointCloud<D>,
     ) -> Self {
         let is_cut = cut_bonds(cracks, bonds, cloud);
-        let count = |is_cut: &[bool]| cloud.total(is_cut.iter().filter(|it| **it).count());
+        let count = |is_cut: &[bool]| {
+            cloud
+                .subdomain
+                .count(is_cut.iter().filter(|it| **it).count())
+        };
         let is_idle = |index: &usize| match cracks {
             [_] => count(&is_cut) == 0,
             _ => count(&cut_bonds(&cracks[*index..=*index], bonds, cloud)) == 0,
@@ -117,7 +121,7 @@ impl Precracked {
 /// Share of the bonds of each point that pre-cracks cut, by number, shape (n_points).
 fn share<const D: usize>(cloud: &PointCloud<D>, bonds: &BondSet<D>, is_cut: &[bool]) -> Vec<f64> {
     let n_cut = is_cut.iter().filter(|is_cut| **is_cut).count();
-    if cloud.total(n_cut) == 0 {
+    if cloud.subdomain.count(n_cut) == 0 {
         return vec![0.0; cloud.len()];
     }
     let shares = cloud.over_families(|point| {

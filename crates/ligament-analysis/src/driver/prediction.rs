@@ -1,7 +1,7 @@
-//! What a loading comes to first, told by elastic solutions alone: the first bond at its limit, or why no bond gets there.
+//! Prediction of the first failure from elastic solutions alone: the first bond at its limit, or the reason why no bond reaches it.
 //!
-//! Up to its first breakage a body is elastic. In proportion to one load factor its first solution tells where that is; in a programme of
-//! stages everything goes along a straight line from the end of one part to the end of the next, and one solution a part tells it.
+//! Up to its first breakage a body is elastic. In proportion to one load factor one solution suffices; in a programme of stages the
+//! state follows a straight line from the end of one part to the end of the next, with one solution for each part.
 
 use std::borrow::Cow;
 
@@ -23,22 +23,23 @@ use crate::load_program::{LoadCourse, Part, PartControl, Programme};
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
 
-/// Utilisation of a bond that counts as at its limit: a load step that ends exactly at the first breakage is off by rounding.
+/// Utilisation of a bond that counts as at its limit, since a load step that ends exactly at the first breakage is subject to
+/// rounding.
 const AT_LIMIT: f64 = 1.0 - 1e-9;
 
-/// Share of the first load step before which the first bond reaches its limit where a load breaks the body at once.
+/// Share of the first load step below which a first failure means that a load breaks the body at once.
 const AT_ONCE: f64 = 0.1;
 
-/// Utilisations of bonds closer than this, relatively, are one: of these the bond with the smallest numbers is named.
+/// Relative difference of utilisations below which bonds are tied; the tied bond with the smallest end numbers is reported.
 const TIED: f64 = 1e-8;
 
-/// Halvings after which the place on a line where a bond reaches its limit is known to the last digits.
+/// Halvings after which the failure point on a line is known to the last digits.
 const HALVINGS: usize = 52;
 
-/// Doublings of a way without an end after which nothing on it reaches a limit.
+/// Doublings of an unbounded line after which no bond on it reaches a limit.
 const DOUBLINGS: usize = 60;
 
-/// What a run comes to first.
+/// Prediction of the first failure of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Prediction {
     /// A bond reaches its limit.
@@ -50,29 +51,29 @@ pub enum Prediction {
     },
     /// There is no equilibrium.
     NoEquilibrium {
-        /// Part of the programme of stages; 0 without one.
+        /// Index of the part of the programme of stages; 0 without one.
         part: usize,
-        /// Reason why there is none.
+        /// Reason for the missing equilibrium.
         reason: Unbalanced,
     },
-    /// Nothing is in proportion to the load, or goes along straight lines, from which it could be told.
+    /// The state is neither proportional to the load nor piecewise linear, so that there is no prediction.
     Nonlinear,
 }
 
-/// The first bond that reaches its limit, where it breaks or begins to soften.
+/// First bond to reach its limit, where it breaks or begins to soften.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FirstFailure {
-    /// Number of the bond; of several that reach theirs together the one with the smallest numbers of its ends.
+    /// Number of the bond; of tied bonds the one with the smallest end numbers.
     pub bond: u32,
     /// Number of the criterion.
     pub criterion: usize,
-    /// Place on the force-displacement curve.
+    /// Point on the force-displacement curve.
     pub point: LoadPoint,
-    /// Part of the programme of stages; 0 without one.
+    /// Index of the part of the programme of stages; 0 without one.
     pub part: usize,
-    /// Load factor, or the share of its stage that is over; None in a stage that goes on until an energy is dissipated.
+    /// Load factor, or the completed share of the stage; None in a stage that ends at a dissipated energy.
     pub share: Option<f64>,
-    /// Load step in which it comes; None along the exact path.
+    /// Load step of the failure; None along the exact path.
     pub step: Option<StepOfFailure>,
 }
 
@@ -81,16 +82,16 @@ pub struct FirstFailure {
 pub struct StepOfFailure {
     /// Number of the step, from 1.
     pub step: usize,
-    /// Number of all steps.
+    /// Total number of steps.
     pub steps: usize,
-    /// Bonds that would be beyond their limits at the end of the step if none broke.
+    /// Number of bonds beyond their limits at the end of the step if none broke.
     pub beyond: usize,
 }
 
 impl Path<'_> {
-    /// Tells the observer of loads that break the body at once, which no results are of: where the first bond reaches its limit in the first
-    /// part of the first load step, which ends at `load_factor`, in stages as the step has it. The equilibrium at load factor one, of the load
-    /// of the curve alone in stages, is `at_one`.
+    /// Notifies the observer of loads that break the body at once, without meaningful results, if the first bond reaches its limit
+    /// early in the first load step. The step ends at load factor `load_factor`, in stages at that share of a controlling motion.
+    /// The equilibrium at load factor one, in stages of the control load alone, is `at_one`.
     pub(super) fn report_first_step(
         &mut self,
         at_one: &State,
@@ -130,8 +131,8 @@ impl Path<'_> {
         Ok(self.observer.notice(&Notice::AtOnce(at_once))?)
     }
 
-    /// The elastic equilibrium at the end of the first load step of a programme of stages, in which nothing counts as solved; none where no
-    /// elastic solution is its end.
+    /// Elastic equilibrium at the end of the first load step of a programme of stages, not counted as a solve; None where the step
+    /// does not end at an elastic solution.
     fn first_step_of_stages(
         &mut self,
         load_factor: f64,
@@ -159,8 +160,8 @@ impl Path<'_> {
     }
 }
 
-/// What comes first on the way of a run that has begun; `at_one` is its equilibrium at load factor one, `steps` has the load
-/// factors of its load steps, and there is none along the exact path.
+/// Predicts the first failure of a run that has begun; `at_one` is its equilibrium at load factor one, and `steps` are the load
+/// factors of its load steps, None along the exact path.
 pub(super) fn predict(
     path: Path<'_>,
     at_one: Option<State>,
@@ -182,7 +183,7 @@ pub(super) fn predict(
     }
 }
 
-/// What comes first where everything is in proportion to one load factor.
+/// Predicts the first failure in proportion to one load factor.
 fn in_proportion(
     mut path: Path<'_>,
     at_one: Option<State>,
@@ -240,7 +241,7 @@ fn in_proportion(
     }))
 }
 
-/// The equilibrium at load factor one, of which the state may be known.
+/// Equilibrium at load factor one, from its state if that is known.
 fn at_full_load(path: &mut Path<'_>, at_one: Option<State>) -> Result<Attempt, SetupError> {
     let Some(state) = at_one else {
         path.state.load_factor = 1.0;
@@ -252,7 +253,7 @@ fn at_full_load(path: &mut Path<'_>, at_one: Option<State>) -> Result<Attempt, S
     ))
 }
 
-/// What comes first in a programme of stages.
+/// Predicts the first failure in a programme of stages.
 fn in_stages(
     mut path: Path<'_>,
     programme: &Programme,
@@ -314,8 +315,8 @@ fn in_stages(
     })
 }
 
-/// Seeks equilibrium at the end of a part that has just begun; true where the part goes on until an energy is dissipated, so that no
-/// elastic solution is its end: then at the load that it names.
+/// Prescribes the end of a part that has just begun; returns whether the part ends at a dissipated energy, which no elastic
+/// solution does: then its end is at the load that it names.
 fn aim_at_end(path: &mut Path<'_>, part: &Part) -> bool {
     let dissipates = matches!(part.control, Some(PartControl::DissipatedEnergy { .. }));
     if dissipates {
@@ -350,6 +351,7 @@ impl<'a> Line<'a> {
         self.here.ahead(&self.slopes, share)
     }
 
+<<<<<<< strength
     fn criteria(&self, share: f64) -> Cow<'a, Criteria> {
         let [here, there] = self.criteria;
         there.on_line(Some(here), share)
@@ -366,6 +368,14 @@ impl<'a> Line<'a> {
     /// one, and halving finds it.
     fn first_failure(&self, goes_on: bool) -> Option<f64> {
         let fails = |share: f64| utilisation(&self.criteria(share), &self.at(share)) >= AT_LIMIT;
+=======
+    /// Share of the line at which the first bond reaches its limit, at most 1 unless `goes_on`; None where none does.
+    ///
+    /// A measure is convex along a line, so that from an admissible state there is one point where the largest utilisation passes
+    /// one, which bisection finds.
+    fn first_failure(&self, criteria: &Criteria, goes_on: bool) -> Option<f64> {
+        let fails = |share: f64| utilisation(criteria, &self.at(share)) >= AT_LIMIT;
+>>>>>>> summary
         let mut doublings =
             (0..=if goes_on { DOUBLINGS } else { 0 }).map(|it| 2_f64.powi(it as i32));
         let [mut low, mut high] = [0.0, doublings.find(|share| fails(*share))?];
@@ -381,7 +391,7 @@ impl<'a> Line<'a> {
     }
 }
 
-/// The bond nearest to its limit.
+/// Bond nearest to its limit.
 struct Nearest {
     utilisation: f64,
     bond: u32,
@@ -422,7 +432,7 @@ fn utilisation(criteria: &Criteria, deformations: &Deformations) -> f64 {
         .reduce(|| 0.0, f64::max)
 }
 
-/// Number of the bonds that are at their limits or beyond at deformations (n_bonds).
+/// Number of bonds at or beyond their limits at deformations (n_bonds).
 fn beyond(criteria: &Criteria, deformations: &Deformations) -> usize {
     (deformations.par_iter().enumerate())
         .filter(|(bond, deformation)| criteria.utilisation(*bond, deformation) >= AT_LIMIT)

@@ -1,4 +1,4 @@
-//! The solver that is chosen for the equations of a body.
+//! Choice of the solver for the equations of a body.
 
 use std::sync::Arc;
 
@@ -11,21 +11,20 @@ use super::iterative::IterativeSolver;
 use super::unsymmetric::UnsymmetricSolver;
 use crate::bond_numbers::BondNumbers;
 use crate::error::SetupError;
-use crate::ranks::Together;
 use crate::solver::{Method, Reason, SolverChoice, SolverSettings};
 use crate::stiffness::{self, Stiffness};
 use crate::unknowns::Unknowns;
 
-/// A solver with what was chosen for it.
+/// A solver and the choice that led to it.
 pub(crate) struct Solving {
-    /// Pattern and symbolic factor; none where the solver has no matrix.
+    /// Sparsity pattern and symbolic factor; none where the solver has no matrix.
     pub(crate) stiffness: Option<Arc<Stiffness>>,
     pub(crate) choice: SolverChoice,
     pub(crate) solver: Box<dyn TangentSolver>,
 }
 
 impl Solving {
-    /// Chooses a solver for some unknowns, with the numbers of bonds that processes share out; nothing is factorised yet.
+    /// Chooses a solver for unknowns, with the global numbers of the local bonds, without factorising.
     ///
     /// # Errors
     ///
@@ -33,15 +32,20 @@ impl Solving {
     pub(crate) fn new(
         system: &Arc<dyn Bonds>,
         unknowns: &Arc<Unknowns>,
-        settings: SolverSettings,
-        numbers: Option<&Arc<BondNumbers>>,
+        settings: &SolverSettings,
+        numbers: &Arc<BondNumbers>,
     ) -> Result<Self, SetupError> {
-        if let Some(Together(ranks)) = settings.ranks {
-            let choice = settings.distributed_choice(&**system, ranks.n_ranks());
+        let communicator = &settings.communicator;
+        if communicator.has_matrices() {
+            let choice = settings.distributed_choice(&**system, communicator.size());
             let choice = choice.map_err(SetupError::NotDistributed)?;
-            let (system, unknowns) = (system.clone(), unknowns.clone());
-            let shared = (ranks, numbers.cloned());
-            let solver = DistributedSolver::new(system, unknowns, shared, choice.tolerance);
+            let solver = DistributedSolver::new(
+                system.clone(),
+                unknowns.clone(),
+                communicator.clone(),
+                numbers.clone(),
+                choice.tolerance,
+            );
             return Ok(Self {
                 stiffness: None,
                 choice: SolverChoice::Distributed(choice),
@@ -62,7 +66,7 @@ impl Solving {
             let reason = Reason::Memory { needed, available };
             Self::iterating(system, unknowns, settings, reason)
         };
-        // The analysis of a factor that is far too large takes much memory itself.
+        // The analysis of a factor that is far too large needs much memory itself.
         let least = stiffness::least_bytes(&**system);
         if least > available {
             return Ok(too_large(least));
@@ -78,11 +82,11 @@ impl Solving {
         Ok(Self::factorising(stiffness))
     }
 
-    /// Conjugate gradients, for a reason.
+    /// Conjugate gradients, with the reason of the choice.
     fn iterating(
         system: &Arc<dyn Bonds>,
         unknowns: &Arc<Unknowns>,
-        settings: SolverSettings,
+        settings: &SolverSettings,
         reason: Reason,
     ) -> Self {
         let choice = settings.iterative_choice(&**system, reason);
@@ -97,7 +101,7 @@ impl Solving {
         }
     }
 
-    /// A factor.
+    /// Direct solver with a symmetric or unsymmetric factor.
     fn factorising(stiffness: Stiffness) -> Self {
         let stiffness = Arc::new(stiffness);
         let choice = *stiffness.choice();

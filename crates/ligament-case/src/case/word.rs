@@ -1,4 +1,4 @@
-//! Values of the libraries that stand as a word in a case file.
+//! Values of the libraries that are words in a case file.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -10,21 +10,21 @@ use ligament::setup::{
 use ligament_analysis::Component;
 use ligament_analysis::breaking::BreakingOrder;
 use ligament_analysis::modal::Rotations;
-use ligament_analysis::probe::{PointField, StressComponent};
+use ligament_analysis::probe::PointField;
 use ligament_analysis::solver::{FactorKind, Method, Ordering, Update};
 use ligament_model::Plane;
 use ligament_model::bonds::precrack::Ends;
 use ligament_model::correction::StopRule;
 use ligament_model::correction::patch::{Reference, Settings};
 use ligament_model::failure::softening::{LAWS, Law};
-use ligament_model::failure::{self, KINDS, Kind, Weakened};
+use ligament_model::failure::{self, KINDS, Kind};
 use ligament_model::law::rotational::RotationalStiffness;
 use ligament_model::scatter::Scattered;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{EnumAccess, VariantAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A value that stands as a word.
+/// A value that is written as a word.
 pub trait Worded: Copy + 'static {
     /// All words.
     const WORDS: &'static [&'static str];
@@ -32,11 +32,11 @@ pub trait Worded: Copy + 'static {
     /// All values, in the order of their words.
     fn all() -> impl Iterator<Item = Self>;
 
-    /// The word of the value, and what it means.
+    /// The word of the value, and its meaning.
     fn word(&self) -> [&'static str; 2];
 }
 
-/// The words of a type that has a table of its values.
+/// Implements [`Worded`] for a type that has a table of its values.
 macro_rules! worded_by_table {
     ($value:ty: $all:expr, $values:expr, $it:ident => $words:expr) => {
         impl Worded for $value {
@@ -65,10 +65,10 @@ macro_rules! worded_by_table {
 
 worded_by_table! { Kind: KINDS, KINDS.into_iter().copied(), it => [it.word, it.words] }
 worded_by_table! { Law: LAWS, LAWS.into_iter().copied(), it => [it.word, it.words] }
+worded_by_table! { PointField: PointField::ALL, PointField::ALL.into_iter(), it => [it.word, it.meaning] }
 worded_by_table! { setup::Law: setup::Law::ALL, setup::Law::ALL.into_iter(), it => [it.row.word, it.row.sentence] }
 
-/// Values of a type with their words and what these mean; where a word stands for many values, one of them with the pattern of
-/// all.
+/// Implements [`Worded`] for values of a type with words and meanings; for a word with many values, one value and the pattern of all.
 macro_rules! worded {
     (@pattern [$($value:tt)+]) => { $($value)+ };
     (@pattern [$($value:tt)+] [$($pattern:tt)+]) => { $($pattern)+ };
@@ -210,27 +210,6 @@ worded! { Component:
     [Self::RotationX] "rotation_x" "Rotation about x in a solid, rad, right-handed.";
     [Self::RotationY] "rotation_y" "Rotation about y in a solid, rad, right-handed.";
     [Self::RotationZ] "rotation_z" "Rotation about z in a solid, rad, right-handed.";
-}
-
-worded! { PointField:
-    [Self::Damage] "damage" "Share of the point's bonds that are broken, 0 to 1.";
-    [Self::DamageBy(Weakened::Opening)] "damage_tension" "Damage by opening of bonds, d_t, 0 to 1.";
-    [Self::DamageBy(Weakened::Crushing)] "damage_compression" "Damage by crushing of bonds, d_c.";
-    [Self::DamageBy(Weakened::Sliding)] "damage_sliding" "Damage by sliding of bonds, d_gamma.";
-    [Self::Motion(Component::X)] "displacement_x" "Displacement along x, m.";
-    [Self::Motion(Component::Y)] "displacement_y" "Displacement along y, m.";
-    [Self::Motion(Component::Rotation)] "rotation" "Rotation in the plane, rad, counter-clockwise.";
-    [Self::Motion(Component::Z)] "displacement_z" "Displacement along z of a solid, m.";
-    [Self::Motion(Component::RotationX)] "rotation_x" "Rotation about x in a solid, rad, right-handed.";
-    [Self::Motion(Component::RotationY)] "rotation_y" "Rotation about y in a solid, rad, right-handed.";
-    [Self::Motion(Component::RotationZ)] "rotation_z" "Rotation about z in a solid, rad, right-handed.";
-    [Self::StrainEnergyDensity] "strain_energy_density" "Strain energy density, J/m^3.";
-    [Self::Stress(StressComponent::Xx)] "stress_xx" "Virial stress xx, Pa.";
-    [Self::Stress(StressComponent::Yy)] "stress_yy" "Virial stress yy, Pa.";
-    [Self::Stress(StressComponent::Xy)] "stress_xy" "Virial stress xy, Pa.";
-    [Self::Stress(StressComponent::Zz)] "stress_zz" "Virial stress zz of a solid, Pa.";
-    [Self::Stress(StressComponent::Xz)] "stress_xz" "Virial stress xz of a solid, Pa.";
-    [Self::Stress(StressComponent::Yz)] "stress_yz" "Virial stress yz of a solid, Pa.";
 }
 
 /// A value that is read and written as its word.

@@ -10,7 +10,7 @@ use ligament_run::resume::Request;
 
 use super::run::tell;
 use crate::build::BUILD;
-use crate::ranks;
+use crate::processes;
 use crate::stop_signal::StopSignal;
 
 pub(super) const EXAMPLES: &str = "\
@@ -50,12 +50,8 @@ impl ResumeArgs {
             threads: self.threads,
             build: BUILD,
             is_stopped: &|| stop.came(),
-            ranks: ranks::join()?,
+            communicator: processes::join()?,
         };
-        if ranks::is_not_root() {
-            request.assist()?;
-            return Ok(ExitCode::SUCCESS);
-        }
         let report = request.resume(ProgressMode::detect(self.quiet))?;
         tell(&report, &self.folder, false)
     }

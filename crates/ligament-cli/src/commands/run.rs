@@ -3,15 +3,17 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use clap::Args;
 
 use super::case_args::CaseArgs;
 use super::output;
 use crate::build::BUILD;
-use crate::ranks;
+use crate::processes;
 use crate::stop_signal::StopSignal;
 use crate::terminal;
+use ligament_analysis::distributed_matrix::Solo;
 use ligament_plot::picture::{asks_for_pictures, draw_run};
 use ligament_run::progress::ProgressMode;
 use ligament_run::run::{Report, Request};
@@ -62,9 +64,9 @@ impl RunArgs {
             bind_to_parent(lock)?;
         }
         // A run of a sweep is one process, whoever started the sweep.
-        let ranks = match &self.leash {
-            None => ranks::join()?,
-            Some(_) => None,
+        let communicator = match &self.leash {
+            None => processes::join()?,
+            Some(_) => Arc::new(Solo),
         };
         let case = self.case.load()?;
         // Without load steps there is nothing to go on with later, and for a sweep the run starts anew.
@@ -81,12 +83,8 @@ impl RunArgs {
             force: self.force,
             build: BUILD,
             is_stopped: &|| stop.came(),
-            ranks,
+            communicator,
         };
-        if ranks::is_not_root() {
-            request.assist()?;
-            return Ok(ExitCode::SUCCESS);
-        }
         let report = request.run(ProgressMode::detect(self.quiet))?;
         tell(&report, &out, self.plot)
     }
@@ -95,6 +93,9 @@ impl RunArgs {
 /// Shows what a run found, and where its results are, with pictures of them if these are wanted or its case asks for them.
 pub(super) fn tell(report: &Report, folder: &Path, pictures: bool) -> anyhow::Result<ExitCode> {
     let code = ExitCode::from(report.end().exit_code());
+    if matches!(report, Report::OfRankZero) {
+        return Ok(code);
+    }
     let mut stdout = terminal::stdout();
     report.write(&mut stdout)?;
     let out = folder.display();

@@ -1,4 +1,4 @@
-//! Search of the pairs of points that are bonded.
+//! Search for the pairs of points that are bonded.
 
 use std::borrow::Cow;
 
@@ -10,24 +10,25 @@ use crate::geometry::bounding_box;
 use crate::horizon::Horizons;
 use crate::tensor::minus;
 
-/// Points whose pairs are found by one thread in one go.
+/// Number of points whose pairs one thread finds at a time.
 const BLOCK: usize = 1024;
 
 impl<const D: usize> BondSet<D> {
-    /// Bonds every pair with l <= max(h_A, h_B), found with an R*-tree: one query a point, O(N log N) in all.
+    /// Bonds between all pairs with l <= max(h_A, h_B), found with an R*-tree: one query a point, O(N log N) in all.
     ///
-    /// The bond horizon (NHPD eq. 1) is the mean of the two where each point holds the other, and the larger one where
-    /// only that one holds the other point.
+    /// The bond horizon (NHPD eq. 1) is the mean of both horizons where each contains the other point, and the larger one where only that
+    /// contains the other point.
     pub fn search(cloud: &PointCloud<D>, horizons: &Horizons) -> Self {
         let tree = search_tree(&cloud.positions);
-        let known = |pair: &[u32; 2]| cloud.portion.as_ref().is_none_or(|it| it.knows(*pair));
+        let subdomain = &cloud.subdomain;
+        let is_held = |pair: &[u32; 2]| subdomain.is_whole() || subdomain.contains_bond(*pair);
         let found: Vec<Vec<[u32; 2]>> = reaching(cloud, horizons)
             .par_chunks(BLOCK)
             .map(|points| {
                 let mut pairs = Vec::new();
                 for &point in points {
                     let position = cloud.positions[point as usize];
-                    // The tree compares squared distances: ask for a little more and let `contains` decide.
+                    // The tree compares squared distances: its radius is slightly larger, and `contains` decides.
                     let tolerance = cloud.tolerance(point);
                     let reach = horizons.radius[point as usize] * (1.0 + 2.0 * tolerance);
                     pairs.extend(
@@ -35,7 +36,7 @@ impl<const D: usize> BondSet<D> {
                             .map(|neighbour| neighbour.data)
                             .filter(|&other| is_recorded_by(point, other, cloud, horizons))
                             .map(|other| [point.min(other), point.max(other)])
-                            .filter(known),
+                            .filter(is_held),
                     );
                 }
                 pairs
@@ -71,13 +72,14 @@ impl<const D: usize> BondSet<D> {
     }
 }
 
-/// Points along the curve whose horizons may reach own points, with these; all points of one process.
+/// Points along the curve whose horizons may reach owned points, including these.
 fn reaching<'a, const D: usize>(cloud: &'a PointCloud<D>, horizons: &Horizons) -> Cow<'a, [u32]> {
-    let Some(portion) = &cloud.portion else {
+    let subdomain = &cloud.subdomain;
+    if subdomain.is_whole() {
         return Cow::Borrowed(&cloud.curve);
-    };
-    let own = portion.own().iter();
-    let [lower, upper] = bounding_box(own.map(|&it| cloud.positions[it as usize]));
+    }
+    let owned = subdomain.owned();
+    let [lower, upper] = bounding_box(owned.map(|it| cloud.positions[it as usize]));
     let reaches = |point: u32| {
         let position = cloud.positions[point as usize];
         let nearest = std::array::from_fn(|axis| position[axis].max(lower[axis]).min(upper[axis]));
@@ -85,11 +87,11 @@ fn reaching<'a, const D: usize>(cloud: &'a PointCloud<D>, horizons: &Horizons) -
     };
     let points = cloud.curve.iter().copied();
     points
-        .filter(|&it| portion.is_own(it) || reaches(it))
+        .filter(|&it| subdomain.owns(it) || reaches(it))
         .collect()
 }
 
-/// The pairs in ascending order of their first, then of their second point.
+/// Pairs in ascending order of their first, then of their second point.
 fn in_order(found: Vec<Vec<[u32; 2]>>, n_points: usize) -> Vec<[u32; 2]> {
     let mut next = vec![0; n_points + 1];
     for [first, _] in found.iter().flatten() {
@@ -109,8 +111,8 @@ fn in_order(found: Vec<Vec<[u32; 2]>>, n_points: usize) -> Vec<[u32; 2]> {
     ends
 }
 
-/// Whether the query around `point` is the one that records the pair: the lower point does where its horizon holds the
-/// other, else the upper one.
+/// Whether the query around `point` records the pair: that of the lower point does where its horizon contains the other, else that of the
+/// upper point.
 fn is_recorded_by<const D: usize>(
     point: u32,
     neighbour: u32,
@@ -126,7 +128,7 @@ fn is_recorded_by<const D: usize>(
         && (point < neighbour || !contains(neighbour, l, cloud, horizons))
 }
 
-/// Whether the horizon of a point reaches to a given distance (m) from the point, as far as the coordinates tell.
+/// Whether the horizon of a point reaches to a given distance (m) from it, within the precision of the coordinates.
 fn contains<const D: usize>(
     point: u32,
     distance: f64,

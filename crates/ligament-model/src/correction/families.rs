@@ -7,33 +7,33 @@ use super::sweeps::SweptFamilies;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 
-/// Members of a family whose factors are computed at once: square roots and divisions go in pairs through the processor.
+/// Number of members of a family whose factors are computed together: the processor does square roots and divisions in pairs.
 const LANES: usize = 4;
 
-/// The families of own points along the curve; `rank` is the place of a point in the order of the sweeps.
+/// Families of the owned points along the curve; `index` is the position of a point in the order of the sweeps.
 pub(super) struct Families<'a, const D: usize> {
     coefficients: Coefficients<'a, D>,
-    /// Omega of each member.
+    /// Factor Omega of each member.
     domain_factor: Vec<f64>,
-    /// e_A of the continuum along the axes of own points, by rank, J/m^3.
+    /// Energy density e_A of the continuum along the axes at the owned points, by index, J/m^3.
     target: Vec<[f64; D]>,
-    /// e_A/etil_A along the axes of the points, by rank.
+    /// Ratios e_A/etil_A along the axes at the points, by index.
     ratios: Vec<[f64; D]>,
-    /// The ratios before the last sweep, by rank.
+    /// Ratios before the last sweep, by index.
     before: Vec<[f64; D]>,
 }
 
-/// What a sweep multiplies the factors with: the members of the families, and arrays over them.
+/// Coefficients of a sweep: the members of the families, and arrays over them.
 struct Coefficients<'a, const D: usize> {
     members: Members<'a, D>,
     /// Squares of the direction cosines along each axis.
     squares: [Vec<f64>; D],
-    /// 1/4 V_B times the bond's density under a strain of size one along each axis, J/m^3.
+    /// Product of 1/4 V_B and the density of the bond under a strain of size one along each axis, J/m^3.
     energy: Vec<[f64; D]>,
 }
 
 impl<'a, const D: usize> Families<'a, D> {
-    /// The families with all factors 1.
+    /// Families with all factors 1.
     ///
     /// `density(axis, bond)` is alpha (k_n s^2 + k_t |gamma|^2) l under a strain of size one along an axis, `targets` (D, n_points) the
     /// energy densities e_A of the continuum.
@@ -46,15 +46,15 @@ impl<'a, const D: usize> Families<'a, D> {
         let coefficients = Coefficients::new(bonds, cloud, density);
         let domain_factor = vec![1.0; coefficients.energy.len()];
         let at = |point: u32| std::array::from_fn(|axis| targets[axis][point as usize]);
-        let own = coefficients.members.seats.own().iter();
+        let own = coefficients.members.order.owned().iter();
         let target: Vec<[f64; D]> = own.map(|&point| at(point)).collect();
-        let mut ratios = vec![[0.0; D]; coefficients.members.seats.all().len()];
+        let mut ratios = vec![[0.0; D]; coefficients.members.order.all().len()];
         let own = ratios.par_iter_mut().zip(&target).enumerate();
-        own.for_each(|(rank, (ratios, &target))| {
-            let factors = &domain_factor[coefficients.members.family(rank)];
-            *ratios = coefficients.energy_ratios(rank, factors, target);
+        own.for_each(|(index, (ratios, &target))| {
+            let factors = &domain_factor[coefficients.members.family(index)];
+            *ratios = coefficients.energy_ratios(index, factors, target);
         });
-        coefficients.members.seats.complete(&mut ratios);
+        coefficients.members.order.update_ghosts(&mut ratios);
         Self {
             coefficients,
             domain_factor,
@@ -77,19 +77,19 @@ impl<const D: usize> SweptFamilies for Families<'_, D> {
             .enumerate()
             .map(|(number, (mut factors, ratios))| {
                 let mut change = [0.0; LANES];
-                for (rank, ratio) in (number * BLOCK..).zip(ratios) {
+                for (index, ratio) in (number * BLOCK..).zip(ratios) {
                     let own;
-                    (own, factors) = factors.split_at_mut(coefficients.members.family(rank).len());
-                    coefficients.update(rank, before, own, &mut change);
-                    *ratio = coefficients.energy_ratios(rank, own, target[rank]);
+                    (own, factors) = factors.split_at_mut(coefficients.members.family(index).len());
+                    coefficients.update(index, before, own, &mut change);
+                    *ratio = coefficients.energy_ratios(index, own, target[index]);
                 }
                 change.iter().sum()
             })
             .collect();
-        let seats = &coefficients.members.seats;
-        seats.complete(&mut self.ratios);
-        // Every bond was met at either end.
-        0.5 * seats.total(changes.iter().sum::<f64>())
+        let order = &coefficients.members.order;
+        order.update_ghosts(&mut self.ratios);
+        // Every bond occurs once at either end.
+        0.5 * order.subdomain.sum(changes.iter().sum::<f64>())
     }
 
     fn n_bonds(&self) -> usize {
@@ -130,15 +130,15 @@ impl<'a, const D: usize> Coefficients<'a, D> {
         }
     }
 
-    /// NHPD eq. 13 for the `factors` Omega of a family, from the ratios of all points; adds |change of Omega|.
+    /// NHPD eq. 13 for the `factors` Omega of a family, from the ratios of all points; adds |change of Omega| to `change`.
     fn update(
         &self,
-        rank: usize,
+        index: usize,
         ratios: &[[f64; D]],
         factors: &mut [f64],
         change: &mut [f64; LANES],
     ) {
-        let (family, own) = (self.members.family(rank), ratios[rank]);
+        let (family, own) = (self.members.family(index), ratios[index]);
         let (neighbours, last_neighbours) = self.members.neighbour[family.clone()].as_chunks();
         let squares: [_; D] =
             std::array::from_fn(|axis| self.squares[axis][family.clone()].as_chunks());
@@ -158,9 +158,9 @@ impl<'a, const D: usize> Coefficients<'a, D> {
         }
     }
 
-    /// e_A/etil_A along the axes of a point, with the trial energy density of NHPD eq. 12.
-    fn energy_ratios(&self, rank: usize, factors: &[f64], target: [f64; D]) -> [f64; D] {
-        let members = self.energy[self.members.family(rank)].iter().zip(factors);
+    /// Ratios e_A/etil_A along the axes at a point, with the trial energy density of NHPD eq. 12.
+    fn energy_ratios(&self, index: usize, factors: &[f64], target: [f64; D]) -> [f64; D] {
+        let members = self.energy[self.members.family(index)].iter().zip(factors);
         let mut trial = [0.0; D];
         for (density, omega) in members {
             (0..D).for_each(|axis| trial[axis] += omega * density[axis]);
@@ -169,7 +169,7 @@ impl<'a, const D: usize> Coefficients<'a, D> {
     }
 }
 
-/// NHPD eq. 13 for some members of a family, from the ratios of the point itself and of all.
+/// NHPD eq. 13 for some members of a family, from the ratios of the point itself and of all points.
 ///
 /// With q = 2 p, the sum of the ratios of both ends, Omega/sqrt((a/p_x)^2 + (b/p_y)^2) is
 /// Omega q_x q_y / (2 sqrt(a^2 q_y^2 + b^2 q_x^2)), and with a third axis Omega q_x q_y q_z over
@@ -189,7 +189,7 @@ fn update_members<const D: usize, const N: usize>(
         (0..D).for_each(|axis| q[axis][k] = own[axis] + other[axis]);
     }
     for k in 0..N {
-        // The product of q along the other axes.
+        // Product of q along the other axes.
         let others = |axis: usize| match D {
             2 => q[1 - axis][k],
             _ => q[usize::from(axis == 0)][k] * q[2 - usize::from(axis == 2)][k],

@@ -1,50 +1,50 @@
-//! The bonds seen from their points: what sweeps over families read, in the order in which they read it.
+//! Bonds listed by family, in the order in which sweeps over families read them.
 //!
-//! A bond stands here twice, once in the family of either end. That takes more memory than bonds and their incidence, for the time
-//! of a correction, but a sweep is then one pass over memory in its order, without a search for the bonds of a point, and all sums of
-//! a point are the work of one thread.
+//! A bond occurs twice here, once in the family of either end. That takes more memory than bonds and their incidence, during a correction,
+//! but a sweep is then one sequential pass over memory, without a search for the bonds of a point, and one thread computes all sums of a
+//! point.
 
 use rayon::prelude::*;
 
-use super::seats::Seats;
+use super::sweep_order::SweepOrder;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 
-/// Points whose sums one thread makes; fixed, so that sums are the same for any number of threads.
+/// Number of points whose sums one thread computes; fixed, so that sums are the same for any number of threads.
 pub(crate) const BLOCK: usize = 1024;
 
-/// The bonds seen from their points: each stands in the family of either end that is an own point. `rank` is the place of a point in the
-/// order of the sweeps.
+/// Bonds listed by family: each occurs in the family of either end that is an owned point. `index` is the position of a point in the order
+/// of the sweeps.
 pub(crate) struct Members<'a, const D: usize> {
     bonds: &'a BondSet<D>,
     cloud: &'a PointCloud<D>,
-    pub(crate) seats: Seats<'a>,
-    /// Index of the first member of the family of each rank, and behind the last family the number of all members.
+    pub(crate) order: SweepOrder<'a>,
+    /// First member of the family of each point, and the number of all members at the end, shape (n_own + 1).
     starts: Vec<usize>,
-    /// Rank of the other end of each member.
+    /// Index of the other end of each member.
     pub(crate) neighbour: Vec<u32>,
 }
 
 impl<'a, const D: usize> Members<'a, D> {
-    /// The members of the families of own points.
+    /// Members of the families of owned points.
     pub(crate) fn new(bonds: &'a BondSet<D>, cloud: &'a PointCloud<D>) -> Self {
-        let seats = Seats::new(bonds, cloud);
-        let ranks = seats.ranks(cloud.len());
+        let order = SweepOrder::new(bonds, cloud);
+        let indices = order.indices();
         let mut starts = vec![0];
         let mut size = 0;
-        for &point in seats.own() {
+        for &point in order.owned() {
             size += bonds.incidence.at(point).len();
             starts.push(size);
         }
         let mut members = Self {
             bonds,
             cloud,
-            seats,
+            order,
             starts,
             neighbour: Vec::new(),
         };
         members.neighbour = members.values(0, |point, bond| {
-            ranks[bonds.neighbour(bond, point) as usize]
+            indices[bonds.neighbour(bond, point) as usize]
         });
         members
     }
@@ -54,31 +54,31 @@ impl<'a, const D: usize> Members<'a, D> {
         self.bonds.count(self.cloud)
     }
 
-    /// The largest of a value over all processes.
+    /// Largest of a value over all processes.
     pub(crate) fn largest(&self, value: f64) -> f64 {
-        self.cloud.largest(value)
+        self.cloud.subdomain.max(value)
     }
 
-    /// Number of own points.
+    /// Number of owned points.
     pub(crate) fn n_points(&self) -> usize {
         self.starts.len() - 1
     }
 
-    /// Members of the family of a rank.
+    /// Members of the family of a point.
     #[inline(always)]
-    pub(crate) fn family(&self, rank: usize) -> std::ops::Range<usize> {
-        self.starts[rank]..self.starts[rank + 1]
+    pub(crate) fn family(&self, index: usize) -> std::ops::Range<usize> {
+        self.starts[index]..self.starts[index + 1]
     }
 
-    /// A value of each member, from its point and its bond, in the place of a first one.
+    /// A value of each member, computed from its point and its bond; `first` only fills the array.
     pub(crate) fn values<T: Clone + Send>(
         &self,
         first: T,
         value: impl Fn(u32, u32) -> T + Sync,
     ) -> Vec<T> {
         let mut values = vec![first; self.starts[self.n_points()]];
-        self.over_blocks(&mut values, |rank, values| {
-            let point = self.seats.own()[rank];
+        self.over_blocks(&mut values, |index, values| {
+            let point = self.order.owned()[index];
             for (slot, &bond) in values.iter_mut().zip(self.bonds.incidence.at(point)) {
                 *slot = value(point, bond);
             }
@@ -86,7 +86,7 @@ impl<'a, const D: usize> Members<'a, D> {
         values
     }
 
-    /// Does something with the values of each family, in parallel.
+    /// Applies a function to the values of each family, in parallel.
     pub(crate) fn over_blocks<T: Send>(
         &self,
         values: &mut [T],
@@ -97,15 +97,15 @@ impl<'a, const D: usize> Members<'a, D> {
             .enumerate()
             .for_each(|(number, mut values)| {
                 let last = ((number + 1) * BLOCK).min(self.n_points());
-                for rank in number * BLOCK..last {
+                for index in number * BLOCK..last {
                     let own;
-                    (own, values) = values.split_at_mut(self.family(rank).len());
-                    each(rank, own);
+                    (own, values) = values.split_at_mut(self.family(index).len());
+                    each(index, own);
                 }
             });
     }
 
-    /// An array over the members, cut into those of the points of each block.
+    /// An array over the members, divided into those of the points of each block.
     pub(crate) fn blocks<'b, T>(&self, mut values: &'b mut [T]) -> Vec<&'b mut [T]> {
         let mut blocks = Vec::new();
         for first in (0..self.n_points()).step_by(BLOCK) {
@@ -117,12 +117,12 @@ impl<'a, const D: usize> Members<'a, D> {
         blocks
     }
 
-    /// The value of each bond from those of the members, which are the same at either end, shape (n_bonds).
+    /// Value of each bond from the values of its members, which are equal at both ends, shape (n_bonds).
     pub(crate) fn of_bonds<T: Copy + Default + Send + Sync>(&self, values: &[T]) -> Vec<T> {
-        if self.cloud.portion.is_some() {
+        if !self.cloud.subdomain.is_whole() {
             return self.of_known_bonds(values);
         }
-        // The bonds whose first end is a point follow one another, at the end of its family.
+        // Bonds with the same first end are consecutive, at the end of its family.
         let of_others = self.cloud.over_points(|point| {
             let is_second = |&bond: &u32| self.bonds.ends[bond as usize][0] != point;
             self.bonds.incidence.at(point).partition_point(is_second)
@@ -136,21 +136,21 @@ impl<'a, const D: usize> Members<'a, D> {
                 rest.split_off_mut(..count).unwrap_or_default()
             })
             .collect();
-        let of_rank = |(rank, &point): (usize, &u32)| {
+        let of_index = |(index, &point): (usize, &u32)| {
             let others = of_others[point as usize];
-            let from = &values[self.family(rank)][others..];
+            let from = &values[self.family(index)][others..];
             (std::mem::take(&mut own[point as usize]), from)
         };
-        let along_curve: Vec<_> = self.cloud.curve.iter().enumerate().map(of_rank).collect();
+        let along_curve: Vec<_> = self.cloud.curve.iter().enumerate().map(of_index).collect();
         (along_curve.into_par_iter().with_min_len(BLOCK))
             .for_each(|(own, from)| own.copy_from_slice(from));
         of_bonds
     }
 
-    /// The value of each known bond, of which the first end may be a point of another process.
+    /// Value of each bond of this process, whose first end may be a point of another process.
     fn of_known_bonds<T: Copy + Default>(&self, values: &[T]) -> Vec<T> {
         let mut of_bonds = vec![T::default(); self.bonds.len()];
-        let families = self.seats.own().iter();
+        let families = self.order.owned().iter();
         let members = families.flat_map(|&point| self.bonds.incidence.at(point));
         for (&bond, &value) in members.zip(values) {
             of_bonds[bond as usize] = value;

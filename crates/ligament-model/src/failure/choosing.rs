@@ -83,7 +83,7 @@ fn after<const D: usize>(
     basis: &Basis<'_, D>,
 ) -> Result<AfterLimit, NoLimit> {
     let law = wanted.law;
-    let (bonds, portion) = (&basis.system.bonds, basis.system.cloud.portion.as_ref());
+    let (bonds, subdomain) = (&basis.system.bonds, &basis.system.cloud.subdomain);
     let parameter = match (law.parameter, wanted.parameter) {
         (None, _) => Vec::new(),
         (Some(_), Some(given)) => vec![given; limits.len()],
@@ -105,7 +105,7 @@ fn after<const D: usize>(
             let of_bonds = limits.iter().zip(&brittle).enumerate();
             let found: Result<Vec<f64>, _> = of_bonds.map(of_bond).collect();
             let nothing_left = found.as_ref().err().copied();
-            let first = portion.map_or(nothing_left, |it| it.least(nothing_left));
+            let first = subdomain.all_reduce_min(nothing_left);
             if let Some([_, _, horizon, limit, brittle]) = first {
                 return Err(NoLimit::NothingLeft {
                     horizon,

@@ -1,4 +1,4 @@
-//! What a bond system answers to the equations.
+//! Implementation of the interface to the equations for a bond system.
 
 use ligament_mesh::Numbering;
 
@@ -16,11 +16,15 @@ use crate::interface::{
     PointStiffness, StressReading, Stresses,
 };
 use crate::layout::Component;
+<<<<<<< strength
 use crate::material::Stiffness;
 use crate::portion::{Portion, any};
+=======
+>>>>>>> summary
 use crate::rigid_motions::{self, FreeMotion, RigidMotions, Turn};
 use crate::stress::point_strain::{Motion, StrainAround};
 use crate::stress::traction;
+use crate::subdomain::Subdomain;
 use crate::sweep::BondSweep;
 use crate::tensor::SymTensor;
 use crate::thermal::ThermalStrain;
@@ -34,8 +38,8 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondTopology for Element
         &self.system.cloud.numbering
     }
 
-    fn portion(&self) -> Option<&Portion> {
-        self.system.cloud.portion.as_ref()
+    fn subdomain(&self) -> &Subdomain {
+        &self.system.cloud.subdomain
     }
 
     fn components(&self) -> &'static [Component] {
@@ -114,28 +118,34 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for Element
 
     fn all_positive(&self) -> bool {
         let mut of_springs = self.system.rigidities.of_springs();
-        !any(self.portion(), !of_springs.all(|&rigidity| rigidity > 0.0))
+        !self
+            .subdomain()
+            .any(!of_springs.all(|&rigidity| rigidity > 0.0))
     }
 
     fn some_negative(&self) -> bool {
         let here = self.elements.some_negative(&self.system.rigidities);
-        any(self.portion(), here)
+        self.subdomain().any(here)
     }
 
     fn some_negative_shear(&self) -> bool {
         let mut shear = self.system.rigidities.shear.iter();
-        any(self.portion(), shear.any(|&rigidity| rigidity < 0.0))
+        self.subdomain().any(shear.any(|&rigidity| rigidity < 0.0))
     }
 
     fn resisted(&self) -> Vec<bool> {
-        let (layout, portion) = (self.layout(), self.portion());
+        let (layout, subdomain) = (self.layout(), self.subdomain());
         self.system
             .rigidities
-            .resisted(&self.system.bonds.ends, layout, portion)
+            .resisted(&self.system.bonds.ends, layout, subdomain)
     }
 
     fn point_stiffness(&self) -> Vec<PointStiffness> {
-        PointStiffness::of_bonds(&self.system.rigidities, &self.system.bonds, self.portion())
+        PointStiffness::of_bonds(
+            &self.system.rigidities,
+            &self.system.bonds,
+            self.subdomain(),
+        )
     }
 
     fn holds(
@@ -391,7 +401,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
         let pulls = crossing.iter().filter_map(|&(bond, first_is_near)| {
             let element = self.left(bonds, bond as usize)?;
             let forces = element.end_forces(&deformations[bond as usize])?;
-            // The end force is what holds the end in place against the bond: the bond pulls the other way.
+            // The end force keeps the end in place against the bond, whose pull is opposite.
             Some(-forces[usize::from(!first_is_near)][place])
         });
         pulls.sum()
@@ -441,20 +451,20 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondContact for ElementS
     }
 }
 
-/// Deformations of all bonds as their elements have them, shape (n_bonds).
+/// Deformations of all bonds in the type of their elements, shape (n_bonds).
 fn of_bonds<B: Deformation>(deformations: &Deformations) -> &[B] {
     B::of_bonds(deformations)
 }
 
 impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
-    /// The rigid motions of some points that their bonds let be free.
+    /// Rigid motions of some points that their bonds do not resist.
     fn rigid_motions(&self, points: &[u32]) -> RigidMotions<'_, D> {
         let BondSystem {
             bonds, rigidities, ..
         } = &self.system;
         let mut bonds = (points.iter()).flat_map(|&point| bonds.incidence.at(point));
         let resist = bonds.any(|&bond| rigidities.resist_rotations(bond as usize));
-        let resist = any(self.portion(), resist);
+        let resist = self.subdomain().any(resist);
         let turn_points = E::COMPONENTS.iter().any(|it| it.is_rotation());
         let turn = match (resist, self.elements.rotates_freely()) {
             (true, true) if turn_points => Turn::OfPointsAlong,

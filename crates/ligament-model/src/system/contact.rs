@@ -1,4 +1,4 @@
-//! The pairs across the cracks of a bond system, and the stresses of those that are closed.
+//! Pairs across the cracks of a bond system, and the stresses of closed pairs.
 
 use std::borrow::Cow;
 
@@ -8,12 +8,11 @@ use crate::contact::{ClosedPair, ContactPair, CutBond, Overlap};
 use crate::ghosts::Ghosts;
 use crate::interface::StressReading;
 use crate::layout::{Component, Layout};
-use crate::portion::{any, counts};
 use crate::tensor::{SymTensor, cross, dot, minus, norm};
 use crate::thermal::ThermalStrain;
 
-/// Cosine of the angle between a broken bond and the normal of the crack below which the bond is no pair: it lies along the
-/// crack, and on which side of it an end lies is chance. The bonds beyond hold less than 1 % of the traction across.
+/// Cosine of the angle between a broken bond and the crack normal below which the bond is no contact pair: it lies along the crack, and the
+/// sides of its ends are arbitrary. The bonds beyond carry less than 1 % of the traction across.
 const ALONG_THE_CRACK: f64 = 0.3;
 
 /// Motions of the points of a body.
@@ -23,17 +22,15 @@ pub(crate) struct Moved<'a> {
     pub(crate) layout: Layout,
     /// Motions, shape (n_degrees_of_freedom), m and rad.
     pub(crate) motions: &'a [f64],
-    /// Strains that the temperature gives.
+    /// Thermal strains.
     pub(crate) expansion: ThermalStrain<'a>,
 }
 
 impl<const D: usize> BondSystem<D> {
-    /// The pairs across cracks while the bonds marked in `intact` (n_bonds) are unbroken: broken bonds and then cut ones, in their
-    /// order.
+    /// Pairs across cracks while the bonds marked in `intact` (n_bonds) are unbroken: broken bonds, then cut ones, in their order.
     ///
-    /// The normal of a pre-crack is known. That of a crack that grew is the principal direction of sum e (x) e over the broken
-    /// bonds at both ends of a pair and at the points that these lead to, where a cut bond counts with its normal. It changes
-    /// only where bonds break.
+    /// The normal of a pre-crack is known. That of a grown crack is the principal direction of sum e (x) e over the broken bonds at both
+    /// ends of a pair and at the points that these connect to, where a cut bond counts with its normal. It changes only where bonds break.
     pub(crate) fn contact_pairs(&self, layout: Layout, intact: &[bool]) -> Vec<ContactPair> {
         let (bonds, cut) = (&self.bonds, self.faces.cut());
         let broken: Vec<usize> = (0..intact.len()).filter(|&bond| !intact[bond]).collect();
@@ -57,7 +54,7 @@ impl<const D: usize> BondSystem<D> {
         of_broken.chain(of_cut).collect()
     }
 
-    /// Sums over the parted pairs of each point and of the points that they lead to of their directions, shape (n_points).
+    /// Sums of the directions of the broken and cut bonds at each point and at the points that they connect to, shape (n_points).
     fn crack_directions(&self, broken: &[usize]) -> Vec<AxisSum<D>> {
         let (bonds, n_points) = (&self.bonds, self.cloud.len());
         let of_broken = broken.iter();
@@ -71,13 +68,14 @@ impl<const D: usize> BondSystem<D> {
             }
         }
         let seen = parted().flat_map(|(ends, _)| ends);
-        let ghosts = self.cloud.portion.as_ref().map(|it| Ghosts::new(it, seen));
+        let subdomain = &self.cloud.subdomain;
+        let ghosts = Ghosts::new(subdomain, seen);
         let complete = |sums: &mut Vec<AxisSum<D>>| {
-            let Some(ghosts) = &ghosts else {
+            if subdomain.is_whole() {
                 return;
-            };
+            }
             let mut values: Vec<f64> = sums.iter().flat_map(|it| it.values()).collect();
-            ghosts.tell(&mut values, AxisSum::<D>::N_VALUES);
+            ghosts.update(&mut values, AxisSum::<D>::N_VALUES);
             *sums = (values.chunks(AxisSum::<D>::N_VALUES))
                 .map(AxisSum::from_values)
                 .collect();
@@ -93,7 +91,7 @@ impl<const D: usize> BondSystem<D> {
         around
     }
 
-    /// The pair of a bond that is parted, with a number.
+    /// The contact pair of a broken or cut bond, with a number.
     fn contact_pair(&self, layout: Layout, number: u32, parted: &CutBond<D>) -> ContactPair {
         let &CutBond {
             ends,
@@ -122,7 +120,7 @@ impl<const D: usize> BondSystem<D> {
         }
     }
 
-    /// The pair whose faces have passed through each other farthest, beyond a depth (m), of the points that are asked for (n_points).
+    /// Pair with the largest overlap of the faces, beyond a depth (m), among the points marked in `asked` (n_points).
     pub(super) fn largest_overlap(
         &self,
         intact: &[bool],
@@ -135,7 +133,7 @@ impl<const D: usize> BondSystem<D> {
             motions,
             expansion,
         } = moved;
-        let portion = self.cloud.portion.as_ref();
+        let subdomain = &self.cloud.subdomain;
         let is_asked = |ends: [u32; 2]| ends.iter().all(|&end| asked[end as usize]);
         let approaches = |bond: usize| {
             let [a, b] = self.bonds.ends[bond].map(|end| layout.range(end).start);
@@ -144,16 +142,16 @@ impl<const D: usize> BondSystem<D> {
         };
         let has_cut = !self.faces.cut().is_empty();
         let broken = || (0..intact.len()).filter(|&bond| !intact[bond]);
-        // Normals of cracks that grew are not worth while where nothing comes nearer.
-        if !any(portion, has_cut || broken().any(approaches)) {
+        // Normals of grown cracks are not worth computing where no faces approach each other.
+        if !subdomain.any(has_cut || broken().any(approaches)) {
             return None;
         }
         let pairs = self.contact_pairs(layout, intact);
         let mut motions = Cow::Borrowed(motions);
-        if let Some(portion) = portion {
-            // Cut bonds lead to points that intact ones need not lead to.
-            let ghosts = Ghosts::new(portion, pairs.iter().flat_map(|it| it.ends));
-            ghosts.tell(motions.to_mut(), layout.components.len());
+        if !subdomain.is_whole() {
+            // Cut bonds connect to points that intact ones need not reach.
+            let ghosts = Ghosts::new(subdomain, pairs.iter().flat_map(|it| it.ends));
+            ghosts.update(motions.to_mut(), layout.components.len());
         }
         let (pairs, motions) = (pairs.into_iter(), &*motions);
         let overlaps = pairs
@@ -164,23 +162,12 @@ impl<const D: usize> BondSystem<D> {
             });
         let beyond = overlaps.filter(|it| it.depth > beyond);
         let larger = |most: Overlap, it: Overlap| if it.depth > most.depth { it } else { most };
-        let Some(portion) = portion else {
-            return beyond.reduce(larger);
-        };
-        let counted = beyond.filter(|it| counts(Some(portion), it.ends));
-        let here = counted.reduce(larger).map(|it| {
-            let [a, b] = it.ends.map(f64::from);
-            [it.depth, a, b]
-        });
-        let of_ranks = portion.concatenated(here.as_slice()).into_iter();
-        let of_ranks = of_ranks.map(|[depth, a, b]| Overlap {
-            depth,
-            ends: [a as u32, b as u32],
-        });
-        of_ranks.reduce(larger)
+        let owned = beyond.filter(|it| subdomain.owns_bond(it.ends));
+        let here = owned.reduce(larger).into_iter().collect();
+        subdomain.all_gather_list(here).into_iter().reduce(larger)
     }
 
-    /// Adds the stresses of the forces of closed pairs to those of the bonds in a reading, shape (n_points, n_components), Pa.
+    /// Adds the stresses of closed pairs to those of the bonds by a reading, shape (n_points, n_components), Pa.
     pub(crate) fn add_stresses_of_contact(
         &self,
         reading: StressReading,
@@ -206,12 +193,12 @@ impl<const D: usize> BondSystem<D> {
     }
 }
 
-/// A vector of the plane or of space as one of space.
+/// A vector of the plane or of space as a vector of space.
 fn in_space<const D: usize>(vector: [f64; D]) -> [f64; 3] {
     [0, 1, 2].map(|axis| if axis < D { vector[axis] } else { 0.0 })
 }
 
-/// Degrees of freedom of two points with their factors in the gap: the normal, and `of_rotations` where points turn.
+/// Degrees of freedom of two points with their coefficients in the gap: the normal, and `of_rotations` where points have rotations.
 fn row_of_gap(
     layout: Layout,
     ends: [u32; 2],

@@ -1,4 +1,4 @@
-//! The cracks of a stored run as files.
+//! Files of the cracks of a stored run in the plane.
 //!
 //! | file | holds |
 //! |---|---|
@@ -8,17 +8,18 @@
 
 use std::path::Path;
 
-use ligament_analysis::energy_release::{GrowthState, ReleaseRates, release_rates};
 use ligament_model::raised;
 use ligament_post::crack::CrackLine;
 
+use super::columns::{CRACK, CRACK_TIPS, names};
+use super::crack_growth::{CrackSize, write_growth};
 use super::cracks::{CrackRecord, StoredCracks};
 use crate::Error;
 use crate::atomic::remove_file;
 use crate::csv::{Table, Value};
 use crate::vtu::{self, Cell, Field, UnstructuredGrid};
 
-/// Files that are written beside the results of a run.
+/// Names of the files of cracks beside the results of a run.
 pub const CRACK_FILES: [&str; 4] = [
     "crack.csv",
     "crack.vtu",
@@ -26,32 +27,13 @@ pub const CRACK_FILES: [&str; 4] = [
     "crack_growth.csv",
 ];
 
-/// Columns of `crack.csv`, of `crack_tips.csv` and of `crack_growth.csv`.
-pub const CRACK_COLUMNS: [&[&str]; 3] = [
-    &["step", "line", "x", "y", "along", "end"],
-    &["step", "load_factor", "displacement", "line", "x", "y"],
-    &[
-        "step",
-        "load_factor",
-        "displacement",
-        "reaction",
-        "lines",
-        "tips",
-        "length",
-        "area",
-        "release_rate_compliance",
-        "release_rate_energy",
-        "dissipated_per_area",
-    ],
-];
-
 /// A record of the history with its cracks.
-struct CrackSize<'a> {
+struct WithLines<'a> {
     record: &'a CrackRecord,
     lines: Vec<CrackLine>,
 }
 
-/// Writes the cracks of a step as lines, and how they grew over all steps; gives the lines of the step and the area of all, m^2.
+/// Writes the cracks of a step as lines, and their growth over all steps; returns the lines of the step.
 ///
 /// # Errors
 ///
@@ -64,19 +46,25 @@ pub fn write_cracks(
     let lines = cracks.lines(step);
     write_lines(&folder.join(CRACK_FILES[0]), step, &lines)?;
     write_grid(&folder.join(CRACK_FILES[1]), &lines)?;
-    let grown: Vec<CrackSize<'_>> = (cracks.grown_records().into_iter())
-        .map(|record| CrackSize {
+    let grown: Vec<WithLines<'_>> = (cracks.grown_records().into_iter())
+        .map(|record| WithLines {
             lines: cracks.lines_at(record),
             record,
         })
         .collect();
     write_tips(&folder.join(CRACK_FILES[2]), &grown)?;
-    write_growth(&folder.join(CRACK_FILES[3]), cracks, &grown)?;
+    let least = cracks.thickness * cracks.mean_horizon();
+    write_growth(
+        &folder.join(CRACK_FILES[3]),
+        false,
+        &sizes(cracks, &grown),
+        least,
+    )?;
     Ok(lines)
 }
 
 fn write_lines(path: &Path, step: usize, lines: &[CrackLine]) -> Result<(), Error> {
-    let mut table = Table::create(path, CRACK_COLUMNS[0])?;
+    let mut table = Table::create(path, &names(CRACK, false))?;
     for (number, line) in (1_u32..).zip(lines) {
         let last = line.places.len() - 1;
         for (place, (&[x, y], along)) in line.places.iter().zip(line.along()).enumerate() {
@@ -98,7 +86,7 @@ fn write_lines(path: &Path, step: usize, lines: &[CrackLine]) -> Result<(), Erro
     Ok(())
 }
 
-/// Writes the lines as line cells between their places; no file without lines, which readers would refuse.
+/// Writes the lines as line cells between their vertices; without lines, which readers would refuse, no file.
 fn write_grid(path: &Path, lines: &[CrackLine]) -> Result<(), Error> {
     if lines.is_empty() {
         return remove_file(path);
@@ -122,9 +110,9 @@ fn write_grid(path: &Path, lines: &[CrackLine]) -> Result<(), Error> {
     vtu::write_vtu(path, &grid)
 }
 
-fn write_tips(path: &Path, grown: &[CrackSize<'_>]) -> Result<(), Error> {
-    let mut table = Table::create(path, CRACK_COLUMNS[1])?;
-    for CrackSize { record, lines } in grown {
+fn write_tips(path: &Path, grown: &[WithLines<'_>]) -> Result<(), Error> {
+    let mut table = Table::create(path, &names(CRACK_TIPS, false))?;
+    for WithLines { record, lines } in grown {
         for (number, line) in (1_u32..).zip(lines) {
             for [x, y] in line.tips() {
                 table.append(&[
@@ -141,37 +129,17 @@ fn write_tips(path: &Path, grown: &[CrackSize<'_>]) -> Result<(), Error> {
     Ok(())
 }
 
-fn write_growth(path: &Path, cracks: &StoredCracks, grown: &[CrackSize<'_>]) -> Result<(), Error> {
-    let mut table = Table::create(path, CRACK_COLUMNS[2])?;
-    // A sum of nothing would be -0.0.
-    let length = |it: &CrackSize<'_>| (it.lines.iter()).fold(0.0, |sum, line| sum + line.length());
-    let state = |it: &CrackSize<'_>| GrowthState {
-        area: cracks.thickness * length(it),
-        displacement: it.record.displacement,
-        reaction: it.record.reaction,
-        released_energy: it.record.released_energy,
-        dissipated_energy: it.record.dissipated_energy,
+/// Sizes of the cracks at the records.
+fn sizes<'a>(cracks: &StoredCracks, records: &[WithLines<'a>]) -> Vec<CrackSize<'a>> {
+    let size = |WithLines { record, lines }: &WithLines<'a>| {
+        // The sum of an empty iterator would be -0.0.
+        let length = lines.iter().fold(0.0, |sum, line| sum + line.length());
+        let tips = lines.iter().flat_map(CrackLine::tips).count();
+        CrackSize {
+            record,
+            area: cracks.thickness * length,
+            counts: vec![lines.len().into(), tips.into(), length.into()],
+        }
     };
-    let states: Vec<GrowthState> = grown.iter().map(state).collect();
-    let rates = release_rates(&states, cracks.thickness * cracks.mean_horizon());
-    for ((it, state), rates) in grown.iter().zip(&states).zip(rates) {
-        let tips = it.lines.iter().flat_map(CrackLine::tips).count();
-        let rate = |of: fn(&ReleaseRates) -> f64| {
-            rates.as_ref().map_or(Value::Missing, |it| of(it).into())
-        };
-        table.append(&[
-            it.record.step.into(),
-            it.record.load_factor.into(),
-            it.record.displacement.into(),
-            it.record.reaction.into(),
-            it.lines.len().into(),
-            tips.into(),
-            length(it).into(),
-            state.area.into(),
-            rate(|it| it.by_compliance),
-            rate(|it| it.by_energy),
-            rate(|it| it.dissipated),
-        ])?;
-    }
-    Ok(())
+    records.iter().map(size).collect()
 }

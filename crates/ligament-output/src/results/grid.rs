@@ -1,68 +1,45 @@
-//! The body on which fields are drawn, and the fields that do not change. Points and bonds are written in the order of the file that the
-//! body comes from.
+//! Grids of the body for fields, and the fields that do not change. Points and bonds are written in the order of the body's file.
 
 use std::iter::repeat_n;
 use std::path::Path;
 
+use ligament_analysis::result_fields::{DISPLACEMENT, ModelPoints};
 use ligament_mesh::{Cell, SolidCell};
-use ligament_model::portion::Portion;
-use ligament_model::{BodyGrid, Canvas, ConstantFields, box_corners, raised};
+use ligament_model::subdomain::Subdomain;
+use ligament_model::{BodyGrid, Canvas, box_corners, raised};
 
 use crate::Error;
 use crate::vtu::{self, Chosen, Field, Held, SharedCells, UnstructuredGrid};
 
-/// Fields of a model that a run does not change, with volumes (n_points) and distances to the nearest point (n_points).
-pub fn fixed_fields<'a>(
-    fixed: &'a ConstantFields,
-    volumes: &'a [f64],
-    spacing: &'a [f64],
-) -> Vec<Field<'a>> {
-    let mut fields = vec![
-        Field::scalar("volume", volumes),
-        Field::scalar("horizon", &fixed.horizon),
-        Field::scalar("nearest_distance", spacing),
-        Field::scalar("precrack_share", &fixed.precrack_share),
-    ];
-    let ratios = fixed.energy_ratios.iter();
-    fields.extend(ratios.map(|it| Field::scalar(it.field, &it.at_points)));
-    if let Some(scatter) = &fixed.scatter {
-        fields.push(Field::scalar(scatter.of.field(), &scatter.at_points));
-    }
-    if !fixed.patch_residual.is_empty() {
-        fields.push(Field::scalar("patch_residual", &fixed.patch_residual));
-    }
-    fields
+/// Fields of a model that do not change in a run.
+pub(super) fn fixed_fields(model: ModelPoints<'_>) -> impl Iterator<Item = Field<'_>> {
+    let fields = model.fields().into_iter();
+    fields.map(|(name, values)| Field::scalar(name, values))
 }
 
-/// Writes the fixed fields, volumes (n_points) and nearest distances (n_points) alone: what `check` shows.
-pub fn point_grid(
-    path: &Path,
-    grid: &BodyGrid,
-    volumes: &[f64],
-    spacing: &[f64],
-    fixed: &ConstantFields,
-) -> Result<(), Error> {
-    write_points(path, grid, &fixed_fields(fixed, volumes, spacing))
+/// Writes only the fields of a model, for `check`.
+pub fn point_grid(path: &Path, grid: &BodyGrid, model: ModelPoints<'_>) -> Result<(), Error> {
+    write_points(path, grid, &fixed_fields(model).collect::<Vec<_>>())
 }
 
-/// Writes fields of the points (n_points) of a body at rest, with the tags of the points.
+/// Writes fields of the points (n_points) of an unloaded body, with the tags of the points.
 pub fn write_points(path: &Path, grid: &BodyGrid, fields: &[Field<'_>]) -> Result<(), Error> {
     let tags = Field::integer(grid.tagged, &grid.tags);
     let all: Vec<Field<'_>> = fields.iter().copied().chain([tags]).collect();
-    write_grid(path, grid, None, &all, None)
+    write_grid(path, grid, &all, &Subdomain::whole(grid.positions.len()))
 }
 
 /// Bonds as lines between the points of a body, in the order of the file.
 pub(super) struct Lines {
     cells: Vec<vtu::Cell>,
-    /// First end of each, by which its process is known.
+    /// First end of each bond, whose owner owns the bond.
     first_ends: Vec<u32>,
-    /// The bonds in the order of the file; none where they are in it.
+    /// Order of the bonds in the file; none where it is the present one.
     order: Option<Vec<u32>>,
 }
 
 impl Lines {
-    /// The lines of bonds by their ends (n_bonds), then those of pairs that are none.
+    /// The lines of bonds, given by their ends (n_bonds), then those of absent bonds.
     pub(super) fn new(body: &BodyGrid, bonds: &[[u32; 2]], absent: &[[u32; 2]]) -> Self {
         let numbering = &body.numbering;
         let n_bonds = bonds.len() as u32;
@@ -84,14 +61,14 @@ impl Lines {
         }
     }
 
-    /// Writes the lines with fields of the points and of the bonds; in pieces where processes share the body.
+    /// Writes the lines with fields of the points and of the bonds; in pieces where the body is divided between processes.
     pub(super) fn write(
         &self,
         path: &Path,
         body: &BodyGrid,
         point_fields: &[Field<'_>],
         cell_fields: &[Field<'_>],
-        portion: Option<&Portion>,
+        subdomain: &Subdomain,
     ) -> Result<(), Error> {
         let of_points = body.numbering.order_of_file();
         let point_fields: Vec<Field<'_>> = point_fields
@@ -107,43 +84,38 @@ impl Lines {
             point_fields: &point_fields,
             cell_fields: &cell_fields,
         };
-        let shared = portion.map(|portion| SharedCells {
-            portion,
+        let shared = SharedCells {
+            subdomain,
             points: &self.first_ends,
             held: Held::OwnCells,
-        });
+        };
         vtu::write_shared(path, &grid, shared)
     }
 }
 
-/// Writes fields of the points of a body, the displacement first so that readers warp by it; in pieces where processes share the body.
+/// Writes fields of the points of a body; in pieces where the body is divided between processes. Readers warp by the first vector, the
+/// displacement.
 pub(super) fn write_grid(
     path: &Path,
     body: &BodyGrid,
-    displacement: Option<&[[f64; 3]]>,
     fields: &[Field<'_>],
-    portion: Option<&Portion>,
+    subdomain: &Subdomain,
 ) -> Result<(), Error> {
     if matches!(body.canvas, Canvas::Around(_) | Canvas::Boxes(_)) {
-        return write_around(path, body, displacement, fields, portion);
+        return write_around(path, body, fields, subdomain);
     }
     let order = body.numbering.order_of_file();
-    let displacement = displacement.map(|it| body.numbering.to_file(it.to_vec()));
     let numbering = &body.numbering;
     let body = &body.in_order_of_file();
-    let mut all: Vec<Field<'_>> = displacement.as_deref().map(moved).into_iter().collect();
-    all.extend(fields.iter().map(|it| it.ordered(order)));
+    let all: Vec<Field<'_>> = fields.iter().map(|it| it.ordered(order)).collect();
     let cells = cells(&body.canvas);
-    let points_of_cells = portion.map(|_| {
-        let in_file = cells.iter().map(|it| it.points()[0]);
-        in_file.map(|it| numbering.point(it)).collect::<Vec<u32>>()
-    });
-    let shared = points_of_cells.as_deref().zip(portion);
-    let shared = shared.map(|(points, portion)| SharedCells {
-        portion,
-        points,
+    let in_file = cells.iter().map(|it| it.points()[0]);
+    let points_of_cells: Vec<u32> = in_file.map(|it| numbering.point(it)).collect();
+    let shared = SharedCells {
+        subdomain,
+        points: &points_of_cells,
         held: Held::All,
-    });
+    };
     let grid = UnstructuredGrid {
         points: &body.positions,
         cells: &cells,
@@ -153,62 +125,48 @@ pub(super) fn write_grid(
     vtu::write_shared(path, &grid, shared)
 }
 
-/// The field of displacements.
-fn moved(displacement: &[[f64; 3]]) -> Field<'_> {
-    Field::vector("displacement", displacement)
-}
-
-/// Writes fields on cells around the points, in the order of the file; a process that shares the body those of its own points.
+/// Writes fields on cells around the points, in the order of the file; where the body is divided, each process writes the cells of its
+/// owned points. Corners of cells move with their points.
 fn write_around(
     path: &Path,
     body: &BodyGrid,
-    displacement: Option<&[[f64; 3]]>,
     fields: &[Field<'_>],
-    portion: Option<&Portion>,
+    subdomain: &Subdomain,
 ) -> Result<(), Error> {
     let numbering = &body.numbering;
-    let points: Vec<u32> = match portion {
-        None => (0..body.positions.len() as u32).collect(),
-        Some(portion) => portion.own().to_vec(),
-    };
+    let points: Vec<u32> = subdomain.owned().collect();
     let points = numbering.sorted(&points);
     let canvas = around(&body.canvas, &points);
-    let displacement = displacement.map(|it| at(it, &points));
     let chosen: Vec<Chosen> = fields.iter().map(|it| it.at(&points)).collect();
-    let chosen = fields.iter().zip(&chosen).map(|(field, it)| field.with(it));
-    let in_order = displacement.as_deref().map(moved).into_iter().chain(chosen);
+    let in_order = fields.iter().zip(&chosen).map(|(field, it)| field.with(it));
     let in_order: Vec<Field<'_>> = in_order.collect();
     let (corners, n_corners) = match &canvas {
         Canvas::Around(corners) => (raised(corners.as_flattened()), 4),
         Canvas::Boxes(boxes) => (boxes.iter().copied().flat_map(box_corners).collect(), 8),
         Canvas::Between(_) | Canvas::Solid(_) => (Vec::new(), 0),
     };
-    let of_corners = displacement.as_ref().map(|it| -> Vec<[f64; 3]> {
-        let of_corners = it.iter().flat_map(|it| repeat_n(*it, n_corners));
-        of_corners.collect()
-    });
-    let of_corners: Vec<Field<'_>> = of_corners.as_deref().map(moved).into_iter().collect();
+    let moved = fields.iter().find(|it| it.is(DISPLACEMENT.name));
+    let points_of_corners = points.iter().flat_map(|it| repeat_n(*it, n_corners));
+    let of_corners = moved.map(|it| (it, it.at(&points_of_corners.collect::<Vec<u32>>())));
+    let of_corners: Vec<Field<'_>> = (of_corners.iter().map(|(it, at)| it.with(at))).collect();
     let grid = UnstructuredGrid {
         points: &corners,
         cells: &cells(&canvas),
         point_fields: &of_corners,
         cell_fields: &in_order,
     };
-    let Some(portion) = portion else {
-        return vtu::write_shared(path, &grid, None);
-    };
     let in_file: Vec<u32> = points.iter().map(|&it| numbering.in_file(it)).collect();
     let of_cell = |&cell: &u32| (0..n_corners as u32).map(move |it| n_corners as u32 * cell + it);
     let corners_in_file: Vec<u32> = in_file.iter().flat_map(of_cell).collect();
     let shared = SharedCells {
-        portion,
+        subdomain,
         points: &points,
         held: Held::Own {
             points: &corners_in_file,
             cells: &in_file,
         },
     };
-    vtu::write_shared(path, &grid, Some(shared))
+    vtu::write_shared(path, &grid, shared)
 }
 
 /// The cells around some points.
@@ -225,7 +183,7 @@ fn at<T: Copy>(values: &[T], points: &[u32]) -> Vec<T> {
     points.iter().map(|&point| values[point as usize]).collect()
 }
 
-/// The cells of a canvas; those of one point each have corners of their own, in the order of the points.
+/// The cells of a canvas; cells around points have corners of their own, in the order of the points.
 fn cells(canvas: &Canvas) -> Vec<vtu::Cell> {
     let planar = |cell: &Cell| match *cell {
         Cell::Triangle(corners) => vtu::Cell::Triangle(corners),
@@ -270,10 +228,12 @@ mod tests {
         let path = folder.path().join("fields.vtu");
         let (moved, damage) = ([[0.0, 0.0, 0.0], [0.25, -0.5, 0.0]], [0.0, 0.75]);
         let fields = [
+            Field::vector("displacement", &moved),
             Field::scalar("damage", &damage),
             Field::integer(grid.tagged, &grid.tags),
         ];
-        write_grid(&path, &grid, Some(&moved), &fields, None).unwrap();
+        let whole = Subdomain::whole(grid.positions.len());
+        write_grid(&path, &grid, &fields, &whole).unwrap();
         let DataSet::UnstructuredGrid { pieces, .. } = Vtk::import(&path).unwrap().data else {
             panic!("not an unstructured grid");
         };

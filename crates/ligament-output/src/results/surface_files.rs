@@ -1,49 +1,36 @@
-//! The cracks of a stored run of a solid as files.
+//! Files of the cracks of a stored run of a solid.
 //!
 //! | file | holds |
 //! |---|---|
 //! | `crack.vtu`, `crack.stl` | the surface of a step as triangles |
 //! | `opened.vtu` | the cells of a mesh, opened along the surface, with the displacement and the damage of the step |
 //! | `crack_growth.csv` | parts and area of the surface in every record of the history in which it grew, and energies over the new area |
-//! | `crack_NNNN.vtu`, `crack.pvd`, `opened_NNNN.vtu`, `opened.pvd` | the same of all stored steps |
+//! | `crack_NNNN.vtu`, `crack.pvd`, `opened_NNNN.vtu`, `opened.pvd` | surfaces and opened cells of all stored steps |
 //!
-//! Fields on the places of the surface: `opening` and `sliding`, the jump of the displacement along the normal of the surface and in
-//! it (m, the mean over the pairs that are parted there; positive openings part), the `step` in which the last of them parted (-1
-//! before the first load) and its `load_factor`. On the triangles: the connected `part`, from 1, the largest first, and `precrack`.
+//! Fields on the vertices of the surface: `opening` and `sliding`, jumps of the displacement along the normal of the surface and in it (m,
+//! averaged over the pairs separated there; positive openings separate), the `step` in which the last of these pairs separated (-1 before
+//! the first load) and its `load_factor`. On the triangles: the connected `part`, from 1, the largest first, and `precrack`.
 
 use std::path::Path;
 
-use ligament_analysis::energy_release::{GrowthState, ReleaseRates, release_rates};
+use ligament_analysis::result_fields::{DISPLACEMENT, OPENING, SLIDING};
 use ligament_post::surfaces::CrackSurface;
 
-use super::cracks::CrackRecord;
+use super::crack_growth::{CrackSize, write_growth};
 use super::opened_files::{has_cells, write_opened};
 use super::outputs::Outputs;
 use super::solid_cracks::SolidCracks;
 use crate::Error;
 use crate::atomic::remove_file;
-use crate::csv::{Table, Value};
 use crate::pvd::Collection;
 use crate::replace_file;
 use crate::vtu::read::VtuFile;
 use crate::vtu::{self, Cell, Field, UnstructuredGrid};
 
-/// Files that are written beside the results of a run of a solid.
+/// Names of the files of cracks beside the results of a run of a solid.
 pub const SURFACE_FILES: [&str; 4] = ["crack.vtu", "crack.stl", "opened.vtu", "crack_growth.csv"];
 
-const GROWTH: [&str; 9] = [
-    "step",
-    "load_factor",
-    "displacement",
-    "reaction",
-    "parts",
-    "area",
-    "release_rate_compliance",
-    "release_rate_energy",
-    "dissipated_per_area",
-];
-
-/// Writes the surface of a step, and how it grew over all steps; gives the surface.
+/// Writes the surface of a step, and its growth over all steps; returns the surface.
 ///
 /// # Errors
 ///
@@ -65,11 +52,12 @@ pub fn write_surface(
         Some(fields) => write_opened(&opened, cracks, step, &fields)?,
         None => remove_file(&opened)?,
     }
-    write_growth(&growth, cracks)?;
+    let least = cracks.mean_horizon().powi(2);
+    write_growth(&growth, true, &sizes(cracks), least)?;
     Ok(surface)
 }
 
-/// Writes the surface and the opened cells of every stored step as series; gives the number of steps.
+/// Writes the surfaces and the opened cells of all stored steps as series; returns the number of steps.
 ///
 /// # Errors
 ///
@@ -95,14 +83,14 @@ pub fn write_series(folder: &Path, cracks: &SolidCracks) -> Result<usize, Error>
     Ok(outputs.files.len())
 }
 
-/// The stored fields of a step, or of the last one before it that has some.
+/// The stored fields of a step, or of the last step before it with fields.
 fn fields_until(folder: &Path, step: usize) -> Result<Option<VtuFile>, Error> {
     let outputs = Outputs::list(folder)?;
     let path = outputs.files.range(..=step).next_back();
     path.map(|(_, path)| VtuFile::open(path)).transpose()
 }
 
-/// Writes the surface with its fields; no file without triangles, which readers would refuse.
+/// Writes the surface with its fields; without triangles, which readers would refuse, no file.
 fn write_grid(
     path: &Path,
     cracks: &SolidCracks,
@@ -113,7 +101,7 @@ fn write_grid(
         return remove_file(path);
     }
     let jumps = match fields {
-        Some(file) => cracks.jumps(surface, &cracks.body.vectors(file, "displacement")?),
+        Some(file) => cracks.jumps(surface, &cracks.body.vectors(file, DISPLACEMENT.name)?),
         None => vec![[f64::NAN; 2]; surface.places.len()],
     };
     let [opening, sliding]: [Vec<f64>; 2] =
@@ -143,8 +131,8 @@ fn write_grid(
         points: &surface.places,
         cells: &cells,
         point_fields: &[
-            Field::scalar("opening", &opening),
-            Field::scalar("sliding", &sliding),
+            Field::scalar(OPENING.name, &opening),
+            Field::scalar(SLIDING.name, &sliding),
             Field::scalar("load_factor", &load_factor),
             Field::integer("step", &step),
         ],
@@ -156,7 +144,7 @@ fn write_grid(
     vtu::write_vtu(path, &grid)
 }
 
-/// The surface as binary STL: 80 bytes of words, the number of triangles, and of each its normal and corners as single numbers.
+/// The surface as binary STL: 80 bytes of text, the number of triangles, and of each its normal and corners in single precision.
 fn stl_of(surface: &CrackSurface) -> Vec<u8> {
     let mut bytes = vec![0; 80];
     let words = b"crack surface, m";
@@ -188,35 +176,15 @@ fn unit_normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
     }
 }
 
-fn write_growth(path: &Path, cracks: &SolidCracks) -> Result<(), Error> {
-    let mut table = Table::create(path, &GROWTH)?;
-    let grown: Vec<(&CrackRecord, CrackSurface)> = (cracks.grown_records().into_iter())
-        .map(|record| (record, cracks.surface(record.step)))
-        .collect();
-    let state = |(record, surface): &(&CrackRecord, CrackSurface)| GrowthState {
-        area: surface.area(),
-        displacement: record.displacement,
-        reaction: record.reaction,
-        released_energy: record.released_energy,
-        dissipated_energy: record.dissipated_energy,
-    };
-    let states: Vec<GrowthState> = grown.iter().map(state).collect();
-    let rates = release_rates(&states, cracks.mean_horizon().powi(2));
-    for (((record, surface), state), rates) in grown.iter().zip(&states).zip(rates) {
-        let rate = |of: fn(&ReleaseRates) -> f64| {
-            rates.as_ref().map_or(Value::Missing, |it| of(it).into())
-        };
-        table.append(&[
-            record.step.into(),
-            record.load_factor.into(),
-            record.displacement.into(),
-            record.reaction.into(),
-            surface.parts().len().into(),
-            state.area.into(),
-            rate(|it| it.by_compliance),
-            rate(|it| it.by_energy),
-            rate(|it| it.dissipated),
-        ])?;
-    }
-    Ok(())
+/// Sizes of the surface at the records of the history in which it grew.
+fn sizes(cracks: &SolidCracks) -> Vec<CrackSize<'_>> {
+    let surfaces = cracks.grown_records().into_iter();
+    let surfaces = surfaces.map(|record| (record, cracks.surface(record.step)));
+    surfaces
+        .map(|(record, surface)| CrackSize {
+            record,
+            area: surface.area(),
+            counts: vec![surface.parts().len().into()],
+        })
+        .collect()
 }

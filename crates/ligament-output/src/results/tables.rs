@@ -1,79 +1,24 @@
 //! The CSV tables of a run.
 
-use std::time::Duration;
-
 use ligament_analysis::costs::Costs;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, StepRecord, View};
 use ligament_analysis::{Bonds, serial};
 use ligament_model::BodyGrid;
 
+use super::columns::{
+    BREAKS, CLOSING, CRITERIA, ENDS, FAILURE, HISTORY, ITERATIONS, STAGES, STEP, TIMINGS, names,
+};
 use crate::Error;
 use crate::csv::{Table, Value};
 use crate::folder::ResultFolder;
 use crate::written::Written;
 
-/// A column of a table: its name, and its value in the row of a record.
-type Column<R> = (&'static str, fn(&R) -> Value<'static>);
-
-/// A column of times: its name, and what it takes of the costs of a step.
-type Timing = (&'static str, fn(&Costs) -> Duration);
-
-const HISTORY: [Column<StepRecord>; 17] = [
-    ("step", |it| it.step.into()),
-    ("load_factor", |it| it.load_factor.into()),
-    ("displacement", |it| it.displacement.into()),
-    ("reaction", |it| it.reaction.into()),
-    ("stored_energy", |it| it.stored_energy.into()),
-    ("released_energy", |it| it.released_energy.into()),
-    ("broken_bonds", |it| it.broken_bonds.into()),
-    ("external_work", |it| it.external_work.into()),
-    ("energy_error", |it| it.energy_error().into()),
-    ("broken_in_step", |it| it.broken_in_step.into()),
-    ("largest_ratio", |it| it.largest_ratio.into()),
-    ("rounds", |it| it.rounds.into()),
-    ("solves", |it| it.solves.into()),
-    ("fragments", |it| it.fragments.into()),
-    ("at_rest", |it| usize::from(it.at_rest).into()),
-    ("negative_eigenvalues", |it| it.negative_eigenvalues.into()),
-    ("dissipated_energy", |it| it.dissipated_energy.into()),
-];
-/// The column of a body whose crack faces close.
-const CLOSED: Column<StepRecord> = ("closed_pairs", |it| it.closed_pairs.into());
-const ITERATIONS: [&str; 7] = [
-    "step",
-    "round",
-    "iteration",
-    "load_factor",
-    "residual",
-    "stored_energy",
-    "broken_bonds",
-];
-const BREAKS: [Column<BreakRecord>; 6] = [
-    ("order", |it| it.order.into()),
-    ("step", |it| it.step.into()),
-    ("round", |it| it.round.into()),
-    ("load_factor", |it| it.load_factor.into()),
-    ("displacement", |it| it.displacement.into()),
-    ("reaction", |it| it.reaction.into()),
-];
-/// Columns of the table of times, behind the step.
-const TIMINGS: [Timing; 7] = [
-    ("assembly_s", |it| it.assembly),
-    ("factorisation_s", |it| it.factorisation),
-    ("change_s", |it| it.change),
-    ("backward_s", |it| it.backward),
-    ("solve_s", |it| it.solve),
-    ("bonds_s", |it| it.bonds),
-    ("connectivity_s", |it| it.connectivity),
-];
-
-/// The tables that grow with a run.
+/// Names of the tables that grow during a run.
 pub(super) const FILES: [&str; 4] = ["history.csv", "iterations.csv", "breaks.csv", "timings.csv"];
 
-/// The table of the failure criteria.
+/// Name of the table of the failure criteria.
 pub(super) const CRITERIA_FILE: &str = "criteria.csv";
-const CRITERIA: [&str; 3] = ["criterion", "measure", "after"];
 
 /// Names of the failure criteria in results, each different: a second criterion of the same name ends in -2.
 pub fn criterion_labels<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
@@ -94,13 +39,13 @@ pub fn labels_of(problem: &Problem) -> Vec<String> {
     criterion_labels(problem.criteria.list.iter().map(|criterion| criterion.name))
 }
 
-/// Writes the table of what each criterion looks at and what happens after its limit.
+/// Writes the table of the criteria's measures and laws after the limit.
 fn write_criteria(
     folder: &ResultFolder,
     problem: &Problem,
     labels: &[String],
 ) -> Result<(), Error> {
-    let mut table = Table::create(folder.file(CRITERIA_FILE), &CRITERIA)?;
+    let mut table = Table::create(folder.file(CRITERIA_FILE), &names(CRITERIA, false))?;
     for (criterion, label) in problem.criteria.list.iter().zip(labels) {
         table.append(&[
             label.as_str().into(),
@@ -111,25 +56,26 @@ fn write_criteria(
     Ok(())
 }
 
-/// Columns of the history that stages add: the stage, and the factor of each load.
+/// Columns of the history for stages: the stage, and the factor of each load.
 fn stage_columns(problem: &Problem) -> Vec<String> {
     let Some(loads) = problem.loads.course() else {
         return Vec::new();
     };
-    let names = loads.programme.names.iter();
-    let factors = names.map(|name| format!("{name}_factor"));
-    std::iter::once("stage".to_owned()).chain(factors).collect()
+    let [stage, factor] = [0, 1].map(|it| STAGES[it].name);
+    let loads = loads.programme.names.iter();
+    let factors = loads.map(|name| factor.replace("LOAD", name));
+    std::iter::once(stage.to_owned()).chain(factors).collect()
 }
 
-/// How a table is opened, by its place in [`FILES`] and its columns.
+/// Function that opens a table, given by its index in [`FILES`] and its columns.
 type Opening<'a> = &'a dyn Fn(usize, &[&str]) -> Result<Table, Error>;
 
-/// How far the tables of a run are.
+/// State of the tables of a run in a checkpoint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Progress {
-    /// What was written of each of [`FILES`].
+    /// Length and digest of each of [`FILES`].
     pub(super) of_files: [Written; 4],
-    /// Costs up to the last row of times.
+    /// Costs up to the last row of timings.
     costs: Costs,
 }
 
@@ -147,17 +93,16 @@ pub(super) struct Tables {
     load_factor: f64,
     broken: usize,
     costs_before: Costs,
-    /// Components of the deformation of a bond that a row has.
+    /// Number of components of a bond's deformation in a row.
     n_components: usize,
 }
 
-/// Names of the components of a bond's deformation in results. The relative rotation of the two ends is left out, because no
-/// criterion looks at it.
+/// Names of the components of a bond's deformation in results, without the relative rotation of the ends, which enters no criterion.
 pub fn deformation_names(system: &dyn Bonds) -> &'static [&'static str] {
     told(system.strain_names())
 }
 
-/// The strains that results have of those with these names.
+/// The names of the strains in results, from those of an element.
 pub(super) fn told(names: &'static [&'static str]) -> &'static [&'static str] {
     match names {
         [told @ .., "rotation"] => told,
@@ -173,10 +118,10 @@ pub fn history_columns(problem: &Problem) -> Vec<String> {
         let names = of_body.iter().map(|it| it.force_name());
         names.map(|it| format!("{}.{it}", group.name))
     });
-    let of_faces = problem.system.faces_close().then(|| CLOSED.0.to_owned());
-    (HISTORY.iter().map(|column| column.0.to_owned()))
+    let closing = CLOSING.iter().filter(|_| problem.system.faces_close());
+    (HISTORY.iter().map(|it| it.0.name.to_owned()))
         .chain(stage_columns(problem))
-        .chain(of_faces)
+        .chain(closing.map(|it| it.0.name.to_owned()))
         .chain(of_groups)
         .chain(problem.probes.iter().map(|probe| probe.name.clone()))
         .collect()
@@ -190,12 +135,11 @@ pub fn history_row<'a>(record: &StepRecord, view: &View<'a>) -> Vec<Value<'a>> {
         row.push(stage.into());
         row.extend(record.factors.iter().map(|&factor| Value::from(factor)));
     }
-    if view.system.faces_close() {
-        row.push(CLOSED.1(record));
-    }
+    let closing = CLOSING.iter().filter(|_| view.system.faces_close());
+    row.extend(closing.map(|column| column.1(record)));
     let layout = view.system.layout();
     let of_groups = record.group_forces.iter().flat_map(|force| {
-        // The forces of a group stand as those of one point.
+        // The resultant of a group has the layout of one point.
         let of_body = layout.of_body().iter();
         of_body.map(move |component| layout.value(0, *component, force))
     });
@@ -204,18 +148,26 @@ pub fn history_row<'a>(record: &StepRecord, view: &View<'a>) -> Vec<Value<'a>> {
     row
 }
 
-/// Names of the columns of the table of breakages of a problem; `tagged` is what the tags of bonds' ends are of: nodes or cells.
+/// Names of the columns of the table of breakages of a problem; `tagged` is the kind of the tags of bonds' ends, nodes or cells.
 pub fn break_columns(problem: &Problem, tagged: &str) -> Vec<String> {
-    let ends = ["a", "b"].map(|end| format!("{tagged}_{end}"));
-    let more = (["utilisation", "criterion"].iter()).chain(deformation_names(&*problem.system));
-    (BREAKS.iter().map(|column| column.0.to_owned()))
-        .chain(ends)
-        .chain(more.map(|&name| name.to_owned()))
-        .collect()
+    let breaks = BREAKS.iter().map(|it| it.0.name);
+    let strains = deformation_names(&*problem.system).iter().copied();
+    (breaks
+        .chain(ends(tagged))
+        .chain(names(FAILURE, false))
+        .chain(strains))
+    .map(str::to_owned)
+    .collect()
 }
 
-/// Values of a record in the [columns of the breakages](break_columns): tags of the ends, names of the criteria, and so many
-/// components of the deformation.
+/// Names of the columns of the ends of a bond; `tagged` is the kind of their tags, nodes or cells.
+pub(super) fn ends(tagged: &str) -> impl Iterator<Item = &'static str> {
+    let names = ENDS.iter().map(|it| it.name);
+    names.filter(move |it| it.starts_with(tagged))
+}
+
+/// Values of a record in the [columns of the breakages](break_columns), from the tags of the ends, the names of the criteria, and the
+/// number of components of the deformation.
 pub fn break_row<'a>(
     record: &BreakRecord,
     ends: [i64; 2],
@@ -232,7 +184,7 @@ pub fn break_row<'a>(
 }
 
 impl Tables {
-    /// Creates the tables; `tagged` is what the tags of bonds' ends are of: nodes or cells.
+    /// Creates the tables; `tagged` is the kind of the tags of bonds' ends, nodes or cells.
     pub(super) fn create(
         folder: &ResultFolder,
         problem: &Problem,
@@ -244,7 +196,7 @@ impl Tables {
         Self::with(problem, tagged, Costs::default(), &create)
     }
 
-    /// The tables of a run that goes on, cut back to where it was.
+    /// The tables of a resumed run, truncated to their state in the checkpoint.
     pub(super) fn cut_back(
         folder: &ResultFolder,
         problem: &Problem,
@@ -258,7 +210,7 @@ impl Tables {
         Self::with(problem, tagged, progress.costs, &cut_back)
     }
 
-    /// How far the tables are; what they have is safely on the disk when this returns.
+    /// Syncs the tables to disk and returns their state.
     pub(super) fn progress(&self) -> Result<Progress, Error> {
         let [history, iterations, breaks, timings] =
             [&self.history, &self.iterations, &self.breaks, &self.timings].map(Table::synced);
@@ -268,7 +220,7 @@ impl Tables {
         })
     }
 
-    /// The tables, each opened so.
+    /// The tables, each opened by `table`.
     fn with(
         problem: &Problem,
         tagged: &str,
@@ -278,12 +230,13 @@ impl Tables {
         let [history, breaks] = [history_columns(problem), break_columns(problem, tagged)];
         let [history, breaks] =
             [&history, &breaks].map(|names| names.iter().map(String::as_str).collect::<Vec<_>>());
-        let timings: Vec<&str> = (["step"].into_iter())
-            .chain(TIMINGS.iter().map(|column| column.0))
+        let timings: Vec<&str> = (STEP.iter())
+            .chain(TIMINGS.iter().map(|it| &it.0))
+            .map(|column| column.name)
             .collect();
         Ok(Self {
             history: table(0, &history)?,
-            iterations: table(1, &ITERATIONS)?,
+            iterations: table(1, &names(ITERATIONS, false))?,
             breaks: table(2, &breaks)?,
             timings: table(3, &timings)?,
             criteria: labels_of(problem),
@@ -339,9 +292,9 @@ impl Tables {
 
     fn time(&mut self, step: usize, costs: &Costs) -> Result<(), Error> {
         let before = std::mem::replace(&mut self.costs_before, *costs);
-        let seconds = TIMINGS.map(|(_, of)| (of(costs) - of(&before)).as_secs_f64());
+        let seconds = TIMINGS.iter().map(|(_, of)| of(costs) - of(&before));
         let row: Vec<Value<'_>> = (std::iter::once(step.into()))
-            .chain(seconds.map(Value::from))
+            .chain(seconds.map(|it| it.as_secs_f64().into()))
             .collect();
         self.timings.append(&row)
     }

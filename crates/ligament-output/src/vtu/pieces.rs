@@ -1,17 +1,17 @@
-//! Grids in pieces, one for each of several processes: a PVTU file and the VTU files that it names.
+//! Grids in pieces, one for each of several processes: a PVTU file that names VTU files.
 //!
 //! | file | holds |
 //! |---|---|
 //! | `NAME.pvtu` | names and kinds of the fields, and the pieces |
 //! | `NAME.piece_R.vtu` | the cells of rank R with their points, and the fields there |
 //!
-//! Points that cells of several pieces have are in all of them. The fields [`POINT_NUMBER`] and [`CELL_NUMBER`] tell where points and
-//! cells stand in the whole grid, counted from 0, so that a reader gets it as one process would have written it.
+//! Points of cells of several pieces are in all of these. The fields [`POINT_NUMBER`] and [`CELL_NUMBER`] are the indices of points and
+//! cells in the whole grid, from 0, so that a reader restores the grid as written by one process.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use ligament_model::portion::Portion;
+use ligament_model::subdomain::Subdomain;
 
 use super::field::Chosen;
 use super::{Cell, Field, UnstructuredGrid, push_fields, write_vtu};
@@ -19,25 +19,28 @@ use crate::Error;
 use crate::replace_file;
 use crate::xml::escape_attribute;
 
-/// Field of the places of the points in the whole grid.
+/// Field of the indices of the points in the whole grid.
 pub(super) const POINT_NUMBER: &str = "point_number";
 
-/// Field of the places of the cells in the whole grid.
+/// Field of the indices of the cells in the whole grid.
 pub(super) const CELL_NUMBER: &str = "cell_number";
 
-/// Ending of the name of a grid in one file.
+/// File extension of a grid in one file.
 pub const SINGLE: &str = "vtu";
 
-/// Ending of the name of a grid in pieces.
+/// File extension of a grid in pieces.
 pub const IN_PIECES: &str = "pvtu";
 
-/// Name of the file of a grid: with pieces where processes share the body.
-pub fn file_name(stem: &str, portion: Option<&Portion>) -> String {
-    let ending = portion.map_or(SINGLE, |_| IN_PIECES);
+/// Name of the file of a grid, in pieces where the body is divided between processes.
+pub fn file_name(stem: &str, subdomain: &Subdomain) -> String {
+    let ending = match subdomain.is_whole() {
+        true => SINGLE,
+        false => IN_PIECES,
+    };
     format!("{stem}.{ending}")
 }
 
-/// The stem `NAME` of the name of a grid's file, `NAME.vtu`, `NAME.pvtu` or a piece `NAME.piece_R.vtu`; None for other files.
+/// The stem `NAME` of a grid file `NAME.vtu`, `NAME.pvtu` or a piece `NAME.piece_R.vtu`; `None` for other files.
 pub fn stem(name: &str) -> Option<&str> {
     let (rest, ending) = name.rsplit_once('.')?;
     let of_piece = || {
@@ -56,35 +59,35 @@ fn piece(path: &Path, rank: usize) -> PathBuf {
     path.with_extension(format!("piece_{rank}.vtu"))
 }
 
-/// Cells of a grid, with what tells whose process they are of.
+/// Cells of a grid with their owners.
 #[derive(Clone, Copy)]
 pub struct SharedCells<'a> {
-    /// The part of this process in the body.
-    pub portion: &'a Portion,
-    /// For each cell, the point of the body by which its rank is known (n_cells).
+    /// Subdomain of this process.
+    pub subdomain: &'a Subdomain,
+    /// For each cell, the point of the body whose owner owns the cell, shape (n_cells).
     pub points: &'a [u32],
-    /// What of the whole grid is here.
+    /// Part of the whole grid on this process.
     pub held: Held<'a>,
 }
 
-/// What a process has of a grid that several share.
+/// Part of a grid on one of several processes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Held<'a> {
     /// All points and cells.
     All,
-    /// All points, and cells of its own that have no numbers in the whole grid.
+    /// All points, and owned cells without indices in the whole grid.
     OwnCells,
-    /// Own cells with their points, with their numbers in the whole grid.
+    /// Owned cells with their points, and the indices of both in the whole grid.
     Own {
-        /// Shape (n_points).
+        /// Indices of the points, shape (n_points).
         points: &'a [u32],
-        /// Shape (n_cells).
+        /// Indices of the cells, shape (n_cells).
         cells: &'a [u32],
     },
 }
 
 impl Held<'_> {
-    /// Numbers in the whole grid of a point and of a cell.
+    /// Indices in the whole grid of points and of owned cells.
     fn numbers(self, points: &[u32], own: &[u32]) -> [Vec<i64>; 2] {
         let numbers = |all: Option<&[u32]>, some: &[u32]| {
             let number = |&it: &u32| all.map_or(it, |all| all[it as usize]);
@@ -99,35 +102,36 @@ impl Held<'_> {
     }
 }
 
-/// Writes a grid to `path`, in pieces if processes share it: then all of them call this, the fields of each are right where its cells are,
-/// and it returns when all have written theirs.
+/// Writes a grid to `path`, in pieces where the body is divided. The call is then collective: each process has right values at its cells,
+/// and it returns when all pieces are written.
 ///
 /// # Errors
 ///
-/// If the grid is none, or a file cannot be written, by this process or another one.
+/// If the grid is invalid, or a file cannot be written, by this process or another one.
 pub fn write_shared(
     path: impl AsRef<Path>,
     grid: &UnstructuredGrid<'_>,
-    shared: Option<SharedCells<'_>>,
+    shared: SharedCells<'_>,
 ) -> Result<(), Error> {
     let path = path.as_ref();
-    let Some(shared) = shared else {
+    if shared.subdomain.is_whole() {
         return write_vtu(path, grid);
-    };
-    let exchange = shared.portion.exchange();
+    }
+    let communicator = shared.subdomain.communicator();
     let own: Vec<u32> = (0..)
         .zip(shared.points)
-        .filter(|(_, point)| shared.portion.is_own(**point))
+        .filter(|(_, point)| shared.subdomain.owns(**point))
         .map(|(cell, _)| cell)
         .collect();
     let written = if own.is_empty() {
         Ok(())
     } else {
-        write_piece(&piece(path, exchange.rank()), grid, &own, shared.held)
+        write_piece(&piece(path, communicator.rank()), grid, &own, shared.held)
     };
-    let counts = shared
-        .portion
-        .concatenated(&[[own.len() as f64, f64::from(u8::from(written.is_err()))]]);
+    let counts = shared.subdomain.all_gather_list(vec![[
+        own.len() as f64,
+        f64::from(u8::from(written.is_err())),
+    ]]);
     written?;
     if let Some(rank) = counts.iter().position(|[_, failed]| *failed > 0.0) {
         return Err(Error::Refused {
@@ -135,7 +139,7 @@ pub fn write_shared(
             reason: format!("process {rank} could not write it"),
         });
     }
-    if exchange.rank() > 0 {
+    if communicator.rank() > 0 {
         return Ok(());
     }
     let ranks = counts.iter().enumerate();

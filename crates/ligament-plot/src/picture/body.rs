@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use ligament_output::results::fields::DISPLACEMENT;
 use ligament_output::vtu::Cell;
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::{Error, FieldLocation};
@@ -46,7 +47,7 @@ impl Body {
 
     /// Reads it from an output.
     pub(super) fn read(file: &VtuFile) -> Result<Self, Error> {
-        let moved = file.finite_numbers(FieldLocation::Point, "displacement")?;
+        let moved = file.finite_numbers(FieldLocation::Point, DISPLACEMENT.name)?;
         let (tagged, tags) = match file.integers(FieldLocation::Point, "node")? {
             Some(tags) => (FieldLocation::Point, tags),
             None => {

@@ -1,6 +1,7 @@
 //! A field of an output by its name, one number a point or cell.
 
 use ligament_output::FieldLocation;
+use ligament_output::results::fields::unit_of;
 use ligament_output::vtu::read::VtuFile;
 
 use super::PictureError;
@@ -106,20 +107,6 @@ fn unknown(file: &VtuFile, name: &str) -> PictureError {
         suggestion: nearest(name, &known).map(str::to_owned),
         name: name.to_owned(),
         known,
-    }
-}
-
-/// SI unit of a field of the results, without its component; `-` for a number without a unit.
-pub fn unit_of(field: &str) -> &'static str {
-    match field {
-        "displacement" | "horizon" | "nearest_distance" | "opening" | "sliding" => "m",
-        "rotation" => "rad",
-        "reaction" => "N",
-        "strain_energy_density" | "dissipated_energy_density" => "J/m^3",
-        "temperature_change" => "K",
-        "volume" => "m^3",
-        name if name.starts_with("stress") => "Pa",
-        _ => "-",
     }
 }
 

@@ -38,7 +38,6 @@ use std::path::PathBuf;
 use ligament_output::results::steps::{StepError, listed};
 use thiserror::Error;
 
-pub use field::unit_of;
 pub use fields::draw_fields;
 pub use isosurface::{Isosurface, IsosurfaceRequest, write_isosurfaces};
 pub use lines::stored_precracks;

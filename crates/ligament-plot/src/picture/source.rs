@@ -7,6 +7,7 @@ use ligament_output::FieldLocation;
 use ligament_output::csv::read::Sheet;
 use ligament_output::quantity::four_digits;
 use ligament_output::results::cracks::StoredCracks;
+use ligament_output::results::fields::{DAMAGE, DISPLACEMENT, OPENING, STRAIN_ENERGY_DENSITY};
 use ligament_output::results::outputs::{OutputKind, Outputs};
 use ligament_output::results::solid_body::is_solid;
 use ligament_output::results::solid_cracks::{SolidCracks, has_solid};
@@ -108,7 +109,7 @@ impl Subject {
         }
         let has_surface = sources.iter().any(|it| it.solid_cracks.is_some());
         let default = match request.crack {
-            Some(CrackDrawing::Lines) if has_surface => "opening",
+            Some(CrackDrawing::Lines) if has_surface => OPENING.name,
             Some(CrackDrawing::Lines) => NONE,
             _ => default_field(&sources),
         };
@@ -132,11 +133,11 @@ impl Subject {
 
 fn default_field(sources: &[Source]) -> &'static str {
     if sources[0].outputs.kind == OutputKind::Modes {
-        "strain_energy_density"
+        STRAIN_ENERGY_DENSITY.name
     } else if sources.iter().any(Source::has_broken) {
-        "damage"
+        DAMAGE.name
     } else {
-        "displacement"
+        DISPLACEMENT.name
     }
 }
 

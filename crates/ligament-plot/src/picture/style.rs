@@ -1,5 +1,7 @@
 //! What the bodies of one picture have in common: factor on the displacement, colours, legend.
 
+use ligament_output::results::fields::STRESS_VIRIAL;
+
 use super::PictureError;
 use super::body::MODE_SHARE;
 use super::colour_bar::ColourBar;
@@ -94,7 +96,7 @@ impl<'a> Style<'a> {
 /// The name of a field under its colours; with virial stresses, which are not those of the continuum at single points of a mesh, what they
 /// are good for.
 fn caption(quantity: &str) -> String {
-    match quantity.starts_with("stress_virial") {
+    match quantity.starts_with(STRESS_VIRIAL.name) {
         true => format!("{quantity}, right in the mean"),
         false => quantity.to_owned(),
     }

@@ -15,7 +15,7 @@ use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::solver::SolverSettings;
 use ligament_analysis::{LoadProgram, ProportionalLoading, StagedLoading};
 use ligament_model::System;
-use ligament_model::portion::{self, Portion};
+use ligament_model::subdomain::Subdomain;
 
 use places::Places;
 pub use places::{material_of_cell, no_fail};
@@ -34,11 +34,11 @@ use restraints::restrained;
 pub struct Loading {
     /// Supports and loads as they are at load factor 1.
     pub boundary: Arc<ProportionalLoading>,
-    /// Supports and loads in the first part of the stages, if there are any.
+    /// Supports and loads at the first part of the stages; none without stages.
     pub staged: Option<Arc<StagedLoading>>,
     /// Probes.
     pub probes: Arc<[Probe]>,
-    /// How the equations are solved.
+    /// Settings of the equation solver.
     pub solver: SolverSettings,
 }
 
@@ -47,8 +47,8 @@ impl Loading {
     ///
     /// # Errors
     ///
-    /// If a name of the setup is not in the body, a probe is off it or reads nothing, supports and loads contradict
-    /// each other, or a couple acts on nothing.
+    /// If a name of the setup is not in the body, a probe is off the body or its section crosses no bond, supports and loads contradict
+    /// each other, or a couple acts on points without rotational stiffness.
     pub fn new(model: &Model) -> Result<Self, SetupError> {
         over_dimension!(&model.system, system => Self::on(&model.setup, &**system))
     }
@@ -62,18 +62,18 @@ impl Loading {
         places.require_probes_on_body()?;
         let probes = (setup.probes.iter()).map(|it| probes::on(it, setup, system));
         let probes: Arc<[Probe]> = probes.collect();
-        require_crossed_sections(&probes, system.portion())?;
+        require_crossed_sections(&probes, system.subdomain())?;
         let staged = staged(setup, system, &probes)?;
         let boundary = restrained(setup, system, boundary, ActiveLoads::All)?;
         Ok(Self {
             staged: staged.map(Arc::new),
             boundary: Arc::new(boundary),
             probes,
-            solver: setup.solver,
+            solver: setup.solver.clone(),
         })
     }
 
-    /// The problem that it makes of the bonds of its model and their failure criteria.
+    /// The problem of this loading with the bonds of its model and their failure criteria.
     pub fn problem(&self, model: &Model) -> Problem {
         let loads: Arc<dyn LoadProgram> = match &self.staged {
             None => self.boundary.clone(),
@@ -83,16 +83,16 @@ impl Loading {
             system: model.system.to_bonds(),
             criteria: model.criteria.clone(),
             loads,
-            solver: self.solver,
+            solver: self.solver.clone(),
             probes: self.probes.clone(),
         }
     }
 }
 
 /// Refuses probes of a force through a line that no bond crosses.
-fn require_crossed_sections(probes: &[Probe], portion: Option<&Portion>) -> Result<(), SetupError> {
+fn require_crossed_sections(probes: &[Probe], subdomain: &Subdomain) -> Result<(), SetupError> {
     let crossed = |probe: &Probe| match &probe.reading {
-        Reading::SectionForce { bonds, .. } => portion::any(portion, !bonds.is_empty()),
+        Reading::SectionForce { bonds, .. } => subdomain.any(!bonds.is_empty()),
         _ => true,
     };
     match probes.iter().position(|probe| !crossed(probe)) {

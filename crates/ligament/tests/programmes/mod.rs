@@ -419,7 +419,7 @@ fn stages_that_make_no_sense_say_so() {
             name: "mouth".to_owned(),
             reading: Reading::At {
                 position: [0.055, 0.005, 0.0],
-                field: PointField::Damage,
+                field: PointField::named("damage").unwrap(),
             },
         }];
     });

@@ -1,14 +1,13 @@
 //! Lines A + w B of a part of a programme, between its start and its end.
 //!
-//! What the displacements grow by with the load factor is one solution; with it the load factors at which a bond is within its
-//! limits are an interval in closed form. The path goes on to the upper end of what all bonds admit, which may lie below the
-//! present load factor (snap-back), or to the end of the part. Where no load factor of the part is admissible, A alone breaks
-//! bonds: the load is held, and the bonds farthest beyond their limits break with those tied with them, group after group, until
-//! some load is admissible again. That is how sequentially linear analyses redistribute what was applied first (DeJong 2008;
-//! Elias 2010).
+//! The rate of the displacements with the load factor is one solution; with it the load factors at which a bond is within its
+//! limits are an interval in closed form. The path continues to the upper end of the intersection of all intervals, which may lie
+//! below the present load factor (snap-back), or to the end of the part. Where no load factor of the part is admissible, A alone
+//! breaks bonds: at fixed load, the bonds farthest beyond their limits break with those tied with them, group after group, until
+//! some load is admissible again, as in the redistribution of sequentially linear analyses (DeJong 2008; Elias 2010).
 //!
-//! A part that goes on until the bonds have dissipated an energy has no ends: the load goes as far either way as the path does, and the part
-//! is over before the first breakage at which that energy is gone.
+//! A part that ends at a dissipated energy has no bounds: the load changes as far in both directions as the path does, and the part
+//! ends before the first breakage at which that energy is reached.
 
 use std::mem;
 use std::time::Instant;
@@ -25,8 +24,12 @@ use crate::unbalanced::Unbalanced;
 use ligament_model::deformation::Deformations;
 use ligament_model::failure::Criteria;
 use ligament_model::failure::along_line::{EVERYWHERE, Interval};
+<<<<<<< strength
 use ligament_model::portion::Portion;
 use ligament_model::stress::point_strain::Motion;
+=======
+use ligament_model::subdomain::Subdomain;
+>>>>>>> summary
 
 /// Lines of the parts of a programme.
 pub(super) struct Affine {
@@ -37,7 +40,7 @@ pub(super) struct Affine {
 }
 
 impl Affine {
-    /// With the growth of a checkpoint; it is empty at the start.
+    /// Lines with the growth of a checkpoint, which is empty at the start.
     pub(super) fn new(tie_tolerance: f64, growth: Vec<f64>) -> Self {
         Self {
             tie_tolerance,
@@ -46,7 +49,11 @@ impl Affine {
         }
     }
 
+<<<<<<< strength
     /// Growth of the deformations (n_bonds) with the load factor, and the criteria of the bonds with the growth of the stress around them.
+=======
+    /// Rate of the deformations (n_bonds) with the load factor.
+>>>>>>> summary
     fn slopes(
         &mut self,
         path: &mut Path<'_>,
@@ -93,9 +100,14 @@ impl EquilibriumLine for Affine {
             Some(_) => EVERYWHERE,
             None => [begins - now, ends - now],
         };
+<<<<<<< strength
         let deformations = [&line.deformations, &slopes];
         let admissible = criteria.admissible(&rates, intact, deformations, reach);
         let goal = match on_all_ranks(path.problem.system.portion(), admissible) {
+=======
+        let admissible = criteria.admissible(intact, [&line.deformations, &slopes], reach);
+        let goal = match on_all_processes(path.problem.system.subdomain(), admissible) {
+>>>>>>> summary
             None => held(self.tie_tolerance, line, &criteria, path),
             Some([_, upper]) if upper.is_infinite() => Goal {
                 load_factor: now,
@@ -145,19 +157,16 @@ impl EquilibriumLine for Affine {
     }
 }
 
-/// What the bonds of all processes admit, where they share the body out.
-fn on_all_ranks(portion: Option<&Portion>, here: Option<Interval>) -> Option<Interval> {
-    let Some(portion) = portion else {
-        return here;
-    };
+/// Intersection of the admissible intervals of all processes.
+fn on_all_processes(subdomain: &Subdomain, here: Option<Interval>) -> Option<Interval> {
     let [lower, upper] = here.unwrap_or(EVERYWHERE);
     let mut most = [f64::from(u8::from(here.is_none())), lower, -upper];
-    portion.largest(&mut most);
+    subdomain.all_reduce_max(&mut most);
     let [is_none, lower, upper] = [most[0], most[1], -most[2]];
     (is_none == 0.0 && lower <= upper).then_some([lower, upper])
 }
 
-/// The goal where no load is admissible: the load stays.
+/// Goal at fixed load, where no load is admissible.
 fn held(tie: f64, line: &Balanced, criteria: &Criteria, path: &Path<'_>) -> Goal {
     let FirstToBreak { ratio, bonds } = path.first_to_break(tie, &line.deformations, criteria);
     Goal {

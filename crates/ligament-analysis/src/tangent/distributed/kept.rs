@@ -1,4 +1,4 @@
-//! What several ranks keep of a matrix and its preconditioner beside their values.
+//! State of a distributed matrix and its preconditioner, apart from their values.
 
 use std::collections::BTreeSet;
 
@@ -7,24 +7,24 @@ use crate::checkpoint::CheckpointError;
 use crate::serial::Serial;
 use crate::tangent::making::FactorRecord;
 
-/// What a preconditioner came from and how it serves: the same on all ranks.
+/// Origin and performance of a preconditioner, equal on all ranks.
 pub(super) struct PreconditionerState {
-    /// What the preconditioner was made of.
+    /// Bonds and supports from which the preconditioner was built.
     pub(super) preconditioner_of: FactorRecord,
-    /// What the matrix is of.
+    /// Bonds and supports of the matrix.
     pub(super) matrix_of: FactorRecord,
-    /// Points whose columns are out of date.
+    /// Points whose columns are outdated.
     pub(super) stale: BTreeSet<u32>,
-    /// Whether the preconditioner is to be made anew.
+    /// Whether the preconditioner must be rebuilt.
     pub(super) is_due: bool,
-    /// Iterations a decade with the preconditioner as it was new.
+    /// Iterations per decade of residual reduction with the new preconditioner.
     pub(super) pace: Option<f64>,
-    /// Iterations beyond that since.
+    /// Iterations in excess of that rate since then.
     pub(super) excess: f64,
 }
 
 impl PreconditionerState {
-    /// Nothing is made yet.
+    /// State before the first matrix.
     pub(super) fn new() -> Self {
         Self {
             preconditioner_of: FactorRecord::default(),
@@ -36,19 +36,13 @@ impl PreconditionerState {
         }
     }
 
-    /// Reads what was kept, of bonds those that are known here where processes share the body out.
+    /// Reads the state of all bonds, and keeps the local bonds.
     ///
     /// # Errors
     ///
-    /// If the bytes are damaged or of another body.
-    pub(super) fn read_known(
-        numbers: Option<&BondNumbers>,
-        from: &mut &[u8],
-    ) -> Result<Self, CheckpointError> {
-        let mut making = || match numbers {
-            None => Ok(FactorRecord::read(from)?),
-            Some(numbers) => FactorRecord::read_known(numbers, from),
-        };
+    /// If the bytes are damaged or belong to another body.
+    pub(super) fn read(numbers: &BondNumbers, from: &mut &[u8]) -> Result<Self, CheckpointError> {
+        let mut making = || FactorRecord::read_local(numbers, from);
         let (preconditioner_of, matrix_of) = (making()?, making()?);
         let stale: Vec<u32> = Serial::read(from)?;
         Ok(Self {
@@ -61,25 +55,16 @@ impl PreconditionerState {
         })
     }
 
-    /// Appends what it takes to make it again.
-    pub(super) fn write(&self, out: &mut Vec<u8>) {
-        self.preconditioner_of.write(out);
-        self.matrix_of.write(out);
-        self.stale.iter().copied().collect::<Vec<u32>>().write(out);
+    /// Appends the state with all bonds of the body, see [`BondNumbers::write`].
+    pub(super) fn write(&self, numbers: &BondNumbers, out: &mut Vec<u8>) {
+        self.preconditioner_of.write_all(numbers, out);
+        self.matrix_of.write_all(numbers, out);
+        let stale = self.stale.iter().map(|&point| [point]).collect();
+        let stale = numbers.subdomain().all_gather_list(stale).into_iter();
+        let stale: BTreeSet<u32> = stale.map(|[point]| point).collect();
+        stale.into_iter().collect::<Vec<u32>>().write(out);
         self.is_due.write(out);
         self.pace.write(out);
         self.excess.write(out);
-    }
-
-    /// What all processes know of it, with their bonds on rank 0.
-    pub(super) fn of_all(&self, numbers: &BondNumbers) -> Self {
-        let stale: Vec<_> = self.stale.iter().map(|&point| [f64::from(point)]).collect();
-        let stale = numbers.portion().concatenated(&stale).into_iter();
-        Self {
-            preconditioner_of: self.preconditioner_of.of_all(numbers),
-            matrix_of: self.matrix_of.of_all(numbers),
-            stale: stale.map(|[point]| point as u32).collect(),
-            ..*self
-        }
     }
 }

@@ -1,10 +1,10 @@
-//! Long waves of the multipliers: numbers that are the same over all points of an aggregate.
+//! Coarse space of the multipliers: multipliers that are constant over all points of an aggregate.
 //!
-//! The ends of a bond have opposite terms in the equations of forces, so multipliers that are the same at both cost nothing, and waves of
-//! them that are much longer than a horizon little: less, in a large body, than the regularisation. What it lets go of equations that
-//! cannot be met is local, at corners and points of few bonds; what it lets go in long waves adds up to forces, and the body is too soft.
-//! So the points are divided into aggregates, over which multipliers may be constant at hardly any cost, and the directions
-//! of Newton steps are solved exactly for such ones (a coarse space, Nicolaides 1987).
+//! The ends of a bond have opposite terms in the equations of forces, so multipliers that are equal at both ends cost nothing, and long
+//! waves of them little: less, in a large body, than the regularisation. The residual that regularisation leaves in unsatisfiable equations
+//! is local, at corners and points of few bonds; in long waves it would add up to forces, and the body would be too soft. So the points are
+//! divided into aggregates, over which multipliers may be constant at hardly any cost, and the directions of Newton steps are solved exactly
+//! for such multipliers (a coarse space, Nicolaides 1987).
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use rayon::prelude::*;
@@ -12,39 +12,39 @@ use rayon::prelude::*;
 use super::equations::{Equations, Multipliers};
 use super::pairs::BLOCK;
 use crate::cloud::{PointCloud, distance};
-use crate::correction::seats::Seats;
+use crate::correction::sweep_order::SweepOrder;
 
-/// Aggregates at most: the dense matrix of their multipliers is to cost less than a product.
+/// Largest number of aggregates: the dense matrix of their multipliers is to cost less than a product.
 const MOST: usize = 64;
 
-/// Points of an aggregate at least: less is hardly more than what the block of a point sees.
+/// Smallest number of points of an aggregate: fewer are hardly more than the block of a point covers.
 const FEWEST_POINTS: usize = 32;
 
-/// Below this share of a distance or a volume another one is the smaller of both, whatever rounding did.
+/// Ratio below which one of two distances or volumes is the smaller one in spite of rounding.
 const TIE: f64 = 1.0 - 1e-9;
 
-/// Regularisation of multipliers that are constant over aggregates over that of others: it holds those that are the same everywhere, which
-/// have no equation.
+/// Regularisation of multipliers that are constant over aggregates relative to that of others: it fixes those that are constant over the
+/// body, which have no equation.
 const SHARE: f64 = 1e-3;
 
-/// Points that are nearer to one of some points far from each other than to the others.
+/// Aggregates of points: each point belongs to the nearest of some seeds far from each other.
 ///
-/// Distances decide, and volumes of the points where distances are equal: a body that is turned, or whose nodes have other numbers, has the
-/// same aggregates. The numbers in the file count only where a body is as symmetric as its mesh.
+/// Distances decide, then volumes of the points where distances are equal: a body that is turned, or whose nodes are renumbered, has the
+/// same aggregates. The numbers in the file matter only where a body is as symmetric as its mesh.
 pub(crate) struct Aggregates<'a> {
-    seats: &'a Seats<'a>,
-    /// Place of the first number of the aggregate of each rank.
+    order: &'a SweepOrder<'a>,
+    /// Index of the first number of the aggregate of each point.
     first: Vec<u32>,
     count: usize,
-    /// Numbers of an aggregate: one for each equation of forces.
+    /// Numbers per aggregate: one for each equation of forces.
     width: usize,
 }
 
 impl<'a> Aggregates<'a> {
-    /// Aggregates of the points of a cloud in the order of sweeps, with some numbers each.
+    /// Aggregates of the points of a cloud in the order of sweeps, with `width` numbers each.
     pub(crate) fn new<const D: usize>(
         cloud: &PointCloud<D>,
-        seats: &'a Seats<'a>,
+        order: &'a SweepOrder<'a>,
         width: usize,
     ) -> Self {
         let count = (cloud.len() / FEWEST_POINTS).clamp(1, MOST);
@@ -62,20 +62,20 @@ impl<'a> Aggregates<'a> {
         }
         let first = |&point: &u32| (width * aggregate[point as usize]) as u32;
         Self {
-            first: seats.all().iter().map(first).collect(),
-            seats,
+            first: order.all().iter().map(first).collect(),
+            order,
             count,
             width,
         }
     }
 
-    /// The numbers of the aggregate of a point.
+    /// Numbers of the aggregate of a point.
     #[inline(always)]
-    pub(super) fn at<'b>(&self, of_aggregates: &'b [f64], rank: usize) -> &'b [f64] {
-        &of_aggregates[self.first[rank] as usize..][..self.width]
+    pub(super) fn at<'b>(&self, of_aggregates: &'b [f64], index: usize) -> &'b [f64] {
+        &of_aggregates[self.first[index] as usize..][..self.width]
     }
 
-    /// Sums over the points of each aggregate, from the values of own points.
+    /// Sums over the points of each aggregate, from the values of owned points.
     pub(super) fn sums<const N: usize>(
         &self,
         value: impl Fn(usize) -> [f64; N] + Sync,
@@ -83,8 +83,8 @@ impl<'a> Aggregates<'a> {
         let zeros = || vec![0.0; self.width * self.count];
         let of_block = |(block, firsts): (usize, &[u32])| {
             let mut sums = zeros();
-            for (rank, &first) in (block * BLOCK..).zip(firsts) {
-                let values = value(rank);
+            for (index, &first) in (block * BLOCK..).zip(firsts) {
+                let values = value(index);
                 let of_aggregate = &mut sums[first as usize..][..self.width];
                 for (sum, value) in of_aggregate.iter_mut().zip(values) {
                     *sum += value;
@@ -92,7 +92,7 @@ impl<'a> Aggregates<'a> {
             }
             sums
         };
-        let own = &self.first[..self.seats.own().len()];
+        let own = &self.first[..self.order.owned().len()];
         let blocks = own.par_chunks(BLOCK).enumerate().map(of_block);
         let mut all = zeros();
         for sums in blocks.collect::<Vec<_>>() {
@@ -100,12 +100,12 @@ impl<'a> Aggregates<'a> {
                 *all += sum;
             }
         }
-        self.seats.sum(&mut all);
+        self.order.subdomain.all_reduce_sum(&mut all);
         all
     }
 }
 
-/// The mean of the positions by volume, m.
+/// Volume-weighted mean of the positions, m.
 fn centroid<const D: usize>(cloud: &PointCloud<D>) -> [f64; D] {
     let total: f64 = cloud.volumes.iter().sum();
     std::array::from_fn(|axis| {
@@ -115,13 +115,13 @@ fn centroid<const D: usize>(cloud: &PointCloud<D>) -> [f64; D] {
     })
 }
 
-/// Distances of all points from a place, m.
+/// Distances of all points from a position, m.
 fn distances_from<const D: usize>(place: [f64; D], cloud: &PointCloud<D>) -> Vec<f64> {
     let from_place = |&position: &[f64; D]| distance(position, place);
     cloud.positions.iter().map(from_place).collect()
 }
 
-/// The point with the largest of some distances (n_points); of several that are equally far the one of the largest volume, and of those the
+/// The point with the largest of some distances (n_points); of several at equal distance the one of the largest volume, and of those the
 /// first in the file.
 fn farthest<const D: usize>(cloud: &PointCloud<D>, distances: &[f64]) -> usize {
     let largest = distances.iter().copied().fold(0.0, f64::max);
@@ -134,9 +134,10 @@ fn farthest<const D: usize>(cloud: &PointCloud<D>, distances: &[f64]) -> usize {
     })
 }
 
-/// What holds the multipliers of each point at a centre: r/d^2 times their distance from it, less what an aggregate has in common.
+/// Regularisation of the multipliers of each point about a centre: r/d^2 times their deviation from it, less the mean deviation of the
+/// aggregate.
 pub(super) struct Regularisation<'a, const N: usize> {
-    /// r/d^2 of own points, by rank.
+    /// Weights r/d^2 of owned points, by index.
     pub(super) of_points: Multipliers<N>,
     pub(super) aggregates: &'a Aggregates<'a>,
     /// Sums of r/d^2 over the aggregates.
@@ -145,7 +146,7 @@ pub(super) struct Regularisation<'a, const N: usize> {
 
 impl<'a, const N: usize> Regularisation<'a, N> {
     pub(super) fn new(of_points: Multipliers<N>, aggregates: &'a Aggregates<'a>) -> Self {
-        let totals = aggregates.sums(|rank| of_points[rank]);
+        let totals = aggregates.sums(|index| of_points[index]);
         Self {
             of_points,
             aggregates,
@@ -153,10 +154,10 @@ impl<'a, const N: usize> Regularisation<'a, N> {
         }
     }
 
-    /// What the aggregates have in common of distances (n_own) from a centre, but for the share that is held.
+    /// Weighted means over the aggregates of deviations (n_own) from a centre, reduced by the fraction that stays regularised.
     pub(super) fn common(&self, distance: impl Fn(usize) -> [f64; N] + Sync) -> Vec<f64> {
-        let weighted = |rank: usize| {
-            let (distance, weight) = (distance(rank), &self.of_points[rank]);
+        let weighted = |index: usize| {
+            let (distance, weight) = (distance(index), &self.of_points[index]);
             std::array::from_fn(|k| weight[k] * distance[k])
         };
         let sums = self.aggregates.sums::<N>(weighted);
@@ -166,25 +167,25 @@ impl<'a, const N: usize> Regularisation<'a, N> {
             .collect()
     }
 
-    /// The force of a point at a distance from its centre.
+    /// Gradient of the regularisation at a point for its deviation from the centre.
     #[inline(always)]
-    pub(super) fn force(&self, rank: usize, mut distance: [f64; N], common: &[f64]) -> [f64; N] {
-        let of_aggregate = self.aggregates.at(common, rank);
+    pub(super) fn force(&self, index: usize, mut distance: [f64; N], common: &[f64]) -> [f64; N] {
+        let of_aggregate = self.aggregates.at(common, index);
         for (distance, common) in distance.iter_mut().zip(of_aggregate) {
             *distance -= common;
         }
-        std::array::from_fn(|k| self.of_points[rank][k] * distance[k])
+        std::array::from_fn(|k| self.of_points[index][k] * distance[k])
     }
 }
 
-/// The Hessian over multipliers of forces that are constant over each aggregate.
+/// Hessian of the multipliers of forces that are constant over each aggregate.
 pub(super) struct CoarseHessian {
-    /// None if the matrix is not definite to rounding.
+    /// Cholesky factor; `None` if the matrix is not definite to rounding.
     factor: Option<Cholesky<f64, Dyn>>,
 }
 
 impl CoarseHessian {
-    /// The matrix of the aggregates from the slopes of the pairs.
+    /// Assembles the matrix of the aggregates from the slopes of the pairs.
     pub(super) fn new<const N: usize, E: Equations<N>>(
         equations: &E,
         regularisation: &Regularisation<'_, N>,
@@ -192,18 +193,18 @@ impl CoarseHessian {
     ) -> Self {
         let (pairs, aggregates) = (equations.pairs(), regularisation.aggregates);
         let mut held = DVector::from_vec(regularisation.totals.clone());
-        if !pairs.seats.is_first() {
+        if !pairs.order.subdomain.communicator().is_root() {
             held.fill(0.0);
         }
         let mut matrix = SHARE * DMatrix::from_diagonal(&held);
-        for rank in 0..pairs.n_points() {
-            let own = aggregates.first[rank] as usize;
-            for pair in pairs.inner(rank).chain(pairs.outer(rank)) {
+        for index in 0..pairs.n_points() {
+            let own = aggregates.first[index] as usize;
+            for pair in pairs.inner(index).chain(pairs.outer(index)) {
                 let other = aggregates.first[pairs.other[pair] as usize] as usize;
                 if other == own {
                     continue;
                 }
-                let is_inner = pairs.inner(rank).contains(&pair);
+                let is_inner = pairs.inner(index).contains(&pair);
                 let rows = [[1.0, 0.0], [0.0, 1.0]].map(|it| equations.forces(pair, it));
                 for i in 0..aggregates.width {
                     let weighted = [0, 1].map(|factor| slopes[pair][factor] * rows[factor][i]);
@@ -219,13 +220,13 @@ impl CoarseHessian {
                 }
             }
         }
-        pairs.seats.sum(matrix.as_mut_slice());
+        pairs.order.subdomain.all_reduce_sum(matrix.as_mut_slice());
         Self {
             factor: Cholesky::new(matrix),
         }
     }
 
-    /// The multipliers of the aggregates for sums over their points; zero without a factor.
+    /// Multipliers of the aggregates for sums over their points; zero without a factor.
     pub(super) fn solve(&self, sums: &[f64]) -> Vec<f64> {
         let Some(factor) = &self.factor else {
             return vec![0.0; sums.len()];

@@ -1,5 +1,4 @@
-//! The direction of a Newton step: conjugate gradients, with the blocks of the points and the matrix of aggregates of them as
-//! preconditioner.
+//! Direction of a Newton step, by conjugate gradients preconditioned with the blocks of the points and the matrix of the aggregates.
 
 use rayon::prelude::*;
 
@@ -7,31 +6,31 @@ use super::aggregates::{CoarseHessian, Regularisation};
 use super::equations::{Equations, Multipliers};
 use super::pairs::BLOCK;
 
-/// Products for the direction of a Newton step at most.
+/// Largest number of products for the direction of a Newton step.
 const MOST_PRODUCTS: usize = 400;
 
-/// The matrix G D G^T with the regularisation.
+/// Hessian G D G^T with the regularisation.
 pub(super) struct Hessian<'a, E, const N: usize> {
     equations: &'a E,
     regularisation: &'a Regularisation<'a, N>,
-    /// D of the pairs, times the squares of their stiffness.
+    /// Derivatives D of the pairs, times the squares of their stiffness.
     slopes: &'a [[f64; 2]],
-    /// Inverses of the blocks of own points, by rank; in single precision they would be rounded along the axes, and factors of a turned
-    /// body would differ.
+    /// Inverses of the blocks of owned points, by index; single precision would round them along the axes, and factors of a turned body
+    /// would differ.
     inverses: Vec<[[f64; N]; N]>,
     coarse: CoarseHessian,
 }
 
-/// What the preconditioner makes of what is left.
+/// The preconditioner applied to a residual.
 struct Solved<const N: usize> {
-    /// From the blocks of the points.
+    /// Part of the blocks of the points.
     points: Multipliers<N>,
-    /// From the aggregates, some numbers for each.
+    /// Part of the aggregates, `width` numbers for each.
     aggregates: Vec<f64>,
 }
 
 impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
-    /// The matrix with the inverses of its blocks.
+    /// The Hessian with the inverses of its blocks.
     pub(super) fn new(
         equations: &'a E,
         regularisation: &'a Regularisation<'a, N>,
@@ -54,24 +53,24 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         hessian
     }
 
-    /// Adds the blocks of the points of a block of points.
+    /// Adds the diagonal blocks of the points in a block of points.
     fn add_blocks(&self, block: usize, sums: &mut [[[f64; N]; N]]) {
         let pairs = self.equations.pairs();
-        let ranks = pairs.ranks(block);
-        let first = ranks.start;
-        for rank in ranks {
-            let own = &mut sums[rank - first];
-            for (k, r) in self.regularisation.of_points[rank].iter().enumerate() {
+        let indices = pairs.indices(block);
+        let first = indices.start;
+        for index in indices {
+            let own = &mut sums[index - first];
+            for (k, r) in self.regularisation.of_points[index].iter().enumerate() {
                 own[k][k] += r;
             }
-            for pair in pairs.inner(rank).chain(pairs.outer(rank)) {
+            for pair in pairs.inner(index).chain(pairs.outer(index)) {
                 let rows = [[1.0, 0.0], [0.0, 1.0]].map(|it| self.equations.forces(pair, it));
                 add_squares(
-                    &mut sums[rank - first],
+                    &mut sums[index - first],
                     rows.map(E::at_own),
                     self.slopes[pair],
                 );
-                if pairs.inner(rank).contains(&pair) {
+                if pairs.inner(index).contains(&pair) {
                     let other = pairs.other[pair] as usize;
                     add_squares(&mut sums[other - first], rows, self.slopes[pair]);
                 }
@@ -79,8 +78,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         }
     }
 
-    /// The solution with the negative gradient on the right, to an accuracy in the norm of the preconditioner, and the number of
-    /// products that it took.
+    /// Solution for the negative gradient on the right, to an accuracy in the norm of the preconditioner, and the number of products needed.
     pub(super) fn solve(&self, gradient: Multipliers<N>, accuracy: f64) -> (Multipliers<N>, usize) {
         let zeros = vec![[0.0; N]; gradient.len()];
         let mut left = gradient;
@@ -89,8 +87,8 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
             points: zeros.clone(),
             aggregates: Vec::new(),
         };
-        let n_seats = self.equations.pairs().seats.all().len();
-        let mut direction = vec![[0.0; N]; n_seats];
+        let n_points = self.equations.pairs().order.all().len();
+        let mut direction = vec![[0.0; N]; n_points];
         let (mut step, mut product) = (zeros.clone(), zeros);
         let way = SearchDirection {
             direction: &direction,
@@ -116,45 +114,49 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         (step, MOST_PRODUCTS)
     }
 
-    /// The next direction: what was solved and a share of the direction before.
+    /// Next direction: the preconditioned residual plus `share` times the last direction.
     fn turn(&self, direction: &mut Multipliers<N>, share: f64, solved: &Solved<N>) {
         let points = direction.par_iter_mut().zip(&solved.points).enumerate();
         points
             .with_min_len(BLOCK)
-            .for_each(|(rank, (direction, solved_here))| {
+            .for_each(|(index, (direction, solved_here))| {
                 for (direction, solved) in direction.iter_mut().zip(solved_here) {
                     *direction = solved + share * *direction;
                 }
                 let aggregates = self.regularisation.aggregates;
-                let common = aggregates.at(&solved.aggregates, rank);
+                let common = aggregates.at(&solved.aggregates, index);
                 for (direction, common) in direction.iter_mut().zip(common) {
                     *direction += common;
                 }
             });
-        self.equations.pairs().seats.complete(direction);
+        self.equations.pairs().order.update_ghosts(direction);
     }
 
-    /// Makes the product with values by rank, and gives the inner product of both.
+    /// Computes the product of the Hessian with values by index, and returns the inner product of both.
     fn multiply(&self, values: &Multipliers<N>, product: &mut Multipliers<N>) -> f64 {
-        let common = self.regularisation.common(|rank| values[rank]);
+        let common = self.regularisation.common(|index| values[index]);
         let of_block = |(block, product): (usize, &mut [[f64; N]])| {
-            let ranks = self.equations.pairs().ranks(block);
-            for (rank, product) in ranks.clone().zip(product.iter_mut()) {
-                *product = self.regularisation.force(rank, values[rank], &common);
+            let indices = self.equations.pairs().indices(block);
+            for (index, product) in indices.clone().zip(product.iter_mut()) {
+                *product = self.regularisation.force(index, values[index], &common);
             }
             (self.equations).add(block, values, product, |pair, [axial, shear]| {
                 let slopes = self.slopes[pair];
                 [slopes[0] * axial, slopes[1] * shear]
             });
-            dot(values[ranks].as_flattened(), product.as_flattened())
+            dot(values[indices].as_flattened(), product.as_flattened())
         };
         let blocks = product.par_chunks_mut(BLOCK).enumerate();
         let of_blocks: Vec<f64> = blocks.map(of_block).collect();
-        self.equations.pairs().seats.total(of_blocks.iter().sum())
+        self.equations
+            .pairs()
+            .order
+            .subdomain
+            .sum(of_blocks.iter().sum())
     }
 
-    /// Goes a length in a direction with a known product: changes the step and what is left, solves with the preconditioner, and gives
-    /// the inner product of what is left and what was solved.
+    /// Takes a step of a given length along a direction with a known product: updates the solution and the residual, applies the
+    /// preconditioner, and returns the inner product of the residual and the preconditioned residual.
     fn go(
         &self,
         length: f64,
@@ -164,12 +166,12 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         solved: &mut Solved<N>,
     ) -> f64 {
         let SearchDirection { direction, product } = way;
-        let of_point = |rank: usize, step: &mut [f64; N], left: &mut [f64; N]| {
+        let of_point = |index: usize, step: &mut [f64; N], left: &mut [f64; N]| {
             let mut solved = [0.0; N];
             for k in 0..N {
-                step[k] += length * direction[rank][k];
-                left[k] -= length * product[rank][k];
-                for (solved, entry) in solved.iter_mut().zip(self.inverses[rank][k]) {
+                step[k] += length * direction[index][k];
+                left[k] -= length * product[index][k];
+                for (solved, entry) in solved.iter_mut().zip(self.inverses[index][k]) {
                     *solved += entry * left[k];
                 }
             }
@@ -181,27 +183,27 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
             solved.points.par_chunks_mut(BLOCK),
         );
         let sums = (blocks.into_par_iter().enumerate()).map(|(block, (step, left, solved))| {
-            for (k, rank) in self.equations.pairs().ranks(block).enumerate() {
-                solved[k] = of_point(rank, &mut step[k], &mut left[k]);
+            for (k, index) in self.equations.pairs().indices(block).enumerate() {
+                solved[k] = of_point(index, &mut step[k], &mut left[k]);
             }
             dot(left.as_flattened(), solved.as_flattened())
         });
         let of_points: f64 = sums.collect::<Vec<f64>>().iter().sum();
-        let of_points = self.equations.pairs().seats.total(of_points);
-        let of_aggregates = self.regularisation.aggregates.sums(|rank| left[rank]);
+        let of_points = self.equations.pairs().order.subdomain.sum(of_points);
+        let of_aggregates = self.regularisation.aggregates.sums(|index| left[index]);
         solved.aggregates = self.coarse.solve(&of_aggregates);
         of_points + dot(&of_aggregates, &solved.aggregates)
     }
 }
 
-/// A direction of a search with its product with the matrix.
+/// A search direction with its product with the matrix.
 #[derive(Clone, Copy)]
 struct SearchDirection<'a, const N: usize> {
     direction: &'a Multipliers<N>,
     product: &'a Multipliers<N>,
 }
 
-/// Adds the squares of two rows with weights.
+/// Adds the outer squares of two rows, with weights.
 #[inline(always)]
 fn add_squares<const N: usize>(
     sums: &mut [[f64; N]; N],
@@ -216,7 +218,7 @@ fn add_squares<const N: usize>(
     }
 }
 
-/// Inverts a positive definite matrix in its place, by Gauss and Jordan; such a matrix needs no search for pivots.
+/// Inverts a positive definite matrix in place, by Gauss-Jordan elimination without pivoting.
 fn invert<const N: usize>(matrix: &mut [[f64; N]; N]) {
     for k in 0..N {
         let inverse = 1.0 / matrix[k][k];

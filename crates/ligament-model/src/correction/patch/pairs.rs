@@ -1,4 +1,4 @@
-//! The bonds by blocks of points along the curve, for sweeps that add to both ends of a bond at once.
+//! Bonds by blocks of points along the curve, for sweeps that add to both ends of a bond at once.
 
 use std::ops::Range;
 
@@ -7,47 +7,47 @@ use rayon::prelude::*;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 pub(crate) use crate::correction::members::BLOCK;
-use crate::correction::seats::Seats;
+use crate::correction::sweep_order::SweepOrder;
 
-/// The bonds seen from own points: once where both ends are in a block, from the one that comes first, and from either end, where it is
-/// an own point, where they are not. `rank` is the place of a point in the order of the sweeps.
+/// Pairs of an owned point and the other end of a bond: one pair, from the end of the smaller index, where both ends are in a block, else
+/// one from either end that is an owned point. `index` is the position of a point in the order of the sweeps.
 pub(crate) struct Pairs<'a> {
-    /// The points by rank.
-    pub(crate) seats: Seats<'a>,
+    /// Points by index.
+    pub(crate) order: SweepOrder<'a>,
     /// Number of points of the whole body.
     pub(crate) n_all: usize,
     n_bonds: usize,
-    /// First pair of each rank with its other end in the block and with its other end outside, and behind the last rank the number
-    /// of all pairs.
+    /// First pair of each point with its other end inside the block and outside, and the number of all pairs at the end, shape (n_own + 1,
+    /// 2).
     starts: Vec<[usize; 2]>,
-    /// Rank of the other end of each pair.
+    /// Index of the other end of each pair.
     pub(crate) other: Vec<u32>,
     /// Bond of each pair.
     bond: Vec<u32>,
 }
 
 impl<'a> Pairs<'a> {
-    /// The pairs of all bonds.
+    /// Pairs of all bonds.
     pub(crate) fn new<const D: usize>(bonds: &BondSet<D>, cloud: &'a PointCloud<D>) -> Self {
-        let seats = Seats::new(bonds, cloud);
-        let (ranks, n_own) = (seats.ranks(cloud.len()), seats.own().len());
+        let order = SweepOrder::new(bonds, cloud);
+        let (indices, n_own) = (order.indices(), order.owned().len());
         let mut pairs = Self {
-            seats,
+            order,
             n_all: cloud.len(),
             n_bonds: bonds.len(),
             starts: Vec::with_capacity(n_own + 1),
             other: Vec::with_capacity(bonds.len()),
             bond: Vec::with_capacity(bonds.len()),
         };
-        for rank in 0..n_own {
-            let (point, block) = (pairs.seats.own()[rank], rank / BLOCK);
+        for index in 0..n_own {
+            let (point, block) = (pairs.order.owned()[index], index / BLOCK);
             let others = || {
                 let family = bonds.incidence.at(point).iter();
-                family.map(|&bond| (ranks[bonds.neighbour(bond, point) as usize], bond))
+                family.map(|&bond| (indices[bonds.neighbour(bond, point) as usize], bond))
             };
             let is_own = |other: u32| (other as usize) < n_own;
             let is_inner = |other: u32| is_own(other) && other as usize / BLOCK == block;
-            let inner = others().filter(|&(other, _)| is_inner(other) && other as usize > rank);
+            let inner = others().filter(|&(other, _)| is_inner(other) && other as usize > index);
             let first_inner = pairs.other.len();
             pairs.push(inner);
             pairs.starts.push([first_inner, pairs.other.len()]);
@@ -69,7 +69,7 @@ impl<'a> Pairs<'a> {
         self.other.len()
     }
 
-    /// Number of own points.
+    /// Number of owned points.
     pub(crate) fn n_points(&self) -> usize {
         self.starts.len() - 1
     }
@@ -79,40 +79,40 @@ impl<'a> Pairs<'a> {
         self.n_points().div_ceil(BLOCK)
     }
 
-    /// Ranks of a block.
-    pub(crate) fn ranks(&self, block: usize) -> Range<usize> {
+    /// Indices of the points of a block.
+    pub(crate) fn indices(&self, block: usize) -> Range<usize> {
         block * BLOCK..((block + 1) * BLOCK).min(self.n_points())
     }
 
-    /// Pairs of a rank whose other end is in the block too.
+    /// Pairs of a point whose other end is in the same block.
     #[inline(always)]
-    pub(crate) fn inner(&self, rank: usize) -> Range<usize> {
-        let [inner, outer] = self.starts[rank];
+    pub(crate) fn inner(&self, index: usize) -> Range<usize> {
+        let [inner, outer] = self.starts[index];
         inner..outer
     }
 
-    /// Pairs of a rank whose other end is in another block.
+    /// Pairs of a point whose other end is in another block.
     #[inline(always)]
-    pub(crate) fn outer(&self, rank: usize) -> Range<usize> {
-        self.starts[rank][1]..self.starts[rank + 1][0]
+    pub(crate) fn outer(&self, index: usize) -> Range<usize> {
+        self.starts[index][1]..self.starts[index + 1][0]
     }
 
-    /// A value of each pair, from its point and its bond.
+    /// A value of each pair, computed from its point and its bond.
     pub(crate) fn values<T: Send>(&self, value: impl Fn(u32, u32) -> T + Sync) -> Vec<T> {
-        let of_rank = |rank: usize| {
-            let (point, value) = (self.seats.own()[rank], &value);
-            let pairs = self.starts[rank][0]..self.starts[rank + 1][0];
+        let of_index = |index: usize| {
+            let (point, value) = (self.order.owned()[index], &value);
+            let pairs = self.starts[index][0]..self.starts[index + 1][0];
             self.bond[pairs].iter().map(move |&bond| value(point, bond))
         };
-        let ranks = (0..self.n_points()).into_par_iter();
-        ranks.flat_map_iter(of_rank).collect()
+        let indices = (0..self.n_points()).into_par_iter();
+        indices.flat_map_iter(of_index).collect()
     }
 
-    /// An array over the pairs, cut into those of the points of each block.
+    /// An array over the pairs, divided into those of the points of each block.
     pub(crate) fn blocks<'b, T>(&self, mut values: &'b mut [T]) -> Vec<&'b mut [T]> {
         let of_block = |block| {
-            let ranks = self.ranks(block);
-            let size = self.starts[ranks.end][0] - self.starts[ranks.start][0];
+            let indices = self.indices(block);
+            let size = self.starts[indices.end][0] - self.starts[indices.start][0];
             values.split_off_mut(..size).unwrap_or_default()
         };
         (0..self.n_blocks()).map(of_block).collect()
@@ -123,7 +123,7 @@ impl<'a> Pairs<'a> {
         self.starts[block * BLOCK][0]
     }
 
-    /// The value of each bond from those of the pairs, which are the same from either end, shape (n_bonds).
+    /// Value of each bond from the values of its pairs, which are equal from both ends, shape (n_bonds).
     pub(crate) fn of_bonds(&self, values: impl Iterator<Item = f64>) -> Vec<f64> {
         let mut of_bonds = vec![0.0; self.n_bonds];
         for (&bond, value) in self.bond.iter().zip(values) {

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use ligament_mesh::SolidCell;
 use ligament_model::{Canvas, box_corners};
 use ligament_output::FieldLocation;
+use ligament_output::results::fields::{DISPLACEMENT, OPENING, ResultField, SLIDING};
 use ligament_output::results::solid_body::SolidBody;
 use ligament_output::results::solid_cracks::SolidCracks;
 use ligament_output::vtu::read::VtuFile;
@@ -13,11 +14,11 @@ use ligament_post::surfaces::{Links, Tetrahedra, level_set, opened_cells};
 use super::outline::{outer_faces, sharp_edges};
 use super::{Scene, Section};
 use crate::picture::PictureError;
-use crate::picture::field::{Field, NONE, unit_of};
+use crate::picture::field::{Field, NONE};
 use crate::picture::request::{CrackDrawing, SolidRequest};
 
 /// Fields that a crack surface has of its own, in the order of a jump.
-const OF_CRACK: [&str; 2] = ["opening", "sliding"];
+const OF_CRACK: [&ResultField; 2] = [&OPENING, &SLIDING];
 
 /// Boxes up to which all faces are drawn where a crack is.
 const MOST_WHOLE: usize = 100_000;
@@ -38,11 +39,11 @@ pub(in crate::picture) fn read(
     cracks: Option<(&SolidCracks, usize)>,
 ) -> Result<(Scene, Option<Field>), PictureError> {
     let body = SolidBody::read(file)?;
-    let is_drawn =
-        field != NONE && !(crack == Some(CrackDrawing::Lines) && OF_CRACK.contains(&field));
+    let is_drawn = field != NONE
+        && !(crack == Some(CrackDrawing::Lines) && OF_CRACK.iter().any(|it| it.name == field));
     let read = is_drawn.then(|| Field::read(file, field)).transpose()?;
     let solid = Solid {
-        displacement: body.vectors(file, "displacement")?,
+        displacement: body.vectors(file, DISPLACEMENT.name)?,
         field: read.filter(|it| it.values.len() == body.grid.positions.len()),
         body,
         cracks,
@@ -239,13 +240,13 @@ impl Solid<'_> {
         for (place, pairs) in surface.places.iter().zip(&surface.parted) {
             self.push(&mut scene, *place, pairs.as_flattened());
         }
-        let own = OF_CRACK.iter().position(|it| *it == field);
+        let own = OF_CRACK.iter().position(|it| it.name == field);
         let drawn = own.map(|which| {
             let jumps = cracks.jumps(&surface, &self.displacement);
             scene.values = jumps.iter().map(|it| it[which]).collect();
             Field {
                 name: field.to_owned(),
-                unit: unit_of(field),
+                unit: OF_CRACK[which].unit,
                 location: FieldLocation::Point,
                 values: scene.values.clone(),
             }

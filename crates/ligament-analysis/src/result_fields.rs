@@ -1,0 +1,414 @@
+//! Table of the point fields in results: names, units, meanings, and their evaluation in a state of a run.
+//!
+//! Result files, arrays in Python, pictures, the page of results, the names of probe fields and the table in `docs/results.md`
+//! follow from [`FIELDS`]. A new field is a function that computes it and a row here.
+
+use ligament_model::failure::{Criteria, Weakened};
+use ligament_model::interface::StressReading;
+use ligament_model::tensor::SymTensor;
+use ligament_model::{Bonds, ConstantFields};
+
+use crate::balanced::Balanced;
+use crate::fields;
+use crate::history::View;
+use crate::state::State;
+use crate::unknowns::{Component, Layout};
+use FieldReading::{
+    CrackSurface, EnergyRatios, Model, Probed, ScatterFactors, State as InState, Stress,
+};
+use Interest::{Low, Main, Pictured};
+
+/// Point field in results.
+#[derive(Debug)]
+pub struct ResultField {
+    /// Name in files, in Python and in probes; for a family of fields the part that their names share.
+    pub name: &'static str,
+    /// SI unit; `-` without one.
+    pub unit: &'static str,
+    /// Meaning in one sentence.
+    pub meaning: &'static str,
+    /// Components in the plane and in space.
+    pub components: [Components; 2],
+    /// Priority of the field on a page.
+    pub interest: Interest,
+    /// Method of evaluation.
+    pub reading: FieldReading,
+}
+
+/// Components of a field at a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Components {
+    /// One integer.
+    Integer,
+    /// One number.
+    Scalar,
+    /// Values along x, y and z, or about these axes; in the plane the last is zero.
+    Vector,
+    /// Values with these names.
+    Named(&'static [&'static str]),
+}
+
+/// Priority of a field on a page: smaller numbers come first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Interest {
+    /// Main field, with pictures on the page of a solid.
+    Pictured(u8),
+    /// Main field, without pictures on the page of a solid.
+    Main(u8),
+    /// Field that follows the others, in the order of the files.
+    Low,
+}
+
+/// Method of evaluation of a field.
+#[derive(Debug, Clone, Copy)]
+pub enum FieldReading {
+    /// Function of all points, from a state of a run; None where the run has no such field.
+    State(fn(&View<'_>) -> Option<FieldValues>),
+    /// Functions of all points, and of one point for probes, from a solution; None where the run has no such field.
+    Probed(
+        fn(Solution<'_>) -> Option<Vec<f64>>,
+        fn(Solution<'_>, u32) -> f64,
+    ),
+    /// Stress from the forces of the bonds, if the user requests it.
+    Stress(StressReading),
+    /// Field of the model, which does not change; empty where the model has no such field.
+    Model(for<'a> fn(ModelPoints<'a>) -> &'a [f64]),
+    /// Family of fields: ratios of the energies of uniform strains.
+    EnergyRatios,
+    /// Family of fields: factors of the property that varies at random.
+    ScatterFactors,
+    /// Jump of the displacement at the points of a crack surface.
+    CrackSurface,
+}
+
+/// Values of a field, point by point.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FieldValues {
+    /// Numbers, shape (n_points, n_components).
+    Numbers(Vec<f64>),
+    /// Integers, shape (n_points).
+    Integers(Vec<i64>),
+}
+
+/// Equilibrium state from which fields are evaluated.
+#[derive(Clone, Copy)]
+pub struct Solution<'a> {
+    /// Bond system.
+    pub system: &'a dyn Bonds,
+    /// Failure criteria.
+    pub criteria: &'a Criteria,
+    /// State of the system.
+    pub state: &'a State,
+    /// Deformations and forces.
+    pub balanced: &'a Balanced,
+}
+
+/// Fields of a model that do not change in a run.
+#[derive(Clone, Copy)]
+pub struct ModelPoints<'a> {
+    /// Fields from the preparation of the model.
+    pub fixed: &'a ConstantFields,
+    /// Volumes, shape (n_points), m^3.
+    pub volumes: &'a [f64],
+    /// Distances to the nearest point, shape (n_points), m.
+    pub spacing: &'a [f64],
+}
+
+const INTEGER: [Components; 2] = [Components::Integer; 2];
+const SCALAR: [Components; 2] = [Components::Scalar; 2];
+const VECTOR: [Components; 2] = [Components::Vector; 2];
+/// Rotation angle in the plane, or rotations about three axes in space.
+const TURN: [Components; 2] = [Components::Scalar, Components::Vector];
+const SYMMETRIC: [Components; 2] = [
+    Components::Named(&["xx", "yy", "xy"]),
+    Components::Named(&["xx", "yy", "xy", "zz", "xz", "yz"]),
+];
+const TRACTION: [Components; 2] = [
+    Components::Named(&["xx", "yx", "yy", "xy"]),
+    Components::Named(&["xx", "yx", "zx", "yy", "xy", "zy", "zz", "xz", "yz"]),
+];
+const STRAIN: [Components; 2] = [
+    Components::Named(&["xx", "yy", "xy"]),
+    Components::Named(&["xx", "yy", "zz", "xy", "xz", "yz"]),
+];
+
+/// Rows of the table: constant, name, unit, components, interest, meaning, reading.
+macro_rules! result_fields {
+    ($($row:ident $name:literal [$unit:literal] $components:ident $interest:expr, $meaning:literal => $reading:expr;)+) => {
+        $(
+            #[doc = $meaning]
+            pub const $row: ResultField = ResultField {
+                name: $name,
+                unit: $unit,
+                meaning: $meaning,
+                components: $components,
+                interest: $interest,
+                reading: $reading,
+            };
+        )+
+
+        /// All fields in the order of the files.
+        pub const FIELDS: &[&ResultField] = &[$(&$row),+];
+    };
+}
+
+result_fields! {
+    DISPLACEMENT "displacement" ["m"] VECTOR Pictured(0), "Displacement of the point."
+        => InState(|view| numbers(displacements(view)));
+    ROTATION "rotation" ["rad"] TURN Main(6),
+        "Rotation of the point: in the plane counter-clockwise, in space about x, y and z, right-handed."
+        => InState(|view| numbers(rotations(view.system.layout(), &view.state.displacement)));
+    DAMAGE "damage" ["-"] SCALAR Pictured(1), "Share of the point's bonds that are broken, weighted with volumes, 0 to 1."
+        => Probed(|it| Some(fields::damage(it.system, &it.state.intact)), |it, point| fields::point_damage(it.system, &it.state.intact, point));
+    STRAIN_ENERGY_DENSITY "strain_energy_density" ["J/m^3"] SCALAR Pictured(3),
+        "Strain energy density, J/m^3: energy stored in the point's bonds, half of each."
+        => Probed(|it| Some(energy_density(it)), point_energy_density);
+    REACTION "reaction" ["N"] VECTOR Low, "Force of supports and loads on the point."
+        => InState(|view| numbers(reactions(view)));
+    FRAGMENT "fragment" ["-"] INTEGER Low, "Number of the part that the point belongs to."
+        => InState(|view| Some(FieldValues::Integers(fragments(view))));
+    HELD "held" ["-"] INTEGER Low, "1 where the program fixes a displacement of the point because its part is detached."
+        => InState(|view| Some(FieldValues::Integers(held(view))));
+    DAMAGE_TENSION "damage_tension" ["-"] SCALAR Main(1), "Damage by opening of bonds, d_t, 0 to 1."
+        => Probed(|it| damage_by(it, Weakened::Opening), |it, point| point_damage_by(it, Weakened::Opening, point));
+    DAMAGE_COMPRESSION "damage_compression" ["-"] SCALAR Main(1), "Damage by crushing of bonds, d_c."
+        => Probed(|it| damage_by(it, Weakened::Crushing), |it, point| point_damage_by(it, Weakened::Crushing, point));
+    DAMAGE_SLIDING "damage_sliding" ["-"] SCALAR Main(1), "Damage by sliding of bonds, d_gamma."
+        => Probed(|it| damage_by(it, Weakened::Sliding), |it, point| point_damage_by(it, Weakened::Sliding, point));
+    DISSIPATED_ENERGY_DENSITY "dissipated_energy_density" ["J/m^3"] SCALAR Main(4),
+        "Energy that the point's bonds took for good, per volume."
+        => InState(dissipated_energy_density);
+    TEMPERATURE_CHANGE "temperature_change" ["K"] SCALAR Pictured(5), "Change of temperature, where there is one."
+        => InState(|view| present(view.loads.temperature_change(view.state.load_factor)));
+    THERMAL_STRAIN "thermal_strain" ["-"] STRAIN Low,
+        "Strain that the temperature would make without stress, with engineering shears, where it changes."
+        => InState(|view| present(thermal_strain(view)));
+    STRESS_VIRIAL "stress_virial" ["Pa"] SYMMETRIC Pictured(2),
+        "Symmetric part of the mean of the force dyads of the point's bonds, if asked for."
+        => Stress(StressReading::Virial);
+    STRESS_TRACTION "stress_traction" ["Pa"] TRACTION Pictured(2),
+        "Force of the bonds through planes at the point, if asked for: direction of the force, then normal of the plane."
+        => Stress(StressReading::Traction);
+    VOLUME "volume" ["m^3"] SCALAR Low, "Volume of the point."
+        => Model(|it| it.volumes);
+    HORIZON "horizon" ["m"] SCALAR Low, "Horizon of the point."
+        => Model(|it| &it.fixed.horizon);
+    NEAREST_DISTANCE "nearest_distance" ["m"] SCALAR Low, "Distance to the nearest point."
+        => Model(|it| it.spacing);
+    PRECRACK_SHARE "precrack_share" ["-"] SCALAR Low, "Share of the point's bonds that pre-cracks cut."
+        => Model(|it| &it.fixed.precrack_share);
+    ENERGY_RATIO "energy_ratio_" ["-"] SCALAR Low,
+        "Energy of a uniform strain over that of the continuum: `_x`, `_y`, `_biaxial` and `_shear` in the plane; `_x`, `_y`, `_z`, `_hydrostatic`, `_shear_xy`, `_shear_xz` and `_shear_yz` in space."
+        => EnergyRatios;
+    SCATTER_FACTOR "_factor" ["-"] SCALAR Low,
+        "Factor of the property that varies at random: `strength_factor` or `fracture_energy_factor`."
+        => ScatterFactors;
+    PATCH_RESIDUAL "patch_residual" ["-"] SCALAR Low,
+        "Forces that the patch correction leaves at the point, over the size of their terms."
+        => Model(|it| &it.fixed.patch_residual);
+    OPENING "opening" ["m"] SCALAR Low, "Jump of the displacement along the normal of a crack surface, in `crack.vtu` of a solid."
+        => CrackSurface;
+    SLIDING "sliding" ["m"] SCALAR Low, "Jump of the displacement in a crack surface, in `crack.vtu` of a solid."
+        => CrackSurface;
+}
+
+impl ResultField {
+    /// Field with this name in results; None for fields of users or of other versions.
+    pub fn named(name: &str) -> Option<&'static Self> {
+        let is_it = |field: &&&Self| match field.reading {
+            EnergyRatios => name.starts_with(field.name),
+            ScatterFactors => name.ends_with(field.name),
+            _ => name == field.name,
+        };
+        FIELDS.iter().find(is_it).copied()
+    }
+
+    /// Components in the plane or in space.
+    pub fn components(&self, in_space: bool) -> Components {
+        self.components[usize::from(in_space)]
+    }
+
+    /// Values of the field in a state of a run; None where the run has no such field or the field does not depend on the state.
+    pub fn values(&self, view: &View<'_>) -> Option<FieldValues> {
+        match self.reading {
+            InState(read) => read(view),
+            Probed(read, _) => read(view.solution()).map(FieldValues::Numbers),
+            Stress(reading) => Some(FieldValues::Numbers(stresses(view, reading))),
+            Model(_) | EnergyRatios | ScatterFactors | CrackSurface => None,
+        }
+    }
+}
+
+/// SI unit of a field of the results, without its component; `-` for a number without a unit.
+pub fn unit_of(field: &str) -> &'static str {
+    ResultField::named(field).map_or("-", |it| it.unit)
+}
+
+impl Components {
+    /// Number of values at a point.
+    pub fn count(self) -> usize {
+        match self {
+            Self::Integer | Self::Scalar => 1,
+            Self::Vector => 3,
+            Self::Named(names) => names.len(),
+        }
+    }
+
+    /// Names of the components; empty where files have none.
+    pub fn names(self) -> &'static [&'static str] {
+        match self {
+            Self::Integer | Self::Scalar | Self::Vector => &[],
+            Self::Named(names) => names,
+        }
+    }
+}
+
+impl Interest {
+    /// Rank of the field in the order of priority, from 0.
+    pub fn rank(self) -> u8 {
+        match self {
+            Pictured(rank) | Main(rank) => rank,
+            Low => u8::MAX,
+        }
+    }
+}
+
+impl<'a> View<'a> {
+    /// Equilibrium state of the view.
+    pub fn solution(&self) -> Solution<'a> {
+        Solution {
+            system: self.system,
+            criteria: self.criteria,
+            state: self.state,
+            balanced: self.balanced,
+        }
+    }
+}
+
+impl<'a> ModelPoints<'a> {
+    /// Names and values of all fields of the model, each of shape (n_points), in the order of the files.
+    pub fn fields(self) -> Vec<(&'static str, &'a [f64])> {
+        let fixed = self.fixed;
+        let values = |field: &&'static ResultField| -> Vec<(&'static str, &'a [f64])> {
+            match field.reading {
+                Model(read) => vec![(field.name, read(self))],
+                EnergyRatios => (fixed.energy_ratios.iter())
+                    .map(|it| (it.field, &*it.at_points))
+                    .collect(),
+                ScatterFactors => (fixed.scatter.iter())
+                    .map(|it| (it.of.field(), &*it.at_points))
+                    .collect(),
+                InState(_) | Probed(..) | Stress(_) | CrackSurface => Vec::new(),
+            }
+        };
+        let all = FIELDS.iter().flat_map(values);
+        all.filter(|(_, values)| !values.is_empty()).collect()
+    }
+}
+
+/// Displacements of the points, with a third component of zero in the plane, shape (n_points, 3), m; on a divided body those of
+/// owned points and of the ends of their bonds.
+pub fn displacements(view: &View<'_>) -> Vec<f64> {
+    vectors(view.system.layout(), &view.state.displacement)
+}
+
+/// Components x, y and z of values at all degrees of freedom, zero where points lack a component, shape (n_points, 3).
+pub fn vectors(layout: Layout, of_all: &[f64]) -> Vec<f64> {
+    components(layout, &[Component::X, Component::Y, Component::Z], of_all)
+}
+
+/// Rotations of the points from values at all degrees of freedom, rad: in the plane counter-clockwise, shape (n_points); in space
+/// about the axes, right-handed, shape (n_points, 3); zero where points have no rotations.
+pub fn rotations(layout: Layout, of_all: &[f64]) -> Vec<f64> {
+    use Component::{Rotation, RotationX, RotationY, RotationZ};
+    let turns: &[Component] = match layout.is_in_space() {
+        true => &[RotationX, RotationY, RotationZ],
+        false => &[Rotation],
+    };
+    components(layout, turns, of_all)
+}
+
+/// Values of some components at all points, zero where points lack them, shape (n_points, n_components).
+fn components(layout: Layout, components: &[Component], of_all: &[f64]) -> Vec<f64> {
+    let of_point = |point| (components.iter()).map(move |&it| layout.value(point, it, of_all));
+    (0..layout.n_points as u32).flat_map(of_point).collect()
+}
+
+fn numbers(values: Vec<f64>) -> Option<FieldValues> {
+    Some(FieldValues::Numbers(values))
+}
+
+/// Values as numbers; None where there are none.
+fn present(values: Vec<f64>) -> Option<FieldValues> {
+    (!values.is_empty()).then_some(FieldValues::Numbers(values))
+}
+
+fn reactions(view: &View<'_>) -> Vec<f64> {
+    let internal = &view.balanced.internal.values;
+    let reactions = view.loads.reactions(view.state.load_factor, internal);
+    vectors(view.system.layout(), &reactions)
+}
+
+fn fragments(view: &View<'_>) -> Vec<i64> {
+    let parts = view
+        .system
+        .numbering()
+        .parts_in_file(&view.fragments.of_point);
+    parts.into_iter().map(i64::from).collect()
+}
+
+fn held(view: &View<'_>) -> Vec<i64> {
+    let n_components = view.system.layout().components.len();
+    let held = view.state.held.chunks(n_components);
+    held.map(|held| i64::from(held.contains(&true))).collect()
+}
+
+fn energy_density(it: Solution<'_>) -> Vec<f64> {
+    let (deformations, closed) = (&it.balanced.deformations, &it.balanced.closed);
+    fields::strain_energy_density(it.system, it.state.bonds(), deformations, closed)
+}
+
+fn point_energy_density(it: Solution<'_>, point: u32) -> f64 {
+    let (deformations, closed) = (&it.balanced.deformations, &it.balanced.closed);
+    fields::point_energy_density(it.system, it.state.bonds(), deformations, closed, point)
+}
+
+/// Damage by one failure mode; None where no criterion has this mode.
+fn damage_by(it: Solution<'_>, way: Weakened) -> Option<Vec<f64>> {
+    let occurs = (it.criteria.list.iter()).any(|it| it.measure.weakens() == way);
+    occurs.then(|| fields::damage_by(it.system, it.criteria, it.state, way))
+}
+
+fn point_damage_by(it: Solution<'_>, way: Weakened, point: u32) -> f64 {
+    fields::point_damage_by(it.system, it.criteria, it.state, way, point)
+}
+
+fn dissipated_energy_density(view: &View<'_>) -> Option<FieldValues> {
+    let densities = || fields::dissipated_energy_density(view.system, &view.state.dissipated);
+    (!view.criteria.list.is_empty()).then(|| FieldValues::Numbers(densities()))
+}
+
+/// Stress-free strains due to the temperature, shape (n_points, n_components); empty where the temperature does not change.
+fn thermal_strain(view: &View<'_>) -> Vec<f64> {
+    let strain = view.loads.thermal_strain(view.state.load_factor);
+    let places = thermal_strain_places(view.system.layout().is_in_space());
+    let of_points = (0..view.system.n_points()).filter(|_| !strain.is_none());
+    let of_point = |point: usize| {
+        let strains: Vec<f64> = strain.of_point(point).engineering().collect();
+        places.clone().map(move |place| strains[place])
+    };
+    of_points.flat_map(of_point).collect()
+}
+
+/// Indices of the components of [`THERMAL_STRAIN`] among those of a strain in space.
+pub fn thermal_strain_places(in_space: bool) -> impl Iterator<Item = usize> + Clone {
+    let names = THERMAL_STRAIN.components(in_space).names().iter();
+    names.filter_map(|name| SymTensor::<3>::NAMES.iter().position(|it| it == name))
+}
+
+fn stresses(view: &View<'_>, reading: StressReading) -> Vec<f64> {
+    let (system, balanced) = (view.system, view.balanced);
+    let mut stresses = system.stresses(reading, view.state.bonds(), &balanced.deformations);
+    system.add_contact_stresses(reading, &balanced.closed, &mut stresses);
+    stresses.values
+}

@@ -1,0 +1,74 @@
+//! Communication between the processes of a run outside of the equations.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::ensure;
+use ligament::{Loading, Model};
+use ligament_analysis::distributed_matrix::Communicator;
+use ligament_analysis::serial::Serial;
+use ligament_case::case::{CaseFile, StressField};
+
+use crate::checkpoints::IsStopped;
+use crate::memory;
+
+/// The loading of a case.
+///
+/// # Errors
+///
+/// If a name of the case is not in the body, or the requested results need all bonds on one process and the body is divided.
+pub(crate) fn loading(case: &CaseFile, model: &Model) -> anyhow::Result<Loading> {
+    let is_whole = model.system.subdomain().is_whole();
+    ensure!(
+        !case.case.output.bonds || is_whole,
+        "output.bonds: several processes write no file of the bonds as lines; run the case with one process, or leave the key out"
+    );
+    ensure!(
+        !case.case.output.stress.contains(&StressField::Traction) || is_whole,
+        "output.stress: of \"traction\" several processes do not know all bonds that cross a plane; run the case with one process, or take \
+         \"virial\" alone"
+    );
+    let loading = Loading::new(model);
+    let mut loading = loading.map_err(|it| case.located(it))?;
+    loading.solver.memory = memory::for_factor(case, &*model.system);
+    Ok(loading)
+}
+
+/// Whether any process should stop; collective.
+pub(crate) fn any_stopped(communicator: &dyn Communicator, is_stopped: IsStopped<'_>) -> bool {
+    communicator.any(is_stopped())
+}
+
+/// The path of rank 0; other ranks pass `None`. Collective.
+///
+/// # Errors
+///
+/// If the path received by another rank is not UTF-8.
+pub(crate) fn broadcast_path(
+    communicator: &dyn Communicator,
+    path: Option<&Path>,
+) -> anyhow::Result<PathBuf> {
+    let mut bytes = path.map_or_else(Vec::new, |it| it.as_os_str().as_encoded_bytes().to_vec());
+    communicator.broadcast(&mut bytes);
+    Ok(match path {
+        Some(path) => path.to_path_buf(),
+        None => PathBuf::from(String::from_utf8(bytes)?),
+    })
+}
+
+/// The solution of a checkpoint found by rank 0, if any. Collective.
+///
+/// # Errors
+///
+/// If the received bytes are damaged.
+pub(crate) fn broadcast_solution(
+    communicator: &dyn Communicator,
+    solution: Option<Vec<u8>>,
+) -> anyhow::Result<Option<Vec<u8>>> {
+    if communicator.size() == 1 {
+        return Ok(solution);
+    }
+    let mut bytes = Vec::new();
+    solution.write(&mut bytes);
+    communicator.broadcast(&mut bytes);
+    Ok(Serial::read(&mut bytes.as_slice())?)
+}
