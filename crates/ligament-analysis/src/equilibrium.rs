@@ -21,11 +21,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use ligament_linalg::{Factorisation, ForwardSubstituted};
-<<<<<<< strength
 use ligament_model::failure::Criteria;
-use ligament_model::portion::any;
-=======
->>>>>>> summary
 
 use crate::balanced::{Attempt, Balanced, Stability};
 use crate::bond_numbers::BondNumbers;
@@ -164,16 +160,12 @@ impl Equilibrium {
         self.equations.load_with(loads);
     }
 
-<<<<<<< strength
-    /// Takes other criteria in the place of those of the problem, of the same bonds and measures.
+    /// Replaces the criteria of the problem by others of the same bonds and measures.
     pub(crate) fn judge_by(&mut self, criteria: Arc<Criteria>) {
         self.equations.problem.criteria = criteria;
     }
 
-    /// From now on seeks equilibrium with this held, whatever the load factor; None: at the load factor of the state.
-=======
     /// Sets the quantity prescribed in later equilibria; None solves at the load factor of the state.
->>>>>>> summary
     pub(crate) fn aim(&mut self, held: Option<ControlledQuantity>) {
         self.held = held;
     }

@@ -31,16 +31,6 @@ pub struct Softening {
     pub begun: Vec<Vec<f64>>,
 }
 
-<<<<<<< strength
-serial!(Softening {
-    largest,
-    trial,
-    remaining,
-    begun
-});
-
-=======
->>>>>>> summary
 impl Softening {
     /// Whether all arrays have the shapes for these criteria and this number of bonds.
     pub(crate) fn fits(&self, criteria: &Criteria, n_bonds: usize) -> bool {
@@ -52,33 +42,15 @@ impl Softening {
         lengths(self) == lengths(&Self::of_sound_bonds(criteria, n_bonds))
     }
 
-<<<<<<< strength
-    /// The softening of the bonds of all processes on rank 0, see [`State::of_all`](crate::state::State).
-    pub(crate) fn of_all(&self, numbers: &BondNumbers) -> Self {
-        let of = |lists: &[Vec<f64>], sound: f64| {
-            let told = |list: &Vec<f64>| match list.is_empty() {
-                true => Vec::new(),
-                false => numbers.of_all(list, sound),
-            };
-            lists.iter().map(told).collect()
-        };
-        Self {
-            largest: of(&self.largest, 0.0),
-            trial: of(&self.trial, 0.0),
-            begun: of(&self.begun, f64::INFINITY),
-            remaining: match self.remaining.is_empty() {
-                true => Vec::new(),
-                false => numbers.of_all(&self.remaining, StiffnessFactors::WHOLE),
-            },
-=======
     /// Appends the softening of all bonds of the body, see [`BondNumbers::write`].
     pub(crate) fn write(&self, numbers: &BondNumbers, out: &mut Vec<u8>) {
         for lists in [&self.largest, &self.trial] {
             lists.len().write(out);
             lists.iter().for_each(|list| numbers.write(list, 0.0, out));
->>>>>>> summary
         }
         numbers.write(&self.remaining, StiffnessFactors::WHOLE, out);
+        self.begun.len().write(out);
+        (self.begun.iter()).for_each(|list| numbers.write(list, f64::INFINITY, out));
     }
 
     /// Reads the softening of all bonds, and keeps that of the local bonds.
@@ -150,7 +122,6 @@ impl Softening {
         });
     }
 
-<<<<<<< strength
     /// The bonds that are neither broken nor have begun to soften: those that show the strain of the body.
     pub fn sound<'a>(&self, intact: &'a [bool]) -> Cow<'a, [bool]> {
         if self.largest.iter().all(Vec::is_empty) {
@@ -170,10 +141,7 @@ impl Softening {
             .collect()
     }
 
-    /// The iterate is in equilibrium: its extremes count from now on.
-=======
     /// Accepts the extremes of an iterate that is in equilibrium.
->>>>>>> summary
     pub fn settle(&mut self) {
         for (largest, trial) in self.largest.iter_mut().zip(&self.trial) {
             largest.copy_from_slice(trial);

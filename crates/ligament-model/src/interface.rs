@@ -13,15 +13,10 @@ use crate::element::{BondDeformation, Rigidities, StiffnessFactors, Term};
 use crate::failure::Criterion;
 use crate::failure::starting::Starting;
 use crate::layout::{Component, Layout};
-<<<<<<< strength
 use crate::material::Stiffness;
-use crate::portion::Portion;
 use crate::rigid_motions::FreeMotion;
 use crate::stress::point_strain::{Motion, StrainAround};
-=======
-use crate::rigid_motions::FreeMotion;
 use crate::subdomain::Subdomain;
->>>>>>> summary
 use crate::sweep::BondSweep;
 use crate::system::UnbrokenBonds;
 use crate::thermal::ThermalStrain;
@@ -259,7 +254,6 @@ pub trait BondReadings: BondTopology {
         deformations: &Deformations,
     ) -> Stresses;
 
-<<<<<<< strength
     /// Stress of every point by the stiffnesses of the materials (n_materials) in the space of the body, Pa, in a motion of which some
     /// bonds are left; not a number where the bonds of a point do not span the space.
     fn stresses_by_material(&self, motion: Motion<'_>, materials: &[Stiffness]) -> Stresses;
@@ -285,12 +279,8 @@ pub trait BondReadings: BondTopology {
         starting: &Starting,
     ) -> Vec<f64>;
 
-    /// Sum of a component of what the far ends of some bonds exert on the near ones, which are the first where marked, N; of
-    /// bonds of two points alone.
-=======
     /// Sum of a component of the forces of the far ends of some bonds on the near ends, N, for bonds of two points only; the flag of a bond
     /// marks its first end as near.
->>>>>>> summary
     fn force_through(
         &self,
         bonds: UnbrokenBonds<'_>,

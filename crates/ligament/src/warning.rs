@@ -197,7 +197,6 @@ pub enum Warning {
         /// The law.
         law: &'static str,
     },
-<<<<<<< strength
     /// A criterion of stress where a uniform stress is no equilibrium.
     #[error(
         "criterion \"{criterion}\": without correction.surface = \"patch\" a uniform stress is no equilibrium of the bonds, and the first of \
@@ -207,10 +206,7 @@ pub enum Warning {
         /// The criterion.
         criterion: &'static str,
     },
-    /// A criterion of energy where shear gives energy back, so that bonds nearly along a crack have none to reach a limit with.
-=======
     /// A criterion of energy with a negative shear stiffness, so that bonds nearly along a crack never reach a limit.
->>>>>>> summary
     #[error(
         "criterion \"bond-energy\": above Poisson's ratio {limit:.4} (here {poisson}) shear lowers the energy of the bonds, and \
          those nearly along a crack never fail; \"critical-stretch\" breaks them"

@@ -324,11 +324,7 @@ impl<'a> Path<'a> {
         Ok(breakage)
     }
 
-<<<<<<< strength
-    /// The criteria with the limits and measures that the bonds have in an equilibrium.
-=======
-    /// Criteria with the limits of the intact bonds in an equilibrium.
->>>>>>> summary
+    /// Criteria with the limits and measures of the bonds in an equilibrium.
     pub(super) fn criteria(&self, balanced: &Balanced) -> Cow<'_, Criteria> {
         self.problem.criteria_in(&self.state, balanced)
     }
@@ -406,13 +402,7 @@ impl<'a> Path<'a> {
         self.course.peak = self.course.peak.max(record.reaction);
         let force = balanced.internal.force_scale;
         self.course.largest_force = self.course.largest_force.max(force);
-<<<<<<< strength
         let criteria = self.problem.criteria_in(&self.state, balanced);
-        let numbers = self.equilibrium.numbers();
-        let softened = numbers.filter(|_| !self.state.softening.largest.is_empty());
-=======
-        let criteria = (self.problem.criteria).in_state(&self.state.intact, &balanced.deformations);
->>>>>>> summary
         let view = View {
             softened: self.softened(),
             system: &*self.problem.system,

@@ -351,7 +351,6 @@ impl<'a> Line<'a> {
         self.here.ahead(&self.slopes, share)
     }
 
-<<<<<<< strength
     fn criteria(&self, share: f64) -> Cow<'a, Criteria> {
         let [here, there] = self.criteria;
         there.on_line(Some(here), share)
@@ -362,20 +361,12 @@ impl<'a> Line<'a> {
         beyond(&self.criteria(share), &self.at(share))
     }
 
-    /// Share of the line at which the first bond reaches its limit, at most 1 unless it goes on; None where none does.
-    ///
-    /// A measure is convex along a line, so that from a state within all limits on there is one place where the largest utilisation passes
-    /// one, and halving finds it.
-    fn first_failure(&self, goes_on: bool) -> Option<f64> {
-        let fails = |share: f64| utilisation(&self.criteria(share), &self.at(share)) >= AT_LIMIT;
-=======
     /// Share of the line at which the first bond reaches its limit, at most 1 unless `goes_on`; None where none does.
     ///
     /// A measure is convex along a line, so that from an admissible state there is one point where the largest utilisation passes
     /// one, which bisection finds.
-    fn first_failure(&self, criteria: &Criteria, goes_on: bool) -> Option<f64> {
-        let fails = |share: f64| utilisation(criteria, &self.at(share)) >= AT_LIMIT;
->>>>>>> summary
+    fn first_failure(&self, goes_on: bool) -> Option<f64> {
+        let fails = |share: f64| utilisation(&self.criteria(share), &self.at(share)) >= AT_LIMIT;
         let mut doublings =
             (0..=if goes_on { DOUBLINGS } else { 0 }).map(|it| 2_f64.powi(it as i32));
         let [mut low, mut high] = [0.0, doublings.find(|share| fails(*share))?];

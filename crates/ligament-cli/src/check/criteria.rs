@@ -192,18 +192,6 @@ fn write_energy(out: &mut dyn Write, model: &Model, criterion: &Criterion) -> io
     Ok(())
 }
 
-<<<<<<< strength
-=======
-/// Young's modulus of a bar with the effective constants of the law, Pa; `None` for a material with axes.
-fn young(setup: &Setup, material: &Material) -> Option<f64> {
-    let constants = setup.law.constants(material, setup.space())?;
-    Some(match setup.space() {
-        Space::Plane(plane) => constants.in_plane(plane).young,
-        Space::Solid => constants.young,
-    })
-}
-
->>>>>>> summary
 /// Smallest, median (the lower of two) and largest of some numbers.
 struct Range([f64; 3]);
 

@@ -51,13 +51,9 @@ pub(super) struct BondHistory {
     pub(super) limits: Vec<Limit>,
     /// Deformation of the bond at each moment, also after its breakage.
     pub(super) deformation: Vec<BondDeformation>,
-<<<<<<< strength
     /// Strain of its ends in each moment; empty where no criterion takes the stress around it.
     pub(super) around: Vec<Option<StrainAround>>,
-    /// Number of moments in which it was intact.
-=======
     /// Number of moments at which the bond was intact.
->>>>>>> summary
     pub(super) n_intact: usize,
     /// Breakage of the bond, and the index of the criterion by which it failed.
     pub(super) breakage: Option<(StoredBreak, Option<usize>)>,
@@ -306,7 +302,6 @@ impl BondHistory {
         nearest
     }
 
-<<<<<<< strength
     /// The limit of a criterion in a moment, with the stress around the bond.
     pub(super) fn limit_in(&self, criterion: usize, moment: usize) -> Cow<'_, Limit> {
         let around = self.around.get(moment).and_then(Option::as_ref);
@@ -319,10 +314,7 @@ impl BondHistory {
         limit.utilisation(&self.deformation[moment])
     }
 
-    /// The rest of the bond by a criterion in a moment: nothing once it is broken.
-=======
     /// Softened state of the bond under a criterion at a moment, zero after its breakage.
->>>>>>> summary
     pub(super) fn left(&self, criterion: usize, moments: &[StoredStep], moment: usize) -> Softened {
         let softened = self.softened(criterion, moments, moment);
         if moment < self.n_intact {
@@ -343,16 +335,10 @@ impl BondHistory {
         moment: usize,
     ) -> Softened {
         let limit = &self.limits[criterion];
-<<<<<<< strength
         let so_far = 0..=moment;
         let kappa = so_far.map(|it| self.utilisation(criterion, it));
         let kappa = kappa.fold(0.0, f64::max);
-        // It may have been larger between the moments.
-=======
-        let so_far = self.deformation[..=moment].iter();
-        let kappa = so_far.map(|it| limit.utilisation(it)).fold(0.0, f64::max);
         // The utilisation may have been larger between moments.
->>>>>>> summary
         let is_past = |it: &Nearest| it.criterion == criterion && it.step <= moments[moment].step;
         let nearest = self.nearest.filter(is_past);
         limit

@@ -16,11 +16,7 @@ use crate::interface::{
     PointStiffness, StressReading, Stresses,
 };
 use crate::layout::Component;
-<<<<<<< strength
 use crate::material::Stiffness;
-use crate::portion::{Portion, any};
-=======
->>>>>>> summary
 use crate::rigid_motions::{self, FreeMotion, RigidMotions, Turn};
 use crate::stress::point_strain::{Motion, StrainAround};
 use crate::stress::traction;

@@ -8,16 +8,10 @@
 //! | `absent` | 0; 1 where a pre-crack cut the bond, 2 where a void of the body lies between its ends: absent bonds have no values |
 //! | `horizon` | H, m |
 //! | `length_factor`, `domain_factor` | alpha, Omega |
-<<<<<<< strength
-//! | `limit.NAME` | limit of the criterion; infinite where it never fails by it |
-//! | `coefficient.NAME` | coefficient q of its measure, where that has one |
-//! | `toughness_ratio.NAME`, `mixed_mode_exponent.NAME` | G_IIc/G_Ic and eta of its measure, where they differ from 1 |
-//! | `coefficient_4.NAME` to `coefficient_9.NAME` | further coefficients of a measure of stress, whose second and third stand in the two above |
-=======
 //! | `limit.NAME` | limit of the criterion; infinite where the bond never fails by it |
 //! | `coefficient.NAME` | coefficient q of the criterion's measure, where it has one |
 //! | `toughness_ratio.NAME`, `mixed_mode_exponent.NAME` | G_IIc/G_Ic and eta of the criterion's measure, where they differ from 1 |
->>>>>>> summary
+//! | `coefficient_4.NAME` to `coefficient_9.NAME` | further coefficients of a measure of stress, whose second and third have the two names above |
 //! | `after.NAME` | e_u/e_0 or e_f/e_0 of the law after the limit, where it has one |
 //! | `largest_utilisation`, `step_of_largest`, `criterion_of_largest` | largest utilisation over the run, written at its end |
 
@@ -42,7 +36,6 @@ pub(super) fn model_file(folder: &Path) -> Option<PathBuf> {
     names.into_iter().find(|path| path.is_file())
 }
 
-<<<<<<< strength
 /// Names of the fields that hold the coefficients of a measure, in their order; most measures have none or one, those of stress the
 /// stress around the bond (none in the sound body) and moduli.
 pub(super) const COEFFICIENTS: [&str; 9] = [
@@ -56,11 +49,6 @@ pub(super) const COEFFICIENTS: [&str; 9] = [
     "coefficient_8",
     "coefficient_9",
 ];
-=======
-/// Names of the fields of a measure's coefficients, in their order; most measures have none or one.
-pub(super) const COEFFICIENTS: [&str; 3] =
-    ["coefficient", "toughness_ratio", "mixed_mode_exponent"];
->>>>>>> summary
 
 /// Writes the model, at the end of a run with the largest utilisations of its bonds.
 pub(super) fn write(

@@ -60,7 +60,6 @@ pub enum YieldError {
         /// Word of the law.
         law: &'static str,
     },
-<<<<<<< strength
     /// A criterion that looks at more of a body than the strain of a bond.
     #[error(
         "the criterion \"{criterion}\" looks at the stress of the body, which is the same for all families: it yields at the strength, and no \
@@ -70,10 +69,7 @@ pub enum YieldError {
         /// Name of the criterion.
         criterion: &'static str,
     },
-    /// A case without a Poisson's ratio for all directions, or with several.
-=======
     /// A case without a Poisson's ratio of all directions, or with several.
->>>>>>> summary
     #[error("the case has {which}: give Poisson's ratio in the plane with --nu")]
     NoPoisson {
         /// Description of the elastic constants of the case.

@@ -24,12 +24,8 @@ use crate::unbalanced::Unbalanced;
 use ligament_model::deformation::Deformations;
 use ligament_model::failure::Criteria;
 use ligament_model::failure::along_line::{EVERYWHERE, Interval};
-<<<<<<< strength
-use ligament_model::portion::Portion;
 use ligament_model::stress::point_strain::Motion;
-=======
 use ligament_model::subdomain::Subdomain;
->>>>>>> summary
 
 /// Lines of the parts of a programme.
 pub(super) struct Affine {
@@ -49,11 +45,7 @@ impl Affine {
         }
     }
 
-<<<<<<< strength
-    /// Growth of the deformations (n_bonds) with the load factor, and the criteria of the bonds with the growth of the stress around them.
-=======
-    /// Rate of the deformations (n_bonds) with the load factor.
->>>>>>> summary
+    /// Rate of the deformations (n_bonds) with the load factor, and the criteria with the rates of the stresses around the bonds.
     fn slopes(
         &mut self,
         path: &mut Path<'_>,
@@ -100,14 +92,9 @@ impl EquilibriumLine for Affine {
             Some(_) => EVERYWHERE,
             None => [begins - now, ends - now],
         };
-<<<<<<< strength
         let deformations = [&line.deformations, &slopes];
         let admissible = criteria.admissible(&rates, intact, deformations, reach);
-        let goal = match on_all_ranks(path.problem.system.portion(), admissible) {
-=======
-        let admissible = criteria.admissible(intact, [&line.deformations, &slopes], reach);
         let goal = match on_all_processes(path.problem.system.subdomain(), admissible) {
->>>>>>> summary
             None => held(self.tie_tolerance, line, &criteria, path),
             Some([_, upper]) if upper.is_infinite() => Goal {
                 load_factor: now,
