@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use ligament_model::portion::any;
 
 use super::path::Path;
 use crate::balanced::Balanced;
@@ -12,7 +11,7 @@ impl Path<'_> {
     /// bond begins at the deformation at which its stress was the strength, and softens when equilibrium is sought again.
     pub(super) fn begin_softening(&mut self, balanced: &Balanced) -> bool {
         let begun = self.problem.beginning(&self.state, balanced);
-        let some = any(self.problem.system.portion(), begun.is_some());
+        let some = (self.problem.system.subdomain()).any(begun.is_some());
         if let Some(begun) = begun {
             let criteria = Arc::new(self.problem.criteria.begun_at(&begun));
             self.equilibrium.judge_by(criteria.clone());

@@ -99,13 +99,14 @@ impl<const D: usize> BondSystem<D> {
     ) -> Vec<Option<SymTensor<D>>> {
         let cloud = &self.cloud;
         let of_point = |point: u32| self.point_strain(layout, motion, point);
-        let Some(portion) = &cloud.portion else {
+        let subdomain = &cloud.subdomain;
+        if subdomain.is_whole() {
             let points = (0..cloud.len() as u32).into_par_iter();
             return points.map(of_point).collect();
-        };
+        }
         let n_components = SymTensor::<D>::COMPONENTS.len();
         let mut all = vec![f64::NAN; n_components * cloud.len()];
-        for &point in portion.own() {
+        for point in subdomain.owned() {
             if let Some(strain) = of_point(point) {
                 let place = n_components * point as usize;
                 let of_point = all[place..].iter_mut();
@@ -114,7 +115,7 @@ impl<const D: usize> BondSystem<D> {
                     .for_each(|(to, it)| *to = it);
             }
         }
-        portion.complete(&mut all, n_components);
+        subdomain.all_gather_points(&mut all, n_components);
         let strains = all.chunks_exact(n_components);
         let strain = |it: &[f64]| (!it[0].is_nan()).then(|| SymTensor::from_components(it));
         strains.map(strain).collect()
