@@ -1,4 +1,4 @@
-//! Pictures of results in memory, as SVG.
+//! Pictures of results in memory.
 
 use std::borrow::Cow;
 
@@ -6,11 +6,10 @@ use ligament_mesh::Cell;
 use ligament_model::{BodyGrid, Canvas};
 use ligament_output::results::fields::unit_of;
 use ligament_output::vtu;
+use ligament_plot::drawing::Drawing;
 use ligament_plot::picture::PictureError;
 use ligament_plot::picture::maps::{MappedBody, Maps};
 use ligament_plot::picture::units::Shown;
-use ligament_plot::plots::pdf::to_pdf;
-use ligament_plot::plots::png::to_png;
 use ligament_plot::plots::{Colour, Plot, Series};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
@@ -31,8 +30,8 @@ pub(crate) struct Picture<'a> {
     pub(crate) title: String,
 }
 
-/// The picture as SVG of a width, mm.
-pub(crate) fn svg(picture: Picture<'_>, width: f64) -> Result<String, PictureError> {
+/// The picture with a width, mm.
+pub(crate) fn drawn(picture: Picture<'_>, width: f64) -> Result<Drawn, PictureError> {
     let Picture {
         grid,
         values,
@@ -62,25 +61,30 @@ pub(crate) fn svg(picture: Picture<'_>, width: f64) -> Result<String, PictureErr
         columns: 1,
         are_modes: false,
     };
-    maps.to_svg(width)
+    maps.draw(width).map(Drawn)
 }
 
-/// The bytes of a file of a picture (SVG) with a title, of the kind that a name ends in: svg, png or pdf.
-#[pyfunction]
-pub(crate) fn picture_file(
-    py: Python<'_>,
-    svg: &str,
-    title: &str,
-    kind: &str,
-    dpi: f64,
-) -> PyResult<Cow<'static, [u8]>> {
-    let bytes = match kind {
-        "png" => to_png(svg, dpi).map_err(|error| error.to_string()),
-        "pdf" => to_pdf(svg, title).map_err(|error| error.to_string()),
-        _ => Ok(svg.as_bytes().to_vec()),
-    };
-    let bytes = bytes.map_err(|fault| errors::of_request(py, &fault))?;
-    Ok(Cow::Owned(bytes))
+/// A picture in memory, which becomes a file of any kind.
+#[pyclass(frozen, name = "Drawing")]
+pub(crate) struct Drawn(Drawing);
+
+#[pymethods]
+impl Drawn {
+    /// The text of the picture as SVG with a title.
+    fn svg(&self, title: &str) -> String {
+        self.0.to_svg(title)
+    }
+
+    /// The bytes of the picture as PNG with so many dots per inch.
+    fn png(&self, py: Python<'_>, dpi: f64) -> PyResult<Cow<'static, [u8]>> {
+        let bytes = self.0.to_png(dpi).map(Cow::Owned);
+        bytes.map_err(|error| errors::of_request(py, &error.to_string()))
+    }
+
+    /// The bytes of the picture as PDF with a title.
+    fn pdf(&self, title: &str) -> Cow<'static, [u8]> {
+        Cow::Owned(self.0.to_pdf(title))
+    }
 }
 
 /// A curve: its label, and its values along x and y.
@@ -90,7 +94,7 @@ type Curve<'py> = (
     PyReadonlyArray1<'py, f64>,
 );
 
-/// Curves of one quantity over another as SVG of a width (mm), each axis by its words and its SI unit.
+/// Curves of one quantity over another in a picture of a width (mm), each axis by its words and its SI unit.
 #[pyfunction]
 pub(crate) fn draw_curves(
     py: Python<'_>,
@@ -99,7 +103,7 @@ pub(crate) fn draw_curves(
     y: (String, String),
     title: String,
     width: f64,
-) -> PyResult<String> {
+) -> PyResult<Drawn> {
     let values = |axis: usize| {
         let of = curves
             .iter()
@@ -120,6 +124,6 @@ pub(crate) fn draw_curves(
     });
     let labels = [shown[0].label(&x.0), shown[1].label(&y.0)];
     let plot = Plot::new("curves", title, [&labels[0], &labels[1]], series.collect());
-    let svg = plot.for_paper(width);
-    svg.map_err(|error| errors::of_request(py, &error.to_string()))
+    let drawing = plot.for_paper(width).map(Drawn);
+    drawing.map_err(|error| errors::of_request(py, &error.to_string()))
 }

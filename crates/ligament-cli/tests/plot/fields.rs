@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use resvg::usvg::roxmltree::Document;
+use roxmltree::Document;
 
 use super::{LATTICE, call, pixels, plot, refusal, run, steps, text, texts};
 
