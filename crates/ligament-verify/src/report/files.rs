@@ -3,7 +3,6 @@
 use ligament_output::folder::ResultFolder;
 use ligament_output::{csv, replace_file};
 
-
 use crate::entry::Verdict;
 use crate::experiment::{Experiment, Findings};
 use crate::table::Table;
