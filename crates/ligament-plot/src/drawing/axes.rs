@@ -68,19 +68,15 @@ impl Axes<'_> {
         };
         let (columns, rows) = (places(&along, 0), places(&up, 1));
         if self.has_grid {
-            let mut line = |ends| drawing.line(ends, GRID, GRID_WIDTH * letters);
-            columns
-                .iter()
-                .for_each(|&at| line([[at, top], [at, bottom]]));
-            rows.iter().for_each(|&at| line([[left, at], [right, at]]));
+            let upwards = columns.iter().map(|&at| [[at, top], [at, bottom]]);
+            let across = rows.iter().map(|&at| [[left, at], [right, at]]);
+            drawing.lines(upwards.chain(across), GRID, GRID_WIDTH * letters);
         }
-        let mut line = |ends| drawing.line(ends, OUTLINE, WIDTH * letters);
-        line([[left, y], [right, y]]);
-        line([[x, top], [x, bottom]]);
-        columns
-            .iter()
-            .for_each(|&at| line([[at, y], [at, y + tick]]));
-        rows.iter().for_each(|&at| line([[x - tick, at], [x, at]]));
+        let axes = [[[left, y], [right, y]], [[x, top], [x, bottom]]];
+        let below = columns.iter().map(|&at| [[at, y], [at, y + tick]]);
+        let beside = rows.iter().map(|&at| [[x - tick, at], [x, at]]);
+        let all = axes.into_iter().chain(below).chain(beside);
+        drawing.lines(all, OUTLINE, WIDTH * letters);
         let below = y + tick + 0.9 * letters;
         for (at, (_, number)) in columns.iter().zip(&along) {
             drawing.text([*at, below], Anchor::Middle, letters, number);

@@ -136,8 +136,18 @@ impl Drawing {
 
     /// A line between two places.
     pub(crate) fn line(&mut self, ends: [[f64; 2]; 2], stroke: Rgb, width: f64) {
+        self.lines([ends], stroke, width);
+    }
+
+    /// Lines between two places each; those without length are left out.
+    pub(crate) fn lines(
+        &mut self,
+        all: impl IntoIterator<Item = [[f64; 2]; 2]>,
+        stroke: Rgb,
+        width: f64,
+    ) {
         let mut path = PathData::default();
-        path.line(ends);
+        all.into_iter().for_each(|ends| path.line(ends));
         self.path(path, Paint::stroke(stroke, width));
     }
 

@@ -13,7 +13,7 @@ const HEIGHT: f64 = 600.0;
 const ABOVE: f64 = 30.0;
 
 /// Radius of the outermost circle over what the plane shows.
-const FILLED: f64 = 0.85;
+const FILLED: f64 = 0.83;
 
 /// Colour of circles and spokes, and size of their numbers, pixels.
 const GRID: Rgb = [225; 3];
@@ -73,8 +73,10 @@ fn draw_circles(drawing: &mut Drawing, frame: Frame, step: f64, circles: u32) {
     let number = |[x, y]: [f64; 2], text: &str, drawing: &mut Drawing| {
         drawing.text([x, y + 0.35 * NUMBERS], Anchor::Middle, NUMBERS, text);
     };
-    for angle in (0..12).map(|spoke| f64::from(spoke) * PI / 6.0) {
-        drawing.line([at(angle, 0.0), at(angle, outer)], GRID, 1.0);
+    let angles = || (0..12).map(|spoke| f64::from(spoke) * PI / 6.0);
+    let spokes = angles().map(|angle| [at(angle, 0.0), at(angle, outer)]);
+    drawing.lines(spokes, GRID, 1.0);
+    for angle in angles() {
         let degrees = format!("{:.0}°", angle.to_degrees());
         number(at(angle, 1.06 * outer), &degrees, drawing);
     }

@@ -41,23 +41,19 @@ impl Scene {
         let window = [frame.low, frame.high];
         let buffer = DepthBuffer::new(&seen, &self.triangles, window, frame.scale[0]);
         if self.shows_all_edges {
-            let all = self
-                .edges
-                .iter()
-                .map(|it| it.map(|end| flat(seen[end as usize])));
-            lines(drawing, frame, all, FAINT);
+            let places =
+                |ends: &[u32; 2]| ends.map(|end| frame.to_pixels(flat(seen[end as usize])));
+            let (colour, width) = FAINT;
+            drawing.lines(self.edges.iter().map(places), colour, width);
         }
         self.paint(drawing, (frame, scale), &seen, &buffer);
         let pieces = self
             .edges
             .iter()
             .flat_map(|ends| buffer.seen_pieces(ends.map(|end| seen[end as usize])));
-        lines(
-            drawing,
-            frame,
-            pieces,
-            if self.shows_all_edges { FAINT } else { EDGE },
-        );
+        let pieces = pieces.map(|ends| ends.map(|end| frame.to_pixels(end)));
+        let (colour, width) = if self.shows_all_edges { FAINT } else { EDGE };
+        drawing.lines(pieces, colour, width);
         axes(drawing, frame, view);
     }
 
@@ -169,19 +165,6 @@ fn fill(drawing: &mut Drawing, path: PathData, colour: Rgb) {
         ..Paint::stroke(colour, SEAM)
     };
     drawing.path(path, paint);
-}
-
-fn lines(
-    drawing: &mut Drawing,
-    frame: Frame,
-    all: impl Iterator<Item = [[f64; 2]; 2]>,
-    (colour, width): (Rgb, f64),
-) {
-    let mut path = PathData::default();
-    for ends in all {
-        path.segment(ends.map(|end| frame.to_pixels(end)));
-    }
-    drawing.path(path, Paint::stroke(colour, width));
 }
 
 /// Draws the axes as seen below the left of the frame.
