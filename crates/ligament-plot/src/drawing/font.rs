@@ -5,9 +5,10 @@ use std::sync::LazyLock;
 use skrifa::charmap::Charmap;
 use skrifa::instance::{LocationRef, Size};
 use skrifa::metrics::{GlyphMetrics, Metrics};
-use skrifa::outline::{OutlineGlyphCollection, OutlinePen};
+use skrifa::outline::OutlineGlyphCollection;
+use skrifa::outline::pen::PathElement;
 use skrifa::{FontRef, GlyphId, MetadataProvider as _};
-use tiny_skia::{Path, PathBuilder};
+use tiny_skia::{Path, PathBuilder, Transform};
 
 /// The file of the font.
 pub(super) const FILE: &[u8] = include_bytes!("font/DejaVuSans-subset.ttf");
@@ -60,61 +61,40 @@ impl Font {
 
     /// The outlines of a line of text of a size, pixels along and above the base line from its start; None without any.
     pub(super) fn outlines(&self, text: &str, size: f64) -> Option<Path> {
-        let mut pen = Pen {
-            path: PathBuilder::new(),
-            along: 0.0,
-            scale: size as f32 / f32::from(self.metrics.units_per_em),
-        };
+        let scale = size as f32 / f32::from(self.metrics.units_per_em);
+        let (mut all, mut along) = (PathBuilder::new(), 0.0);
         for glyph in text.chars().map(|letter| self.glyph(letter)) {
-            if let Some(outline) = self.outlines.get(glyph) {
-                // The font is a part of the program, and its glyphs can be drawn.
-                let _ = outline.draw((Size::unscaled(), LocationRef::default()), &mut pen);
-            }
-            pen.along += (size * self.advance(glyph)) as f32;
+            let place = Transform::from_row(scale, 0.0, 0.0, scale, along, 0.0);
+            let outline = self.outline(glyph).and_then(|it| it.transform(place));
+            outline.iter().for_each(|it| all.push_path(it));
+            along += (size * self.advance(glyph)) as f32;
         }
-        pen.path.finish()
-    }
-}
-
-/// A path of outlines of letters, one after the other.
-struct Pen {
-    path: PathBuilder,
-    /// Place of the letter on the base line, pixels.
-    along: f32,
-    /// Pixels to the unit of the font.
-    scale: f32,
-}
-
-impl Pen {
-    fn place(&self, x: f32, y: f32) -> (f32, f32) {
-        (self.along + self.scale * x, self.scale * y)
-    }
-}
-
-impl OutlinePen for Pen {
-    fn move_to(&mut self, x: f32, y: f32) {
-        let (x, y) = self.place(x, y);
-        self.path.move_to(x, y);
+        all.finish()
     }
 
-    fn line_to(&mut self, x: f32, y: f32) {
-        let (x, y) = self.place(x, y);
-        self.path.line_to(x, y);
-    }
-
-    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
-        let ((cx, cy), (x, y)) = (self.place(cx, cy), self.place(x, y));
-        self.path.quad_to(cx, cy, x, y);
-    }
-
-    fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
-        let ((ax, ay), (bx, by)) = (self.place(ax, ay), self.place(bx, by));
-        let (x, y) = self.place(x, y);
-        self.path.cubic_to(ax, ay, bx, by, x, y);
-    }
-
-    fn close(&mut self) {
-        self.path.close();
+    /// The outline of a glyph in units of the font; None where there is nothing to see.
+    fn outline(&self, glyph: GlyphId) -> Option<Path> {
+        let unscaled = (Size::unscaled(), LocationRef::default());
+        let mut elements: Vec<PathElement> = Vec::new();
+        (self.outlines.get(glyph)?.draw(unscaled, &mut elements)).ok()?;
+        let mut path = PathBuilder::new();
+        for element in elements {
+            match element {
+                PathElement::MoveTo { x, y } => path.move_to(x, y),
+                PathElement::LineTo { x, y } => path.line_to(x, y),
+                PathElement::QuadTo { cx0, cy0, x, y } => path.quad_to(cx0, cy0, x, y),
+                PathElement::CurveTo {
+                    cx0,
+                    cy0,
+                    cx1,
+                    cy1,
+                    x,
+                    y,
+                } => path.cubic_to(cx0, cy0, cx1, cy1, x, y),
+                PathElement::Close => path.close(),
+            }
+        }
+        path.finish()
     }
 }
 

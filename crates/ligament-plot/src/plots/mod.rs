@@ -12,11 +12,11 @@ use crate::drawing::axes::{self, Axes};
 use crate::drawing::ticks::range;
 use crate::drawing::{Anchor, Drawing, Frame};
 
+use series::LETTERS;
 pub use series::{Colour, Mark, Series};
 use sheet::Sheet;
 
-/// Size of the numbers along an axis, of the title, and room around them, pixels of a screen.
-const LETTERS: f64 = 15.0;
+/// Size of the title, and room around what is drawn, pixels of a screen.
 const TITLE: f64 = 19.0;
 const MARGIN: f64 = 14.0;
 

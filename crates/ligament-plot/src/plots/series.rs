@@ -2,6 +2,9 @@
 
 use crate::drawing::{Anchor, Drawing, Frame, Paint, PathData, Rgb};
 
+/// Size of the letters of the legend and of the axes, pixels of a screen.
+pub(super) const LETTERS: f64 = 15.0;
+
 /// Lengths of dashes and of the gaps between them, pixels of a screen.
 const DASHES: [f64; 2] = [7.0, 5.0];
 
@@ -135,7 +138,7 @@ impl Series {
             drawing.path(path, paint);
         }
         self.draw_symbol(drawing, [along(19.5), y], pen);
-        let size = pen * super::LETTERS;
+        let size = pen * LETTERS;
         let at = [along(44.0), y + 0.35 * size];
         drawing.text(at, Anchor::Start, size, &self.label);
     }

@@ -1,6 +1,6 @@
 //! What a plot is drawn on: its size, the room for the legend, and how fine the pen is.
 
-use super::{LETTERS, Series};
+use super::series::{LETTERS, Series};
 use crate::drawing::{Drawing, PIXELS_PER_MM, text_width};
 
 /// Pixels of a screen that a millimetre of paper takes: text of 15 pixels has a height of 7 points in print.

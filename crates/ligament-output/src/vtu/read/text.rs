@@ -176,10 +176,15 @@ pub(super) fn strange(path: &Path, reason: impl Into<String>) -> Error {
 
 /// The contents of a text.
 fn contents(text: &str) -> Result<Contents, String> {
-    let document = Document::parse(text).map_err(|error| error.to_string())?;
+    const OTHER: &str = "it is no VTU file of this program";
+    let fault = |error: roxmltree::Error| match text.contains("<VTKFile") {
+        true => format!("it is damaged: {error}"),
+        false => OTHER.to_owned(),
+    };
+    let document = Document::parse(text).map_err(fault)?;
     let grid = document.root_element();
     if !is_ours(grid) {
-        return Err("it is no VTU file of this program".to_owned());
+        return Err(OTHER.to_owned());
     }
     let piece = grid.descendants().find(|it| it.has_tag_name("Piece"));
     let count = |key| piece?.attribute(key)?.parse().ok();
