@@ -98,7 +98,7 @@ fn cantilever(mut setup: Setup) -> f64 {
         Place::Box(right),
         Action::Force([0.0, -1.0, 0.0]),
     )];
-    let history = setup.solve(&mut Unobserved).unwrap().outcome.history;
+    let history = setup.solve(&mut NoObserver).unwrap().outcome.history;
     let bending = length.powi(3) / (3.0 * YOUNG * HEIGHT.powi(3) / 12.0);
     let shear = length * 2.0 * (1.0 + poisson) / (5.0 / 6.0 * HEIGHT * YOUNG);
     (bending + shear) / history.last().unwrap().displacement
@@ -284,7 +284,7 @@ fn torque(mut setup: Setup, section: f64) -> f64 {
             Axis::X,
         ),
     ];
-    let history = setup.solve(&mut Unobserved).unwrap().outcome.history;
+    let history = setup.solve(&mut NoObserver).unwrap().outcome.history;
     let energy = history.last().unwrap().stored_energy;
     let shear_modulus = YOUNG / 2.4;
     2.0 * energy * length / (shear_modulus * section * section / (2.0 * PI) * angle * angle)

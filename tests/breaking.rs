@@ -166,7 +166,7 @@ fn a_broken_bond_is_an_absent_bond() {
     let mut equilibrium = Equilibrium::new(&with.problem(), 1e-4).unwrap();
     let breakage = equilibrium.break_bonds(&mut state, &absent);
     let balanced = equilibrium
-        .balance(&mut state, &breakage, &mut Unobserved)
+        .balance(&mut state, &breakage, &mut NoObserver)
         .unwrap()
         .balanced()
         .unwrap();
@@ -182,9 +182,9 @@ fn a_broken_bond_is_an_absent_bond() {
     assert!(effect > 1e-2, "the slot matters");
 }
 
-struct Unobserved;
+struct NoObserver;
 
-impl Observer for Unobserved {
+impl Observer for NoObserver {
     fn step(&mut self, _: &StepRecord, _: &View<'_>) -> Result<(), ObserverError> {
         Ok(())
     }

@@ -36,8 +36,8 @@ fn follow(
         let found = Fragments::find(system, &intact);
         assert_eq!(connectivity.fragments(), &found);
         let all = 0..found.points.len() as u32;
-        let missing = found.missing_holds(all, system, &none, |dof| fixed[dof], can_hold);
-        let holds = connectivity.missing_holds(system, &none, |dof| fixed[dof], can_hold);
+        let missing = found.missing_supports(all, system, &none, |dof| fixed[dof], can_hold);
+        let holds = connectivity.missing_supports(system, &none, |dof| fixed[dof], can_hold);
         assert_eq!(holds, missing);
         for hold in &holds {
             fixed[hold.degree_of_freedom] = true;

@@ -9,7 +9,7 @@ use ligament_analysis::Termination;
 use ligament_analysis::balanced::Stability;
 use ligament_analysis::history::Notice;
 use ligament_analysis::internal::{self, InternalForces};
-use ligament_analysis::state::BondsLeft;
+use ligament_analysis::state::UnbrokenBonds;
 use ligament_model::thermal::ThermalStrain;
 use verification::bench::Bench;
 use verification::numbers::Random;
@@ -32,15 +32,25 @@ fn rigid_motions_cost_no_energy() {
         let energy = |[u_x, u_y, angle]: [f64; 3], own_rotation: f64| {
             let motion = |p: &[f64; 2]| [u_x - angle * p[1], u_y + angle * p[0], own_rotation];
             let u: Vec<f64> = system.cloud.positions.iter().flat_map(motion).collect();
-            internal::sweep(system, BondsLeft::whole(&intact), &u, ThermalStrain::NONE)
-                .stored_energy
+            internal::sweep(
+                system,
+                UnbrokenBonds::whole(&intact),
+                &u,
+                ThermalStrain::NONE,
+            )
+            .stored_energy
         };
         // A stretch of the same size, for a measure: u_x = angle times x.
         let u: Vec<f64> = (system.cloud.positions.iter())
             .flat_map(|p| [1e-3 * p[0], 0.0, 0.0])
             .collect();
-        let measure = internal::sweep(system, BondsLeft::whole(&intact), &u, ThermalStrain::NONE)
-            .stored_energy;
+        let measure = internal::sweep(
+            system,
+            UnbrokenBonds::whole(&intact),
+            &u,
+            ThermalStrain::NONE,
+        )
+        .stored_energy;
         assert!(measure > 1.0);
         for motion in [[1e-3, 0.0, 0.0], [0.0, -2e-3, 0.0], [3e-4, 1e-4, 1e-3]] {
             let error = energy(motion, motion[2]) / measure;
@@ -70,9 +80,14 @@ fn internal_forces_are_in_balance_with_themselves() {
         .map(|_| random.uniform() < 0.8)
         .collect();
     assert!(intact.contains(&false));
-    let forces = internal::sweep(system, BondsLeft::whole(&intact), &u, ThermalStrain::NONE)
-        .internal
-        .values;
+    let forces = internal::sweep(
+        system,
+        UnbrokenBonds::whole(&intact),
+        &u,
+        ThermalStrain::NONE,
+    )
+    .internal
+    .values;
     let (mut sum, mut size) = ([0.0; 3], [0.0; 3]);
     for (force, p) in forces.chunks(3).zip(&system.cloud.positions) {
         let arms = [p[0] * force[1], -p[1] * force[0], force[2]];

@@ -81,7 +81,7 @@ fn pulled<const D: usize>(
     setup.criteria = vec![(*law.row.criterion).into()];
     setup.analysis = analysis;
     let outcome = setup
-        .solve(&mut Unobserved)
+        .solve(&mut NoObserver)
         .map_err(|it| it.to_string())?
         .outcome;
     assert!(outcome.broken_bonds > 0, "no bond broke");

@@ -6,7 +6,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use ligament_model::element::Remaining;
+use ligament_model::element::StiffnessFactors;
 use ligament_model::failure::crack_opening::CrackEnergy;
 use ligament_model::failure::fracture_energy::{critical_stretch, opening_modulus};
 use ligament_model::thermal::ThermalStrain;
@@ -354,7 +354,8 @@ impl Separation {
                 0.5 * system.rigidities.axial[bond] * deformation.stretch().max(0.0).powi(2);
             let sliding = 0.5 * system.rigidities.shear[bond] * deformation.shear().powi(2);
             sum.counted += (opening + sliding) * per_energy;
-            let energy = system.stored_energy(&intact, bond, &Remaining::WHOLE, &deformation);
+            let energy =
+                system.stored_energy(&intact, bond, &StiffnessFactors::WHOLE, &deformation);
             sum.stored += energy * per_energy;
         }
         sum

@@ -313,7 +313,7 @@ impl Tearing {
     fn balance(&mut self) -> Balanced {
         let balanced = self
             .equilibrium
-            .balance(&mut self.state, &self.breakage, &mut Unobserved);
+            .balance(&mut self.state, &self.breakage, &mut NoObserver);
         match balanced.unwrap() {
             Attempt::Balanced(balanced) => balanced,
             Attempt::Unbalanced(reason) => panic!("{reason}"),
@@ -326,9 +326,9 @@ impl Tearing {
     }
 }
 
-struct Unobserved;
+struct NoObserver;
 
-impl Observer for Unobserved {
+impl Observer for NoObserver {
     fn step(&mut self, _: &StepRecord, _: &View<'_>) -> Result<(), ObserverError> {
         Ok(())
     }

@@ -69,7 +69,7 @@ fn in_parallel(mut setup: Setup) -> f64 {
 }
 
 fn reaction(setup: Setup) -> f64 {
-    let history = setup.solve(&mut Unobserved).unwrap().outcome.history;
+    let history = setup.solve(&mut NoObserver).unwrap().outcome.history;
     history.last().unwrap().reaction.abs()
 }
 
@@ -369,7 +369,7 @@ fn sheared_layers_between_halves_of_a_mesh() {
 #[test]
 fn layers_between_halves_of_a_solid() {
     let found = |setup: Setup| {
-        let history = setup.solve(&mut Unobserved).unwrap().outcome.history;
+        let history = setup.solve(&mut NoObserver).unwrap().outcome.history;
         history.last().unwrap().reaction.abs()
     };
     for ratio in [1e-4, 0.01, 10.0] {

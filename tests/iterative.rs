@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use ligament_analysis::solver::{Method, Reason, SolverChoice, Unfit, points_for_iteration};
 use ligament_analysis::{Bonds, Equilibrium, SetupError, State, Unknowns, assembly};
-use ligament_model::BondsLeft;
-use ligament_model::element::Remaining;
+use ligament_model::UnbrokenBonds;
+use ligament_model::element::StiffnessFactors;
 use verification::bench::{Bench, Run};
 use verification::numbers::{Random, deviation, largest};
 use verification::problems::{BAR, DISK, PLATE, SQUARE, TWO};
@@ -280,13 +280,13 @@ temperature = [{ change = 1.0 }]
         let (n_bonds, n) = (system.ends().len(), system.layout().n_degrees_of_freedom());
         let mut random = Random(7);
         let intact: Vec<bool> = (0..n_bonds).map(|_| random.uniform() > -0.8).collect();
-        let remaining: Vec<Remaining> = (0..n_bonds)
-            .map(|_| Remaining {
+        let remaining: Vec<StiffnessFactors> = (0..n_bonds)
+            .map(|_| StiffnessFactors {
                 axial: 1.0 + 0.5 * random.uniform(),
-                ..Remaining::WHOLE
+                ..StiffnessFactors::WHOLE
             })
             .collect();
-        let bonds = BondsLeft {
+        let bonds = UnbrokenBonds {
             intact: &intact,
             remaining: &remaining,
         };
@@ -327,7 +327,7 @@ fn rigid_shapes_cost_nothing() {
     assert_eq!(shapes.len(), 3);
     let mut forces = vec![0.0; system.layout().n_degrees_of_freedom()];
     for shape in shapes {
-        system.multiply(BondsLeft::whole(&intact), &shape, &mut forces);
+        system.multiply(UnbrokenBonds::whole(&intact), &shape, &mut forces);
         let size = largest(system.point_stiffness().iter().map(|it| it.force));
         assert!(largest(shape.iter().copied()) >= 0.5);
         assert!(largest(forces.iter().copied()) < 1e-13 * size);

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use ligament_analysis::internal;
-use ligament_analysis::state::BondsLeft;
+use ligament_analysis::state::UnbrokenBonds;
 use ligament_model::interface::StressReading;
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};
 use ligament_model::thermal::ThermalStrain;
@@ -262,10 +262,14 @@ fn uniform_strains_of_a_lattice_have_the_stress_of_the_continuum() {
         for ([xx, yy, xy], expected) in strains {
             let motion = |p: &[f64; 2]| [xx * p[0] + xy * p[1], xy * p[0] + yy * p[1], 0.0];
             let u = of_all(system.layout(), system.cloud.positions.iter().map(motion));
-            let deformations =
-                internal::sweep(system, BondsLeft::whole(&intact), &u, ThermalStrain::NONE)
-                    .deformations;
-            let left = BondsLeft::whole(&intact);
+            let deformations = internal::sweep(
+                system,
+                UnbrokenBonds::whole(&intact),
+                &u,
+                ThermalStrain::NONE,
+            )
+            .deformations;
+            let left = UnbrokenBonds::whole(&intact);
             let virial = of_reading(StressReading::Virial, system, left, &deformations);
             let traction: Vec<[f64; 4]> =
                 of_reading(StressReading::Traction, system, left, &deformations);

@@ -2,7 +2,7 @@
 //! are one.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::state::BondsLeft;
+use ligament_analysis::state::UnbrokenBonds;
 use ligament_analysis::{Component, internal};
 use ligament_model::ElementKind;
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};
@@ -129,7 +129,7 @@ fn stored_energy(bench: &Bench, motion: impl Fn(&[f64; 2]) -> [f64; 3]) -> f64 {
     let u = of_all(system.layout(), system.cloud.positions.iter().map(motion));
     internal::sweep(
         system,
-        BondsLeft::whole(&vec![true; system.bonds.len()]),
+        UnbrokenBonds::whole(&vec![true; system.bonds.len()]),
         &u,
         ThermalStrain::NONE,
     )
@@ -172,7 +172,7 @@ fn internal_forces_are_in_balance() {
             .collect();
         let forces = internal::sweep(
             system,
-            BondsLeft::whole(&vec![true; system.bonds.len()]),
+            UnbrokenBonds::whole(&vec![true; system.bonds.len()]),
             &u,
             ThermalStrain::NONE,
         )

@@ -44,7 +44,7 @@ fn assert_carried(run: &Run) {
         panic!("{end:?}")
     };
     assert!(
-        matches!(reason, Unbalanced::CarriedByHold { .. }),
+        matches!(reason, Unbalanced::LoadOnAddedSupport { .. }),
         "{reason}"
     );
     assert_eq!(run.outcome.history.len(), 1, "the unloaded body alone");

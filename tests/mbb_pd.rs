@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use ligament_analysis::assembly;
 use ligament_analysis::internal::{self, BondSweep};
-use ligament_analysis::state::BondsLeft;
+use ligament_analysis::state::UnbrokenBonds;
 use ligament_analysis::unknowns::Unknowns;
 use ligament_linalg::SymmetricMatrix;
 use ligament_model::element::imaginary::matrix;
@@ -43,7 +43,7 @@ fn plane_stiffness(bench: &Bench) -> Matrix3<f64> {
 fn sweep(bench: &Bench, intact: &[bool], displacement: impl Fn([f64; 2]) -> [f64; 2]) -> BondSweep {
     let of_points = bench.positions().iter().map(|&it| displacement(it));
     let displacement: Vec<f64> = of_points.flatten().collect();
-    let bonds = BondsLeft::whole(intact);
+    let bonds = UnbrokenBonds::whole(intact);
     internal::sweep(
         &**bench.model.plane(),
         bonds,
@@ -138,7 +138,7 @@ fn free_stiffness(bench: &Bench, intact: &[bool]) -> (Unknowns, SymmetricMatrix)
     let unknowns = Unknowns::all_but(system, |_| false);
     let pattern = Arc::new(assembly::pattern(system, &unknowns).unwrap());
     let held = vec![false; system.layout().n_degrees_of_freedom()];
-    let bonds = BondsLeft::whole(intact);
+    let bonds = UnbrokenBonds::whole(intact);
     let matrix = assembly::assemble(system, &unknowns, &pattern, bonds, &held);
     (unknowns, matrix)
 }

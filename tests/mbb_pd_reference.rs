@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 use ligament_analysis::Termination;
 use ligament_analysis::internal;
-use ligament_analysis::state::BondsLeft;
+use ligament_analysis::state::UnbrokenBonds;
 use ligament_model::thermal::ThermalStrain;
 use tempfile::TempDir;
 use verification::bench::Bench;
@@ -156,7 +156,12 @@ fn stiffness_beside_cracks() {
     for moved in moved {
         let mut u = vec![0.0; system.layout().n_degrees_of_freedom()];
         u[moved] = 1.0;
-        let sweep = internal::sweep(system, BondsLeft::whole(&intact), &u, ThermalStrain::NONE);
+        let sweep = internal::sweep(
+            system,
+            UnbrokenBonds::whole(&intact),
+            &u,
+            ThermalStrain::NONE,
+        );
         let mut row_of_stiffness = vec![0.0; u.len()];
         for row in (0..expected.len()).filter(|&row| unknown(row, "a", "i") == moved) {
             row_of_stiffness[unknown(row, "b", "j")] = expected.number(row, "stiffness");

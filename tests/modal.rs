@@ -13,7 +13,7 @@ use ligament_analysis::modal::{
     Rotations,
 };
 use ligament_analysis::{Component, SolverSettings, Supports};
-use ligament_model::element::Remaining;
+use ligament_model::element::StiffnessFactors;
 use ligament_model::{BondSystem, LumpedMass};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use verification::modal::ModalBench;
@@ -196,7 +196,7 @@ fn dense_stiffness(bench: &ModalBench, dofs: &[(usize, f64)]) -> DMatrix<f64> {
     }
     let mut matrix = DMatrix::zeros(dofs.len(), dofs.len());
     for bond in 0..system.bonds.len() {
-        for (rigidity, mut row) in system.terms(&[], bond, &Remaining::WHOLE) {
+        for (rigidity, mut row) in system.terms(&[], bond, &StiffnessFactors::WHOLE) {
             row.retain(|(dof, _)| place[*dof] != usize::MAX);
             for &(i, a) in &row {
                 for &(j, b) in &row {

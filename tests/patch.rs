@@ -11,7 +11,7 @@ use ligament::prelude::*;
 use ligament::setup::Surface;
 use ligament_model::correction::CorrectionReport;
 use ligament_model::correction::patch::{Reference, Settings};
-use ligament_model::system::BondsLeft;
+use ligament_model::system::UnbrokenBonds;
 use ligament_model::thermal::ThermalStrain;
 use nalgebra::{Matrix3, Matrix3x6, SVector};
 use verification::meshes;
@@ -67,7 +67,11 @@ fn bond_forces(model: &Model, displacement: &[f64]) -> Vec<[f64; 2]> {
     let system = &**model.plane();
     let intact = vec![true; system.bonds.len()];
     let deformations = system.deformations(&intact, displacement, ThermalStrain::NONE);
-    let sweep = system.forces(BondsLeft::whole(&intact), deformations, ThermalStrain::NONE);
+    let sweep = system.forces(
+        UnbrokenBonds::whole(&intact),
+        deformations,
+        ThermalStrain::NONE,
+    );
     let of_points = sweep.internal.values.chunks(system.components().len());
     of_points.map(|force| [force[0], force[1]]).collect()
 }
@@ -194,7 +198,7 @@ fn pulled(mut setup: Setup, displacement: f64) -> f64 {
         ..Displacement::default()
     };
     setup.loads = vec![Load::new("right", Action::Displacement(right))];
-    let history = setup.solve(&mut Unobserved).unwrap().outcome.history;
+    let history = setup.solve(&mut NoObserver).unwrap().outcome.history;
     history.last().unwrap().reaction.abs() / displacement
 }
 

@@ -93,7 +93,7 @@ fn pulling_the_bar_gives_the_same_modulus() {
             Load::new(pulled, force(sign)),
             Load::new(other, force(-sign)),
         ];
-        let history = setup.solve(&mut Unobserved).unwrap().outcome.history;
+        let history = setup.solve(&mut NoObserver).unwrap().outcome.history;
         history.last().unwrap().displacement
     };
     // 1 N/m on sides 0.1 m apart, in a thickness of 1 m.

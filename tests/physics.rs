@@ -128,7 +128,7 @@ fn patch_test_on_an_irregular_mesh() {
                         .unwrap();
                 }
             }
-            let outcome = elastic::run(&bench.problem(), 1e-4, &mut Unobserved).unwrap();
+            let outcome = elastic::run(&bench.problem(), 1e-4, &mut NoObserver).unwrap();
             let u = &outcome.state.displacement;
             let inside = || (0..positions.len()).filter(|&point| middle(positions[point]));
             assert!(inside().count() > 300);
@@ -148,9 +148,9 @@ fn patch_test_on_an_irregular_mesh() {
     }
 }
 
-struct Unobserved;
+struct NoObserver;
 
-impl Observer for Unobserved {
+impl Observer for NoObserver {
     fn step(&mut self, _: &StepRecord, _: &View<'_>) -> Result<(), ObserverError> {
         Ok(())
     }

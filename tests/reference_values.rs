@@ -290,12 +290,12 @@ fn separation_of_the_square() {
     compare_path(&bench, &run, "square-separation", 4);
     assert_eq!(run.outcome.termination, Termination::FellApart);
     let loose: Vec<&Notice> = (run.notices.iter())
-        .filter(|notice| matches!(notice, Notice::CameLoose { .. }))
+        .filter(|notice| matches!(notice, Notice::PartsDetached { .. }))
         .collect();
     assert!(
         matches!(
             loose[..],
-            [Notice::CameLoose {
+            [Notice::PartsDetached {
                 step: 4,
                 motions: 1,
                 ..

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use ligament_analysis::history::BreakRecord;
 use ligament_analysis::internal;
-use ligament_analysis::state::BondsLeft;
+use ligament_analysis::state::UnbrokenBonds;
 use ligament_model::ElementKind;
 use ligament_model::thermal::ThermalStrain;
 use verification::bench::Bench;
@@ -33,7 +33,13 @@ fn stored_energy(bench: &Bench, motion: impl FnMut(&[f64; 2]) -> [f64; 3]) -> f6
     let system = &**bench.model.plane();
     let u = of_all(system.layout(), system.cloud.positions.iter().map(motion));
     let intact = vec![true; system.bonds.len()];
-    internal::sweep(system, BondsLeft::whole(&intact), &u, ThermalStrain::NONE).stored_energy
+    internal::sweep(
+        system,
+        UnbrokenBonds::whole(&intact),
+        &u,
+        ThermalStrain::NONE,
+    )
+    .stored_energy
 }
 
 /// Energy of a bond by the printed matrix (MPPD eq. 33, with rotations counter-clockwise) in its own axes.

@@ -9,7 +9,7 @@ use ligament::prelude::*;
 use ligament::system::AnySystem;
 use ligament_case::case::CaseFile;
 use ligament_mesh::{SolidCell, SolidMesh};
-use ligament_model::FixedFields;
+use ligament_model::ConstantFields;
 use ligament_model::correction::CorrectionReport;
 use ligament_run::memory::foresee_model;
 use verification::bench::case;
@@ -74,7 +74,7 @@ fn of_bonds(model: &Model) -> Vec<(&'static str, Vec<f64>)> {
 }
 
 /// What the first process of several tells in the end, and what all must agree about.
-fn of_points(fixed: &FixedFields) -> Vec<(&'static str, Vec<f64>)> {
+fn of_points(fixed: &ConstantFields) -> Vec<(&'static str, Vec<f64>)> {
     let ratios = fixed.energy_ratios.iter();
     let ratios = ratios.map(|it| (it.field, it.at_points.clone()));
     let others = [

@@ -1,7 +1,7 @@
 //! Boxes of cells in space with holes and sets: a thick sphere cut out of a lattice, against what its cells leave exactly and against Lame.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament::run::{Solution, Unobserved};
+use ligament::run::{NoObserver, Solution};
 use ligament_case::case::CaseFile;
 use ligament_model::thermal::ThermalStrain;
 use verification::numbers::relative_error;
@@ -20,7 +20,7 @@ fn sphere(cells: u32) -> Solution {
     let path = repository().join("cases/lattice-sphere/case.toml");
     let case = CaseFile::load(&path, &settings).unwrap();
     let setup = case.setup(&mut ()).unwrap();
-    setup.solve(&mut Unobserved).unwrap()
+    setup.solve(&mut NoObserver).unwrap()
 }
 
 /// Centres of the cells of the box in a hole, on one axis of symmetry after the other: cells taken and left, and rows along an axis that the

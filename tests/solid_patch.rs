@@ -180,7 +180,7 @@ fn a_bar_of_two_materials_has_its_closed_form() {
         ..Displacement::default()
     };
     setup.loads = vec![Load::new("right", Action::Displacement(pull))];
-    let solution = setup.solve(&mut Unobserved).unwrap();
+    let solution = setup.solve(&mut NoObserver).unwrap();
     let force = solution.outcome.history.last().unwrap().reaction.abs();
     let expected = 25.0 * 1e-4 / (5.0 / 10e9 + 5.0 / 30e9);
     println!("two halves: {force:.5e} for {expected:.5e}");

@@ -4,7 +4,7 @@
 
 use std::f64::consts::PI;
 
-use ligament::run::{Solution, Unobserved};
+use ligament::run::{NoObserver, Solution};
 use ligament::setup::Setup;
 use ligament::{Model, Warning};
 use ligament_analysis::Component;
@@ -26,7 +26,7 @@ fn solid(name: &str, settings: &[&str]) -> Setup {
 }
 
 fn solved(name: &str, settings: &[&str]) -> Solution {
-    solid(name, settings).solve(&mut Unobserved).unwrap()
+    solid(name, settings).solve(&mut NoObserver).unwrap()
 }
 
 fn last(solution: &Solution) -> &StepRecord {
@@ -147,7 +147,7 @@ fn an_extruded_plate_is_the_plate_in_plane_strain() {
     let setup = case("extruded-twin/plane.toml", &[])
         .setup(&mut ())
         .unwrap();
-    let plane = setup.solve(&mut Unobserved).unwrap();
+    let plane = setup.solve(&mut NoObserver).unwrap();
     let solid = solved("extruded-twin/solid.toml", &[]);
     let flat = &plane.model.plane().cloud;
     let layout = plane.model.plane().layout();

@@ -22,10 +22,10 @@ use ligament_model::interface::StressReading;
 use ligament_model::law::{Law, calibration};
 use ligament_model::material::Space;
 use ligament_model::tensor::{SymTensor, cross, dot, minus};
-use ligament_model::thermal::{FreeStrains, ThermalStrain};
+use ligament_model::thermal::{StressFreeStrains, ThermalStrain};
 use ligament_model::{
-    BondSet, BondSystem, BondsLeft, Elasticity, ElementKind, Horizons, Isotropic, Plane,
-    PointCloud, System,
+    BondSet, BondSystem, Elasticity, ElementKind, Horizons, Isotropic, Plane, PointCloud, System,
+    UnbrokenBonds,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -84,7 +84,7 @@ fn plain(cloud: PointCloud<3>, poisson: f64, element: ElementKind) -> Arc<dyn Sy
 }
 
 /// The stiffness of all degrees of freedom, dense, from the blocks.
-fn dense(system: &dyn System<3>, bonds: BondsLeft<'_>) -> DMatrix<f64> {
+fn dense(system: &dyn System<3>, bonds: UnbrokenBonds<'_>) -> DMatrix<f64> {
     let unknowns = Unknowns::all_but(system, |_| false);
     let pattern = Arc::new(assembly::pattern(system, &unknowns).unwrap());
     let held = vec![false; system.layout().n_degrees_of_freedom()];
@@ -119,7 +119,7 @@ fn free_bodies_have_six_motions_without_energy() {
         let system = plain(ball(), poisson, element);
         counts(dense(
             &*system,
-            BondsLeft::whole(&vec![true; system.bonds.len()]),
+            UnbrokenBonds::whole(&vec![true; system.bonds.len()]),
         ))
     };
     assert_eq!(of(0.2, ElementKind::Beam), [0, 6]);
@@ -174,7 +174,7 @@ fn all_ways_to_the_stiffness_agree() {
     for element in [ElementKind::Beam, ElementKind::Spring] {
         let system = plain(ball(), 0.2, element);
         let mut intact = vec![true; system.bonds.len()];
-        let whole = dense(&*system, BondsLeft::whole(&intact));
+        let whole = dense(&*system, UnbrokenBonds::whole(&intact));
         let n = whole.nrows();
         let u: Vec<f64> = (0..n)
             .map(|k| ((k * k * 7 + 3 * k) % 101) as f64 - 50.0)
@@ -187,7 +187,7 @@ fn all_ways_to_the_stiffness_agree() {
                 .map(|(a, b)| (a - b).abs());
             off.fold(0.0, f64::max) / expected.amax()
         };
-        let left = BondsLeft::whole(&intact);
+        let left = UnbrokenBonds::whole(&intact);
         let mut product = vec![0.0; n];
         system.multiply(left, &u, &mut product);
         assert!(close(&product) < 1e-14);
@@ -215,7 +215,7 @@ fn all_ways_to_the_stiffness_agree() {
         broken
             .iter()
             .for_each(|&bond| intact[bond as usize] = false);
-        let assembled = dense(&*system, BondsLeft::whole(&intact));
+        let assembled = dense(&*system, UnbrokenBonds::whole(&intact));
         assert!((&without - &assembled).amax() < 1e-14 * whole.amax());
         assert!((&whole - &assembled).amax() > 1e-3 * whole.amax());
         let lost = &whole - &assembled;
@@ -439,7 +439,7 @@ fn sums_over_families_make_the_bulk_modulus_right() {
         .flat_map(|p| (0..components).map(move |place| p.get(place).map_or(0.0, |x| 1e-3 * x)))
         .collect();
     let intact = vec![true; system.bonds.len()];
-    let left = BondsLeft::whole(&intact);
+    let left = UnbrokenBonds::whole(&intact);
     let sweep = internal::sweep(&*system, left, &swollen, ThermalStrain::NONE);
     let middle = system.cloud.nearest_point([0.0; 3]);
     let energy = system.energy_density(left, &sweep.deformations, middle);
@@ -453,7 +453,7 @@ fn sums_over_families_make_the_bulk_modulus_right() {
 fn heat_makes_a_free_body_grow() {
     let system = plain(lattice([4, 4, 6], |_| true), 0.2, ElementKind::Beam);
     let n = system.cloud.len();
-    let strains = FreeStrains::new(vec![SymTensor::<3>::isotropic(1e-3); n]);
+    let strains = StressFreeStrains::new(vec![SymTensor::<3>::isotropic(1e-3); n]);
     let mut loads = pulled(&*system, 5e-3);
     loads.thermal_strain = strains.clone();
     let held = ProportionalLoading {
@@ -579,7 +579,7 @@ fn gaps_in_space_are_those_of_the_faces() {
         let [x, y, z] = strain.times(place);
         [x, y, z, 0.0, 0.0, 0.0]
     });
-    let thermal = FreeStrains::new(vec![strain; positions.len()]);
+    let thermal = StressFreeStrains::new(vec![strain; positions.len()]);
     for pair in pairs {
         let [from, to] = pair.ends.map(|end| positions[end as usize]);
         let opened = dot(pair.normal, strain.times(minus(to, from)));

@@ -3,7 +3,7 @@
 
 use ligament::warning::Warning;
 use ligament_analysis::internal;
-use ligament_analysis::state::BondsLeft;
+use ligament_analysis::state::UnbrokenBonds;
 use ligament_mesh::Mesh;
 use ligament_model::interface::StressReading;
 use ligament_model::thermal::ThermalStrain;
@@ -34,8 +34,8 @@ const POISSON: f64 = 0.21;
 fn stresses(bench: &Bench, intact: &[bool], u: &[f64]) -> (Vec<[f64; 3]>, Vec<[f64; 4]>) {
     let system = &**bench.model.plane();
     let deformations =
-        internal::sweep(system, BondsLeft::whole(intact), u, ThermalStrain::NONE).deformations;
-    let left = BondsLeft::whole(intact);
+        internal::sweep(system, UnbrokenBonds::whole(intact), u, ThermalStrain::NONE).deformations;
+    let left = UnbrokenBonds::whole(intact);
     (
         of_reading(StressReading::Virial, system, left, &deformations),
         of_reading(StressReading::Traction, system, left, &deformations),
@@ -80,9 +80,14 @@ fn stresses_have_the_mean_of_the_forces() {
             .map(|_| random.uniform() < 0.6)
             .collect();
         assert!(intact.contains(&false));
-        let forces = internal::sweep(system, BondsLeft::whole(&intact), &u, ThermalStrain::NONE)
-            .internal
-            .values;
+        let forces = internal::sweep(
+            system,
+            UnbrokenBonds::whole(&intact),
+            &u,
+            ThermalStrain::NONE,
+        )
+        .internal
+        .values;
         let (of_bonds, of_planes) = stresses(&bench, &intact, &u);
         let cloud = &system.cloud;
         // The force's direction first, then the place's.

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use ligament_analysis::solver::Method;
-use ligament_model::BondsLeft;
+use ligament_model::UnbrokenBonds;
 use verification::cylinders::{Torn, cylinder, pulled};
 
 /// Points a diameter: 4,580 points, about the size up to which the matrix is factorised, and 19,155.
@@ -46,7 +46,11 @@ fn solids(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements(intact.len() as u64));
         group.bench_function("product with the matrix", |bencher| {
             bencher.iter(|| {
-                system.multiply(BondsLeft::whole(&intact), black_box(&motions), &mut forces);
+                system.multiply(
+                    UnbrokenBonds::whole(&intact),
+                    black_box(&motions),
+                    &mut forces,
+                );
             });
         });
         group.finish();

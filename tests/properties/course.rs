@@ -239,7 +239,7 @@ fn a_load_the_other_way_is_no_end() {
         };
         let analysis = Analysis::Stepped(stepped(vec![0.2, 0.1, -0.15, -0.3, 0.2]));
         let setup = specimen.torn(&Image::SAME, vec![criterion], analysis);
-        let outcome = setup.solve(&mut Unobserved).unwrap().outcome;
+        let outcome = setup.solve(&mut NoObserver).unwrap().outcome;
         assert_eq!(outcome.termination, Termination::StepsDone);
         let [there, .., back] = &outcome.history[1..] else {
             panic!("steps are missing");

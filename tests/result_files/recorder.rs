@@ -9,7 +9,7 @@ use ligament_analysis::{Component, ControlKind, fields};
 use ligament_case::case::StressField;
 use ligament_model::Absence;
 use ligament_model::interface::StressReading;
-use ligament_model::thermal::FreeStrains;
+use ligament_model::thermal::StressFreeStrains;
 use ligament_run::model::Model;
 use verification::numbers::{by_point, damages};
 use verification::stresses;
@@ -244,7 +244,7 @@ impl<'a> Recorder<'a> {
         if !change.is_empty() {
             fields_of.reals("temperature_change", change);
             let strain = view.loads.thermal_strain(state.load_factor);
-            let of_points = FreeStrains::new(points.clone().map(|it| strain.of_point(it)));
+            let of_points = StressFreeStrains::new(points.clone().map(|it| strain.of_point(it)));
             let strains = stresses::free(&of_points);
             fields_of.components("thermal_strain", ["xx", "yy", "xy"], strains);
         }

@@ -108,9 +108,9 @@ pub fn pulled(system: &Arc<dyn System<3>>, method: Method) -> Problem {
     }
 }
 
-struct Unobserved;
+struct NoObserver;
 
-impl Observer for Unobserved {
+impl Observer for NoObserver {
     fn step(&mut self, _: &StepRecord, _: &View<'_>) -> Result<(), ObserverError> {
         Ok(())
     }
@@ -151,7 +151,7 @@ impl Torn {
 
     /// Equilibrium after what broke last, or why there is none.
     pub fn attempt(&mut self) -> Attempt {
-        let attempt = (self.equilibrium).balance(&mut self.state, &self.breakage, &mut Unobserved);
+        let attempt = (self.equilibrium).balance(&mut self.state, &self.breakage, &mut NoObserver);
         attempt.unwrap()
     }
 

@@ -3,14 +3,14 @@
 use ligament_model::deformation::Deformations;
 use ligament_model::interface::StressReading;
 use ligament_model::tensor::SymTensor;
-use ligament_model::thermal::FreeStrains;
-use ligament_model::{Bonds, BondsLeft};
+use ligament_model::thermal::StressFreeStrains;
+use ligament_model::{Bonds, UnbrokenBonds};
 
 /// Stresses of all points in a reading, shape (n_points, N), Pa.
 pub fn of_reading<const N: usize>(
     reading: StressReading,
     system: &dyn Bonds,
-    bonds: BondsLeft<'_>,
+    bonds: UnbrokenBonds<'_>,
     deformations: &Deformations,
 ) -> Vec<[f64; N]> {
     let stresses = system.stresses(reading, bonds, deformations);
@@ -18,7 +18,7 @@ pub fn of_reading<const N: usize>(
 }
 
 /// Strains (eps_xx, eps_yy, gamma_xy) of all points that they would have without stress, shape (n_points, 3).
-pub fn free(strains: &FreeStrains) -> Vec<[f64; 3]> {
+pub fn free(strains: &StressFreeStrains) -> Vec<[f64; 3]> {
     let of_point = |strain: &SymTensor<3>| {
         let plane = strain.resized::<2>();
         let mut strains = plane.engineering();

@@ -9,7 +9,7 @@ use ligament_analysis::load_program::{Control, ControlKind, ProportionalLoading}
 use ligament_analysis::unknowns::Component;
 use ligament_analysis::{Layout, SolverSettings};
 use ligament_model::contact::Faces;
-use ligament_model::deformation::Room;
+use ligament_model::deformation::DeformationPool;
 use ligament_model::element::ElementKind;
 use ligament_model::element::Rigidities;
 use ligament_model::failure::{Criteria, Criterion, Measure};
@@ -122,7 +122,7 @@ impl Truss {
                 element: ElementKind::Beam,
                 beyond_correction: Vec::new(),
                 faces: Faces::default(),
-                room: Room::default(),
+                room: DeformationPool::default(),
                 cloud,
                 bonds,
             },

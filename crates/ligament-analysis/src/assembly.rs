@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use ligament_linalg::{Pattern, PatternError, SymmetricMatrix};
-use ligament_model::{Bonds, BondsLeft};
+use ligament_model::{Bonds, UnbrokenBonds};
 use rayon::prelude::*;
 
 use crate::unknowns::Unknowns;
@@ -72,7 +72,7 @@ pub fn assemble(
     system: &dyn Bonds,
     unknowns: &Unknowns,
     pattern: &Arc<Pattern>,
-    bonds: BondsLeft<'_>,
+    bonds: UnbrokenBonds<'_>,
     held: &[bool],
 ) -> SymmetricMatrix {
     let coupled = system.coupled_points();

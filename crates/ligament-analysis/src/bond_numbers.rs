@@ -22,20 +22,20 @@ pub struct WithoutBonds;
 #[derive(Debug, Clone)]
 pub struct BondNumbers {
     subdomain: Subdomain,
-    held: Held,
+    held: StoredBonds,
 }
 
 /// The bonds that a process holds.
 #[derive(Debug, Clone)]
-enum Held {
+enum StoredBonds {
     /// All bonds of the body.
     All,
     /// The bonds at owned points.
-    Some(SomeBonds),
+    Some(LocalBonds),
 }
 
 #[derive(Debug, Clone)]
-struct SomeBonds {
+struct LocalBonds {
     /// Number of each bond among all, ascending, shape (n_bonds).
     numbers: Vec<u32>,
     /// Whether the process owns each bond, shape (n_bonds).
@@ -49,7 +49,7 @@ impl BondNumbers {
     pub fn whole(n_points: usize) -> Self {
         Self {
             subdomain: Subdomain::whole(n_points),
-            held: Held::All,
+            held: StoredBonds::All,
         }
     }
 
@@ -61,11 +61,11 @@ impl BondNumbers {
     pub(crate) fn new(system: &dyn Bonds) -> Result<Self, WithoutBonds> {
         let (subdomain, ends) = (system.subdomain(), system.ends());
         let held = if subdomain.is_whole() {
-            Held::All
+            StoredBonds::All
         } else if subdomain.any(ends.is_empty()) {
             return Err(WithoutBonds);
         } else {
-            Held::Some(SomeBonds::new(subdomain, ends))
+            StoredBonds::Some(LocalBonds::new(subdomain, ends))
         };
         Ok(Self {
             subdomain: subdomain.clone(),
@@ -81,32 +81,32 @@ impl BondNumbers {
     /// Number of a local bond.
     pub(crate) fn number(&self, bond: u32) -> u32 {
         match &self.held {
-            Held::All => bond,
-            Held::Some(it) => it.numbers[bond as usize],
+            StoredBonds::All => bond,
+            StoredBonds::Some(it) => it.numbers[bond as usize],
         }
     }
 
     /// Whether this process owns a local bond.
     pub(crate) fn owns(&self, bond: usize) -> bool {
         match &self.held {
-            Held::All => true,
-            Held::Some(it) => it.is_owned[bond],
+            StoredBonds::All => true,
+            StoredBonds::Some(it) => it.is_owned[bond],
         }
     }
 
     /// The local bond with a number, if this process holds it.
     pub(crate) fn local(&self, number: u32) -> Option<usize> {
         match &self.held {
-            Held::All => Some(number as usize),
-            Held::Some(it) => it.numbers.binary_search(&number).ok(),
+            StoredBonds::All => Some(number as usize),
+            StoredBonds::Some(it) => it.numbers.binary_search(&number).ok(),
         }
     }
 
     /// The local bonds among those with some numbers.
     pub(crate) fn all_local<'a>(&self, numbers: &'a [u32]) -> Cow<'a, [u32]> {
         match &self.held {
-            Held::All => Cow::Borrowed(numbers),
-            Held::Some(_) => {
+            StoredBonds::All => Cow::Borrowed(numbers),
+            StoredBonds::Some(_) => {
                 let local = numbers.iter().filter_map(|&number| self.local(number));
                 local.map(|bond| bond as u32).collect()
             }
@@ -116,8 +116,8 @@ impl BondNumbers {
     /// Marks of the owned bonds among marked ones, shape (n_bonds) both.
     pub(crate) fn owned_of<'a>(&self, marked: &'a [bool]) -> Cow<'a, [bool]> {
         match &self.held {
-            Held::All => Cow::Borrowed(marked),
-            Held::Some(it) => {
+            StoredBonds::All => Cow::Borrowed(marked),
+            StoredBonds::Some(it) => {
                 let both = marked.iter().zip(&it.is_owned);
                 both.map(|(marked, is_owned)| *marked && *is_owned)
                     .collect()
@@ -137,7 +137,7 @@ impl BondNumbers {
     ///
     /// If the bytes are damaged, or of a body with another number of bonds.
     pub(crate) fn read<T: Serial>(&self, from: &mut &[u8]) -> Result<Vec<T>, CheckpointError> {
-        let Held::Some(SomeBonds { numbers, n_all, .. }) = &self.held else {
+        let StoredBonds::Some(LocalBonds { numbers, n_all, .. }) = &self.held else {
             return Ok(Serial::read(from)?);
         };
         let count = usize::read(from)?;
@@ -166,15 +166,15 @@ impl BondNumbers {
         T: Serial + Wire<N> + Copy + PartialEq,
     {
         match &self.held {
-            Held::Some(it) if !local.is_empty() => {
+            StoredBonds::Some(it) if !local.is_empty() => {
                 write_list(&it.of_all(&self.subdomain, local, usual), out);
             }
-            Held::All | Held::Some(_) => write_list(local, out),
+            StoredBonds::All | StoredBonds::Some(_) => write_list(local, out),
         }
     }
 }
 
-impl SomeBonds {
+impl LocalBonds {
     /// Numbers the bonds with some ends in the order of all ends; collective.
     fn new(subdomain: &Subdomain, ends: &[[u32; 2]]) -> Self {
         let is_owned: Vec<bool> = ends.iter().map(|&it| subdomain.owns_bond(it)).collect();

@@ -6,7 +6,7 @@ use ligament_model::element::Term;
 use ligament_model::subdomain::Subdomain;
 use ligament_model::thermal::ThermalStrain;
 
-use crate::connectivity::Hold;
+use crate::connectivity::AddedSupport;
 use crate::state::State;
 
 /// Bonds that break together, and what that changes.
@@ -15,7 +15,7 @@ pub struct Breakage {
     /// Bonds that break, in their order, by their numbers among all bonds of the body.
     pub bonds: Vec<u32>,
     /// Rigid motions of parts that came loose, which are held from now on.
-    pub holds: Vec<Hold>,
+    pub holds: Vec<AddedSupport>,
     /// Elements that change: those of the bonds, in their order, and then those that lean on them, ascending.
     elements: Option<Box<dyn ChangedElements>>,
     /// Elements of the owned bonds, where the body is divided between processes.

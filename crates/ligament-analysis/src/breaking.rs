@@ -152,7 +152,7 @@ pub(crate) fn first_of_all(
     let mut leaders = Leaders::new(tie_tolerance);
     let mut ends = BTreeMap::new();
     for [number, ratio, a, b] in numbers.subdomain().all_gather_list(here.collect()) {
-        leaders.meet(number as u32, ratio);
+        leaders.add(number as u32, ratio);
         ends.insert(number as u32, [a as u32, b as u32]);
     }
     leaders.first_to_break().sorted(|bond| ends[&bond])
@@ -171,11 +171,11 @@ fn leaders(
         intact,
         start,
         |leaders, bond, verdict| {
-            leaders.meet(bond, verdict.ratio());
+            leaders.add(bond, verdict.ratio());
         },
     );
     let mut leaders = start();
-    of_tasks.into_iter().for_each(|it| leaders.meet_all(it));
+    of_tasks.into_iter().for_each(|it| leaders.merge(it));
     leaders
 }
 
@@ -222,7 +222,7 @@ impl Leaders {
     }
 
     #[inline]
-    pub(crate) fn meet(&mut self, bond: u32, ratio: f64) {
+    pub(crate) fn add(&mut self, bond: u32, ratio: f64) {
         if ratio > 0.0 && ratio >= self.lowest_tied {
             if ratio > self.ratio {
                 self.ratio = ratio;
@@ -233,9 +233,9 @@ impl Leaders {
     }
 
     /// Meets the bonds that others met.
-    pub(crate) fn meet_all(&mut self, others: Self) {
+    pub(crate) fn merge(&mut self, others: Self) {
         for (bond, ratio) in others.met {
-            self.meet(bond, ratio);
+            self.add(bond, ratio);
         }
     }
 

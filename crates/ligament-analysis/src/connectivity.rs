@@ -23,7 +23,7 @@ pub struct Fragments {
 
 /// A rigid motion of a fragment that nothing held any more.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Hold {
+pub struct AddedSupport {
     /// Degree of freedom that is held from now on.
     pub degree_of_freedom: usize,
     /// Fragment that it belongs to.
@@ -64,21 +64,24 @@ impl Fragments {
     /// The degrees of freedom to hold so that none of the given fragments can move rigidly.
     ///
     /// `is_fixed` tells what supports, loads and earlier holds prescribe; `can_hold` what has a stiffness.
-    pub fn missing_holds(
+    pub fn missing_supports(
         &self,
         fragments: impl IntoIterator<Item = u32>,
         system: &dyn Bonds,
         restraints: &Restraints,
         is_fixed: impl Fn(usize) -> bool,
         can_hold: impl Fn(usize) -> bool,
-    ) -> Vec<Hold> {
+    ) -> Vec<AddedSupport> {
         let of_fragment = |fragment: u32| {
             let points = &self.points[fragment as usize];
-            let found = restraints::missing_holds(system, restraints, points, &is_fixed, &can_hold);
-            found.into_iter().map(move |degree_of_freedom| Hold {
-                degree_of_freedom,
-                fragment,
-            })
+            let found =
+                restraints::missing_supports(system, restraints, points, &is_fixed, &can_hold);
+            found
+                .into_iter()
+                .map(move |degree_of_freedom| AddedSupport {
+                    degree_of_freedom,
+                    fragment,
+                })
         };
         fragments.into_iter().flat_map(of_fragment).collect()
     }

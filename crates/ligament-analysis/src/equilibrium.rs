@@ -20,7 +20,7 @@ mod target;
 use std::sync::Arc;
 use std::time::Instant;
 
-use ligament_linalg::{Factorisation, HalfSolved};
+use ligament_linalg::{Factorisation, ForwardSubstituted};
 
 use crate::balanced::{Attempt, Balanced, Stability};
 use crate::bond_numbers::BondNumbers;
@@ -58,7 +58,7 @@ enum Iteration {
 
 /// What is held in the place of the load factor, which is then an unknown.
 #[derive(Debug, Clone)]
-pub(crate) enum Held {
+pub(crate) enum ControlledQuantity {
     /// A motion.
     Motion(Target),
     /// The energy that bonds have dissipated.
@@ -72,7 +72,7 @@ pub struct Equilibrium {
     /// Numbers of the bonds among all bonds of the body.
     numbers: Arc<BondNumbers>,
     iteration: Iteration,
-    held: Option<Held>,
+    held: Option<ControlledQuantity>,
 }
 
 impl Equilibrium {
@@ -160,7 +160,7 @@ impl Equilibrium {
     }
 
     /// From now on seeks equilibrium with this held, whatever the load factor; None: at the load factor of the state.
-    pub(crate) fn aim(&mut self, held: Option<Held>) {
+    pub(crate) fn aim(&mut self, held: Option<ControlledQuantity>) {
         self.held = held;
     }
 
@@ -244,7 +244,7 @@ impl Equilibrium {
         self.connectivity
             .bonds_broke(system, &mut state.intact, &local);
         let held = &state.held;
-        breakage.holds = self.connectivity.missing_holds(
+        breakage.holds = self.connectivity.missing_supports(
             system,
             loads.restraints(),
             |dof| loads.is_prescribed(dof) || held[dof],
@@ -275,24 +275,24 @@ impl Equilibrium {
         loads: &dyn LoadProgram,
     ) -> Result<Vec<f64>, Unbalanced> {
         let growth = line::growth(&mut self.equations, state, loads)?;
-        match line::carried_by_hold(&self.equations, state, &growth, loads) {
+        match line::load_on_added_support(&self.equations, state, &growth, loads) {
             Some(reason) => Err(reason),
             None => Ok(growth),
         }
     }
 
-    /// Whether a breakage can be taken in as [`Equilibrium::half_follow`] does.
-    pub(crate) fn takes_in(&self, breakage: &Breakage) -> bool {
-        breakage.holds.is_empty() && self.equations.solver.takes_in(breakage.n_elements())
+    /// Whether a breakage can be taken in as [`Equilibrium::update_and_forward_solve`] does.
+    pub(crate) fn can_update(&self, breakage: &Breakage) -> bool {
+        breakage.holds.is_empty() && self.equations.solver.can_update(breakage.n_elements())
     }
 
     /// Takes in a breakage, and leaves the backward substitution of the correction that it asks for to `finish`; None where the factor broke
     /// on the way.
-    pub(crate) fn half_follow<T>(
+    pub(crate) fn update_and_forward_solve<T>(
         &mut self,
         state: &State,
         breakage: &Breakage,
-        finish: impl FnOnce(&dyn Factorisation, &HalfSolved) -> T,
+        finish: impl FnOnce(&dyn Factorisation, &ForwardSubstituted) -> T,
     ) -> Option<T> {
         let Equations {
             solver,
@@ -301,7 +301,7 @@ impl Equilibrium {
             ..
         } = &mut self.equations;
         let expansion = problem.loads.thermal_strain(state.load_factor);
-        let half = solver.half_follow(breakage, state, expansion, costs)?;
+        let half = solver.update_and_forward_solve(breakage, state, expansion, costs)?;
         let start = Instant::now();
         let finished = finish(half.factor, &half.correction);
         costs.backward += start.elapsed();
@@ -342,13 +342,13 @@ impl Equilibrium {
     ) -> Result<Attempt, ObserverError> {
         let equations = &mut self.equations;
         let attempt = match (&self.held, self.iteration) {
-            (Some(Held::Motion(target)), Iteration::Secants) => {
+            (Some(ControlledQuantity::Motion(target)), Iteration::Secants) => {
                 secant::balance_at(equations, state, breakage, target, observer)
             }
-            (Some(Held::Motion(target)), _) => {
+            (Some(ControlledQuantity::Motion(target)), _) => {
                 controlled::balance(equations, state, breakage, target, observer)
             }
-            (Some(Held::Energy(goal)), _) => {
+            (Some(ControlledQuantity::Energy(goal)), _) => {
                 dissipating::balance(equations, state, breakage, goal, observer)
             }
             (None, Iteration::Newton) => newton::balance(equations, state, breakage, observer),

@@ -3,7 +3,7 @@
 use ligament_model::contact::ClosedPair;
 use ligament_model::deformation::Deformations;
 use ligament_model::failure::{Criteria, Weakened};
-use ligament_model::{Bonds, BondsLeft};
+use ligament_model::{Bonds, UnbrokenBonds};
 
 use crate::state::State;
 
@@ -89,7 +89,7 @@ pub fn dissipated_energy_density(system: &dyn Bonds, dissipated: &[f64]) -> Vec<
 /// pairs, over its volume.
 pub fn strain_energy_density(
     system: &dyn Bonds,
-    bonds: BondsLeft<'_>,
+    bonds: UnbrokenBonds<'_>,
     deformations: &Deformations,
     closed: &[ClosedPair],
 ) -> Vec<f64> {
@@ -107,7 +107,7 @@ pub fn strain_energy_density(
 /// Strain energy density of one point, see [`strain_energy_density`].
 pub fn point_energy_density(
     system: &dyn Bonds,
-    bonds: BondsLeft<'_>,
+    bonds: UnbrokenBonds<'_>,
     deformations: &Deformations,
     closed: &[ClosedPair],
     point: u32,

@@ -8,7 +8,7 @@
 use ligament_model::Bonds;
 pub use ligament_model::rigid_motions::FreeMotion;
 
-use crate::connectivity::{Fragments, Hold};
+use crate::connectivity::{AddedSupport, Fragments};
 use crate::load_program::LoadProgram;
 use crate::unknowns::{Component, Unknowns};
 
@@ -38,7 +38,7 @@ impl FreeBody {
 pub fn of_intact_body(system: &dyn Bonds, loads: &dyn LoadProgram) -> Vec<FreeBody> {
     let fragments = Fragments::find(system, &vec![true; system.ends().len()]);
     let unknowns = Unknowns::all_but(system, |dof| loads.is_prescribed(dof));
-    let holds = fragments.missing_holds(
+    let holds = fragments.missing_supports(
         0..fragments.points.len() as u32,
         system,
         loads.restraints(),
@@ -53,7 +53,7 @@ pub fn free_bodies(
     system: &dyn Bonds,
     loads: &dyn LoadProgram,
     fragments: &Fragments,
-    holds: &[Hold],
+    holds: &[AddedSupport],
 ) -> Vec<FreeBody> {
     let of_one_body = holds.chunk_by(|one, other| one.fragment == other.fragment);
     of_one_body
@@ -65,7 +65,7 @@ fn free_body(
     system: &dyn Bonds,
     loads: &dyn LoadProgram,
     fragments: &Fragments,
-    holds: &[Hold],
+    holds: &[AddedSupport],
 ) -> FreeBody {
     let points = &fragments.points[holds[0].fragment as usize];
     let layout = system.layout();

@@ -169,7 +169,7 @@ pub enum Notice {
     #[error(
         "step {step}: {points} points came loose ({motions} rigid motions held from now on, first at point {first})"
     )]
-    CameLoose {
+    PartsDetached {
         /// Load step.
         step: usize,
         /// Points of the loose parts.

@@ -2,14 +2,14 @@
 
 pub use ligament_model::sweep::{BondSweep, InternalForces};
 use ligament_model::thermal::ThermalStrain;
-use ligament_model::{Bonds, BondsLeft};
+use ligament_model::{Bonds, UnbrokenBonds};
 
 use crate::unknowns::Unknowns;
 
 /// Deformations, forces and energy of all bonds for displacements (n_degrees_of_freedom).
 pub fn sweep(
     system: &dyn Bonds,
-    bonds: BondsLeft<'_>,
+    bonds: UnbrokenBonds<'_>,
     displacement: &[f64],
     expansion: ThermalStrain<'_>,
 ) -> BondSweep {

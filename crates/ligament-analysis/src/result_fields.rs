@@ -6,7 +6,7 @@
 use ligament_model::failure::{Criteria, Weakened};
 use ligament_model::interface::StressReading;
 use ligament_model::tensor::SymTensor;
-use ligament_model::{Bonds, FixedFields};
+use ligament_model::{Bonds, ConstantFields};
 
 use crate::balanced::Balanced;
 use crate::fields;
@@ -107,7 +107,7 @@ pub struct Solution<'a> {
 #[derive(Clone, Copy)]
 pub struct ModelPoints<'a> {
     /// Fields from the preparation of the model.
-    pub fixed: &'a FixedFields,
+    pub fixed: &'a ConstantFields,
     /// Volumes, shape (n_points), m^3.
     pub volumes: &'a [f64],
     /// Distances to the nearest point, shape (n_points), m.

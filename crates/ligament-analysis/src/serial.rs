@@ -5,7 +5,7 @@
 
 use std::time::Duration;
 
-use ligament_model::element::{BondDeformation, Remaining};
+use ligament_model::element::{BondDeformation, StiffnessFactors};
 use ligament_model::tensor::SymTensor;
 use thiserror::Error;
 
@@ -106,7 +106,7 @@ macro_rules! serial_numbers {
 }
 
 serial_numbers!(u32, u64, f32);
-serial!(Remaining {
+serial!(StiffnessFactors {
     axial,
     shear,
     rotational,
@@ -348,7 +348,7 @@ mod tests {
             [Duration::new(3, 7), Duration::ZERO],
         );
         assert_eq!(there_and_back(&mixed).1, mixed);
-        let whole = vec![Remaining::WHOLE, Remaining::NOTHING];
+        let whole = vec![StiffnessFactors::WHOLE, StiffnessFactors::NOTHING];
         assert_eq!(there_and_back(&whole).1, whole);
     }
 

@@ -5,7 +5,7 @@
 //! [`Weakened`].
 
 use ligament_model::Bonds;
-use ligament_model::element::{BondDeformation, Remaining};
+use ligament_model::element::{BondDeformation, StiffnessFactors};
 use ligament_model::failure::{Criteria, Criterion, Softened, Weakened};
 use rayon::prelude::*;
 
@@ -24,7 +24,7 @@ pub struct Softening {
     /// Largest e/e_0 with the iterate that equilibrium is sought from, shape (n_bonds) for each criterion.
     trial: Vec<Vec<f64>>,
     /// Remaining stiffness for the deformations of the iterate, shape (n_bonds).
-    pub remaining: Vec<Remaining>,
+    pub remaining: Vec<StiffnessFactors>,
 }
 
 impl Softening {
@@ -43,7 +43,7 @@ impl Softening {
             lists.len().write(out);
             lists.iter().for_each(|list| numbers.write(list, 0.0, out));
         }
-        numbers.write(&self.remaining, Remaining::WHOLE, out);
+        numbers.write(&self.remaining, StiffnessFactors::WHOLE, out);
     }
 
     /// Reads the softening of the local bonds, from that of all.
@@ -73,7 +73,7 @@ impl Softening {
         Self {
             trial: largest.clone(),
             largest,
-            remaining: vec![Remaining::WHOLE; n_bonds],
+            remaining: vec![StiffnessFactors::WHOLE; n_bonds],
         }
     }
 
@@ -174,7 +174,7 @@ fn remaining_of(
     largest: &[Vec<f64>],
     bond: usize,
     is_open: bool,
-) -> Remaining {
+) -> StiffnessFactors {
     let [mut opening, mut crushing, mut sliding] = [1.0_f64; 3];
     for (criterion, largest) in criteria.list.iter().zip(largest) {
         let Some(&largest) = largest.get(bond) else {
@@ -191,7 +191,7 @@ fn remaining_of(
         };
         *weakest = weakest.min(secant);
     }
-    Remaining {
+    StiffnessFactors {
         axial: if is_open { opening } else { crushing },
         shear: opening.min(crushing).min(sliding),
         rotational: opening.min(crushing),

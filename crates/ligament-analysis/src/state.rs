@@ -1,7 +1,7 @@
 //! What changes during a run.
 
 use ligament_model::Bonds;
-pub use ligament_model::BondsLeft;
+pub use ligament_model::UnbrokenBonds;
 use ligament_model::failure::Criteria;
 
 use crate::bond_numbers::BondNumbers;
@@ -106,8 +106,8 @@ impl State {
     }
 
     /// The bonds that are left, with their remaining stiffness.
-    pub fn bonds(&self) -> BondsLeft<'_> {
-        BondsLeft {
+    pub fn bonds(&self) -> UnbrokenBonds<'_> {
+        UnbrokenBonds {
             intact: &self.intact,
             remaining: &self.softening.remaining,
         }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use ligament_linalg::{FactorKind, Pattern, Symbolic, SymmetricMatrix};
-use ligament_model::{Bonds, BondsLeft};
+use ligament_model::{Bonds, UnbrokenBonds};
 
 use crate::assembly;
 use crate::error::SetupError;
@@ -120,7 +120,7 @@ impl Stiffness {
     }
 
     /// The matrix of some bonds; `held` ones of the unknowns stand alone (n_degrees_of_freedom).
-    pub(crate) fn assemble(&self, bonds: BondsLeft<'_>, held: &[bool]) -> SymmetricMatrix {
+    pub(crate) fn assemble(&self, bonds: UnbrokenBonds<'_>, held: &[bool]) -> SymmetricMatrix {
         assembly::assemble(&*self.system, &self.unknowns, &self.pattern, bonds, held)
     }
 

@@ -8,7 +8,7 @@ pub(crate) mod solving;
 mod terms;
 pub(crate) mod unsymmetric;
 
-use ligament_linalg::{FactorError, Factorisation, HalfSolved, Inertia};
+use ligament_linalg::{FactorError, Factorisation, ForwardSubstituted, Inertia};
 
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
@@ -28,7 +28,7 @@ pub(crate) const UNRESISTED: f64 = 1e-14;
 
 /// The force that a solver which iterates may leave out of balance; an exact one leaves rounding.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Left {
+pub(crate) enum AllowedResidual {
     /// Share of the norm of the force.
     Share(f64),
     /// Sizes at the unknowns, shape (n_unknowns), N and N m.
@@ -36,9 +36,9 @@ pub(crate) enum Left {
 }
 
 /// A factor that took in a breakage, and the correction that it asks for after the forward substitution.
-pub(crate) struct HalfFollowed<'a> {
+pub(crate) struct HalfUpdated<'a> {
     pub(crate) factor: &'a dyn Factorisation,
-    pub(crate) correction: HalfSolved,
+    pub(crate) correction: ForwardSubstituted,
 }
 
 /// Why a solver that is ready has no solution.
@@ -67,7 +67,7 @@ pub(crate) trait TangentSolver {
     ) -> Option<Vec<f64>>;
 
     /// Whether changes of so many elements can be taken in as they come.
-    fn takes_in(&self, _n_elements: usize) -> bool {
+    fn can_update(&self, _n_elements: usize) -> bool {
         false
     }
 
@@ -78,18 +78,18 @@ pub(crate) trait TangentSolver {
 
     /// Takes in a breakage as [`TangentSolver::follow`] does, but leaves the backward substitution to the caller; None where the solver
     /// has no factor, or must make it anew.
-    fn half_follow(
+    fn update_and_forward_solve(
         &mut self,
         _breakage: &Breakage,
         _state: &State,
         _expansion: ThermalStrain<'_>,
         _costs: &mut Costs,
-    ) -> Option<HalfFollowed<'_>> {
+    ) -> Option<HalfUpdated<'_>> {
         None
     }
 
     /// Takes in how far bonds have softened.
-    fn weaken(&mut self, state: &State, costs: &mut Costs);
+    fn update_for_softening(&mut self, state: &State, costs: &mut Costs);
 
     /// Takes in which pairs across cracks are closed; none are where faces do not close.
     fn close(&mut self, closed: &[ClosedPair], costs: &mut Costs);
@@ -111,7 +111,7 @@ pub(crate) trait TangentSolver {
         &mut self,
         state: &State,
         force: Vec<f64>,
-        left: Left,
+        left: AllowedResidual,
         costs: &mut Costs,
     ) -> Result<Vec<f64>, Unsolved>;
 
@@ -122,7 +122,7 @@ pub(crate) trait TangentSolver {
     fn is_changed(&self) -> bool;
 
     /// Makes the solver start anew from the bonds the next time.
-    fn forget(&mut self);
+    fn discard(&mut self);
 
     /// Numbers of positive and negative eigenvalues of K; none where they are not known.
     fn inertia(&self) -> Option<Inertia>;

@@ -32,7 +32,7 @@ pub enum Unbalanced {
         place: Place,
     },
     /// A degree of freedom that is held for want of stiffness would have to carry a load.
-    CarriedByHold {
+    LoadOnAddedSupport {
         /// The held degree of freedom.
         place: Place,
         /// Force that it would carry, N or N m.
@@ -116,7 +116,7 @@ impl Unbalanced {
                 "Newton-Raphson did not converge: residual {residual:.1e} after {iterations} iterations, largest at {}",
                 place.words(name)
             ),
-            Self::CarriedByHold { place, force } => format!(
+            Self::LoadOnAddedSupport { place, force } => format!(
                 "no bond resists the motion of {}, on which {force:.3e} {} act; give it a support, or loads that are in \
                  equilibrium with themselves",
                 place.words(name),

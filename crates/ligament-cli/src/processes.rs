@@ -1,9 +1,9 @@
 //! The processes of a run, where a launcher of MPI started them and the program is built for several.
 
 #[cfg(feature = "petsc")]
-pub(crate) use mpi::{abort, is_beside_the_first, join, part};
+pub(crate) use mpi::{abort, is_not_root, join, part};
 #[cfg(not(feature = "petsc"))]
-pub(crate) use serial::{abort, is_beside_the_first, join, part};
+pub(crate) use serial::{abort, is_not_root, join, part};
 
 #[cfg(feature = "petsc")]
 mod mpi {
@@ -37,7 +37,7 @@ mod mpi {
     }
 
     /// Whether this process is one of several and not rank 0, which alone prints and writes.
-    pub(crate) fn is_beside_the_first() -> bool {
+    pub(crate) fn is_not_root() -> bool {
         Processes::started().is_some_and(|it| !it.is_root())
     }
 
@@ -89,7 +89,7 @@ mod serial {
     }
 
     /// This process is the first.
-    pub(crate) fn is_beside_the_first() -> bool {
+    pub(crate) fn is_not_root() -> bool {
         false
     }
 

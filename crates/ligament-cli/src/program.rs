@@ -44,13 +44,13 @@ fn conclude(done: anyhow::Result<ExitCode>) -> ExitCode {
         Err(error) => (code_of(&error), Some(error)),
     };
     // What all processes meet the first one tells of.
-    if let Some(error) = error.as_ref().filter(|_| !processes::is_beside_the_first()) {
+    if let Some(error) = error.as_ref().filter(|_| !processes::is_not_root()) {
         print_error(error);
     }
     let all_came = processes::part(error.is_some());
     if let Some(error) = error
         .as_ref()
-        .filter(|_| processes::is_beside_the_first() && !all_came)
+        .filter(|_| processes::is_not_root() && !all_came)
     {
         print_error(error);
     }

@@ -11,7 +11,8 @@ use criterion::{
     BenchmarkGroup, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
 use ligament_linalg::{
-    Elimination, FactorKind, Factorisation, HalfSolved, Pattern, RankOne, Symbolic, SymmetricMatrix,
+    Elimination, FactorKind, Factorisation, ForwardSubstituted, Pattern, RankOne, Symbolic,
+    SymmetricMatrix,
 };
 use rayon::ThreadPoolBuilder;
 
@@ -133,7 +134,7 @@ impl ThereAndBack {
         }
     }
 
-    fn change(&mut self, factor: &mut dyn Factorisation) -> HalfSolved {
+    fn change(&mut self, factor: &mut dyn Factorisation) -> ForwardSubstituted {
         let half_solved = factor.change(&self.terms, &self.right_hand_side).unwrap();
         for term in &mut self.terms {
             term.weight = -term.weight;

@@ -32,7 +32,7 @@ impl Branch {
 
     /// The whole factor, cut where two ranges of supernodes with more than `most` values meet.
     pub(crate) fn cut(supernodes: Supernodes<'_>, most: usize) -> Self {
-        let cutting = Cutting {
+        let cutting = TreePartition {
             first: first_supernodes(supernodes),
             supernodes,
             most,
@@ -73,7 +73,7 @@ fn first_supernodes(supernodes: Supernodes<'_>) -> Vec<usize> {
     first
 }
 
-struct Cutting<'a> {
+struct TreePartition<'a> {
     supernodes: Supernodes<'a>,
     /// As of [`first_supernodes`].
     first: Vec<usize>,
@@ -81,7 +81,7 @@ struct Cutting<'a> {
     most: usize,
 }
 
-impl Cutting<'_> {
+impl TreePartition<'_> {
     fn is_heavy(&self, range: &Range<usize>) -> bool {
         let Range { start, end } = *range;
         self.supernodes.values_before(end) - self.supernodes.values_before(start) > self.most

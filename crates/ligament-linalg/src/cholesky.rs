@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::digest::digest;
 use crate::factor_error::FactorError;
-use crate::factorisation::{Factorisation, HalfSolved, Inertia};
+use crate::factorisation::{Factorisation, ForwardSubstituted, Inertia};
 use crate::left_looking::LeftLooking;
 use crate::matrix::SymmetricMatrix;
 use crate::modification::{DiagonalEntry, Modification, Target, VanishingPivot};
@@ -40,7 +40,7 @@ impl Cholesky {
     }
 
     /// The error for a pivot, by its row in the order of elimination, that the factor cannot have.
-    fn without_pivot(&self, row: usize) -> FactorError {
+    fn invalid_pivot_error(&self, row: usize) -> FactorError {
         let unknown = self.symbolic.unknown_of_row()[row];
         match self.kind {
             FactorKind::Llt => FactorError::NotPositiveDefinite { unknown },
@@ -75,7 +75,7 @@ impl Factorisation for Cholesky {
             matrix: &matrix.values,
         };
         let factorised = left_looking.factorise(&mut self.values);
-        factorised.map_err(|row| self.without_pivot(row))?;
+        factorised.map_err(|row| self.invalid_pivot_error(row))?;
         self.factorised(matrix);
         Ok(())
     }
@@ -115,7 +115,7 @@ impl Factorisation for Cholesky {
         &mut self,
         terms: &[RankOne],
         right_hand_side: &[(usize, f64)],
-    ) -> Result<HalfSolved, FactorError> {
+    ) -> Result<ForwardSubstituted, FactorError> {
         let rows = self.symbolic.row_of_unknown();
         let mut vector = vec![0.0; rows.len()];
         for &(unknown, value) in right_hand_side {
@@ -135,17 +135,17 @@ impl Factorisation for Cholesky {
         };
         modification
             .apply(&mut target, terms, rows, &mut vector, &rows_of_b)
-            .map_err(|VanishingPivot(row)| self.without_pivot(row))?;
-        Ok(HalfSolved(vector))
+            .map_err(|VanishingPivot(row)| self.invalid_pivot_error(row))?;
+        Ok(ForwardSubstituted(vector))
     }
 
-    fn finish(&self, HalfSolved(mut vector): HalfSolved) -> Vec<f64> {
+    fn finish(&self, ForwardSubstituted(mut vector): ForwardSubstituted) -> Vec<f64> {
         solve_backward(self.panels(), self.symbolic.branch(), &mut vector);
         let rows = self.symbolic.row_of_unknown();
         rows.iter().map(|&row| vector[row]).collect()
     }
 
-    fn finish_part(&self, part: &Part, vector: &mut [f64]) {
+    fn solve_backward_part(&self, part: &Part, vector: &mut [f64]) {
         solve_backward_in(self.panels(), part.supernodes.clone(), vector);
     }
 }

@@ -31,14 +31,14 @@ pub trait Factorisation: Send + Sync {
         &mut self,
         terms: &[RankOne],
         right_hand_side: &[(usize, f64)],
-    ) -> Result<HalfSolved, FactorError>;
+    ) -> Result<ForwardSubstituted, FactorError>;
 
     /// The other half, before the factor changes again: the backward substitution; x of shape (n).
-    fn finish(&self, half_solved: HalfSolved) -> Vec<f64>;
+    fn finish(&self, half_solved: ForwardSubstituted) -> Vec<f64>;
 
     /// The backward substitution in a part, in place: `vector` (n), in the order of elimination, holds the half-solved right-hand side in
     /// the rows of the part, and the solution in those of its border.
-    fn finish_part(&self, part: &Part, vector: &mut [f64]);
+    fn solve_backward_part(&self, part: &Part, vector: &mut [f64]);
 
     /// Pivots in the order of the matrix (the entries of D in L D L^T), shape (n).
     fn pivots(&self) -> Vec<f64>;
@@ -52,9 +52,9 @@ pub trait Factorisation: Send + Sync {
 
 /// A right-hand side after the forward substitution, in the order of elimination.
 #[derive(Debug, Clone, PartialEq)]
-pub struct HalfSolved(pub(crate) Vec<f64>);
+pub struct ForwardSubstituted(pub(crate) Vec<f64>);
 
-impl HalfSolved {
+impl ForwardSubstituted {
     /// The values by row, shape (n).
     pub fn by_row(&self) -> &[f64] {
         &self.0

@@ -31,7 +31,7 @@ mod symbolic;
 pub use digest::digest;
 pub use eigen::{Eigenpairs, Search, largest_eigenpairs};
 pub use factor_error::FactorError;
-pub use factorisation::{Factorisation, HalfSolved, Inertia};
+pub use factorisation::{Factorisation, ForwardSubstituted, Inertia};
 pub use general::GeneralMatrix;
 pub use lu::Lu;
 pub use matrix::{Pattern, PatternError, SymmetricMatrix};

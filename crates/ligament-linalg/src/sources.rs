@@ -54,14 +54,14 @@ impl Sources {
 
 /// For each supernode those before it that have rows among its columns.
 #[derive(Debug)]
-pub(crate) struct Reaching {
+pub(crate) struct UpdatingSupernodes {
     /// First of each supernode, then their number, shape (n_supernodes + 1).
     starts: Vec<usize>,
     /// Supernodes that reach it, ascending.
     supernodes: Vec<u32>,
 }
 
-impl Reaching {
+impl UpdatingSupernodes {
     pub(crate) fn new(supernodes: Supernodes<'_>) -> Self {
         let of_row = supernodes.of_rows();
         let reached = |supernode: usize| {

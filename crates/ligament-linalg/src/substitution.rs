@@ -110,13 +110,13 @@ impl WithSimd for Forward<'_> {
 
 /// Rows that are solved for, of the stems above a branch.
 #[derive(Clone, Copy)]
-struct Known<'a> {
+struct SolvedRows<'a> {
     first_row: usize,
     solution: &'a [f64],
-    above: Option<&'a Known<'a>>,
+    above: Option<&'a SolvedRows<'a>>,
 }
 
-impl<'a> Known<'a> {
+impl<'a> SolvedRows<'a> {
     /// Appends the values at some rows, ascending, none of them before these.
     #[inline(always)]
     fn gather(mut self, mut rows: &[usize], values: &mut Vec<f64>) {
@@ -139,7 +139,7 @@ fn backward_branch(
     panels: Panels<'_>,
     branch: &Branch,
     vector: &mut [f64],
-    above: Option<&Known<'_>>,
+    above: Option<&SolvedRows<'_>>,
 ) {
     let first_row = panels.rows(branch.stem.clone()).start;
     let n_rows_of_parts = first_row - panels.rows(branch.supernodes()).start;
@@ -151,7 +151,7 @@ fn backward_branch(
         vector: of_stem,
         above,
     });
-    let known = Known {
+    let known = SolvedRows {
         first_row,
         solution: of_stem,
         above,
@@ -168,7 +168,7 @@ struct Backward<'a> {
     /// The row that the vector begins with.
     first_row: usize,
     vector: &'a mut [f64],
-    above: Option<&'a Known<'a>>,
+    above: Option<&'a SolvedRows<'a>>,
 }
 
 impl WithSimd for Backward<'_> {
@@ -181,7 +181,7 @@ impl WithSimd for Backward<'_> {
         for supernode in self.stem.rev() {
             let Range { start, end } = supernodes.columns(supernode);
             let (columns, rest) = (self.vector[start - self.first_row..]).split_at_mut(end - start);
-            let rest = Known {
+            let rest = SolvedRows {
                 first_row: end,
                 solution: rest,
                 above: self.above,

@@ -14,7 +14,7 @@ use crate::branches::Branch;
 use crate::factor_error::FactorError;
 use crate::matrix::Pattern;
 use crate::parts::Part;
-use crate::sources::{Reaching, Sources};
+use crate::sources::{Sources, UpdatingSupernodes};
 use crate::supernodes::Supernodes;
 
 /// Operations per entry of the factor above which there are supernodes. faer's own `FORCE_SUPERNODAL` is zero, which a
@@ -39,7 +39,7 @@ pub struct Symbolic {
     pub(crate) cholesky: SymbolicCholesky<usize>,
     branch: Branch,
     sources: Sources,
-    reaching: Reaching,
+    reaching: UpdatingSupernodes,
 }
 
 impl Symbolic {
@@ -81,7 +81,7 @@ impl Symbolic {
         let supernodes = Supernodes::from_analysis(&cholesky);
         Ok(Self {
             branch: Branch::of_factor(supernodes),
-            reaching: Reaching::new(supernodes),
+            reaching: UpdatingSupernodes::new(supernodes),
             sources,
             pattern,
             cholesky,
@@ -135,7 +135,7 @@ impl Symbolic {
     }
 
     /// Supernodes that reach others.
-    pub(crate) fn reaching(&self) -> &Reaching {
+    pub(crate) fn reaching(&self) -> &UpdatingSupernodes {
         &self.reaching
     }
 

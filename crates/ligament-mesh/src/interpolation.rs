@@ -28,7 +28,7 @@ struct Found {
 impl Mesh {
     /// Nodes and their shares, which add up to one, in a value at a position (m): linear in a triangle, bilinear in a quadrangle. A place
     /// beside the mesh, by less than a tenth of a cell, is moved to its side; None farther off.
-    pub fn shares_at(&self, position: [f64; 2]) -> Option<Vec<(u32, f64)>> {
+    pub fn interpolation_weights(&self, position: [f64; 2]) -> Option<Vec<(u32, f64)>> {
         let corner = |node: u32| self.positions[node as usize];
         let near =
             (self.cells.iter()).filter(|it| is_near(it.corners(), &self.positions, position));
@@ -43,7 +43,7 @@ impl SolidMesh {
     /// Nodes and their shares, which add up to one, in a value at a position (m): linear in a tetrahedron, trilinear in a hexahedron,
     /// linear in each of the tetrahedra of a prism or a pyramid. A place beside the mesh, by less than a tenth of a cell, is moved to its
     /// side; None farther off.
-    pub fn shares_at(&self, position: [f64; 3]) -> Option<Vec<(u32, f64)>> {
+    pub fn interpolation_weights(&self, position: [f64; 3]) -> Option<Vec<(u32, f64)>> {
         let corner = |node: u32| self.positions[node as usize];
         let near =
             (self.cells.iter()).filter(|it| is_near(it.corners(), &self.positions, position));
@@ -212,17 +212,17 @@ mod tests {
     fn linear_fields_are_met_in_the_plane() {
         let mesh = mesh();
         for place in [[0.7, 0.9], [1.9, 1.2], [2.6, 1.0], [2.2, 1.05]] {
-            let shares = mesh.shares_at(place).unwrap();
+            let shares = mesh.interpolation_weights(place).unwrap();
             let expected = 3.0 + place[0] + 2.0 * place[1];
             assert!((value(&shares, &mesh.positions) - expected).abs() < 1e-12);
         }
-        assert_eq!(mesh.shares_at([2.4, 1.9]), Some(vec![(2, 1.0)]));
-        let on_edge = mesh.shares_at([2.1, 0.625]).unwrap();
+        assert_eq!(mesh.interpolation_weights([2.4, 1.9]), Some(vec![(2, 1.0)]));
+        let on_edge = mesh.interpolation_weights([2.1, 0.625]).unwrap();
         assert_eq!(on_edge.len(), 2);
         assert!((on_edge[0].1 - 0.75).abs() < 1e-12 && on_edge[0].0 == 1);
         // Just below the base, and far below.
-        assert!(mesh.shares_at([1.0, 0.1 - 0.01]).is_some());
-        assert_eq!(mesh.shares_at([1.0, -0.5]), None);
+        assert!(mesh.interpolation_weights([1.0, 0.1 - 0.01]).is_some());
+        assert_eq!(mesh.interpolation_weights([1.0, -0.5]), None);
     }
 
     /// The middle of a square is a fourth of each corner, whichever diagonal there is; a cube and a prism meet a linear field.
@@ -235,7 +235,7 @@ mod tests {
             ..Mesh::default()
         };
         let fourths = (0..4).map(|node| (node, 0.25)).collect();
-        assert_eq!(square.shares_at([0.5, 0.5]), Some(fourths));
+        assert_eq!(square.interpolation_weights([0.5, 0.5]), Some(fourths));
         let solid = |cells: Vec<SolidCell>| SolidMesh {
             positions: (0..8)
                 .map(|k| [corner(k)[0], corner(k)[1], if k < 4 { 0.0 } else { 1.3 }])
@@ -247,7 +247,7 @@ mod tests {
         let prism = solid(vec![SolidCell::Prism([0, 1, 3, 4, 5, 7])]);
         for (mesh, corners) in [(cube, 8), (prism, 4)] {
             let place = [0.2, 0.3, 0.4];
-            let shares = mesh.shares_at(place).unwrap();
+            let shares = mesh.interpolation_weights(place).unwrap();
             assert_eq!(shares.len(), corners);
             assert!((value(&shares, &mesh.positions) - (3.0 + 0.2 + 0.6 + 1.2)).abs() < 1e-12);
         }

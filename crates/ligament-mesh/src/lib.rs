@@ -37,4 +37,4 @@ pub use group::Group;
 pub use mesh::{Mesh, SolidMesh};
 pub use numbering::Numbering;
 pub use remark::Remark;
-pub use solid::{Faces, OffSurface, Side, SolidCell};
+pub use solid::{Faces, NotOnOutline, Side, SolidCell};

@@ -4,7 +4,7 @@
 
 use crate::deformation::Deformation;
 use crate::element::{Element, Elements, Term};
-use crate::system::{BondsLeft, ElementSystem};
+use crate::system::{ElementSystem, UnbrokenBonds};
 use crate::thermal::ThermalStrain;
 
 /// The elements that bonds change which break together.
@@ -46,7 +46,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     /// The elements that change when some of the bonds that are `left` break, at displacements (n_degrees_of_freedom).
     pub(crate) fn changed(
         &self,
-        left: BondsLeft<'_>,
+        left: UnbrokenBonds<'_>,
         displacement: &[f64],
         expansion: ThermalStrain<'_>,
         bonds: &[u32],
@@ -65,13 +65,13 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
             })
         });
         let mut elements: Vec<ChangedElement<D, M, E::Element>> = broken.collect();
-        let leaning = self.elements.leaning(bonds);
-        if !leaning.is_empty() {
+        let dependent_bonds = self.elements.dependent_bonds(bonds);
+        if !dependent_bonds.is_empty() {
             let mut intact = left.intact.to_vec();
             for &bond in bonds {
                 intact[bond as usize] = false;
             }
-            elements.extend(leaning.into_iter().filter_map(|bond| {
+            elements.extend(dependent_bonds.into_iter().filter_map(|bond| {
                 let bond = bond as usize;
                 let [before, after] = [left.intact, &intact].map(|intact| self.whole(intact, bond));
                 (intact[bond] && before != after).then(|| ChangedElement {

@@ -41,7 +41,11 @@ pub trait Deformation: Copy + Default + PartialEq + fmt::Debug + Send + Sync + '
     fn of_bonds(deformations: &Deformations) -> &[Self];
 
     /// Deformations of so many bonds that a function writes: all of them, and each by its number.
-    fn written(room: &Room, n_bonds: usize, write: impl FnOnce(&mut [Self])) -> Deformations;
+    fn written(
+        room: &DeformationPool,
+        n_bonds: usize,
+        write: impl FnOnce(&mut [Self]),
+    ) -> Deformations;
 }
 
 impl Deformation for BondDeformation {
@@ -69,7 +73,11 @@ impl Deformation for BondDeformation {
         deformations.measured()
     }
 
-    fn written(room: &Room, n_bonds: usize, write: impl FnOnce(&mut [Self])) -> Deformations {
+    fn written(
+        room: &DeformationPool,
+        n_bonds: usize,
+        write: impl FnOnce(&mut [Self]),
+    ) -> Deformations {
         let mut measured = room.taken(n_bonds, |it| &mut it.measured);
         write(&mut measured);
         Deformations {
@@ -118,7 +126,11 @@ impl Deformation for SpaceDeformation {
         &deformations.in_space
     }
 
-    fn written(room: &Room, n_bonds: usize, write: impl FnOnce(&mut [Self])) -> Deformations {
+    fn written(
+        room: &DeformationPool,
+        n_bonds: usize,
+        write: impl FnOnce(&mut [Self]),
+    ) -> Deformations {
         let mut in_space = room.taken(n_bonds, |it| &mut it.in_space);
         write(&mut in_space);
         let mut measured = room.taken(n_bonds, |it| &mut it.measured);
@@ -135,12 +147,12 @@ impl Deformation for SpaceDeformation {
 ///
 /// Fresh memory of a large body comes from the system, which clears it page by page, and goes back there: a quarter of the time of a sweep.
 #[derive(Clone, Default)]
-pub struct Room(Arc<Mutex<Spare>>);
+pub struct DeformationPool(Arc<Mutex<Spare>>);
 
-impl fmt::Debug for Room {
+impl fmt::Debug for DeformationPool {
     /// What lies there belongs to no deformations, and to no system.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Room")
+        f.write_str("DeformationPool")
     }
 }
 
@@ -153,7 +165,7 @@ struct Spare {
     in_space: Vec<Vec<SpaceDeformation>>,
 }
 
-impl Room {
+impl DeformationPool {
     /// An array of so many deformations, whatever they are.
     fn taken<T: Clone + Default>(
         &self,
@@ -176,7 +188,7 @@ pub struct Deformations {
     /// Deformations of bonds in space, shape (n_bonds); empty in the plane.
     in_space: Vec<SpaceDeformation>,
     /// Where the memory goes.
-    room: Room,
+    room: DeformationPool,
 }
 
 impl Drop for Deformations {
@@ -261,7 +273,7 @@ mod tests {
             shear: [x, y, 0.0],
             rotation: [0.0, y, x],
         };
-        let room = Room::default();
+        let room = DeformationPool::default();
         let here = SpaceDeformation::written(&room, 1, |all| all[0] = deformation(1.0, 3.0, 0.0));
         let slopes =
             SpaceDeformation::written(&room, 1, |all| all[0] = deformation(-1.0, 0.0, 2.0));
@@ -280,7 +292,7 @@ mod tests {
     /// Deformations are written into the memory of those that are gone, and never into that of others of another number.
     #[test]
     fn memory_is_used_again() {
-        let room = Room::default();
+        let room = DeformationPool::default();
         let written = |n_bonds: usize, size: f64| {
             BondDeformation::written(&room, n_bonds, |all| {
                 all.fill(BondDeformation::new([size, 0.0, 0.0]));

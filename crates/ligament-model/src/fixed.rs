@@ -4,7 +4,7 @@ use crate::scatter::Factors;
 
 /// Fields of points and bonds that an analysis does not change, beside those of the bond system.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FixedFields {
+pub struct ConstantFields {
     /// Horizons, shape (n_points), m.
     pub horizon: Vec<f64>,
     /// Share of its bonds that pre-cracks cut, shape (n_points).

@@ -9,13 +9,13 @@ use crate::bonds::{BondSet, Incidence};
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
 use crate::deformation::Deformations;
-use crate::element::{BondDeformation, Remaining, Rigidities, Term};
+use crate::element::{BondDeformation, Rigidities, StiffnessFactors, Term};
 use crate::failure::Criterion;
 use crate::layout::{Component, Layout};
 use crate::rigid_motions::FreeMotion;
 use crate::subdomain::Subdomain;
 use crate::sweep::BondSweep;
-use crate::system::BondsLeft;
+use crate::system::UnbrokenBonds;
 use crate::thermal::ThermalStrain;
 
 /// The bonds of a body as equations see them. Points, bonds and degrees of freedom are numbers; where the points lie, and in
@@ -181,23 +181,23 @@ pub trait BondKinetics: BondTopology {
     /// after each other.
     fn forces(
         &self,
-        bonds: BondsLeft<'_>,
+        bonds: UnbrokenBonds<'_>,
         deformations: Deformations,
         expansion: ThermalStrain<'_>,
     ) -> BondSweep;
 
     /// Stiffness of a bond with what remains of it, as a sum of terms.
-    fn terms(&self, intact: &[bool], bond: usize, remaining: &Remaining) -> Vec<Term>;
+    fn terms(&self, intact: &[bool], bond: usize, remaining: &StiffnessFactors) -> Vec<Term>;
 
     /// Adds up the blocks of the stiffness in the columns of a point at the rows of its `lower` coupled points (ascending) and
     /// of itself, shape (n_lower + 1, components, components).
-    fn add_blocks(&self, bonds: BondsLeft<'_>, point: u32, lower: &[u32], blocks: &mut [f64]);
+    fn add_blocks(&self, bonds: UnbrokenBonds<'_>, point: u32, lower: &[u32], blocks: &mut [f64]);
 
     /// The product K u of the stiffness of the bonds that are left with motions u, shape (n_degrees_of_freedom) both; of bonds whose
     /// forces are linear in the displacements. What `forces` held is lost.
     ///
     /// Nothing depends on the number of threads, as in [`BondKinetics::forces`].
-    fn multiply(&self, bonds: BondsLeft<'_>, motions: &[f64], forces: &mut [f64]);
+    fn multiply(&self, bonds: UnbrokenBonds<'_>, motions: &[f64], forces: &mut [f64]);
 
     /// Adds the derivatives of the forces by the displacements: row, column, value.
     fn add_derivatives(&self, intact: &[bool], add: &mut dyn FnMut(usize, usize, f64));
@@ -205,7 +205,7 @@ pub trait BondKinetics: BondTopology {
     /// The elements that change when some of the bonds that are `left` break, at displacements (n_degrees_of_freedom).
     fn changed(
         &self,
-        left: BondsLeft<'_>,
+        left: UnbrokenBonds<'_>,
         displacement: &[f64],
         expansion: ThermalStrain<'_>,
         bonds: &[u32],
@@ -219,7 +219,7 @@ pub trait BondReadings: BondTopology {
         &self,
         intact: &[bool],
         bond: usize,
-        remaining: &Remaining,
+        remaining: &StiffnessFactors,
         deformations: [&Deformations; 2],
     ) -> f64;
 
@@ -228,21 +228,27 @@ pub trait BondReadings: BondTopology {
         &self,
         intact: &[bool],
         bond: usize,
-        remaining: &Remaining,
+        remaining: &StiffnessFactors,
         measured: &BondDeformation,
     ) -> f64;
 
     /// Strain energy density of a point, J/m^3: its share of the energy of its bonds over its volume.
-    fn energy_density(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> f64;
+    fn energy_density(
+        &self,
+        bonds: UnbrokenBonds<'_>,
+        deformations: &Deformations,
+        point: u32,
+    ) -> f64;
 
     /// Components of the virial stress of a point, Pa.
-    fn stress(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> Vec<f64>;
+    fn stress(&self, bonds: UnbrokenBonds<'_>, deformations: &Deformations, point: u32)
+    -> Vec<f64>;
 
     /// Stress of every point in one reading of the forces of the bonds.
     fn stresses(
         &self,
         reading: StressReading,
-        bonds: BondsLeft<'_>,
+        bonds: UnbrokenBonds<'_>,
         deformations: &Deformations,
     ) -> Stresses;
 
@@ -250,7 +256,7 @@ pub trait BondReadings: BondTopology {
     /// bonds of two points alone.
     fn force_through(
         &self,
-        bonds: BondsLeft<'_>,
+        bonds: UnbrokenBonds<'_>,
         deformations: &Deformations,
         crossing: &[(u32, bool)],
         component: Component,

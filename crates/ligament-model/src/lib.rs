@@ -58,7 +58,7 @@ pub use cloud::lattice::Lattice;
 pub use correction::Correction;
 pub use deformation::{Deformations, SpaceDeformation};
 pub use element::ElementKind;
-pub use fixed::{Absence, AbsentBond, EnergyRatio, FixedFields};
+pub use fixed::{Absence, AbsentBond, ConstantFields, EnergyRatio};
 pub use grid::{BodyGrid, Canvas, box_corners, raised};
 pub use horizon::Horizons;
 pub use interface::{BondContact, BondKinetics, BondReadings, BondTopology, Bonds};
@@ -69,4 +69,4 @@ pub use material::{Anisotropic, Elasticity, Expansion, Isotropic, Material, Orth
 pub use scatter::Scatter;
 pub use shape::Shape;
 pub use system::elements::System;
-pub use system::{BondSystem, BondsLeft};
+pub use system::{BondSystem, UnbrokenBonds};

@@ -6,7 +6,7 @@ mod elasticity;
 mod expansion;
 
 pub use anisotropic::Anisotropic;
-pub use contrast::milder;
+pub use contrast::with_reduced_contrast;
 pub use elasticity::{Elasticity, Isotropic, Orthotropic, OutOfPlane, Plane, Space, Stiffness};
 pub use expansion::Expansion;
 

@@ -8,7 +8,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::element::{Element, Elements};
-use crate::system::{BondsLeft, ElementSystem};
+use crate::system::{ElementSystem, UnbrokenBonds};
 
 /// Parts into which the bonds are divided; fixed, so that the order of summation is fixed too. Each part but the first adds to
 /// forces of its own at all points.
@@ -56,7 +56,7 @@ fn add_to<const M: usize>(sum: &mut [f64; M], force: [f64; M]) {
 
 impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     /// The product of the stiffness of the bonds that are left with motions, shape (M n_points) both.
-    pub(crate) fn multiply(&self, bonds: BondsLeft<'_>, motions: &[f64], forces: &mut [f64]) {
+    pub(crate) fn multiply(&self, bonds: UnbrokenBonds<'_>, motions: &[f64], forces: &mut [f64]) {
         over_parts::<M>(self.system.bonds.len(), forces, |of_part, sums| {
             for bond in of_part {
                 if let Some(element) = self.left(bonds, bond) {

@@ -9,7 +9,7 @@ use crate::deformation::{Deformation, Deformations};
 use crate::element::{DeformationOf, Element, Elements};
 use crate::layout::Component;
 use crate::subdomain::{Share, Subdomain, Whole};
-use crate::system::{BondsLeft, ElementSystem};
+use crate::system::{ElementSystem, UnbrokenBonds};
 use crate::thermal::ThermalStrain;
 
 /// Parts into which the bonds are divided when their forces are added up; fixed, so that the order of summation is fixed
@@ -92,7 +92,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     /// after each other.
     pub(crate) fn forces(
         &self,
-        bonds: BondsLeft<'_>,
+        bonds: UnbrokenBonds<'_>,
         deformations: Deformations,
         expansion: ThermalStrain<'_>,
     ) -> BondSweep {
@@ -223,7 +223,7 @@ impl<const M: usize> Part<M> {
     fn of_bonds<const D: usize, E: Elements<D, M>>(
         typed: &ElementSystem<D, M, E>,
         share: impl Share,
-        bonds: BondsLeft<'_>,
+        bonds: UnbrokenBonds<'_>,
         deformations: &[DeformationOf<D, M, E>],
         of_part: Range<usize>,
     ) -> Self {
@@ -258,7 +258,7 @@ impl<const M: usize> Part<M> {
     fn add_expansion<const D: usize, E: Elements<D, M>>(
         &mut self,
         typed: &ElementSystem<D, M, E>,
-        bonds: BondsLeft<'_>,
+        bonds: UnbrokenBonds<'_>,
         deformations: &[DeformationOf<D, M, E>],
         expansion: ThermalStrain<'_>,
         of_part: Range<usize>,

@@ -10,9 +10,9 @@ use rayon::prelude::*;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::contact::Faces;
-use crate::deformation::Room;
+use crate::deformation::DeformationPool;
 use crate::element::strain_stiffness::StrainStiffness;
-use crate::element::{Element, ElementKind, Elements, Remaining, Rigidities};
+use crate::element::{Element, ElementKind, Elements, Rigidities, StiffnessFactors};
 use crate::law::BondStiffness;
 
 /// Points and bonds in D dimensions with their rigidities; it never changes after construction.
@@ -30,11 +30,11 @@ pub struct BondSystem<const D: usize = 2> {
     pub element: ElementKind,
     /// The part of the rigidities of each bond that corrections know nothing of ([`BondStiffness`] at interfaces), shape (n_bonds); empty
     /// where there is none.
-    pub beyond_correction: Vec<Remaining>,
+    pub beyond_correction: Vec<StiffnessFactors>,
     /// Faces of the cracks.
     pub faces: Faces<D>,
     /// Memory of deformations.
-    pub room: Room,
+    pub room: DeformationPool,
 }
 
 impl<const D: usize> BondSystem<D> {
@@ -92,7 +92,7 @@ impl<const D: usize> BondSystem<D> {
             bonds,
             cloud,
             faces: Faces::default(),
-            room: Room::default(),
+            room: DeformationPool::default(),
         }
     }
 
@@ -111,14 +111,14 @@ pub(crate) struct ElementSystem<const D: usize, const M: usize, E> {
 
 /// The bonds that are left, with their remaining stiffness.
 #[derive(Debug, Clone, Copy)]
-pub struct BondsLeft<'a> {
+pub struct UnbrokenBonds<'a> {
     /// For each bond, whether it is unbroken, shape (n_bonds).
     pub intact: &'a [bool],
     /// Remaining stiffness, shape (n_bonds); empty where it is whole.
-    pub remaining: &'a [Remaining],
+    pub remaining: &'a [StiffnessFactors],
 }
 
-impl<'a> BondsLeft<'a> {
+impl<'a> UnbrokenBonds<'a> {
     /// Unbroken bonds (n_bonds) with all of their stiffness.
     pub fn whole(intact: &'a [bool]) -> Self {
         Self {
@@ -141,7 +141,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
 
     /// The element of a bond with what is left of it; None if it is broken.
     #[inline(always)]
-    pub(crate) fn left(&self, bonds: BondsLeft<'_>, bond: usize) -> Option<E::Element> {
+    pub(crate) fn left(&self, bonds: UnbrokenBonds<'_>, bond: usize) -> Option<E::Element> {
         if !bonds.intact[bond] {
             return None;
         }

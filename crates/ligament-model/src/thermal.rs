@@ -4,11 +4,11 @@ use crate::tensor::SymTensor;
 
 /// Strains of points without stress; those of a body in the plane have no components out of it.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct FreeStrains {
+pub struct StressFreeStrains {
     of_points: Vec<SymTensor<3>>,
 }
 
-impl FreeStrains {
+impl StressFreeStrains {
     /// Strains of all points, shape (n_points).
     pub fn new<const D: usize>(strains: impl IntoIterator<Item = SymTensor<D>>) -> Self {
         Self {

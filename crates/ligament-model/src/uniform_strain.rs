@@ -7,7 +7,7 @@ use crate::correction::patch::{CellForces, uniform_strains};
 use crate::layout::Layout;
 use crate::material::Stiffness;
 use crate::moduli::EngineeringConstants;
-use crate::system::BondsLeft;
+use crate::system::UnbrokenBonds;
 use crate::system::elements::System;
 use crate::tensor::{SymTensor, dot, minus};
 use crate::thermal::ThermalStrain;
@@ -128,7 +128,7 @@ fn excess_across<const D: usize>(system: &dyn System<D>, strain: &SymTensor<D>) 
         motions[layout.range(point)][..D].copy_from_slice(&strain.times(position));
     }
     let intact = vec![true; beyond.len()];
-    let left = BondsLeft {
+    let left = UnbrokenBonds {
         intact: &intact,
         remaining: beyond,
     };

@@ -60,7 +60,7 @@ impl ResultFolder {
         fs::create_dir_all(&path).map_err(Error::system("create", &path))?;
         let lock = locked(&path, kind)?;
         // Another process may have filled the folder before the lock was there.
-        match Occupant::admitted(&path, given, kind, replace)? {
+        match Occupant::usable_content(&path, given, kind, replace)? {
             Occupant::Nothing => Ok(Self::locked(path, kind, lock)),
             Occupant::Results => Self::beside(path, kind, lock),
         }
@@ -69,7 +69,7 @@ impl ResultFolder {
     /// A new folder beside earlier results; what a run that was killed has left there goes.
     fn beside(path: PathBuf, kind: Kind, lock: Lock) -> Result<Self, Error> {
         let new = beside(&path)?;
-        Occupant::admitted(&new, &new, kind, true)?;
+        Occupant::usable_content(&new, &new, kind, true)?;
         fs::create_dir_all(&new).map_err(Error::system("create", &new))?;
         let new_lock = locked(&new, kind)?;
         replacement::clear(&new, kind)?;
@@ -147,11 +147,11 @@ impl ResultFolder {
         let path = resolved(given);
         recover(&path, kind)?;
         Lock::check(&path)?;
-        if let Occupant::Results = Occupant::admitted(&path, given, kind, replace)? {
+        if let Occupant::Results = Occupant::usable_content(&path, given, kind, replace)? {
             free_place_aside(&path)?;
             let new = beside(&path)?;
             Lock::check(&new)?;
-            Occupant::admitted(&new, &new, kind, true)?;
+            Occupant::usable_content(&new, &new, kind, true)?;
         }
         Ok(())
     }
@@ -236,7 +236,7 @@ enum Occupant {
 
 impl Occupant {
     /// The occupant of a path, which the user gave as `given`.
-    fn admitted(path: &Path, given: &Path, kind: Kind, replace: bool) -> Result<Self, Error> {
+    fn usable_content(path: &Path, given: &Path, kind: Kind, replace: bool) -> Result<Self, Error> {
         let metadata = match fs::metadata(path) {
             Ok(metadata) => metadata,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Self::Nothing),

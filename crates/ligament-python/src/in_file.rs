@@ -1,6 +1,6 @@
 //! Results in memory in the order of the file, or of the arrays, that a body comes from.
 
-use ligament_model::{AbsentBond, BodyGrid, FixedFields, Numbering};
+use ligament_model::{AbsentBond, BodyGrid, ConstantFields, Numbering};
 use ligament_output::results::PointFields;
 use ligament_output::results::fields::FieldValues;
 
@@ -66,8 +66,8 @@ impl Order {
         ends.map(|it| self.numbering.ends_in_file(it)).collect()
     }
 
-    fn fixed(&self, fixed: FixedFields) -> FixedFields {
-        let FixedFields {
+    fn fixed(&self, fixed: ConstantFields) -> ConstantFields {
+        let ConstantFields {
             horizon,
             precrack_share,
             mut energy_ratios,
@@ -90,7 +90,7 @@ impl Order {
         };
         let mut absent: Vec<AbsentBond> = absent.into_iter().map(pair).collect();
         absent.sort_unstable_by_key(|it| it.ends);
-        FixedFields {
+        ConstantFields {
             horizon: self.of_points(horizon),
             precrack_share: self.of_points(precrack_share),
             energy_ratios,

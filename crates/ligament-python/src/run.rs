@@ -2,9 +2,9 @@
 
 use ligament_analysis::driver::Outcome;
 use ligament_mesh::Cell;
-use ligament_model::{Absence, BodyGrid, Canvas, FixedFields, box_corners};
+use ligament_model::{Absence, BodyGrid, Canvas, ConstantFields, box_corners};
 use ligament_output::results::PointFields;
-use ligament_output::results::cracks::{PartedPairs, StoredCracks};
+use ligament_output::results::cracks::{SeparatedPairs, StoredCracks};
 use ligament_output::results::fields::{
     FieldValues, HORIZON, NEAREST_DISTANCE, PATCH_RESIDUAL, PRECRACK_SHARE, VOLUME,
 };
@@ -187,7 +187,7 @@ fn cracks(solved: &Solved) -> Option<StoredCracks> {
     let absent = fixed.absent.iter();
     let cut = absent.filter(|it| it.absence == Absence::PreCrack);
     let cut: Vec<[u32; 2]> = cut.map(|it| it.ends).collect();
-    let parted = PartedPairs {
+    let parted = SeparatedPairs {
         cut: &cut,
         broken: &kept.broken,
         softened: &kept.opened,
@@ -214,7 +214,7 @@ fn named(py: Python<'_>, fields: PointFields, in_space: bool) -> PyResult<Bound<
 }
 
 /// Fields of the points that never change.
-fn fixed(points: &Bound<'_, PyDict>, fixed: FixedFields) -> PyResult<()> {
+fn fixed(points: &Bound<'_, PyDict>, fixed: ConstantFields) -> PyResult<()> {
     let py = points.py();
     let ratios = fixed.energy_ratios.into_iter();
     let mut fields = vec![

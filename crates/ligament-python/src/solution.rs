@@ -11,7 +11,7 @@ use ligament_analysis::ProportionalLoading;
 use ligament_analysis::driver::Outcome;
 use ligament_case::case::CaseFile;
 
-use ligament_model::{BodyGrid, BondSystem, FixedFields};
+use ligament_model::{BodyGrid, BondSystem, ConstantFields};
 use ligament_run::loading::write_rule;
 use ligament_run::memory;
 use ligament_run::provenance::Provenance;
@@ -28,7 +28,7 @@ const LOOK: Duration = Duration::from_millis(50);
 
 /// What a run in memory came to.
 pub(crate) struct Solved {
-    pub(crate) fixed: FixedFields,
+    pub(crate) fixed: ConstantFields,
     pub(crate) arrays: SystemArrays,
     /// Thickness of the body, m; 1 of a solid.
     pub(crate) thickness: f64,

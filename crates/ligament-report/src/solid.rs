@@ -36,7 +36,7 @@ const EVERYWHERE: usize = 2;
 
 /// From where a solid is seen, and what of it.
 #[derive(Debug, Clone)]
-struct Sight {
+struct SolidView {
     /// A word for programs.
     id: &'static str,
     /// Words for people.
@@ -48,7 +48,7 @@ struct Sight {
 /// A field seen in one way over the steps.
 #[derive(Debug)]
 struct Series<'a> {
-    sight: &'a Sight,
+    sight: &'a SolidView,
     field: String,
 }
 
@@ -109,9 +109,9 @@ pub(crate) fn drawn(
 }
 
 /// The outside from two sides, sections through the middle across the axes, and the crack where something broke.
-fn sights(of: &Stored<'_>, body: &SolidBody) -> Result<Vec<Sight>, Error> {
+fn sights(of: &Stored<'_>, body: &SolidBody) -> Result<Vec<SolidView>, Error> {
     let may_crack = of.kind == OutputKind::Steps && of.folder.join("breaks.csv").is_file();
-    let outside = |id, label: &str, view| Sight {
+    let outside = |id, label: &str, view| SolidView {
         id,
         label: label.to_owned(),
         drawn: SolidRequest {
@@ -148,7 +148,7 @@ fn sights(of: &Stored<'_>, body: &SolidBody) -> Result<Vec<Sight>, Error> {
         };
         (section.point[axis], section.normal[axis]) = (middle, 1.0);
         let name = ["x", "y", "z"][axis];
-        sights.push(Sight {
+        sights.push(SolidView {
             id,
             label: format!("section {name} = {} mm", rounded(1e3 * middle)),
             drawn: SolidRequest {
@@ -159,7 +159,7 @@ fn sights(of: &Stored<'_>, body: &SolidBody) -> Result<Vec<Sight>, Error> {
         });
     }
     if may_crack {
-        sights.push(Sight {
+        sights.push(SolidView {
             id: "crack",
             label: "crack surface".to_owned(),
             drawn: SolidRequest::default(),
@@ -220,7 +220,7 @@ fn fields(of: &Stored<'_>, location: FieldLocation) -> Result<[Vec<String>; 2], 
 }
 
 /// The series of a page in the order in which a reader wants them.
-fn series<'a>(sights: &'a [Sight], [fields, components]: &[Vec<String>; 2]) -> Vec<Series<'a>> {
+fn series<'a>(sights: &'a [SolidView], [fields, components]: &[Vec<String>; 2]) -> Vec<Series<'a>> {
     let of = |id: &str, fields: &[String]| {
         let sights = sights.iter().filter(|it| it.id.starts_with(id));
         let series = sights.flat_map(|sight| fields.iter().map(move |field| (sight, field)));
@@ -285,7 +285,7 @@ mod tests {
 
     #[test]
     fn what_readers_want_first_is_drawn_first() {
-        let sight = |id| Sight {
+        let sight = |id| SolidView {
             id,
             label: id.to_owned(),
             drawn: SolidRequest::default(),

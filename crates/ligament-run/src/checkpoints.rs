@@ -6,7 +6,7 @@ use ligament_analysis::Termination;
 use ligament_analysis::serial::Serial;
 use ligament_output::checkpoint::Checkpoint;
 use ligament_output::folder::ResultFolder;
-use ligament_output::results::SoFar;
+use ligament_output::results::OutputState;
 
 /// The wish that a run stop, which is asked for after each equilibrium.
 pub type IsStopped<'a> = &'a (dyn Fn() -> bool + Sync);
@@ -65,7 +65,7 @@ impl<'a> Checkpoints<'a> {
         &mut self,
         begun: Instant,
         solution: Vec<u8>,
-        results: &SoFar,
+        results: &OutputState,
         notices: &[String],
     ) -> Result<(), ligament_output::Error> {
         let mut of_results = Vec::new();

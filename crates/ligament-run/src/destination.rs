@@ -21,7 +21,7 @@ pub(crate) fn make_results<T>(
     let made = written
         .map_err(anyhow::Error::from)
         .and_then(|()| make(&folder));
-    let (made, is_complete) = made.map_err(|error| match what_is_left(&folder, &error) {
+    let (made, is_complete) = made.map_err(|error| match failed_run_message(&folder, &error) {
         Some(words) => error.context(words),
         None => error,
     })?;
@@ -32,7 +32,7 @@ pub(crate) fn make_results<T>(
 }
 
 /// What a run that failed has left, and what to do with it, where that is not plain.
-fn what_is_left(folder: &ResultFolder, error: &anyhow::Error) -> Option<String> {
+fn failed_run_message(folder: &ResultFolder, error: &anyhow::Error) -> Option<String> {
     let place = folder.path().display();
     let was_not_written = error.chain().any(|it| it.is::<io::Error>());
     // Without its case a run cannot go on.

@@ -7,7 +7,7 @@ use ligament::{Loading, Model};
 use ligament_analysis::driver::Restored;
 use ligament_case::case::{CaseFile, StressField};
 use ligament_output::folder::ResultFolder;
-use ligament_output::results::{PieceWriter, ResultWriter, SoFar, Time, WriteRule};
+use ligament_output::results::{OutputState, PieceWriter, ResultWriter, Time, WriteRule};
 
 use crate::checkpoints::{Checkpoints, IsStopped};
 use crate::inputs::{Contents, Inputs, unread};
@@ -34,7 +34,7 @@ pub(crate) struct LoadedBody<'a> {
 /// Where a run begins if not with the unloaded body.
 pub(crate) struct Kept {
     pub(crate) restored: Restored,
-    pub(crate) results: SoFar,
+    pub(crate) results: OutputState,
     pub(crate) notices: Vec<String>,
 }
 

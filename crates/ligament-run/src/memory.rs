@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
 
-use ligament::model::dividing;
+use ligament::model::partition_communicator;
 use ligament::plausibility::corners;
 use ligament::setup::{ELASTIC_ENERGY_TOLERANCE, Horizon, Setup};
 use ligament_analysis::Equilibrium;
@@ -115,7 +115,7 @@ pub fn foresee_lattice(
         .map(|length| PI * (length / dx) * (length / dy));
     let of_factor = |factor: f64| PI * factor * factor;
     let family = spacings.or(model.horizon_factor.map(of_factor));
-    foresee_bonds(case, points, family.unwrap_or_default(), processes)
+    require_memory_for_bonds(case, points, family.unwrap_or_default(), processes)
 }
 
 /// Fails where the bonds of a body that one process has of it, not yet searched, would take more memory than there is.
@@ -140,12 +140,12 @@ pub fn foresee_model(case: &CaseFile, setup: &Setup) -> Result<(), TooLarge> {
             ball * length.powi(dimensions as i32) * points / box_of_body
         }
     };
-    foresee_bonds(case, points, family, dividing(setup).size())
+    require_memory_for_bonds(case, points, family, partition_communicator(setup).size())
 }
 
 /// Each bond is one of two families; no point has more neighbours than there are others. Of several processes each has all points and its
 /// part of the bonds, or a little more.
-fn foresee_bonds(
+fn require_memory_for_bonds(
     case: &CaseFile,
     points: f64,
     family: f64,

@@ -10,7 +10,7 @@ use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use rayon::ThreadPoolBuildError;
 
 use crate::memory;
-use crate::processors::{tasks_of_others, threads_beside};
+use crate::processors::{free_threads, tasks_of_others};
 use crate::progress::Progress;
 use crate::stages::Stages;
 use crate::summary;
@@ -120,6 +120,6 @@ fn on_free_processors<T: Send>(
     work: impl FnOnce() -> T + Send,
 ) -> Result<T, ThreadPoolBuildError> {
     let threads = rayon::current_num_threads();
-    let free = threads_beside(tasks, threads);
+    let free = free_threads(tasks, threads);
     on_threads((free < threads).then_some(free), work)
 }

@@ -12,7 +12,7 @@ const SHOWN: usize = 5;
 pub fn words(notice: &Notice, body: &dyn Body, closing: bool) -> String {
     match notice {
         Notice::FreeBody(free) => gauges::words(free, body, closing),
-        Notice::CameLoose {
+        Notice::PartsDetached {
             step,
             points,
             motions,

@@ -10,7 +10,7 @@ pub(crate) fn tasks_of_others() -> usize {
 }
 
 /// How many of so many threads find a processor for themselves beside the tasks of others; one at least.
-pub(crate) fn threads_beside(tasks: usize, threads: usize) -> usize {
+pub(crate) fn free_threads(tasks: usize, threads: usize) -> usize {
     let processors = thread::available_parallelism().map_or(threads, usize::from);
     processors.saturating_sub(tasks).clamp(1, threads)
 }
@@ -35,10 +35,10 @@ mod tests {
     #[test]
     fn threads_share_the_processors_with_others() {
         let processors = thread::available_parallelism().unwrap().get();
-        assert_eq!(threads_beside(0, processors), processors);
-        assert_eq!(threads_beside(0, 1), 1);
-        assert_eq!(threads_beside(processors, processors), 1);
-        assert_eq!(threads_beside(usize::MAX, 4), 1);
-        assert_eq!(threads_beside(1, processors), (processors - 1).max(1));
+        assert_eq!(free_threads(0, processors), processors);
+        assert_eq!(free_threads(0, 1), 1);
+        assert_eq!(free_threads(processors, processors), 1);
+        assert_eq!(free_threads(usize::MAX, 4), 1);
+        assert_eq!(free_threads(1, processors), (processors - 1).max(1));
     }
 }

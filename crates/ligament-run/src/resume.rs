@@ -12,7 +12,7 @@ use ligament_case::case::CaseFile;
 use ligament_output::checkpoint::Checkpoint;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::read_text;
-use ligament_output::results::SoFar;
+use ligament_output::results::OutputState;
 use ligament_output::results::outputs::{clear, require_results};
 use serde_json::Value;
 
@@ -96,7 +96,7 @@ impl Request<'_> {
         &self,
         case: &CaseFile,
         folder: Option<ResultFolder>,
-        found: Option<(Checkpoint, SoFar)>,
+        found: Option<(Checkpoint, OutputState)>,
         mut progress: Progress,
     ) -> anyhow::Result<Report> {
         let mut stages = Stages::default();
@@ -172,12 +172,12 @@ fn find_checkpoint(
     folder: &ResultFolder,
     case: &CaseFile,
     progress: &Progress,
-) -> anyhow::Result<Option<(Checkpoint, SoFar)>> {
+) -> anyhow::Result<Option<(Checkpoint, OutputState)>> {
     let mut reasons = Vec::new();
     for read in Checkpoint::list(folder.path()) {
         let usable = read.map_err(anyhow::Error::from).and_then(|checkpoint| {
             check_inputs(&checkpoint, case)?;
-            let results = SoFar::read(&mut checkpoint.results.as_slice())?;
+            let results = OutputState::read(&mut checkpoint.results.as_slice())?;
             match results.obstacle(folder) {
                 None => Ok((checkpoint, results)),
                 Some(obstacle) => bail!("{obstacle}"),
@@ -222,7 +222,7 @@ fn check_inputs(checkpoint: &Checkpoint, case: &CaseFile) -> anyhow::Result<()> 
 /// The run of a checkpoint, ready to go on.
 fn kept(
     checkpoint: Checkpoint,
-    results: SoFar,
+    results: OutputState,
     restored: Restored,
     problem: &Problem,
 ) -> anyhow::Result<Kept> {

@@ -320,7 +320,7 @@ impl Summary {
     }
 
     /// Whether the load that was to break the first bond is more than the body ever carried, beyond all rounding: no state under load held.
-    fn nothing_held(&self) -> bool {
+    fn has_no_equilibrium_under_load(&self) -> bool {
         let event = self.first_softened_bond.as_ref();
         let event = event.or(self.first_broken_bond.as_ref());
         // Stages foretell no breakage, but the elastic answer of their first step is that of its first event.
@@ -369,7 +369,7 @@ impl Summary {
             Some(_) => "first softening",
             None => "first breakage",
         };
-        if broke && !self.without_equilibrium && self.nothing_held() {
+        if broke && !self.without_equilibrium && self.has_no_equilibrium_under_load() {
             writeln!(
                 out,
                 "  largest load       none: the body broke in the first load step"

@@ -12,14 +12,14 @@ pub struct Entry {
     /// Allowed distance of the computed value from the known one.
     pub allowed: Allowed,
     /// Whether the value is to be trusted.
-    pub standing: Standing,
+    pub standing: Reliability,
     /// Whether the entry belongs to the fast subset.
     pub is_fast: bool,
 }
 
 /// Whether a known value is to be trusted.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Standing {
+pub enum Reliability {
     /// The value is to be trusted.
     Sound,
     /// The value is to be trusted, but its last digit was cut off, not rounded.
@@ -77,25 +77,27 @@ impl Entry {
         let agrees = |printed: &Printed| self.allowed.admits(printed, computed);
         match &self.standing {
             _ if !computed.is_finite() => Verdict::Failed,
-            Standing::Sound if self.allowed == Allowed::Any => Verdict::Shown,
-            Standing::Missed { instead, .. } if !agrees(&self.known) => match agrees(instead) {
+            Reliability::Sound if self.allowed == Allowed::Any => Verdict::Shown,
+            Reliability::Missed { instead, .. } if !agrees(&self.known) => match agrees(instead) {
                 true => Verdict::Missed,
                 false => Verdict::Failed,
             },
-            Standing::Sound if !agrees(&self.known) => Verdict::Failed,
-            Standing::Sound | Standing::Missed { .. } if self.known.is_rounded_from(computed) => {
+            Reliability::Sound if !agrees(&self.known) => Verdict::Failed,
+            Reliability::Sound | Reliability::Missed { .. }
+                if self.known.is_rounded_from(computed) =>
+            {
                 Verdict::Rounded
             }
-            Standing::Sound | Standing::Missed { .. } => Verdict::Within,
-            Standing::Truncated { .. } if self.known.is_cut_from(computed) => Verdict::Truncated,
-            Standing::Misprint { instead, .. } if agrees(instead) => Verdict::Misprint,
-            Standing::Open { instead, .. } if agrees(instead) => Verdict::Differs,
+            Reliability::Sound | Reliability::Missed { .. } => Verdict::Within,
+            Reliability::Truncated { .. } if self.known.is_cut_from(computed) => Verdict::Truncated,
+            Reliability::Misprint { instead, .. } if agrees(instead) => Verdict::Misprint,
+            Reliability::Open { instead, .. } if agrees(instead) => Verdict::Differs,
             _ => Verdict::Failed,
         }
     }
 }
 
-impl Standing {
+impl Reliability {
     /// The reason why the known value is not taken as it is.
     pub(super) fn reason(&self) -> Option<&str> {
         match self {
@@ -150,7 +152,7 @@ impl Verdict {
 mod tests {
     use super::*;
 
-    fn entry(known: &str, allowed: Allowed, standing: Standing) -> Entry {
+    fn entry(known: &str, allowed: Allowed, standing: Reliability) -> Entry {
         Entry {
             labels: Vec::new(),
             known: Printed::parse(known).unwrap(),
@@ -168,20 +170,20 @@ mod tests {
     #[test]
     fn a_sound_value_is_met_nearly_met_or_missed() {
         use Verdict::{Failed, Rounded, Shown, Within};
-        let printed = entry("2294.9", Allowed::Digits, Standing::Sound);
+        let printed = entry("2294.9", Allowed::Digits, Reliability::Sound);
         assert_eq!(
             verdicts(&printed, &[2294.94, 2294.86, 2294.96]),
             [Rounded, Rounded, Failed]
         );
-        let near = entry("2294.9", Allowed::Relative(0.01), Standing::Sound);
+        let near = entry("2294.9", Allowed::Relative(0.01), Reliability::Sound);
         assert_eq!(
             verdicts(&near, &[2294.9, 2310.0, 2272.0, 2318.0]),
             [Rounded, Within, Within, Failed]
         );
         // Half a unit of the only digit of 0 is no excuse for missing the tolerance.
-        let zero = entry("0", Allowed::Absolute(0.01), Standing::Sound);
+        let zero = entry("0", Allowed::Absolute(0.01), Reliability::Sound);
         assert_eq!(verdicts(&zero, &[-0.005, 0.3]), [Rounded, Failed]);
-        let shown = entry("0.1", Allowed::Any, Standing::Sound);
+        let shown = entry("0.1", Allowed::Any, Reliability::Sound);
         assert_eq!(verdicts(&shown, &[0.1, 7.0]), [Shown, Shown]);
         for it in [printed, near, zero, shown] {
             assert_eq!(verdicts(&it, &[f64::NAN, f64::INFINITY]), [Failed, Failed]);
@@ -192,11 +194,15 @@ mod tests {
     fn a_truncated_value_is_met_by_what_was_cut() {
         use Verdict::{Failed, Truncated};
         let reason = String::from("cut");
-        let cut = entry("0.01085", Allowed::Digits, Standing::Truncated { reason });
+        let cut = entry(
+            "0.01085",
+            Allowed::Digits,
+            Reliability::Truncated { reason },
+        );
         let found = verdicts(&cut, &[0.010856, 0.01085, 0.010849, 0.010861]);
         assert_eq!(found, [Truncated, Truncated, Failed, Failed]);
         let reason = String::from("cut");
-        let negative = entry("-0.5", Allowed::Digits, Standing::Truncated { reason });
+        let negative = entry("-0.5", Allowed::Digits, Reliability::Truncated { reason });
         assert_eq!(verdicts(&negative, &[-0.58, -0.48]), [Truncated, Failed]);
     }
 
@@ -209,7 +215,7 @@ mod tests {
         let misprint = entry(
             "2025.5",
             Allowed::Digits,
-            Standing::Misprint {
+            Reliability::Misprint {
                 instead: instead.clone(),
                 reason: reason.clone(),
             },
@@ -219,7 +225,7 @@ mod tests {
         let open = entry(
             "2025.5",
             Allowed::Relative(0.001),
-            Standing::Open { instead, reason },
+            Reliability::Open { instead, reason },
         );
         let found = verdicts(&open, &[2054.0, 2025.5]);
         assert_eq!(found, [Verdict::Differs, Verdict::Failed]);
@@ -231,7 +237,7 @@ mod tests {
         let missed = entry(
             "0.0",
             Allowed::Absolute(0.3),
-            Standing::Missed { instead, reason },
+            Reliability::Missed { instead, reason },
         );
         let found = verdicts(&missed, &[0.7, 1.2, 0.2, 0.01]);
         use Verdict::{Failed, Missed, Rounded, Within};

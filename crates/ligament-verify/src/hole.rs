@@ -4,7 +4,7 @@ use anyhow::Context;
 use ligament::body::Origin;
 use ligament::run::Solution;
 use ligament_analysis::interface::StressReading;
-use ligament_model::BondsLeft;
+use ligament_model::UnbrokenBonds;
 use ligament_model::thermal::ThermalStrain;
 
 use super::experiment::{Experiment, Findings};
@@ -84,7 +84,7 @@ fn read(solution: &Solution) -> anyhow::Result<Reading> {
     let system = solution.model.plane();
     let state = &solution.outcome.state;
     let deformations = system.deformations(&state.intact, &state.displacement, ThermalStrain::NONE);
-    let bonds = BondsLeft::whole(&state.intact);
+    let bonds = UnbrokenBonds::whole(&state.intact);
     let stresses = |reading| system.stresses(reading, bonds, &deformations).values;
     let virial = stresses(StressReading::Virial);
     let (virial, _) = virial.as_chunks::<3>();

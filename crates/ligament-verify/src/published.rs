@@ -17,7 +17,7 @@
 
 use ligament_output::csv::read::{StringRecord, records};
 
-use super::entry::{Entry, Standing};
+use super::entry::{Entry, Reliability};
 use super::printed::{Allowed, Printed};
 use super::table::{Extent, Heading, Known, Labels, Table};
 
@@ -162,12 +162,12 @@ fn read_allowed(text: &str) -> Result<Allowed, String> {
     read.ok_or_else(|| fault("allowed", text, expected))
 }
 
-fn read_standing(standing: &str, instead: &str, reason: &str) -> Result<Standing, String> {
+fn read_standing(standing: &str, instead: &str, reason: &str) -> Result<Reliability, String> {
     if standing.is_empty() {
         let unused = [("instead", instead), ("reason", reason)];
         return match unused.iter().find(|(_, text)| !text.is_empty()) {
             Some((column, text)) => Err(fault(column, text, "nothing, without a standing")),
-            None => Ok(Standing::Sound),
+            None => Ok(Reliability::Sound),
         };
     }
     if reason.is_empty() {
@@ -175,16 +175,16 @@ fn read_standing(standing: &str, instead: &str, reason: &str) -> Result<Standing
     }
     let reason = reason.to_owned();
     match standing {
-        "truncated" => Ok(Standing::Truncated { reason }),
-        "misprint" => Ok(Standing::Misprint {
+        "truncated" => Ok(Reliability::Truncated { reason }),
+        "misprint" => Ok(Reliability::Misprint {
             instead: number("instead", instead)?,
             reason,
         }),
-        "open" => Ok(Standing::Open {
+        "open" => Ok(Reliability::Open {
             instead: number("instead", instead)?,
             reason,
         }),
-        "missed" => Ok(Standing::Missed {
+        "missed" => Ok(Reliability::Missed {
             instead: number("instead", instead)?,
             reason,
         }),

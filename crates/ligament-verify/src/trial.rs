@@ -5,7 +5,7 @@ use std::path::Path;
 
 use anyhow::Context;
 use ligament::body::{AnyBody, MeshBody};
-use ligament::run::{Solution, Unobserved};
+use ligament::run::{NoObserver, Solution};
 use ligament::{Model, Setup};
 use ligament_analysis::history::BreakRecord;
 use ligament_analysis::modal::Mode;
@@ -96,7 +96,7 @@ impl Trial {
 
     /// Runs the case, as `ligament run` does.
     pub(super) fn solve(&self) -> anyhow::Result<Solution> {
-        self.with_setup(|case, setup| run(case, setup, &mut Unobserved))
+        self.with_setup(|case, setup| run(case, setup, &mut NoObserver))
     }
 
     /// Runs the case, and keeps all breakages in their order.

@@ -27,7 +27,7 @@ fn disk() -> Result<Solution, Box<dyn std::error::Error>> {
     let mut steps = stepped((1..=50).map(|step| f64::from(step) / 50.0).collect());
     steps.stop.load_fraction = Some(0.9);
     setup.analysis = Analysis::Stepped(steps);
-    Ok(setup.solve(&mut Unobserved)?)
+    Ok(setup.solve(&mut NoObserver)?)
 }
 
 pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {

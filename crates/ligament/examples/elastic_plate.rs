@@ -16,7 +16,7 @@ fn plate() -> Result<Solution, Box<dyn std::error::Error>> {
     let mut setup = Setup::new(points, Material::isotropic(210e9, 1.0 / 3.0), law);
     setup.supports = vec![Support::new("left", &[Component::X, Component::Y])];
     setup.loads = vec![Load::new("right", Action::Force([1e3, 0.0, 0.0]))];
-    Ok(setup.solve(&mut Unobserved)?)
+    Ok(setup.solve(&mut NoObserver)?)
 }
 
 pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {

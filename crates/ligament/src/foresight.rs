@@ -1,6 +1,6 @@
 //! What a loading comes to first, before it is followed: the first bond at its limit, told by the first solutions of the run itself.
 
-use ligament_analysis::driver::{self, Foretold, Problem};
+use ligament_analysis::driver::{self, Prediction, Problem};
 use ligament_analysis::{Observer, Termination};
 
 use crate::error::Error;
@@ -14,22 +14,20 @@ use crate::setup::Analysis;
 /// # Errors
 ///
 /// If the run would be refused: its equations cannot be set up, nothing resists the loads, or the analysis is of natural modes.
-pub fn foretell(
+pub fn predict(
     problem: &Problem,
     analysis: &Analysis,
     observer: &mut dyn Observer,
-) -> Result<Option<Foretold>, Error> {
+) -> Result<Option<Prediction>, Error> {
     Ok(match analysis {
-        Analysis::Stepped(settings) => {
-            Some(driver::stepped::foretell(problem, settings, observer)?)
-        }
-        Analysis::Event(settings) => Some(driver::event::foretell(problem, settings, observer)?),
+        Analysis::Stepped(settings) => Some(driver::stepped::predict(problem, settings, observer)?),
+        Analysis::Event(settings) => Some(driver::event::predict(problem, settings, observer)?),
         Analysis::Elastic { .. } | Analysis::Modal(_) => {
             let outcome = follow(problem, analysis, observer)?;
             let part = outcome.history.last().map_or(0, |it| it.part);
             match outcome.termination {
                 Termination::NoEquilibrium { reason, .. } => {
-                    Some(Foretold::NoEquilibrium { part, reason })
+                    Some(Prediction::NoEquilibrium { part, reason })
                 }
                 _ => None,
             }

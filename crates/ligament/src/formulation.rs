@@ -9,9 +9,9 @@ use ligament_model::failure::crack_energies::{Components, Lattice};
 use ligament_model::failure::{self, Basis, Criteria, NoLimit};
 use ligament_model::law::calibration;
 use ligament_model::law::rotational::{self, RotationalScale};
-use ligament_model::material::{Stiffness, milder};
+use ligament_model::material::{Stiffness, with_reduced_contrast};
 use ligament_model::{
-    BondStiffness, BondSystem, Elasticity, ElementKind, EnergyRatio, FixedFields, Horizons,
+    BondStiffness, BondSystem, ConstantFields, Elasticity, ElementKind, EnergyRatio, Horizons,
     Isotropic, PointCloud,
 };
 
@@ -110,10 +110,12 @@ impl<'a, const D: usize> Formulation<'a, D> {
     ) -> Correction {
         let largest = self.setup.correction.surface.largest_contrast();
         let materials = self.setup.materials();
-        let Some(milder) = milder(&materials, self.setup.plane(), largest) else {
+        let Some(with_reduced_contrast) =
+            with_reduced_contrast(&materials, self.setup.plane(), largest)
+        else {
             return self.corrected(bonds, stiffness, alpha);
         };
-        let setup = self.setup.of_materials(milder);
+        let setup = self.setup.of_materials(with_reduced_contrast);
         let between = Formulation {
             setup: &setup,
             ..*self
@@ -202,7 +204,7 @@ pub(crate) fn stiffness_of_materials(setup: &Setup) -> Vec<Stiffness> {
 pub fn criteria<const D: usize>(
     setup: &Setup,
     system: &BondSystem<D>,
-    fixed: &FixedFields,
+    fixed: &ConstantFields,
 ) -> Result<Criteria, SetupError> {
     if !setup.analysis.is_fracture() {
         return Ok(Criteria::default());

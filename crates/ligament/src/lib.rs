@@ -36,7 +36,7 @@
 //! ```
 //!
 //! Whoever wants to see what happens on the way gives an [`Observer`](ligament_analysis::Observer) in the place of
-//! [`Unobserved`](run::Unobserved); whoever wants the model first calls [`Model::build`]. Nothing is printed and no file is
+//! [`NoObserver`](run::Unobserved); whoever wants the model first calls [`Model::build`]. Nothing is printed and no file is
 //! read or written here.
 #![cfg_attr(
     test,

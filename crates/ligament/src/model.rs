@@ -8,8 +8,8 @@ use ligament_model::contact::Faces;
 use ligament_model::correction::{Correction, CorrectionReport};
 use ligament_model::failure::Criteria;
 use ligament_model::{
-    Absence, AbsentBond, BondSet, BondStiffness, BondSystem, EnergyRatio, FixedFields, PointCloud,
-    System,
+    Absence, AbsentBond, BondSet, BondStiffness, BondSystem, ConstantFields, EnergyRatio,
+    PointCloud, System,
 };
 
 use crate::body::{AnyBody, Body, BodyOutline, Geometry};
@@ -22,7 +22,7 @@ use crate::plausibility;
 use crate::precracks::{self, Precracked};
 use crate::setup::{Analysis, CorrectionDomain, Position, Setup};
 use crate::soundness::{
-    forbid_overlap, require_connected, require_distinct, require_factors, require_numbers,
+    forbid_overlap, require_connected, require_distinct, require_factors, require_finite_rigidities,
 };
 use crate::stage::{Finding, StageWatcher, stage};
 use crate::system::{AnySystem, over_dimension};
@@ -36,7 +36,7 @@ pub struct Model {
     /// Points and corrected bonds.
     pub system: AnySystem,
     /// Fields that an analysis does not change.
-    pub fixed: FixedFields,
+    pub fixed: ConstantFields,
     /// Report on the domain correction, where there was one.
     pub correction: Option<CorrectionReport>,
     /// Smallest and largest Omega.
@@ -98,7 +98,7 @@ impl Model {
         });
         let report = correction.report.as_ref();
         watcher.found(&Finding::Correction(&setup.correction, report));
-        let fixed = FixedFields {
+        let fixed = ConstantFields {
             horizon: horizons.radius,
             precrack_share: std::mem::take(&mut crossed.share),
             energy_ratios,
@@ -199,7 +199,7 @@ impl Model {
 
 /// The processes between which the body of a setup is divided. Elements that lean on bonds beside them, faces that close and natural modes
 /// need the whole body on each process.
-pub fn dividing(setup: &Setup) -> Arc<dyn Communicator> {
+pub fn partition_communicator(setup: &Setup) -> Arc<dyn Communicator> {
     let needs_all = setup.closing
         || !setup.law.row.couples_ends_alone
         || matches!(setup.analysis, Analysis::Modal(_));
@@ -227,7 +227,7 @@ fn points<'a, const D: usize>(
     }
     let outline = outline.filter(|_| !setup.bonds_through_voids);
     let spacing = outline.as_ref().map(|it| it.spacing(&cloud));
-    let subdomain = cloud.divided(dividing(setup));
+    let subdomain = cloud.divided(partition_communicator(setup));
     let cloud = PointCloud {
         spacing: spacing.unwrap_or(cloud.spacing),
         subdomain,
@@ -250,7 +250,7 @@ fn bond_system<const D: usize>(
     let factors = (omega.as_slice(), stiffness.axial.as_slice());
     require_factors(&*setup.body, &cloud, factors, &bonds.ends)?;
     let system = BondSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega);
-    require_numbers(&*setup.body, &system)?;
+    require_finite_rigidities(&*setup.body, &system)?;
     Ok(system.with_faces(faces))
 }
 
@@ -275,7 +275,7 @@ fn inside_body<const D: usize>(
     outline: Option<&(dyn BodyOutline<D> + '_)>,
 ) -> (BondSet<D>, Vec<AbsentBond>) {
     let crosses = match outline {
-        Some(outline) => outline.is_left_by(&bonds, cloud),
+        Some(outline) => outline.is_crossed_by_bonds(&bonds, cloud),
         None => body.crosses_holes(&bonds, cloud),
     };
     if !crosses.contains(&true) {
@@ -387,8 +387,8 @@ fn of_bonds<const D: usize>(formulation: &Formulation<'_, D>, bonds: BondSet<D>)
 }
 
 /// What a correction leaves in the fields of a model, with the points where bonds never fail (n_points); the other fields are empty.
-fn of_correction(correction: &Correction, no_fail: Vec<bool>) -> FixedFields {
-    FixedFields {
+fn of_correction(correction: &Correction, no_fail: Vec<bool>) -> ConstantFields {
+    ConstantFields {
         horizon: Vec::new(),
         precrack_share: Vec::new(),
         energy_ratios: Vec::new(),
@@ -406,7 +406,7 @@ fn warnings<const D: usize>(
     setup: &Setup,
     cloud: &PointCloud<D>,
     report: Option<&CorrectionReport>,
-    fixed: &FixedFields,
+    fixed: &ConstantFields,
     criteria: &Criteria,
     crossed: Precracked,
 ) -> Vec<Warning> {

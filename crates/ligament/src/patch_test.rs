@@ -22,7 +22,7 @@ use crate::error::SetupError;
 use crate::formulation::stiffness_of_materials;
 use crate::loading::material_of_cell;
 use crate::model::Model;
-use crate::run::Unobserved;
+use crate::run::NoObserver;
 use crate::setup::{ELASTIC_ENERGY_TOLERANCE, Setup};
 use crate::system::over_dimension;
 
@@ -160,7 +160,7 @@ fn displacements(
     for loading in loads {
         equilibrium.load_with(loading);
         state.displacement.fill(0.0);
-        let attempt = equilibrium.balance(&mut state, &nothing, &mut Unobserved);
+        let attempt = equilibrium.balance(&mut state, &nothing, &mut NoObserver);
         if let Attempt::Unbalanced(reason) = attempt.map_err(ligament_analysis::SetupError::from)? {
             return Err(Untested::Unbalanced(reason));
         }

@@ -12,7 +12,7 @@ pub use ligament_model::{Elasticity, Isotropic, Material, Plane, Shape};
 pub use crate::body::{AnyBody, Body, CellSet, Geometry, Hole, LatticeBody, MeshBody, Points};
 pub use crate::error::{Error, Fault, Field, SetupError};
 pub use crate::model::Model;
-pub use crate::run::{Solution, Unobserved};
+pub use crate::run::{NoObserver, Solution};
 pub use crate::setup::{
     Action, Analysis, Calibration, Correction, Course, CrackShape, Displacement, Form, Horizon,
     Law, Load, MaterialRegion, Place, PreCrack, Probe, Profile, Reading, Section, Setup, Stage,

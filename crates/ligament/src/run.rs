@@ -151,9 +151,9 @@ pub fn on_threads<T: Send>(
 
 /// An observer that keeps nothing: the outcome has the history.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Unobserved;
+pub struct NoObserver;
 
-impl Observer for Unobserved {
+impl Observer for NoObserver {
     fn looks(&self, _: usize) -> bool {
         false
     }

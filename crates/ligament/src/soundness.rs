@@ -117,7 +117,7 @@ pub(crate) fn require_connected<const D: usize>(
 }
 
 /// Refuses bonds whose stiffness is no number that equations can be made of.
-pub(crate) fn require_numbers<const D: usize>(
+pub(crate) fn require_finite_rigidities<const D: usize>(
     body: &dyn Body,
     system: &BondSystem<D>,
 ) -> Result<(), SetupError> {

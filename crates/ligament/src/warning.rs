@@ -5,7 +5,7 @@ use ligament_model::failure::Measure;
 use ligament_model::failure::softening::linear;
 use ligament_model::law::stability::NegativeShear;
 use ligament_model::material::Space;
-use ligament_model::{ElementKind, FixedFields, Isotropic};
+use ligament_model::{ConstantFields, ElementKind, Isotropic};
 use thiserror::Error;
 
 use crate::body::{Body, Origin};
@@ -222,7 +222,7 @@ pub(crate) fn of_model(
     setup: &Setup,
     spacing: &[f64],
     correction: Option<&CorrectionReport>,
-    fixed: &FixedFields,
+    fixed: &ConstantFields,
     touched: usize,
 ) -> Vec<Warning> {
     let body = &*setup.body;
@@ -302,13 +302,13 @@ fn patch_factor(space: Space) -> f64 {
     }
 }
 
-fn small_horizon(setup: &Setup, spacing: &[f64], fixed: &FixedFields) -> Option<Warning> {
+fn small_horizon(setup: &Setup, spacing: &[f64], fixed: &ConstantFields) -> Option<Warning> {
     let (factor, is_given) = smallest_factor(setup, spacing, fixed);
     (factor < SMALLEST_SAFE_FACTOR).then_some(Warning::SmallHorizon { factor, is_given })
 }
 
 /// The smallest horizon over the nearest distance of a point, and whether the setup gives it.
-fn smallest_factor(setup: &Setup, spacing: &[f64], fixed: &FixedFields) -> (f64, bool) {
+fn smallest_factor(setup: &Setup, spacing: &[f64], fixed: &ConstantFields) -> (f64, bool) {
     match setup.horizon {
         Horizon::Factor(factor) => (factor, true),
         Horizon::Length(_) => {
@@ -332,7 +332,7 @@ fn length(body: &dyn Body) -> f64 {
     sides.fold(0.0, f64::max)
 }
 
-fn large_horizon(body: &dyn Body, fixed: &FixedFields) -> Option<Warning> {
+fn large_horizon(body: &dyn Body, fixed: &ConstantFields) -> Option<Warning> {
     let length = length(body);
     let horizons = fixed.horizon.iter().enumerate();
     let (point, &horizon) = horizons.min_by(|one, other| one.1.total_cmp(other.1))?;
@@ -365,7 +365,7 @@ fn more_bonds(factor: Option<f64>) -> String {
     }
 }
 
-fn not_converged(body: &dyn Body, correction: &DomainReport, fixed: &FixedFields) -> Warning {
+fn not_converged(body: &dyn Body, correction: &DomainReport, fixed: &ConstantFields) -> Warning {
     let n_points = fixed.horizon.len();
     let along_axes = &fixed.energy_ratios[..body.position(0).len()];
     let error = |point: usize| {

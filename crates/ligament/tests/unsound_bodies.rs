@@ -39,12 +39,12 @@ fn plate(sides: [f64; 2], moved: impl Fn(&mut Vec<[f64; 2]>)) -> Setup {
 }
 
 fn error(setup: Setup) -> String {
-    setup.solve(&mut Unobserved).unwrap_err().to_string()
+    setup.solve(&mut NoObserver).unwrap_err().to_string()
 }
 
 #[test]
 fn the_plate_itself_is_right() {
-    let solution = plate([0.01; 2], |_| ()).solve(&mut Unobserved).unwrap();
+    let solution = plate([0.01; 2], |_| ()).solve(&mut NoObserver).unwrap();
     assert!(solution.outcome.history.last().unwrap().displacement > 0.0);
 }
 
@@ -74,7 +74,7 @@ fn cells_longer_than_the_horizon_are_refused() {
     );
     let mut wider = plate([0.035, 0.01], |_| ());
     wider.horizon = Horizon::Factor(3.6);
-    wider.solve(&mut Unobserved).unwrap();
+    wider.solve(&mut NoObserver).unwrap();
 }
 
 #[test]
@@ -88,7 +88,7 @@ fn a_position_off_the_body_is_refused() {
     // Half a cell outside is still meant for the corner.
     let mut setup = plate([0.01; 2], |_| ());
     setup.loads[0].place = Place::At([0.065, 0.065, 0.0]);
-    setup.solve(&mut Unobserved).unwrap();
+    setup.solve(&mut NoObserver).unwrap();
 }
 
 #[test]
@@ -110,7 +110,7 @@ fn a_section_that_no_bond_crosses_is_refused() {
         "probes[0].reading: no bond crosses this line: a force through it would be 0 N whatever the load"
     );
     let crossed = with_section([[0.025, -0.01], [0.025, 0.07]]);
-    crossed.solve(&mut Unobserved).unwrap();
+    crossed.solve(&mut NoObserver).unwrap();
 }
 
 #[test]
@@ -118,7 +118,7 @@ fn a_horizon_as_large_as_the_body_is_told() {
     let warned = |factor: f64| {
         let mut setup = plate([0.01; 2], |_| ());
         setup.horizon = Horizon::Factor(factor);
-        let warnings = setup.solve(&mut Unobserved).unwrap().model.warnings;
+        let warnings = setup.solve(&mut NoObserver).unwrap().model.warnings;
         warnings
             .iter()
             .any(|it| matches!(it, Warning::LargeHorizon { .. }))
@@ -145,6 +145,6 @@ fn what_numbers_cannot_hold_is_refused() {
             "{found}"
         );
     }
-    let solution = plate([1e-40; 2], |_| ()).solve(&mut Unobserved).unwrap();
+    let solution = plate([1e-40; 2], |_| ()).solve(&mut NoObserver).unwrap();
     assert!(solution.outcome.elastic_stiffness.is_finite());
 }

@@ -26,12 +26,12 @@ fn plate() -> Setup {
 fn error(change: impl FnOnce(&mut Setup)) -> String {
     let mut setup = plate();
     change(&mut setup);
-    setup.solve(&mut Unobserved).unwrap_err().to_string()
+    setup.solve(&mut NoObserver).unwrap_err().to_string()
 }
 
 #[test]
 fn the_plate_itself_is_right() {
-    let solution = plate().solve(&mut Unobserved).unwrap();
+    let solution = plate().solve(&mut NoObserver).unwrap();
     assert!(solution.outcome.history.last().unwrap().displacement > 0.0);
 }
 
@@ -41,7 +41,7 @@ fn a_group_that_is_not_there_is_named_with_the_nearest() {
     setup
         .loads
         .push(Load::new("rigth", Action::Moment(1.0.into())));
-    let Error::Setup(error) = setup.solve(&mut Unobserved).unwrap_err() else {
+    let Error::Setup(error) = setup.solve(&mut NoObserver).unwrap_err() else {
         panic!("another error");
     };
     assert_eq!(error.field.to_string(), "loads[1].place");

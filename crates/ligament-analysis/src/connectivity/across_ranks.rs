@@ -64,7 +64,7 @@ pub(super) fn parted(
 
 /// Whether a body may come apart, of which this process does not hold the ends of some bonds together any more: what any process holds
 /// together does so whatever the others have.
-pub(super) fn may_part(subdomain: &Subdomain, apart: Vec<[u32; 2]>) -> bool {
+pub(super) fn may_split(subdomain: &Subdomain, apart: Vec<[u32; 2]>) -> bool {
     let mut of_all = subdomain.all_gather_list(apart);
     of_all.sort_unstable();
     let mut of_bonds = of_all.chunk_by(|one, other| one == other);

@@ -7,14 +7,14 @@
 use ligament_model::Bonds;
 use ligament_model::interface::Topology;
 
-use super::{Fragments, Hold, across_ranks};
+use super::{AddedSupport, Fragments, across_ranks};
 use crate::restraints::Restraints;
 
 /// The fragments of a body whose bonds break, numbered as [`Fragments::find`] numbers them.
 #[derive(Debug, Clone)]
 pub struct Connectivity {
     fragments: Fragments,
-    /// A point of each fragment whose points changed since [`Connectivity::missing_holds`].
+    /// A point of each fragment whose points changed since [`Connectivity::missing_supports`].
     changed: Vec<u32>,
     search: Search,
 }
@@ -82,11 +82,11 @@ impl Connectivity {
             for &bond in bonds {
                 intact[bond as usize] = false;
                 let ends = topology.ends[bond as usize];
-                if self.search.part_apart(topology, intact, ends).is_some() {
+                if self.search.detached_part(topology, intact, ends).is_some() {
                     apart.push(ends);
                 }
             }
-            if across_ranks::may_part(subdomain, apart) {
+            if across_ranks::may_split(subdomain, apart) {
                 self.find_again(system, intact);
             }
             return;
@@ -96,7 +96,7 @@ impl Connectivity {
                 continue;
             }
             let ends = topology.ends[bond as usize];
-            if let Some(part) = self.search.part_apart(topology, intact, ends) {
+            if let Some(part) = self.search.detached_part(topology, intact, ends) {
                 self.fragments.split_off(part);
                 self.changed.extend(ends);
             }
@@ -116,30 +116,30 @@ impl Connectivity {
     }
 
     /// The degrees of freedom to hold so that no fragment can move rigidly, with the arguments of
-    /// [`Fragments::missing_holds`].
+    /// [`Fragments::missing_supports`].
     ///
     /// Asked are the fragments whose points changed since the last call, at first all. The others are held as far as they
     /// can be: their rigid motions depend on their points alone, and what is fixed stays fixed.
-    pub fn missing_holds(
+    pub fn missing_supports(
         &mut self,
         system: &dyn Bonds,
         restraints: &Restraints,
         is_fixed: impl Fn(usize) -> bool,
         can_hold: impl Fn(usize) -> bool,
-    ) -> Vec<Hold> {
+    ) -> Vec<AddedSupport> {
         let of_point = &self.fragments.of_point;
         let points = self.changed.drain(..);
         let mut changed: Vec<u32> = points.map(|point| of_point[point as usize]).collect();
         changed.sort_unstable();
         changed.dedup();
         self.fragments
-            .missing_holds(changed, system, restraints, is_fixed, can_hold)
+            .missing_supports(changed, system, restraints, is_fixed, can_hold)
     }
 }
 
 impl Search {
     /// The points that hang together with one of two points, if those no longer hang together with the other.
-    fn part_apart(
+    fn detached_part(
         &mut self,
         topology: Topology<'_>,
         intact: &[bool],

@@ -9,7 +9,7 @@ use crate::history::BreakRecord;
 
 /// Criteria with the deformations that they judge.
 #[derive(Clone, Copy)]
-pub(super) struct Judged<'a> {
+pub(super) struct CriteriaAtDeformations<'a> {
     pub(super) criteria: &'a Criteria,
     /// Deformation of a bond by its place among those that break, and the bond.
     pub(super) deformation: &'a dyn Fn(usize, usize) -> BondDeformation,
@@ -19,7 +19,7 @@ pub(super) struct Judged<'a> {
 pub(super) struct Breaking<'a> {
     /// Ends of all bonds that are known here, shape (n_bonds).
     pub(super) ends: &'a [[u32; 2]],
-    pub(super) judged: Judged<'a>,
+    pub(super) judged: CriteriaAtDeformations<'a>,
     /// What the records have in common, with the number of bonds broken before.
     pub(super) moment: BreakRecord,
 }

@@ -158,7 +158,7 @@ impl Restored {
         let (equilibrium, state, balanced) =
             Equilibrium::restored(&problem, energy_tolerance, (numbers, state), from)?;
         let energies = Energies::read(&problem, &state, &balanced, from)?;
-        let proof_then = Proof::read(from).map_err(damaged)?;
+        let proof_then = CheckValues::read(from).map_err(damaged)?;
         let restored = Self {
             problem,
             place,
@@ -171,7 +171,7 @@ impl Restored {
         if !from.is_empty() || !restored.agrees() {
             return Err(damaged(Damaged).into());
         }
-        let proof_now = Proof::new(&restored.problem, &restored.balanced);
+        let proof_now = CheckValues::new(&restored.problem, &restored.balanced);
         if !proof_now.agrees(&proof_then) {
             return Err(CheckpointError::OtherArithmetic.into());
         }
@@ -205,20 +205,20 @@ impl Restored {
 const OTHER_SUMS: f64 = 1e-9;
 
 /// Numbers of an equilibrium that hardly any other one has.
-pub(super) struct Proof {
+pub(super) struct CheckValues {
     /// Processes that share the body out; 0 where one has all of it.
     n_ranks: usize,
     stored_energy: f64,
     force_scale: f64,
 }
 
-serial!(Proof {
+serial!(CheckValues {
     n_ranks,
     stored_energy,
     force_scale
 });
 
-impl Proof {
+impl CheckValues {
     /// The numbers of an equilibrium of a problem.
     pub(super) fn new(problem: &Problem, balanced: &Balanced) -> Self {
         let subdomain = problem.system.subdomain();

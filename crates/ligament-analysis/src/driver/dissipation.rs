@@ -1,6 +1,6 @@
 //! What the laws of the bonds take for good.
 
-use ligament_model::element::Remaining;
+use ligament_model::element::StiffnessFactors;
 
 use crate::history::BreakRecord;
 use crate::problem::Problem;
@@ -27,7 +27,7 @@ pub(super) fn break_bond(problem: &Problem, state: &mut State, bond: usize, reco
     let after = &problem.criteria.list[criterion].after;
     state.dissipated[bond] = if after.is_brittle() {
         let left = state.softening.remaining.get(bond);
-        let remaining = left.copied().unwrap_or(Remaining::WHOLE);
+        let remaining = left.copied().unwrap_or(StiffnessFactors::WHOLE);
         let (system, deformation) = (&problem.system, &record.deformation);
         let stored = system.stored_energy(&state.intact, bond, &remaining, deformation);
         by_softening(problem, state, bond, None) + stored / record.ratio.powi(2)

@@ -13,7 +13,7 @@ impl Path<'_> {
     /// Whether the load of an equilibrium is rounding against the largest so far.
     pub(super) fn carries_nothing(&self, balanced: &Balanced) -> bool {
         if let Some(loads) = self.problem.loads.course() {
-            return self.carries_no_part(loads, balanced);
+            return self.carries_no_programme_load(loads, balanced);
         }
         let (_, reaction) = self.control(balanced);
         reaction <= NO_LOAD * self.largest_load()
@@ -51,7 +51,7 @@ impl Path<'_> {
     /// that the body collapsed under it.
     pub(super) fn without_equilibrium(&self, step: usize, reason: Unbalanced) -> Termination {
         match reason {
-            Unbalanced::CarriedByHold { place, force } if !self.is_whole() => {
+            Unbalanced::LoadOnAddedSupport { place, force } if !self.is_whole() => {
                 Termination::LostStiffness { step, place, force }
             }
             reason => Termination::NoEquilibrium { step, reason },
@@ -68,18 +68,18 @@ impl Path<'_> {
         {
             return Some(Termination::DisplacementReached { displacement });
         }
-        let carried = self.carried_by_the_damaged(balanced)?;
+        let carried = self.load_of_damaged_body(balanced)?;
         // What fell apart carries again where its faces close.
         let is_over = !self.problem.system.faces_close();
         let carries_nothing = match self.problem.loads.course() {
             None => carried <= NO_LOAD * self.largest_load(),
-            Some(course) => self.carries_no_part(course, balanced),
+            Some(course) => self.carries_no_programme_load(course, balanced),
         };
         (is_over && carries_nothing).then_some(Termination::FellApart)
     }
 
     /// Whether no point of a body carries anything of the loads of a programme that act on it.
-    fn carries_no_part(&self, course: &LoadCourse, balanced: &Balanced) -> bool {
+    fn carries_no_programme_load(&self, course: &LoadCourse, balanced: &Balanced) -> bool {
         let factors = course.factors(self.state.load_factor);
         let acts = factors.iter().any(|factor| *factor != 0.0);
         // As with one load: what its first load step breaks was at rest under nothing.
@@ -95,14 +95,14 @@ impl Path<'_> {
     /// The end of a run whose body carries only a fraction of the largest load so far, in an equilibrium at rest in which it
     /// could carry more.
     pub(super) fn end_by_load_fraction(&self, balanced: &Balanced) -> Option<Termination> {
-        let carried = self.carried_by_the_damaged(balanced)?;
+        let carried = self.load_of_damaged_body(balanced)?;
         let fraction =
             (self.stop.load_fraction).filter(|&fraction| carried <= fraction * self.course.peak)?;
         Some(Termination::LoadFraction { fraction })
     }
 
     /// The load in an equilibrium, in its own direction, of a body of which bonds broke or softened, N.
-    fn carried_by_the_damaged(&self, balanced: &Balanced) -> Option<f64> {
+    fn load_of_damaged_body(&self, balanced: &Balanced) -> Option<f64> {
         // Bonds that soften take load away before any breaks.
         if self.course.broken == 0
             && (self.state.softening.remaining.is_empty() || self.course.peak == 0.0)

@@ -16,9 +16,9 @@ use std::mem;
 use std::rc::Rc;
 
 use super::course::{Place, Restored, ToEvent};
-use super::foretelling::{self, Foretold};
 use super::outcome::{Outcome, Rows};
 use super::path::Path;
+use super::prediction::{self, Prediction};
 use super::recorder::{Energies, StepCounters, largest_ratio};
 use super::stop::StopRules;
 use crate::balanced::{Attempt, Balanced};
@@ -30,7 +30,7 @@ use crate::lagging::Body;
 use crate::problem::Problem;
 use crate::state::State;
 use passing::Passed;
-use way::{Goal, Way};
+use way::{EquilibriumLine, Goal};
 
 /// Settings of the exact path: how it is followed, and when to stop. The path ends at load factor one in any case, or with the last stage.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,13 +82,13 @@ pub fn run(
 /// # Errors
 ///
 /// If the path cannot be followed, as of [`run`].
-pub fn foretell(
+pub fn predict(
     problem: &Problem,
     settings: &EventSettings,
     observer: &mut dyn Observer,
-) -> Result<Foretold, SetupError> {
+) -> Result<Prediction, SetupError> {
     let (path, at_one) = begin(problem, settings, observer)?;
-    foretelling::foretell(path, at_one, None)
+    prediction::predict(path, at_one, None)
 }
 
 /// Refuses what is no path of straight lines, or none at all.
@@ -165,7 +165,7 @@ pub fn resume(
 /// The run on its way.
 struct Following<'a> {
     path: Path<'a>,
-    way: Box<dyn Way>,
+    way: Box<dyn EquilibriumLine>,
     tie_tolerance: f64,
     /// Parts of the body that may be left behind; made when events may first be passed over.
     body: OnceCell<Option<Rc<Body>>>,
@@ -200,7 +200,7 @@ impl<'a> Following<'a> {
         let loads = &*path.problem.loads;
         let choice = path.equilibrium.choice();
         let tie_tolerance = choice.tie_tolerance(settings.tie_tolerance);
-        let way: Box<dyn Way> = match loads.course() {
+        let way: Box<dyn EquilibriumLine> = match loads.course() {
             Some(_) => Box::new(affine::Affine::new(tie_tolerance, growth)),
             None => Box::new(proportional::Proportional::new(tie_tolerance, loads)),
         };

@@ -2,7 +2,7 @@
 
 use super::path::Path;
 use crate::bond_numbers::sum_over_bonds;
-use crate::equilibrium::{Dissipation, Held, Target};
+use crate::equilibrium::{ControlledQuantity, Dissipation, Target};
 use crate::history::StepRecord;
 use crate::load_program::{LoadCourse, PartControl};
 
@@ -46,7 +46,7 @@ impl Path<'_> {
             let rate = loads.in_course(course.rate())?;
             let value = start + share * way;
             Some(match control {
-                PartControl::Motion(motion) => Held::Motion(Target {
+                PartControl::Motion(motion) => ControlledQuantity::Motion(Target {
                     subdomain: subdomain.clone(),
                     weights: Target::owned_weights(
                         subdomain,
@@ -57,7 +57,7 @@ impl Path<'_> {
                     value,
                     way,
                 }),
-                PartControl::DissipatedEnergy { .. } => Held::Energy(Dissipation {
+                PartControl::DissipatedEnergy { .. } => ControlledQuantity::Energy(Dissipation {
                     step: way / course.n_steps() as f64,
                     energy: value,
                     rate,

@@ -9,18 +9,18 @@ use std::time::Instant;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::Criteria;
 
-use super::breaks::{Breaking, Judged};
-use super::course::{Course, Place, Proof, Restored};
+use super::breaks::{Breaking, CriteriaAtDeformations};
+use super::course::{CheckValues, Course, Place, Restored};
 use super::dissipation;
 use super::outcome::{Outcome, Rows};
 use super::recorder::{Energies, StepCounters, step_record};
 use super::remarks;
-use super::start::{Start, begin, report_loose, report_mechanisms};
+use super::start::{Start, begin, report_detached_parts, report_mechanisms};
 use super::stop::StopRules;
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::breaking::{FirstToBreak, first_of_all};
-use crate::connectivity::Hold;
+use crate::connectivity::AddedSupport;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::history::{
@@ -210,7 +210,7 @@ impl<'a> Path<'a> {
             course.write(&mut out);
             equilibrium.write(&mut out);
             energies.write(&mut out);
-            Proof::new(problem, balanced).write(&mut out);
+            CheckValues::new(problem, balanced).write(&mut out);
             out
         };
         // Where the body is divided all processes make it, and the one that asked has it.
@@ -271,7 +271,7 @@ impl<'a> Path<'a> {
     ) -> Result<Breakage, SetupError> {
         let criteria = self.criteria(balanced).into_owned();
         let deformation = |_, bond: usize| balanced.deformations[bond];
-        let judged = Judged {
+        let judged = CriteriaAtDeformations {
             criteria: &criteria,
             deformation: &deformation,
         };
@@ -283,7 +283,7 @@ impl<'a> Path<'a> {
     pub(super) fn break_deformed(
         &mut self,
         bonds: &[u32],
-        judged: Judged<'_>,
+        judged: CriteriaAtDeformations<'_>,
         balanced: &Balanced,
         step: usize,
         round: usize,
@@ -319,9 +319,9 @@ impl<'a> Path<'a> {
         let breakage = self.equilibrium.break_bonds(&mut self.state, bonds);
         // Where faces close, a part that came loose may be pressed on, and the equilibrium tells.
         let may_press = self.problem.system.faces_close();
-        self.collapsed |= !may_press && self.load_came_loose(&breakage.holds);
+        self.collapsed |= !may_press && self.loaded_part_is_detached(&breakage.holds);
         let fragments = self.equilibrium.fragments();
-        report_loose(step, fragments, &breakage.holds, self.observer)?;
+        report_detached_parts(step, fragments, &breakage.holds, self.observer)?;
         Ok(breakage)
     }
 
@@ -331,7 +331,7 @@ impl<'a> Path<'a> {
         criteria.in_state(&self.state.intact, &balanced.deformations)
     }
 
-    fn load_came_loose(&self, holds: &[Hold]) -> bool {
+    fn loaded_part_is_detached(&self, holds: &[AddedSupport]) -> bool {
         let control = self.problem.loads.control();
         let of_point = &self.equilibrium.fragments().of_point;
         control.kind == ControlKind::Force

@@ -1,7 +1,7 @@
 //! Bookkeeping that every driver shares: energies and records.
 
 use ligament_model::deformation::Deformations;
-use ligament_model::element::Remaining;
+use ligament_model::element::StiffnessFactors;
 use rayon::prelude::*;
 
 use crate::balanced::Balanced;
@@ -40,7 +40,7 @@ pub(super) struct Energies {
     /// Factor of the temperature and [`InternalForces::thermal`] in the last state.
     thermal: (f64, f64),
     /// Deformations in the last state, and what was left of the bonds; empty where no bond softens.
-    last: (Deformations, Vec<Remaining>),
+    last: (Deformations, Vec<StiffnessFactors>),
     /// Pairs across cracks that were closed in the last state; none where faces do not close.
     contact: ContactEnergy,
 }
@@ -162,10 +162,10 @@ impl Energies {
         let remaining = &state.softening.remaining;
         self.released += breakage.released(&state.displacement, expansion);
         let (before, left) = &self.last;
-        let released = |(bond, left_before): (usize, &Remaining)| {
+        let released = |(bond, left_before): (usize, &StiffnessFactors)| {
             let lost = left_before.lost(&remaining[bond]);
             let both = [before, &balanced.deformations];
-            match state.intact[bond] && lost != Remaining::NOTHING {
+            match state.intact[bond] && lost != StiffnessFactors::NOTHING {
                 true => (problem.system).mutual_energy(&state.intact, bond, &lost, both),
                 false => 0.0,
             }

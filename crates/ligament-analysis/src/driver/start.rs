@@ -3,7 +3,7 @@
 use super::outcome::LoadPoint;
 use super::recorder::{Energies, StepCounters, largest_ratio, step_record};
 use crate::balanced::{Attempt, Balanced, Stability};
-use crate::connectivity::{Fragments, Hold};
+use crate::connectivity::{AddedSupport, Fragments};
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::gauges;
@@ -90,7 +90,7 @@ fn begin_proportional(
     };
     // Without an equilibrium the first load step fails as well, and says why.
     if let Attempt::Balanced(balanced) =
-        equilibrium.balance(&mut at_one, &breakage, &mut Unobserved)?
+        equilibrium.balance(&mut at_one, &breakage, &mut NoObserver)?
     {
         report_mechanisms(0, &balanced, observer)?;
         start.unloaded.held.clone_from(&at_one.held);
@@ -162,10 +162,10 @@ fn stability(
 }
 
 /// Tells of parts that came loose.
-pub(super) fn report_loose(
+pub(super) fn report_detached_parts(
     step: usize,
     fragments: &Fragments,
-    holds: &[Hold],
+    holds: &[AddedSupport],
     observer: &mut dyn Observer,
 ) -> Result<(), ObserverError> {
     let mut loose: Vec<u32> = holds.iter().map(|hold| hold.fragment).collect();
@@ -174,7 +174,7 @@ pub(super) fn report_loose(
     let Some(first) = loose.first() else {
         return Ok(());
     };
-    observer.notice(&Notice::CameLoose {
+    observer.notice(&Notice::PartsDetached {
         step,
         points: loose.iter().map(|fragment| points_of(fragment).len()).sum(),
         motions: holds.len(),
@@ -196,9 +196,9 @@ pub(super) fn report_mechanisms(
 }
 
 /// Watches nothing.
-pub(super) struct Unobserved;
+pub(super) struct NoObserver;
 
-impl Observer for Unobserved {
+impl Observer for NoObserver {
     fn looks(&self, _: usize) -> bool {
         false
     }

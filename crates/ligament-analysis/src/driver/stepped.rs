@@ -6,9 +6,9 @@
 use std::time::Instant;
 
 use super::course::{InLoadStep, Place, Restored};
-use super::foretelling::{self, Foretold};
 use super::outcome::{LoadPoint, Outcome, Rows};
 use super::path::Path;
+use super::prediction::{self, Prediction};
 use super::recorder::{StepCounters, largest_ratio};
 use super::start::ElasticAnswer;
 use super::stop::StopRules;
@@ -63,14 +63,14 @@ pub fn run(
 /// # Errors
 ///
 /// If the equations cannot be set up, or nothing resists the loads.
-pub fn foretell(
+pub fn predict(
     problem: &Problem,
     settings: &SteppedSettings,
     observer: &mut dyn Observer,
-) -> Result<Foretold, SetupError> {
+) -> Result<Prediction, SetupError> {
     let (path, at_one, plan) = begin(problem, settings, observer)?;
     let factors: Vec<f64> = plan.iter().skip(1).map(|it| it.load_factor).collect();
-    foretelling::foretell(path, at_one, Some(&factors))
+    prediction::predict(path, at_one, Some(&factors))
 }
 
 /// The run before its first load step, its equilibrium at load factor one, if there is one, and all load steps.
@@ -140,7 +140,7 @@ pub fn resume(
         plan: &plan,
     };
     stepping.path.aim(plan[counters.step].load_factor);
-    let termination = match stepping.come_to_rest(counters, balanced)? {
+    let termination = match stepping.break_until_admissible(counters, balanced)? {
         Some(end) => end,
         None => stepping.steps_from(counters.step + 1)?,
     };
@@ -242,7 +242,7 @@ impl Stepping<'_> {
         match self.path.balance(step, &nothing)? {
             Attempt::Balanced(balanced) => {
                 self.path.account(step, &nothing, &balanced)?;
-                self.come_to_rest(counters, balanced)
+                self.break_until_admissible(counters, balanced)
             }
             Attempt::Unbalanced(reason) => Ok(Some(self.path.without_equilibrium(step, reason))),
         }
@@ -251,7 +251,7 @@ impl Stepping<'_> {
     /// Breaks the bonds of a load step from an equilibrium on, until none is left to break.
     ///
     /// Where breakages leave no equilibrium, the step shows the last one before them.
-    fn come_to_rest(
+    fn break_until_admissible(
         &mut self,
         mut counters: StepCounters,
         mut balanced: Balanced,

@@ -7,7 +7,7 @@ use super::residual::{Extents, LocalStiffness, RESIDUAL_TOLERANCE, Residual, Sca
 use crate::breakage::Breakage;
 use crate::load_program::LoadProgram;
 use crate::state::State;
-use crate::tangent::Left;
+use crate::tangent::AllowedResidual;
 use crate::unknowns::{Layout, Unknowns};
 
 /// Share of a residual that is sought to which a solver that iterates goes: the next residual is measured against other forces.
@@ -15,7 +15,7 @@ const SURELY: f64 = 0.3;
 
 /// What the levers of a body make of the forces that are given to it, at most: in a bar a thousand times as long as thick the
 /// forces between points are some thousand times its load.
-const LEVERS: f64 = 1e6;
+const LARGEST_LEVERAGE: f64 = 1e6;
 
 /// What forces out of balance are judged by.
 pub(super) struct Accuracy {
@@ -110,9 +110,9 @@ impl Accuracy {
     }
 
     /// What a solver may leave of the force out of balance, so that the relative residual is one that is sought.
-    pub(super) fn left(&self, at: Loaded<'_>, extents: Extents, sought: f64) -> Left {
+    pub(super) fn left(&self, at: Loaded<'_>, extents: Extents, sought: f64) -> AllowedResidual {
         if self.tolerance.is_none() {
-            return Left::Share(0.0);
+            return AllowedResidual::Share(0.0);
         }
         let given = self.given(at);
         let displacement = self.largest_displacement(at.unknowns.layout(), at.state);
@@ -123,12 +123,12 @@ impl Accuracy {
             size => size,
         };
         let dofs = at.unknowns.degrees_of_freedom().iter();
-        Left::AtMost(dofs.map(of_unknown).collect())
+        AllowedResidual::AtMost(dofs.map(of_unknown).collect())
     }
 
     /// What a solver may leave of a force that no state is known to be near: a share of its tolerance.
-    pub(super) fn left_of_line(&self, share: f64) -> Left {
-        Left::Share(share * self.tolerance.unwrap_or_default())
+    pub(super) fn left_of_line(&self, share: f64) -> AllowedResidual {
+        AllowedResidual::Share(share * self.tolerance.unwrap_or_default())
     }
 
     /// Forces at the degrees of freedom that are rounding of the displacements of a state, shape (n_degrees_of_freedom); where the solver
@@ -164,7 +164,7 @@ impl Accuracy {
         };
         let given: f64 = given.iter().map(force).sum();
         let motion = self.largest_prescribed(state);
-        LEVERS * (given + self.stiffest * motion + self.largest_extents.force())
+        LARGEST_LEVERAGE * (given + self.stiffest * motion + self.largest_extents.force())
     }
 
     /// Largest prescribed motion in a state: of a displacement, or of a rotation times the size of the body, m.

@@ -89,7 +89,7 @@ pub(super) fn balance(
         let (opened, closed) = contact::changes(&iterate.closed, &next.closed);
         let is_same = opened.is_empty() && closed.is_empty();
         if is_same && next.residual.relative > FALLS * residual.relative {
-            equations.solver.forget();
+            equations.solver.discard();
         }
         iterate = next;
         iterations += 1;

@@ -50,7 +50,7 @@ pub(super) fn balance(
             return Ok(equations.not_settled(&residual, iterations));
         }
         if equations.solver.is_changed() && iterations >= 2 {
-            equations.solver.forget();
+            equations.solver.discard();
         }
         let corrected = correct(equations, state, &iterate, target, sought, &mut mechanisms);
         if let Err(unbalanced) = corrected {

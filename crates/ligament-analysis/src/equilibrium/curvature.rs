@@ -78,7 +78,7 @@ impl Curvature {
     }
 
     /// Forgets all steps.
-    pub(super) fn forget(&mut self) {
+    pub(super) fn discard(&mut self) {
         self.pairs.clear();
     }
 }
@@ -144,7 +144,7 @@ mod tests {
             curvature.correction(&[3.0, 4.0], &dot, Ok),
             Ok(vec![1.5, 4.0])
         );
-        curvature.forget();
+        curvature.discard();
         assert_eq!(
             curvature.correction(&[3.0, 4.0], &dot, Ok),
             Ok(vec![3.0, 4.0])

@@ -17,9 +17,9 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use ligament_model::BondsLeft;
+use ligament_model::UnbrokenBonds;
 use ligament_model::deformation::Deformations;
-use ligament_model::element::{BondDeformation, Remaining};
+use ligament_model::element::{BondDeformation, StiffnessFactors};
 use ligament_model::thermal::ThermalStrain;
 
 use super::equations::Equations;
@@ -197,12 +197,12 @@ fn opening(
     let lost = |(bond, deformation): (usize, &BondDeformation)| {
         let opens = intact[bond] && state.softening.goes_on(criteria, bond, deformation);
         match opens {
-            true => Remaining::WHOLE.lost(&there.remaining[bond]),
-            false => Remaining::NOTHING,
+            true => StiffnessFactors::WHOLE.lost(&there.remaining[bond]),
+            false => StiffnessFactors::NOTHING,
         }
     };
-    let lost: Vec<Remaining> = (deformations.par_iter().enumerate()).map(lost).collect();
-    let bonds = BondsLeft {
+    let lost: Vec<StiffnessFactors> = (deformations.par_iter().enumerate()).map(lost).collect();
+    let bonds = UnbrokenBonds {
         remaining: &lost,
         intact,
     };

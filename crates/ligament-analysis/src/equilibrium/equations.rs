@@ -11,7 +11,7 @@ use ligament_model::thermal::ThermalStrain;
 use super::accuracy::{Accuracy, Loaded};
 use super::iterate::Iterate;
 use super::mechanism::Measure;
-use super::precedents::Precedents;
+use super::precedents::EarlierEquilibria;
 use super::residual::{Extents, ROUNDING, Residual};
 use crate::balanced::{Attempt, Balanced};
 use crate::bond_numbers::BondNumbers;
@@ -29,7 +29,7 @@ use crate::solver::SolverChoice;
 use crate::state::State;
 use crate::stiffness::Stiffness;
 use crate::tangent::solving::Solving;
-use crate::tangent::{Left, TangentSolver, Unsolved, distributed};
+use crate::tangent::{AllowedResidual, TangentSolver, Unsolved, distributed};
 use crate::unbalanced::{Place, Unbalanced};
 use crate::unknowns::{Layout, Unknowns};
 use crate::vectors::dot_of_all;
@@ -53,7 +53,7 @@ pub(super) struct Equations {
     /// Pairs across cracks, where faces close.
     pub(super) contact: Contact,
     /// Earlier equilibria of softening bonds.
-    pub(super) precedents: Precedents,
+    pub(super) precedents: EarlierEquilibria,
     pub(super) costs: Costs,
 }
 
@@ -84,7 +84,7 @@ impl Equations {
             },
             accuracy,
             contact: Contact::default(),
-            precedents: Precedents::default(),
+            precedents: EarlierEquilibria::default(),
             costs: Costs {
                 analysis: analysis.unwrap_or_default(),
                 ..Costs::default()
@@ -139,12 +139,12 @@ impl Equations {
         let is_shared = matches!(self.choice, SolverChoice::Distributed(_));
         if !is_shared && distributed::was_written(from) {
             // One process goes on with the state alone.
-            distributed::pass_over(numbers, from)?;
+            distributed::skip_checkpoint(numbers, from)?;
         } else {
             self.solver.restore(from)?;
         }
         if self.problem.criteria.soften() {
-            self.precedents = Precedents::restored(from, &self.unknowns)?;
+            self.precedents = EarlierEquilibria::restored(from, &self.unknowns)?;
         }
         self.contact = Contact::new(&*self.problem.system, &state.intact);
         let measured = self.measure(state).balanced(0, Vec::new());
@@ -176,7 +176,7 @@ impl Equations {
     ) -> Attempt {
         if let Some((dof, force)) = iterate.residual.carried {
             let place = self.place(dof as usize);
-            return Attempt::Unbalanced(Unbalanced::CarriedByHold { place, force });
+            return Attempt::Unbalanced(Unbalanced::LoadOnAddedSupport { place, force });
         }
         if !iterate.stored_energy.is_finite() {
             let energy = iterate.stored_energy;
@@ -297,7 +297,7 @@ impl Equations {
         &mut self,
         state: &State,
         force: Vec<f64>,
-        left: Left,
+        left: AllowedResidual,
     ) -> Result<Vec<f64>, Unbalanced> {
         // An exact solver finds by its pivots what nothing resists.
         let given = self.solver.tolerance().map(|_| force.clone());

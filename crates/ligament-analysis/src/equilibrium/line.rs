@@ -64,7 +64,7 @@ pub(super) fn growth(
 }
 
 /// Why loads cannot grow along a line (n_degrees_of_freedom) of a state: a hold would have to carry some of them.
-pub(super) fn carried_by_hold(
+pub(super) fn load_on_added_support(
     equations: &Equations,
     state: &State,
     growth: &[f64],
@@ -76,7 +76,7 @@ pub(super) fn carried_by_hold(
     let line = at_one(state, growth.to_vec());
     let (dof, force) = measured(equations, &line, loads).residual.carried?;
     let place = equations.place(dof as usize);
-    Some(Unbalanced::CarriedByHold { place, force })
+    Some(Unbalanced::LoadOnAddedSupport { place, force })
 }
 
 /// The motions that loads at their load factor 1 prescribe (n_degrees_of_freedom), and what they put out of balance with the bonds of

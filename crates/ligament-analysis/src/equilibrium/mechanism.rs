@@ -64,7 +64,7 @@ impl Measure<'_> {
             return Unbalanced::NegativeCurvature;
         }
         let (layout, dof) = (self.unknowns.layout(), dof as usize);
-        Unbalanced::CarriedByHold {
+        Unbalanced::LoadOnAddedSupport {
             place: Place {
                 point: layout.point(dof),
                 component: layout.component(dof),

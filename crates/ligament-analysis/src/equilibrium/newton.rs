@@ -57,7 +57,7 @@ pub(super) fn balance(
         }
         // One refinement may be needed after many changes; if it is not enough, the factor is worn out.
         if is_changed && iterations >= 2 {
-            equations.solver.forget();
+            equations.solver.discard();
         }
         match equations.correction(state, &iterate, sought, &mut mechanisms) {
             Ok(correction) => equations.add_correction(state, 1.0, &correction),

@@ -14,7 +14,7 @@ const GROWTH: f64 = 2.0;
 
 /// What iterations have shown so far.
 #[derive(Default)]
-pub(super) struct Precedents {
+pub(super) struct EarlierEquilibria {
     /// The stiffness along the last corrections.
     pub(super) curvature: Curvature,
     /// The equilibria of the last two load steps, the older one first.
@@ -28,7 +28,7 @@ struct Precedent {
     displacement: Vec<f64>,
 }
 
-serial!(Precedents {
+serial!(EarlierEquilibria {
     curvature,
     equilibria
 });
@@ -37,7 +37,7 @@ serial!(Precedent {
     displacement
 });
 
-impl Precedents {
+impl EarlierEquilibria {
     /// The precedents as they were when the bytes were written.
     ///
     /// # Errors

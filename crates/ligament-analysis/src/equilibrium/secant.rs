@@ -5,14 +5,14 @@ use super::equations::Equations;
 use super::iterate::Iterate;
 use super::line;
 use super::line_search;
-use super::precedents::Precedents;
+use super::precedents::EarlierEquilibria;
 use super::residual::RESIDUAL_TOLERANCE;
 use super::target::Target;
 use crate::balanced::Attempt;
 use crate::breakage::Breakage;
 use crate::history::{Observer, ObserverError};
 use crate::state::State;
-use crate::tangent::Left;
+use crate::tangent::AllowedResidual;
 use crate::unbalanced::Unbalanced;
 use crate::vectors::dot_of_all;
 
@@ -83,7 +83,7 @@ fn sought(
     target: Option<&Target>,
     observer: &mut dyn Observer,
 ) -> Result<Attempt, ObserverError> {
-    let mut precedents = recalled(equations, breakage);
+    let mut precedents = applicable_precedents(equations, breakage);
     let (mut iterate, mut iterations) = begun(equations, state, breakage, target, &precedents);
     let mut mechanisms = Vec::new();
     let mut previous_energy = f64::NAN;
@@ -117,10 +117,12 @@ fn sought(
         previous_energy = iterate.stored_energy;
         let is_one_way = iterations > ONE_WAY_AFTER;
         let curvature = &mut precedents.curvature;
-        equations.solver.weaken(state, &mut equations.costs);
+        equations
+            .solver
+            .update_for_softening(state, &mut equations.costs);
         let next = equations.make_ready(state, &iterate).and_then(|held| {
             if !held.is_empty() {
-                curvature.forget();
+                curvature.discard();
             }
             mechanisms.extend(held);
             next(equations, state, &iterate, curvature, target, is_one_way)
@@ -137,13 +139,13 @@ fn sought(
 ///
 /// Pairs that close and open change the stiffness at once; and where one breakage brings on another, what was shown before it would decide
 /// on where the fall ends.
-fn recalled(equations: &mut Equations, breakage: &Breakage) -> Precedents {
+fn applicable_precedents(equations: &mut Equations, breakage: &Breakage) -> EarlierEquilibria {
     let mut precedents = std::mem::take(&mut equations.precedents);
     if equations.problem.system.faces_close() {
-        return Precedents::default();
+        return EarlierEquilibria::default();
     }
     if !breakage.bonds.is_empty() {
-        precedents.curvature.forget();
+        precedents.curvature.discard();
     }
     precedents
 }
@@ -154,7 +156,7 @@ fn begun(
     state: &mut State,
     breakage: &Breakage,
     target: Option<&Target>,
-    precedents: &Precedents,
+    precedents: &EarlierEquilibria,
 ) -> (Iterate, usize) {
     equations.prescribe(state);
     let has_followed = equations.follow(state, breakage);
@@ -197,13 +199,13 @@ fn correction(
 ) -> Result<Correction, Unbalanced> {
     let subdomain = equations.subdomain().clone();
     let dot = |one: &[f64], other: &[f64]| dot_of_all(&subdomain, one, other);
-    let mut solve = |it| equations.solve(state, it, Left::Share(SOLVED));
+    let mut solve = |it| equations.solve(state, it, AllowedResidual::Share(SOLVED));
     let mut step = curvature.correction(force, &dot, &mut solve)?;
     let mut force = force.to_vec();
     let mut load_change = 0.0;
     if let Some(target) = target {
         let (mut growth, rate) = line::rate(equations, state, &*target.rate);
-        let solve = |it| equations.solve(state, it, Left::Share(SOLVED));
+        let solve = |it| equations.solve(state, it, AllowedResidual::Share(SOLVED));
         let grown = curvature.correction(&rate, &dot, solve)?;
         for (&dof, value) in equations.degrees_of_freedom().iter().zip(&grown) {
             growth[dof as usize] = *value;
@@ -233,11 +235,11 @@ fn next(
     // A motion comes to its value by the whole of a correction, which what was shown elsewhere may lead astray.
     let is_searched = target.is_none_or(|it| it.is_met(&state.displacement));
     if !is_searched {
-        curvature.forget();
+        curvature.discard();
     }
     let mut found = correction(equations, state, &force, curvature, target)?;
     if equations.dot(&found.force, &found.step) <= 0.0 {
-        curvature.forget();
+        curvature.discard();
         found = correction(equations, state, &force, curvature, target)?;
     }
     let Correction { force, step, .. } = &found;

@@ -1,7 +1,7 @@
 //! The borders of parts: what bonds from inside a part resist the motions of the points around it with.
 
 use ligament_model::Bonds;
-use ligament_model::element::{BondDeformation, Remaining};
+use ligament_model::element::{BondDeformation, StiffnessFactors};
 use ligament_model::failure::Criterion;
 use ligament_model::thermal::ThermalStrain;
 use rayon::prelude::*;
@@ -89,7 +89,9 @@ impl Border {
             blocks.resize(start + n * n, 0.0);
             dofs.extend(range.clone().map(|dof| dof as u32));
             for &(_, _, bond) in of_point {
-                for (rigidity, entries) in system.terms(whole, bond as usize, &Remaining::WHOLE) {
+                for (rigidity, entries) in
+                    system.terms(whole, bond as usize, &StiffnessFactors::WHOLE)
+                {
                     let own = entries.iter().filter(|(dof, _)| range.contains(dof));
                     let own: Vec<(usize, f64)> = own
                         .map(|(dof, value)| (dof - range.start, *value))
@@ -145,7 +147,7 @@ fn strain_stiffness(system: &dyn Bonds, division: &Division, modes: &[Vec<f64>])
         for &bond in division.bonds(part) {
             for (i, of_i) in deformations.iter().enumerate() {
                 for (j, of_j) in deformations.iter().enumerate() {
-                    let remaining = &Remaining::WHOLE;
+                    let remaining = &StiffnessFactors::WHOLE;
                     let energy =
                         system.mutual_energy(&whole, bond as usize, remaining, [of_i, of_j]);
                     stiffness[modes.len() * i + j] += 2.0 * energy;
@@ -177,7 +179,7 @@ fn ratio_per_norm(problem: &Problem, whole: &[bool], bond: usize) -> f64 {
             if measure <= 0.0 {
                 return 0.0;
             }
-            let (system, remaining) = (&problem.system, &Remaining::WHOLE);
+            let (system, remaining) = (&problem.system, &StiffnessFactors::WHOLE);
             measure.powi(2)
                 / (2.0 * system.stored_energy(whole, bond, remaining, &unit(place, 1.0)))
         };

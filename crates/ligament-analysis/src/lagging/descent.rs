@@ -15,9 +15,9 @@ const TASK: usize = 150_000;
 
 /// Vectors by row of the factor to work in, one for each thread that does.
 #[derive(Default)]
-pub(super) struct Rooms(Mutex<Vec<Vec<f64>>>);
+pub(super) struct WorkVectors(Mutex<Vec<Vec<f64>>>);
 
-impl Rooms {
+impl WorkVectors {
     /// Does work with a vector (n_rows) of any values.
     fn with<T>(&self, n_rows: usize, work: impl FnOnce(&mut [f64]) -> T) -> T {
         let rooms = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
@@ -31,7 +31,7 @@ impl Rooms {
 
 /// A correction after the forward substitution, by row of the factor.
 #[derive(Clone, Copy)]
-pub(crate) struct HalfSolved<'a> {
+pub(crate) struct ForwardSubstituted<'a> {
     pub(crate) factor: &'a dyn Factorisation,
     pub(crate) by_row: &'a [f64],
     /// Factor from the load factor of the correction to that of the displacements.
@@ -46,8 +46,8 @@ pub(super) struct Descent<'a> {
     pub(super) displacement: &'a [f64],
     /// Motions of the border of each part when it was last substituted.
     pub(super) references: &'a [Vec<f64>],
-    pub(super) rooms: &'a Rooms,
-    pub(super) correction: HalfSolved<'a>,
+    pub(super) rooms: &'a WorkVectors,
+    pub(super) correction: ForwardSubstituted<'a>,
     /// Whether the breakage was in each part or below it.
     pub(super) broken_in: &'a [bool],
     /// Degrees of freedom that are held.
@@ -129,7 +129,7 @@ impl Descent<'_> {
             }
             let own = &mut room[it.rows.clone()];
             if self.broken_in[part] {
-                let HalfSolved { by_row, scale, .. } = self.correction;
+                let ForwardSubstituted { by_row, scale, .. } = self.correction;
                 let by_row = by_row[it.rows.clone()].iter();
                 own.iter_mut()
                     .zip(by_row)
@@ -137,7 +137,7 @@ impl Descent<'_> {
             } else {
                 own.fill(0.0);
             }
-            self.correction.factor.finish_part(it, room);
+            self.correction.factor.solve_backward_part(it, room);
             room[it.rows.clone()].to_vec()
         })
     }

@@ -26,10 +26,10 @@ use crate::state::State;
 use crate::stiffness::Stiffness;
 
 use borders::Bounds;
-use descent::{Descent, Rooms};
+use descent::{Descent, WorkVectors};
 use division::Division;
 
-pub(crate) use descent::HalfSolved;
+pub(crate) use descent::ForwardSubstituted;
 
 /// Relative distance below the bonds that lead at which a bound counts as below them: rounding of a bound is less.
 const SURELY: f64 = 1e-6;
@@ -70,7 +70,7 @@ pub(crate) struct Lagging<'a> {
     at_most: Vec<f64>,
     /// What no such ratio exceeds now.
     now: Vec<f64>,
-    rooms: Rooms,
+    rooms: WorkVectors,
 }
 
 impl<'a> Lagging<'a> {
@@ -92,14 +92,14 @@ impl<'a> Lagging<'a> {
             references: vec![Vec::new(); n_parts],
             at_most: vec![0.0; n_parts],
             now: vec![0.0; n_parts],
-            rooms: Rooms::default(),
+            rooms: WorkVectors::default(),
         };
         for part in (0..n_parts).rev() {
-            lagging.refer(part);
+            lagging.store_border_motions(part);
             let bonds = division.bonds(part).iter();
             let of_bond = |&bond: &u32| lagging.ratio(bond, &deformations[bond as usize], state);
             lagging.now[part] = bonds.map(of_bond).fold(0.0, f64::max);
-            lagging.take_in_below(part);
+            lagging.combine_child_bounds(part);
         }
         lagging
     }
@@ -107,7 +107,7 @@ impl<'a> Lagging<'a> {
     /// Takes in a correction after a breakage at some points; gives the bonds that are the first to break now.
     pub(crate) fn follow(
         &mut self,
-        correction: HalfSolved<'_>,
+        correction: ForwardSubstituted<'_>,
         points: impl Iterator<Item = u32>,
         state: &State,
     ) -> FirstToBreak {
@@ -132,14 +132,14 @@ impl<'a> Lagging<'a> {
             substituted.push(part);
         }
         for part in substituted.into_iter().rev() {
-            self.take_in_below(part);
+            self.combine_child_bounds(part);
         }
         leaders.first_to_break()
     }
 
     /// Substitutes all parts, so that all displacements are those of now.
     pub(crate) fn catch_up(&mut self, factor: &dyn Factorisation, state: &State) {
-        let nothing = HalfSolved {
+        let nothing = ForwardSubstituted {
             factor,
             by_row: &[],
             scale: 0.0,
@@ -150,7 +150,7 @@ impl<'a> Lagging<'a> {
 
     fn descent<'b>(
         &'b self,
-        correction: HalfSolved<'b>,
+        correction: ForwardSubstituted<'b>,
         broken_in: &'b [bool],
         held: &'b [bool],
     ) -> Descent<'b> {
@@ -168,7 +168,7 @@ impl<'a> Lagging<'a> {
     /// Brings the displacements of parts that are asked for up to date; gives them, each after the one above it.
     fn substitute_all(
         &mut self,
-        correction: HalfSolved<'_>,
+        correction: ForwardSubstituted<'_>,
         broken_in: &[bool],
         is_asked_for: &[bool],
         state: &State,
@@ -194,7 +194,7 @@ impl<'a> Lagging<'a> {
                 self.displacement[dof as usize] += change;
             }
         }
-        self.refer(part);
+        self.store_border_motions(part);
     }
 
     /// Puts the parts below some, which were substituted, in line, but for those that are asked for.
@@ -216,7 +216,7 @@ impl<'a> Lagging<'a> {
     }
 
     /// Takes the motions of the border of a part as those that it was last substituted with.
-    fn refer(&mut self, part: usize) {
+    fn store_border_motions(&mut self, part: usize) {
         let Division {
             parts,
             degree_of_freedom,
@@ -234,7 +234,7 @@ impl<'a> Lagging<'a> {
         let judged: Vec<(f64, Leaders)> = judged.collect();
         for (&part, (largest, of_part)) in parts.iter().zip(judged) {
             self.now[part] = largest;
-            leaders.meet_all(of_part);
+            leaders.merge(of_part);
         }
     }
 
@@ -248,7 +248,7 @@ impl<'a> Lagging<'a> {
         for (&bond, deformation) in bonds.iter().zip(&deformations) {
             let ratio = self.ratio(bond, deformation, state);
             largest = largest.max(ratio);
-            leaders.meet(bond, ratio);
+            leaders.add(bond, ratio);
         }
         (largest, leaders)
     }
@@ -263,7 +263,7 @@ impl<'a> Lagging<'a> {
     }
 
     /// Takes what is known of the bonds of a part that was substituted, and of those of parts below it, as what none exceeds.
-    fn take_in_below(&mut self, part: usize) {
+    fn combine_child_bounds(&mut self, part: usize) {
         let below = self.division.below[part].iter().map(|&it| self.now[it]);
         let at_most = below.fold(self.now[part], f64::max);
         (self.now[part], self.at_most[part]) = (at_most, at_most);

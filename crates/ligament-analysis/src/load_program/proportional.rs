@@ -8,7 +8,7 @@ use super::{BoundaryGroup, Control, ControlKind, LoadProgram};
 use crate::internal::InternalForces;
 use crate::restraints::Restraints;
 use crate::unknowns::{Component, Layout};
-use ligament_model::thermal::{FreeStrains, ThermalStrain};
+use ligament_model::thermal::{StressFreeStrains, ThermalStrain};
 
 /// Loads that are all proportional to the load factor, which is the pseudo-time: prescribed motions and forces at load factor
 /// one, and what the history reports of them.
@@ -23,7 +23,7 @@ pub struct ProportionalLoading {
     /// Change of the temperature of each point at load factor 1, shape (n_points), K; empty where there is none.
     pub temperature_change: Vec<f64>,
     /// Strain that the temperature would give each point without stress, at load factor 1; empty where no temperature changes.
-    pub thermal_strain: FreeStrains,
+    pub thermal_strain: StressFreeStrains,
     /// What resists motions that are not prescribed, beside the bonds.
     pub restraints: Arc<Restraints>,
     /// Forces of the restraints whose far ends move on a body that does not, at load factor 1, shape (n_degrees_of_freedom); empty where
@@ -61,7 +61,7 @@ impl ProportionalLoading {
             prescribed: vec![None; layout.n_degrees_of_freedom()],
             force: vec![0.0; layout.n_degrees_of_freedom()],
             temperature_change: Vec::new(),
-            thermal_strain: FreeStrains::default(),
+            thermal_strain: StressFreeStrains::default(),
             restraints: Arc::default(),
             driving: Vec::new(),
             groups: Vec::new(),

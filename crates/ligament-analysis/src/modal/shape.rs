@@ -8,7 +8,7 @@ use super::participation::Moving;
 use crate::equilibrium::ROUNDING;
 use crate::fields;
 use crate::internal::{self, BondSweep, InternalForces};
-use crate::state::BondsLeft;
+use crate::state::UnbrokenBonds;
 use crate::unknowns::Unknowns;
 use ligament_model::interface::PointStiffness;
 use ligament_model::thermal::ThermalStrain;
@@ -17,7 +17,7 @@ use ligament_model::thermal::ThermalStrain;
 pub(super) fn eigenvalue(system: &dyn Bonds, shape: &[f64]) -> f64 {
     2.0 * internal::sweep(
         system,
-        BondsLeft::whole(&vec![true; system.ends().len()]),
+        UnbrokenBonds::whole(&vec![true; system.ends().len()]),
         shape,
         ThermalStrain::NONE,
     )
@@ -41,7 +41,7 @@ pub(super) fn mode(
         ..
     } = internal::sweep(
         system,
-        BondsLeft::whole(&intact),
+        UnbrokenBonds::whole(&intact),
         &shape,
         ThermalStrain::NONE,
     );
@@ -57,7 +57,7 @@ pub(super) fn mode(
         participation: moving.participation(masses, &shape),
         strain_energy_density: fields::strain_energy_density(
             system,
-            BondsLeft::whole(&intact),
+            UnbrokenBonds::whole(&intact),
             &deformations,
             &[],
         ),

@@ -12,7 +12,7 @@ const FREE: f64 = 1e-9;
 /// Degrees of freedom to hold so that a connected part cannot move rigidly, where its restraints may hold some of its motions.
 ///
 /// `is_fixed` tells what supports, loads and earlier holds prescribe; `can_hold` what has a stiffness.
-pub fn missing_holds(
+pub fn missing_supports(
     system: &dyn Bonds,
     restraints: &Restraints,
     points: &[u32],
@@ -41,7 +41,7 @@ pub fn missing_holds(
             break;
         };
         holds.push(dofs[place]);
-        free = left_by_hold(free, place);
+        free = motions_after_fixing(free, place);
     }
     holds
 }
@@ -94,7 +94,7 @@ fn unrestrained(
 }
 
 /// The motions that are left when one degree of freedom of the part is held.
-fn left_by_hold(mut motions: Vec<Vec<f64>>, place: usize) -> Vec<Vec<f64>> {
+fn motions_after_fixing(mut motions: Vec<Vec<f64>>, place: usize) -> Vec<Vec<f64>> {
     let most = (0..motions.len()).max_by(|&one, &other| {
         motions[one][place]
             .abs()

@@ -12,7 +12,7 @@ use ligament_model::interface::CoupledPoints;
 
 use crate::unknowns::Layout;
 
-pub use holds::missing_holds;
+pub use holds::missing_supports;
 
 /// A stiffness between some degrees of freedom and the ground.
 #[derive(Debug, Clone, PartialEq)]

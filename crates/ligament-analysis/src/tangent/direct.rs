@@ -7,12 +7,12 @@ use ligament_linalg::{
     FactorError, Factorisation, Inertia, RankOne, SymmetricMatrix, VANISHING_PIVOT,
 };
 use ligament_model::contact::ClosedPair;
-use ligament_model::element::Remaining;
+use ligament_model::element::StiffnessFactors;
 
 use super::iterative;
-use super::making::Making;
+use super::making::FactorRecord;
 use super::terms::{Coupled, due_bonds};
-use super::{HalfFollowed, Left, SOFT_HOLD, TangentSolver, Unsolved};
+use super::{AllowedResidual, HalfUpdated, SOFT_HOLD, TangentSolver, Unsolved};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::contact;
@@ -30,9 +30,9 @@ pub(crate) struct DirectSolver {
     /// A factor that is out of date: its memory is used again.
     stale: Option<Box<dyn Factorisation>>,
     /// How the factor came about.
-    making: Making,
+    making: FactorRecord,
     /// What the factor has of softening bonds, shape (n_bonds); empty where none softens.
-    remaining: Vec<Remaining>,
+    remaining: Vec<StiffnessFactors>,
     /// Pairs across cracks that are closed, in the factor if there is one.
     closed: Vec<ClosedPair>,
     /// Elements that were lost or changed so far.
@@ -46,7 +46,7 @@ impl DirectSolver {
             stiffness,
             factor: None,
             stale: None,
-            making: Making::default(),
+            making: FactorRecord::default(),
             remaining: Vec::new(),
             closed: Vec::new(),
             n_changed: 0,
@@ -64,7 +64,7 @@ impl DirectSolver {
 
     /// What a hold adds to the diagonal, as a share of it.
     fn hold_share(&self) -> f64 {
-        if self.holds_give_way() {
+        if self.supports_are_soft() {
             SOFT_HOLD
         } else {
             1.0
@@ -72,14 +72,14 @@ impl DirectSolver {
     }
 
     /// Whether holds only keep the tangent definite, because faces that close may carry what they hold.
-    fn holds_give_way(&self) -> bool {
+    fn supports_are_soft(&self) -> bool {
         self.stiffness.system().faces_close()
     }
 
     /// How a factor of a state begins.
-    fn begun(&self, state: &State) -> Making {
-        if !self.holds_give_way() {
-            return Making::begun(state, state.held.clone(), Vec::new());
+    fn begun(&self, state: &State) -> FactorRecord {
+        if !self.supports_are_soft() {
+            return FactorRecord::begun(state, state.held.clone(), Vec::new());
         }
         let cut_off = vec![false; state.held.len()];
         let coupled = Coupled {
@@ -91,7 +91,7 @@ impl DirectSolver {
         let held = (0..state.held.len()).filter(|&dof| state.held[dof]);
         let mut beside = coupled.of_holds(held);
         beside.extend(coupled.of_contact(&self.closed, 1.0));
-        Making::begun(state, cut_off, beside)
+        FactorRecord::begun(state, cut_off, beside)
     }
 
     /// Changes the factor in place by some terms; it is made anew where that fails.
@@ -119,7 +119,7 @@ impl DirectSolver {
         let in_place = self.is_in_place(n_elements);
         self.n_changed += n_elements;
         if !in_place {
-            self.forget();
+            self.discard();
         }
     }
 
@@ -137,7 +137,7 @@ impl DirectSolver {
 
     /// Takes the rounding off a correction where the state is held.
     fn keep_held(&self, state: &State, correction: &mut [f64]) {
-        if self.holds_give_way() {
+        if self.supports_are_soft() {
             return;
         }
         let dofs = self.stiffness.unknowns().degrees_of_freedom().iter();
@@ -157,7 +157,7 @@ impl TangentSolver for DirectSolver {
         expansion: ThermalStrain<'_>,
         costs: &mut Costs,
     ) -> Option<Vec<f64>> {
-        let half = self.half_follow(breakage, state, expansion, costs)?;
+        let half = self.update_and_forward_solve(breakage, state, expansion, costs)?;
         let start = Instant::now();
         let mut correction = half.factor.finish(half.correction);
         self.keep_held(state, &mut correction);
@@ -166,7 +166,7 @@ impl TangentSolver for DirectSolver {
         Some(correction)
     }
 
-    fn takes_in(&self, n_elements: usize) -> bool {
+    fn can_update(&self, n_elements: usize) -> bool {
         self.factor.is_some() && self.is_in_place(n_elements)
     }
 
@@ -174,13 +174,13 @@ impl TangentSolver for DirectSolver {
         self.factor.as_deref()
     }
 
-    fn half_follow(
+    fn update_and_forward_solve(
         &mut self,
         breakage: &Breakage,
         state: &State,
         expansion: ThermalStrain<'_>,
         costs: &mut Costs,
-    ) -> Option<HalfFollowed<'_>> {
+    ) -> Option<HalfUpdated<'_>> {
         if self.factor.is_none() || (breakage.bonds.is_empty() && breakage.holds.is_empty()) {
             return None;
         }
@@ -205,16 +205,16 @@ impl TangentSolver for DirectSolver {
         };
         self.making.changes.push(terms);
         let factor = &**self.factor.insert(factor);
-        Some(HalfFollowed { factor, correction })
+        Some(HalfUpdated { factor, correction })
     }
 
-    fn weaken(&mut self, state: &State, costs: &mut Costs) {
+    fn update_for_softening(&mut self, state: &State, costs: &mut Costs) {
         if self.factor.is_none() {
             return;
         }
         // A factor of the elastic body has all of every bond.
         let n_bonds = state.softening.remaining.len();
-        self.remaining.resize(n_bonds, Remaining::WHOLE);
+        self.remaining.resize(n_bonds, StiffnessFactors::WHOLE);
         let due = due_bonds(&self.remaining, state);
         if due.is_empty() {
             return;
@@ -286,7 +286,7 @@ impl TangentSolver for DirectSolver {
         &mut self,
         state: &State,
         mut force: Vec<f64>,
-        _: Left,
+        _: AllowedResidual,
         costs: &mut Costs,
     ) -> Result<Vec<f64>, Unsolved> {
         let start = Instant::now();
@@ -313,7 +313,7 @@ impl TangentSolver for DirectSolver {
         self.factor.is_some() && !self.making.changes.is_empty()
     }
 
-    fn forget(&mut self) {
+    fn discard(&mut self) {
         self.stale = self.factor.take().or(self.stale.take());
     }
 

@@ -14,15 +14,15 @@ use ligament_linalg::{FactorError, Inertia};
 use ligament_model::Bonds;
 use ligament_model::communicator::Communicator;
 use ligament_model::contact::ClosedPair;
-use ligament_model::element::Remaining;
+use ligament_model::element::StiffnessFactors;
 use ligament_model::subdomain::Partition;
 use ligament_model::thermal::ThermalStrain;
 
-use self::kept::Kept;
+use self::kept::PreconditionerState;
 use self::rows::{OwnRows, Taken};
-use super::making::Making;
+use super::making::FactorRecord;
 use super::terms::due_bonds;
-use super::{Left, TangentSolver, Unsolved};
+use super::{AllowedResidual, TangentSolver, Unsolved};
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
@@ -54,7 +54,7 @@ pub(crate) struct DistributedSolver {
     /// Points whose columns have entries in own rows.
     columns: Vec<u32>,
     matrix: Option<Box<dyn DistributedMatrix>>,
-    kept: Kept,
+    kept: PreconditionerState,
     /// Pivots of the factor, where there is one.
     pivots: Option<Pivots>,
 }
@@ -101,7 +101,7 @@ impl DistributedSolver {
             numbers,
             columns,
             matrix: None,
-            kept: Kept::new(),
+            kept: PreconditionerState::new(),
             pivots: None,
         }
     }
@@ -126,7 +126,7 @@ impl DistributedSolver {
 
     /// Makes the matrix one of the bonds as they are, in some columns or all; gives the degrees of freedom of all ranks that nothing
     /// resists.
-    fn assemble(&mut self, making: &Making, columns: Option<&[u32]>) -> Vec<usize> {
+    fn assemble(&mut self, making: &FactorRecord, columns: Option<&[u32]>) -> Vec<usize> {
         let matrix = self.matrix.take();
         let rows = self.rows();
         let new = || {
@@ -160,7 +160,7 @@ impl DistributedSolver {
     }
 
     /// The preconditioner anew, with the rigid motions of the body as far as nothing holds them.
-    fn precondition(&mut self, making: &Making) {
+    fn precondition(&mut self, making: &FactorRecord) {
         let layout = self.unknowns.layout();
         let free = self.free(&making.held);
         let all: Vec<u32> = (0..self.system.n_points() as u32).collect();
@@ -192,7 +192,7 @@ impl DistributedSolver {
     }
 
     /// The columns that are out of date, those beside newly held degrees of freedom included.
-    fn stale_columns(&mut self, making: &Making) -> Vec<u32> {
+    fn stale_columns(&mut self, making: &FactorRecord) -> Vec<u32> {
         let layout = self.unknowns.layout();
         let held = making.held.iter().zip(&self.kept.matrix_of.held);
         let newly_held = held.enumerate().filter(|(_, (now, before))| now != before);
@@ -215,7 +215,10 @@ impl DistributedSolver {
         let remaining = &state.softening.remaining;
         let left = |&bond: &u32| {
             let (number, bond) = (numbers.number(bond), bond as usize);
-            let left = remaining.get(bond).copied().unwrap_or(Remaining::WHOLE);
+            let left = remaining
+                .get(bond)
+                .copied()
+                .unwrap_or(StiffnessFactors::WHOLE);
             let bits = [left.axial, left.shear, left.rotational].map(f64::to_bits);
             let is_left = u64::from(state.intact[bond]);
             let mixed = mixed([u64::from(number), is_left].into_iter().chain(bits));
@@ -299,10 +302,10 @@ impl TangentSolver for DistributedSolver {
         None
     }
 
-    fn weaken(&mut self, state: &State, _: &mut Costs) {
+    fn update_for_softening(&mut self, state: &State, _: &mut Costs) {
         let n_bonds = state.softening.remaining.len();
         let mut in_matrix = self.kept.matrix_of.remaining.clone();
-        in_matrix.resize(n_bonds, Remaining::WHOLE);
+        in_matrix.resize(n_bonds, StiffnessFactors::WHOLE);
         let ends = self.system.ends();
         let due = due_bonds(&in_matrix, state);
         let of_due = due.into_iter().flat_map(|bond| ends[bond]);
@@ -313,7 +316,7 @@ impl TangentSolver for DistributedSolver {
 
     fn prepare(&mut self, state: &State, costs: &mut Costs) -> Result<Vec<usize>, FactorError> {
         let start = Instant::now();
-        let making = Making::begun(state, state.held.clone(), Vec::new());
+        let making = FactorRecord::begun(state, state.held.clone(), Vec::new());
         let is_new = self.kept.is_due || self.matrix.is_none();
         let stale = self.stale_columns(&making);
         let mut some_stale = [f64::from(u8::from(!stale.is_empty()))];
@@ -354,7 +357,7 @@ impl TangentSolver for DistributedSolver {
         &mut self,
         state: &State,
         force: Vec<f64>,
-        left: Left,
+        left: AllowedResidual,
         costs: &mut Costs,
     ) -> Result<Vec<f64>, Unsolved> {
         let start = Instant::now();
@@ -367,13 +370,13 @@ impl TangentSolver for DistributedSolver {
         let free = self.free(&self.kept.matrix_of.held);
         let own_force = self.at_own(&force, &free, 0.0);
         let found = match left {
-            Left::Share(share) => {
+            AllowedResidual::Share(share) => {
                 let square = dot_of_chunks(&force, &force);
                 let square = self.numbers.subdomain().sum(square);
                 let norm = share * square.sqrt();
                 matrix.solve(&own_force, Tolerated::Norm(norm))
             }
-            Left::AtMost(sizes) => {
+            AllowedResidual::AtMost(sizes) => {
                 let sizes = self.at_own(&sizes, &free, f64::INFINITY);
                 matrix.solve(&own_force, Tolerated::Sizes(&sizes))
             }
@@ -401,7 +404,7 @@ impl TangentSolver for DistributedSolver {
         false
     }
 
-    fn forget(&mut self) {
+    fn discard(&mut self) {
         self.kept.is_due = true;
     }
 
@@ -424,18 +427,18 @@ impl TangentSolver for DistributedSolver {
         }
         let _ = u64::read(from)?;
         let has_matrix = bool::read(from)?;
-        self.kept = Kept::read(&self.numbers, from)?;
+        self.kept = PreconditionerState::read(&self.numbers, from)?;
         if !has_matrix {
             return Ok(());
         }
-        let Kept {
+        let PreconditionerState {
             preconditioner_of,
             matrix_of,
             stale,
             ..
         } = &self.kept;
         let n_points = self.system.n_points();
-        let fits = |making: &Making| making.fits(&*self.system, &self.unknowns);
+        let fits = |making: &FactorRecord| making.fits(&*self.system, &self.unknowns);
         if !fits(preconditioner_of)
             || !fits(matrix_of)
             || stale.iter().any(|it| *it as usize >= n_points)
@@ -474,9 +477,12 @@ pub(crate) fn was_written(from: &[u8]) -> bool {
 /// # Errors
 ///
 /// If the bytes are damaged.
-pub(crate) fn pass_over(numbers: &BondNumbers, from: &mut &[u8]) -> Result<(), CheckpointError> {
+pub(crate) fn skip_checkpoint(
+    numbers: &BondNumbers,
+    from: &mut &[u8],
+) -> Result<(), CheckpointError> {
     let _ = u64::read(from)?;
     let _ = bool::read(from)?;
-    let _ = Kept::read(numbers, from)?;
+    let _ = PreconditionerState::read(numbers, from)?;
     Ok(())
 }

@@ -20,17 +20,17 @@ use std::time::Instant;
 
 use ligament_linalg::{FactorError, Inertia, RankOne};
 use ligament_model::contact::ClosedPair;
-use ligament_model::element::{Remaining, Term};
+use ligament_model::element::{StiffnessFactors, Term};
 use ligament_model::thermal::ThermalStrain;
-use ligament_model::{Bonds, BondsLeft};
+use ligament_model::{Bonds, UnbrokenBonds};
 
 use self::coarse::Coarse;
 use self::conjugate::{Found, Limit, TwoLevels};
 use self::operator::Operator;
 use self::point_blocks::PointBlocks;
-use super::making::Making;
+use super::making::FactorRecord;
 use super::terms::{Coupled, due_bonds};
-use super::{Left, SOFT_HOLD, TangentSolver, Unsolved};
+use super::{AllowedResidual, SOFT_HOLD, TangentSolver, Unsolved};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::contact;
@@ -59,11 +59,11 @@ pub(crate) struct IterativeSolver {
     choice: IterativeChoice,
     levels: Option<TwoLevels>,
     /// What the coarse space was made of, and how its stiffness was changed since.
-    coarse_of: Making,
+    coarse_of: FactorRecord,
     /// What the coarse stiffness has of softening bonds, shape (n_bonds); empty where none softens.
-    in_coarse: Vec<Remaining>,
+    in_coarse: Vec<StiffnessFactors>,
     /// What the blocks of the points were made of.
-    blocks_of: Making,
+    blocks_of: FactorRecord,
     /// Points whose blocks are out of date.
     stale: BTreeSet<u32>,
     /// Whether the coarse space is to be made anew.
@@ -94,9 +94,9 @@ impl IterativeSolver {
             unknowns,
             choice,
             levels: None,
-            coarse_of: Making::default(),
+            coarse_of: FactorRecord::default(),
             in_coarse: Vec::new(),
-            blocks_of: Making::default(),
+            blocks_of: FactorRecord::default(),
             stale: BTreeSet::new(),
             is_due: true,
             pace: None,
@@ -106,9 +106,9 @@ impl IterativeSolver {
     }
 
     /// What a state is made of.
-    fn made_of(&self, state: &State) -> Making {
+    fn made_of(&self, state: &State) -> FactorRecord {
         if !self.system.faces_close() {
-            return Making::begun(state, state.held.clone(), Vec::new());
+            return FactorRecord::begun(state, state.held.clone(), Vec::new());
         }
         let cut_off = vec![false; state.held.len()];
         let coupled = Coupled {
@@ -120,10 +120,10 @@ impl IterativeSolver {
         let held = (0..state.held.len()).filter(|&dof| state.held[dof]);
         let mut beside = coupled.of_holds(held);
         beside.extend(coupled.of_contact(&self.closed, 1.0));
-        Making::begun(state, cut_off, beside)
+        FactorRecord::begun(state, cut_off, beside)
     }
 
-    fn moment(&self, making: &Making) -> Moment {
+    fn moment(&self, making: &FactorRecord) -> Moment {
         let dofs = self.unknowns.degrees_of_freedom();
         let mut free = vec![false; making.held.len()];
         for &dof in dofs {
@@ -138,7 +138,7 @@ impl IterativeSolver {
         }
     }
 
-    fn operator<'a>(&'a self, moment: &'a Moment, bonds: BondsLeft<'a>) -> Operator<'a> {
+    fn operator<'a>(&'a self, moment: &'a Moment, bonds: UnbrokenBonds<'a>) -> Operator<'a> {
         Operator {
             system: &*self.system,
             unknowns: &self.unknowns,
@@ -149,7 +149,10 @@ impl IterativeSolver {
     }
 
     /// Both levels anew; or the degrees of freedom that nothing resists.
-    fn levels_of(&self, making: &Making) -> Result<Result<TwoLevels, Vec<usize>>, FactorError> {
+    fn levels_of(
+        &self,
+        making: &FactorRecord,
+    ) -> Result<Result<TwoLevels, Vec<usize>>, FactorError> {
         let moment = self.moment(making);
         let operator = self.operator(&moment, making.bonds());
         let (blocks, loose) = PointBlocks::new(&operator)?;
@@ -165,7 +168,7 @@ impl IterativeSolver {
     /// # Errors
     ///
     /// If a block is not definite.
-    fn renew_blocks(&mut self, making: Making) -> Result<Vec<usize>, FactorError> {
+    fn renew_blocks(&mut self, making: FactorRecord) -> Result<Vec<usize>, FactorError> {
         let newly_held = (making.held.iter().zip(&self.blocks_of.held))
             .enumerate()
             .filter(|(_, (now, before))| now != before);
@@ -275,16 +278,16 @@ impl TangentSolver for IterativeSolver {
         None
     }
 
-    fn weaken(&mut self, state: &State, costs: &mut Costs) {
+    fn update_for_softening(&mut self, state: &State, costs: &mut Costs) {
         let start = Instant::now();
         let n_bonds = state.softening.remaining.len();
         let mut in_blocks = self.blocks_of.remaining.clone();
-        in_blocks.resize(n_bonds, Remaining::WHOLE);
+        in_blocks.resize(n_bonds, StiffnessFactors::WHOLE);
         let due = due_bonds(&in_blocks, state);
         let ends = self.system.ends();
         let of_due = due.into_iter().flat_map(|bond| ends[bond]);
         self.stale.extend(of_due);
-        self.in_coarse.resize(n_bonds, Remaining::WHOLE);
+        self.in_coarse.resize(n_bonds, StiffnessFactors::WHOLE);
         let due = due_bonds(&self.in_coarse, state);
         if self.is_changed_in_place(due.len()) {
             let mut in_coarse = std::mem::take(&mut self.in_coarse);
@@ -329,7 +332,7 @@ impl TangentSolver for IterativeSolver {
         &mut self,
         state: &State,
         force: Vec<f64>,
-        left: Left,
+        left: AllowedResidual,
         costs: &mut Costs,
     ) -> Result<Vec<f64>, Unsolved> {
         let start = Instant::now();
@@ -349,8 +352,10 @@ impl TangentSolver for IterativeSolver {
         };
         let given = at_dofs(&force, 0.0);
         let limit = match left {
-            Left::Share(share) => Limit::Norm(share * dot_of_chunks(&given, &given).sqrt()),
-            Left::AtMost(sizes) => Limit::Sizes(at_dofs(&sizes, f64::INFINITY)),
+            AllowedResidual::Share(share) => {
+                Limit::Norm(share * dot_of_chunks(&given, &given).sqrt())
+            }
+            AllowedResidual::AtMost(sizes) => Limit::Sizes(at_dofs(&sizes, f64::INFINITY)),
         };
         let operator = self.operator(&moment, state.bonds());
         let mut found = conjugate::solve(&operator, &mut levels, given, &limit);
@@ -382,7 +387,7 @@ impl TangentSolver for IterativeSolver {
         false
     }
 
-    fn forget(&mut self) {
+    fn discard(&mut self) {
         self.is_due = true;
     }
 
@@ -423,7 +428,7 @@ impl TangentSolver for IterativeSolver {
         self.coarse_of = Serial::read(from)?;
         self.in_coarse = Serial::read(from)?;
         self.blocks_of = Serial::read(from)?;
-        let fits = |making: &Making| making.fits(&*self.system, &self.unknowns);
+        let fits = |making: &FactorRecord| making.fits(&*self.system, &self.unknowns);
         let n_points = self.system.n_points();
         let mut stale = self.stale.iter();
         if !fits(&self.coarse_of)

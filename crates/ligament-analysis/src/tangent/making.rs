@@ -7,8 +7,8 @@
 use std::sync::Arc;
 
 use ligament_linalg::{Factorisation, RankOne, SymmetricMatrix};
-use ligament_model::element::Remaining;
-use ligament_model::{Bonds, BondsLeft};
+use ligament_model::element::StiffnessFactors;
+use ligament_model::{Bonds, UnbrokenBonds};
 
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
@@ -20,11 +20,11 @@ use crate::unknowns::Unknowns;
 
 /// Bonds and holds that a factor was made of, and all changes since.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Making {
+pub(super) struct FactorRecord {
     /// Whether each bond was unbroken, shape (n_bonds).
     pub(super) intact: Vec<bool>,
     /// What was left of softening bonds, shape (n_bonds); empty where none softened.
-    pub(super) remaining: Vec<Remaining>,
+    pub(super) remaining: Vec<StiffnessFactors>,
     /// Degrees of freedom that were held, and so are cut off from the others, shape (n_degrees_of_freedom).
     pub(super) held: Vec<bool>,
     /// Terms beside those of the bonds: of pairs that were closed, and of what was held without being cut off.
@@ -33,7 +33,7 @@ pub(super) struct Making {
     pub(super) changes: Vec<Vec<RankOne>>,
 }
 
-serial!(Making {
+serial!(FactorRecord {
     intact,
     remaining,
     held,
@@ -41,7 +41,7 @@ serial!(Making {
     changes
 });
 
-impl Making {
+impl FactorRecord {
     /// The beginning of a factor of a state with the degrees of freedom that are cut off, and terms beside those of the bonds.
     pub(super) fn begun(state: &State, held: Vec<bool>, beside: Vec<RankOne>) -> Self {
         Self {
@@ -54,8 +54,8 @@ impl Making {
     }
 
     /// The bonds that the factor was made of.
-    pub(super) fn bonds(&self) -> BondsLeft<'_> {
-        BondsLeft {
+    pub(super) fn bonds(&self) -> UnbrokenBonds<'_> {
+        UnbrokenBonds {
             intact: &self.intact,
             remaining: &self.remaining,
         }
@@ -64,7 +64,7 @@ impl Making {
     /// Appends the making with all bonds of the body, see [`BondNumbers::write`].
     pub(super) fn write_all(&self, numbers: &BondNumbers, out: &mut Vec<u8>) {
         numbers.write(&self.intact, true, out);
-        numbers.write(&self.remaining, Remaining::WHOLE, out);
+        numbers.write(&self.remaining, StiffnessFactors::WHOLE, out);
         self.held.write(out);
         self.beside.write(out);
         self.changes.write(out);

@@ -3,7 +3,7 @@
 use ligament_linalg::RankOne;
 use ligament_model::Bonds;
 use ligament_model::contact::ClosedPair;
-use ligament_model::element::{Remaining, Term};
+use ligament_model::element::{StiffnessFactors, Term};
 use rayon::prelude::*;
 
 use crate::breakage::Breakage;
@@ -51,7 +51,7 @@ impl Coupled<'_> {
     pub(super) fn of_softening(
         self,
         due: &[usize],
-        in_factor: &mut [Remaining],
+        in_factor: &mut [StiffnessFactors],
         state: &State,
     ) -> Vec<RankOne> {
         let system = self.system;
@@ -106,7 +106,7 @@ impl Coupled<'_> {
         let point = self.unknowns.layout().point(dof);
         let elements = system.elements_at_points().at(point).iter();
         elements
-            .flat_map(|&bond| system.terms(&whole, bond as usize, &Remaining::WHOLE))
+            .flat_map(|&bond| system.terms(&whole, bond as usize, &StiffnessFactors::WHOLE))
             .map(|(rigidity, entries)| {
                 let own = entries.iter().filter(|(of, _)| *of == dof);
                 own.map(|(_, value)| rigidity * value * value).sum::<f64>()
@@ -119,7 +119,7 @@ impl Coupled<'_> {
 ///
 /// Bonds that are near enough wait: the iteration finds the residual with the bonds as they are, and gets as near with a factor
 /// that is a little off.
-pub(super) fn due_bonds(in_factor: &[Remaining], state: &State) -> Vec<usize> {
+pub(super) fn due_bonds(in_factor: &[StiffnessFactors], state: &State) -> Vec<usize> {
     let remaining = &state.softening.remaining;
     let is_due = |bond: &usize| {
         state.intact[*bond] && in_factor[*bond].is_off(&remaining[*bond], SECANT_TOLERANCE)

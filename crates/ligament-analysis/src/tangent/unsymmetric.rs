@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use ligament_linalg::{FactorError, GeneralMatrix, Inertia, Lu};
 
-use super::making::Making;
-use super::{Left, TangentSolver, Unsolved};
+use super::making::FactorRecord;
+use super::{AllowedResidual, TangentSolver, Unsolved};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
@@ -21,7 +21,7 @@ pub(crate) struct UnsymmetricSolver {
     stiffness: Arc<Stiffness>,
     factor: Option<Lu>,
     /// What the factor was made of.
-    making: Making,
+    making: FactorRecord,
 }
 
 impl UnsymmetricSolver {
@@ -30,12 +30,12 @@ impl UnsymmetricSolver {
         Self {
             stiffness,
             factor: None,
-            making: Making::default(),
+            making: FactorRecord::default(),
         }
     }
 
     /// Derivatives of the internal forces by the unknowns; a held one stands alone.
-    fn matrix(&self, Making { intact, held, .. }: &Making) -> GeneralMatrix {
+    fn matrix(&self, FactorRecord { intact, held, .. }: &FactorRecord) -> GeneralMatrix {
         let (system, unknowns) = (self.stiffness.system(), self.stiffness.unknowns());
         let free = |dof: usize| unknowns.number(dof).filter(|_| !held[dof]);
         let mut entries = Vec::new();
@@ -62,13 +62,13 @@ impl TangentSolver for UnsymmetricSolver {
         _: &mut Costs,
     ) -> Option<Vec<f64>> {
         if !breakage.bonds.is_empty() {
-            self.forget();
+            self.discard();
         }
         None
     }
 
-    fn weaken(&mut self, _: &State, _: &mut Costs) {
-        self.forget();
+    fn update_for_softening(&mut self, _: &State, _: &mut Costs) {
+        self.discard();
     }
 
     /// Only bonds with an energy have faces that close.
@@ -77,7 +77,7 @@ impl TangentSolver for UnsymmetricSolver {
     fn prepare(&mut self, state: &State, costs: &mut Costs) -> Result<Vec<usize>, FactorError> {
         if self.factor.is_none() {
             let start = Instant::now();
-            let making = Making::begun(state, state.held.clone(), Vec::new());
+            let making = FactorRecord::begun(state, state.held.clone(), Vec::new());
             let matrix = self.matrix(&making);
             costs.assembly += start.elapsed();
             let start = Instant::now();
@@ -93,7 +93,7 @@ impl TangentSolver for UnsymmetricSolver {
         &mut self,
         state: &State,
         mut force: Vec<f64>,
-        _: Left,
+        _: AllowedResidual,
         costs: &mut Costs,
     ) -> Result<Vec<f64>, Unsolved> {
         let start = Instant::now();
@@ -119,7 +119,7 @@ impl TangentSolver for UnsymmetricSolver {
         false
     }
 
-    fn forget(&mut self) {
+    fn discard(&mut self) {
         self.factor = None;
     }
 
@@ -132,7 +132,7 @@ impl TangentSolver for UnsymmetricSolver {
     }
 
     fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError> {
-        let Some(making) = Option::<Making>::read(from)? else {
+        let Some(making) = Option::<FactorRecord>::read(from)? else {
             return Ok(());
         };
         if !making.fits(self.stiffness.system(), self.stiffness.unknowns()) {

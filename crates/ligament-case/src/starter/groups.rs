@@ -4,7 +4,7 @@ use ligament_mesh::Group;
 
 /// Where something acts.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Spot<const D: usize> {
+pub(super) enum LoadPlace<const D: usize> {
     /// On a group, by its name.
     Group(String),
     /// In a rectangle or, in space, a box, m.
@@ -15,11 +15,11 @@ pub(super) enum Spot<const D: usize> {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Ends<const D: usize> {
     /// What is held.
-    pub(super) support: Spot<D>,
+    pub(super) support: LoadPlace<D>,
     /// What is held along the axis alone, as the second support of a beam is.
-    pub(super) rollers: Vec<Spot<D>>,
+    pub(super) rollers: Vec<LoadPlace<D>>,
     /// What is moved.
-    pub(super) load: Spot<D>,
+    pub(super) load: LoadPlace<D>,
     /// The axis along which it is moved, below D.
     pub(super) axis: usize,
     /// From the support to the load along the axis: 1 or -1.
@@ -106,7 +106,7 @@ impl<'a, const D: usize> Named<'a, D> {
         let is_support = |load: &Group| supports.iter().any(|it| it.name == load.name);
         let named = self.best(loaded).filter(|load| !is_support(load));
         let (load, place) = match named {
-            Some(load) => (Spot::Group(load.name.clone()), self.middle(load, axis)),
+            Some(load) => (LoadPlace::Group(load.name.clone()), self.middle(load, axis)),
             None => {
                 let [low, high] = extent.map(|corner| corner[axis]);
                 let far = if level - low < high - level {
@@ -121,10 +121,10 @@ impl<'a, const D: usize> Named<'a, D> {
                     corner[axis] = far + side * spacing;
                     corner[along] = centre + side * HALF_A_PLATEN * spacing;
                 }
-                (Spot::Box(corners), far)
+                (LoadPlace::Box(corners), far)
             }
         };
-        let spot = |group: &&Group| Spot::Group(group.name.clone());
+        let spot = |group: &&Group| LoadPlace::Group(group.name.clone());
         Some(Ends {
             support: spot(first),
             rollers: rollers.iter().map(spot).collect(),
@@ -211,9 +211,9 @@ impl<'a, const D: usize> Named<'a, D> {
         let axis = farthest(apart);
         let distance = apart[axis];
         (distance != 0.0).then(|| Ends {
-            support: Spot::Group(support.name.clone()),
+            support: LoadPlace::Group(support.name.clone()),
             rollers: Vec::new(),
-            load: Spot::Group(load.name.clone()),
+            load: LoadPlace::Group(load.name.clone()),
             axis,
             away: distance.signum(),
             presses: has_word(&load.name, &PRESSING) || has_word(&support.name, &PRESSING),
@@ -267,7 +267,7 @@ fn at_the_rim<const D: usize>([low, high]: [[f64; D]; 2], spacing: f64) -> Ends<
         let mut corners = [low.map(|it| it - spacing), high.map(|it| it + spacing)];
         corners[0][axis] = level - spacing;
         corners[1][axis] = level + spacing;
-        Spot::Box(corners)
+        LoadPlace::Box(corners)
     };
     Ends {
         rollers: Vec::new(),

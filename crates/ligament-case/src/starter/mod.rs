@@ -8,7 +8,7 @@ use std::path::{Component, Path, PathBuf};
 use ligament_mesh::{AnyMesh, Group};
 
 use crate::mesh_file::{MeshFileError, bounding_box, read_any_mesh};
-use groups::{Ends, Named, Spot};
+use groups::{Ends, LoadPlace, Named};
 use ligament::setup::Law;
 use ligament::warning::{SUSPICIOUSLY_LARGE, Warning};
 use ligament_model::law::{listed, suited};
@@ -207,9 +207,9 @@ fn of_cells<const D: usize>(cells: [u32; D], spacing: f64, law: Law) -> Starter 
         spacing,
     };
     let ends = Ends {
-        support: Spot::Group("bottom".to_owned()),
+        support: LoadPlace::Group("bottom".to_owned()),
         rollers: Vec::new(),
-        load: Spot::Group("top".to_owned()),
+        load: LoadPlace::Group("top".to_owned()),
         axis,
         away: 1.0,
         presses: false,
@@ -225,9 +225,9 @@ fn starter<const D: usize>(
     law: Law,
     warnings: Vec<String>,
 ) -> Starter {
-    let spot = |spot: &Spot<D>| match spot {
-        Spot::Group(name) => format!("at group `{}`", name.escape_debug()),
-        Spot::Box(_) => "in a box".to_owned(),
+    let spot = |spot: &LoadPlace<D>| match spot {
+        LoadPlace::Group(name) => format!("at group `{}`", name.escape_debug()),
+        LoadPlace::Box(_) => "in a box".to_owned(),
     };
     let direction = if ends.presses { "pressed" } else { "pulled" };
     let choice = format!(

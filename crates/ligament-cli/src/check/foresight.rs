@@ -2,9 +2,9 @@
 
 use std::io::{self, Write};
 
-use ligament::foresight::foretell;
+use ligament::foresight::predict;
 use ligament_analysis::Equilibrium;
-use ligament_analysis::driver::{FirstFailure, Foretold, Problem};
+use ligament_analysis::driver::{FirstFailure, Prediction, Problem};
 use ligament_analysis::history::{Notice, Observer, ObserverError, StepRecord, View};
 use ligament_case::case::CaseFile;
 use ligament_output::quantity::{four_digits, place, quantity};
@@ -49,7 +49,7 @@ pub(super) fn write(
         return Ok(Vec::new());
     }
     let mut heard = Heard::default();
-    let foretold = stages.time("first solution", || foretell(problem, analysis, &mut heard));
+    let foretold = stages.time("first solution", || predict(problem, analysis, &mut heard));
     if let Some(foretold) = foretold.map_err(|it| case.explained(it))? {
         write_foretold(out, model, problem, &foretold)?;
     }
@@ -92,7 +92,7 @@ fn write_foretold(
     out: &mut dyn Write,
     model: &Model,
     problem: &Problem,
-    foretold: &Foretold,
+    foretold: &Prediction,
 ) -> io::Result<()> {
     let stage = |part: usize| {
         let course = problem.loads.course();
@@ -100,11 +100,11 @@ fn write_foretold(
     };
     let name = "first breakage";
     match foretold {
-        Foretold::FirstFailure(first) => write_first(out, model, first, stage(first.part)),
-        Foretold::NoFailure { utilisation } if *utilisation < ROUNDING => {
+        Prediction::FirstFailure(first) => write_first(out, model, first, stage(first.part)),
+        Prediction::NoFailure { utilisation } if *utilisation < ROUNDING => {
             entry(out, name, "none: no bond is strained towards a limit")
         }
-        Foretold::NoFailure { utilisation } => {
+        Prediction::NoFailure { utilisation } => {
             let words = match stage(0) {
                 None => {
                     let times = four_digits(1.0 / utilisation);
@@ -119,7 +119,7 @@ fn write_foretold(
             };
             entry(out, name, words)
         }
-        Foretold::NoEquilibrium { part, reason } => {
+        Prediction::NoEquilibrium { part, reason } => {
             let at = stage(*part).map_or(String::new(), |it| format!(" at the end of {it}"));
             let body = model.body();
             let reason = reason.words(&|point| body.place(point));
@@ -128,7 +128,7 @@ fn write_foretold(
                 "warning: the whole body has no equilibrium under the loads{at}: {reason}"
             )
         }
-        Foretold::Nonlinear => entry(
+        Prediction::Nonlinear => entry(
             out,
             name,
             "not told: strains are in no proportion to the loads (faces of cracks close, or strains are true ones)",

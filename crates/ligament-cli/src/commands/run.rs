@@ -17,7 +17,7 @@ use ligament_analysis::distributed_matrix::Solo;
 use ligament_plot::picture::{asks_for_pictures, draw_run};
 use ligament_run::progress::ProgressMode;
 use ligament_run::run::{Report, Request};
-use ligament_study::sweep::take_leash;
+use ligament_study::sweep::bind_to_parent;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -61,7 +61,7 @@ impl RunArgs {
     /// Does it.
     pub(super) fn execute(self) -> anyhow::Result<ExitCode> {
         if let Some(lock) = &self.leash {
-            take_leash(lock)?;
+            bind_to_parent(lock)?;
         }
         // A run of a sweep is one process, whoever started the sweep.
         let communicator = match &self.leash {

@@ -7,11 +7,11 @@ use ligament_output::csv::{Value, line};
 use ligament_output::results::stored::StoredRun;
 use serde_json::json;
 
-use super::life::{Life, Lives};
+use super::life::{BondHistories, BondHistory};
 use super::report::angle;
 
 /// A table with a row a bond and step with fields.
-pub(super) fn csv(run: &StoredRun, lives: &Lives) -> String {
+pub(super) fn csv(run: &StoredRun, lives: &BondHistories) -> String {
     let tagged = run.model.tagged;
     let mut columns: Vec<String> = ["a", "b"].map(|end| format!("{tagged}_{end}")).to_vec();
     let loads = ["step", "load_factor", "displacement", "reaction", "intact"];
@@ -63,7 +63,7 @@ pub(super) fn csv(run: &StoredRun, lives: &Lives) -> String {
 }
 
 /// Bonds with their limits, breakages and paths; what is infinite is `null`.
-pub(super) fn json(run: &StoredRun, lives: &Lives) -> anyhow::Result<String> {
+pub(super) fn json(run: &StoredRun, lives: &BondHistories) -> anyhow::Result<String> {
     let tags = |ends: [u32; 2]| ends.map(|end| run.model.tags[end as usize]);
     let absent = lives.absent.iter().map(|pair| {
         let why = match run.model.bonds.absence[*pair] {
@@ -84,7 +84,7 @@ pub(super) fn json(run: &StoredRun, lives: &Lives) -> anyhow::Result<String> {
     Ok(text + "\n")
 }
 
-fn bond(run: &StoredRun, lives: &Lives, life: &Life) -> serde_json::Value {
+fn bond(run: &StoredRun, lives: &BondHistories, life: &BondHistory) -> serde_json::Value {
     let bonds = &run.model.bonds;
     let breakage = life.breakage.as_ref().map(|(broke, _)| {
         let breakage = json!({
@@ -138,7 +138,7 @@ fn bond(run: &StoredRun, lives: &Lives, life: &Life) -> serde_json::Value {
 }
 
 /// The limits of a bond.
-fn limits(life: &Life) -> Vec<serde_json::Value> {
+fn limits(life: &BondHistory) -> Vec<serde_json::Value> {
     let limits = life.limits.iter().map(|limit| {
         json!({
             "criterion": limit.name,
@@ -155,7 +155,7 @@ fn limits(life: &Life) -> Vec<serde_json::Value> {
 /// An object with the components of a deformation under their names.
 fn with_components(
     mut object: serde_json::Value,
-    lives: &Lives,
+    lives: &BondHistories,
     deformation: &BondDeformation,
 ) -> serde_json::Value {
     for (name, value) in lives.components.iter().zip(deformation.strains()) {

@@ -15,11 +15,11 @@ use ligament_plot::stored_loading::StoredLoading;
 
 /// The lives of some bonds, over the same moments.
 #[derive(Debug)]
-pub(super) struct Lives {
+pub(super) struct BondHistories {
     /// Steps with fields, ascending.
     pub(super) moments: Vec<StoredStep>,
     /// The bonds, by the number of the pair in the stored model; pairs that are no bonds have no life.
-    pub(super) of_bonds: Vec<Life>,
+    pub(super) of_bonds: Vec<BondHistory>,
     /// Pairs among them that are no bonds.
     pub(super) absent: Vec<usize>,
     /// Whether a moment is just before the breakages of its step.
@@ -34,7 +34,7 @@ pub(super) struct Lives {
 
 /// The life of a bond.
 #[derive(Debug)]
-pub(super) struct Life {
+pub(super) struct BondHistory {
     /// Number of the pair.
     pub(super) pair: usize,
     /// Ends of the bond.
@@ -85,7 +85,7 @@ pub(super) fn pair_of(run: &StoredRun, ends: [u32; 2]) -> Option<usize> {
     run.model.bonds.ends.iter().position(|it| *it == ends)
 }
 
-impl Lives {
+impl BondHistories {
     /// Reads the lives of some bonds; each file of fields is read once.
     pub(super) fn read(
         run: &StoredRun,
@@ -104,7 +104,7 @@ impl Lives {
             units: loading.units,
         };
         for pair in bonds {
-            lives.of_bonds.push(Life::begin(run, pair)?);
+            lives.of_bonds.push(BondHistory::begin(run, pair)?);
         }
         let mut strains = Strains::from_run(run, loading.follows_path);
         for step in run.field_steps() {
@@ -156,7 +156,7 @@ impl Limit {
     }
 }
 
-impl Life {
+impl BondHistory {
     fn begin(run: &StoredRun, pair: usize) -> Result<Self, Error> {
         let model = &run.model;
         let ends = model.bonds.ends[pair];
@@ -299,8 +299,8 @@ impl Life {
 
 /// A bond with limits and deformations, for tests.
 #[cfg(test)]
-pub(super) fn life_of(limits: Vec<Limit>, deformation: Vec<BondDeformation>) -> Life {
-    Life {
+pub(super) fn life_of(limits: Vec<Limit>, deformation: Vec<BondDeformation>) -> BondHistory {
+    BondHistory {
         pair: 0,
         ends: [0, 1],
         length: 1.0,
@@ -338,7 +338,7 @@ mod tests {
             reaction: 0.0,
             at_rest: true,
         });
-        let state = |life: &Life, moment| {
+        let state = |life: &BondHistory, moment| {
             let softened = life.softened(0, &moments, moment);
             (softened.force, softened.secant)
         };

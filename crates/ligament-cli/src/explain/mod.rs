@@ -16,7 +16,7 @@ use ligament_output::results::stored::StoredRun;
 use ligament_output::{check_file, write_file};
 use thiserror::Error;
 
-use self::life::{Lives, bonds_of, pair_of};
+use self::life::{BondHistories, bonds_of, pair_of};
 use ligament_plot::stored_loading::stored_loading;
 
 /// What to explain.
@@ -105,7 +105,7 @@ pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
     let run = StoredRun::open(&request.folder)?;
     let loading = stored_loading(&request.folder)?;
     let family = |out: &mut dyn Write, point: u32, sought: Option<[f64; 3]>| {
-        let lives = Lives::read(&run, bonds_of(&run, point), loading)?;
+        let lives = BondHistories::read(&run, bonds_of(&run, point), loading)?;
         report::family(out, &run, point, sought, &lives)?;
         anyhow::Ok(lives)
     };
@@ -123,7 +123,7 @@ pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
             }
             let ends = [a.min(b), a.max(b)];
             let pair = pair_of(&run, ends);
-            let lives = Lives::read(&run, pair.into_iter().collect(), loading)?;
+            let lives = BondHistories::read(&run, pair.into_iter().collect(), loading)?;
             report::bond(out, &run, ends, &lives)?;
             lives
         }

@@ -8,7 +8,7 @@ use ligament_model::Absence;
 use ligament_output::quantity::quantity;
 use ligament_output::results::stored::{StoredRun, StoredStep};
 
-use super::life::{Life, Lives};
+use super::life::{BondHistories, BondHistory};
 use super::words::{self, label, metres, number, place};
 use crate::lines::{self, Columns};
 use ligament::units::Units;
@@ -18,7 +18,7 @@ pub(super) fn bond(
     out: &mut dyn Write,
     run: &StoredRun,
     [a, b]: [u32; 2],
-    lives: &Lives,
+    lives: &BondHistories,
 ) -> io::Result<()> {
     let title = format!("bond {} - {}", label(run, a), label(run, b));
     writeln!(out, "{title} in {}", run.folder.display())?;
@@ -45,7 +45,7 @@ pub(super) fn bond(
         entry(out, &name, words)?;
     }
     writeln!(out, "what happened")?;
-    sentences(out, words::fate(run, lives, life))?;
+    sentences(out, words::bond_description(run, lives, life))?;
     missing(out, run, lives)?;
     write_path(out, lives, &bond_path(lives, life))
 }
@@ -56,7 +56,7 @@ pub(super) fn family(
     run: &StoredRun,
     point: u32,
     sought: Option<[f64; 3]>,
-    lives: &Lives,
+    lives: &BondHistories,
 ) -> io::Result<()> {
     let model = &run.model;
     writeln!(out, "{} in {}", label(run, point), run.folder.display())?;
@@ -93,13 +93,13 @@ fn sentences(out: &mut dyn Write, sentences: Vec<String>) -> io::Result<()> {
 }
 
 /// Direction of a bond in space, as the cosines from its first to its second end.
-fn direction(life: &Life) -> String {
+fn direction(life: &BondHistory) -> String {
     let [x, y, z] = life.direction.map(|it| format!("{it:.3}"));
     format!("({x}, {y}, {z})")
 }
 
 /// Direction of a bond in the plane, degrees above -90 up to 90.
-pub(super) fn angle(life: &Life) -> f64 {
+pub(super) fn angle(life: &BondHistory) -> f64 {
     let [a, b, _] = life.direction;
     let angle = b.atan2(a).to_degrees();
     if angle > 90.0 {
@@ -112,7 +112,7 @@ pub(super) fn angle(life: &Life) -> f64 {
 }
 
 /// How many bonds broke, and what else became of pairs.
-fn counts(run: &StoredRun, lives: &Lives) -> String {
+fn counts(run: &StoredRun, lives: &BondHistories) -> String {
     let n_bonds = lives.of_bonds.len();
     let broken = lives.of_bonds.iter().filter_map(|it| it.breakage.as_ref());
     let orders: Vec<(usize, usize)> = broken.map(|(it, _)| (it.order, it.at.step)).collect();
@@ -138,7 +138,7 @@ fn counts(run: &StoredRun, lives: &Lives) -> String {
 }
 
 /// Writes what the results leave out, and how to get it.
-fn missing(out: &mut dyn Write, run: &StoredRun, lives: &Lives) -> io::Result<()> {
+fn missing(out: &mut dyn Write, run: &StoredRun, lives: &BondHistories) -> io::Result<()> {
     let may_fail = !run.model.criteria.is_empty();
     if may_fail && run.model.largest.is_none() {
         writeln!(
@@ -157,7 +157,7 @@ fn missing(out: &mut dyn Write, run: &StoredRun, lives: &Lives) -> io::Result<()
 }
 
 /// Writes a table with a row for each moment.
-fn write_path(out: &mut dyn Write, lives: &Lives, rows: &Columns) -> io::Result<()> {
+fn write_path(out: &mut dyn Write, lives: &BondHistories, rows: &Columns) -> io::Result<()> {
     let when = if lives.before_breakages {
         "events with fields, just before their bonds break"
     } else {
@@ -184,7 +184,7 @@ fn load(moment: &StoredStep, units: Units) -> Vec<String> {
 }
 
 /// Deformation and utilisations of a bond over the moments.
-fn bond_path(lives: &Lives, life: &Life) -> Columns {
+fn bond_path(lives: &BondHistories, life: &BondHistory) -> Columns {
     let mut header: Vec<String> = LOAD_HEADER.map(str::to_owned).to_vec();
     let names: &[&str] = match lives.components {
         strains @ [_, _, _] => strains,
@@ -220,7 +220,7 @@ fn bond_path(lives: &Lives, life: &Life) -> Columns {
 }
 
 /// All bonds of a point: those that broke in their order, then the nearest to breakage first.
-fn family_table(run: &StoredRun, point: u32, lives: &Lives) -> Columns {
+fn family_table(run: &StoredRun, point: u32, lives: &BondHistories) -> Columns {
     let bonds = &run.model.bonds;
     let mut header = vec![run.model.tagged.to_owned()];
     let in_space = run.model.in_space;
@@ -228,14 +228,14 @@ fn family_table(run: &StoredRun, point: u32, lives: &Lives) -> Columns {
     header.extend(["length", along, "H", "alpha", "Omega"].map(str::to_owned));
     let criteria = run.model.criteria.iter();
     header.extend(criteria.map(|it| format!("limit {}", it.name)));
-    header.extend(["largest", "in step", "by", "fate"].map(str::to_owned));
+    header.extend(["largest", "in step", "by", "bond_description"].map(str::to_owned));
     let mut table = Columns::new(header);
-    let mut order: Vec<&Life> = lives.of_bonds.iter().collect();
-    let number_of_breakage = |life: &Life| {
+    let mut order: Vec<&BondHistory> = lives.of_bonds.iter().collect();
+    let number_of_breakage = |life: &BondHistory| {
         let broke = life.breakage.as_ref().map(|(it, _)| it.order);
         broke.unwrap_or(usize::MAX)
     };
-    let largest = |life: &Life| life.nearest.map_or(0.0, |it| it.utilisation);
+    let largest = |life: &BondHistory| life.nearest.map_or(0.0, |it| it.utilisation);
     order.sort_by(|one, other| {
         (number_of_breakage(one).cmp(&number_of_breakage(other)))
             .then(largest(other).total_cmp(&largest(one)))
@@ -261,7 +261,7 @@ fn family_table(run: &StoredRun, point: u32, lives: &Lives) -> Columns {
             ],
             None => ["0", "-", "-"].map(str::to_owned),
         });
-        row.push(words::short_fate(run, lives, life));
+        row.push(words::short_bond_description(run, lives, life));
         table.push(row);
     }
     table
@@ -272,7 +272,7 @@ fn other_end([a, b]: [u32; 2], point: u32) -> usize {
 }
 
 /// Intact bonds, damage and the bond nearest to breakage over the moments.
-fn family_path(run: &StoredRun, point: u32, lives: &Lives) -> Columns {
+fn family_path(run: &StoredRun, point: u32, lives: &BondHistories) -> Columns {
     let tagged = run.model.tagged;
     let mut header: Vec<String> = LOAD_HEADER.map(str::to_owned).to_vec();
     header.extend(["intact", "damage", "largest"].map(str::to_owned));
@@ -280,7 +280,7 @@ fn family_path(run: &StoredRun, point: u32, lives: &Lives) -> Columns {
     let mut table = Columns::new(header);
     for (place, moment) in lives.moments.iter().enumerate() {
         let intact = || lives.of_bonds.iter().filter(|life| place < life.n_intact);
-        let mut worst: Option<(f64, &Life, usize)> = None;
+        let mut worst: Option<(f64, &BondHistory, usize)> = None;
         for life in intact() {
             for (criterion, limit) in life.limits.iter().enumerate() {
                 let utilisation = limit.utilisation(&life.deformation[place]);
@@ -307,13 +307,14 @@ fn family_path(run: &StoredRun, point: u32, lives: &Lives) -> Columns {
 }
 
 /// Share of the broken bonds in the sum of alpha Omega over all (NHPD eq. 17).
-fn damage(run: &StoredRun, lives: &Lives, place: usize) -> f64 {
+fn damage(run: &StoredRun, lives: &BondHistories, place: usize) -> f64 {
     let bonds = &run.model.bonds;
-    let weight = |life: &Life| bonds.length_factor[life.pair] * bonds.domain_factor[life.pair];
+    let weight =
+        |life: &BondHistory| bonds.length_factor[life.pair] * bonds.domain_factor[life.pair];
     // The sum of no floats is -0.
-    let sum = |lives: &mut dyn Iterator<Item = &Life>| lives.map(weight).fold(0.0, f64::add);
+    let sum = |lives: &mut dyn Iterator<Item = &BondHistory>| lives.map(weight).fold(0.0, f64::add);
     let all = sum(&mut lives.of_bonds.iter());
-    let is_broken = |life: &&Life| place >= life.n_intact;
+    let is_broken = |life: &&BondHistory| place >= life.n_intact;
     let broken = sum(&mut lives.of_bonds.iter().filter(is_broken));
     if all > 0.0 { broken / all } else { 0.0 }
 }

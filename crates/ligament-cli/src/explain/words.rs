@@ -6,7 +6,7 @@ use ligament_model::failure::Softened;
 use ligament_output::quantity::quantity;
 use ligament_output::results::stored::StoredRun;
 
-use super::life::{Life, Limit, Lives, Nearest};
+use super::life::{BondHistories, BondHistory, Limit, Nearest};
 
 /// A number without a unit.
 pub(super) fn number(value: f64) -> String {
@@ -42,7 +42,7 @@ pub(super) fn place(run: &StoredRun, point: u32) -> String {
     format!("{} at {position} m", label(run, point))
 }
 
-fn deformed(lives: &Lives, deformation: &BondDeformation) -> String {
+fn deformed(lives: &BondHistories, deformation: &BondDeformation) -> String {
     let symbols: &[&str] = match lives.has_own_strains {
         true => &["S_xx", "S_xy", "S_yy"],
         false => &["s", "gamma"],
@@ -55,7 +55,7 @@ fn deformed(lives: &Lives, deformation: &BondDeformation) -> String {
 }
 
 /// Whether a bond is shortened, or some strain of its own is.
-fn is_pressed(lives: &Lives, deformation: &BondDeformation) -> bool {
+fn is_pressed(lives: &BondHistories, deformation: &BondDeformation) -> bool {
     match lives.has_own_strains {
         true => deformation.strain()[..2].iter().any(|strain| *strain < 0.0),
         false => deformation.stretch() < 0.0,
@@ -63,7 +63,7 @@ fn is_pressed(lives: &Lives, deformation: &BondDeformation) -> bool {
 }
 
 /// The limits of a bond, a line each; its name and what it says.
-pub(super) fn limits(life: &Life) -> Vec<(String, String)> {
+pub(super) fn limits(life: &BondHistory) -> Vec<(String, String)> {
     let in_words = |limit: &Limit| {
         let what = limit.measure.words();
         let names = limit.measure.coefficient_names().iter();
@@ -90,7 +90,11 @@ pub(super) fn limits(life: &Life) -> Vec<(String, String)> {
 }
 
 /// What happened to a bond, a sentence a line.
-pub(super) fn fate(run: &StoredRun, lives: &Lives, life: &Life) -> Vec<String> {
+pub(super) fn bond_description(
+    run: &StoredRun,
+    lives: &BondHistories,
+    life: &BondHistory,
+) -> Vec<String> {
     if let Some((broke, criterion)) = &life.breakage {
         let mut lines = vec![format!(
             "It broke in step {}, round {}, as number {} of {} broken bonds, by `{}`.",
@@ -136,7 +140,7 @@ pub(super) fn fate(run: &StoredRun, lives: &Lives, life: &Life) -> Vec<String> {
     lines
 }
 
-fn never_fails(run: &StoredRun, life: &Life) -> String {
+fn never_fails(run: &StoredRun, life: &BondHistory) -> String {
     let marked = life
         .ends
         .iter()
@@ -149,7 +153,7 @@ fn never_fails(run: &StoredRun, life: &Life) -> String {
     }
 }
 
-fn nearest_words(lives: &Lives, life: &Life, nearest: Nearest) -> String {
+fn nearest_words(lives: &BondHistories, life: &BondHistory, nearest: Nearest) -> String {
     let limit = &life.limits[nearest.criterion];
     let moment = lives.moments.iter().position(|it| it.step == nearest.step);
     let seen = moment.map(|moment| {
@@ -166,7 +170,7 @@ fn nearest_words(lives: &Lives, life: &Life, nearest: Nearest) -> String {
 }
 
 /// The state of an intact bond in the last moment, if that is not the one nearest to its limit.
-fn end_words(lives: &Lives, life: &Life) -> Option<String> {
+fn end_words(lives: &BondHistories, life: &BondHistory) -> Option<String> {
     let (moment, deformation) = (lives.moments.last()?, life.deformation.last()?);
     let is_told = |it: Nearest| it.step == moment.step && it.utilisation > 0.0;
     if life.nearest.is_some_and(is_told) {
@@ -186,7 +190,7 @@ fn end_words(lives: &Lives, life: &Life) -> Option<String> {
 }
 
 /// The rest of a bond that passed limits, in the last moment, with the names of the criteria.
-fn softened<'a>(lives: &Lives, life: &'a Life) -> Vec<(&'a str, Softened)> {
+fn softened<'a>(lives: &BondHistories, life: &'a BondHistory) -> Vec<(&'a str, Softened)> {
     let Some(last) = lives.moments.len().checked_sub(1) else {
         return Vec::new();
     };
@@ -200,7 +204,7 @@ fn softened<'a>(lives: &Lives, life: &'a Life) -> Vec<(&'a str, Softened)> {
 }
 
 /// The rest of a bond that passed limits, a sentence for each criterion.
-fn softened_words(lives: &Lives, life: &Life) -> Vec<String> {
+fn softened_words(lives: &BondHistories, life: &BondHistory) -> Vec<String> {
     let words = |(name, softened): (&str, Softened)| {
         format!(
             "Past the limit of `{name}`: mu = {:.4} of the force there is left, omega = {:.4} of the stiffness.",
@@ -211,7 +215,11 @@ fn softened_words(lives: &Lives, life: &Life) -> Vec<String> {
 }
 
 /// What happened to a bond, in a few words.
-pub(super) fn short_fate(run: &StoredRun, lives: &Lives, life: &Life) -> String {
+pub(super) fn short_bond_description(
+    run: &StoredRun,
+    lives: &BondHistories,
+    life: &BondHistory,
+) -> String {
     let is_free = life.limits.iter().all(|limit| limit.limit.is_infinite());
     let is_held = life.ends.iter().any(|end| run.model.no_fail[*end as usize]);
     let was_seen = life.nearest.is_some_and(|it| it.utilisation > 0.0);

@@ -5,7 +5,7 @@ use std::os::unix::fs::symlink;
 
 use ligament_analysis::serial::Serial;
 use ligament_output::checkpoint::Checkpoint;
-use ligament_output::results::SoFar;
+use ligament_output::results::OutputState;
 
 const SECRET: &str =
     "root:$6$SECRETHASH$abcdefgh:19000:0:99999:7:::\nSECRETHASHb3BlbnNzaC1rZXktdjEA\n";
@@ -167,7 +167,7 @@ fn names_in_results_lead_nowhere() {
         let bytes = &mut checkpoint.results;
         let at = bytes.windows(name.len()).position(|it| it == name).unwrap();
         bytes[at..at + name.len()].copy_from_slice(other);
-        assert!(SoFar::read(&mut bytes.as_slice()).is_ok());
+        assert!(OutputState::read(&mut bytes.as_slice()).is_ok());
         let _ = fs::remove_file(out.join("checkpoint.older.bin"));
         let _ = fs::remove_file(out.join("checkpoint.bin"));
         checkpoint.write(&out).unwrap();

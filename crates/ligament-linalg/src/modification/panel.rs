@@ -11,7 +11,7 @@ use pulp::Arch;
 use rayon::prelude::*;
 
 use super::diagonal::DiagonalEntry;
-use super::square::{Below, Rows, Square, Turned};
+use super::square::{AppliedRotations, Below, Rows, Square};
 use crate::panels::FactorKind;
 use crate::substitution::BLOCK;
 
@@ -55,9 +55,9 @@ impl Panel<'_> {
             let next = self.tile(tile.columns.end);
             let before = (tile, turned);
             let of_next = match next.rows_of_task {
-                Some(_) => self.turn_along(&before, &next),
+                Some(_) => self.update_below_and_next_square(&before, &next),
                 None => {
-                    self.turn_below(&before);
+                    self.update_rows_below(&before);
                     self.turn(&next)
                 }
             };
@@ -65,7 +65,7 @@ impl Panel<'_> {
             more_negative += turned.more_negative;
             tile = next;
         }
-        self.turn_below(&(tile, turned));
+        self.update_rows_below(&(tile, turned));
         Ok(more_negative)
     }
 
@@ -89,7 +89,7 @@ impl Panel<'_> {
     }
 
     /// Changes all rows of a panel that is not divided.
-    fn whole(self) -> Result<Turned, usize> {
+    fn whole(self) -> Result<AppliedRotations, usize> {
         Arch::new().dispatch(Square {
             kind: self.kind,
             diagonal: self.diagonal,
@@ -99,7 +99,7 @@ impl Panel<'_> {
     }
 
     /// Changes the square of a tile, or all of its rows where they are not divided.
-    fn turn(&mut self, tile: &Tile) -> Result<Turned, usize> {
+    fn turn(&mut self, tile: &Tile) -> Result<AppliedRotations, usize> {
         let Range { start, end } = tile.columns;
         let n_rows = match tile.rows_of_task {
             Some(_) => end - start,
@@ -120,7 +120,7 @@ impl Panel<'_> {
     }
 
     /// Changes the rows below the square of a tile.
-    fn turn_below(&mut self, (tile, turned): &(Tile, Turned)) {
+    fn update_rows_below(&mut self, (tile, turned): &(Tile, AppliedRotations)) {
         let Some(n_each) = tile.rows_of_task else {
             return;
         };
@@ -130,15 +130,15 @@ impl Panel<'_> {
             n_each,
         };
         let pieces = cut.pieces(&mut self.rows, tile.columns.clone());
-        side_by_side(pieces.into_iter().skip(1).collect(), turned);
+        update_in_parallel(pieces.into_iter().skip(1).collect(), turned);
     }
 
     /// Changes the rows below the square of a tile, and along with them the square of the next one.
-    fn turn_along(
+    fn update_below_and_next_square(
         &mut self,
-        (before, turned): &(Tile, Turned),
+        (before, turned): &(Tile, AppliedRotations),
         tile: &Tile,
-    ) -> Result<Turned, usize> {
+    ) -> Result<AppliedRotations, usize> {
         let Range { start, end } = tile.columns;
         let cut = Cut {
             from: start,
@@ -161,14 +161,14 @@ impl Panel<'_> {
                 rows: Rows { columns, ..first },
             })
         };
-        let (turned, ()) = rayon::join(square, || side_by_side(pieces.collect(), turned));
+        let (turned, ()) = rayon::join(square, || update_in_parallel(pieces.collect(), turned));
         self.rows.columns.append(&mut later);
         turned
     }
 }
 
 /// Changes rows below the pivots of columns, which are tasks.
-fn side_by_side(pieces: Vec<Rows<'_>>, turned: &Turned) {
+fn update_in_parallel(pieces: Vec<Rows<'_>>, turned: &AppliedRotations) {
     let tasks = pieces.into_par_iter().with_max_len(1);
     tasks.for_each(|mut rows| {
         let rows = &mut rows;

@@ -30,7 +30,7 @@ pub(super) struct Square<'a, 'b> {
 }
 
 /// What terms do with columns.
-pub(super) struct Turned {
+pub(super) struct AppliedRotations {
     /// For each block of columns and each term, its action on the columns, shape (n_blocks, n_terms).
     pub(super) rotations: Vec<[Rotation; BLOCK]>,
     /// What the right-hand side becomes at the pivots; empty without one.
@@ -41,7 +41,7 @@ pub(super) struct Turned {
 
 /// The change, or the column whose pivot vanished.
 impl WithSimd for Square<'_, '_> {
-    type Output = Result<Turned, usize>;
+    type Output = Result<AppliedRotations, usize>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
@@ -78,7 +78,7 @@ impl WithSimd for Square<'_, '_> {
             }
         }
         let solved = right_hand_side.map_or_else(Vec::new, |it| it[..first].to_vec());
-        Ok(Turned {
+        Ok(AppliedRotations {
             rotations,
             solved,
             more_negative,
@@ -89,7 +89,7 @@ impl WithSimd for Square<'_, '_> {
 /// Rows below the pivots of columns.
 pub(super) struct Below<'a, 'b> {
     pub(super) rows: &'a mut Rows<'b>,
-    pub(super) turned: &'a Turned,
+    pub(super) turned: &'a AppliedRotations,
 }
 
 impl WithSimd for Below<'_, '_> {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::cursor::{Cursor, shown};
 use super::error::GmshError;
-use super::records::{FieldRecord, Records, make_room};
+use super::records::{FieldRecord, Records, reserve};
 use super::tags::NodeIndices;
 use crate::field::NodeField;
 
@@ -45,7 +45,7 @@ pub(super) fn read_node_data(
         for _ in 0..components {
             let value = cursor.real("a value at a node")?;
             if components == 1 {
-                make_room(&mut values, 1)?;
+                reserve(&mut values, 1)?;
                 values.push((tag, value));
             }
         }

@@ -108,7 +108,7 @@ impl Records {
                 value: *value,
             }),
             None => {
-                make_room(&mut self.nodes, 1)?;
+                reserve(&mut self.nodes, 1)?;
                 self.nodes.push(node);
                 Ok(())
             }
@@ -155,7 +155,7 @@ impl Records {
             first_corner: self.corners.len(),
             offset,
         };
-        make_room(&mut self.corners, n_corners)?;
+        reserve(&mut self.corners, n_corners)?;
         for _ in 0..n_corners {
             self.corners.push(node_tag(cursor)?);
         }
@@ -163,11 +163,11 @@ impl Records {
         for _ in n_corners..nodes {
             let inner = node_tag(cursor)?;
             if shape.dimension() > 1 {
-                make_room(&mut self.inner_nodes, 1)?;
+                reserve(&mut self.inner_nodes, 1)?;
                 self.inner_nodes.push((inner, index));
             }
         }
-        make_room(&mut self.elements, 1)?;
+        reserve(&mut self.elements, 1)?;
         self.elements.push(element);
         Ok(())
     }
@@ -186,7 +186,7 @@ impl Records {
             threads.saturating_mul(STACK),
         ];
         let sum = parts.into_iter().fold(0, usize::saturating_add);
-        make_room(&mut Vec::<u8>::new(), sum)
+        reserve(&mut Vec::<u8>::new(), sum)
     }
 }
 
@@ -195,7 +195,7 @@ impl Records {
 /// # Errors
 ///
 /// If the system has no memory for them.
-pub(super) fn make_room<T>(list: &mut Vec<T>, more: usize) -> Result<(), GmshError> {
+pub(super) fn reserve<T>(list: &mut Vec<T>, more: usize) -> Result<(), GmshError> {
     list.try_reserve(more).map_err(|_| GmshError::NoMemory {
         megabytes: (list.len().saturating_add(more)).saturating_mul(size_of::<T>()) / 1_000_000,
     })

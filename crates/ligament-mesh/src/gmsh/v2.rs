@@ -3,7 +3,7 @@
 use super::cursor::Cursor;
 use super::element_type::Shape;
 use super::error::GmshError;
-use super::records::{ElementHeader, Node, Records, TypeRecord, make_room};
+use super::records::{ElementHeader, Node, Records, TypeRecord, reserve};
 
 /// Reads `$Nodes` behind its first line.
 pub(super) fn read_nodes(cursor: &mut Cursor<'_>, records: &mut Records) -> Result<(), GmshError> {
@@ -14,7 +14,7 @@ pub(super) fn read_nodes(cursor: &mut Cursor<'_>, records: &mut Records) -> Resu
         4 + 3 * 8
     };
     let count = cursor.check_count(begin, count, smallest, "nodes")?;
-    make_room(&mut records.nodes, count)?;
+    reserve(&mut records.nodes, count)?;
     for _ in 0..count {
         cursor.begin_row();
         let offset = cursor.offset();

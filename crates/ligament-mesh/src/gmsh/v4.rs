@@ -2,7 +2,7 @@
 
 use super::cursor::Cursor;
 use super::error::GmshError;
-use super::records::{ElementHeader, Node, Records, TypeRecord, make_room};
+use super::records::{ElementHeader, Node, Records, TypeRecord, reserve};
 
 /// Reads `$Entities`, or `$PartitionedEntities`, behind its first line: which groups an entity is in.
 pub(super) fn read_entities(
@@ -164,14 +164,14 @@ fn read_node_block(
     let count = cursor.check_count(count_offset, count, smallest, "nodes")?;
 
     tags.clear();
-    make_room(tags, count)?;
+    reserve(tags, count)?;
     for _ in 0..count {
         cursor.begin_row();
         let offset = cursor.offset();
         tags.push((cursor.size("a node tag")?, offset));
         cursor.end_row()?;
     }
-    make_room(&mut records.nodes, count)?;
+    reserve(&mut records.nodes, count)?;
     let parameters = if parametric { dimension } else { 0 };
     for &(tag, offset) in tags.iter() {
         let position = read_position(cursor, parameters)?;
@@ -231,7 +231,7 @@ fn read_element_block(cursor: &mut Cursor<'_>, records: &mut Records) -> Result<
     cursor.end_row()?;
     let smallest = if cursor.is_ascii() { 2 } else { 8 } * (1 + element_type.1);
     let count = cursor.check_count(count_offset, count, smallest, "elements")?;
-    make_room(&mut records.elements, count)?;
+    reserve(&mut records.elements, count)?;
     for _ in 0..count {
         cursor.begin_row();
         let offset = cursor.offset();

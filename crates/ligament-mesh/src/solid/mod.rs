@@ -7,4 +7,4 @@ mod surface;
 
 pub use cell::SolidCell;
 pub use faces::{Faces, Side};
-pub use surface::OffSurface;
+pub use surface::NotOnOutline;

@@ -15,7 +15,7 @@ use crate::mesh::SolidMesh;
     .nodes.iter().map(u64::to_string).collect::<Vec<_>>().join(", "), .middle[0], .middle[1], .middle[2],
     if *.cells == 0 { "is the face of no cell" } else { "has cells on both sides" }
 )]
-pub struct OffSurface {
+pub struct NotOnOutline {
     /// Tags of the nodes of the face.
     pub nodes: Vec<u64>,
     /// Middle of the face, m.
@@ -34,7 +34,7 @@ impl SolidMesh {
     /// # Errors
     ///
     /// If a face is none of the outline.
-    pub fn outward_areas(&self, faces: &[Cell]) -> Result<Vec<(u32, [f64; 3])>, OffSurface> {
+    pub fn outward_areas(&self, faces: &[Cell]) -> Result<Vec<(u32, [f64; 3])>, NotOnOutline> {
         let of_cells = Faces::new(&self.cells, self.positions.len());
         let mut areas: BTreeMap<u32, [f64; 3]> = BTreeMap::new();
         for face in once(faces) {
@@ -68,7 +68,7 @@ impl SolidMesh {
         areas.into_iter().collect()
     }
 
-    fn off_surface(&self, face: &Cell, cells: usize) -> OffSurface {
+    fn off_surface(&self, face: &Cell, cells: usize) -> NotOnOutline {
         let corners = face.corners();
         let mean = |axis: usize| {
             let sum: f64 = corners
@@ -77,7 +77,7 @@ impl SolidMesh {
                 .sum();
             sum / corners.len() as f64
         };
-        OffSurface {
+        NotOnOutline {
             nodes: corners
                 .iter()
                 .map(|&node| self.node_tags[node as usize])

@@ -42,7 +42,7 @@ impl Composition {
         if cloud.n_materials == 1 || parts.is_empty() {
             return Self::default();
         }
-        let ways = Ways::new(parts, ends, cloud);
+        let ways = BondTracer::new(parts, ends, cloud);
         let found: Vec<(u32, Vec<f64>)> = (cloud.curve.par_chunks(BLOCK))
             .filter(|block| ways.may_differ(ways.around(block)))
             .flat_map_iter(|block| block.iter().flat_map(|&point| ways.of_point(point)))
@@ -126,7 +126,7 @@ struct Near<const D: usize> {
 }
 
 /// The bonds on their ways through the parts of a body.
-struct Ways<'a, const D: usize, P> {
+struct BondTracer<'a, const D: usize, P> {
     parts: &'a P,
     ends: &'a [[u32; 2]],
     cloud: &'a PointCloud<D>,
@@ -135,7 +135,7 @@ struct Ways<'a, const D: usize, P> {
     first_bond: Vec<usize>,
 }
 
-impl<'a, const D: usize, P: Parts<D>> Ways<'a, D, P> {
+impl<'a, const D: usize, P: Parts<D>> BondTracer<'a, D, P> {
     fn new(parts: &'a P, ends: &'a [[u32; 2]], cloud: &'a PointCloud<D>) -> Self {
         let bounds = (0..parts.len()).into_par_iter().map(|part| {
             let [lower, upper] = parts.bounds(part);

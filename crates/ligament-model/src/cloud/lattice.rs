@@ -118,7 +118,7 @@ impl<const D: usize, S: Region<D>> Lattice<D, S> {
 
     /// Points and their shares, which add up to one, in a value at a position (m): linear along each axis between the centres of cells,
     /// that of the outermost centre beyond it. None where one of the cells is missing.
-    pub fn shares_at(&self, position: [f64; D]) -> Option<Vec<(u32, f64)>> {
+    pub fn interpolation_weights(&self, position: [f64; D]) -> Option<Vec<(u32, f64)>> {
         let cells_along: [f64; D] = std::array::from_fn(|axis| {
             let along = (position[axis] - self.corner[axis]) / self.spacing[axis] - 0.5;
             let along = along.clamp(0.0, f64::from(self.size[axis] - 1));

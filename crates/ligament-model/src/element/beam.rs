@@ -8,7 +8,7 @@
 
 use super::pair::{PairBond, PairKinematics};
 use super::spring::SpringBond;
-use super::{Block, BondDeformation, Remaining, Rigidities};
+use super::{Block, BondDeformation, Rigidities, StiffnessFactors};
 use crate::bonds::BondSet;
 use crate::deformation::SpaceDeformation;
 use crate::layout::Component;
@@ -49,7 +49,7 @@ impl<const D: usize> PairBond<D> for BeamBond<D> {
     }
 
     #[inline(always)]
-    fn weakened(self, remaining: &Remaining) -> Self {
+    fn weakened(self, remaining: &StiffnessFactors) -> Self {
         Self {
             springs: self.springs.weakened(remaining),
             rotational_rigidity: remaining.rotational * self.rotational_rigidity,

@@ -27,7 +27,7 @@ mod surroundings;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
 pub use super::strain_stiffness::{StrainStiffness, SymmetricEntries};
-use super::{Block, BondDeformation, Element, Elements, Remaining, Rigidities, Term};
+use super::{Block, BondDeformation, Element, Elements, Rigidities, StiffnessFactors, Term};
 use crate::bonds::{BondSet, Incidence};
 use crate::layout::Component;
 use crate::tensor::SymTensor;
@@ -109,7 +109,7 @@ impl Elements<2, 2> for ImaginaryElements {
         }
     }
 
-    fn turns_freely(&self) -> bool {
+    fn rotates_freely(&self) -> bool {
         true
     }
 
@@ -122,12 +122,12 @@ impl Elements<2, 2> for ImaginaryElements {
         rigidities.strain[bond as usize].share(bonds.ends[bond as usize][0] == point)
     }
 
-    fn leaning(&self, bonds: &[u32]) -> Vec<u32> {
+    fn dependent_bonds(&self, bonds: &[u32]) -> Vec<u32> {
         let of_bonds = (bonds.iter()).flat_map(|&bond| self.surroundings.dependents(bond));
-        let mut leaning: Vec<u32> = of_bonds.copied().collect();
-        leaning.sort_unstable();
-        leaning.dedup();
-        leaning
+        let mut dependent_bonds: Vec<u32> = of_bonds.copied().collect();
+        dependent_bonds.sort_unstable();
+        dependent_bonds.dedup();
+        dependent_bonds
     }
 
     fn couplings(&self) -> Option<[&Incidence; 2]> {
@@ -277,7 +277,7 @@ impl Element<2, 2> for ImaginaryElement {
     type Deformation = BondDeformation;
 
     #[inline]
-    fn weakened(self, remaining: &Remaining) -> Self {
+    fn weakened(self, remaining: &StiffnessFactors) -> Self {
         // D has no parts of its own for stretch and shear.
         Self {
             stiffness: self.stiffness.map(|entry| remaining.axial * entry),

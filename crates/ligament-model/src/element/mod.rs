@@ -118,7 +118,7 @@ impl Rigidities {
 
 /// What is left of the stiffness of a bond: factors of its rigidities.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Remaining {
+pub struct StiffnessFactors {
     /// Of the axial one.
     pub axial: f64,
     /// Of the one against shear.
@@ -127,7 +127,7 @@ pub struct Remaining {
     pub rotational: f64,
 }
 
-impl Wire<3> for Remaining {
+impl Wire<3> for StiffnessFactors {
     fn numbers(&self) -> [f64; 3] {
         [self.axial, self.shear, self.rotational]
     }
@@ -141,7 +141,7 @@ impl Wire<3> for Remaining {
     }
 }
 
-impl Remaining {
+impl StiffnessFactors {
     /// All of it.
     pub const WHOLE: Self = Self {
         axial: 1.0,
@@ -195,7 +195,7 @@ pub trait Elements<const D: usize, const M: usize>:
     ) -> Self::Element;
 
     /// Whether a rotation of the whole body costs nothing, although bonds resist shear.
-    fn turns_freely(&self) -> bool;
+    fn rotates_freely(&self) -> bool;
 
     /// Whether forces are linear in the displacements.
     fn is_linear(&self) -> bool {
@@ -218,7 +218,7 @@ pub trait Elements<const D: usize, const M: usize>:
     }
 
     /// Bonds whose elements may change when some bonds break, themselves left out, ascending.
-    fn leaning(&self, _bonds: &[u32]) -> Vec<u32> {
+    fn dependent_bonds(&self, _bonds: &[u32]) -> Vec<u32> {
         Vec::new()
     }
 
@@ -241,7 +241,7 @@ pub trait Element<const D: usize, const M: usize>:
     type Deformation: Deformation;
 
     /// The element with its rigidities times what is left of them.
-    fn weakened(self, remaining: &Remaining) -> Self;
+    fn weakened(self, remaining: &StiffnessFactors) -> Self;
 
     /// Deformation for the motions of all points, shape (M n_points), m and rad.
     fn deformation(&self, motions: &[f64]) -> Self::Deformation;

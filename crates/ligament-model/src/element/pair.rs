@@ -2,7 +2,7 @@
 
 use std::marker::PhantomData;
 
-use super::{Block, BondDeformation, Element, Elements, Remaining, Rigidities, Term};
+use super::{Block, BondDeformation, Element, Elements, Rigidities, StiffnessFactors, Term};
 use crate::bonds::BondSet;
 use crate::deformation::Deformation;
 use crate::layout::Component;
@@ -16,7 +16,7 @@ pub trait PairBond<const D: usize>:
     fn new(bonds: &BondSet<D>, rigidities: &Rigidities, bond: usize) -> Self;
 
     /// The bond with its rigidities times what is left of them.
-    fn weakened(self, remaining: &Remaining) -> Self;
+    fn weakened(self, remaining: &StiffnessFactors) -> Self;
 
     /// Length l, m, and unit vector n from A to B.
     fn geometry(&self) -> (f64, [f64; D]);
@@ -100,7 +100,7 @@ impl<const D: usize, const M: usize, B: PairKinematics<D, M>> Elements<D, M> for
         }
     }
 
-    fn turns_freely(&self) -> bool {
+    fn rotates_freely(&self) -> bool {
         // Without rotations of the points a bond takes that of the body for a shear.
         B::COMPONENTS.iter().any(|it| it.is_rotation())
     }
@@ -120,7 +120,7 @@ impl<const D: usize, const M: usize, B: PairKinematics<D, M>> Element<D, M> for 
     type Deformation = B::Deformation;
 
     #[inline(always)]
-    fn weakened(self, remaining: &Remaining) -> Self {
+    fn weakened(self, remaining: &StiffnessFactors) -> Self {
         Self {
             bond: self.bond.weakened(remaining),
             ..self

@@ -13,7 +13,7 @@
 //! form is here to show what the printed equations give.
 
 use super::imaginary::{BondClass, ImaginaryElement, ImaginaryElements};
-use super::{Block, BondDeformation, Element, Elements, Remaining, Rigidities, Term};
+use super::{Block, BondDeformation, Element, Elements, Rigidities, StiffnessFactors, Term};
 use crate::bonds::{BondSet, Incidence};
 use crate::layout::Component;
 use crate::tensor::SymTensor;
@@ -55,8 +55,8 @@ impl Elements<2, 2> for PairwiseElements {
         }
     }
 
-    fn turns_freely(&self) -> bool {
-        self.lattice.turns_freely()
+    fn rotates_freely(&self) -> bool {
+        self.lattice.rotates_freely()
     }
 
     fn has_energy(&self) -> bool {
@@ -71,8 +71,8 @@ impl Elements<2, 2> for PairwiseElements {
         self.lattice.share(bonds, rigidities, bond, point)
     }
 
-    fn leaning(&self, bonds: &[u32]) -> Vec<u32> {
-        self.lattice.leaning(bonds)
+    fn dependent_bonds(&self, bonds: &[u32]) -> Vec<u32> {
+        self.lattice.dependent_bonds(bonds)
     }
 
     fn couplings(&self) -> Option<[&Incidence; 2]> {
@@ -146,7 +146,7 @@ fn greatest_common_divisor(one: u32, other: u32) -> u32 {
 impl Element<2, 2> for PairwiseElement {
     type Deformation = BondDeformation;
 
-    fn weakened(self, remaining: &Remaining) -> Self {
+    fn weakened(self, remaining: &StiffnessFactors) -> Self {
         Self {
             strains: self.strains.weakened(remaining),
             ..self

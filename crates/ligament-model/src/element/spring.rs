@@ -4,7 +4,7 @@
 //! rigid rotation costs energy.
 
 use super::pair::{PairBond, PairKinematics};
-use super::{Block, BondDeformation, Remaining, Rigidities};
+use super::{Block, BondDeformation, Rigidities, StiffnessFactors};
 use crate::bonds::BondSet;
 use crate::deformation::SpaceDeformation;
 use crate::layout::Component;
@@ -35,7 +35,7 @@ impl<const D: usize> PairBond<D> for SpringBond<D> {
     }
 
     #[inline(always)]
-    fn weakened(self, remaining: &Remaining) -> Self {
+    fn weakened(self, remaining: &StiffnessFactors) -> Self {
         Self {
             axial_rigidity: remaining.axial * self.axial_rigidity,
             shear_rigidity: remaining.shear * self.shear_rigidity,

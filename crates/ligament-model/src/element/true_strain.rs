@@ -10,7 +10,7 @@
 //! a strain's share of itself.
 
 use super::imaginary::{Axis, ImaginaryElement, ImaginaryElements, Quotients};
-use super::{Block, BondDeformation, Element, Elements, Remaining, Rigidities, Term};
+use super::{Block, BondDeformation, Element, Elements, Rigidities, StiffnessFactors, Term};
 use crate::bonds::{BondSet, Incidence};
 use crate::layout::Component;
 use crate::tensor::SymTensor;
@@ -56,8 +56,8 @@ impl Elements<2, 2> for TrueStrainElements {
         }
     }
 
-    fn turns_freely(&self) -> bool {
-        self.lattice.turns_freely()
+    fn rotates_freely(&self) -> bool {
+        self.lattice.rotates_freely()
     }
 
     fn is_linear(&self) -> bool {
@@ -72,8 +72,8 @@ impl Elements<2, 2> for TrueStrainElements {
         self.lattice.share(bonds, rigidities, bond, point)
     }
 
-    fn leaning(&self, bonds: &[u32]) -> Vec<u32> {
-        self.lattice.leaning(bonds)
+    fn dependent_bonds(&self, bonds: &[u32]) -> Vec<u32> {
+        self.lattice.dependent_bonds(bonds)
     }
 
     fn couplings(&self) -> Option<[&Incidence; 2]> {
@@ -85,7 +85,7 @@ impl Element<2, 2> for TrueStrainElement {
     type Deformation = BondDeformation;
 
     #[inline]
-    fn weakened(self, remaining: &Remaining) -> Self {
+    fn weakened(self, remaining: &StiffnessFactors) -> Self {
         Self {
             small: self.small.weakened(remaining),
             ..self

@@ -7,7 +7,7 @@ use crate::deformation::SpaceDeformation;
 use crate::element::beam::BeamBond;
 use crate::element::pair::PairKinematics;
 use crate::element::spring::SpringBond;
-use crate::element::{Remaining, Rigidities};
+use crate::element::{Rigidities, StiffnessFactors};
 use crate::law::BondStiffness;
 use crate::material::{Elasticity, Isotropic, Space};
 use crate::tensor::SymTensor;
@@ -83,7 +83,7 @@ fn energy<const M: usize, B: PairKinematics<3, M, Deformation = SpaceDeformation
         strain: Vec::new(),
     };
     let of_bond = |bond: usize| {
-        let element = B::new(&bonds, &rigidities, bond).weakened(&Remaining::WHOLE);
+        let element = B::new(&bonds, &rigidities, bond).weakened(&StiffnessFactors::WHOLE);
         let deformation = deformation(&element);
         0.5 * element.mutual_energy(&deformation, &deformation)
     };

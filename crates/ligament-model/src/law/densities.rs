@@ -7,7 +7,7 @@ use super::materials;
 use crate::bonds::BondSet;
 use crate::bonds::retained::retained;
 use crate::cloud::PointCloud;
-use crate::element::Remaining;
+use crate::element::StiffnessFactors;
 use crate::element::imaginary::StrainStiffness;
 
 /// Below this |1 - 3 nu| (or |1 - 4 nu| in plane strain) the shear stiffness counts as exactly zero, and with it the
@@ -140,7 +140,10 @@ impl BondStiffness {
     /// with the layer it would be 1 + 3 beta^2, but the bonds to held ends hold them too.) Where k_t is negative, k_n' is at least k_n/2. What
     /// strains along the layer do to its faces is then that of bonds without k_t; stiff parts beside it keep such strains small. The
     /// equations are this project's own.
-    pub(crate) fn joined<const D: usize>(mut self, do_points_turn: bool) -> (Self, Vec<Remaining>) {
+    pub(crate) fn joined<const D: usize>(
+        mut self,
+        do_points_turn: bool,
+    ) -> (Self, Vec<StiffnessFactors>) {
         if !do_points_turn {
             self.held.clear();
         }
@@ -170,7 +173,7 @@ impl BondStiffness {
             }
         };
         let (axial, shear, rotational) = &corrected;
-        let beyond = (0..axial.len()).map(|bond| Remaining {
+        let beyond = (0..axial.len()).map(|bond| StiffnessFactors {
             axial: part(axial[bond], joined.axial[bond]),
             shear: part(shear[bond], joined.shear[bond]),
             rotational: part(rotational[bond], joined.rotational[bond]),

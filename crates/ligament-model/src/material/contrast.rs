@@ -9,7 +9,11 @@ use crate::law::bulk_stiffness;
 ///
 /// Corrections look for factors between such materials. The forces of a soft part on a stiff one may be below what an iteration leaves of
 /// the forces of that one; then nothing tells what a soft layer between stiff parts should carry.
-pub fn milder(materials: &[Material], plane: Plane, largest: f64) -> Option<Vec<Material>> {
+pub fn with_reduced_contrast(
+    materials: &[Material],
+    plane: Plane,
+    largest: f64,
+) -> Option<Vec<Material>> {
     let stiffnesses = materials
         .iter()
         .map(|it| bulk_stiffness(&it.elasticity.plane_stiffness(plane)));

@@ -9,7 +9,7 @@ use rstar::{AABB, RTree};
 use crate::cloud::PointCloud;
 use crate::contact::ClosedPair;
 use crate::element::{DeformationOf, Element, Elements};
-use crate::system::{BondSystem, BondsLeft, ElementSystem};
+use crate::system::{BondSystem, ElementSystem, UnbrokenBonds};
 use crate::tensor::minus;
 
 /// Names of the components of a traction: on the planes with each normal along an axis the stress along the normal, then those across it;
@@ -40,7 +40,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     /// Bonds within a plane do not cross it and do not count, nor do elements that couple more than two points: their forces go through no line.
     pub(crate) fn tractions(
         &self,
-        bonds: BondsLeft<'_>,
+        bonds: UnbrokenBonds<'_>,
         deformations: &[DeformationOf<D, M, E>],
     ) -> Vec<f64> {
         let pull = |bond: usize| {

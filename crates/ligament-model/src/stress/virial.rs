@@ -4,14 +4,14 @@ use rayon::prelude::*;
 
 use crate::element::{DeformationOf, Element, Elements};
 use crate::interface::BondTopology;
-use crate::system::{BondsLeft, ElementSystem};
+use crate::system::{ElementSystem, UnbrokenBonds};
 use crate::tensor::SymTensor;
 
 impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     /// Virial stress of every point, shape (n_points).
     pub(crate) fn virial_stresses(
         &self,
-        bonds: BondsLeft<'_>,
+        bonds: UnbrokenBonds<'_>,
         deformations: &[DeformationOf<D, M, E>],
     ) -> Vec<SymTensor<D>> {
         (0..self.system.cloud.len() as u32)
@@ -33,7 +33,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     /// for the energy does not make the stress on a free side zero.
     pub(crate) fn virial_stress(
         &self,
-        bonds: BondsLeft<'_>,
+        bonds: UnbrokenBonds<'_>,
         deformations: &[DeformationOf<D, M, E>],
         point: u32,
     ) -> SymTensor<D> {

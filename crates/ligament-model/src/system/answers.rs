@@ -3,12 +3,12 @@
 use ligament_mesh::Numbering;
 
 use super::contact::Moved;
-use super::{BondSystem, BondsLeft, ElementSystem};
+use super::{BondSystem, ElementSystem, UnbrokenBonds};
 use crate::bonds::Incidence;
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
 use crate::deformation::{Deformation, Deformations};
-use crate::element::{BondDeformation, DeformationOf, Element, Elements, Remaining, Term};
+use crate::element::{BondDeformation, DeformationOf, Element, Elements, StiffnessFactors, Term};
 use crate::failure::Criterion;
 use crate::interface::{
     BondContact, BondKinetics, BondReadings, BondTopology, CentralMotions, CoupledPoints,
@@ -214,18 +214,18 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for Element
 
     fn forces(
         &self,
-        bonds: BondsLeft<'_>,
+        bonds: UnbrokenBonds<'_>,
         deformations: Deformations,
         expansion: ThermalStrain<'_>,
     ) -> BondSweep {
         self.forces(bonds, deformations, expansion)
     }
 
-    fn terms(&self, intact: &[bool], bond: usize, remaining: &Remaining) -> Vec<Term> {
+    fn terms(&self, intact: &[bool], bond: usize, remaining: &StiffnessFactors) -> Vec<Term> {
         self.whole(intact, bond).weakened(remaining).terms()
     }
 
-    fn add_blocks(&self, bonds: BondsLeft<'_>, point: u32, lower: &[u32], blocks: &mut [f64]) {
+    fn add_blocks(&self, bonds: UnbrokenBonds<'_>, point: u32, lower: &[u32], blocks: &mut [f64]) {
         for &bond in self.elements_at_points().at(point) {
             let Some(element) = self.left(bonds, bond as usize) else {
                 continue;
@@ -247,7 +247,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for Element
         }
     }
 
-    fn multiply(&self, bonds: BondsLeft<'_>, motions: &[f64], forces: &mut [f64]) {
+    fn multiply(&self, bonds: UnbrokenBonds<'_>, motions: &[f64], forces: &mut [f64]) {
         self.multiply(bonds, motions, forces);
     }
 
@@ -259,7 +259,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for Element
 
     fn changed(
         &self,
-        left: BondsLeft<'_>,
+        left: UnbrokenBonds<'_>,
         displacement: &[f64],
         expansion: ThermalStrain<'_>,
         bonds: &[u32],
@@ -273,7 +273,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
         &self,
         intact: &[bool],
         bond: usize,
-        remaining: &Remaining,
+        remaining: &StiffnessFactors,
         [one, other]: [&Deformations; 2],
     ) -> f64 {
         let element = self.whole(intact, bond).weakened(remaining);
@@ -284,7 +284,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
         &self,
         intact: &[bool],
         bond: usize,
-        remaining: &Remaining,
+        remaining: &StiffnessFactors,
         measured: &BondDeformation,
     ) -> f64 {
         let deformation = Deformation::with_measures(measured);
@@ -292,7 +292,12 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
         element.mutual_energy(&deformation, &deformation)
     }
 
-    fn energy_density(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> f64 {
+    fn energy_density(
+        &self,
+        bonds: UnbrokenBonds<'_>,
+        deformations: &Deformations,
+        point: u32,
+    ) -> f64 {
         let deformations: &[DeformationOf<D, M, E>] = of_bonds(deformations);
         let family = self.system.bonds.incidence.at(point).iter();
         let shares = family.filter_map(|&bond| {
@@ -304,7 +309,12 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
         shares.sum::<f64>() / self.system.cloud.volumes[point as usize]
     }
 
-    fn stress(&self, bonds: BondsLeft<'_>, deformations: &Deformations, point: u32) -> Vec<f64> {
+    fn stress(
+        &self,
+        bonds: UnbrokenBonds<'_>,
+        deformations: &Deformations,
+        point: u32,
+    ) -> Vec<f64> {
         let stress = self.virial_stress(bonds, of_bonds(deformations), point);
         stress.components().collect()
     }
@@ -312,7 +322,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
     fn stresses(
         &self,
         reading: StressReading,
-        bonds: BondsLeft<'_>,
+        bonds: UnbrokenBonds<'_>,
         deformations: &Deformations,
     ) -> Stresses {
         let deformations = of_bonds(deformations);
@@ -333,7 +343,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
 
     fn force_through(
         &self,
-        bonds: BondsLeft<'_>,
+        bonds: UnbrokenBonds<'_>,
         deformations: &Deformations,
         crossing: &[(u32, bool)],
         component: Component,
@@ -410,7 +420,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
         let resist = bonds.any(|&bond| rigidities.resist_rotations(bond as usize));
         let resist = self.subdomain().any(resist);
         let turn_points = E::COMPONENTS.iter().any(|it| it.is_rotation());
-        let turn = match (resist, self.elements.turns_freely()) {
+        let turn = match (resist, self.elements.rotates_freely()) {
             (true, true) if turn_points => Turn::OfPointsAlong,
             (true, false) => Turn::Costly,
             (false, _) | (true, true) => Turn::OfPositions,

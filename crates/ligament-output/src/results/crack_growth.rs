@@ -10,7 +10,7 @@ use crate::Error;
 use crate::csv::{Table, Value};
 
 /// A record of the history with the size of all cracks.
-pub(super) struct Grown<'a> {
+pub(super) struct CrackSize<'a> {
     pub(super) record: &'a CrackRecord,
     /// Area of all cracks, m^2.
     pub(super) area: f64,
@@ -26,11 +26,11 @@ pub(super) struct Grown<'a> {
 pub(super) fn write_growth(
     path: &Path,
     in_space: bool,
-    grown: &[Grown<'_>],
+    grown: &[CrackSize<'_>],
     least: f64,
 ) -> Result<(), Error> {
     let mut table = Table::create(path, &names(CRACK_GROWTH, in_space))?;
-    let state = |it: &Grown<'_>| GrowthState {
+    let state = |it: &CrackSize<'_>| GrowthState {
         area: it.area,
         displacement: it.record.displacement,
         reaction: it.record.reaction,

@@ -12,7 +12,7 @@ use ligament_model::raised;
 use ligament_post::crack::CrackLine;
 
 use super::columns::{CRACK, CRACK_TIPS, names};
-use super::crack_growth::{Grown, write_growth};
+use super::crack_growth::{CrackSize, write_growth};
 use super::cracks::{CrackRecord, StoredCracks};
 use crate::Error;
 use crate::atomic::remove_file;
@@ -130,12 +130,12 @@ fn write_tips(path: &Path, grown: &[WithLines<'_>]) -> Result<(), Error> {
 }
 
 /// Sizes of the cracks in the records.
-fn sizes<'a>(cracks: &StoredCracks, records: &[WithLines<'a>]) -> Vec<Grown<'a>> {
+fn sizes<'a>(cracks: &StoredCracks, records: &[WithLines<'a>]) -> Vec<CrackSize<'a>> {
     let size = |WithLines { record, lines }: &WithLines<'a>| {
         // A sum of nothing would be -0.0.
         let length = lines.iter().fold(0.0, |sum, line| sum + line.length());
         let tips = lines.iter().flat_map(CrackLine::tips).count();
-        Grown {
+        CrackSize {
             record,
             area: cracks.thickness * length,
             counts: vec![lines.len().into(), tips.into(), length.into()],

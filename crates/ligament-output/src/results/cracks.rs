@@ -18,7 +18,7 @@ use crate::{Error, FieldLocation, vtu};
 
 /// Pairs of points that a run in memory parted.
 #[derive(Debug, Clone, Copy)]
-pub struct PartedPairs<'a> {
+pub struct SeparatedPairs<'a> {
     /// Pairs that pre-cracks part.
     pub cut: &'a [[u32; 2]],
     /// Ends of the bonds that broke, in their order.
@@ -116,10 +116,10 @@ impl StoredCracks {
         body: &BodyGrid,
         horizon: Vec<f64>,
         thickness: f64,
-        parted: &PartedPairs<'_>,
+        parted: &SeparatedPairs<'_>,
         history: &[StepRecord],
     ) -> Self {
-        let &PartedPairs {
+        let &SeparatedPairs {
             cut,
             broken,
             softened,

@@ -43,7 +43,7 @@ use ligament_analysis::driver::Problem;
 use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::result_fields::{DISPLACEMENT, displacements};
-use ligament_model::{BodyGrid, FixedFields};
+use ligament_model::{BodyGrid, ConstantFields};
 
 pub use ligament_analysis::result_fields as fields;
 
@@ -63,7 +63,7 @@ use outputs::remove_others;
 pub use pieces::PieceWriter;
 pub use point_fields::{PointFields, location, point_fields};
 pub use rule::{Time, WriteRule};
-pub use so_far::SoFar;
+pub use so_far::OutputState;
 use softening_table::SofteningTable;
 pub use softening_table::{OPEN, SoftenedBond, SoftenedBonds};
 pub use surface_files::{SURFACE_FILES, write_series, write_surface};
@@ -78,7 +78,7 @@ pub struct ResultWriter<'a> {
     folder: &'a ResultFolder,
     grid: &'a BodyGrid,
     problem: Problem,
-    fixed: &'a FixedFields,
+    fixed: &'a ConstantFields,
     rule: WriteRule,
     tables: Tables,
     /// Where bonds soften.
@@ -101,7 +101,7 @@ impl<'a> ResultWriter<'a> {
     pub fn new(
         folder: &'a ResultFolder,
         grid: &'a BodyGrid,
-        fixed: &'a FixedFields,
+        fixed: &'a ConstantFields,
         rule: WriteRule,
         problem: &Problem,
     ) -> Result<Self, Error> {
@@ -139,12 +139,12 @@ impl<'a> ResultWriter<'a> {
     pub fn cut_back(
         folder: &'a ResultFolder,
         grid: &'a BodyGrid,
-        fixed: &'a FixedFields,
+        fixed: &'a ConstantFields,
         rule: WriteRule,
         problem: &Problem,
-        so_far: SoFar,
+        so_far: OutputState,
     ) -> Result<Self, Error> {
-        let SoFar {
+        let OutputState {
             tables,
             softening,
             first,
@@ -189,8 +189,8 @@ impl<'a> ResultWriter<'a> {
     /// # Errors
     ///
     /// If the system cannot get it there.
-    pub fn so_far(&self) -> Result<SoFar, Error> {
-        Ok(SoFar {
+    pub fn so_far(&self) -> Result<OutputState, Error> {
+        Ok(OutputState {
             tables: self.tables.progress()?,
             softening: self
                 .softening

@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::result_fields::{HORIZON, VOLUME};
-use ligament_model::{BodyGrid, FixedFields};
+use ligament_model::{BodyGrid, ConstantFields};
 
 use super::grid::Lines;
 use super::largest::Largest;
@@ -43,7 +43,7 @@ pub(super) const COEFFICIENTS: [&str; 3] =
 pub(super) fn write(
     folder: &Path,
     grid: &BodyGrid,
-    fixed: &FixedFields,
+    fixed: &ConstantFields,
     problem: &Problem,
     largest: Option<&Largest>,
 ) -> Result<(), Error> {

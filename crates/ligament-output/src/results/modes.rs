@@ -10,7 +10,7 @@ use ligament_analysis::modal::ModalOutcome;
 use ligament_analysis::result_fields::{
     DISPLACEMENT, FieldValues, ModelPoints, ROTATION, STRAIN_ENERGY_DENSITY, rotations, vectors,
 };
-use ligament_model::{BodyGrid, FixedFields};
+use ligament_model::{BodyGrid, ConstantFields};
 
 use super::columns::{MODES, names};
 use super::grid::{fixed_fields, write_grid};
@@ -26,7 +26,7 @@ pub fn write_modes(
     folder: &ResultFolder,
     grid: &BodyGrid,
     system: &dyn Bonds,
-    fixed: &FixedFields,
+    fixed: &ConstantFields,
     outcome: &ModalOutcome,
 ) -> Result<(), Error> {
     let layout = system.layout();

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{Observer, ObserverError, StepRecord, View};
-use ligament_model::{BodyGrid, FixedFields};
+use ligament_model::{BodyGrid, ConstantFields};
 
 use super::rule::WriteRule;
 use super::{failed, fields_file, model_file, point_fields};
@@ -15,7 +15,7 @@ use crate::Error;
 pub struct PieceWriter<'a> {
     folder: PathBuf,
     grid: &'a BodyGrid,
-    fixed: &'a FixedFields,
+    fixed: &'a ConstantFields,
     rule: WriteRule,
 }
 
@@ -28,7 +28,7 @@ impl<'a> PieceWriter<'a> {
     pub fn new(
         folder: PathBuf,
         grid: &'a BodyGrid,
-        fixed: &'a FixedFields,
+        fixed: &'a ConstantFields,
         rule: WriteRule,
         problem: &Problem,
     ) -> Result<Self, Error> {

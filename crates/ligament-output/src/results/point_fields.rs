@@ -8,7 +8,7 @@ use ligament_analysis::result_fields::{
 };
 use ligament_model::ghosts::Ghosts;
 use ligament_model::subdomain::Subdomain;
-use ligament_model::{BodyGrid, Canvas, FixedFields};
+use ligament_model::{BodyGrid, Canvas, ConstantFields};
 
 use super::grid::{fixed_fields, write_grid};
 use super::rule::WriteRule;
@@ -23,7 +23,7 @@ pub type PointFields = Vec<(&'static ResultField, FieldValues)>;
 pub(super) fn write(
     path: &Path,
     grid: &BodyGrid,
-    fixed: &FixedFields,
+    fixed: &ConstantFields,
     rule: WriteRule,
     view: &View<'_>,
 ) -> Result<(), Error> {

@@ -5,16 +5,16 @@ use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::serial;
 
 use super::largest::Largest;
-use super::softening_table::{self, Told};
+use super::softening_table::{self, SofteningProgress};
 use super::tables::{FILES, Progress};
 use crate::folder::{Kind, ResultFolder};
 use crate::written::Written;
 
 /// What a run has written up to a moment.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SoFar {
+pub struct OutputState {
     pub(super) tables: Progress,
-    pub(super) softening: Option<Told>,
+    pub(super) softening: Option<SofteningProgress>,
     pub(super) first: FirstBonds,
     /// Times and names of the field files.
     pub(super) fields: Vec<(f64, String)>,
@@ -27,7 +27,7 @@ pub struct SoFar {
     pub(super) whole: Vec<(String, Written)>,
 }
 
-serial!(SoFar {
+serial!(OutputState {
     tables,
     softening,
     first,
@@ -38,7 +38,7 @@ serial!(SoFar {
     whole
 });
 
-impl SoFar {
+impl OutputState {
     /// Whether it is of a run of this problem.
     pub fn fits(&self, problem: &Problem) -> bool {
         let (n_bonds, n_criteria) = (problem.system.ends().len(), problem.criteria.list.len());

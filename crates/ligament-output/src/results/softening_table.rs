@@ -51,12 +51,12 @@ pub struct SoftenedBond {
 
 /// How far the table is.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Told {
+pub(super) struct SofteningProgress {
     pub(super) written: Written,
     pub(super) of_bonds: Vec<u8>,
 }
 
-serial!(Told { written, of_bonds });
+serial!(SofteningProgress { written, of_bonds });
 
 impl SofteningTable {
     /// Creates the table; none where no bond softens, or processes share the body out.
@@ -83,7 +83,7 @@ impl SofteningTable {
     pub(super) fn cut_back(
         folder: &ResultFolder,
         problem: &Problem,
-        told: Told,
+        told: SofteningProgress,
     ) -> Result<Self, Error> {
         let n_columns = SOFTENING.len() + 2 + SOFTENED_BY.len();
         Ok(Self {
@@ -96,8 +96,8 @@ impl SofteningTable {
     }
 
     /// How far the table is; what it has is safely on the disk when this returns.
-    pub(super) fn told(&self) -> Result<Told, Error> {
-        Ok(Told {
+    pub(super) fn told(&self) -> Result<SofteningProgress, Error> {
+        Ok(SofteningProgress {
             written: self.table.synced()?,
             of_bonds: self.softened.told.clone(),
         })

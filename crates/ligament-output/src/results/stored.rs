@@ -9,7 +9,7 @@ use ligament_analysis::result_fields::{
 use ligament_analysis::{BondDeformation, ElementKind};
 use ligament_model::Absence;
 use ligament_model::tensor::SymTensor;
-use ligament_model::thermal::FreeStrains;
+use ligament_model::thermal::StressFreeStrains;
 
 use super::model_file::{COEFFICIENTS, model_file};
 use super::outputs::{OutputKind, kind_of, numbered_files, require_results};
@@ -145,7 +145,7 @@ pub struct Motions {
     /// Rotations of the points about the axes, shape (n_points), rad; about z alone in the plane.
     pub rotation: Vec<[f64; 3]>,
     /// Strains that the temperature would give the points without stress; empty where it does not change.
-    pub thermal_strain: FreeStrains,
+    pub thermal_strain: StressFreeStrains,
 }
 
 impl StoredRun {
@@ -231,7 +231,7 @@ impl StoredRun {
 }
 
 /// Strains of the points from the values of their components in a file.
-fn free_strains(in_space: bool, values: &[f64]) -> FreeStrains {
+fn free_strains(in_space: bool, values: &[f64]) -> StressFreeStrains {
     let of_point = |values: &[f64]| {
         let mut strains = [0.0; 6];
         for (place, value) in thermal_strain_places(in_space).zip(values) {
@@ -240,7 +240,7 @@ fn free_strains(in_space: bool, values: &[f64]) -> FreeStrains {
         SymTensor::<3>::from_engineering(&strains)
     };
     let count = THERMAL_STRAIN.components(in_space).count();
-    FreeStrains::new(values.chunks(count).map(of_point))
+    StressFreeStrains::new(values.chunks(count).map(of_point))
 }
 
 fn require_run(folder: &Path) -> Result<(), Error> {

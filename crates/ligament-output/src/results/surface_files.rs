@@ -16,7 +16,7 @@ use std::path::Path;
 use ligament_analysis::result_fields::{DISPLACEMENT, OPENING, SLIDING};
 use ligament_post::surfaces::CrackSurface;
 
-use super::crack_growth::{Grown, write_growth};
+use super::crack_growth::{CrackSize, write_growth};
 use super::opened_files::{has_cells, write_opened};
 use super::outputs::Outputs;
 use super::solid_cracks::SolidCracks;
@@ -177,11 +177,11 @@ fn unit_normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
 }
 
 /// Sizes of the surface in the records of the history in which it grew.
-fn sizes(cracks: &SolidCracks) -> Vec<Grown<'_>> {
+fn sizes(cracks: &SolidCracks) -> Vec<CrackSize<'_>> {
     let surfaces = cracks.grown_records().into_iter();
     let surfaces = surfaces.map(|record| (record, cracks.surface(record.step)));
     surfaces
-        .map(|(record, surface)| Grown {
+        .map(|(record, surface)| CrackSize {
             record,
             area: surface.area(),
             counts: vec![surface.parts().len().into()],

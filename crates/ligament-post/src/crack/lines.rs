@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::faces::{Faces, Part, distance};
-use super::paths::{Corner, Graph, Way, Ways};
+use super::paths::{Corner, Graph, ShortestPaths, Way};
 use super::smooth::smooth;
 
 /// A crack, or a branch of one, as a line.
@@ -95,18 +95,18 @@ impl Tracer<'_> {
         }
         let ways = self.ways();
         let lines = self.smoothed(&ways);
-        let trunk = &ways[0];
-        let is_crack = self.end(trunk.corners[0]) == CrackEnd::PreCrack
-            || lines[0].length() >= self.corner(trunk.corners[0]).horizon;
+        let longest_path = &ways[0];
+        let is_crack = self.end(longest_path.corners[0]) == CrackEnd::PreCrack
+            || lines[0].length() >= self.corner(longest_path.corners[0]).horizon;
         if is_crack { lines } else { Vec::new() }
     }
 
     /// The ways that lines take, one or more.
     fn ways(&self) -> Vec<Way> {
-        let trunk = self.trunk();
+        let longest_path = self.longest_path();
         let mut apart = self.component.clone();
-        self.cover(&mut apart, &trunk);
-        let mut ways = vec![trunk];
+        self.cover(&mut apart, &longest_path);
+        let mut ways = vec![longest_path];
         while !apart.is_empty() {
             let starts: Vec<u32> = ways.iter().flat_map(|it| &it.corners).copied().collect();
             let from_lines = self.graph.ways_from(&starts);
@@ -129,7 +129,7 @@ impl Tracer<'_> {
 
     /// The shortest way between two corners far from each other, with its ends drawn to a pre-crack or the outline nearby; from a
     /// pre-crack where there is one.
-    fn trunk(&self) -> Way {
+    fn longest_path(&self) -> Way {
         let is_cut = |&&it: &&u32| self.corner(it).is_cut;
         let mut starts: Vec<u32> = self.component.iter().filter(is_cut).copied().collect();
         if starts.is_empty() {
@@ -147,7 +147,7 @@ impl Tracer<'_> {
     /// The end of a line at a pre-crack within the horizon of a corner, of several the one with the shortest of some ways from the
     /// `other` end; or else at the outline, nearest to the corner; or else the corner itself. A horizon around the other end is
     /// left out.
-    fn drawn(&self, corner: u32, other: u32, from_other: &Ways) -> u32 {
+    fn drawn(&self, corner: u32, other: u32, from_other: &ShortestPaths) -> u32 {
         let reach = self.corner(corner).horizon;
         let from_here = self.graph.ways_from(&[corner]);
         let is_near =
@@ -155,7 +155,7 @@ impl Tracer<'_> {
         let near: Vec<u32> = (self.component.iter().copied())
             .filter(|&it| is_near(it))
             .collect();
-        let nearest = |ways: &Ways, holds: &dyn Fn(&Corner) -> bool| {
+        let nearest = |ways: &ShortestPaths, holds: &dyn Fn(&Corner) -> bool| {
             let candidates = near.iter().copied().filter(|&it| holds(self.corner(it)));
             candidates.min_by(|&a, &b| ways.length[a as usize].total_cmp(&ways.length[b as usize]))
         };

@@ -34,7 +34,7 @@ struct OpenFace {
 }
 
 /// Shortest ways from some corners to all others.
-pub(super) struct Ways {
+pub(super) struct ShortestPaths {
     /// Length of the way to each corner, m; infinite where there is none.
     pub(super) length: Vec<f64>,
     /// The face by which the way comes to each corner.
@@ -172,8 +172,8 @@ impl Graph {
     }
 
     /// The shortest ways from some corners; of ways of one length that by the corner with the lower number.
-    pub(super) fn ways_from(&self, starts: &[u32]) -> Ways {
-        let mut ways = Ways {
+    pub(super) fn ways_from(&self, starts: &[u32]) -> ShortestPaths {
+        let mut ways = ShortestPaths {
             length: vec![f64::INFINITY; self.corners.len()],
             by: vec![None; self.corners.len()],
         };
@@ -202,7 +202,7 @@ impl Graph {
     }
 
     /// The way to a corner from its start.
-    pub(super) fn way_to(&self, ways: &Ways, end: u32) -> Way {
+    pub(super) fn way_to(&self, ways: &ShortestPaths, end: u32) -> Way {
         let mut corners = vec![end];
         let mut places = vec![self.corners[end as usize].place];
         let mut corner = end;

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use ligament_model::tensor::{dot, minus};
 
-use super::loose::settled;
+use super::loose::with_detached_points_assigned;
 use super::sides::{Links, sides};
 use super::surface::CrackSurface;
 use super::tetrahedra::{EDGES, Tetrahedra};
@@ -24,7 +24,7 @@ struct Finder<'a> {
 
 /// The surface between the sides of tetrahedra, with what connects their points. See [the rules](super).
 pub fn crack_surface(tetrahedra: &Tetrahedra, links: &Links) -> CrackSurface {
-    let settled = settled(tetrahedra, links);
+    let with_detached_points_assigned = with_detached_points_assigned(tetrahedra, links);
     let mut finder = Finder {
         tetrahedra,
         links,
@@ -32,7 +32,10 @@ pub fn crack_surface(tetrahedra: &Tetrahedra, links: &Links) -> CrackSurface {
         found: HashMap::new(),
     };
     for corners in &tetrahedra.corners {
-        finder.add(corners, sides(tetrahedra, &settled, corners));
+        finder.add(
+            corners,
+            sides(tetrahedra, &with_detached_points_assigned, corners),
+        );
     }
     measures::completed(finder.surface)
 }

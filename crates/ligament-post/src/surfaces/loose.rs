@@ -21,9 +21,9 @@ struct Side {
 ///
 /// Points are taken in the order of their numbers, and after each one its loose neighbours. The side is the one with most points
 /// that were counted before, then the one with the nearest point, then the one with the lowest point.
-pub(super) fn settled(tetrahedra: &Tetrahedra, links: &Links) -> Links {
+pub(super) fn with_detached_points_assigned(tetrahedra: &Tetrahedra, links: &Links) -> Links {
     let mut links = links.clone();
-    let mut loose = loose_points(tetrahedra, &links);
+    let mut loose = detached_points(tetrahedra, &links);
     if loose.is_empty() {
         return links;
     }
@@ -66,7 +66,7 @@ pub(super) fn settled(tetrahedra: &Tetrahedra, links: &Links) -> Links {
 }
 
 /// Points with cut edges, and none that is whole.
-fn loose_points(tetrahedra: &Tetrahedra, links: &Links) -> BTreeSet<u32> {
+fn detached_points(tetrahedra: &Tetrahedra, links: &Links) -> BTreeSet<u32> {
     let mut has_whole = tetrahedra.held.clone();
     let mut cut = BTreeSet::new();
     for corners in &tetrahedra.corners {

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use ligament_mesh::SolidCell;
 
-use super::loose::settled;
+use super::loose::with_detached_points_assigned;
 use super::pieces::{pieces, solid};
 use super::sides::{Links, sides};
 use super::tetrahedra::Tetrahedra;
@@ -32,7 +32,7 @@ pub fn opened_cells(
     tetrahedra: &Tetrahedra,
     links: &Links,
 ) -> OpenedCells {
-    let settled = settled(tetrahedra, links);
+    let with_detached_points_assigned = with_detached_points_assigned(tetrahedra, links);
     let mut opened = OpenedCells {
         follows: (0..positions.len() as u32)
             .map(|point| vec![point])
@@ -43,7 +43,8 @@ pub fn opened_cells(
     let mut is_cut = vec![false; cells.len()];
     let all = || tetrahedra.corners.iter().zip(&tetrahedra.cells);
     for (corners, cell) in all() {
-        is_cut[*cell as usize] |= sides(tetrahedra, &settled, corners) != [0; 4];
+        is_cut[*cell as usize] |=
+            sides(tetrahedra, &with_detached_points_assigned, corners) != [0; 4];
     }
     let mut found = Found::new();
     for ((number, cell), is_cut) in (0..).zip(cells).zip(&is_cut) {
@@ -53,7 +54,7 @@ pub fn opened_cells(
             continue;
         }
         for corners in cell.tetrahedra() {
-            for piece in pieces(sides(tetrahedra, &settled, &corners)) {
+            for piece in pieces(sides(tetrahedra, &with_detached_points_assigned, &corners)) {
                 let named = piece.corners.iter();
                 let numbers: Vec<u32> = named
                     .map(|of| opened.corner(&corners, of, &piece.side, &mut found))

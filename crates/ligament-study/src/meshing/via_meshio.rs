@@ -85,8 +85,8 @@ pub fn convert(request: &ConversionRequest) -> Result<Conversion, MeshingError> 
     if let Some(fault) = text.strip_prefix("error\n") {
         return Err(refused(request, fault).unwrap_or_else(failed));
     }
-    let handed = output.status.success().then(|| Handed::parse(&text));
-    let Handed { mesh, remarks } = handed.flatten().ok_or_else(failed)?;
+    let handed = output.status.success().then(|| ScriptOutput::parse(&text));
+    let ScriptOutput { mesh, remarks } = handed.flatten().ok_or_else(failed)?;
     let text = match &mesh {
         AnyMesh::Plane(mesh) => gmsh::write(mesh),
         AnyMesh::Solid(mesh) => gmsh::write(mesh),
@@ -133,12 +133,12 @@ fn refused(request: &ConversionRequest, fault: &str) -> Option<MeshingError> {
 }
 
 /// What the script hands over.
-struct Handed {
+struct ScriptOutput {
     mesh: AnyMesh,
     remarks: Vec<String>,
 }
 
-impl Handed {
+impl ScriptOutput {
     /// The mesh that the script's text tells of; None if the text is not as the script writes it.
     fn parse(text: &str) -> Option<Self> {
         let mut lines = text.lines();
@@ -312,7 +312,7 @@ mod tests {
 
     #[test]
     fn what_is_handed_over_is_read() {
-        let Handed { mesh, remarks } = Handed::parse(HANDED).unwrap();
+        let ScriptOutput { mesh, remarks } = ScriptOutput::parse(HANDED).unwrap();
         let AnyMesh::Plane(mesh) = mesh else {
             panic!("{mesh:?}")
         };
@@ -333,10 +333,10 @@ mod tests {
 
     #[test]
     fn solids_are_handed_over_with_faces() {
-        let Some(Handed {
+        let Some(ScriptOutput {
             mesh: AnyMesh::Solid(mesh),
             ..
-        }) = Handed::parse(SOLID)
+        }) = ScriptOutput::parse(SOLID)
         else {
             panic!("a solid mesh");
         };
@@ -358,11 +358,14 @@ mod tests {
     fn anything_else_is_refused() {
         for text in [HANDED, SOLID] {
             for end in 0..text.len() - 1 {
-                assert!(Handed::parse(&text[..end]).is_none(), "{end}");
+                assert!(ScriptOutput::parse(&text[..end]).is_none(), "{end}");
             }
         }
         for (from, to) in [("0 2 3\n", "0 2 4\n"), ("part\n1\n", "part\n2\n")] {
-            assert!(Handed::parse(&HANDED.replace(from, to)).is_none(), "{to}");
+            assert!(
+                ScriptOutput::parse(&HANDED.replace(from, to)).is_none(),
+                "{to}"
+            );
         }
     }
 

@@ -44,7 +44,7 @@ impl Shard {
 
 /// The right to run a study, or a shard of it, in a folder; it ends with this process.
 #[derive(Debug)]
-pub struct Claim {
+pub struct StudyLocks {
     _locks: Vec<File>,
     /// The file that runs hold while they live.
     pub runs: PathBuf,
@@ -146,7 +146,7 @@ impl StudyFolder {
     /// # Errors
     ///
     /// If another process has it, or a file cannot be locked.
-    pub fn claim(&self, shard: Option<Shard>) -> Result<Claim, StudyError> {
+    pub fn claim(&self, shard: Option<Shard>) -> Result<StudyLocks, StudyError> {
         let mut locks = vec![self.lock("sweep", shard.is_some())?];
         if shard.is_none() {
             self.remove_unfinished();
@@ -164,7 +164,7 @@ impl StudyFolder {
         let file = open_lock(&runs)?;
         file.lock()
             .map_err(|source| file_error("lock", &runs, source))?;
-        Ok(Claim {
+        Ok(StudyLocks {
             _locks: locks,
             runs,
         })

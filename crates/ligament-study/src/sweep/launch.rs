@@ -327,7 +327,7 @@ fn option(name: &str, path: &Path) -> OsString {
 /// # Errors
 ///
 /// If the lock cannot be taken.
-pub fn take_leash(lock: &Path) -> io::Result<()> {
+pub fn bind_to_parent(lock: &Path) -> io::Result<()> {
     let file = File::options().create(true).append(true).open(lock)?;
     file.lock_shared()?;
     thread::spawn(move || {

@@ -31,7 +31,7 @@ use ligament_run::memory;
 use ligament_run::progress::ProgressMode;
 
 pub use error::StudyError;
-pub use launch::take_leash;
+pub use launch::bind_to_parent;
 
 use estimate::Estimates;
 use folder::{MARKER, Shard, StudyFolder};
@@ -139,7 +139,7 @@ fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> 
         writeln!(out, "  results in {}", path.display())?;
         if failed == 0 && !problems.is_empty() {
             anyhow::bail!(
-                "not all that the study names could be made; the runs are kept, so mend it and run it again"
+                "not all that the study names could be made; the runs are kept, so complete_replacement it and run it again"
             );
         }
     } else {
@@ -171,12 +171,12 @@ fn not_done<'a>(
     let mut todo = Vec::new();
     let mut notes = Vec::new();
     for run in mine {
-        record::mend(run, folder)?;
+        record::complete_replacement(run, folder)?;
         if force {
             record::demand(run, folder)?;
         }
         match Status::in_folder(run, folder) {
-            Status::Done(_) if record::is_demanded(run, folder) => {}
+            Status::Done(_) if record::should_repeat(run, folder) => {}
             Status::Done(_) => continue,
             Status::Changed(how) => {
                 notes.push(format!(
@@ -306,7 +306,7 @@ fn list(study: &Study, path: &Path, out: &mut dyn Write) -> anyhow::Result<()> {
             Status::Changed(_) => "changed",
             status => status.word(),
         };
-        todo += usize::from(word != "done" || record::is_demanded(run, &folder));
+        todo += usize::from(word != "done" || record::should_repeat(run, &folder));
         let memory = match estimate::has_mesh(&run.case) {
             true => estimates.bytes(&run.case).map_or_else(
                 || "no model".to_owned(),

@@ -160,7 +160,7 @@ fn run(
     };
     let overrides: Vec<String> = settings.iter().map(|it| it.given.clone()).collect();
     let case = CaseFile::parse(&study.case, text.to_owned(), &overrides)
-        .map_err(|error| blame(study, &name, &settings, error))?;
+        .map_err(|error| error_at_study_value(study, &name, &settings, error))?;
     let content = mesh.as_ref().map(|plan| plan.content.as_str());
     let inputs = Inputs::from_case(&case, content, contents)
         .map_err(|(path, source)| blame_input(study, &name, &settings, path, source))?;
@@ -224,7 +224,12 @@ fn case_key() -> KeyPath {
 }
 
 /// The error of a case, at the value of the study that makes it wrong; where it is the case file itself, as it is.
-fn blame(study: &Study, run: &str, settings: &[Setting], source: CaseError) -> StudyError {
+fn error_at_study_value(
+    study: &Study,
+    run: &str,
+    settings: &[Setting],
+    source: CaseError,
+) -> StudyError {
     let given = match &source {
         CaseError::Override { given, .. }
         | CaseError::Key {

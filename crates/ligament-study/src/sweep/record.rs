@@ -131,7 +131,7 @@ pub(super) fn demand(run: &Run, folder: &StudyFolder) -> anyhow::Result<()> {
 }
 
 /// Whether a run that has results is to be done again all the same.
-pub(super) fn is_demanded(run: &Run, folder: &StudyFolder) -> bool {
+pub(super) fn should_repeat(run: &Run, folder: &StudyFolder) -> bool {
     has_summary(run, folder) && Record::of_new(run, folder).is_some()
 }
 
@@ -151,7 +151,7 @@ pub(super) fn begin(run: &Run, folder: &StudyFolder) -> anyhow::Result<PathBuf> 
 }
 
 /// Ends the exchange of results that a kill has cut short, the way that the records say.
-pub(super) fn mend(run: &Run, folder: &StudyFolder) -> anyhow::Result<()> {
+pub(super) fn complete_replacement(run: &Run, folder: &StudyFolder) -> anyhow::Result<()> {
     let (own, new) = (folder.run(run), folder.new_run(run));
     let is_of_new = !folder.new_record(run).exists() && new.join(SUMMARY).is_file();
     if !own.exists() && is_of_new {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::entry::Standing;
+use super::entry::Reliability;
 use super::table::{Row, Table};
 
 pub(super) mod console;
@@ -43,13 +43,13 @@ fn words(table: &Table, row: &Row, notes: &mut Vec<String>) -> Vec<String> {
     let entry = &row.entry;
     let mut verdict = row.verdict.words().to_owned();
     match &entry.standing {
-        Standing::Misprint { instead, .. } => {
+        Reliability::Misprint { instead, .. } => {
             let _ = write!(verdict, " for {instead}");
         }
-        Standing::Open { instead, .. } => {
+        Reliability::Open { instead, .. } => {
             let _ = write!(verdict, " (independently {instead})");
         }
-        Standing::Sound | Standing::Truncated { .. } | Standing::Missed { .. } => {}
+        Reliability::Sound | Reliability::Truncated { .. } | Reliability::Missed { .. } => {}
     }
     if let Some(reason) = entry.standing.reason() {
         let number = notes.iter().position(|it| it == reason).unwrap_or_else(|| {

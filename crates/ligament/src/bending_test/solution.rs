@@ -13,7 +13,7 @@ use super::thinnest::Section;
 use crate::body::AnyBody;
 use crate::model::Model;
 use crate::patch_test::{SIZE, Untested, free_loading};
-use crate::run::Unobserved;
+use crate::run::NoObserver;
 use crate::setup::ELASTIC_ENERGY_TOLERANCE;
 
 /// Stiffness over that of the material from which on there is a warning.
@@ -152,7 +152,7 @@ impl Solver {
         let nothing = self.equilibrium.break_bonds(&mut self.state, &[]);
         let attempt = self
             .equilibrium
-            .balance(&mut self.state, &nothing, &mut Unobserved);
+            .balance(&mut self.state, &nothing, &mut NoObserver);
         if let Attempt::Unbalanced(reason) = attempt.map_err(ligament_analysis::SetupError::from)? {
             return Err(Untested::Unbalanced(reason));
         }

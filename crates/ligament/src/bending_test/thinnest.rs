@@ -74,7 +74,7 @@ fn thinnest<const D: usize>(
     let section = |from: &Facet<D>| {
         let inward = from.area.map(|it| -it / size(from.area));
         let middle = from.middle();
-        let (thickness, to) = way_through(&facets, middle, inward)?;
+        let (thickness, to) = path_through_body(&facets, middle, inward)?;
         let is_opposite = dot(inward, to.area) >= OPPOSITE * size(to.area);
         is_opposite.then(|| Section {
             place: widened(std::array::from_fn::<f64, D, _>(|axis| {
@@ -102,7 +102,7 @@ fn thinnest<const D: usize>(
 }
 
 /// Length of the way from a place on the outline to where it leaves the body, and the side there.
-fn way_through<const D: usize>(
+fn path_through_body<const D: usize>(
     facets: &[Facet<D>],
     from: [f64; D],
     direction: [f64; D],

@@ -59,7 +59,7 @@ pub trait BodyOutline<const D: usize> {
     fn spacing(&self, cloud: &PointCloud<D>) -> Vec<f64>;
 
     /// For each bond, whether its straight line leaves the outline, shape (n_bonds).
-    fn is_left_by(&self, bonds: &BondSet<D>, cloud: &PointCloud<D>) -> Vec<bool>;
+    fn is_crossed_by_bonds(&self, bonds: &BondSet<D>, cloud: &PointCloud<D>) -> Vec<bool>;
 }
 
 /// A body as a computation sees it: points and groups, whatever the points come from. Its [`Geometry`] has as many coordinates as the body
@@ -166,7 +166,7 @@ pub trait Geometry<const D: usize>: Body {
 
     /// Points and their shares, which add up to one, in a value at a position (m), by the cell around it; None off the cells, and for a body
     /// without cells.
-    fn shares_at(&self, _position: [f64; D]) -> Option<Vec<(u32, f64)>> {
+    fn interpolation_weights(&self, _position: [f64; D]) -> Option<Vec<(u32, f64)>> {
         None
     }
 

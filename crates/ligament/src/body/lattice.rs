@@ -136,8 +136,8 @@ impl<const D: usize, S: LatticeShape<D>> Geometry<D> for BodyOnLattice<D, S> {
         PointCloud::from_lattice(&self.lattice, thickness, material_of_cell, n_materials)
     }
 
-    fn shares_at(&self, position: [f64; D]) -> Option<Vec<(u32, f64)>> {
-        self.lattice.shares_at(position)
+    fn interpolation_weights(&self, position: [f64; D]) -> Option<Vec<(u32, f64)>> {
+        self.lattice.interpolation_weights(position)
     }
 
     fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; D])>, OffOutline> {

@@ -65,7 +65,7 @@ impl<const D: usize, C: BodyCell<D>> BodyOutline<D> for MeshOutline<'_, D, C> {
         spacing_inside(&self.outline, self.cells, cloud)
     }
 
-    fn is_left_by(&self, bonds: &BondSet<D>, cloud: &PointCloud<D>) -> Vec<bool> {
+    fn is_crossed_by_bonds(&self, bonds: &BondSet<D>, cloud: &PointCloud<D>) -> Vec<bool> {
         bonds_outside(&self.outline, bonds, cloud)
     }
 }
@@ -233,8 +233,8 @@ impl<const D: usize, C: BodyCell<D>> Geometry<D> for BodyOnMesh<D, C> {
         C::forces(&self.mesh.cells, cloud, material_of_cell, stiffness)
     }
 
-    fn shares_at(&self, position: [f64; D]) -> Option<Vec<(u32, f64)>> {
-        C::shares_at(&self.mesh, position)
+    fn interpolation_weights(&self, position: [f64; D]) -> Option<Vec<(u32, f64)>> {
+        C::interpolation_weights(&self.mesh, position)
     }
 
     /// Parts of the outward normal of each side of a cell on the outline at each of its nodes.

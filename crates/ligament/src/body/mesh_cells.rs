@@ -54,7 +54,7 @@ pub trait BodyCell<const D: usize>: MeshCell<D> + Debug + Send + 'static {
     fn areas_at_nodes(mesh: &Mesh<D, Self>, faces: &[Cell]) -> Vec<(u32, f64)>;
 
     /// Nodes and their shares in a value at a position (m), by the cell around it.
-    fn shares_at(mesh: &Mesh<D, Self>, position: [f64; D]) -> Option<Vec<(u32, f64)>>;
+    fn interpolation_weights(mesh: &Mesh<D, Self>, position: [f64; D]) -> Option<Vec<(u32, f64)>>;
 
     /// The cells as result files show them.
     fn canvas(cells: &[Self]) -> Canvas;
@@ -131,8 +131,8 @@ impl BodyCell<2> for Cell {
         Vec::new()
     }
 
-    fn shares_at(mesh: &Mesh, position: [f64; 2]) -> Option<Vec<(u32, f64)>> {
-        mesh.shares_at(position)
+    fn interpolation_weights(mesh: &Mesh, position: [f64; 2]) -> Option<Vec<(u32, f64)>> {
+        mesh.interpolation_weights(position)
     }
 
     fn canvas(cells: &[Self]) -> Canvas {
@@ -188,8 +188,8 @@ impl BodyCell<3> for SolidCell {
         mesh.areas_at_nodes(faces)
     }
 
-    fn shares_at(mesh: &SolidMesh, position: [f64; 3]) -> Option<Vec<(u32, f64)>> {
-        mesh.shares_at(position)
+    fn interpolation_weights(mesh: &SolidMesh, position: [f64; 3]) -> Option<Vec<(u32, f64)>> {
+        mesh.interpolation_weights(position)
     }
 
     fn canvas(cells: &[Self]) -> Canvas {

@@ -16,7 +16,7 @@ type Wrench = [f64; 6];
 
 /// Loads that act.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Acting {
+pub(super) enum ActiveLoads {
     /// All loads and the temperature.
     All,
     /// The load with this index, without temperature.
@@ -30,7 +30,7 @@ pub(super) enum Acting {
 pub(super) fn boundary<const D: usize>(
     setup: &Setup,
     cloud: &PointCloud<D>,
-    acting: Acting,
+    acting: ActiveLoads,
 ) -> Result<ProportionalLoading, SetupError> {
     let (places, components) = (Places { setup, cloud }, Component::in_dimensions(D));
     let heating = heating(&places)?;
@@ -39,7 +39,7 @@ pub(super) fn boundary<const D: usize>(
         components,
     };
     let mut boundary = ProportionalLoading::new(all, places.control(heating.as_ref())?);
-    let is_heated = matches!(acting, Acting::All | Acting::Temperature);
+    let is_heated = matches!(acting, ActiveLoads::All | ActiveLoads::Temperature);
     if let Some(Heating { change, strain }) = heating.filter(|_| is_heated) {
         boundary.temperature_change = change;
         boundary.thermal_strain = strain;
@@ -57,7 +57,7 @@ pub(super) fn boundary<const D: usize>(
         let field = Field::element("loads", index);
         let points = places.points(field, &load.place)?;
         let mut total = vec![0.0; components.len()];
-        if acting != Acting::All && acting != Acting::Load(index) {
+        if acting != ActiveLoads::All && acting != ActiveLoads::Load(index) {
             boundary.report_group(&load.name, points, total);
             continue;
         }
@@ -82,7 +82,7 @@ pub(super) fn boundary<const D: usize>(
 }
 
 /// Refuses couples on points that no bond keeps from turning: they would act on nothing.
-pub(super) fn couples_have_stiffness<const D: usize>(
+pub(super) fn require_rotational_stiffness<const D: usize>(
     setup: &Setup,
     boundary: &ProportionalLoading,
     system: &dyn Bonds,

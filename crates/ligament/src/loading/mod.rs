@@ -25,7 +25,7 @@ use crate::error::{Fault, Field, SetupError};
 use crate::model::Model;
 use crate::setup::Setup;
 use crate::system::over_dimension;
-use boundary::{Acting, boundary, couples_have_stiffness};
+use boundary::{ActiveLoads, boundary, require_rotational_stiffness};
 use programme::staged;
 use restraints::restrained;
 
@@ -56,15 +56,15 @@ impl Loading {
     /// The loading of a setup on the points and bonds of its model.
     fn on<const D: usize>(setup: &Setup, system: &dyn System<D>) -> Result<Self, SetupError> {
         let cloud = &system.cloud;
-        let boundary = boundary(setup, cloud, Acting::All)?;
-        couples_have_stiffness::<D>(setup, &boundary, system)?;
+        let boundary = boundary(setup, cloud, ActiveLoads::All)?;
+        require_rotational_stiffness::<D>(setup, &boundary, system)?;
         let places = Places { setup, cloud };
         places.require_probes_on_body()?;
         let probes = (setup.probes.iter()).map(|it| probes::on(it, setup, system));
         let probes: Arc<[Probe]> = probes.collect();
-        sections_are_crossed(&probes, system.subdomain())?;
+        require_crossed_sections(&probes, system.subdomain())?;
         let staged = staged(setup, system, &probes)?;
-        let boundary = restrained(setup, system, boundary, Acting::All)?;
+        let boundary = restrained(setup, system, boundary, ActiveLoads::All)?;
         Ok(Self {
             staged: staged.map(Arc::new),
             boundary: Arc::new(boundary),
@@ -90,7 +90,7 @@ impl Loading {
 }
 
 /// Refuses probes of a force through a line that no bond crosses.
-fn sections_are_crossed(probes: &[Probe], subdomain: &Subdomain) -> Result<(), SetupError> {
+fn require_crossed_sections(probes: &[Probe], subdomain: &Subdomain) -> Result<(), SetupError> {
     let crossed = |probe: &Probe| match &probe.reading {
         Reading::SectionForce { bonds, .. } => subdomain.any(!bonds.is_empty()),
         _ => true,

@@ -52,7 +52,7 @@ fn shares<const D: usize>(
 ) -> Vec<(u32, f64)> {
     let nearest = || vec![(cloud.nearest_point(position), 1.0)];
     let body = setup.body.geometry::<D>();
-    let Some(shares) = body.shares_at(position) else {
+    let Some(shares) = body.interpolation_weights(position) else {
         return nearest();
     };
     if shares.len() == 1 || setup.precracks.is_empty() {

@@ -8,7 +8,7 @@ use ligament_analysis::{
 };
 use ligament_model::System;
 
-use super::boundary::{Acting, boundary};
+use super::boundary::{ActiveLoads, boundary};
 use super::restraints::restrained;
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::{self, Analysis, Quantity, Setup, Stage};
@@ -54,15 +54,15 @@ pub(super) fn staged<const D: usize>(
     }
     let names = setup.factor_names();
     let temperature = (names.len() > setup.loads.len()).then_some(setup.loads.len());
-    let of_loads = (0..setup.loads.len()).map(Acting::Load);
-    let of_temperature = temperature.map(|_| Acting::Temperature);
+    let of_loads = (0..setup.loads.len()).map(ActiveLoads::Load);
+    let of_temperature = temperature.map(|_| ActiveLoads::Temperature);
     let loads: Vec<ProportionalLoading> = (of_loads.chain(of_temperature))
         .map(|acting| {
             let loading = boundary(setup, &system.cloud, acting)?;
             restrained(setup, system, loading, acting)
         })
         .collect::<Result<_, SetupError>>()?;
-    moved_by_one(setup, system.layout(), &loads)?;
+    refuse_shared_motions(setup, system.layout(), &loads)?;
     let programme = Programme {
         control: setup.curve_load().or(temperature).unwrap_or(0),
         temperature,
@@ -151,7 +151,7 @@ fn add_parts(
 }
 
 /// Refuses points that two loads move: one of them would have to follow two factors.
-fn moved_by_one(
+fn refuse_shared_motions(
     setup: &Setup,
     layout: Layout,
     loads: &[ProportionalLoading],

@@ -4,7 +4,7 @@ use ligament_analysis::{Component, ProportionalLoading, Restraint, Restraints};
 use ligament_model::System;
 use ligament_model::tensor::directions_across;
 
-use super::boundary::Acting;
+use super::boundary::ActiveLoads;
 use super::places::Places;
 use crate::coordinates::narrowed;
 use crate::error::{Fault, Field, SetupError};
@@ -19,7 +19,7 @@ pub(super) fn restrained<const D: usize>(
     setup: &Setup,
     system: &dyn System<D>,
     loading: ProportionalLoading,
-    acting: Acting,
+    acting: ActiveLoads,
 ) -> Result<ProportionalLoading, SetupError> {
     let loading = loading.reduced(system.layout());
     let is_restrained = setup.supports.iter().any(Support::is_restraint);
@@ -27,7 +27,7 @@ pub(super) fn restrained<const D: usize>(
         return Ok(loading);
     }
     let cloud = &system.cloud;
-    let mut restraining = Restraining {
+    let mut restraining = RestraintBuilder {
         places: Places { setup, cloud },
         system,
         rigid: (system.point_stiffness().iter())
@@ -43,7 +43,7 @@ pub(super) fn restrained<const D: usize>(
     }
     for (index, load) in setup.loads.iter().enumerate() {
         if load.is_restraint() {
-            let acts = acting == Acting::All || acting == Acting::Load(index);
+            let acts = acting == ActiveLoads::All || acting == ActiveLoads::Load(index);
             restraining.load(Field::element("loads", index), load, acts)?;
         }
     }
@@ -55,7 +55,7 @@ pub(super) fn restrained<const D: usize>(
 }
 
 /// Restraints so far.
-struct Restraining<'a, const D: usize> {
+struct RestraintBuilder<'a, const D: usize> {
     places: Places<'a, D>,
     system: &'a dyn System<D>,
     /// Stiffness at each point that counts as rigid, shape (n_points), N/m.
@@ -65,7 +65,7 @@ struct Restraining<'a, const D: usize> {
     driving: Vec<f64>,
 }
 
-impl<const D: usize> Restraining<'_, D> {
+impl<const D: usize> RestraintBuilder<'_, D> {
     fn support(&mut self, field: Field, support: &Support) -> Result<(), SetupError> {
         let points = self.places.points(field, &support.place)?;
         let shares = self.places.shares(&support.place, &points);

@@ -231,7 +231,7 @@ fn faces_close_in_stages() {
         assert!(record.missing_energy().abs() < 1e-8 * work, "{record:?}");
     }
     let refused = cracked(Analysis::Event(event()), preloaded(None));
-    let refused = refused.solve(&mut Unobserved).unwrap_err().to_string();
+    let refused = refused.solve(&mut NoObserver).unwrap_err().to_string();
     assert!(
         refused.starts_with("closing: with a part of the load that stays"),
         "{refused}"

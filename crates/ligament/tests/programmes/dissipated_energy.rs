@@ -181,7 +181,7 @@ fn runs_go_on_to_the_same_bits() {
 fn what_dissipates_nothing_controls_nothing() {
     let error = |law, analysis, stage| {
         let setup = bar(law, analysis, stage);
-        setup.solve(&mut Unobserved).unwrap_err().to_string()
+        setup.solve(&mut NoObserver).unwrap_err().to_string()
     };
     let brittle = error(brittle::LAW, steps(), pull(Some(0.1), Some(4)));
     assert!(

@@ -210,7 +210,7 @@ fn the_exact_path_after_a_preload_is_that_of_a_search() {
     let mut breakage = equilibrium.break_bonds(&mut state, &[]);
     let ratios = |equilibrium: &mut Equilibrium, state: &mut State, breakage: &Breakage| {
         let attempt = equilibrium
-            .balance(state, breakage, &mut Unobserved)
+            .balance(state, breakage, &mut NoObserver)
             .unwrap();
         let Attempt::Balanced(balanced) = attempt else {
             panic!("{attempt:?}");
@@ -368,7 +368,7 @@ fn stages_that_make_no_sense_say_so() {
     let error = |change: &dyn Fn(&mut Setup)| {
         let mut setup = plate(Analysis::Stepped(stepped(Vec::new())), preloaded(Some(4)));
         change(&mut setup);
-        setup.solve(&mut Unobserved).unwrap_err().to_string()
+        setup.solve(&mut NoObserver).unwrap_err().to_string()
     };
     assert_eq!(
         error(&|setup| setup.stages[1].loads[0].0 = "rihgt".to_owned()),

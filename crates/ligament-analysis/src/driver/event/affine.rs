@@ -13,7 +13,7 @@
 use std::mem;
 use std::time::Instant;
 
-use super::way::{Goal, Way};
+use super::way::{EquilibriumLine, Goal};
 use crate::balanced::Balanced;
 use crate::breaking::FirstToBreak;
 use crate::driver::path::Path;
@@ -60,7 +60,7 @@ impl Affine {
     }
 }
 
-impl Way for Affine {
+impl EquilibriumLine for Affine {
     fn goal(&mut self, path: &mut Path<'_>, line: &Balanced) -> Result<Goal, Unbalanced> {
         let loads = path.problem.loads.clone();
         let Some((course, rate)) =

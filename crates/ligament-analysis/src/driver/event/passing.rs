@@ -7,16 +7,16 @@
 use std::time::Instant;
 
 use ligament_model::deformation::Deformations;
-use ligament_model::element::{BondDeformation, Remaining};
+use ligament_model::element::{BondDeformation, StiffnessFactors};
 
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::breaking::{FirstToBreak, first_to_break};
-use crate::driver::breaks::Judged;
+use crate::driver::breaks::CriteriaAtDeformations;
 use crate::driver::path::Path;
 use crate::driver::recorder::StepCounters;
 use crate::error::SetupError;
-use crate::lagging::{Body, HalfSolved, Lagging};
+use crate::lagging::{Body, ForwardSubstituted, Lagging};
 use crate::problem::Problem;
 
 /// Events with a number that this divides are seen whole in any case, so that the residual of the whole body is checked and rounding does
@@ -102,7 +102,7 @@ pub(super) fn pass(
             break;
         };
         let breakage = passing.break_first(&first, critical, *step)?;
-        if passing.path.collapsed || !passing.path.equilibrium.takes_in(&breakage) {
+        if passing.path.collapsed || !passing.path.equilibrium.can_update(&breakage) {
             let before = passing.before(&breakage);
             return Ok(Passed::Broke(before, breakage));
         }
@@ -178,7 +178,7 @@ impl Passing<'_, '_> {
         let deformations: Vec<BondDeformation> = deformations.collect();
         let deformation = |place: usize, _| deformations[place];
         let criteria = &self.problem.criteria;
-        let judged = Judged {
+        let judged = CriteriaAtDeformations {
             criteria,
             deformation: &deformation,
         };
@@ -194,8 +194,8 @@ impl Passing<'_, '_> {
         let ends = self.problem.system.ends();
         let points = breakage.bonds.iter().flat_map(|&bond| ends[bond as usize]);
         let lagging = &mut self.lagging;
-        let first = equilibrium.half_follow(state, breakage, |factor, half| {
-            let correction = HalfSolved {
+        let first = equilibrium.update_and_forward_solve(state, breakage, |factor, half| {
+            let correction = ForwardSubstituted {
                 factor,
                 by_row: half.by_row(),
                 scale,
@@ -242,7 +242,9 @@ impl Passing<'_, '_> {
             forces[dofs.clone()].fill(0.0);
             let bonds = system.incidence().at(point).iter();
             for &bond in bonds.filter(|&&bond| intact[bond as usize]) {
-                for (rigidity, entries) in system.terms(intact, bond as usize, &Remaining::WHOLE) {
+                for (rigidity, entries) in
+                    system.terms(intact, bond as usize, &StiffnessFactors::WHOLE)
+                {
                     let strains = entries.iter().map(|(dof, value)| value * motions[*dof]);
                     let strain: f64 = strains.sum();
                     for (dof, value) in entries.iter().filter(|it| dofs.contains(&it.0)) {

@@ -5,7 +5,7 @@
 
 use std::time::Instant;
 
-use super::way::{Goal, Way};
+use super::way::{EquilibriumLine, Goal};
 use crate::balanced::Balanced;
 use crate::breaking::FirstToBreak;
 use crate::driver::ends::NO_LOAD;
@@ -30,7 +30,7 @@ impl Proportional {
     }
 }
 
-impl Way for Proportional {
+impl EquilibriumLine for Proportional {
     /// The end of the way along the line of an equilibrium: the critical load, or what ends the run before it.
     fn goal(&mut self, path: &mut Path<'_>, line: &Balanced) -> Result<Goal, Unbalanced> {
         let start = Instant::now();

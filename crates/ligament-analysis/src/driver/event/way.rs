@@ -6,7 +6,7 @@ use crate::history::Termination;
 use crate::unbalanced::Unbalanced;
 
 /// A way along the lines between two breakages.
-pub(super) trait Way {
+pub(super) trait EquilibriumLine {
     /// The end of the way along the line of an equilibrium: the critical load, or what ends the run or its part of the programme
     /// before it.
     fn goal(&mut self, path: &mut Path<'_>, line: &Balanced) -> Result<Goal, Unbalanced>;

@@ -5,14 +5,14 @@ use std::collections::BTreeSet;
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
 use crate::serial::Serial;
-use crate::tangent::making::Making;
+use crate::tangent::making::FactorRecord;
 
 /// What a preconditioner came from and how it serves: the same on all ranks.
-pub(super) struct Kept {
+pub(super) struct PreconditionerState {
     /// What the preconditioner was made of.
-    pub(super) preconditioner_of: Making,
+    pub(super) preconditioner_of: FactorRecord,
     /// What the matrix is of.
-    pub(super) matrix_of: Making,
+    pub(super) matrix_of: FactorRecord,
     /// Points whose columns are out of date.
     pub(super) stale: BTreeSet<u32>,
     /// Whether the preconditioner is to be made anew.
@@ -23,12 +23,12 @@ pub(super) struct Kept {
     pub(super) excess: f64,
 }
 
-impl Kept {
+impl PreconditionerState {
     /// Nothing is made yet.
     pub(super) fn new() -> Self {
         Self {
-            preconditioner_of: Making::default(),
-            matrix_of: Making::default(),
+            preconditioner_of: FactorRecord::default(),
+            matrix_of: FactorRecord::default(),
             stale: BTreeSet::new(),
             is_due: true,
             pace: None,
@@ -42,7 +42,7 @@ impl Kept {
     ///
     /// If the bytes are damaged or of another body.
     pub(super) fn read(numbers: &BondNumbers, from: &mut &[u8]) -> Result<Self, CheckpointError> {
-        let mut making = || Making::read_local(numbers, from);
+        let mut making = || FactorRecord::read_local(numbers, from);
         let (preconditioner_of, matrix_of) = (making()?, making()?);
         let stale: Vec<u32> = Serial::read(from)?;
         Ok(Self {

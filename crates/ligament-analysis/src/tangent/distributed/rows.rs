@@ -4,7 +4,7 @@
 //! below it. A rank goes through the columns of its own points and of those of larger number beside them, and keeps its own rows.
 
 use ligament_model::subdomain::Partition;
-use ligament_model::{Bonds, BondsLeft};
+use ligament_model::{Bonds, UnbrokenBonds};
 use rayon::prelude::*;
 
 use crate::distributed_matrix::{DistributedMatrix, Rows};
@@ -25,7 +25,7 @@ pub(super) struct OwnRows<'a> {
 /// Bonds, and which degrees of freedom take part (n_degrees_of_freedom): the others are cut off, with a diagonal entry alone.
 #[derive(Clone, Copy)]
 pub(super) struct Taken<'a> {
-    pub(super) bonds: BondsLeft<'a>,
+    pub(super) bonds: UnbrokenBonds<'a>,
     pub(super) free: &'a [bool],
 }
 

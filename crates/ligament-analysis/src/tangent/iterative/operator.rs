@@ -1,7 +1,7 @@
 //! The tangent stiffness of a state as a product: bonds, restraints and closed pairs, without a matrix.
 
 use ligament_model::element::Term;
-use ligament_model::{Bonds, BondsLeft};
+use ligament_model::{Bonds, UnbrokenBonds};
 use rayon::prelude::*;
 
 use crate::unknowns::Unknowns;
@@ -12,7 +12,7 @@ pub(super) struct Operator<'a> {
     pub(super) system: &'a dyn Bonds,
     pub(super) unknowns: &'a Unknowns,
     /// The bonds that are left.
-    pub(super) bonds: BondsLeft<'a>,
+    pub(super) bonds: UnbrokenBonds<'a>,
     /// Whether each degree of freedom is free, shape (n_degrees_of_freedom).
     pub(super) free: &'a [bool],
     /// Terms beside those of bonds and restraints, at free degrees of freedom.

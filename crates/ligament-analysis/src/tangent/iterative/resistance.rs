@@ -57,7 +57,7 @@ impl Resistance {
         space: &CoarseBasis,
         diagonal: &[f64],
     ) -> (Self, Vec<Vec<Block>>) {
-        let making = Making {
+        let making = ResistanceBuilder {
             operator,
             space,
             diagonal,
@@ -142,13 +142,13 @@ impl Resistance {
 }
 
 /// The forces on their way.
-struct Making<'a> {
+struct ResistanceBuilder<'a> {
     operator: &'a Operator<'a>,
     space: &'a CoarseBasis,
     diagonal: &'a [f64],
 }
 
-impl Making<'_> {
+impl ResistanceBuilder<'_> {
     /// Values of a block.
     fn size(&self) -> usize {
         self.operator.n_components() * self.space.n_motions

@@ -9,7 +9,7 @@ use std::fmt::Write;
 
 use toml_edit::{Key, Value};
 
-use super::groups::{Ends, Spot};
+use super::groups::{Ends, LoadPlace};
 use crate::case::key_path::KeyPath;
 use crate::case::values::{is_unseen, require_column_name};
 use body::size;
@@ -220,12 +220,12 @@ fn conditions<const D: usize>(body: &Body<D>, ends: &Ends<D>) -> String {
     );
     let held: Vec<String> = AXES[..D].iter().map(|it| format!("{it} = 0.0")).collect();
     let name = match &ends.load {
-        Spot::Group(group) if require_column_name(KeyPath::default, group).is_err() => {
+        LoadPlace::Group(group) if require_column_name(KeyPath::default, group).is_err() => {
             "name = \"load\"\n"
         }
         _ => "",
     };
-    let roller = |place: &Spot<D>| {
+    let roller = |place: &LoadPlace<D>| {
         let place = spot(place, body);
         format!("\n[[support]]\n{place}displacement = {{ {axis} = 0.0 }} # m, free to slide\n")
     };
@@ -342,10 +342,10 @@ fn records<const D: usize>(body: &Body<D>, ends: &Ends<D>) -> String {
     )
 }
 
-fn spot<const D: usize>(spot: &Spot<D>, body: &Body<D>) -> String {
+fn spot<const D: usize>(spot: &LoadPlace<D>, body: &Body<D>) -> String {
     match spot {
-        Spot::Group(name) => format!("group = {}\n", quoted(name)),
-        Spot::Box(corners) => {
+        LoadPlace::Group(name) => format!("group = {}\n", quoted(name)),
+        LoadPlace::Box(corners) => {
             let [low, high] = corners.map(|corner| coordinates(body, corner));
             let shape = ["rectangle", "box"][usize::from(D > 2)];
             format!("box = [{low}, {high}] # two corners, m: the points in this {shape}\n")

@@ -120,7 +120,7 @@ pub trait Outline<const D: usize>: Sync {
     fn facets_within(&self, bounds: [[f64; D]; 2]) -> impl Iterator<Item = Self::Facet>;
 
     /// Whether the line between two nodes leaves the body, with all facets that it may meet.
-    fn is_left_by(&self, ends: [u32; 2], near: &[Self::Facet], slack: f64) -> bool;
+    fn is_crossed_by_bonds(&self, ends: [u32; 2], near: &[Self::Facet], slack: f64) -> bool;
 
     /// The nodes of an edge that passes through a facet, the first of them all; none where cells do not overlap.
     fn first_crossing(&self) -> Option<[u32; 2]>;
@@ -146,7 +146,7 @@ pub fn bonds_outside<const D: usize, O: Outline<D>>(
     };
     let leaves = |bond: usize, near: &[O::Facet]| {
         let slack = cloud.slack_between(bonds.ends[bond]);
-        outline.is_left_by(bonds.ends[bond], near, slack)
+        outline.is_crossed_by_bonds(bonds.ends[bond], near, slack)
     };
     let leaving = |point: u32| {
         let around = box_around(cloud.positions[point as usize], reach(point));
@@ -191,7 +191,7 @@ pub fn spacing_inside<const D: usize, C: MeshCell<D>>(
             .facets_within(box_around(position, shortest))
             .collect();
         let is_seen = |other: u32, length: f64| {
-            !outline.is_left_by([point, other], &near, cloud.tolerance(point) * length)
+            !outline.is_crossed_by_bonds([point, other], &near, cloud.tolerance(point) * length)
         };
         tree.locate_within_distance(position, shortest * shortest)
             .filter(|other| other.data != point)

@@ -23,7 +23,7 @@ impl PlaneOutline {
     }
 
     /// Whether the way from a node to a position begins in a triangle or along an edge of one; inside the body it always does.
-    fn goes_on(&self, node: u32, end: [f64; 2], slack: f64) -> bool {
+    fn continues_in_body(&self, node: u32, end: [f64; 2], slack: f64) -> bool {
         let position = self.at(node);
         let goes_into = |[a, b, c]: [u32; 3]| {
             let [next, last] = if node == a {
@@ -53,9 +53,9 @@ impl Outline<2> for PlaneOutline {
         self.within(bounds)
     }
 
-    fn is_left_by(&self, [a, b]: [u32; 2], near: &[[u32; 2]], slack: f64) -> bool {
+    fn is_crossed_by_bonds(&self, [a, b]: [u32; 2], near: &[[u32; 2]], slack: f64) -> bool {
         let ends = [a, b].map(|node| self.at(node));
-        let leaves_at = |node: u32| !self.goes_on(node, ends[1], slack);
+        let leaves_at = |node: u32| !self.continues_in_body(node, ends[1], slack);
         let is_on_line = |node: u32| {
             let position = self.at(node);
             side_of_line(ends, position, slack) == 0.0 && is_between(position, ends)

@@ -96,13 +96,13 @@ impl SolidOutline {
     fn is_left_at_node(&self, facet: &Facet, ends: [[f64; 3]; 2], slack: f64) -> bool {
         let mut nodes = facet.nodes.iter().zip(facet.corners);
         nodes.any(|(&node, position)| {
-            is_on_line(position, ends, slack) && !self.goes_on(node, ends[1], slack)
+            is_on_line(position, ends, slack) && !self.continues_in_body(node, ends[1], slack)
         })
     }
 
     /// Whether the way from a node to a position begins in a tetrahedron, or along a face or an edge of one; inside the body it
     /// always does.
-    fn goes_on(&self, node: u32, end: [f64; 3], slack: f64) -> bool {
+    fn continues_in_body(&self, node: u32, end: [f64; 3], slack: f64) -> bool {
         let apex = self.at(node);
         let length = norm(minus(end, apex));
         let mut tetrahedra = self.parts_at(node).peekable();
@@ -154,9 +154,9 @@ impl Outline<3> for SolidOutline {
         self.within(bounds).map(|nodes| self.facet(nodes))
     }
 
-    fn is_left_by(&self, [a, b]: [u32; 2], near: &[Facet], slack: f64) -> bool {
+    fn is_crossed_by_bonds(&self, [a, b]: [u32; 2], near: &[Facet], slack: f64) -> bool {
         let ends = [a, b].map(|node| self.at(node));
-        !self.goes_on(a, ends[1], slack)
+        !self.continues_in_body(a, ends[1], slack)
             || near.iter().any(|facet| self.is_left_at(facet, ends, slack))
     }
 

@@ -178,12 +178,12 @@ impl<'a, const N: usize> Regularisation<'a, N> {
 }
 
 /// The Hessian over multipliers of forces that are constant over each aggregate.
-pub(super) struct Coarse {
+pub(super) struct CoarseHessian {
     /// None if the matrix is not definite to rounding.
     factor: Option<Cholesky<f64, Dyn>>,
 }
 
-impl Coarse {
+impl CoarseHessian {
     /// The matrix of the aggregates from the slopes of the pairs.
     pub(super) fn new<const N: usize, E: Equations<N>>(
         equations: &E,

@@ -278,7 +278,7 @@ impl<E> Dual<'_, E> {
                 let (start, stiffness) = (start[pair], stiffness[pair]);
                 std::array::from_fn(|k| {
                     let target = self.offset + stiffness[k] * strains[k];
-                    z[k] = followed(z[k], target);
+                    z[k] = after_tangent_step(z[k], target);
                     let share = logistic(z[k]);
                     let slope = start * self.span * share * (1.0 - share);
                     slopes[k] = stiffness[k] * stiffness[k] * slope;
@@ -340,7 +340,7 @@ impl<E> Dual<'_, E> {
 /// The second, with the share s = 1/(1 + e^-z) and the change c of z, is z + log((1 + (1 - s) c)/(1 - s c)). It can be nearer only on
 /// the way to the middle of the curve at z = 0, and does not exist where the tangent leaves the limits of the factors.
 #[inline(always)]
-fn followed(z: f64, target: f64) -> f64 {
+fn after_tangent_step(z: f64, target: f64) -> f64 {
     let change = target - z;
     if change * z >= 0.0 {
         return target;

@@ -102,7 +102,7 @@ impl<const D: usize> Parts<D> {
     }
 
     /// The volumes of a material over which its stresses do work.
-    fn reach(&self, material: u32, cloud: &PointCloud<D>) -> Reach {
+    fn reach(&self, material: u32, cloud: &PointCloud<D>) -> WorkVolumes {
         let sum = |parts: &[Part<D>], axis: usize| -> f64 {
             let of_material = parts.iter().filter(|part| part.material == material);
             let work = |part: &Part<D>| cloud.positions[part.at as usize][axis] * part.area[axis];
@@ -116,7 +116,7 @@ impl<const D: usize> Parts<D> {
         let [least, most] = [f64::min, f64::max].map(|it| volumes.iter().copied().reduce(it));
         // One layer of cells has no strain across it, but for rounding.
         let is_layer = least <= most.map(|it| 1e-9 * it);
-        Reach(if is_layer {
+        WorkVolumes(if is_layer {
             vec![1.0; volumes.len()]
         } else {
             volumes
@@ -170,9 +170,9 @@ fn gradient<const D: usize>(block: &[u32], corner: usize, cloud: &PointCloud<D>)
 /// another work in the contraction nu sigma_yy/E than sigma_yy in nu sigma_xx/E. What has no room is left to the shorter direction: with
 /// the volumes w, the compliance S_ij becomes S_ij w_j/max(w_i, w_j), which leaves E and G and, under tractions along the longer side, nu.
 #[derive(Debug, Clone)]
-struct Reach(Vec<f64>);
+struct WorkVolumes(Vec<f64>);
 
-impl Reach {
+impl WorkVolumes {
     fn stiffness(self, stiffness: &Stiffness) -> Stiffness {
         let Self(volumes) = self;
         let share = |i: usize, j: usize| volumes[j] / volumes[i].max(volumes[j]);

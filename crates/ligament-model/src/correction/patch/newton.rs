@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 
-use super::aggregates::{Coarse, Regularisation};
+use super::aggregates::{CoarseHessian, Regularisation};
 use super::equations::{Equations, Multipliers};
 use super::pairs::BLOCK;
 
@@ -19,7 +19,7 @@ pub(super) struct Hessian<'a, E, const N: usize> {
     /// Inverses of the blocks of own points, by index; in single precision they would be rounded along the axes, and factors of a turned
     /// body would differ.
     inverses: Vec<[[f64; N]; N]>,
-    coarse: Coarse,
+    coarse: CoarseHessian,
 }
 
 /// What the preconditioner makes of what is left.
@@ -42,7 +42,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
             regularisation,
             slopes,
             inverses: Vec::new(),
-            coarse: Coarse::new(equations, regularisation, slopes),
+            coarse: CoarseHessian::new(equations, regularisation, slopes),
         };
         let mut inverses = vec![[[0.0; N]; N]; regularisation.of_points.len()];
         let blocks = inverses.par_chunks_mut(BLOCK).enumerate();
@@ -92,7 +92,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         let n_points = self.equations.pairs().order.all().len();
         let mut direction = vec![[0.0; N]; n_points];
         let (mut step, mut product) = (zeros.clone(), zeros);
-        let way = Way {
+        let way = SearchDirection {
             direction: &direction,
             product: &product,
         };
@@ -102,7 +102,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         for done in 1..=MOST_PRODUCTS {
             self.turn(&mut direction, share, &solved);
             let length = size / self.multiply(&direction, &mut product);
-            let way = Way {
+            let way = SearchDirection {
                 direction: &direction,
                 product: &product,
             };
@@ -162,12 +162,12 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
     fn go(
         &self,
         length: f64,
-        way: Way<'_, N>,
+        way: SearchDirection<'_, N>,
         step: &mut Multipliers<N>,
         left: &mut Multipliers<N>,
         solved: &mut Solved<N>,
     ) -> f64 {
-        let Way { direction, product } = way;
+        let SearchDirection { direction, product } = way;
         let of_point = |index: usize, step: &mut [f64; N], left: &mut [f64; N]| {
             let mut solved = [0.0; N];
             for k in 0..N {
@@ -200,7 +200,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
 
 /// A direction of a search with its product with the matrix.
 #[derive(Clone, Copy)]
-struct Way<'a, const N: usize> {
+struct SearchDirection<'a, const N: usize> {
     direction: &'a Multipliers<N>,
     product: &'a Multipliers<N>,
 }

@@ -170,7 +170,7 @@ fn energies_are_those_of_the_stiffness() {
         .sum();
     let found = beam.mutual_energy(&of(&one), &of(&other));
     assert!((found / expected - 1.0).abs() < 1e-14);
-    let half = Remaining {
+    let half = StiffnessFactors {
         axial: 0.5,
         shear: 0.5,
         rotational: 0.5,

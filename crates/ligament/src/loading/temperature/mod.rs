@@ -4,7 +4,7 @@ mod field;
 mod table;
 
 use ligament_model::tensor::SymTensor;
-use ligament_model::thermal::FreeStrains;
+use ligament_model::thermal::StressFreeStrains;
 
 use super::places::Places;
 use crate::error::{Fault, Field, SetupError};
@@ -16,7 +16,7 @@ pub(super) struct Heating {
     /// Change of the temperature of each point, shape (n_points), K.
     pub(super) change: Vec<f64>,
     /// Strain that each point would have without stress.
-    pub(super) strain: FreeStrains,
+    pub(super) strain: StressFreeStrains,
 }
 
 /// What one section says of the points.
@@ -181,7 +181,7 @@ impl Missing {
 fn thermal_strain<const D: usize>(
     places: &Places<'_, D>,
     change: &[f64],
-) -> Result<FreeStrains, SetupError> {
+) -> Result<StressFreeStrains, SetupError> {
     let (setup, cloud) = (places.setup, places.cloud);
     let per_kelvin: Vec<Option<SymTensor<D>>> = (setup.materials.iter())
         .map(|it| {
@@ -217,5 +217,7 @@ fn thermal_strain<const D: usize>(
         Ok(strain)
     };
     let strains = change.iter().enumerate().map(at_point);
-    Ok(FreeStrains::new(strains.collect::<Result<Vec<_>, _>>()?))
+    Ok(StressFreeStrains::new(
+        strains.collect::<Result<Vec<_>, _>>()?,
+    ))
 }

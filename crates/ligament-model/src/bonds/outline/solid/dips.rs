@@ -22,7 +22,7 @@ pub(super) fn filled(
     triangles: Vec<[u32; 3]>,
     positions: &[[f64; 3]],
 ) -> (Vec<[u32; 3]>, Vec<[u32; 4]>) {
-    let mut skin = Skin::new(triangles, positions);
+    let mut skin = TriangulatedSurface::new(triangles, positions);
     let mut filling = Vec::new();
     // Every filling adds to the volume of the body: there is an end. The bound is for surfaces that are none.
     let mut left = 8 * skin.triangles.len();
@@ -52,14 +52,14 @@ struct Dip {
 }
 
 /// Triangles with the edges between them.
-struct Skin<'a> {
+struct TriangulatedSurface<'a> {
     positions: &'a [[f64; 3]],
     triangles: Vec<[u32; 3]>,
     /// Triangles at each edge.
     edges: HashMap<[u32; 2], Vec<usize>>,
 }
 
-impl<'a> Skin<'a> {
+impl<'a> TriangulatedSurface<'a> {
     fn new(triangles: Vec<[u32; 3]>, positions: &'a [[f64; 3]]) -> Self {
         let mut edges: HashMap<[u32; 2], Vec<usize>> = HashMap::with_capacity(2 * triangles.len());
         for (number, nodes) in triangles.iter().enumerate() {
