@@ -203,7 +203,7 @@ fn a_force_beyond_the_strength_ends_in_collapse() {
         "{}: {} bonds",
         summary.termination_message, summary.broken_bonds
     );
-    assert!(["collapsed", "fell-apart"].contains(&summary.termination));
+    assert!(["collapsed", "fell-apart"].contains(&&*summary.termination));
     assert!(summary.steps < 40 && summary.broken_bonds > 50);
     let history = Table::read(&out.join("history.csv"));
     assert_eq!(

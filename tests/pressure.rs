@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 
 use ligament::Loading;
 use ligament_mesh::Group;
+use ligament_run::summary::write;
 use verification::bench::{self, Bench};
 use verification::meshes;
 use verification::numbers::relative_error;
@@ -258,7 +259,7 @@ fn a_pressure_is_told_in_pascal() {
     let folder = tempfile::tempdir().unwrap();
     let summary = bench::run_program(&case, &folder.path().join("ring"));
     let mut text = Vec::new();
-    summary.write(&mut text).unwrap();
+    write(&summary, &mut text).unwrap();
     let text = String::from_utf8(text).unwrap();
     assert!(text.contains(" TPa/m^3\n"), "{text}");
     assert!(text.contains("100.0 MPa at 902"), "{text}");

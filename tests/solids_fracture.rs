@@ -5,9 +5,9 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use ligament_case::case::CaseFile;
+use ligament_output::summary::Build;
+use ligament_output::summary::Summary;
 use ligament_run::progress::ProgressMode;
-use ligament_run::provenance::Build;
-use ligament_run::summary::Summary;
 use ligament_run::{resume, run};
 use verification::bench::run_program;
 use verification::repository;

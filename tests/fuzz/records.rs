@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use ligament_output::summary::Build;
 use ligament_run::progress::ProgressMode;
-use ligament_run::provenance::Build;
 use ligament_run::run::run;
 use ligament_study::calibrate::{self, calibrate};
 use ligament_study::sweep::folder::StudyFolder;

@@ -4,8 +4,8 @@ use std::fs;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use ligament_output::checkpoint::Checkpoint;
+use ligament_output::summary::Build;
 use ligament_run::progress::ProgressMode;
-use ligament_run::provenance::Build;
 use ligament_run::resume;
 use ligament_run::run;
 

@@ -14,11 +14,11 @@ use ligament_analysis::{ProportionalLoading, State};
 use ligament_case::case::CaseFile;
 use ligament_mesh::Mesh;
 use ligament_model::correction::{CorrectionReport, DomainReport};
+use ligament_output::summary::Summary;
 use ligament_run::model::{Model, build_model_on};
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::run::{self, Report};
 use ligament_run::stages::Stages;
-use ligament_run::summary::Summary;
 use tempfile::TempDir;
 
 use crate::meshes;

@@ -1,7 +1,7 @@
 //! Assembly of the bonds' element stiffnesses into the global matrix (NHPD eq. 18).
 //!
-//! The pattern is made once. A column of the matrix is summed by one thread, over the bonds of its point in their order,
-//! so that the values have the same bits for any number of threads. A broken bond leaves the pattern as it is. Restraints go in after
+//! The sparsity pattern is computed once. A column of the matrix is summed by one thread, over the bonds of its point in order, so
+//! that the values have the same bits for any number of threads. Broken bonds do not change the pattern. Restraints are added after
 //! the bonds.
 
 use std::sync::Arc;
@@ -12,10 +12,10 @@ use rayon::prelude::*;
 
 use crate::unknowns::Unknowns;
 
-/// Points whose columns are one task.
+/// Number of points whose columns are one parallel task.
 const TASK: usize = 1024;
 
-/// The pattern of the matrix (upper triangle) for some unknowns, with all bonds: breakages only take couplings away.
+/// Sparsity pattern of the matrix (upper triangle) for some unknowns, with all bonds; breakages only remove couplings.
 pub fn pattern(system: &dyn Bonds, unknowns: &Unknowns) -> Result<Pattern, PatternError> {
     let lower_rows = |point: usize| {
         let (layout, restraints) = (unknowns.layout(), unknowns.restraints());
@@ -31,7 +31,7 @@ pub fn pattern(system: &dyn Bonds, unknowns: &Unknowns) -> Result<Pattern, Patte
         .collect();
     let mut column_starts = vec![0];
     let mut n_entries = 0;
-    // First entry of each task.
+    // Index of the first entry of each task.
     let mut tasks = Vec::new();
     for (point, n_lower) in n_lower.into_iter().enumerate() {
         if point % TASK == 0 {
@@ -65,9 +65,9 @@ pub fn pattern(system: &dyn Bonds, unknowns: &Unknowns) -> Result<Pattern, Patte
     Pattern::new(column_starts, rows)
 }
 
-/// Assembles the intact bonds over the pattern made by [`pattern`].
+/// Assembles the intact bonds over a pattern computed by [`pattern`].
 ///
-/// A held unknown is cut off from the others: its row and column are zero but for the diagonal.
+/// Fixed unknowns (`held`) are decoupled: their rows and columns are zero except for the diagonal.
 pub fn assemble(
     system: &dyn Bonds,
     unknowns: &Unknowns,
@@ -100,7 +100,7 @@ pub fn assemble(
     matrix
 }
 
-/// The columns of a point: couplings to points of smaller number, then its own block down to the diagonal.
+/// Columns of a point: couplings to points of smaller number, then its own block down to the diagonal.
 struct Columns<'a> {
     unknowns: &'a Unknowns,
     held: &'a [bool],
@@ -109,8 +109,8 @@ struct Columns<'a> {
 }
 
 impl Columns<'_> {
-    /// Fills the columns with entries by row and column of a block: of each of the points `lower` (ascending) by its place among
-    /// them, and then of the point itself.
+    /// Fills the columns with entries by block, row and column: the blocks of the `lower` points (ascending), and then that of the
+    /// point itself.
     fn fill(self, lower: &[u32], entry: impl Fn(usize, usize, usize) -> f64) {
         let Self {
             unknowns,
@@ -136,7 +136,7 @@ impl Columns<'_> {
                 *slot = if row_held || column_held { 0.0 } else { value };
             }
             if let Some(diagonal) = slots.next() {
-                // Any positive pivot does for an equation that stands alone: a held point may have lost all its bonds.
+                // A decoupled equation may have any positive pivot: a fixed point may have lost all its bonds.
                 *diagonal = match entry(lower.len(), c, c) {
                     0.0 if column_held => 1.0,
                     value if column_held => value.abs(),
@@ -147,7 +147,7 @@ impl Columns<'_> {
     }
 }
 
-/// The part of the values that belongs to the columns of each point.
+/// Slices of the values for the columns of each point.
 fn columns_of_points<'a>(
     values: &'a mut [f64],
     pattern: &Pattern,

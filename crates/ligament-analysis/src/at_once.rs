@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// Loads that break the body at once, of which there are no results.
+/// Loads that break the body at once, without meaningful results.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[error(
     "the body breaks at once: its first bond reaches its limit at {share:.4} of the first load step, at whose end {beyond} of {bonds} bonds \
@@ -11,8 +11,8 @@ use thiserror::Error;
 pub struct AtOnce {
     /// Share of the first load step at which the first bond reaches its limit.
     pub share: f64,
-    /// Number of the bonds that would be beyond their limits at the end of the step if none broke.
+    /// Number of bonds beyond their limits at the end of the step if none broke.
     pub beyond: usize,
-    /// Number of all bonds.
+    /// Total number of bonds.
     pub bonds: usize,
 }

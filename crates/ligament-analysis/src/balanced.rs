@@ -1,4 +1,4 @@
-//! States in equilibrium, and why there is none.
+//! Equilibrium states, and reasons for a missing equilibrium.
 
 use ligament_model::contact::ClosedPair;
 use ligament_model::deformation::Deformations;
@@ -7,7 +7,7 @@ use crate::internal::InternalForces;
 use crate::serial;
 use crate::unbalanced::Unbalanced;
 
-/// The end of an attempt to bring a state into equilibrium.
+/// Result of an attempt to bring a state into equilibrium.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Attempt {
     /// The state is in equilibrium.
@@ -17,7 +17,7 @@ pub enum Attempt {
 }
 
 impl Attempt {
-    /// The equilibrium, if there is one.
+    /// Equilibrium, if there is one.
     pub fn balanced(self) -> Option<Balanced> {
         match self {
             Self::Balanced(balanced) => Some(balanced),
@@ -26,32 +26,32 @@ impl Attempt {
     }
 }
 
-/// A state in equilibrium.
+/// Equilibrium state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Balanced {
-    /// Deformation of every bond without what its temperature gives it, shape (n_bonds).
+    /// Deformation of every bond without its thermal expansion, shape (n_bonds).
     pub deformations: Deformations,
     /// Internal forces.
     pub internal: InternalForces,
     /// Energy stored in the intact bonds, J.
     pub stored_energy: f64,
-    /// Energy that rounding makes of the displacements, or expansions of the bonds would store, J: less is no energy to speak of.
+    /// Energy due to rounding of the displacements or to expansions of the bonds, J; smaller energies count as zero.
     pub energy_floor: f64,
-    /// Residual relative to the forces that meet at a point.
+    /// Relative residual, over the forces at a point.
     pub residual: f64,
-    /// Newton-Raphson iterations.
+    /// Number of Newton-Raphson iterations.
     pub iterations: usize,
-    /// The energy that the motions of the points cost ([`BondSweep::energy_of_motion`](ligament_model::sweep::BondSweep::energy_of_motion), the stored one unless the temperature
-    /// changes) where it is negative, beyond rounding, J.
+    /// Energy of the motions of the points ([`BondSweep::energy_of_motion`](ligament_model::sweep::BondSweep::energy_of_motion);
+    /// the stored energy unless the temperature changes), J, where it is negative beyond rounding.
     pub negative_energy: Option<f64>,
-    /// Points of degrees of freedom that turned out to be mechanisms and are held from now on.
+    /// Points of mechanisms found in the solution, which are fixed from now on.
     pub mechanisms: Vec<u32>,
-    /// Pairs across cracks that are closed, in the order of their numbers; none where faces do not close.
+    /// Closed pairs across cracks, in the order of their numbers; none where faces do not close.
     pub closed: Vec<ClosedPair>,
 }
 
 impl Balanced {
-    /// The equilibrium of the same bonds at `factor` times the load factor: everything is proportional to it.
+    /// Equilibrium of the same bonds at `factor` times the load factor, to which everything is proportional.
     pub fn scaled(&self, factor: f64) -> Self {
         Self {
             deformations: self.deformations.scaled(factor),
@@ -76,12 +76,12 @@ impl Balanced {
     }
 }
 
-/// Numbers of negative eigenvalues that the stiffness has, and that it should have.
+/// Actual and expected numbers of negative eigenvalues of the stiffness.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Stability {
-    /// Negative eigenvalues of the stiffness.
+    /// Number of negative eigenvalues of the stiffness.
     pub negative: usize,
-    /// Negative eigenvalues of the rotation block: the stiffness of a stable intact model has no others.
+    /// Number of negative eigenvalues of the rotation block: the stiffness of a stable intact model has no others.
     pub expected: usize,
 }
 

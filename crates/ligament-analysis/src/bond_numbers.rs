@@ -1,7 +1,7 @@
-//! Numbers of the bonds on a process among all bonds of the body.
+//! Global numbers of the bonds on a process.
 //!
-//! Observers and checkpoints refer to a bond by the number that it has on one process alone: bonds are in the order of their ends. A process
-//! that holds some of the bonds has its own, local numbers for them.
+//! Observers and checkpoints refer to a bond by its global number, as on one process alone: bonds are in the order of their ends. A
+//! process that stores some of the bonds has local numbers for them.
 
 use std::borrow::Cow;
 
@@ -13,39 +13,39 @@ use thiserror::Error;
 use crate::checkpoint::CheckpointError;
 use crate::serial::{Serial, write_list};
 
-/// A process holds no bond of a body that is divided.
+/// Error of a divided body without any bond on one of the processes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error("there are more processes than the body has parts with bonds: start fewer of them")]
 pub struct WithoutBonds;
 
-/// Numbers of the bonds on a process among all bonds of the body; the local numbers themselves where one process holds all.
+/// Global numbers of the bonds on a process; equal to the local numbers where one process stores all bonds.
 #[derive(Debug, Clone)]
 pub struct BondNumbers {
     subdomain: Subdomain,
     held: StoredBonds,
 }
 
-/// The bonds that a process holds.
+/// Bonds stored by a process.
 #[derive(Debug, Clone)]
 enum StoredBonds {
     /// All bonds of the body.
     All,
-    /// The bonds at owned points.
+    /// Bonds at owned points.
     Some(LocalBonds),
 }
 
 #[derive(Debug, Clone)]
 struct LocalBonds {
-    /// Number of each bond among all, ascending, shape (n_bonds).
+    /// Global number of each bond, ascending, shape (n_bonds).
     numbers: Vec<u32>,
     /// Whether the process owns each bond, shape (n_bonds).
     is_owned: Vec<bool>,
-    /// Number of the bonds of the body.
+    /// Number of bonds of the body.
     n_all: usize,
 }
 
 impl BondNumbers {
-    /// The numbers of the bonds of a body with so many points on one process.
+    /// Numbers of the bonds of a body of `n_points` points on one process.
     pub fn whole(n_points: usize) -> Self {
         Self {
             subdomain: Subdomain::whole(n_points),
@@ -53,11 +53,11 @@ impl BondNumbers {
         }
     }
 
-    /// The numbers of the bonds of a body; collective.
+    /// Numbers the bonds of a body; collective.
     ///
     /// # Errors
     ///
-    /// If a process holds no bond of a body that is divided.
+    /// If a process stores no bond of a divided body.
     pub(crate) fn new(system: &dyn Bonds) -> Result<Self, WithoutBonds> {
         let (subdomain, ends) = (system.subdomain(), system.ends());
         let held = if subdomain.is_whole() {
@@ -73,12 +73,12 @@ impl BondNumbers {
         })
     }
 
-    /// The points and bonds of the body on this process.
+    /// Points and bonds of the body on this process.
     pub(crate) fn subdomain(&self) -> &Subdomain {
         &self.subdomain
     }
 
-    /// Number of a local bond.
+    /// Global number of a local bond.
     pub(crate) fn number(&self, bond: u32) -> u32 {
         match &self.held {
             StoredBonds::All => bond,
@@ -94,7 +94,7 @@ impl BondNumbers {
         }
     }
 
-    /// The local bond with a number, if this process holds it.
+    /// Local bond with a global number, if this process stores it.
     pub(crate) fn local(&self, number: u32) -> Option<usize> {
         match &self.held {
             StoredBonds::All => Some(number as usize),
@@ -102,7 +102,7 @@ impl BondNumbers {
         }
     }
 
-    /// The local bonds among those with some numbers.
+    /// Local bonds among those with some global numbers.
     pub(crate) fn all_local<'a>(&self, numbers: &'a [u32]) -> Cow<'a, [u32]> {
         match &self.held {
             StoredBonds::All => Cow::Borrowed(numbers),
@@ -113,7 +113,7 @@ impl BondNumbers {
         }
     }
 
-    /// Marks of the owned bonds among marked ones, shape (n_bonds) both.
+    /// Marks of the owned bonds among marked ones, both of shape (n_bonds).
     pub(crate) fn owned_of<'a>(&self, marked: &'a [bool]) -> Cow<'a, [bool]> {
         match &self.held {
             StoredBonds::All => Cow::Borrowed(marked),
@@ -125,17 +125,17 @@ impl BondNumbers {
         }
     }
 
-    /// Number of marked bonds over all processes, of marks (n_bonds).
+    /// Number of marked bonds over all processes, from marks (n_bonds).
     pub(crate) fn count(&self, marked: impl Iterator<Item = bool>) -> usize {
         let owned = marked.enumerate().filter(|(bond, _)| self.owns(*bond));
         self.subdomain.count(owned.filter(|it| it.1).count())
     }
 
-    /// Reads the values of the local bonds from those of all bonds of the body, without keeping these; none of none.
+    /// Reads the values of all bonds of the body, and returns those of the local bonds (n_bonds); an empty list stays empty.
     ///
     /// # Errors
     ///
-    /// If the bytes are damaged, or of a body with another number of bonds.
+    /// If the bytes are damaged, or belong to a body with another number of bonds.
     pub(crate) fn read<T: Serial>(&self, from: &mut &[u8]) -> Result<Vec<T>, CheckpointError> {
         let StoredBonds::Some(LocalBonds { numbers, n_all, .. }) = &self.held else {
             return Ok(Serial::read(from)?);
@@ -159,8 +159,8 @@ impl BondNumbers {
         Ok(local)
     }
 
-    /// Appends the values of all bonds of the body, from those of the local bonds (n_bonds); where the body is divided, rank 0 has them and
-    /// the others write none. Values that are the `usual` one are not sent. Collective.
+    /// Appends the values of all bonds of the body, from those of the local bonds (n_bonds); on a divided body rank 0 writes them
+    /// and the others an empty list. Values equal to `usual` are not sent. Collective.
     pub(crate) fn write<T, const N: usize>(&self, local: &[T], usual: T, out: &mut Vec<u8>)
     where
         T: Serial + Wire<N> + Copy + PartialEq,
@@ -175,7 +175,7 @@ impl BondNumbers {
 }
 
 impl LocalBonds {
-    /// Numbers the bonds with some ends in the order of all ends; collective.
+    /// Numbers the local bonds in the order of all ends; collective.
     fn new(subdomain: &Subdomain, ends: &[[u32; 2]]) -> Self {
         let is_owned: Vec<bool> = ends.iter().map(|&it| subdomain.owns_bond(it)).collect();
         let mut of_points = vec![0.0; subdomain.partition().len()];
@@ -212,7 +212,7 @@ impl LocalBonds {
         }
     }
 
-    /// The values of all bonds of the body on rank 0, and none on other ranks.
+    /// Values of all bonds of the body on rank 0, and an empty list on other ranks.
     fn of_all<T, const N: usize>(&self, subdomain: &Subdomain, local: &[T], usual: T) -> Vec<T>
     where
         T: Wire<N> + Copy + PartialEq,
@@ -237,7 +237,7 @@ impl LocalBonds {
     }
 }
 
-/// Ends and numbers of the bonds that end here and that other ranks own.
+/// Ends and global numbers of local bonds that other ranks own.
 fn received(subdomain: &Subdomain, ends: &[[u32; 2]], numbers: &[Option<u32>]) -> Vec<[u32; 3]> {
     let numbered = ends.iter().zip(numbers);
     let across = numbered.filter_map(|(&[a, b], number)| {
@@ -250,7 +250,7 @@ fn received(subdomain: &Subdomain, ends: &[[u32; 2]], numbers: &[Option<u32>]) -
     of_ranks
 }
 
-/// The sum of values of the bonds of a body (n_bonds), over all processes.
+/// Sum of values of the bonds of a body (n_bonds), over all processes.
 pub(crate) fn sum_over_bonds(system: &dyn Bonds, values: impl Iterator<Item = f64>) -> f64 {
     let subdomain = system.subdomain();
     let with_ends = values.zip(system.ends());
@@ -258,7 +258,7 @@ pub(crate) fn sum_over_bonds(system: &dyn Bonds, values: impl Iterator<Item = f6
     subdomain.sum(owned.map(|it| it.0).sum())
 }
 
-/// Adds values of the bonds of a body (n_bonds) to a sum, over all processes; one process adds them one by one.
+/// Adds values of the bonds of a body (n_bonds) to a sum, over all processes; on one process one by one.
 pub(crate) fn add_over_bonds(system: &dyn Bonds, sum: &mut f64, values: impl Iterator<Item = f64>) {
     match system.subdomain().is_whole() {
         true => values.for_each(|value| *sum += value),

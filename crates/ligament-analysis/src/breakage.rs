@@ -1,4 +1,4 @@
-//! What bonds that break together take away: made once, and handed to the energy, the parts of the body and the factor.
+//! Changes by bonds that break together, computed once for the energy, the connectivity and the factor.
 
 use ligament_model::Bonds;
 use ligament_model::change::ChangedElements;
@@ -9,21 +9,21 @@ use ligament_model::thermal::ThermalStrain;
 use crate::connectivity::AddedSupport;
 use crate::state::State;
 
-/// Bonds that break together, and what that changes.
+/// Bonds that break together, and the resulting changes.
 #[derive(Debug, Default)]
 pub struct Breakage {
-    /// Bonds that break, in their order, by their numbers among all bonds of the body.
+    /// Global numbers of the breaking bonds, in order.
     pub bonds: Vec<u32>,
-    /// Rigid motions of parts that came loose, which are held from now on.
+    /// Supports added for rigid motions of detached parts.
     pub holds: Vec<AddedSupport>,
-    /// Elements that change: those of the bonds, in their order, and then those that lean on them, ascending.
+    /// Elements that change: those of the bonds, in order, and then those that depend on them, ascending.
     elements: Option<Box<dyn ChangedElements>>,
-    /// Elements of the owned bonds, where the body is divided between processes.
+    /// Elements of the owned bonds, on a divided body.
     owned: Option<(Subdomain, Box<dyn ChangedElements>)>,
 }
 
 impl Breakage {
-    /// The breakage of bonds of a state that are known here, and which it still has; nothing is held yet.
+    /// Breakage of local bonds that are still in the state, without added supports.
     pub fn new(
         system: &dyn Bonds,
         expansion: ThermalStrain<'_>,
@@ -52,18 +52,18 @@ impl Breakage {
         self.elements.as_ref().map_or(0, |it| it.n_elements())
     }
 
-    /// Terms of the stiffness that the elements have afterwards.
+    /// Stiffness terms of the elements after the breakage.
     pub fn gained_terms(&self) -> impl Iterator<Item = Term> + '_ {
         self.elements.iter().flat_map(|it| it.gained_terms())
     }
 
-    /// Terms of the stiffness that the elements had before.
+    /// Stiffness terms of the elements before the breakage.
     pub fn lost_terms(&self) -> impl Iterator<Item = Term> + '_ {
         self.elements.iter().flat_map(|it| it.lost_terms())
     }
 
-    /// Force that nothing balances any more, for displacements (n_degrees_of_freedom): what the elements exerted on their
-    /// points, less what they exert now; parts of it with their degrees of freedom.
+    /// Residual force due to the breakage at displacements (n_degrees_of_freedom), N and N m: forces of the elements on their
+    /// points before it minus those after it, as terms with their degrees of freedom.
     pub fn unbalanced_force(
         &self,
         displacement: &[f64],
@@ -75,8 +75,8 @@ impl Breakage {
         }
     }
 
-    /// Energy released at a fixed load, with the displacements after it (n_degrees_of_freedom), J:
-    /// 1/2 u^T (K_before - K_after) u'.
+    /// Energy released at fixed load, with the displacements after the breakage (n_degrees_of_freedom), J: 1/2 u^T (K_before -
+    /// K_after) u'.
     pub fn released(&self, displacement: &[f64], expansion: ThermalStrain<'_>) -> f64 {
         if let Some((subdomain, owned)) = &self.owned {
             return subdomain.sum(owned.released(displacement, expansion));

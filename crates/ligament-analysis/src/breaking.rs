@@ -1,6 +1,6 @@
-//! Which bonds break next (NHPD section 2.4, Fig. 5), with an explicit rule for ties.
+//! Selection of the bonds that break next (NHPD section 2.4, Fig. 5), with an explicit rule for ties.
 //!
-//! A bond is judged by the criterion that brings it nearest to its breakage: measure over limit, s/s_0 for most.
+//! The criterion with the largest ratio of measure to limit, s/s_0 for most, decides for a bond.
 
 use std::collections::BTreeMap;
 
@@ -11,10 +11,10 @@ use rayon::prelude::*;
 
 use crate::bond_numbers::BondNumbers;
 
-/// Bonds that make a task worth while.
+/// Number of bonds of a parallel task.
 const TASK: usize = 4096;
 
-/// Quantity that orders the bonds that are beyond their limits.
+/// Quantity that orders the bonds beyond their limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum BreakingOrder {
     /// Excess of measure over limit, s - s_0 (the paper's).
@@ -24,24 +24,24 @@ pub enum BreakingOrder {
     Ratio,
 }
 
-/// Rule by which the bonds to break are picked.
+/// Rule that selects the bonds to break.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BreakingRule {
     /// Quantity that orders the bonds.
     pub order: BreakingOrder,
     /// Number o of bonds that break before the next equilibrium (NHPD recommends 10 at most).
     pub bonds_per_iteration: usize,
-    /// Bonds whose measure (order by excess) or ratio is within this relative distance of the leader's are tied with it.
+    /// Relative distance in measure (order by excess) or ratio from the leading bond within which bonds are tied with it.
     pub tie_tolerance: f64,
 }
 
-/// The bonds to break now, in order; empty where no intact bond is at its limit.
+/// Bonds to break now, in order; empty where no intact bond is at its limit.
 ///
-/// The bond that leads the order takes the whole group tied with it along, also members just under their limit, so that
-/// symmetric problems stay symmetric; the group is in the order of the numbers that `in_file` gives the ends of a bond, and never
-/// split. Groups follow until `bonds_per_iteration` is reached or passed.
+/// The leading bond breaks together with all bonds tied with it, including bonds just below their limits, so that symmetric
+/// problems stay symmetric; such a group is in the order of the end numbers by `in_file`, and never split. Groups are added until
+/// `bonds_per_iteration` is reached or exceeded.
 ///
-/// Bonds are given by their numbers among all bonds of the body. Collective.
+/// Bonds are given by their global numbers. Collective.
 pub fn next_to_break(
     numbers: &BondNumbers,
     rule: &BreakingRule,
@@ -57,7 +57,7 @@ pub fn next_to_break(
     chosen(rule, numbers.subdomain().all_gather_list(near))
 }
 
-/// The intact bonds that are beyond their limits, or so near to them that they may be tied with one that is.
+/// Intact bonds beyond their limits, or close enough to them to be tied with one that is.
 fn near_limit(
     rule: &BreakingRule,
     deformations: &[BondDeformation],
@@ -94,7 +94,7 @@ fn chosen(rule: &BreakingRule, mut ranked: Vec<Candidate>) -> Vec<u32> {
         };
         let leader = &rest[first];
         let lowest_tied = leader.rank - rule.tie_tolerance * leader.tie_scale;
-        // Bonds under the limit may stand before the leader only where they are tied with it by rounding.
+        // Bonds below the limit precede the leader only where they are tied with it by rounding.
         let end = rest
             .iter()
             .position(|candidate| candidate.rank < lowest_tied)
@@ -107,24 +107,24 @@ fn chosen(rule: &BreakingRule, mut ranked: Vec<Candidate>) -> Vec<u32> {
     chosen
 }
 
-/// The bonds that proportional loading breaks first.
+/// Bonds that break first under proportional loading.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FirstToBreak {
     /// Largest ratio of measure to limit; 0 where no measure of an intact bond is positive.
     pub ratio: f64,
-    /// The bond with this ratio and those tied with it, in the order of their numbers.
+    /// Bond with this ratio and those tied with it, in the order of their numbers.
     pub bonds: Vec<u32>,
 }
 
 impl FirstToBreak {
-    /// With the bonds in the order of the numbers of their ends in the file.
+    /// Sorts the bonds by the numbers of their ends in the file.
     pub(crate) fn sorted(mut self, in_file: impl Fn(u32) -> [u32; 2]) -> Self {
         self.bonds.sort_unstable_by_key(|bond| in_file(*bond));
         self
     }
 }
 
-/// The intact bonds nearest to breakage, with those within the relative `tie_tolerance` below the largest ratio.
+/// Intact bonds nearest to breakage, with those within the relative `tie_tolerance` below the largest ratio.
 pub fn first_to_break(
     tie_tolerance: f64,
     deformations: &[BondDeformation],
@@ -134,7 +134,7 @@ pub fn first_to_break(
     leaders(tie_tolerance, deformations, criteria, intact).first_to_break()
 }
 
-/// The bonds of a body that are nearest to breakage, by their numbers among all bonds and in the order of their ends in the file. Collective.
+/// Bonds of the whole body nearest to breakage, as global numbers in the order of their end numbers in the file. Collective.
 pub(crate) fn first_of_all(
     numbers: &BondNumbers,
     tie_tolerance: f64,
@@ -179,7 +179,7 @@ fn leaders(
     leaders
 }
 
-/// What tasks gather from the verdicts on their intact bonds, in the order of the bonds.
+/// Results gathered by tasks from the verdicts on their intact bonds, in the order of the bonds.
 fn judge<T: Send>(
     deformations: &[BondDeformation],
     criteria: &Criteria,
@@ -201,13 +201,13 @@ fn judge<T: Send>(
         .collect()
 }
 
-/// The bonds met so far that were tied with the largest ratio of their time or led it: none of the others can be tied at the end.
+/// Bonds that were tied with the largest ratio so far when they were added; no others can be tied in the end.
 pub(crate) struct Leaders {
     tie_tolerance: f64,
     ratio: f64,
-    /// Bonds with a smaller ratio are not tied with the largest one so far.
+    /// Smallest ratio tied with the largest one so far.
     pub(crate) lowest_tied: f64,
-    /// Bonds with their ratios, in the order in which they were met.
+    /// Bonds and their ratios, in the order in which they were added.
     met: Vec<(u32, f64)>,
 }
 
@@ -232,20 +232,20 @@ impl Leaders {
         }
     }
 
-    /// Meets the bonds that others met.
+    /// Adds the bonds of another list.
     pub(crate) fn merge(&mut self, others: Self) {
         for (bond, ratio) in others.met {
             self.add(bond, ratio);
         }
     }
 
-    /// The bonds that are tied with the largest ratio, with theirs, in the order in which they were met.
+    /// Bonds tied with the largest ratio, and their ratios, in the order in which they were added.
     fn tied(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
         let met = self.met.iter().copied();
         met.filter(|it| it.1 >= self.lowest_tied)
     }
 
-    /// The bonds that lead in the end.
+    /// Largest ratio and the bonds tied with it.
     pub(crate) fn first_to_break(self) -> FirstToBreak {
         let mut bonds: Vec<u32> = self.tied().map(|it| it.0).collect();
         bonds.sort_unstable();
@@ -259,7 +259,7 @@ impl Leaders {
 #[derive(Clone)]
 struct Candidate {
     bond: u32,
-    /// Numbers of its ends in the file.
+    /// Numbers of the ends of the bond in the file.
     in_file: [u32; 2],
     rank: f64,
     tie_scale: f64,

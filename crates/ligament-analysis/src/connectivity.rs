@@ -1,9 +1,8 @@
-//! Which points hang together, and whether something holds them.
+//! Connected parts of a body, and the supports of their rigid motions.
 //!
-//! Rounding hides a body that came loose: a factorisation of its singular matrix may well succeed. So the question is
-//! settled combinatorially. Connectivity alone is not enough (half a disk may be held along y only): for every fragment
-//! the rank of its held degrees of freedom on the rigid motions that cost no energy decides, and just the missing motions
-//! are held.
+//! Rounding hides a detached part: a factorisation of its singular matrix may well succeed. Detached parts are therefore found
+//! combinatorially. Connectivity alone is not enough (half a disk may be supported along y only): for every fragment the rank of
+//! its fixed degrees of freedom on its energy-free rigid motions decides, and only the missing motions are fixed.
 
 mod across_ranks;
 pub mod decremental;
@@ -12,7 +11,7 @@ use ligament_model::Bonds;
 
 use crate::restraints::{self, Restraints};
 
-/// The connected parts of a body.
+/// Connected parts of a body.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fragments {
     /// Fragment of each point, shape (n_points); numbered in the order of their first points.
@@ -21,29 +20,29 @@ pub struct Fragments {
     pub points: Vec<Vec<u32>>,
 }
 
-/// A rigid motion of a fragment that nothing held any more.
+/// Added support of an unsupported rigid motion of a fragment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct AddedSupport {
-    /// Degree of freedom that is held from now on.
+    /// Degree of freedom that is fixed.
     pub degree_of_freedom: usize,
-    /// Fragment that it belongs to.
+    /// Fragment of the degree of freedom.
     pub fragment: u32,
 }
 
 impl Fragments {
-    /// Parts connected by intact bonds; where processes share the body out all of them ask for it.
+    /// Finds the parts connected by intact bonds; collective on a divided body.
     pub fn find(system: &dyn Bonds, intact: &[bool]) -> Self {
         let whole = Self::of_first_points(&vec![0; system.n_points()]);
         whole.parted(system, intact)
     }
 
-    /// The parts that intact bonds leave of these, where processes share the body out.
+    /// Splits these parts into those connected by intact bonds; collective on a divided body.
     fn parted(&self, system: &dyn Bonds, intact: &[bool]) -> Self {
         let before = (&*self.of_point, &*self.points);
         Self::of_first_points(&across_ranks::parted(system, intact, before))
     }
 
-    /// Fragments by the first point of that of each point.
+    /// Fragments from the first point of the fragment of each point, shape (n_points).
     fn of_first_points(firsts: &[u32]) -> Self {
         let mut of_point: Vec<u32> = Vec::with_capacity(firsts.len());
         let mut points: Vec<Vec<u32>> = Vec::new();
@@ -61,9 +60,10 @@ impl Fragments {
         Self { of_point, points }
     }
 
-    /// The degrees of freedom to hold so that none of the given fragments can move rigidly.
+    /// Degrees of freedom to fix so that none of the given fragments can move rigidly.
     ///
-    /// `is_fixed` tells what supports, loads and earlier holds prescribe; `can_hold` what has a stiffness.
+    /// `is_fixed` returns whether a degree of freedom is prescribed by supports, loads or earlier added supports; `can_hold`
+    /// whether it has a stiffness.
     pub fn missing_supports(
         &self,
         fragments: impl IntoIterator<Item = u32>,
@@ -86,8 +86,8 @@ impl Fragments {
         fragments.into_iter().flat_map(of_fragment).collect()
     }
 
-    /// The rigid motions of a fragment that cost no energy and that no fixed degree of freedom prevents: displacements and
-    /// rotations of its points in each of them, shape (motions, degrees of freedom of the points).
+    /// Energy-free rigid motions of a fragment that no fixed degree of freedom prevents: displacements and rotations of its points
+    /// in each of them, shape (motions, degrees of freedom of the points).
     pub fn free_motions(
         &self,
         fragment: usize,
@@ -97,7 +97,7 @@ impl Fragments {
         system.free_shapes(&self.points[fragment], &is_fixed)
     }
 
-    /// Makes a fragment of a part of one; both keep the order of their first points among the others.
+    /// Splits a part off its fragment; both are numbered in the order of their first points.
     fn split_off(&mut self, mut part: Vec<u32>) {
         part.sort_unstable();
         let rest = &mut self.points[self.of_point[part[0] as usize] as usize];

@@ -1,6 +1,6 @@
-//! Contact of crack faces in a run: which pairs there are, which of them are closed, and what closed ones exert.
+//! Contact of crack faces: pairs across cracks, their closure, and the forces of closed pairs.
 //!
-//! Which pairs are closed follows from the displacements alone: there is no history.
+//! The closure of pairs follows from the displacements alone, without history.
 
 use ligament_model::Bonds;
 use ligament_model::contact::{ClosedPair, ContactPair};
@@ -13,14 +13,14 @@ use crate::balanced::Balanced;
 use crate::serial;
 use crate::state::State;
 
-/// The pairs across the cracks of a body, while the same bonds are left.
+/// Pairs across the cracks of a body with given intact bonds.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Contact {
     pairs: Vec<ContactPair>,
 }
 
 impl Contact {
-    /// The pairs of the bonds that are left (n_bonds); none where faces do not close.
+    /// Pairs across cracks for intact bonds (n_bonds); none where faces do not close.
     pub(crate) fn new(system: &dyn Bonds, intact: &[bool]) -> Self {
         if !system.faces_close() {
             return Self::default();
@@ -30,7 +30,7 @@ impl Contact {
         }
     }
 
-    /// The pairs.
+    /// Pairs across cracks.
     pub(crate) fn pairs(&self) -> &[ContactPair] {
         &self.pairs
     }
@@ -41,7 +41,7 @@ impl Contact {
         pairs.map(|pair| pair.gap(motions, expansion)).collect()
     }
 
-    /// The pairs that are closed, with their gaps (n_pairs).
+    /// Closed pairs, from the gaps of all pairs (n_pairs).
     pub(crate) fn closed(&self, gaps: &[f64]) -> Vec<ClosedPair> {
         let closed = self.pairs.iter().zip(gaps).filter(|(_, gap)| **gap < 0.0);
         closed
@@ -50,7 +50,7 @@ impl Contact {
     }
 }
 
-/// Adds forces and energies of closed pairs to those of the bonds.
+/// Adds the forces and energies of closed pairs to those of the bonds.
 pub(crate) fn add_to(
     swept: &mut BondSweep,
     closed: &[ClosedPair],
@@ -86,15 +86,15 @@ pub(crate) fn end_forces(closed: &ClosedPair) -> impl Iterator<Item = (usize, f6
     row.map(move |(dof, factor)| (dof as usize, force * factor))
 }
 
-/// The stiffness of a pair.
+/// Rank-one stiffness term of a pair.
 pub(crate) fn term(pair: &ContactPair) -> Term {
     let row = pair.row.iter().filter(|(_, factor)| *factor != 0.0);
     let entries = row.map(|&(dof, factor)| (dof as usize, factor));
     (pair.stiffness, entries.collect())
 }
 
-/// Sum of a component of what the far ends of closed pairs exert on the near ones, N, for bonds and pairs by number and whether
-/// their first end is near.
+/// Sum of a force component that the far ends of closed pairs exert on the near ones, N, given the numbers of crossing bonds and
+/// pairs and whether their first end is near.
 pub(crate) fn force_through(
     closed: &[ClosedPair],
     crossing: &[(u32, bool)],
@@ -124,7 +124,7 @@ pub(crate) fn add_virial(
     }
 }
 
-/// What closed pairs make of the energies from one equilibrium to the next.
+/// Changes of the energies by closed pairs from one equilibrium to the next.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ContactEnergy {
     closed: Vec<ClosedPair>,
@@ -133,7 +133,7 @@ pub(crate) struct ContactEnergy {
 }
 
 impl ContactEnergy {
-    /// The energies of the unloaded body.
+    /// Contact energies of the unloaded body.
     pub(crate) fn of_unloaded(system: &dyn Bonds) -> Self {
         let n_degrees_of_freedom = system.layout().n_degrees_of_freedom();
         Self {
@@ -142,10 +142,12 @@ impl ContactEnergy {
         }
     }
 
-    /// Takes the next equilibrium, and gives sum 1/2 k g g' over the pairs that were closed, less that over those that are now, J.
+    /// Moves to the next equilibrium, and returns sum 1/2 k g g' over the pairs that opened minus that over the pairs that closed,
+    /// J.
     ///
-    /// That is what forces that are linear between the two would have released: at a fixed load it is released, and on the way from one
-    /// load to another it is the error of the trapezoidal rule for the work, because there pairs open and close with no force.
+    /// This is the energy released by forces that are linear between the two equilibria: after a breakage at fixed load it is
+    /// released, and between two loads it is the error of the trapezoidal rule for the work, because there pairs open and close
+    /// without force.
     pub(crate) fn follow<'a>(
         &mut self,
         state: &State,
@@ -171,15 +173,15 @@ impl ContactEnergy {
         change
     }
 
-    /// Goes over to a part of a programme, at whose start the last equilibrium has another load factor.
+    /// Begins a part of a programme, in which the last equilibrium has another load factor.
     pub(crate) fn begin_part(&mut self, load_factor: f64) {
         self.load_factor = load_factor;
     }
 
-    /// Takes an equilibrium to go on from.
+    /// Stores an equilibrium as the last one.
     pub(crate) fn keep(&mut self, state: &State, balanced: &Balanced) {
         self.closed.clone_from(&balanced.closed);
-        // Without faces that close there is none to look at them.
+        // Displacements are stored only where faces close.
         if !self.motions.is_empty() {
             self.motions.clone_from(&state.displacement);
         }
@@ -187,7 +189,8 @@ impl ContactEnergy {
     }
 }
 
-/// The pairs that only the first of two lists has, and those that only the second has; both are in the order of the numbers.
+/// Pairs that only the first of two lists contains, and those that only the second contains; both lists are in the order of the
+/// numbers.
 pub(crate) fn changes(
     before: &[ClosedPair],
     now: &[ClosedPair],

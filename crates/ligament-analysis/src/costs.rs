@@ -1,35 +1,35 @@
-//! What equations cost.
+//! Costs of the equations.
 
 use std::time::Duration;
 
 use crate::serial;
 
-/// What the equations have cost so far.
+/// Accumulated costs of the equations.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Costs {
-    /// Factorisations; where the solver iterates, of its coarse space.
+    /// Number of factorisations; with an iterative solver, of its coarse space.
     pub factorisations: usize,
-    /// Changes of a factor in place.
+    /// Number of updates of a factor in place.
     pub changes: usize,
-    /// Solves, those after a change of a factor included.
+    /// Number of solves, including those after an update of a factor.
     pub solves: usize,
-    /// Iterations of the solves, where the solver iterates.
+    /// Number of iterations of an iterative solver.
     pub iterations: usize,
-    /// Time in numbering, pattern and symbolic analysis.
+    /// Time of numbering, pattern and symbolic analysis.
     pub analysis: Duration,
-    /// Time in assembly.
+    /// Time of assembly.
     pub assembly: Duration,
-    /// Time in factorisation.
+    /// Time of factorisation.
     pub factorisation: Duration,
-    /// Time in changes in place, with the forward substitution that goes along.
+    /// Time of updates in place, including their forward substitutions.
     pub change: Duration,
-    /// Time in the backward substitutions that follow them.
+    /// Time of backward substitutions after updates.
     pub backward: Duration,
-    /// Time in other solves.
+    /// Time of other solves.
     pub solve: Duration,
-    /// Time in deformations, forces, energies and the choice of bonds.
+    /// Time of deformations, forces, energies and the selection of bonds.
     pub bonds: Duration,
-    /// Time in the search for loose parts.
+    /// Time of the search for detached parts.
     pub connectivity: Duration,
 }
 

@@ -1,7 +1,7 @@
-//! Nested dissection of the points: the order of elimination that a mesh calls for.
+//! Nested dissection of the points, an elimination order for meshes.
 //!
-//! A part is cut at the median of its longer side (George 1973); the points of one half that bonds
-//! connect with the other separate the two, and are eliminated after both.
+//! A part is cut at the median of its longer side (George 1973); the points of one half that are bonded with the other half form
+//! the separator, and are eliminated after both halves.
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -10,14 +10,14 @@ use ligament_model::interface::CoupledPoints;
 
 use crate::unknowns::Unknowns;
 
-/// Parts of so many points are not cut any further: most of their points are bonded with each other, and smaller parts
-/// were measured to save 0.2 % of the fill.
+/// Largest number of points of a part that is not cut any further: most of them are bonded with each other, and smaller parts were
+/// measured to save 0.2 % of the fill.
 const SMALLEST_PART: usize = 12;
 
-/// Points of a part whose two sides are tasks.
+/// Least number of points of a part whose two sides are parallel tasks.
 const TASK: usize = 1024;
 
-/// The unknowns in the order of elimination: those of a point together, points by nested dissection.
+/// Unknowns in elimination order: those of a point together, points by nested dissection.
 pub fn elimination_order(system: &dyn Bonds, unknowns: &Unknowns) -> Vec<usize> {
     points_in_order(system)
         .into_iter()
@@ -26,7 +26,7 @@ pub fn elimination_order(system: &dyn Bonds, unknowns: &Unknowns) -> Vec<usize> 
         .collect()
 }
 
-/// The points by nested dissection.
+/// Points in the order of nested dissection.
 fn points_in_order(system: &dyn Bonds) -> Vec<u32> {
     let n_points = system.n_points() as u32;
     let dissection = Dissection {
@@ -38,18 +38,18 @@ fn points_in_order(system: &dyn Bonds) -> Vec<u32> {
     dissection.part(&mut (0..n_points).collect::<Vec<_>>())
 }
 
-/// What all parts share. Parts are dissected at the same time: each writes at its own points alone, and what it may read of
-/// another's is the number of a half of that one, whatever it is.
+/// Data common to all parts, which are dissected in parallel: each task writes at its own points alone, and any half number of
+/// another part that it may read is valid.
 struct Dissection<'a> {
     system: &'a dyn Bonds,
     coupled: CoupledPoints<'a>,
-    /// Number of the last half that a point was put into.
+    /// Number of the last half to which a point was assigned.
     half: Vec<AtomicU32>,
     halves: AtomicU32,
 }
 
 impl Dissection<'_> {
-    /// The points of a part in their order.
+    /// Points of a part in elimination order.
     fn part(&self, points: &mut [u32]) -> Vec<u32> {
         if points.len() <= SMALLEST_PART {
             return points.to_vec();
@@ -82,7 +82,7 @@ impl Dissection<'_> {
         order
     }
 
-    /// The points of one half that elements couple with the other.
+    /// Points of one half that elements couple with the other.
     fn rim(&self, half: &[u32], other_half: u32) -> Vec<u32> {
         let touches = |point: u32| {
             let mut coupled = self.coupled.at(point);

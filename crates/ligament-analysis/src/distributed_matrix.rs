@@ -1,15 +1,15 @@
-//! Matrices whose rows are distributed over processes, and what the equations ask of them.
+//! Interface of matrices whose rows are distributed over processes.
 
 use std::fmt::Debug;
 
 pub use ligament_model::communicator::{Communicator, Solo};
 
-/// The processes of a run with the matrices that they share.
+/// Communicator of the processes of a run, with distributed matrices.
 pub trait MatrixCommunicator: Communicator {
-    /// Whether equations are solved with distributed matrices; a run without a launcher of MPI has its own solvers.
+    /// Whether equations are solved with distributed matrices; a run without an MPI launcher has its own solvers.
     fn has_matrices(&self) -> bool;
 
-    /// A matrix without values, whose rows are distributed over the processes; none where there are no such matrices.
+    /// Creates a matrix without values, with rows distributed over the processes; none where there are no such matrices.
     fn matrix(&self, rows: &Rows<'_>) -> Option<Box<dyn DistributedMatrix>>;
 }
 
@@ -23,68 +23,69 @@ impl MatrixCommunicator for Solo {
     }
 }
 
-/// A matrix of blocks, one for each two points that are coupled, of which each rank has the rows of its own points. Points have numbers
-/// from 0 on, and those of a rank follow on those of the rank before.
+/// Structure of a matrix of blocks, one for each two coupled points, of which each rank stores the rows of its owned points. Points
+/// are numbered from 0 on, rank by rank.
 #[derive(Debug, Clone, Copy)]
 pub struct Rows<'a> {
-    /// Components of the motion of a point: rows and columns of a block.
+    /// Number of components of the motion of a point, the size of a block.
     pub n_components: usize,
-    /// Number of the points of all ranks.
+    /// Number of points of all ranks.
     pub n_all: usize,
-    /// Numbers of the blocks in the rows of each own point: in columns of own points, itself included, and of others; shape (n_own).
+    /// Numbers of blocks in the rows of each owned point: in columns of owned points, including itself, and of others; shape
+    /// (n_own).
     pub couplings: &'a [[usize; 2]],
 }
 
 /// A symmetric matrix whose rows are distributed over ranks.
 pub trait DistributedMatrix: Debug {
-    /// Takes the blocks in the rows of an own point and the columns of some points, shape (components, n, components), in the place of
-    /// what was there. For each rank by itself.
+    /// Replaces the blocks in the rows of an owned point and the columns of some points, shape (n_components, n, n_components). Not
+    /// collective.
     fn set(&mut self, row: usize, columns: &[usize], blocks: &[f64]);
 
-    /// Makes what all ranks have set the matrix.
+    /// Assembles the values set by all ranks; collective.
     fn assemble(&mut self);
 
-    /// Makes a preconditioner of the matrix as it is, which is kept while the matrix changes. `motions` cost next to no energy, shape
-    /// (n, degrees of freedom of the own points). The matrix is a sum of parts that are not negative, none of which couples more points
-    /// than `n_coupled`.
+    /// Builds a preconditioner of the present matrix, which is kept while the matrix changes. `motions` have next to no energy,
+    /// shape (n, degrees of freedom of the owned points). The matrix is a sum of positive semidefinite parts, each of which couples
+    /// at most `n_coupled` points.
     fn precondition(&mut self, motions: &[Vec<f64>], n_coupled: usize);
 
-    /// Makes a factor L D L^T of the matrix as it is.
+    /// Computes a factor L D L^T of the present matrix.
     fn factorise(&mut self) -> Pivots;
 
-    /// Solves for forces at the degrees of freedom of the own points, with the preconditioner or the factor that was made last.
+    /// Solves for forces at the degrees of freedom of the owned points, with the last preconditioner or factor.
     fn solve(&mut self, force: &[f64], left: Tolerated<'_>) -> Solved;
 }
 
 /// Numbers of pivots by sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Pivots {
-    /// Negative ones.
+    /// Number of negative pivots.
     pub negative: usize,
-    /// Vanishing ones.
+    /// Number of vanishing pivots.
     pub vanishing: usize,
-    /// Positive ones.
+    /// Number of positive pivots.
     pub positive: usize,
 }
 
-/// The force that an iteration may leave out of balance.
+/// Residual force allowed in an iterative solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tolerated<'a> {
     /// Norm over all degrees of freedom.
     Norm(f64),
-    /// Sizes at the degrees of freedom of the own points.
+    /// Largest sizes at the degrees of freedom of the owned points.
     Sizes(&'a [f64]),
 }
 
-/// What was found for some forces.
+/// Result of a solution.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solved {
-    /// Motions at the degrees of freedom of the own points; of a matrix that is not definite one that it does not resist.
+    /// Motions at the degrees of freedom of the owned points; for an indefinite matrix a motion without stiffness.
     pub motions: Vec<f64>,
-    /// Iterations it took.
+    /// Number of iterations.
     pub iterations: usize,
-    /// Powers of ten by which the norm of the force out of balance became smaller.
+    /// Decades by which the norm of the residual force fell.
     pub decades: f64,
-    /// Whether no motion was met that costs no energy.
+    /// Whether no motion without stiffness was found.
     pub is_definite: bool,
 }

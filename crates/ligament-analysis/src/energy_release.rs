@@ -1,20 +1,20 @@
-//! Energy release rate of a crack that grows, from two states of equilibrium.
+//! Energy release rate of a growing crack, from two equilibrium states.
 //!
 //! Between two states with crack areas A < A', displacements u, u' and forces F, F' of the load:
 //!
 //! - from the compliance C = u/F, G = F F' (C' - C)/(2 (A' - A)) = (F u' - F' u)/(2 (A' - A)): the area between the two straight lines
-//!   through the origin and the chord of the curve over the new area, in the limit G = F^2/2 dC/dA (Irwin and Kies 1954). Right
-//!   where one load in proportion is all that acts and a bond without load has no force; sudden falls between the states count
+//!   through the origin and the chord of the curve over the new area, in the limit G = F^2/2 dC/dA (Irwin and Kies 1954). Valid
+//!   where one proportional load acts alone and an unloaded body has no forces; sudden drops between the states count
 //!   as their chord.
-//! - from the energies, G = (W' - W)/(A' - A) with the energy W that the breakages released, whatever acts. The sudden growth of a load
+//! - from the energies, G = (W' - W)/(A' - A) with the energy W released by breakages, for any loads. Sudden growth in a load
 //!   step at constant displacement has its larger rate here.
-//! - what bonds took for good, over the new area: the fracture energy that the criterion spends in truth. It is smaller than the
+//! - dissipated energy over the new area: the fracture energy that the criterion actually spends. It is smaller than the
 //!   released energy where a crack runs faster than the load.
 //!
-//! Cracks grow by one face between two points at a time, so that rates from one record to the next scatter: the earlier state is the
-//! last one whose crack is smaller by some least area.
+//! Cracks grow by one face between two points at a time, so that rates between successive records scatter: the earlier state is the
+//! last one whose crack is smaller by a given least area.
 
-/// Numbers of a state that rates of energy are made of.
+/// Data of a state from which energy release rates are computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GrowthState {
     /// Area of the cracks, their length times the thickness of the body, m^2.
@@ -23,9 +23,9 @@ pub struct GrowthState {
     pub displacement: f64,
     /// Force of the control load, N.
     pub reaction: f64,
-    /// Energy that breakages released so far, J.
+    /// Energy released by breakages so far, J.
     pub released_energy: f64,
-    /// Energy that bonds took for good so far, J.
+    /// Energy dissipated by bonds so far, J.
     pub dissipated_energy: f64,
 }
 
@@ -36,11 +36,11 @@ pub struct ReleaseRates {
     pub by_compliance: f64,
     /// Energy release rate from the energies.
     pub by_energy: f64,
-    /// Energy that bonds took for good.
+    /// Energy dissipated by bonds.
     pub dissipated: f64,
 }
 
-/// Rates at each of some states in their order, over growth by `least` area (m^2) or more; none where the crack has not grown so far.
+/// Rates at each of some states in order, over crack growth by at least `least` (m^2); none where the crack has not grown that far.
 pub fn release_rates(states: &[GrowthState], least: f64) -> Vec<Option<ReleaseRates>> {
     let rates = |(place, now): (usize, &GrowthState)| {
         let mut before = states[..place].iter().rev();

@@ -1,4 +1,4 @@
-//! Equilibrium of the intact bonds, kept up while they break.
+//! Equilibrium of the intact bonds, updated while bonds break.
 
 mod accuracy;
 mod active_set;
@@ -45,39 +45,39 @@ pub(crate) use dissipating::Dissipation;
 pub(crate) use residual::ROUNDING;
 pub(crate) use target::Target;
 
-/// A way to equilibrium.
+/// Iteration that solves for equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Iteration {
-    /// Newton-Raphson, for bonds that are whole or broken.
+    /// Newton-Raphson, for bonds that are intact or broken.
     Newton,
-    /// Newton's method on the closed pairs, for bonds that are whole or broken and faces that close.
+    /// Newton's method on the set of closed pairs, for bonds that are intact or broken and crack faces that close.
     ActiveSet,
-    /// Quasi-Newton from secants, for bonds that soften.
+    /// Quasi-Newton iteration from secant stiffnesses, for bonds that soften.
     Secants,
 }
 
-/// What is held in the place of the load factor, which is then an unknown.
+/// Quantity prescribed in place of the load factor, which is then an unknown.
 #[derive(Debug, Clone)]
 pub(crate) enum ControlledQuantity {
-    /// A motion.
+    /// A motion (a weighted sum of displacements).
     Motion(Target),
-    /// The energy that bonds have dissipated.
+    /// The energy dissipated by bonds.
     Energy(Dissipation),
 }
 
-/// The equations of a problem, kept up while its bonds break.
+/// Equilibrium equations of a problem, updated while its bonds break.
 pub struct Equilibrium {
     equations: Equations,
     connectivity: Connectivity,
-    /// Numbers of the bonds among all bonds of the body.
+    /// Global numbers of the local bonds.
     numbers: Arc<BondNumbers>,
     iteration: Iteration,
     held: Option<ControlledQuantity>,
 }
 
 impl Equilibrium {
-    /// Numbers the unknowns and analyses the pattern; nothing is factorised yet. `energy_tolerance` is the relative change of
-    /// the energy that ends an iteration (NHPD eq. 21). Bonds are whole or broken.
+    /// Numbers the unknowns and analyses the sparsity pattern, without factorising. `energy_tolerance` is the relative change of
+    /// the energy that ends an iteration (NHPD eq. 21). Bonds are taken as intact or broken, without softening.
     ///
     /// # Errors
     ///
@@ -87,7 +87,7 @@ impl Equilibrium {
         Self::numbered(problem, numbers, energy_tolerance)
     }
 
-    /// The equilibrium of bonds with their numbers.
+    /// Equations of bonds with known global numbers.
     fn numbered(
         problem: &Problem,
         numbers: BondNumbers,
@@ -107,17 +107,17 @@ impl Equilibrium {
         })
     }
 
-    /// Appends what it takes to make the equilibrium again, to the bit.
+    /// Appends the bytes from which the equilibrium is restored bit for bit.
     pub(crate) fn write(&self, out: &mut Vec<u8>) {
         self.equations.write(out);
     }
 
-    /// The equilibrium of a state as it was when the bytes were written, with what it was measured to be; `numbers` are those of the
-    /// local bonds among all.
+    /// Restores the equilibrium, its state and its measured quantities from bytes of [`Equilibrium::write`]; `numbers` are the
+    /// global numbers of the local bonds.
     ///
     /// # Errors
     ///
-    /// If the bytes are damaged or of another model, or the factor comes out with other bits.
+    /// If the bytes are damaged or belong to another model, or if the factor differs in any bit.
     pub(crate) fn restored(
         problem: &Problem,
         energy_tolerance: f64,
@@ -141,67 +141,67 @@ impl Equilibrium {
         Ok((equilibrium, state, balanced))
     }
 
-    /// Number of the broken bonds of a state, over all processes.
+    /// Number of broken bonds of a state, over all processes.
     pub(crate) fn broken_bonds(&self, state: &State) -> usize {
         let broken = state.intact.iter().map(|intact| !intact);
         self.numbers.count(broken)
     }
 
-    /// Goes on with bonds that soften, if those of the criteria do.
+    /// Switches to the iteration for softening bonds if the criteria soften.
     pub fn soften(&mut self) {
         if self.equations.problem.criteria.soften() {
             self.iteration = Iteration::Secants;
         }
     }
 
-    /// Takes other loads in the place of those of the problem; they must prescribe the same degrees of freedom.
+    /// Replaces the loads of the problem by loads that prescribe the same degrees of freedom.
     pub fn load_with(&mut self, loads: Arc<dyn LoadProgram>) {
         self.equations.load_with(loads);
     }
 
-    /// From now on seeks equilibrium with this held, whatever the load factor; None: at the load factor of the state.
+    /// Sets the quantity prescribed in later equilibria; None solves at the load factor of the state.
     pub(crate) fn aim(&mut self, held: Option<ControlledQuantity>) {
         self.held = held;
     }
 
-    /// The unknowns.
+    /// Unknowns of the equations.
     pub fn unknowns(&self) -> &Unknowns {
         &self.equations.unknowns
     }
 
-    /// Numbering, pattern and symbolic factor of the stiffness; none where the solver has no matrix.
+    /// Numbering, sparsity pattern and symbolic factor of the stiffness; none where the solver has no matrix.
     pub fn stiffness(&self) -> Option<&Stiffness> {
         self.equations.stiffness.as_deref()
     }
 
-    /// The choice of the solver.
+    /// Solver that was chosen.
     pub fn choice(&self) -> &SolverChoice {
         &self.equations.choice
     }
 
-    /// The connected parts of the body.
+    /// Connected parts of the body.
     pub fn fragments(&self) -> &Fragments {
         self.connectivity.fragments()
     }
 
-    /// Costs of the equations so far.
+    /// Accumulated costs of the equations.
     pub fn costs(&self) -> &Costs {
         &self.equations.costs
     }
 
-    /// Largest force at a point in any equilibrium so far, at rest or not, N.
+    /// Largest force at a point in all measured states so far, in equilibrium or not, N.
     pub(crate) fn largest_force(&self) -> f64 {
         self.equations.accuracy.largest_extents.force()
     }
 
-    /// Negative eigenvalues of the stiffness; 0 where they are not known.
+    /// Number of negative eigenvalues of the stiffness; 0 where the solver does not know it.
     pub fn negative_eigenvalues(&self) -> usize {
         let inertia = self.equations.solver.inertia();
         inertia.map_or(0, |inertia| inertia.negative)
     }
 
-    /// Inertia of the stiffness and of its rotation block for the bonds of a state that was balanced; none where the solver
-    /// does not know it.
+    /// Inertia of the stiffness and of its rotation block for the bonds of an equilibrium state; none where the solver does not
+    /// know it.
     pub fn stability(&self, state: &State) -> Result<Option<Stability>, SetupError> {
         let inertia = self.equations.solver.inertia();
         let Some((inertia, stiffness)) = inertia.zip(self.equations.stiffness.as_ref()) else {
@@ -213,19 +213,19 @@ impl Equilibrium {
         }))
     }
 
-    /// Adds the time since `start` to the work on bonds.
+    /// Adds the time since `start` to the cost of bond computations.
     pub(crate) fn count_bond_work(&mut self, start: Instant) {
         self.equations.costs.bonds += start.elapsed();
     }
 
-    /// Numbers of the bonds among all of the body.
+    /// Global numbers of the local bonds.
     pub(crate) fn numbers(&self) -> &BondNumbers {
         &self.numbers
     }
 
-    /// Breaks bonds, by their numbers among all of the body: takes them out of the state and holds what came loose.
+    /// Breaks bonds, given by global numbers: marks them as broken in the state and fixes detached parts.
     ///
-    /// To be called before the first solution, with whatever bonds the state lacks, and then with every bond that breaks; the
+    /// Must be called before the first solution with all bonds that the state lacks, and later with every bond that breaks; the
     /// next equilibrium is that after the breakage.
     pub fn break_bonds(&mut self, state: &mut State, bonds: &[u32]) -> Breakage {
         let Equations {
@@ -258,17 +258,17 @@ impl Equilibrium {
         breakage
     }
 
-    /// A state that is known to be in equilibrium at its load factor: nothing is solved.
+    /// Measures a state that is known to be in equilibrium at its load factor, without solving.
     pub(crate) fn measured(&mut self, state: &mut State) -> Balanced {
         self.equations.measured(state)
     }
 
-    /// What the displacements (n_degrees_of_freedom) grow by with the bonds of a state that was balanced, under loads at their load
-    /// factor 1; they must prescribe the same degrees of freedom.
+    /// Rate of the displacements with the load factor, shape (n_degrees_of_freedom), for the bonds of an equilibrium state under
+    /// the given loads at load factor 1; the loads must prescribe the same degrees of freedom as those of the problem.
     ///
     /// # Errors
     ///
-    /// If the stiffness has no factor, a solver that iterates does not come near enough, or a hold would carry some of the loads.
+    /// If the stiffness has no factor, an iterative solver does not converge, or an added support would carry a load.
     pub(crate) fn growth(
         &mut self,
         state: &mut State,
@@ -281,13 +281,13 @@ impl Equilibrium {
         }
     }
 
-    /// Whether a breakage can be taken in as [`Equilibrium::update_and_forward_solve`] does.
+    /// Whether [`Equilibrium::update_and_forward_solve`] can update the factor for a breakage.
     pub(crate) fn can_update(&self, breakage: &Breakage) -> bool {
         breakage.holds.is_empty() && self.equations.solver.can_update(breakage.n_elements())
     }
 
-    /// Takes in a breakage, and leaves the backward substitution of the correction that it asks for to `finish`; None where the factor broke
-    /// on the way.
+    /// Updates the factor for a breakage and passes the half-solved correction to `finish`, which does the backward substitution;
+    /// None where the update failed.
     pub(crate) fn update_and_forward_solve<T>(
         &mut self,
         state: &State,
@@ -309,31 +309,31 @@ impl Equilibrium {
         Some(finished)
     }
 
-    /// Why a state of a body that is no longer whole is no equilibrium although its forces are in balance: it moves farther than the body is
-    /// large.
+    /// Reason why a state with balanced forces is no equilibrium: a body with broken or softened bonds moves farther than its own
+    /// size.
     pub(crate) fn beyond_size(&self, state: &State) -> Option<Unbalanced> {
         let Equations { problem, .. } = &self.equations;
         self.equations.motions().beyond_size(&*problem.loads, state)
     }
 
-    /// The factor of the stiffness; None where there is none at present.
+    /// Factor of the stiffness; None where there is none at present.
     pub(crate) fn factor(&self) -> Option<&dyn Factorisation> {
         self.equations.solver.factor()
     }
 
-    /// A state with motions that are known here alone.
+    /// Invalidates the displacements of the state that this process does not know.
     pub(crate) fn known(&self, mut state: State) -> State {
         let halo = &self.equations.halo;
         halo.poison_unknown(&mut state.displacement);
         state
     }
 
-    /// Brings the state into equilibrium at its load factor, after the last breakage; an empty one where none came since the
+    /// Brings the state into equilibrium at its load factor after the last breakage, which is empty where none occurred since the
     /// last equilibrium.
     ///
     /// # Errors
     ///
-    /// If the observer fails. That there is no equilibrium is none.
+    /// If the observer fails. A missing equilibrium is not an error.
     pub fn balance(
         &mut self,
         state: &mut State,

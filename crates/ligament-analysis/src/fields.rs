@@ -1,4 +1,4 @@
-//! Fields on the points, for output and probes.
+//! Fields at the points, for output and probes.
 
 use ligament_model::contact::ClosedPair;
 use ligament_model::deformation::Deformations;
@@ -9,8 +9,8 @@ use crate::state::State;
 
 /// Damage of every point (NHPD eq. 17): 1 - (sum over its intact bonds of Omega alpha)/(sum over all its bonds).
 ///
-/// The bonds are those that were there at the start: what a pre-crack cut is no damage, and a point that lost all its
-/// bonds to one has damage 0.
+/// The bonds are those of the start: bonds cut by a pre-crack are no damage, and a point that lost all its bonds to one has damage
+/// 0.
 pub fn damage(system: &dyn Bonds, intact: &[bool]) -> Vec<f64> {
     gather(system, |point| point_damage(system, intact, point))
 }
@@ -26,15 +26,15 @@ pub fn point_damage(system: &dyn Bonds, intact: &[bool], point: u32) -> f64 {
             broken += weight;
         }
     }
-    // Summing what broke, not what is left, keeps an intact point at exactly 0.
+    // A sum over broken bonds gives exactly 0 for an intact point.
     if all > 0.0 { broken / all } else { 0.0 }
 }
 
-/// Damage of every point by one way of failing (MPPD eqs 47, 48 and 51, as corrected): 1 - sum mu Omega alpha V_B / sum Omega alpha
-/// V_B over its bonds, with the force factor mu of the criteria that weaken bonds in this way.
+/// Damage of every point by one failure mode (MPPD eqs 47, 48 and 51, as corrected): 1 - sum mu Omega alpha V_B / sum Omega alpha
+/// V_B over its bonds, with the force factor mu of the criteria of this mode.
 ///
-/// d_t of opening, d_c of crushing and d_gamma of sliding. A bond that broke counts as lost (mu = 0) for the criterion by which
-/// it broke; with brittle bonds these are the shares of [`damage`], by volume.
+/// The modes are d_t of opening, d_c of crushing and d_gamma of sliding. A broken bond counts as lost (mu = 0) for the criterion by
+/// which it broke; with brittle bonds these are the shares of [`damage`], by volume.
 pub fn damage_by(
     system: &dyn Bonds,
     criteria: &Criteria,
@@ -46,7 +46,7 @@ pub fn damage_by(
     })
 }
 
-/// Damage of one point by one way of failing, see [`damage_by`].
+/// Damage of one point by one failure mode, see [`damage_by`].
 pub fn point_damage_by(
     system: &dyn Bonds,
     criteria: &Criteria,
@@ -75,8 +75,7 @@ pub fn point_damage_by(
     if all > 0.0 { lost / all } else { 0.0 }
 }
 
-/// Energy that the bonds of every point have taken for good, J/m^3: its share of each bond's, mostly a half, over its
-/// volume.
+/// Energy dissipated at every point, J/m^3: its share of the dissipated energy of each bond, mostly a half, over its volume.
 pub fn dissipated_energy_density(system: &dyn Bonds, dissipated: &[f64]) -> Vec<f64> {
     gather(system, |point| {
         let bonds = system.incidence().at(point).iter();

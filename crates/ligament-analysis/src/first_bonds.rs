@@ -1,12 +1,12 @@
-//! Where a body first gave way: the first bond that broke, and the first that began to soften.
+//! First failure of a body: the first bond that broke, and the first that began to soften.
 
 use crate::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
 use crate::serial;
 
 /// The first bonds that broke and softened.
 ///
-/// As an observer it keeps them of a run. Softening is seen in the states of equilibrium at the end of load steps: of several bonds that
-/// began in one step the one farthest beyond its limit counts.
+/// As an observer it records them in a run. Softening is detected in the equilibria at the ends of load steps: of several bonds
+/// that began to soften in one step, the one farthest beyond its limit counts.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FirstBonds {
     /// The first bond that broke.
@@ -15,10 +15,10 @@ pub struct FirstBonds {
     pub softened: Option<FirstBond>,
 }
 
-/// A bond to which something happened first.
+/// First bond to break or soften, with its load step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FirstBond {
-    /// Number of the bond among all bonds of the body.
+    /// Global number of the bond.
     pub bond: u32,
     /// Ends A < B of the bond.
     pub ends: [u32; 2],

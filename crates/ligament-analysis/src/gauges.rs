@@ -1,9 +1,8 @@
-//! Bodies that supports and loads do not hold: their free rigid motions, what holds these instead, and whether the loads are
-//! in equilibrium without it.
+//! Parts of a body without sufficient supports: their free rigid motions, the gauges that fix these, and the balance of the loads.
 //!
-//! A held degree of freedom that carries no force is a gauge: it chooses one of the solutions that differ by a rigid motion,
-//! and strains and stresses do not depend on it. It carries none exactly if the given loads do no work on the free motions;
-//! reactions never do, for supports and prescribed motions do not move with them.
+//! A gauge is a fixed degree of freedom without reaction: it selects one of the solutions that differ by a rigid motion, without
+//! effect on strains and stresses. Its reaction is zero exactly if the given loads do no work on the free motions; reactions never
+//! do, since supports and prescribed motions do not move with them.
 
 use ligament_model::Bonds;
 pub use ligament_model::rigid_motions::FreeMotion;
@@ -23,18 +22,18 @@ pub struct FreeBody {
     pub first: u32,
     /// Free motions of the part.
     pub motions: Vec<FreeMotion>,
-    /// Components of points held as gauges, in the order of the degrees of freedom.
+    /// Components of points fixed as gauges, in the order of the degrees of freedom.
     pub gauges: Vec<(u32, Component)>,
 }
 
 impl FreeBody {
-    /// Whether the loads are in equilibrium without supports, so that gauges carry nothing.
+    /// Whether the loads are balanced without supports, so that gauges have no reactions.
     pub fn is_balanced(&self) -> bool {
         self.motions.iter().all(FreeMotion::is_balanced)
     }
 }
 
-/// The free parts of the intact body, before anything is solved.
+/// Free parts of the intact body, before any solution.
 pub fn of_intact_body(system: &dyn Bonds, loads: &dyn LoadProgram) -> Vec<FreeBody> {
     let fragments = Fragments::find(system, &vec![true; system.ends().len()]);
     let unknowns = Unknowns::all_but(system, |dof| loads.is_prescribed(dof));
@@ -48,7 +47,7 @@ pub fn of_intact_body(system: &dyn Bonds, loads: &dyn LoadProgram) -> Vec<FreeBo
     free_bodies(system, loads, &fragments, &holds)
 }
 
-/// The free parts of the intact body, given the holds that they need.
+/// Free parts of the intact body, given the added supports that they need.
 pub fn free_bodies(
     system: &dyn Bonds,
     loads: &dyn LoadProgram,

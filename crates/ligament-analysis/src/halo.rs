@@ -1,8 +1,8 @@
-//! Exchange of motions and forces at the points that a process reads and does not own.
+//! Exchange of motions and forces at ghost points.
 //!
-//! Arrays over the degrees of freedom are right at owned points. Motions are right at ghosts as well: the far ends of the bonds at owned
-//! points. Where something acts on the body, or a history reads it, all processes know motions and forces, so that each of them computes
-//! the same work and reactions.
+//! Arrays over the degrees of freedom are valid at owned points, motions also at ghosts: the far ends of the bonds at owned points.
+//! At points with loads and at observed points all processes know motions and forces, so that they compute the same work and
+//! reactions.
 
 use ligament_model::ghosts::Ghosts;
 use ligament_model::layout::Layout;
@@ -12,20 +12,20 @@ use crate::load_program::{LoadCourse, LoadProgram, PartControl};
 use crate::probe::Probe;
 use crate::problem::Problem;
 
-/// The points of other processes whose motions and forces a process reads; none on one process alone.
+/// Ghost and common points whose motions and forces a process reads; none on one process alone.
 #[derive(Debug, Clone)]
 pub(crate) struct HaloExchange {
     subdomain: Subdomain,
     layout: Layout,
     ghosts: Ghosts,
-    /// Points that all processes read, in the order of the processes that own them.
+    /// Points that all processes read, in the order of their owners.
     common: Vec<u32>,
     /// Number of values at those points that each process owns.
     counts: Vec<usize>,
 }
 
 impl HaloExchange {
-    /// The exchange for a problem; collective.
+    /// Exchange for a problem; collective.
     pub(crate) fn new(problem: &Problem) -> Self {
         let system = &*problem.system;
         let (subdomain, layout) = (system.subdomain(), system.layout());
@@ -51,18 +51,18 @@ impl HaloExchange {
         }
     }
 
-    /// The points and bonds of the body on this process.
+    /// Points and bonds of the body on this process.
     pub(crate) fn subdomain(&self) -> &Subdomain {
         &self.subdomain
     }
 
-    /// Replaces motions (n_degrees_of_freedom) at points that this process reads by those of their owners.
+    /// Sets motions (n_degrees_of_freedom) at ghosts and common points to those of their owners.
     pub(crate) fn update_motions(&self, motions: &mut [f64]) {
         self.ghosts.update(motions, self.layout.components.len());
         self.update_forces(motions);
     }
 
-    /// Replaces forces (n_degrees_of_freedom) at points that all processes read by those of their owners.
+    /// Sets forces (n_degrees_of_freedom) at common points to those of their owners.
     pub(crate) fn update_forces(&self, forces: &mut [f64]) {
         if self.subdomain.is_whole() {
             return;
@@ -79,7 +79,7 @@ impl HaloExchange {
         }
     }
 
-    /// Poisons the motions (n_degrees_of_freedom) at the points that this process does not know.
+    /// Sets the motions (n_degrees_of_freedom) at points unknown to this process to the communicator's poison value.
     pub(crate) fn poison_unknown(&self, motions: &mut [f64]) {
         if self.subdomain.is_whole() {
             return;
@@ -97,7 +97,7 @@ impl HaloExchange {
     }
 }
 
-/// Points at which something acts, that a history reports, or whose motion controls a load.
+/// Points with loads, points of the history, and points whose motion controls a load.
 fn common_points(loads: &dyn LoadProgram, probes: &[Probe], layout: Layout) -> Vec<u32> {
     let read = probes.iter().filter_map(|it| it.reading.weights(layout));
     let parts = (loads.course().into_iter()).flat_map(|it: &LoadCourse| &it.programme.parts);

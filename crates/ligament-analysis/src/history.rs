@@ -1,4 +1,4 @@
-//! What a run reports while it goes on.
+//! Records and notices of a run, and the observer that receives them.
 
 use ligament_model::Bonds;
 use ligament_model::element::BondDeformation;
@@ -17,15 +17,15 @@ use crate::state::State;
 
 pub use crate::termination::Termination;
 
-/// One load step at rest (or where the run was stopped), or one event of the exact path: the state at the load at which
-/// the next bonds break, just before they do.
+/// Record of a load step at rest (or where the run was stopped), or of an event of the exact path: the state at the load at which
+/// the next bonds break, just before breakage.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepRecord {
-    /// Number of the step; 0 is the unloaded body.
+    /// Number of the step; 0 for the unloaded body.
     pub step: usize,
-    /// Load factor; in a programme of stages the share of the stage that is over.
+    /// Load factor; in a programme of stages the completed share of the stage.
     pub load_factor: f64,
-    /// Part of the programme of stages; 0 without one.
+    /// Index of the part of the programme of stages; 0 without one.
     pub part: usize,
     /// Factors of the loads of a programme of stages; empty without one.
     pub factors: Vec<f64>,
@@ -37,33 +37,33 @@ pub struct StepRecord {
     pub stored_energy: f64,
     /// Energy released by all breakages so far, J.
     pub released_energy: f64,
-    /// Energy that the laws of the bonds took for good so far, J: of a brittle bond what it stored at its limit. What was released
-    /// beyond that went into motion.
+    /// Energy dissipated by the laws of the bonds so far, J; for a brittle bond the energy stored at its limit. Energy released
+    /// beyond that became kinetic.
     pub dissipated_energy: f64,
     /// Work done by supports and loads so far, J.
     pub external_work: f64,
-    /// Energy below which work is no measure of what the energies miss, J: rounding, and that of expansions which the body gives way to.
+    /// Lower bound of the scale of energy errors, J: energy due to rounding and to free thermal expansions.
     pub energy_floor: f64,
-    /// Broken bonds so far.
+    /// Number of broken bonds so far.
     pub broken_bonds: usize,
-    /// Bonds broken in this step; on the exact path those that break at this load, and are not yet among `broken_bonds`.
+    /// Number of bonds broken in this step; on the exact path those that break at this load, not yet included in `broken_bonds`.
     pub broken_in_step: usize,
     /// Largest utilisation of an intact bond: measure over limit, s/s_0 for most criteria.
     pub largest_ratio: f64,
-    /// Rounds of breaking in this step.
+    /// Number of rounds of breaking in this step.
     pub rounds: usize,
-    /// Solves with a factor in this step.
+    /// Number of solves in this step.
     pub solves: usize,
-    /// Connected parts of the body.
+    /// Number of connected parts of the body.
     pub fragments: usize,
     /// Whether no bond was left to break. A step that is not at rest shows the last equilibrium before the run ended.
     pub at_rest: bool,
-    /// Negative eigenvalues of the stiffness; 0 where it is positive definite.
+    /// Number of negative eigenvalues of the stiffness; 0 where it is positive definite.
     pub negative_eigenvalues: usize,
-    /// Pairs of points across cracks that carry pressure; 0 where faces do not close.
+    /// Number of pairs of points across cracks that carry pressure; 0 where faces do not close.
     pub closed_pairs: usize,
-    /// Forces that each group of the boundary exerts on the body, and the moments on its points, as far as points turn, shape
-    /// (n_groups, n_components).
+    /// Forces of each boundary group on the body, and moments on its points where points have rotations, shape (n_groups,
+    /// n_components), N and N m.
     pub group_forces: Vec<Vec<f64>>,
     /// Values of the probes.
     pub probes: Vec<f64>,
@@ -95,8 +95,8 @@ serial!(StepRecord {
 });
 
 impl StepRecord {
-    /// External work - stored - released energy over the external work, or the energy floor where that is larger: what the energy
-    /// balance misses; 0 without work.
+    /// Energy imbalance, external work - stored - released energy, over the external work or the energy floor, whichever is larger;
+    /// 0 without work.
     pub fn energy_error(&self) -> f64 {
         let scale = if self.external_work.abs() < self.energy_floor {
             self.energy_floor
@@ -116,10 +116,10 @@ impl StepRecord {
     }
 }
 
-/// One bond that broke.
+/// Record of a bond that broke.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BreakRecord {
-    /// Place in the order of all breakages, from 1.
+    /// Position in the order of all breakages, from 1.
     pub order: usize,
     /// Load step.
     pub step: usize,
@@ -127,11 +127,11 @@ pub struct BreakRecord {
     pub round: usize,
     /// Load factor.
     pub load_factor: f64,
-    /// Displacement of the control load just before, m.
+    /// Displacement of the control load just before the breakage, m.
     pub displacement: f64,
-    /// Force of the control load just before, N.
+    /// Force of the control load just before the breakage, N.
     pub reaction: f64,
-    /// Number of the bond among all bonds of the body.
+    /// Global number of the bond.
     pub bond: u32,
     /// Ends A < B of the bond.
     pub ends: [u32; 2],
@@ -139,16 +139,16 @@ pub struct BreakRecord {
     pub criterion: usize,
     /// Measure of the criterion over the limit when the bond broke, s/s_0 for most criteria.
     pub ratio: f64,
-    /// Deformation of the bond then.
+    /// Deformation of the bond at its breakage.
     pub deformation: BondDeformation,
 }
 
-/// The faces that passed through each other farthest in a run.
+/// Largest overlap of crack faces in a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LargestOverlap {
-    /// How far, m.
+    /// Depth of the overlap, m.
     pub depth: f64,
-    /// Points on either side.
+    /// Points on either side of the crack.
     pub ends: [u32; 2],
     /// Load step, or event.
     pub step: usize,
@@ -156,38 +156,38 @@ pub struct LargestOverlap {
 
 serial!(LargestOverlap { depth, ends, step });
 
-/// Something that a user should know.
+/// Notice to the user.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Notice {
-    /// Supports and loads do not hold the intact body, or a part of it: gauges do.
+    /// Supports and loads do not fix the intact body or a part of it, so that gauges do.
     #[error(
         "{} points are not held by supports and loads: {} rigid motions of theirs are free (first at point {})",
         .0.points, .0.motions.len(), .0.first
     )]
     FreeBody(FreeBody),
-    /// Points came loose, and rigid motions of theirs are held.
+    /// Points became detached, and their rigid motions are fixed.
     #[error(
         "step {step}: {points} points came loose ({motions} rigid motions held from now on, first at point {first})"
     )]
     PartsDetached {
         /// Load step.
         step: usize,
-        /// Points of the loose parts.
+        /// Number of points of the detached parts.
         points: usize,
-        /// Motions held.
+        /// Number of fixed motions.
         motions: usize,
-        /// First point of the first loose part.
+        /// First point of the first detached part.
         first: u32,
     },
-    /// Points without stiffness in some direction are held there.
+    /// Points without stiffness in some direction are fixed there.
     #[error("step {step}: {} mechanism(s) held, first at point {}", points.len(), points[0])]
     Mechanisms {
         /// Load step.
         step: usize,
-        /// Points of the degrees of freedom held.
+        /// Points of the fixed degrees of freedom.
         points: Vec<u32>,
     },
-    /// The stored energy became negative, and the run goes on because it was asked to.
+    /// The stored energy became negative, and the stop rules let the run continue.
     #[error(
         "step {step}: the stored energy became negative: results from here on are not those of a stable body"
     )]
@@ -203,10 +203,10 @@ pub enum Notice {
     EnergyUnbalanced {
         /// Load step.
         step: usize,
-        /// What is missing, relative to the work.
+        /// Energy imbalance, relative to the work.
         error: f64,
     },
-    /// Bonds have dissipated more than was spent on the body.
+    /// Bonds have dissipated more than the work on the body minus its stored energy.
     #[error(
         "step {step}: bonds have dissipated more than the work that was done on the body less what it stores, by {share:.1e} of the work: \
          the load steps are too coarse for the way that bonds soften, take smaller ones"
@@ -214,10 +214,10 @@ pub enum Notice {
     DissipatedBeyondWork {
         /// Load step.
         step: usize,
-        /// What they dissipated beyond it, relative to the largest work.
+        /// Excess of the dissipated energy, relative to the largest work.
         share: f64,
     },
-    /// A force has passed what the body carries.
+    /// A force has exceeded the peak load of the body.
     #[error(
         "step {step}: no larger force has an equilibrium any more; to follow the body past its peak, let a probe control a stage (its \
          `control`), or follow the exact path"
@@ -232,9 +232,9 @@ pub enum Notice {
          results are not to be trusted (Poisson's ratio too large for this horizon factor)"
     )]
     Unstable {
-        /// Negative eigenvalues.
+        /// Number of negative eigenvalues.
         negative: usize,
-        /// Expected ones.
+        /// Expected number of negative eigenvalues.
         expected: usize,
     },
     /// Faces of cracks pass through each other.
@@ -246,7 +246,7 @@ pub enum Notice {
     /// The body breaks in the first load step.
     #[error(transparent)]
     AtOnce(AtOnce),
-    /// The loads move the body as a whole.
+    /// The loads move the body as a whole, without deformation.
     #[error(
         "nothing resists the loads: they move the body as a whole and do not deform it, so that all forces are rounding; hold a \
          part of it by a support"
@@ -254,13 +254,13 @@ pub enum Notice {
     Undeformed,
 }
 
-/// A state in equilibrium, for observers that want fields.
+/// Equilibrium state, for observers that read fields.
 ///
-/// Where processes share the body ([`BondTopology::subdomain`](ligament_model::BondTopology::subdomain)), displacements and forces are given
-/// at all points, bonds are those that this process stores, and what follows from the bonds of a point is right at owned points alone. Any
+/// On a divided body ([`BondTopology::subdomain`](ligament_model::BondTopology::subdomain)), displacements and forces are given at
+/// all points, bonds are the local ones, and quantities computed from the bonds of a point are valid at owned points alone. Any
 /// observer may read a view without the other processes.
 pub struct View<'a> {
-    /// The system.
+    /// Bond system of the state.
     pub system: &'a dyn Bonds,
     /// State of the system.
     pub state: &'a State,
@@ -268,28 +268,28 @@ pub struct View<'a> {
     pub balanced: &'a Balanced,
     /// Supports and loads.
     pub loads: &'a dyn LoadProgram,
-    /// Failure criteria; none in an elastic analysis.
+    /// Failure criteria; empty in an elastic analysis.
     pub criteria: &'a Criteria,
     /// Connected parts.
     pub fragments: &'a Fragments,
-    /// What the equations have cost so far.
+    /// Accumulated costs of the equations.
     pub costs: &'a Costs,
-    /// What softened over all processes.
+    /// Softened bonds over all processes.
     pub softened: SoftenedOfAll,
     /// Whether the run ends with this state.
     pub is_last: bool,
-    /// Whether all of the body is known: otherwise motions and forces are those of supported and loaded points alone, and there are no
-    /// deformations.
+    /// Whether the whole body is known; otherwise motions and forces are those of supported and loaded points alone, and there are
+    /// no deformations.
     pub is_whole: bool,
 }
 
 impl View<'_> {
-    /// Number of the unbroken bonds whose force has begun to fall beyond a limit.
+    /// Number of unbroken bonds whose force has begun to fall beyond a limit.
     pub fn softened_bonds(&self) -> usize {
         self.softened.bonds
     }
 
-    /// The bond farthest beyond its limit under a law that softens.
+    /// Bond farthest beyond its limit under a softening law.
     pub fn farthest_softened(&self) -> Option<FarthestSoftened> {
         self.softened.farthest
     }
@@ -300,28 +300,28 @@ impl View<'_> {
 #[error(transparent)]
 pub struct ObserverError(#[from] pub Box<dyn std::error::Error + Send + Sync>);
 
-/// A moment of a run from which it can go on later, to the same bits.
+/// State of a run from which it can be restarted, with the same bits.
 ///
-/// The checkpoint of it are bytes, in which stands all that is not made of the problem alone.
+/// Its checkpoint contains, as bytes, all data that do not follow from the problem.
 pub struct Moment<'a> {
-    /// The reason why the run ends here, if it does.
+    /// Reason why the run ends here, if it does.
     pub end: Option<&'a Termination>,
-    /// Makes the checkpoint of the moment.
+    /// Computes the checkpoint.
     pub checkpoint: &'a dyn Fn() -> Vec<u8>,
 }
 
-/// What becomes of a run after a moment.
+/// Continuation of a run after a restart point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Onward {
-    /// The run goes on.
+    /// The run continues.
     Go,
-    /// The run stops here.
+    /// The run ends here.
     Stop,
 }
 
-/// Watches a run. All methods but [`Observer::step`] may be left as they are.
+/// Observer of a run. All methods except [`Observer::step`] have defaults.
 pub trait Observer {
-    /// A Newton-Raphson iteration was done.
+    /// Called after a Newton-Raphson iteration.
     fn iteration(
         &mut self,
         _iteration: usize,
@@ -331,7 +331,7 @@ pub trait Observer {
         Ok(())
     }
 
-    /// The driver enters a round: later iterations belong to it.
+    /// Called at the beginning of a round of breaking, before its iterations.
     fn round(
         &mut self,
         _step: usize,
@@ -342,35 +342,36 @@ pub trait Observer {
         Ok(())
     }
 
-    /// Bonds broke.
+    /// Called after bonds broke.
     fn broke(&mut self, _records: &[BreakRecord]) -> Result<(), ObserverError> {
         Ok(())
     }
 
-    /// Something happened that a user should know.
+    /// Called with a notice to the user.
     fn notice(&mut self, _notice: &Notice) -> Result<(), ObserverError> {
         Ok(())
     }
 
-    /// A moment comes next from which the run could go on, or in which it ends for a reason; tells whether its checkpoint is asked for.
+    /// Called before [`Observer::moment`], with the reason if the run ends there; returns whether the observer needs its
+    /// checkpoint.
     ///
-    /// Where processes share the body out all of them make it if one asks, and one that did not may find it empty.
+    /// On a divided body all processes compute it if one needs it; on others it may be empty.
     fn asks(&mut self, _end: Option<&Termination>) -> Result<bool, ObserverError> {
         Ok(true)
     }
 
-    /// The run could go on later from here; tells whether it goes on now.
+    /// Called where the run can be restarted later; returns whether the run continues now.
     fn moment(&mut self, _moment: &Moment<'_>) -> Result<Onward, ObserverError> {
         Ok(Onward::Go)
     }
 
-    /// Whether the observer looks at the body itself after a step, and not at its record alone.
+    /// Whether the observer reads the body itself after a step, and not its record alone.
     ///
-    /// Where it does not, the exact path may leave parts of the body behind, and the view is not [whole](View::is_whole).
+    /// Where it does not, the exact path may delay updates of parts of the body, and the view is not [whole](View::is_whole).
     fn looks(&self, _step: usize) -> bool {
         true
     }
 
-    /// A load step ended.
+    /// Called at the end of a load step or event.
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError>;
 }

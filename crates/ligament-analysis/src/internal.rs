@@ -1,4 +1,4 @@
-//! Deformations and forces of the bonds, and what of the forces is not in balance.
+//! Deformations, forces and residual of the bonds.
 
 pub use ligament_model::sweep::{BondSweep, InternalForces};
 use ligament_model::thermal::ThermalStrain;
@@ -17,13 +17,13 @@ pub fn sweep(
     system.forces(bonds, deformations, expansion)
 }
 
-/// Largest |external - internal force| of a residual (n_unknowns), relative to the forces that meet at a point.
+/// Largest |external - internal force| of a residual (n_unknowns), relative to the forces at a point.
 pub fn relative_residual(residual: &[f64], unknowns: &Unknowns, internal: &InternalForces) -> f64 {
-    // Of forces and of moments.
+    // Largest residual force and moment.
     let mut largest = [0.0_f64; 2];
     for (value, &dof) in residual.iter().zip(unknowns.degrees_of_freedom()) {
         let component = unknowns.layout().component(dof as usize);
-        // `f64::max` would pass over a NaN, and with it over a failed solve.
+        // `f64::max` would ignore a NaN, and with it a failed solution.
         let size = if value.is_nan() {
             f64::INFINITY
         } else {

@@ -1,10 +1,10 @@
 //! Equations and algorithms: unknowns, assembly, equilibrium and the drivers that follow a loading.
 //!
-//! A [`LoadProgram`] on a bond system makes a [`Problem`]; [`driver::elastic`] solves it once, [`driver::stepped`] follows the
-//! loading while bonds break, one ordered handful after another, and [`driver::event`] the exact equilibrium path from
-//! breakage to breakage. [`modal`] finds the natural modes of a body that [`Supports`] hold. What happens on the way goes to an
-//! [`Observer`]; how it ended is a [`Termination`], never an error.
-//! No files and no printing here.
+//! A [`LoadProgram`] and a bond system form a [`Problem`]. [`driver::elastic`] solves it once, [`driver::stepped`] follows the load
+//! program in load steps while bonds break in ordered groups, and [`driver::event`] follows the exact equilibrium path from
+//! breakage to breakage. [`modal`] finds the natural modes of a body fixed by [`Supports`]. Results are passed to an [`Observer`]
+//! during the run; the end of a run is a [`Termination`], never an error.
+//! The crate reads and writes no files and prints nothing.
 
 pub mod assembly;
 pub mod at_once;

@@ -1,4 +1,4 @@
-//! Programmes of loading: what acts on a body at each pseudo-time.
+//! Load programs: supports and loads on a body at each pseudo-time.
 
 mod programme;
 mod proportional;
@@ -16,32 +16,31 @@ pub use programme::{LoadCourse, MotionControl, Part, PartControl, Programme};
 pub use proportional::{BoundaryError, ProportionalLoading};
 pub use staged::StagedLoading;
 
-/// A programme of loading: supports, prescribed motions, forces and temperatures as functions of a pseudo-time t.
+/// Load program: supports, prescribed motions, forces and temperatures as functions of a pseudo-time t.
 ///
-/// Drivers choose t, the load factor of a state, and everything else asks the programme. Which degrees of freedom have a
-/// prescribed motion does not depend on t, so that the unknowns are the same all the way. Degrees of freedom are numbered as in
-/// the displacements of a [`State`](crate::State).
+/// Drivers choose t, the load factor of a state. Which degrees of freedom have a prescribed motion does not depend on t, so that
+/// the unknowns are the same in all states. Degrees of freedom are numbered as in the displacements of a [`State`](crate::State).
 pub trait LoadProgram: Debug + Send + Sync {
     /// Whether the motion of a degree of freedom is prescribed.
     fn is_prescribed(&self, degree_of_freedom: usize) -> bool;
 
-    /// What resists motions that are not prescribed, beside the bonds.
+    /// Restraints that resist motions that are not prescribed, in addition to the bonds.
     fn restraints(&self) -> &Arc<Restraints>;
 
-    /// Whether something else than given forces acts at a degree of freedom: what prescribes its motion, or a restraint.
+    /// Whether a reaction acts at a degree of freedom: of a prescribed motion or a restraint.
     fn reacts_at(&self, degree_of_freedom: usize) -> bool {
         self.is_prescribed(degree_of_freedom) || self.restraints().acts_on(degree_of_freedom)
     }
 
-    /// Gives displacements (n_degrees_of_freedom, m and rad) their prescribed values at a time.
+    /// Sets the prescribed values of displacements (n_degrees_of_freedom, m and rad) at a time.
     fn prescribe(&self, time: f64, displacement: &mut [f64]);
 
-    /// Given forces at some degrees of freedom, in their order, N and N m; those that moved far ends of restraints exert on a body that
-    /// does not move among them.
+    /// Given forces at some degrees of freedom, in their order, N and N m, including the forces of restraints with moved far ends
+    /// on a fixed body.
     fn forces(&self, time: f64, degrees_of_freedom: &[u32]) -> Vec<f64>;
 
-    /// Given forces and those of restraints at displacements (n_degrees_of_freedom), less internal ones, at some degrees of freedom, in their
-    /// order, N and N m.
+    /// Given forces and restraint forces at displacements (n_degrees_of_freedom), minus internal forces, at some degrees of
+    /// freedom, in their order, N and N m.
     fn external_less(
         &self,
         time: f64,
@@ -64,33 +63,33 @@ pub trait LoadProgram: Debug + Send + Sync {
         force
     }
 
-    /// Strains that the temperature gives without stress.
+    /// Stress-free strains due to the temperature.
     fn thermal_strain(&self, time: f64) -> ThermalStrain<'_>;
 
     /// Changes of the temperature, shape (n_points), K; empty where no temperature changes at any time.
     fn temperature_change(&self, time: f64) -> Vec<f64>;
 
-    /// Factor of the temperature: its changes are those at factor 1 times this.
+    /// Temperature factor: the ratio of the changes of the temperature to those at factor 1.
     fn temperature_factor(&self, time: f64) -> f64;
 
     /// Factor of the control load.
     fn control_factor(&self, time: f64) -> f64;
 
-    /// Factors of the loads in the present part of a programme of stages; None where all loads grow with one load factor.
+    /// Load factors in the present part of a programme of stages; None where all loads grow with one load factor.
     fn course(&self) -> Option<&LoadCourse> {
         None
     }
 
-    /// Loads like these in another course of their factors; None where all grow with one load factor.
+    /// Copy of the loads with another course of their factors; None where all grow with one load factor.
     fn in_course(&self, _course: LoadCourse) -> Option<Arc<dyn LoadProgram>> {
         None
     }
 
-    /// Degrees of freedom that something moves or loads at some time, ascending: no other one does work.
+    /// Degrees of freedom that are moved or loaded at some time, ascending; no others do work.
     fn loaded_degrees_of_freedom(&self) -> Vec<u32>;
 
-    /// Reactions of supports, prescribed motions and restraints to internal forces (n_degrees_of_freedom), N and N m: internal less given
-    /// force where something [reacts](Self::reacts_at), zero elsewhere.
+    /// Reactions of supports, prescribed motions and restraints to internal forces (n_degrees_of_freedom), N and N m: internal
+    /// minus given force where a reaction [acts](Self::reacts_at), zero elsewhere.
     fn reactions(&self, time: f64, internal_forces: &[f64]) -> Vec<f64>;
 
     /// Groups whose resultants the history reports.
@@ -99,14 +98,14 @@ pub trait LoadProgram: Debug + Send + Sync {
     /// Resultants of the given forces that act through the groups, shape (n_groups, n_components), N and N m.
     fn given_resultants(&self, time: f64) -> Vec<Vec<f64>>;
 
-    /// The load whose displacement and force are the axes of the force-displacement curve.
+    /// Load whose displacement and force are the axes of the force-displacement curve.
     fn control(&self) -> &Control;
 
-    /// Displacement of the control load along its direction in a state of these displacements, m, rad or K, or m^3 with a
-    /// pressure: the prescribed one, or the mean that does the work of the given forces.
+    /// Displacement of the control load along its direction for given displacements, m, rad or K, or m^3 with a pressure: the
+    /// prescribed one, or the mean that is work-conjugate to the given forces.
     fn control_displacement(&self, time: f64, displacement: &[f64]) -> f64;
 
-    /// Force that the control load exerts along its direction, N, N m or J/K: what does its work.
+    /// Force of the control load along its direction, work-conjugate to its displacement, N, N m or J/K.
     fn control_force(&self, time: f64, internal: &InternalForces) -> f64;
 }
 
@@ -122,42 +121,41 @@ pub struct BoundaryGroup {
     pub force: Vec<f64>,
 }
 
-/// The load whose displacement and force are the axes of the force-displacement curve.
+/// Load whose displacement and force are the axes of the force-displacement curve.
 ///
-/// Displacement and force are work-conjugate: force times the increment of displacement is the work of this load, whatever its distribution.
-/// With the load's `shape` w_i (n_points, n_components) and `magnitude` m at load factor lambda
+/// Displacement and force are work-conjugate: force times the increment of displacement is the work of this load for any
+/// distribution. With the load's `shape` w_i (n_points, n_components) and `magnitude` m at load factor lambda
 ///
 /// - prescribed motions are u_i = lambda m w_i: the displacement is lambda m, the force the sum of w_i . R_i over the
 ///   reactions R_i;
 /// - given forces are F_i = lambda m w_i: the force is lambda m, the displacement the sum of w_i . u_i;
-/// - a temperature changes by lambda m at most: the displacement is that, K, the force what does the work with it,
+/// - a temperature changes by lambda m at most, which is the displacement, K; the work-conjugate force is
 ///   -sum over the bonds of force . thermal deformation for m = 1 K, J/K.
 ///
-/// So a load that is the same everywhere has the sum of its forces and the mean of its displacements along it, a bending
-/// load the moments of both about its zero. A pressure has no resultant where it acts all round: its magnitude is the
-/// pressure and its shape the areas with their normals into the body, so that the force is the pressure and the displacement
-/// the volume by which its surface gave way.
+/// A uniform load thus has the sum of its forces and the mean of its displacements along it, a bending load the moments of both
+/// about its zero. A pressure all round has no resultant: its magnitude is the pressure and its shape the areas with their inward
+/// normals, so that the force is the pressure and the displacement the volume by which its surface receded.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Control {
-    /// Whether the motion or the force is given.
+    /// Kind of the prescribed quantity.
     pub kind: ControlKind,
     /// Points of the load.
     pub points: Vec<u32>,
-    /// Shares of the points in a load of size one, shape (n_points of the load, n_components).
+    /// Shares of the points in a load of unit size, shape (n_points of the load, n_components).
     pub shape: Vec<f64>,
-    /// Size at load factor 1 of the displacement (m, rad), of the force or couple in total (N, N m) or of the pressure (Pa),
-    /// before a profile.
+    /// Size at load factor 1 of the displacement (m, rad), of the force or couple in total (N, N m) or of the pressure (Pa), before
+    /// a profile.
     pub magnitude: f64,
 }
 
-/// What a load prescribes.
+/// Quantity that a load prescribes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ControlKind {
-    /// The motion of its points.
+    /// Motion of the points.
     Displacement,
-    /// The force on its points.
+    /// Force on the points.
     Force,
-    /// The temperature.
+    /// Temperature.
     Temperature,
 }
 

@@ -1,10 +1,10 @@
-//! Probes: numbers read off the body at every load step.
+//! Probes: quantities evaluated at every load step.
 
 use crate::contact;
 use crate::result_fields::{FIELDS, FieldReading, Solution};
 use crate::unknowns::{Component, Layout};
 
-/// A column of the history.
+/// Probe, a column of the history.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Probe {
     /// Name of the column.
@@ -13,33 +13,33 @@ pub struct Probe {
     pub reading: Reading,
 }
 
-/// A place in the body: points and their shares in what is read there, which add up to one.
+/// Location in the body: points and their weights, which add up to one.
 pub type Shares = Vec<(u32, f64)>;
 
-/// What a probe reads.
+/// Quantity that a probe reads.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Reading {
-    /// Motion at the second place minus that at the first (crack mouth opening, strain gauge), m or rad.
+    /// Motion at the second location minus that at the first (crack mouth opening, strain gauge), m or rad.
     RelativeDisplacement {
-        /// The two places.
+        /// First and second location.
         places: [Shares; 2],
-        /// Component.
+        /// Component of the motion.
         component: Component,
     },
-    /// A field at a place.
+    /// A field at a location.
     Field {
-        /// Place.
+        /// Location at which the field is read.
         place: Shares,
-        /// Field.
+        /// Field that is read.
         field: PointField,
     },
-    /// Force through a line: what the part on its right exerts on the part on its left, seen along it, N; in space through a plane, what
-    /// the part before it exerts on the part behind. Only bonds of two points count.
+    /// Force through a line: force of the part on its right on the part on its left, seen along the line, N; in space through a
+    /// plane, force of the part before it on the part behind it. Only bonds of two points count.
     SectionForce {
-        /// Bonds that cross the line, ascending, and whether their first end lies on the left or behind; bonds that pre-cracks cut are
-        /// numbered on from the others.
+        /// Bonds that cross the line, ascending, and whether their first end lies on the left or behind; bonds cut by pre-cracks
+        /// are numbered after the others.
         bonds: Vec<(u32, bool)>,
-        /// Component: x or y.
+        /// Component of the force: x or y.
         component: Component,
     },
 }
@@ -47,18 +47,18 @@ pub enum Reading {
 /// A field that a probe can read at a point.
 #[derive(Debug, Clone, Copy)]
 pub struct PointField {
-    /// Word for the field, each different.
+    /// Name of the field, unique.
     pub word: &'static str,
-    /// Meaning of the word, with the unit.
+    /// Meaning of the name, with the unit.
     pub meaning: &'static str,
-    /// Reading of the field.
+    /// Method of evaluation.
     pub reading: PointReading,
 }
 
-/// How a probe reads a field at a point.
+/// Method of evaluation of a field at a point.
 #[derive(Debug, Clone, Copy)]
 pub enum PointReading {
-    /// A displacement or the rotation, m or rad; zero where points do not have it.
+    /// A displacement or the rotation, m or rad; zero where points have no such component.
     Motion(Component),
     /// A component of the virial stress, Pa.
     Stress(StressComponent),
@@ -140,7 +140,8 @@ impl PartialEq for PointField {
 }
 
 impl PointField {
-    /// All fields: the scalars of the [table of fields](FIELDS) that are read at a point, then the components of vectors and tensors.
+    /// All fields: the scalars of the [table of fields](FIELDS) that are read at a point, then the components of vectors and
+    /// tensors.
     pub const ALL: [Self; N_SCALARS + OF_VECTORS_AND_TENSORS.len()] = {
         let mut all = [OF_VECTORS_AND_TENSORS[0]; N_SCALARS + OF_VECTORS_AND_TENSORS.len()];
         let (mut row, mut place) = (0, 0);
@@ -162,7 +163,7 @@ impl PointField {
         all
     };
 
-    /// The field of a word.
+    /// Field with this name.
     pub fn named(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|it| it.word == word)
     }
@@ -173,7 +174,7 @@ impl PointField {
     }
 }
 
-/// Scalars that a probe can read.
+/// Number of scalars that a probe can read.
 const N_SCALARS: usize = {
     let (mut row, mut count) = (0, 0);
     while row < FIELDS.len() {
@@ -183,25 +184,24 @@ const N_SCALARS: usize = {
     count
 };
 
-/// A component of a symmetric stress, in the order in which bonds give them: the three of the plane, and those that a solid has
-/// beside them.
+/// Component of a symmetric stress, in the order of the bond stresses: three in the plane, then three more in space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StressComponent {
-    /// sigma_xx.
+    /// Component sigma_xx.
     Xx,
-    /// sigma_yy.
+    /// Component sigma_yy.
     Yy,
-    /// sigma_xy.
+    /// Component sigma_xy.
     Xy,
-    /// sigma_zz.
+    /// Component sigma_zz.
     Zz,
-    /// sigma_xz.
+    /// Component sigma_xz.
     Xz,
-    /// sigma_yz.
+    /// Component sigma_yz.
     Yz,
 }
 
-/// The values of probes in a state of equilibrium.
+/// Values of probes in an equilibrium state.
 pub(crate) fn values(probes: &[Probe], solution: Solution<'_>) -> Vec<f64> {
     let system = solution.system;
     let readings = probes.iter().map(|it| &it.reading);
@@ -209,7 +209,7 @@ pub(crate) fn values(probes: &[Probe], solution: Solution<'_>) -> Vec<f64> {
     let first_is_owned =
         |place: &Shares| (place.first()).is_some_and(|(point, _)| subdomain.owns(*point));
     let parts = readings.map(|reading| match reading {
-        // The motions of points that are read are known to all: one process reads the whole.
+        // The motions of observed points are known to all processes: one process reads the whole.
         Reading::RelativeDisplacement { places, .. } if !first_is_owned(&places[0]) => 0.0,
         Reading::Field { place, field } if field.is_motion() && !first_is_owned(place) => 0.0,
         Reading::Field { place, field } if !field.is_motion() => {
@@ -240,7 +240,7 @@ pub(crate) fn values(probes: &[Probe], solution: Solution<'_>) -> Vec<f64> {
 }
 
 impl Reading {
-    /// Degrees of freedom whose motions, times their weights, add up to the reading; None where it is no motion.
+    /// Degrees of freedom and weights whose weighted motions add up to the reading; None for other quantities than motions.
     pub fn weights(&self, layout: Layout) -> Option<Vec<(u32, f64)>> {
         let (shares, component) = match self {
             Self::RelativeDisplacement { places, component } => {
@@ -266,7 +266,7 @@ impl Reading {
         Some(shares.into_iter().filter_map(weight).collect())
     }
 
-    /// The value in a state of equilibrium; where processes share the body out, this one's part of it.
+    /// Value in an equilibrium state; on a divided body the share of this process.
     fn value(&self, solution: Solution<'_>) -> f64 {
         let Solution {
             system,
@@ -295,7 +295,7 @@ impl Reading {
             }),
             Self::SectionForce { bonds, component } => {
                 let deformations = &balanced.deformations;
-                // Beyond the bonds stand those that pre-cracks cut.
+                // Bonds cut by pre-cracks are numbered after the others.
                 let n_bonds = system.ends().len();
                 let of_bonds = bonds.partition_point(|(bond, _)| (*bond as usize) < n_bonds);
                 let crossing = &bonds[..of_bonds];
@@ -309,7 +309,7 @@ impl Reading {
     }
 }
 
-/// The value at a place, from those of its points.
+/// Weighted mean of values at the points of a location.
 fn mean(place: &Shares, value: impl Fn(u32) -> f64) -> f64 {
     let parts = place.iter().map(|&(point, share)| share * value(point));
     parts.reduce(|sum, part| sum + part).unwrap_or(0.0)

@@ -1,4 +1,4 @@
-//! A problem: a body and what happens to it.
+//! Problem: a body with its loads, criteria and probes.
 
 use std::sync::Arc;
 
@@ -9,17 +9,17 @@ use crate::load_program::LoadProgram;
 use crate::probe::Probe;
 use crate::solver::SolverSettings;
 
-/// A problem: bonds, what acts on them, and what to read off. A copy shares the parts.
+/// Problem: bonds, loads, criteria, solver and probes. A copy shares its data.
 #[derive(Clone)]
 pub struct Problem {
-    /// The bond system.
+    /// Bonds between the points of the body.
     pub system: Arc<dyn Bonds>,
-    /// Failure criteria; an elastic analysis has none.
+    /// Failure criteria; empty in an elastic analysis.
     pub criteria: Arc<Criteria>,
     /// Supports and loads.
     pub loads: Arc<dyn LoadProgram>,
     /// Settings of the solver of the equations.
     pub solver: SolverSettings,
-    /// Probes.
+    /// Probes of the history.
     pub probes: Arc<[Probe]>,
 }

@@ -1,7 +1,7 @@
-//! The table of the fields on the points in results: names, units, meanings, and how each is read off a state of a run.
+//! Table of the point fields in results: names, units, meanings, and their evaluation in a state of a run.
 //!
-//! Result files, arrays in Python, pictures, the page of results, the words of probes and the table in `docs/results.md` follow from
-//! [`FIELDS`]. A new field is a function that computes it and a row here.
+//! Result files, arrays in Python, pictures, the page of results, the names of probe fields and the table in `docs/results.md`
+//! follow from [`FIELDS`]. A new field is a function that computes it and a row here.
 
 use ligament_model::failure::{Criteria, Weakened};
 use ligament_model::interface::StressReading;
@@ -18,10 +18,10 @@ use FieldReading::{
 };
 use Interest::{Low, Main, Pictured};
 
-/// A field on the points in results.
+/// Point field in results.
 #[derive(Debug)]
 pub struct ResultField {
-    /// Name in files, in Python and as the word of a probe; of a family of fields the beginning of their names.
+    /// Name in files, in Python and in probes; for a family of fields the part that their names share.
     pub name: &'static str,
     /// SI unit; `-` without one.
     pub unit: &'static str,
@@ -29,9 +29,9 @@ pub struct ResultField {
     pub meaning: &'static str,
     /// Components in the plane and in space.
     pub components: [Components; 2],
-    /// How soon a reader of a page wants the field.
+    /// Priority of the field on a page.
     pub interest: Interest,
-    /// How values are read.
+    /// Method of evaluation.
     pub reading: FieldReading,
 }
 
@@ -42,46 +42,46 @@ pub enum Components {
     Integer,
     /// One number.
     Scalar,
-    /// Numbers along x, y and z, or about these axes; in the plane the last is zero.
+    /// Values along x, y and z, or about these axes; in the plane the last is zero.
     Vector,
-    /// Numbers with names.
+    /// Values with these names.
     Named(&'static [&'static str]),
 }
 
-/// How soon a reader of a page wants a field: one with a smaller number before one with a larger number.
+/// Priority of a field on a page: smaller numbers come first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Interest {
-    /// The field is one of the first; the page of a solid has pictures of it.
+    /// Main field, with pictures on the page of a solid.
     Pictured(u8),
-    /// The field is one of the first; the page of a solid has no pictures of it.
+    /// Main field, without pictures on the page of a solid.
     Main(u8),
-    /// The field stands behind the others, in the order of the files.
+    /// Field that follows the others, in the order of the files.
     Low,
 }
 
-/// How the values of a field are read.
+/// Method of evaluation of a field.
 #[derive(Debug, Clone, Copy)]
 pub enum FieldReading {
-    /// All points at once, from a state of a run; no values where the run has no such field.
+    /// Function of all points, from a state of a run; None where the run has no such field.
     State(fn(&View<'_>) -> Option<FieldValues>),
-    /// All points at once, and one point for probes, from a solution; no values where the run has no such field.
+    /// Functions of all points, and of one point for probes, from a solution; None where the run has no such field.
     Probed(
         fn(Solution<'_>) -> Option<Vec<f64>>,
         fn(Solution<'_>, u32) -> f64,
     ),
-    /// A stress from the forces of the bonds; only where the user asks for it.
+    /// Stress from the forces of the bonds, if the user requests it.
     Stress(StressReading),
-    /// A field of the model, which does not change; empty where the model has no such field.
+    /// Field of the model, which does not change; empty where the model has no such field.
     Model(for<'a> fn(ModelPoints<'a>) -> &'a [f64]),
-    /// A family of fields: ratios of the energies of uniform strains.
+    /// Family of fields: ratios of the energies of uniform strains.
     EnergyRatios,
-    /// A family of fields: the factors of the property that varies at random.
+    /// Family of fields: factors of the property that varies at random.
     ScatterFactors,
-    /// The jump of the displacement at the places of a crack surface.
+    /// Jump of the displacement at the points of a crack surface.
     CrackSurface,
 }
 
-/// Values of a field, one point after the other.
+/// Values of a field, point by point.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FieldValues {
     /// Numbers, shape (n_points, n_components).
@@ -90,10 +90,10 @@ pub enum FieldValues {
     Integers(Vec<i64>),
 }
 
-/// A state of equilibrium from which fields are read.
+/// Equilibrium state from which fields are evaluated.
 #[derive(Clone, Copy)]
 pub struct Solution<'a> {
-    /// The system.
+    /// Bond system.
     pub system: &'a dyn Bonds,
     /// Failure criteria.
     pub criteria: &'a Criteria,
@@ -103,7 +103,7 @@ pub struct Solution<'a> {
     pub balanced: &'a Balanced,
 }
 
-/// Fields of a model that a run does not change.
+/// Fields of a model that do not change in a run.
 #[derive(Clone, Copy)]
 pub struct ModelPoints<'a> {
     /// Fields from the preparation of the model.
@@ -117,7 +117,7 @@ pub struct ModelPoints<'a> {
 const INTEGER: [Components; 2] = [Components::Integer; 2];
 const SCALAR: [Components; 2] = [Components::Scalar; 2];
 const VECTOR: [Components; 2] = [Components::Vector; 2];
-/// The angle of a turn in the plane, or the turns about three axes.
+/// Rotation angle in the plane, or rotations about three axes in space.
 const TURN: [Components; 2] = [Components::Scalar, Components::Vector];
 const SYMMETRIC: [Components; 2] = [
     Components::Named(&["xx", "yy", "xy"]),
@@ -213,7 +213,7 @@ result_fields! {
 }
 
 impl ResultField {
-    /// The field of a name in results; none for fields that users or other versions give.
+    /// Field with this name in results; None for fields of users or of other versions.
     pub fn named(name: &str) -> Option<&'static Self> {
         let is_it = |field: &&&Self| match field.reading {
             EnergyRatios => name.starts_with(field.name),
@@ -228,7 +228,7 @@ impl ResultField {
         self.components[usize::from(in_space)]
     }
 
-    /// Values of the field in a state of a run; none where the run has no such field, or where it is no field of a state.
+    /// Values of the field in a state of a run; None where the run has no such field or the field does not depend on the state.
     pub fn values(&self, view: &View<'_>) -> Option<FieldValues> {
         match self.reading {
             InState(read) => read(view),
@@ -245,7 +245,7 @@ pub fn unit_of(field: &str) -> &'static str {
 }
 
 impl Components {
-    /// Numbers at a point.
+    /// Number of values at a point.
     pub fn count(self) -> usize {
         match self {
             Self::Integer | Self::Scalar => 1,
@@ -254,7 +254,7 @@ impl Components {
         }
     }
 
-    /// Names of the components, where files have names.
+    /// Names of the components; empty where files have none.
     pub fn names(self) -> &'static [&'static str] {
         match self {
             Self::Integer | Self::Scalar | Self::Vector => &[],
@@ -264,7 +264,7 @@ impl Components {
 }
 
 impl Interest {
-    /// Place among the fields, from 0.
+    /// Rank of the field in the order of priority, from 0.
     pub fn rank(self) -> u8 {
         match self {
             Pictured(rank) | Main(rank) => rank,
@@ -274,7 +274,7 @@ impl Interest {
 }
 
 impl<'a> View<'a> {
-    /// The state of equilibrium.
+    /// Equilibrium state of the view.
     pub fn solution(&self) -> Solution<'a> {
         Solution {
             system: self.system,
@@ -306,19 +306,19 @@ impl<'a> ModelPoints<'a> {
     }
 }
 
-/// Displacements of the points, with a third component of zero in the plane, shape (n_points, 3), m; where processes share the body those of
-/// own points and of ends of their bonds.
+/// Displacements of the points, with a third component of zero in the plane, shape (n_points, 3), m; on a divided body those of
+/// owned points and of the ends of their bonds.
 pub fn displacements(view: &View<'_>) -> Vec<f64> {
     vectors(view.system.layout(), &view.state.displacement)
 }
 
-/// The x, y and z components of values of all degrees of freedom, of which those that points do not have are zero, shape (n_points, 3).
+/// Components x, y and z of values at all degrees of freedom, zero where points lack a component, shape (n_points, 3).
 pub fn vectors(layout: Layout, of_all: &[f64]) -> Vec<f64> {
     components(layout, &[Component::X, Component::Y, Component::Z], of_all)
 }
 
-/// Rotations of the points among values of all degrees of freedom, rad: in the plane counter-clockwise, shape (n_points); in space about the
-/// axes, right-handed, shape (n_points, 3). Rotations are zero where points do not turn.
+/// Rotations of the points from values at all degrees of freedom, rad: in the plane counter-clockwise, shape (n_points); in space
+/// about the axes, right-handed, shape (n_points, 3); zero where points have no rotations.
 pub fn rotations(layout: Layout, of_all: &[f64]) -> Vec<f64> {
     use Component::{Rotation, RotationX, RotationY, RotationZ};
     let turns: &[Component] = match layout.is_in_space() {
@@ -328,7 +328,7 @@ pub fn rotations(layout: Layout, of_all: &[f64]) -> Vec<f64> {
     components(layout, turns, of_all)
 }
 
-/// Values of some components at all points, zero where points do not have them, shape (n_points, n_components).
+/// Values of some components at all points, zero where points lack them, shape (n_points, n_components).
 fn components(layout: Layout, components: &[Component], of_all: &[f64]) -> Vec<f64> {
     let of_point = |point| (components.iter()).map(move |&it| layout.value(point, it, of_all));
     (0..layout.n_points as u32).flat_map(of_point).collect()
@@ -338,7 +338,7 @@ fn numbers(values: Vec<f64>) -> Option<FieldValues> {
     Some(FieldValues::Numbers(values))
 }
 
-/// Values where there are some.
+/// Values as numbers; None where there are none.
 fn present(values: Vec<f64>) -> Option<FieldValues> {
     (!values.is_empty()).then_some(FieldValues::Numbers(values))
 }
@@ -373,7 +373,7 @@ fn point_energy_density(it: Solution<'_>, point: u32) -> f64 {
     fields::point_energy_density(it.system, it.state.bonds(), deformations, closed, point)
 }
 
-/// Damage by one way of failing, where some criterion lets bonds fail so.
+/// Damage by one failure mode; None where no criterion has this mode.
 fn damage_by(it: Solution<'_>, way: Weakened) -> Option<Vec<f64>> {
     let occurs = (it.criteria.list.iter()).any(|it| it.measure.weakens() == way);
     occurs.then(|| fields::damage_by(it.system, it.criteria, it.state, way))
@@ -388,7 +388,7 @@ fn dissipated_energy_density(view: &View<'_>) -> Option<FieldValues> {
     (!view.criteria.list.is_empty()).then(|| FieldValues::Numbers(densities()))
 }
 
-/// Strains that the temperature would make without stress, shape (n_points, n_components); empty where it does not change.
+/// Stress-free strains due to the temperature, shape (n_points, n_components); empty where the temperature does not change.
 fn thermal_strain(view: &View<'_>) -> Vec<f64> {
     let strain = view.loads.thermal_strain(view.state.load_factor);
     let places = thermal_strain_places(view.system.layout().is_in_space());
@@ -400,7 +400,7 @@ fn thermal_strain(view: &View<'_>) -> Vec<f64> {
     of_points.flat_map(of_point).collect()
 }
 
-/// Places of the components of [`THERMAL_STRAIN`] among those of a strain in space.
+/// Indices of the components of [`THERMAL_STRAIN`] among those of a strain in space.
 pub fn thermal_strain_places(in_space: bool) -> impl Iterator<Item = usize> + Clone {
     let names = THERMAL_STRAIN.components(in_space).names().iter();
     names.filter_map(|name| SymTensor::<3>::NAMES.iter().position(|it| it == name))

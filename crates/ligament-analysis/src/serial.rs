@@ -1,7 +1,7 @@
-//! Values as bytes and back, bit by bit: what checkpoints of a run are made of.
+//! Serialisation of values as bytes, bit for bit, for the checkpoints of a run.
 //!
-//! Numbers are little-endian. A list of numbers leaves its zeros out and a list of truth values takes a bit each, so that what
-//! hardly any bond has costs next to nothing. Reading never takes more memory than a multiple of the bytes at hand.
+//! Numbers are little-endian. A list of floating-point numbers omits its zeros, and a list of booleans takes a bit each, so that
+//! properties of few bonds take little space. Reading never takes more memory than a multiple of the available bytes.
 
 use std::time::Duration;
 
@@ -9,7 +9,7 @@ use ligament_model::element::{BondDeformation, StiffnessFactors};
 use ligament_model::tensor::SymTensor;
 use thiserror::Error;
 
-/// Bytes that end too early, or are none of the value that is to be read.
+/// Error of bytes that end too early or do not encode the value to be read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error("it ends too early, or holds what no such file holds")]
 pub struct Damaged;
@@ -19,11 +19,11 @@ pub trait Serial: Sized {
     /// Appends the bytes of the value.
     fn write(&self, out: &mut Vec<u8>);
 
-    /// Takes a value from the front of the bytes.
+    /// Reads a value from the front of the bytes.
     ///
     /// # Errors
     ///
-    /// If they are not those of such a value.
+    /// If the bytes do not encode such a value.
     fn read(from: &mut &[u8]) -> Result<Self, Damaged>;
 
     /// Appends the bytes of the values of a list, without their number.
@@ -31,23 +31,23 @@ pub trait Serial: Sized {
         list.iter().for_each(|value| value.write(out));
     }
 
-    /// Takes so many values from the front of the bytes.
+    /// Reads `count` values from the front of the bytes.
     ///
     /// # Errors
     ///
-    /// If they are not those of so many values.
+    /// If the bytes do not encode so many values.
     fn read_list(count: usize, from: &mut &[u8]) -> Result<Vec<Self>, Damaged> {
-        // Room is made as values come: the number itself may be damaged.
+        // Memory is allocated as values are read, since the number itself may be damaged.
         let mut list = Vec::new();
         Self::read_each(count, from, |value| list.push(value))?;
         Ok(list)
     }
 
-    /// Takes so many values from the front of the bytes, one after the other.
+    /// Reads `count` values from the front of the bytes, and passes them to `each` one by one.
     ///
     /// # Errors
     ///
-    /// If they are not those of so many values.
+    /// If the bytes do not encode so many values.
     fn read_each(
         count: usize,
         from: &mut &[u8],
@@ -60,19 +60,19 @@ pub trait Serial: Sized {
     }
 }
 
-/// Takes so many bytes from the front.
+/// Takes `count` bytes from the front.
 fn take<'a>(count: usize, from: &mut &'a [u8]) -> Result<&'a [u8], Damaged> {
     let (taken, rest) = from.split_at_checked(count).ok_or(Damaged)?;
     *from = rest;
     Ok(taken)
 }
 
-/// A bit of some bytes.
+/// Bit of a byte sequence, by its index.
 fn bit(bytes: &[u8], place: usize) -> bool {
     bytes[place / 8] >> (place % 8) & 1 == 1
 }
 
-/// Implements [`Serial`] for structures, field by field in the given order; none of their fields may be missing.
+/// Implements [`Serial`] for structures, field by field in the given order; all fields must be listed.
 #[macro_export]
 macro_rules! serial {
     ($($type:ident { $($field:ident),* $(,)? })*) => {$(
@@ -89,7 +89,7 @@ macro_rules! serial {
     )*};
 }
 
-/// Implements [`Serial`] for numbers that have little-endian bytes.
+/// Implements [`Serial`] for numbers with little-endian bytes.
 macro_rules! serial_numbers {
     ($($type:ty),*) => {$(
         impl Serial for $type {
@@ -231,7 +231,7 @@ impl Serial for Duration {
 
     fn read(from: &mut &[u8]) -> Result<Self, Damaged> {
         let (seconds, nanoseconds): (u64, u32) = Serial::read(from)?;
-        // A time that a program can have taken: sums of several must not overflow.
+        // Range of times that a program can take, so that sums of several do not overflow.
         if nanoseconds < 1_000_000_000 && seconds <= u64::from(u32::MAX) {
             Ok(Self::new(seconds, nanoseconds))
         } else {
@@ -276,7 +276,7 @@ impl<T: Serial> Serial for Option<T> {
     }
 }
 
-/// Appends the bytes of a list, as those of a vector.
+/// Appends the bytes of a list, equal to those of a vector.
 pub(crate) fn write_list<T: Serial>(list: &[T], out: &mut Vec<u8>) {
     list.len().write(out);
     T::write_list(list, out);

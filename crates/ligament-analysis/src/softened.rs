@@ -1,34 +1,34 @@
-//! Bonds whose force has begun to fall beyond a limit, over all processes.
+//! Softened bonds, whose force has begun to fall beyond a limit, over all processes.
 
 use ligament_model::communicator::Wire;
 
 use crate::bond_numbers::BondNumbers;
 use crate::state::State;
 
-/// The bond farthest beyond its limit under a law that softens.
+/// Bond farthest beyond its limit under a softening law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FarthestSoftened {
     /// Number of the criterion.
     pub criterion: u32,
-    /// Number of the bond among all bonds of the body.
+    /// Global number of the bond.
     pub bond: u32,
     /// Ends A < B of the bond.
     pub ends: [u32; 2],
-    /// Largest e/e_0 of the bond, beyond 1.
+    /// Largest e/e_0 of the bond, above 1.
     largest: f64,
 }
 
-/// What softened of a body, over all processes.
+/// Softened bonds of a body, over all processes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SoftenedOfAll {
-    /// Number of the unbroken bonds past their limits.
+    /// Number of unbroken bonds beyond their limits.
     pub bonds: usize,
-    /// The one farthest beyond its limit, broken ones included; none where none is.
+    /// Bond farthest beyond its limit, including broken ones; None where no bond is.
     pub farthest: Option<FarthestSoftened>,
 }
 
 impl SoftenedOfAll {
-    /// What softened in a state, with the ends of the local bonds (n_bonds); nothing where no criterion softens. Collective.
+    /// Softened bonds of a state, from the ends of the local bonds (n_bonds); none where no criterion softens. Collective.
     pub(crate) fn in_state(state: &State, numbers: &BondNumbers, ends: &[[u32; 2]]) -> Self {
         if state.softening.largest.is_empty() {
             return Self::default();
@@ -71,7 +71,7 @@ impl Wire<5> for FarthestSoftened {
     }
 }
 
-/// The criterion and the bond with the largest e/e_0 beyond 1 under a law that softens among the owned ones, the first of several.
+/// Criterion and owned bond with the largest e/e_0 above 1 under a softening law, the first of equal ones.
 fn farthest(
     state: &State,
     ends: &[[u32; 2]],

@@ -1,8 +1,7 @@
-//! Bonds past their limits that are not broken yet.
+//! Softening of unbroken bonds beyond their limits.
 //!
-//! Of every criterion that softens, a bond remembers the largest e/e_0 so far (its running extreme), and from it comes what is
-//! left of its stiffness. What an opened bond lost it lacks in tension, shear and rotation, not in compression; see
-//! [`Weakened`].
+//! For every softening criterion, the largest e/e_0 of a bond so far (its running extreme) determines its remaining stiffness. An
+//! opened bond loses stiffness in tension, shear and rotation, not in compression; see [`Weakened`].
 
 use ligament_model::Bonds;
 use ligament_model::element::{BondDeformation, StiffnessFactors};
@@ -13,22 +12,22 @@ use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
 use crate::serial::Serial;
 
-/// Relative difference below which a bond is as far as it ever was.
+/// Relative difference from its extreme below which a bond counts as at its extreme.
 const SAME: f64 = 1e-9;
 
-/// State of bonds past their limits; empty where no bond softens.
+/// State of bonds beyond their limits; empty where no bond softens.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Softening {
-    /// Largest e/e_0 of states of equilibrium, shape (n_bonds) for each criterion; empty for those that do not soften.
+    /// Largest e/e_0 in equilibrium states, shape (n_bonds) for each criterion; empty for those that do not soften.
     pub largest: Vec<Vec<f64>>,
-    /// Largest e/e_0 with the iterate that equilibrium is sought from, shape (n_bonds) for each criterion.
+    /// Largest e/e_0 including the present iterate, shape (n_bonds) for each criterion.
     trial: Vec<Vec<f64>>,
-    /// Remaining stiffness for the deformations of the iterate, shape (n_bonds).
+    /// Remaining stiffness at the deformations of the iterate, shape (n_bonds).
     pub remaining: Vec<StiffnessFactors>,
 }
 
 impl Softening {
-    /// Whether all arrays are those of bonds with these criteria.
+    /// Whether all arrays have the shapes for these criteria and this number of bonds.
     pub(crate) fn fits(&self, criteria: &Criteria, n_bonds: usize) -> bool {
         let lengths = |it: &Self| {
             let of = |lists: &[Vec<f64>]| lists.iter().map(Vec::len).collect::<Vec<usize>>();
@@ -46,11 +45,11 @@ impl Softening {
         numbers.write(&self.remaining, StiffnessFactors::WHOLE, out);
     }
 
-    /// Reads the softening of the local bonds, from that of all.
+    /// Reads the softening of all bonds, and keeps that of the local bonds.
     ///
     /// # Errors
     ///
-    /// If the bytes are damaged or of another body.
+    /// If the bytes are damaged or belong to another body.
     pub(crate) fn read(numbers: &BondNumbers, from: &mut &[u8]) -> Result<Self, CheckpointError> {
         let lists = |from: &mut &[u8]| -> Result<Vec<Vec<f64>>, CheckpointError> {
             let count = usize::read(from)?;
@@ -63,7 +62,7 @@ impl Softening {
         })
     }
 
-    /// The state of sound bonds.
+    /// State of bonds without softening.
     pub fn of_sound_bonds(criteria: &Criteria, n_bonds: usize) -> Self {
         if !criteria.soften() {
             return Self::default();
@@ -77,11 +76,11 @@ impl Softening {
         }
     }
 
-    /// Takes the deformations of an iterate (n_bonds): decides what is left of the bonds now.
+    /// Updates the trial extremes and the remaining stiffness of the bonds to the deformations of an iterate (n_bonds).
     ///
-    /// A bond within its largest deformation keeps what it has; beyond, it follows its law, and at the end of its law it waits
-    /// for its turn to break ([`AfterLimit::extreme`](ligament_model::failure::AfterLimit::extreme)). Where
-    /// `is_one_way` the extremes of the iterates count as well, as in a body that loses its bonds faster than it is loaded.
+    /// A bond within its largest deformation keeps its stiffness; beyond, it follows its law, and past the end of its law it keeps
+    /// a small remainder until it breaks ([`AfterLimit::extreme`](ligament_model::failure::AfterLimit::extreme)). With `is_one_way`
+    /// the extremes of the iterates count as well, as in a body that loses its bonds faster than it is loaded.
     pub fn follow(
         &mut self,
         criteria: &Criteria,
@@ -113,14 +112,14 @@ impl Softening {
         });
     }
 
-    /// The iterate is in equilibrium: its extremes count from now on.
+    /// Accepts the extremes of an iterate that is in equilibrium.
     pub fn settle(&mut self) {
         for (largest, trial) in self.largest.iter_mut().zip(&self.trial) {
             largest.copy_from_slice(trial);
         }
     }
 
-    /// Energy that softening would have taken from an unbroken bond at a deformation, J.
+    /// Energy that softening would have dissipated in an unbroken bond at a deformation, J.
     pub(crate) fn dissipated_at(
         &self,
         system: &dyn Bonds,
@@ -140,7 +139,7 @@ impl Softening {
         both.filter_map(of).sum()
     }
 
-    /// Whether an unbroken bond softens farther at a deformation and any larger one of its kind: whether it is as far as it ever was.
+    /// Whether an unbroken bond is at its extreme at a deformation, so that it softens further at any larger one of its kind.
     pub(crate) fn goes_on(
         &self,
         criteria: &Criteria,
@@ -159,7 +158,7 @@ impl Softening {
         })
     }
 
-    /// The bond under a criterion that softens, by its extreme in equilibrium; sound for one that does not.
+    /// Softening of a bond under a criterion, by its extreme in equilibrium; undamaged for a criterion that does not soften.
     pub fn bond(&self, criteria: &Criteria, criterion: usize, bond: usize) -> Softened {
         match self.largest.get(criterion).and_then(|it| it.get(bond)) {
             None => Softened::SOUND,
@@ -168,7 +167,7 @@ impl Softening {
     }
 }
 
-/// What the largest utilisations leave of a bond, the weakest of all criteria.
+/// Remaining stiffness of a bond for the largest utilisations, the smallest of all criteria.
 fn remaining_of(
     criteria: &Criteria,
     largest: &[Vec<f64>],

@@ -1,4 +1,4 @@
-//! Settings of the solver of the equations, and what is chosen where they are left open.
+//! Settings of the solver of the equations, and choices where they are left open.
 
 use std::fmt::{self, Display, Formatter};
 use std::sync::Arc;
@@ -13,57 +13,57 @@ use crate::dissection;
 use crate::distributed_matrix::MatrixCommunicator;
 use crate::unknowns::Unknowns;
 
-/// How the equations are solved; what is left open is chosen for the problem.
+/// Settings of the solver; open ones are chosen for the problem.
 #[derive(Debug, Clone)]
 pub struct SolverSettings {
-    /// Method; open: a factor up to [`points_for_iteration`], conjugate gradients beyond where they can; in the plane, where `memory` is
-    /// known, a factor as long as it fits.
+    /// Method; open: a factor up to [`points_for_iteration`], conjugate gradients beyond where applicable; in the plane, where
+    /// `memory` is known, a factor as long as it fits.
     pub method: Option<Method>,
-    /// Force that conjugate gradients leave out of balance after a breakage, relative to the forces that may act at a point. Load steps
-    /// without a breakage go to the 1e-10 of a factor.
+    /// Residual of conjugate gradients after a breakage, relative to the forces that may act at a point. Load steps without a
+    /// breakage are solved to 1e-10, as with a factor.
     pub tolerance: f64,
     /// Factorisation; open: L L^T where every shear stiffness is positive, L D L^T otherwise.
     pub factorisation: Option<FactorKind>,
-    /// Order of elimination; open: nested dissection from [`POINTS_FOR_DISSECTION`] on, minimum degree below.
+    /// Elimination order; open: nested dissection from [`POINTS_FOR_DISSECTION`] on, minimum degree below.
     pub ordering: Option<Ordering>,
-    /// Treatment of the factor when bonds break; open: it is changed in place.
+    /// Treatment of the factor when bonds break; open: update in place.
     pub update: Option<Update>,
-    /// Bonds broken, counted from the start, after which the factor is made anew: 0, so many, twice as many, and so on.
+    /// Interval in the number of broken bonds, counted from the start, at which the factor is computed anew.
     ///
-    /// A factor that was changed in place depends on all its changes; a run that is resumed replays those since the last
-    /// time it was made anew.
+    /// A factor that was updated in place depends on all its updates; a resumed run repeats those since the factor was last
+    /// computed anew.
     pub rebuild_every: usize,
-    /// Bytes that the matrix and its factor may take; open: not known.
+    /// Bytes available for the matrix and its factor; open: unknown.
     pub memory: Option<usize>,
-    /// The processes that solve the equations.
+    /// Processes that solve the equations.
     pub communicator: Arc<dyn MatrixCommunicator>,
 }
 
-/// A way to solve the equations.
+/// Method to solve the equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Method {
-    /// With a factor of the matrix.
+    /// Factorisation of the matrix.
     Direct,
-    /// By conjugate gradients, without a matrix.
+    /// Conjugate gradients, without a matrix.
     Iterative,
 }
 
-/// Why a method was chosen.
+/// Reason for the choice of a method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reason {
     /// The settings name the method.
     Named,
-    /// The settings name something that only a factor has, by this word.
+    /// The settings contain this key, which applies to a factor alone.
     NamedForFactor(&'static str),
     /// Conjugate gradients cannot solve these equations.
     Unfit(Unfit),
-    /// There are fewer points than this, or not fewer.
+    /// Limit of the number of points, below which a factor costs less than conjugate gradients.
     Points(usize),
-    /// The matrix and its factor would take so many bytes, and there are so many for them.
+    /// The memory of the matrix and its factor, compared with the available memory.
     Memory {
-        /// Bytes that they take; at least, where they do not fit.
+        /// Bytes needed; a lower bound, where they do not fit.
         needed: usize,
-        /// Bytes that there are.
+        /// Bytes available.
         available: usize,
     },
     /// The stiffness is definite.
@@ -99,7 +99,7 @@ impl Display for Reason {
     }
 }
 
-/// Why conjugate gradients cannot solve the equations of a body.
+/// Reason why conjugate gradients cannot solve the equations of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum Unfit {
     /// Some bond has a negative stiffness.
@@ -107,7 +107,7 @@ pub enum Unfit {
         "some bonds have a negative stiffness, so that the stiffness of the body may be indefinite"
     )]
     Indefinite,
-    /// The forces are not those of an energy.
+    /// The forces have no energy.
     #[error(
         "the forces of the bonds are not those of an energy, so that the stiffness is not symmetric"
     )]
@@ -118,7 +118,7 @@ pub enum Unfit {
     /// Faces of cracks carry pressure where they close.
     #[error("faces of cracks carry pressure where they close")]
     ClosingFaces,
-    /// The settings name something that only a factor has.
+    /// The settings contain a key that applies to a factor alone.
     #[error("solver.{0} is about a factor, of which there is none")]
     NamedForFactor(&'static str),
     /// The analysis needs a factor.
@@ -126,7 +126,7 @@ pub enum Unfit {
     Modes,
 }
 
-/// An order of elimination.
+/// Elimination order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ordering {
     /// Nested dissection of the points.
@@ -138,61 +138,61 @@ pub enum Ordering {
 /// Treatment of the factor when bonds break.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Update {
-    /// The factor is changed in place.
+    /// The factor is updated in place.
     Incremental,
-    /// The factor is made anew.
+    /// The factor is computed anew.
     Refactor,
 }
 
-/// What was chosen to solve the equations of a problem.
+/// Solver chosen for the equations of a problem.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SolverChoice {
     /// A factor of the matrix.
     Direct(DirectChoice),
     /// Conjugate gradients, without a matrix.
     Iterative(IterativeChoice),
-    /// A matrix whose rows are shared out among processes.
+    /// A matrix whose rows are distributed over processes.
     Distributed(DistributedChoice),
 }
 
-/// What was chosen for several processes.
+/// Solver chosen for several processes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DistributedChoice {
-    /// Why it is conjugate gradients or a factor.
+    /// Reason for conjugate gradients or a factor.
     pub reason: Reason,
     /// Number of the processes.
     pub n_ranks: usize,
-    /// Force left out of balance after a breakage by conjugate gradients, see [`SolverSettings::tolerance`]; none: a factor.
+    /// Residual of conjugate gradients after a breakage, see [`SolverSettings::tolerance`]; None for a factor.
     pub tolerance: Option<f64>,
 }
 
-/// What was chosen for conjugate gradients.
+/// Settings chosen for conjugate gradients.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IterativeChoice {
-    /// Why it is these.
+    /// Reason for conjugate gradients.
     pub reason: Reason,
-    /// Force left out of balance after a breakage, see [`SolverSettings::tolerance`].
+    /// Residual after a breakage, see [`SolverSettings::tolerance`].
     pub tolerance: f64,
-    /// Points of an aggregate at most, see [`points_of_aggregate`].
+    /// Largest number of points of an aggregate, see [`points_of_aggregate`].
     pub aggregate: usize,
 }
 
-/// What was chosen for a factor.
+/// Settings chosen for a factor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DirectChoice {
-    /// Why it is a factor.
+    /// Reason for a factor.
     pub reason: Reason,
     /// Factorisation.
     pub factorisation: FactorKind,
-    /// Whether the stiffness has no symmetry, and is factorised as L U instead.
+    /// Whether the stiffness is unsymmetric, and is factorised as L U instead.
     pub unsymmetric: bool,
-    /// Order of elimination.
+    /// Elimination order.
     pub ordering: Ordering,
     /// Treatment of the factor when bonds break.
     pub update: Update,
-    /// Bonds broken after which the factor is made anew, see [`SolverSettings::rebuild_every`].
+    /// Interval in the number of broken bonds at which the factor is computed anew, see [`SolverSettings::rebuild_every`].
     pub rebuild_every: usize,
-    /// Where breakages change more elements than this at once, the factor is made anew because that costs less.
+    /// Largest number of elements changed at once for an update in place; beyond it, a new factor costs less.
     pub most_bonds_in_place: usize,
 }
 
@@ -211,24 +211,25 @@ impl Default for SolverSettings {
     }
 }
 
-/// From so many points on nested dissection leaves less fill than minimum degree (measured on disks: 20 % more
-/// multiplications at 3,000 points, 3 % less at 10,000, 17 % less at 40,000).
+/// Number of points from which nested dissection leaves less fill than minimum degree (measured on disks: 20 % more multiplications
+/// at 3,000 points, 3 % less at 10,000, 17 % less at 40,000).
 pub const POINTS_FOR_DISSECTION: usize = 10_000;
 
-/// Bonds whose measures are so many tolerances of conjugate gradients apart, relatively, count as tied at least: closer ones may come in
-/// any order.
+/// Least tie tolerance as a multiple of the tolerance of conjugate gradients: bonds whose measures are closer may come in any
+/// order.
 pub const TIED: f64 = 100.0;
 
-/// Points from which on conjugate gradients are taken, in a body with so many axes.
+/// Number of points from which conjugate gradients are chosen, by the number of axes of a body.
 pub fn points_for_iteration(n_axes: usize) -> usize {
     if n_axes > 2 { 5_000 } else { 200_000 }
 }
 
-/// Points of an aggregate at most whose rigid motions are in the coarse space, in a body with so many axes and points.
+/// Largest number of points of an aggregate whose rigid motions span the coarse space, by the numbers of axes and points of a body.
 ///
-/// In the plane halving squares of four times as many points ended at ten costs the least time: with at most 5, 10, 20 and 40 points
-/// of 160,000 a breakage took 12.5, 15, 23 and 26 iterations and 1.3, 1.0, 1.2 and 1.5 times as long. In space from 100,000 points on
-/// larger ones take as long a breakage, .3 times as long to make and .6 times the memory (170,000 points; 13 and 19 iterations).
+/// In the plane halving squares of four times as many points ended at ten costs the least time: with at most 5, 10, 20 and 40
+/// points of 160,000 a breakage took 12.5, 15, 23 and 26 iterations and 1.3, 1.0, 1.2 and 1.5 times as long. In space from 100,000
+/// points on larger ones take as long per breakage, .3 times as long to build and .6 times the memory (170,000 points; 13 and 19
+/// iterations).
 pub fn points_of_aggregate(n_axes: usize, n_points: usize) -> usize {
     match n_axes {
         ..=2 => 10,
@@ -238,11 +239,11 @@ pub fn points_of_aggregate(n_axes: usize, n_points: usize) -> usize {
 }
 
 impl SolverSettings {
-    /// The method for the equations of some bonds, and why it is this one.
+    /// Method for the equations of some bonds, and the reason for it.
     ///
     /// # Errors
     ///
-    /// If conjugate gradients were named and cannot solve them.
+    /// If conjugate gradients were named and cannot solve the equations.
     pub fn chosen_method(&self, system: &dyn Bonds) -> Result<(Method, Reason), Unfit> {
         match self.method {
             Some(Method::Direct) => Ok((Method::Direct, Reason::Named)),
@@ -254,14 +255,14 @@ impl SolverSettings {
         }
     }
 
-    /// Bytes that a matrix and its factor may take, where they decide between the methods: in the plane a factor that fits costs
-    /// less than conjugate gradients, whatever the number of points (`docs/solvers.md`).
+    /// Memory limit of a matrix and its factor in bytes, where it decides between the methods: in the plane a factor that fits
+    /// costs less than conjugate gradients for any number of points (`docs/solvers.md`).
     pub(crate) fn bound_of_factor(&self, system: &dyn Bonds) -> Option<usize> {
         let decides = self.method.is_none() && n_axes(system) == 2 && self.unfit(system).is_none();
         self.memory.filter(|_| decides)
     }
 
-    /// What is taken for conjugate gradients on some bonds.
+    /// Settings of conjugate gradients for some bonds.
     pub(crate) fn iterative_choice(&self, system: &dyn Bonds, reason: Reason) -> IterativeChoice {
         IterativeChoice {
             reason,
@@ -281,11 +282,11 @@ impl SolverSettings {
         }
     }
 
-    /// What several processes take for the equations of some bonds.
+    /// Solver of several processes for the equations of some bonds.
     ///
     /// # Errors
     ///
-    /// If they cannot solve these.
+    /// If several processes cannot solve these equations.
     pub(crate) fn distributed_choice(
         &self,
         system: &dyn Bonds,
@@ -334,25 +335,25 @@ impl SolverSettings {
     }
 }
 
-/// Number of axes of the space of a body.
+/// Number of space axes of a body.
 pub fn n_axes(system: &dyn Bonds) -> usize {
     let components = system.components().iter();
     components.filter(|it| !it.is_rotation()).count()
 }
 
 impl SolverChoice {
-    /// The tolerance of ties for one that was asked for, see [`TIED`].
+    /// Tie tolerance for a requested one, see [`TIED`].
     pub fn tie_tolerance(&self, asked: f64) -> f64 {
         let tolerance = self.tolerance().map(|it| TIED * it);
         tolerance.map_or(asked, |tied| asked.max(tied))
     }
 
-    /// Whether the solver iterates.
+    /// Whether the solver is iterative.
     pub fn iterates(&self) -> bool {
         self.tolerance().is_some()
     }
 
-    /// Force left out of balance after a breakage, see [`SolverSettings::tolerance`]; none where the solver is exact.
+    /// Residual after a breakage, see [`SolverSettings::tolerance`]; None for a direct solver.
     fn tolerance(&self) -> Option<f64> {
         match self {
             Self::Direct(_) => None,
@@ -363,7 +364,7 @@ impl SolverChoice {
 }
 
 impl Ordering {
-    /// The ordering that is taken for so many points unless one is named.
+    /// Default ordering for a number of points.
     pub fn suited_to(n_points: usize) -> Self {
         if n_points < POINTS_FOR_DISSECTION {
             Self::MinimumDegree
@@ -372,7 +373,7 @@ impl Ordering {
         }
     }
 
-    /// The order of elimination of some unknowns.
+    /// Elimination order of some unknowns.
     pub fn elimination(self, system: &dyn Bonds, unknowns: &Unknowns) -> Elimination {
         match self {
             Self::MinimumDegree => Elimination::MinimumDegree,

@@ -1,4 +1,4 @@
-//! What changes during a run.
+//! State of a body, which changes during a run.
 
 use ligament_model::Bonds;
 pub use ligament_model::UnbrokenBonds;
@@ -9,27 +9,27 @@ use crate::checkpoint::CheckpointError;
 use crate::serial::{Serial, write_list};
 use crate::softening::Softening;
 
-/// Motion of the points and what is left of the bonds.
+/// Motion of the points and state of the bonds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
     /// Load factor.
     pub load_factor: f64,
     /// Displacements and rotations, shape (n_degrees_of_freedom), m and rad.
     pub displacement: Vec<f64>,
-    /// For each bond, whether it is unbroken, shape (n_bonds).
+    /// Whether each bond is unbroken, shape (n_bonds).
     pub intact: Vec<bool>,
     /// Criterion by which each broken bond broke, shape (n_bonds).
     pub broken_by: Vec<Option<u8>>,
-    /// State of unbroken bonds past their limits; empty where no bond softens.
+    /// Softening of unbroken bonds beyond their limits; empty where no bond softens.
     pub softening: Softening,
-    /// Energy that each bond has taken for good, shape (n_bonds), J.
+    /// Energy dissipated by each bond, shape (n_bonds), J.
     pub dissipated: Vec<f64>,
-    /// Degrees of freedom held because nothing else would hold them, shape (n_degrees_of_freedom).
+    /// Whether each degree of freedom has an added support, for want of stiffness, shape (n_degrees_of_freedom).
     pub held: Vec<bool>,
 }
 
 impl State {
-    /// Whether all arrays are those of a body with so many bonds and these criteria.
+    /// Whether all arrays have the shapes for a body with this number of bonds and these criteria.
     pub(crate) fn fits(&self, system: &dyn Bonds, n_bonds: usize, criteria: &Criteria) -> bool {
         let n = system.layout().n_degrees_of_freedom();
         let of_degrees_of_freedom = [self.displacement.len(), self.held.len()];
@@ -45,7 +45,7 @@ impl State {
             && self.softening.fits(criteria, n_bonds)
     }
 
-    /// The unloaded body with all its bonds.
+    /// Unloaded body with all its bonds.
     pub fn fresh(system: &dyn Bonds) -> Self {
         let n = system.layout().n_degrees_of_freedom();
         let n_bonds = system.ends().len();
@@ -60,7 +60,7 @@ impl State {
         }
     }
 
-    /// Appends the state with all points and bonds of the body, from those of each process; rank 0 alone may use the bytes. Collective.
+    /// Appends the state of all points and bonds of the body, from those of each process; valid on rank 0 alone. Collective.
     pub(crate) fn write(&self, numbers: &BondNumbers, out: &mut Vec<u8>) {
         self.load_factor.write(out);
         write_list(&numbers.subdomain().gathered(&self.displacement), out);
@@ -71,11 +71,11 @@ impl State {
         self.held.write(out);
     }
 
-    /// Reads a state with the local bonds alone, from that of all bonds.
+    /// Reads a state with all bonds, and keeps the local bonds.
     ///
     /// # Errors
     ///
-    /// If the bytes are damaged or of another body.
+    /// If the bytes are damaged or belong to another body.
     pub(crate) fn read(numbers: &BondNumbers, from: &mut &[u8]) -> Result<Self, CheckpointError> {
         Ok(Self {
             load_factor: Serial::read(from)?,
@@ -105,7 +105,7 @@ impl State {
         self.intact[bond] && largest.any(|it| it.get(bond).is_some_and(|it| *it > 1.0))
     }
 
-    /// The bonds that are left, with their remaining stiffness.
+    /// Intact bonds, with their remaining stiffness.
     pub fn bonds(&self) -> UnbrokenBonds<'_> {
         UnbrokenBonds {
             intact: &self.intact,

@@ -1,4 +1,4 @@
-//! The stiffness of a body: its unknowns, its pattern and the structure of its factor.
+//! Stiffness of a body: its unknowns, its sparsity pattern and the structure of its factor.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -12,9 +12,9 @@ use crate::solver::{DirectChoice, Ordering, Reason, SolverSettings, Update};
 use crate::state::State;
 use crate::unknowns::Unknowns;
 
-/// Numbering, pattern and symbolic factor of the stiffness of a bond system, and what was chosen for its factor.
+/// Numbering, sparsity pattern and symbolic factor of the stiffness of a bond system, and the settings of its factor.
 ///
-/// Breakages change values, never the pattern: all of this holds for any state of the bonds.
+/// Breakages change values, never the pattern, so that this is valid for any state of the bonds.
 pub struct Stiffness {
     system: Arc<dyn Bonds>,
     unknowns: Arc<Unknowns>,
@@ -24,17 +24,17 @@ pub struct Stiffness {
     analysis: Duration,
 }
 
-/// Times the values of a matrix that it takes until there is a factor.
+/// Memory until the matrix is factorised, as a multiple of that of its values.
 const MATRICES: usize = 4;
 
-/// Bytes that the matrix of some bonds and its factor take at least: a block for each bond, and as much in the factor.
+/// Least bytes of the matrix of some bonds and its factor: a block for each bond, and as much in the factor.
 pub(crate) fn least_bytes(system: &dyn Bonds) -> usize {
     let n_components = system.components().len();
     size_of::<f64>() * (MATRICES + 1) * n_components * n_components * system.ends().len()
 }
 
 impl Stiffness {
-    /// Analyses the pattern for some unknowns, with the reason for a factor; nothing is factorised yet.
+    /// Analyses the sparsity pattern for some unknowns, with the reason for a factor, without factorising.
     ///
     /// # Errors
     ///
@@ -52,7 +52,7 @@ impl Stiffness {
             .unwrap_or(Ordering::suited_to(system.n_points()));
         let elimination = ordering.elimination(&**system, &unknowns);
         let symbolic = Arc::new(Symbolic::analyse(pattern.clone(), elimination)?);
-        // Without positive stiffnesses positive definiteness is not to be counted on.
+        // Without positive stiffnesses the matrix may not be positive definite.
         let suitable = if system.all_positive() {
             FactorKind::Llt
         } else {
@@ -76,12 +76,12 @@ impl Stiffness {
         })
     }
 
-    /// The bond system.
+    /// Bond system of the stiffness.
     pub fn system(&self) -> &dyn Bonds {
         &*self.system
     }
 
-    /// The unknowns.
+    /// Unknowns of the stiffness.
     pub fn unknowns(&self) -> &Unknowns {
         &self.unknowns
     }
@@ -91,43 +91,43 @@ impl Stiffness {
         &self.symbolic
     }
 
-    /// Bytes of the matrix and its factor. The matrix is kept with its row numbers, and once more in the order of elimination while it
-    /// is factorised.
+    /// Bytes of the matrix and its factor. The matrix is stored with its row numbers, and once more in elimination order during the
+    /// factorisation.
     pub fn bytes(&self) -> usize {
         let matrix = MATRICES * self.pattern.n_entries();
         size_of::<f64>() * (matrix + self.symbolic.n_factor_values())
     }
 
-    /// Says for what reason there is a factor.
+    /// Sets the reason for a factor.
     pub(crate) fn chosen_for(&mut self, reason: Reason) {
         self.choice.reason = reason;
     }
 
-    /// What was chosen for the factor.
+    /// Settings chosen for the factor.
     pub fn choice(&self) -> &DirectChoice {
         &self.choice
     }
 
-    /// Time that numbering, pattern and symbolic analysis took.
+    /// Time of numbering, pattern and symbolic analysis.
     pub(crate) fn analysis_time(&self) -> Duration {
         self.analysis
     }
 
-    /// The structure of the factor in another order of elimination.
+    /// Symbolic factor for another elimination order.
     pub fn analysed_with(&self, ordering: Ordering) -> Result<Symbolic, SetupError> {
         let elimination = ordering.elimination(&*self.system, &self.unknowns);
         Ok(Symbolic::analyse(self.pattern.clone(), elimination)?)
     }
 
-    /// The matrix of some bonds; `held` ones of the unknowns stand alone (n_degrees_of_freedom).
+    /// Matrix of some bonds; unknowns in `held` (n_degrees_of_freedom) are decoupled.
     pub(crate) fn assemble(&self, bonds: UnbrokenBonds<'_>, held: &[bool]) -> SymmetricMatrix {
         assembly::assemble(&*self.system, &self.unknowns, &self.pattern, bonds, held)
     }
 
-    /// Negative eigenvalues of the rotation block for the state's bonds.
+    /// Number of negative eigenvalues of the rotation block for the bonds of a state.
     ///
-    /// Holding the rigid motions of a part takes no negative eigenvalue from its stiffness (they have none), but it would
-    /// from this block where it holds a rotation: so only points that lost all their bonds are held here.
+    /// Fixing the rigid motions of a part removes no negative eigenvalue from its stiffness (they have none), but might remove one
+    /// from this block by fixing a rotation: only points that lost all their bonds are therefore fixed here.
     pub(crate) fn negative_rotations(&self, state: &State) -> Result<usize, SetupError> {
         let rotations = self.unknowns.rotations_only();
         if rotations.is_empty() {
@@ -148,10 +148,10 @@ impl Stiffness {
     }
 }
 
-/// Terms by which an element changes a factor, at least as they are counted; at most one for each component of a point that has more.
+/// Least number of rank-one terms counted for an element; at most one for each component of a point that has more.
 const TERMS: usize = 3;
 
-/// Number of elements up to which changing the factor costs less than making it: each of the terms of an element reads and writes
+/// Largest number of elements for which an update of the factor costs less than a new one: each term of an element reads and writes
 /// a part of the values of the factor.
 fn most_bonds_in_place(symbolic: &Symbolic, n_components: usize) -> usize {
     let of_one_bond = (TERMS.max(n_components) * symbolic.n_factor_values()) as f64;

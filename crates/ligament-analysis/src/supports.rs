@@ -1,14 +1,14 @@
-//! What holds a body that nothing loads.
+//! Supports of a body without loads.
 
 use crate::unknowns::{Component, Layout};
 
-/// Degrees of freedom held at zero, and the groups of points that hold them.
+/// Degrees of freedom fixed at zero, and the groups of supported points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Supports {
     layout: Layout,
-    /// For each degree of freedom, whether it is held, shape (n_degrees_of_freedom).
+    /// Whether each degree of freedom is fixed, shape (n_degrees_of_freedom).
     pub held: Vec<bool>,
-    /// The supported groups.
+    /// Groups of supported points.
     pub groups: Vec<SupportGroup>,
 }
 
@@ -22,7 +22,7 @@ pub struct SupportGroup {
 }
 
 impl Supports {
-    /// A body that nothing holds.
+    /// Supports of a free body.
     pub fn none(layout: Layout) -> Self {
         Self {
             layout,
@@ -31,7 +31,7 @@ impl Supports {
         }
     }
 
-    /// Holds some components of the points of a group, as far as points have them.
+    /// Fixes some components of the points of a group, at points that have them.
     pub fn hold(&mut self, name: &str, points: Vec<u32>, components: &[Component]) {
         for &point in &points {
             for &component in components {

@@ -1,4 +1,4 @@
-//! Solvers of the equations of an equilibrium, kept up while bonds break.
+//! Solvers of the tangent equations, updated while bonds break.
 
 pub(crate) mod direct;
 pub(crate) mod distributed;
@@ -17,47 +17,46 @@ use crate::state::State;
 use ligament_model::contact::ClosedPair;
 use ligament_model::thermal::ThermalStrain;
 
-/// Share of its diagonal that a hold adds where faces close: enough to make a loose part definite, and so little that faces which
-/// close carry the part in one more iteration. What it adds stands in the tangent alone, never in the forces.
+/// Share of its diagonal that an added support adds where faces close: enough to make a detached part definite, and little enough
+/// that closing faces carry the part after one more iteration. It is part of the tangent only, never of the forces.
 const SOFT_HOLD: f64 = 1e-6;
 
-/// Share of the stiffness of the points, each by itself, at which what resists a motion u of them together is rounding:
-/// u . K u of a motion that costs no energy is some 1e-16 of sum k_i u_i^2, that of the softest motion of a bar a thousand points
-/// long 1e-12.
+/// Ratio u . K u / sum k_i u_i^2, with the stiffnesses k_i of single points, at which the resistance to a motion u is rounding. It
+/// is some 1e-16 for a motion without energy, and 1e-12 for the softest motion of a bar a thousand points long.
 pub(crate) const UNRESISTED: f64 = 1e-14;
 
-/// The force that a solver which iterates may leave out of balance; an exact one leaves rounding.
+/// Residual of the linear equations that an iterative solver may leave; a direct one leaves rounding.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum AllowedResidual {
     /// Share of the norm of the force.
     Share(f64),
-    /// Sizes at the unknowns, shape (n_unknowns), N and N m.
+    /// Largest residuals at the unknowns, shape (n_unknowns), N and N m.
     AtMost(Vec<f64>),
 }
 
-/// A factor that took in a breakage, and the correction that it asks for after the forward substitution.
+/// A factor updated for a breakage, and the resulting correction after its forward substitution.
 pub(crate) struct HalfUpdated<'a> {
     pub(crate) factor: &'a dyn Factorisation,
     pub(crate) correction: ForwardSubstituted,
 }
 
-/// Why a solver that is ready has no solution.
+/// Reason why a solver that is ready has no solution.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Unsolved {
-    /// The stiffness does not resist a motion, shape (n_unknowns), and the solver needs one that does; zero where the motion is not
-    /// known.
+    /// The stiffness does not resist a motion, shape (n_unknowns), and the solver needs a definite stiffness; zeros where the
+    /// motion is unknown.
     Indefinite(Vec<f64>),
-    /// Ranks have other bonds left or another load.
+    /// Bonds or loads differ between the ranks.
     Disagreement,
 }
 
 /// A solver of K du = f with the tangent stiffness K of a state.
 ///
-/// Corrections and forces are at the unknowns, shape (n_unknowns). A solver may be exact or only near: the residual of a state
-/// is always taken from its bonds.
+/// Corrections and forces are at the unknowns, shape (n_unknowns). A solver may be inexact: the residual of a state is always
+/// computed from its bonds.
 pub(crate) trait TangentSolver {
-    /// Takes in a breakage and gives the correction that it asks for, where both can be had together: K' du = (K - K') u with the
-    /// matrix K' of the bonds that are left.
+    /// Updates the solver for a breakage and returns the correction K' du = (K - K') u with the stiffness K' of the intact bonds,
+    /// where both can be computed together.
     fn follow(
         &mut self,
         breakage: &Breakage,
@@ -66,18 +65,18 @@ pub(crate) trait TangentSolver {
         costs: &mut Costs,
     ) -> Option<Vec<f64>>;
 
-    /// Whether changes of so many elements can be taken in as they come.
+    /// Whether the solver can be updated for changes of this number of elements.
     fn can_update(&self, _n_elements: usize) -> bool {
         false
     }
 
-    /// What stands for K at present; None where that is no factor.
+    /// Factor of K; None where there is none at present.
     fn factor(&self) -> Option<&dyn Factorisation> {
         None
     }
 
-    /// Takes in a breakage as [`TangentSolver::follow`] does, but leaves the backward substitution to the caller; None where the solver
-    /// has no factor, or must make it anew.
+    /// Updates the solver for a breakage like [`TangentSolver::follow`], but leaves the backward substitution to the caller; None
+    /// where the solver has no factor or must compute it anew.
     fn update_and_forward_solve(
         &mut self,
         _breakage: &Breakage,
@@ -88,25 +87,25 @@ pub(crate) trait TangentSolver {
         None
     }
 
-    /// Takes in how far bonds have softened.
+    /// Updates the solver for the softening of bonds.
     fn update_for_softening(&mut self, state: &State, costs: &mut Costs);
 
-    /// Takes in which pairs across cracks are closed; none are where faces do not close.
+    /// Updates the solver for the closed pairs across cracks; none are closed where faces do not close.
     fn close(&mut self, closed: &[ClosedPair], costs: &mut Costs);
 
-    /// Gets ready to solve for a state; gives the degrees of freedom that nothing holds, by their vanishing pivots. Those must be held in
-    /// the state, and the solver made ready again.
+    /// Makes the solver ready for a state. Returns the degrees of freedom of vanishing pivots, which must be fixed in the state
+    /// before the solver is made ready again.
     ///
     /// # Errors
     ///
     /// If K has no factor.
     fn prepare(&mut self, state: &State, costs: &mut Costs) -> Result<Vec<usize>, FactorError>;
 
-    /// The correction for forces that nothing balances, zero where the state is held. The solver must be ready.
+    /// Correction for residual forces, zero at fixed degrees of freedom. The solver must be ready.
     ///
     /// # Errors
     ///
-    /// If the solver needs a definite stiffness, and met a motion that costs no energy; or if ranks have other bonds left.
+    /// If the solver needs a definite stiffness and found a motion without energy, or if bonds differ between the ranks.
     fn solve(
         &mut self,
         state: &State,
@@ -115,25 +114,25 @@ pub(crate) trait TangentSolver {
         costs: &mut Costs,
     ) -> Result<Vec<f64>, Unsolved>;
 
-    /// Residual, relative to the forces that may act, up to which a solver that iterates goes after a breakage; none of an exact one.
+    /// Relative residual to which an iterative solver solves after a breakage; none for a direct one.
     fn tolerance(&self) -> Option<f64>;
 
-    /// Whether the solver's form of K went through changes, and with them through rounding.
+    /// Whether K was updated in place, with the rounding of these updates.
     fn is_changed(&self) -> bool;
 
-    /// Makes the solver start anew from the bonds the next time.
+    /// Makes the solver recompute K from the bonds the next time.
     fn discard(&mut self);
 
     /// Numbers of positive and negative eigenvalues of K; none where they are not known.
     fn inertia(&self) -> Option<Inertia>;
 
-    /// Appends what it takes to make the solver again, to the bit.
+    /// Appends the bytes from which the solver is restored bit for bit.
     fn write(&self, out: &mut Vec<u8>);
 
-    /// Makes a fresh solver as it was when the bytes were written.
+    /// Restores a newly built solver from the bytes of [`TangentSolver::write`].
     ///
     /// # Errors
     ///
-    /// If the bytes are damaged or of another model, or the factor comes out with other bits.
+    /// If the bytes are damaged or belong to another model, or if the factor differs in any bit.
     fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError>;
 }

@@ -1,68 +1,68 @@
-//! How a run ends.
+//! Reasons for the end of a run.
 
 use thiserror::Error;
 
 use crate::unbalanced::{Place, Unbalanced};
 
-/// How a run ended.
+/// Reason for the end of a run.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Termination {
-    /// All load steps were done.
+    /// All load steps were completed.
     #[error("all load steps were done")]
     StepsDone,
     /// The exact path reached load factor one.
     #[error("the full load was reached")]
     FullLoad,
-    /// The exact path has dissipated the energy that its last stage is to.
+    /// The exact path has dissipated the energy of its last stage.
     #[error("the energy of {energy} J was dissipated")]
     EnergyDissipated {
-        /// Energy asked for, J.
+        /// Prescribed energy, J.
         energy: f64,
     },
-    /// No bond is stretched: no load of this kind breaks another one.
+    /// No bond is stretched, so that no load of this kind breaks another one.
     #[error("no bond is stretched any more: nothing breaks, whatever the load")]
     NothingBreaks,
     /// The load fell to the given fraction of its peak.
     #[error("the load fell to {fraction} of its peak")]
     LoadFraction {
-        /// Fraction asked for.
+        /// Prescribed fraction.
         fraction: f64,
     },
-    /// The displacement asked for was reached.
+    /// The prescribed displacement was reached.
     #[error("the displacement {displacement} m was reached")]
     DisplacementReached {
-        /// Displacement asked for, m.
+        /// Prescribed displacement, m.
         displacement: f64,
     },
-    /// The number of broken bonds asked for was reached.
+    /// The prescribed number of broken bonds was reached.
     #[error("{bonds} bonds were broken")]
     BondsBroken {
-        /// Bonds asked for.
+        /// Prescribed number of broken bonds.
         bonds: usize,
     },
-    /// The time allowed was used up.
+    /// The allowed wall time was used up.
     #[error("the time of {seconds} s was used up")]
     WallTime {
-        /// Time allowed, s.
+        /// Allowed wall time, s.
         seconds: f64,
     },
-    /// The observer stopped it.
+    /// The observer stopped the run.
     #[error("it was stopped")]
     Stopped,
-    /// The body no longer carries the load: it fell apart.
+    /// The body fell apart and no longer carries the load.
     #[error("the body fell apart: it carries no load any more")]
     FellApart,
-    /// What the load acts on came loose.
+    /// The loaded part became detached.
     #[error("the body collapsed: the loaded part came loose")]
     Collapsed,
-    /// What a load acts on lost its stiffness: no bond would carry it.
+    /// The loaded part lost its stiffness, so that no bond carries the load.
     #[error("{}", self.words(&|point| format!("point {point}")))]
     LostStiffness {
         /// Load step.
         step: usize,
-        /// Where the body gives way.
+        /// Point and component without stiffness.
         place: Place,
-        /// Force that nothing carries, N or N m.
+        /// Force without a reaction, N or N m.
         force: f64,
     },
     /// A load step needed more rounds of breaking than allowed.
@@ -70,7 +70,7 @@ pub enum Termination {
     NotAtRest {
         /// Load step.
         step: usize,
-        /// Rounds allowed.
+        /// Allowed number of rounds.
         rounds: usize,
     },
     /// No equilibrium was found.
@@ -78,13 +78,13 @@ pub enum Termination {
     NoEquilibrium {
         /// Load step.
         step: usize,
-        /// Why.
+        /// Reason for the missing equilibrium.
         reason: Unbalanced,
     },
 }
 
 impl Termination {
-    /// The end in words, with names for points.
+    /// Description of the end, with names for points.
     pub fn words(&self, name: &dyn Fn(u32) -> String) -> String {
         match self {
             Self::NoEquilibrium { step, reason } => {
@@ -99,7 +99,7 @@ impl Termination {
         }
     }
 
-    /// Whether the run could go on from there: a rule ended it, not the body.
+    /// Whether the run could continue from its end, because a rule ended it.
     pub fn is_by_rule(&self) -> bool {
         match self {
             Self::StepsDone

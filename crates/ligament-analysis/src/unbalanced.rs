@@ -1,4 +1,4 @@
-//! Why no equilibrium was found.
+//! Reasons why no equilibrium was found.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -6,43 +6,43 @@ use ligament_linalg::FactorError;
 
 use crate::unknowns::Component;
 
-/// What a user is to do about [`Unbalanced::RanksDisagree`].
+/// Advice to the user for [`Unbalanced::RanksDisagree`].
 const RANKS_DISAGREE: &str = "the processes that solve the equations together have computed different forces: let all of them run the \
                               same program on processors of one kind";
 
-/// A component of the motion of a point, where something went wrong.
+/// Component of the motion of a point, as the place of an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Place {
     /// Point index.
     pub point: u32,
-    /// Component of its motion.
+    /// Component of the motion.
     pub component: Component,
 }
 
-/// Why no equilibrium was found: an outcome of the run, not an error.
+/// Reason why no equilibrium was found: a result of the run, not an error.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Unbalanced {
-    /// Newton-Raphson did not get there.
+    /// Newton-Raphson did not converge.
     NotConverged {
         /// Relative residual of the last iterate.
         residual: f64,
-        /// Iterations done.
+        /// Number of iterations.
         iterations: usize,
         /// Place of the largest residual.
         place: Place,
     },
-    /// A degree of freedom that is held for want of stiffness would have to carry a load.
+    /// A degree of freedom fixed for want of stiffness would have to carry a load.
     LoadOnAddedSupport {
-        /// The held degree of freedom.
+        /// Degree of freedom of the added support.
         place: Place,
-        /// Force that it would carry, N or N m.
+        /// Force on the added support, N or N m.
         force: f64,
     },
-    /// Supports, loads and holds do not balance on a part of the body.
+    /// Supports, loads and added supports do not balance on a part of the body.
     NoForceBalance {
         /// Direction of the resultant.
         component: Component,
-        /// The resultant, N.
+        /// Resultant of the forces, N.
         resultant: f64,
         /// Sum of the sizes of the forces, N.
         size: f64,
@@ -51,14 +51,14 @@ pub enum Unbalanced {
         /// First point of the part.
         first: u32,
     },
-    /// A force is not a number, or too large for one.
+    /// A force is not finite.
     ForceOutOfRange {
-        /// A degree of freedom with such a force.
+        /// Degree of freedom with such a force.
         place: Place,
     },
-    /// The stored energy is not a number, or too large for one.
+    /// The stored energy is not finite.
     EnergyOutOfRange {
-        /// The energy, J.
+        /// Stored energy, J.
         energy: f64,
     },
     /// A pivot of the indefinite matrix vanished.
@@ -66,21 +66,21 @@ pub enum Unbalanced {
         /// Place of the pivot.
         place: Place,
     },
-    /// L L^T was asked for where bonds have negative stiffness, and met a pivot that is not positive.
+    /// L L^T was required where bonds have negative stiffness, and found a pivot that is not positive.
     NotPositiveDefinite {
         /// Place of the pivot.
         place: Place,
     },
-    /// Conjugate gradients met a motion that costs no energy.
+    /// Conjugate gradients found a motion without energy.
     NegativeCurvature,
-    /// The energy of the motions is negative: the stored one, unless the temperature changes.
+    /// The energy of the motions is negative; it is the stored energy, unless the temperature changes.
     NegativeEnergy {
-        /// The energy of the motions, J.
+        /// Energy of the motions, J.
         energy: f64,
     },
-    /// The loads of a stage do not move what controls it.
+    /// The loads of a stage do not move its controlling motion.
     Unmoved,
-    /// No bond softens farther under the loads of a stage that dissipated energy controls.
+    /// No bond softens further under the loads of a stage controlled by dissipated energy.
     NothingDissipates,
     /// Processes that solve the equations together have computed different forces.
     RanksDisagree,
@@ -89,7 +89,7 @@ pub enum Unbalanced {
 }
 
 impl Place {
-    /// The place in words, with a name for its point.
+    /// Description of the place, with a name for its point.
     pub fn words(self, name: &dyn Fn(u32) -> String) -> String {
         format!("{}, component {}", name(self.point), self.component.name())
     }
@@ -105,7 +105,7 @@ impl Place {
 }
 
 impl Unbalanced {
-    /// The reason in words, with names for points.
+    /// Description of the reason, with names for points.
     pub fn words(&self, name: &dyn Fn(u32) -> String) -> String {
         match self {
             Self::NotConverged {

@@ -8,7 +8,7 @@ use ligament_model::subdomain::Subdomain;
 
 use crate::restraints::Restraints;
 
-/// The degrees of freedom that are unknown, numbered in the order of the points.
+/// Unknown degrees of freedom, numbered in the order of the points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unknowns {
     layout: Layout,
@@ -19,20 +19,20 @@ pub struct Unknowns {
 
 const KNOWN: u32 = u32::MAX;
 
-/// Number of what is unknown at a point of another process.
+/// Number of an unknown at a point of another process.
 const ELSEWHERE: u32 = u32::MAX - 1;
 
 impl Unknowns {
-    /// Everything that is not fixed and has a stiffness at all.
+    /// Unknowns at all degrees of freedom that are not fixed and have a stiffness.
     ///
     /// Where k_t = 0 (nu = 1/3 in plane stress, 1/4 in plane strain) no bond resists the rotation of a point: such rotations carry
-    /// nothing and are held at zero.
+    /// no moments and are fixed at zero.
     pub fn all_but(system: &dyn Bonds, is_fixed: impl Fn(usize) -> bool) -> Self {
         let resisted = system.resisted();
         Self::select(system.layout(), |dof| !is_fixed(dof) && resisted[dof])
     }
 
-    /// Only the rotations among other unknowns.
+    /// Unknowns that are rotations.
     pub fn rotations_only(&self) -> Self {
         let is_rotation = |dof: usize| self.layout.component(dof).is_rotation();
         Self::select(self.layout, |dof| {
@@ -57,7 +57,7 @@ impl Unknowns {
         }
     }
 
-    /// The unknowns at owned points, numbered; those at other points are without numbers.
+    /// Unknowns at owned points, numbered; unknowns at other points lose their numbers.
     pub(crate) fn of_owned(mut self, subdomain: &Subdomain) -> Self {
         let layout = self.layout;
         (self.degrees_of_freedom).retain(|&dof| subdomain.owns(layout.point(dof as usize)));
@@ -77,12 +77,12 @@ impl Unknowns {
         }
     }
 
-    /// What resists the unknowns beside the bonds.
+    /// Restraints that resist the unknowns in addition to the bonds.
     pub fn restraints(&self) -> &Arc<Restraints> {
         &self.restraints
     }
 
-    /// Where arrays over degrees of freedom hold the motions of the points.
+    /// Layout of the degrees of freedom.
     pub fn layout(&self) -> Layout {
         self.layout
     }
@@ -92,30 +92,30 @@ impl Unknowns {
         self.degrees_of_freedom.len()
     }
 
-    /// Whether nothing is unknown.
+    /// Whether there are no unknowns.
     pub fn is_empty(&self) -> bool {
         self.degrees_of_freedom.is_empty()
     }
 
-    /// Number of the unknown at a degree of freedom; none where nothing is unknown, or another process numbers it.
+    /// Number of the unknown at a degree of freedom; None where it is not unknown, or numbered by another process.
     pub fn number(&self, degree_of_freedom: usize) -> Option<usize> {
         let number = self.number[degree_of_freedom];
         (number < ELSEWHERE).then_some(number as usize)
     }
 
-    /// Degrees of freedom that are unknown, to whichever process.
+    /// Degrees of freedom that are unknowns of any process.
     pub(crate) fn of_all(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.number.len()).filter(|&dof| self.is_unknown(dof))
     }
 
-    /// The values of the own unknowns among those of all processes; those that are there.
+    /// Values of the owned unknowns, from those of all processes as far as given.
     pub(crate) fn own_of(&self, all: &[f64]) -> Vec<f64> {
         let numbered = self.of_all().zip(all);
         let own = numbered.filter(|(dof, _)| self.number(*dof).is_some());
         own.map(|(_, value)| *value).collect()
     }
 
-    /// Whether a degree of freedom is unknown, to whichever process.
+    /// Whether a degree of freedom is an unknown of any process.
     pub(crate) fn is_unknown(&self, degree_of_freedom: usize) -> bool {
         self.number[degree_of_freedom] != KNOWN
     }
@@ -125,7 +125,7 @@ impl Unknowns {
         &self.degrees_of_freedom
     }
 
-    /// Range of the numbers of the unknowns of a point, and their places among its components.
+    /// Numbers of the unknowns of a point, and their indices among its components.
     pub(crate) fn of_point(
         &self,
         point: usize,

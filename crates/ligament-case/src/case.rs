@@ -1,8 +1,8 @@
 //! Case files: what to compute, in TOML.
 //!
-//! A case names a body, materials, the bond model, supports and loads, and optionally pre-cracks, probes,
-//! how bonds break, or that natural modes are wanted. All values are in SI units. [`CaseFile::load`] reads
-//! and checks one; every fault is reported with its line, column and key path.
+//! A case has a body, materials, the bond model, supports and loads, and optionally pre-cracks, probes, and the breakage of bonds or
+//! natural modes. All values are in SI units. [`CaseFile::load`] reads and checks a case; every fault is reported with its line, column and
+//! key path.
 
 mod analysis;
 mod body_kind;

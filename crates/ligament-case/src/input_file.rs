@@ -1,14 +1,14 @@
-//! Files that a user names.
+//! Input files of the user.
 
 use std::fs;
 use std::io;
 use std::path::Path;
 
-/// The bytes of a file.
+/// Reads the bytes of a file.
 ///
 /// # Errors
 ///
-/// If it cannot be read, or is a pipe or a device, which may never end.
+/// If the file cannot be read, or is a pipe or a device, which may never end.
 pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     let kind = fs::metadata(path)?.file_type();
     if !kind.is_file() && !kind.is_dir() {
@@ -18,11 +18,11 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     fs::read(path)
 }
 
-/// The text of a file.
+/// Reads the text of a file.
 ///
 /// # Errors
 ///
-/// As [`read`], and if it is not UTF-8.
+/// As for [`read`], and if the file is not UTF-8.
 pub fn read_text(path: &Path) -> io::Result<String> {
     String::from_utf8(read(path)?).map_err(|_| {
         io::Error::new(

@@ -1,12 +1,12 @@
-//! A case: a text in TOML that becomes the setup of a body. It changes when a case is to say something else.
+//! A case: a text in TOML that becomes the setup of a body.
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`case`] | sections, keys, faults with line and column, the schema, changes by `--set` |
-//! | [`setup`] | the typed setup of a case, and its errors at the keys that they come from |
-//! | [`input_file`] | files that a user names, read |
-//! | [`mesh_file`] | the reader of the mesh that a case names |
-//! | [`starter`] | a commented case to begin with |
+//! | [`case`] | sections, keys, faults with line and column, the schema, overrides by `--set` |
+//! | [`setup`] | the typed setup of a case, and its errors at the responsible keys |
+//! | [`input_file`] | the reader of the user's files |
+//! | [`mesh_file`] | the reader of a case's mesh |
+//! | [`starter`] | commented starter cases |
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")

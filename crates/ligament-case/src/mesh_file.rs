@@ -1,4 +1,4 @@
-//! Mesh files, as cases and commands name them.
+//! Reader of mesh files for cases and commands.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use ligament_mesh::{AnyMesh, Mesh};
 
 use crate::input_file;
 
-/// Why a mesh file could not be read.
+/// Error of reading a mesh file.
 #[derive(Debug, thiserror::Error)]
 pub enum MeshFileError {
     /// The file could not be read.
@@ -42,7 +42,7 @@ pub fn read_mesh(path: &Path) -> Result<Mesh, MeshFileError> {
 ///
 /// # Errors
 ///
-/// If the file cannot be read or is no Gmsh mesh of one of the two kinds.
+/// If the file cannot be read or is not a Gmsh mesh of either kind.
 pub fn read_any_mesh(path: &Path) -> Result<AnyMesh, MeshFileError> {
     read(path, gmsh::parse_any)
 }
@@ -59,11 +59,11 @@ fn read<T>(path: &Path, parse: fn(&[u8]) -> Result<T, GmshError>) -> Result<T, M
     })
 }
 
-/// Whether a file holds a mesh of solids.
+/// Whether a file has a mesh of solid cells.
 ///
 /// # Errors
 ///
-/// If it cannot be read.
+/// If the file cannot be read.
 pub(crate) fn holds_solid(path: &Path) -> io::Result<bool> {
     input_file::read(path).map(|bytes| gmsh::holds_solid(&bytes))
 }

@@ -1,4 +1,4 @@
-//! From a case file to the setup of a computation, with what other files hold.
+//! The setup of a computation from a case file and the files that it names.
 
 use ligament::body::{AnyBody, MeshBody, SolidMeshBody};
 use ligament::setup::{Setup, TemperatureChange};
@@ -11,11 +11,11 @@ use crate::mesh_file::{read_any_mesh, read_mesh};
 use crate::temperature_table;
 
 impl CaseFile {
-    /// The setup of the case, with the mesh and the tables that it names read from their files.
+    /// The setup of the case, with its mesh and tables read from their files.
     ///
     /// # Errors
     ///
-    /// If a file cannot be read, the mesh has no cells of the kind of the body, or nothing is left of a lattice or of one of its sets.
+    /// If a file cannot be read, the mesh has no cells of the kind of the body, or no cell remains of a lattice or of one of its sets.
     pub fn setup(&self, watcher: &mut dyn StageWatcher) -> anyhow::Result<Setup> {
         let body = self.read_body(watcher)?;
         Ok(self.setup_on(body)?)
@@ -25,7 +25,7 @@ impl CaseFile {
     ///
     /// # Errors
     ///
-    /// If it is one.
+    /// If the body is a solid.
     pub fn require_plane(&self) -> Result<(), CaseError> {
         if !self.case.is_solid() {
             return Ok(());
@@ -67,7 +67,7 @@ impl CaseFile {
         }
     }
 
-    /// The setup of the case on a body that is there already, whatever body the case names.
+    /// The setup of the case on a given body, in place of that of the case.
     ///
     /// # Errors
     ///
@@ -88,12 +88,12 @@ impl CaseFile {
         Ok(setup)
     }
 
-    /// Number of threads that the case asks for, if it does.
+    /// Number of threads of the case, if given.
     pub fn threads(&self) -> Option<usize> {
         self.case.solver.threads.map(|threads| threads as usize)
     }
 
-    /// The error of a computation in the words of the case, with a faulty field of the setup at the key that it comes from.
+    /// The error of a computation in the terms of the case, with a faulty field of the setup at the responsible key.
     pub fn explained(&self, error: ligament::Error) -> anyhow::Error {
         match error {
             ligament::Error::Setup(error) => self.located(error).into(),

@@ -6,16 +6,16 @@ use ligament::setup::Sample;
 
 use crate::input_file;
 
-/// The rows of a file, each with its line; else what is wrong with the file.
+/// Reads the rows of a file, each with its line number; as the error a description of the fault.
 pub(crate) fn rows_of(path: &Path, dimensions: usize) -> Result<Vec<(usize, Sample)>, String> {
     let text = input_file::read_text(path)
         .map_err(|source| format!("cannot read {}: {source}", path.display()))?;
     rows(&text, dimensions).map_err(|(line, reason)| format!("{}:{line}: {reason}", path.display()))
 }
 
-/// The rows below the header; blank lines and those that begin with # say nothing.
+/// Parses the rows below the header; blank lines and lines that begin with # are ignored.
 fn rows(text: &str, dimensions: usize) -> Result<Vec<(usize, Sample)>, (usize, String)> {
-    // Spreadsheets begin their files with a byte order mark.
+    // Spreadsheets write a byte order mark at the beginning of a file.
     let lines = text.trim_start_matches('\u{feff}').lines();
     let mut lines = (1..)
         .zip(lines.map(str::trim))

@@ -1,6 +1,8 @@
-//! What this program was built from, as its build script found it.
+//! The build of this program, determined by its build script.
 
-use ligament_run::provenance::Build;
+use std::borrow::Cow;
+
+use ligament_output::summary::{Build, Text};
 
 /// The build of this program.
 pub const BUILD: Build = Build {
@@ -15,10 +17,14 @@ pub const BUILD: Build = Build {
     compiler: known(env!("LIGAMENT_COMPILER")),
 };
 
-/// Version and commit, in words.
+/// Text of version and commit.
 pub(crate) const VERSION: &str = env!("LIGAMENT_VERSION");
 
-/// What is not empty.
-const fn known(text: &'static str) -> Option<&'static str> {
-    if text.is_empty() { None } else { Some(text) }
+/// The text, or `None` if it is empty.
+const fn known(text: &'static str) -> Option<Text> {
+    if text.is_empty() {
+        None
+    } else {
+        Some(Cow::Borrowed(text))
+    }
 }

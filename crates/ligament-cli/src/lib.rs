@@ -1,17 +1,17 @@
-//! The program `ligament`: its commands, and what they tell people. Nothing here computes.
+//! The program `ligament`: its commands and their reports, without computations.
 //!
 //! | module | holds |
 //! |---|---|
 //! | [`commands`] | a file for each command: its options, its help and what it calls |
-//! | [`check`] | what `ligament check` tells of a case |
-//! | [`explain`] | what `ligament explain` tells of the bonds of a stored run |
-//! | [`inspect`] | what `ligament inspect` tells of a mesh |
+//! | [`check`] | report of `ligament check` on a case |
+//! | [`explain`] | report of `ligament explain` on the bonds of a stored run |
+//! | [`inspect`] | report of `ligament inspect` on a mesh |
 //! | [`program`] | from the arguments to the exit code |
-//! | [`terminal`] | where the program speaks to people |
-//! | `build` | the commit and the compiler that the program is from |
-//! | `lines` | lines of reports: names with what they are, aligned columns |
-//! | `ranks` | the processes that a run is one of |
-//! | `stop_signal` | the wish that a run stop, files beyond a limit |
+//! | [`terminal`] | standard output and standard error |
+//! | `build` | commit and compiler of the program |
+//! | `lines` | lines of reports: names with values, aligned columns |
+//! | `ranks` | the processes of a run |
+//! | `stop_signal` | signals that stop a run, files beyond a size limit |
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")

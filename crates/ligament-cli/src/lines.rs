@@ -1,11 +1,11 @@
-//! Lines of reports: names with what they are, and aligned columns.
+//! Lines of reports: names with values, and aligned columns.
 
 use std::fmt::Display;
 use std::io::{self, Write};
 
 use ligament_output::columns::aligned;
 
-/// Writes a line with a name and its value, which begins behind a column of a width.
+/// Writes a line with a name in a column of a width, and its value.
 ///
 /// # Errors
 ///

@@ -8,7 +8,7 @@ use ligament_cli::program;
 
 fn main() -> ExitCode {
     let arguments: Vec<OsString> = env::args_os().collect();
-    // Without its own path it starts itself by the name that it was called by.
+    // If its own path is unknown, the program starts itself by the name of its call.
     let itself = env::current_exe().map_or_else(
         |_| arguments.iter().take(1).cloned().collect(),
         |it| vec![it.into()],

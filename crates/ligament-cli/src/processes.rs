@@ -1,4 +1,4 @@
-//! The processes of a run, where a launcher of MPI started them and the program is built for several.
+//! The processes of a run, if an MPI launcher started several and the program is built for them.
 
 #[cfg(feature = "petsc")]
 pub(crate) use mpi::{abort, is_not_root, join, part};
@@ -15,14 +15,13 @@ mod mpi {
     use ligament_petsc::Processes;
     use rayon::ThreadPoolBuilder;
 
-    /// Variables by which launchers tell a process that it is one of several.
+    /// Environment variables that MPI launchers set.
     const LAUNCHED: [&str; 4] = ["OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK", "PMI_RANK"];
 
-    /// Time for which a process that failed waits for the others: those that met the same error are there at once.
+    /// Time for which a failed process waits for the others, s: processes with the same error arrive at once.
     const PATIENCE: f64 = 5.0;
 
-    /// The processes that a launcher of MPI started; this one alone where nothing did. A process has one thread unless its case says
-    /// otherwise: there is one process for each processor.
+    /// The processes started by an MPI launcher, or this process alone. Each process has one thread unless its case sets another number.
     ///
     /// # Errors
     ///
@@ -36,12 +35,12 @@ mod mpi {
         Ok(Arc::new(Processes::start()?))
     }
 
-    /// Whether this process is one of several and not rank 0, which alone prints and writes.
+    /// Whether this process is a rank other than 0; only rank 0 prints and writes.
     pub(crate) fn is_not_root() -> bool {
         Processes::started().is_some_and(|it| !it.is_root())
     }
 
-    /// Waits for the others at the end, not for long after an error; tells whether all came.
+    /// Waits for the other processes at the end, after an error for a limited time; returns whether all arrived.
     pub(crate) fn part(has_failed: bool) -> bool {
         let Some(processes) = Processes::started() else {
             return true;
@@ -69,14 +68,14 @@ mod serial {
     use anyhow::ensure;
     use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 
-    /// The variable by which Open MPI tells how many processes it has started.
+    /// Environment variable with the number of processes started by Open MPI.
     const LAUNCHED: &str = "OMPI_COMM_WORLD_SIZE";
 
-    /// This process alone: the program is built for one.
+    /// This process alone, as the program is built without MPI.
     ///
     /// # Errors
     ///
-    /// If several were started together: all of them would do the same, into the same folder.
+    /// If several processes were started together, which would all write to the same folder.
     pub(crate) fn join() -> anyhow::Result<Arc<dyn MatrixCommunicator>> {
         let started = env::var(LAUNCHED).ok().and_then(|it| it.parse().ok());
         let started: usize = started.unwrap_or(1);
@@ -88,16 +87,16 @@ mod serial {
         Ok(Arc::new(Solo))
     }
 
-    /// This process is the first.
+    /// Returns false: this process is rank 0.
     pub(crate) fn is_not_root() -> bool {
         false
     }
 
-    /// All came: there is one.
+    /// Returns true: there is one process.
     pub(crate) fn part(_has_failed: bool) -> bool {
         true
     }
 
-    /// Nothing is left to end.
+    /// Does nothing: there are no other processes.
     pub(crate) fn abort() {}
 }

@@ -1,4 +1,4 @@
-//! The program as a whole: from its arguments to its exit code.
+//! The program, from its arguments to its exit code.
 
 use std::ffi::OsString;
 use std::io::{self, Write};
@@ -10,40 +10,40 @@ use ligament_run::end::StoppedBeforeSolution;
 use crate::stop_signal::report_large_files;
 use crate::{Cli, processes, terminal};
 
-/// Does what the arguments ask for, the name of the program first, and gives the exit code; `program` is the command that calls
-/// this program, for runs that it starts as processes of their own.
+/// Executes the program with its arguments, its name first, and returns the exit code; `program` is the command that calls this program,
+/// for runs as separate processes.
 pub fn execute(arguments: &[OsString], program: &[OsString]) -> ExitCode {
     parse_and_execute(arguments, |cli: Cli| cli.execute(program))
 }
 
-/// Reads the arguments of a program, its name first, does what they ask for, prints the error where that fails, and gives the exit code.
+/// Parses the arguments of a program, its name first, calls `execute`, prints its error, if any, and returns the exit code.
 pub fn parse_and_execute<A: Parser>(
     arguments: &[OsString],
     execute: impl FnOnce(A) -> anyhow::Result<ExitCode>,
 ) -> ExitCode {
-    // Where the system refuses, a file that is too large ends the program as it would without this.
+    // If this fails, a file beyond the size limit ends the program by a signal, as by default.
     let _ = report_large_files();
     let code = match A::try_parse_from(arguments) {
         Ok(read) => conclude(execute(read)),
         Err(told) => {
-            // Help and versions are told as errors, too.
+            // Help and versions are returned as errors, too.
             let _ = told.print();
             u8::try_from(told.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from)
         }
     };
-    // Where the program is a part of another one nobody else writes what is left of a line.
+    // An unfinished line would not be flushed otherwise if this is part of another program.
     let _ = io::stdout().flush();
     code
 }
 
-/// The exit code of what was done, or failed: that is printed.
+/// The exit code of a command; prints its error, if any.
 fn conclude(done: anyhow::Result<ExitCode>) -> ExitCode {
     let (code, error) = match done {
         Ok(code) => (code, None),
         Err(error) if is_closed_pipe(&error) => (ExitCode::SUCCESS, None),
         Err(error) => (code_of(&error), Some(error)),
     };
-    // What all processes meet the first one tells of.
+    // Errors of all processes are printed by rank 0.
     if let Some(error) = error.as_ref().filter(|_| !processes::is_not_root()) {
         print_error(error);
     }
@@ -60,13 +60,13 @@ fn conclude(done: anyhow::Result<ExitCode>) -> ExitCode {
     code
 }
 
-/// The exit code of an error: a run that a signal stopped ends alike whether or not it had begun.
+/// The exit code of an error; a run that a signal stopped has the same code before and after its start.
 fn code_of(error: &anyhow::Error) -> ExitCode {
     let stopped = error.downcast_ref::<StoppedBeforeSolution>();
     stopped.map_or(ExitCode::FAILURE, |it| it.exit_code().into())
 }
 
-/// The error and its causes; a reader that has gone away does not want to hear of them.
+/// Prints the error and its causes; failures of the output are ignored.
 fn print_error(error: &anyhow::Error) {
     let mut stderr = terminal::stderr();
     let _ = writeln!(stderr, "error: {error}");
@@ -75,7 +75,7 @@ fn print_error(error: &anyhow::Error) {
     }
 }
 
-/// Whether standard output, or a pipe in the place of a file, was closed by its reader, as by `ligament inspect ... | head`.
+/// Whether the error is that of standard output, or another pipe, closed by its reader, as in `ligament inspect ... | head`.
 fn is_closed_pipe(error: &anyhow::Error) -> bool {
     let mut causes = error.chain().filter_map(|it| it.downcast_ref());
     causes.any(|it: &io::Error| it.kind() == io::ErrorKind::BrokenPipe)

@@ -1,4 +1,4 @@
-//! Where the program speaks to people: control characters of others' texts are shown, not sent.
+//! Standard output and standard error, with control characters of foreign texts shown, not sent.
 
 use std::io::{self, Stderr, Stdout, Write};
 use std::path::Path;
@@ -16,7 +16,7 @@ pub fn stderr() -> Plain<Stderr> {
     Plain::new(io::stderr())
 }
 
-/// Standard output, or standard error where a file that is written is standard output itself: words would spoil it.
+/// Standard output for messages, or standard error where the written file is standard output itself.
 pub fn beside(file: &Path) -> Box<dyn Write> {
     match is_standard_output(file) {
         true => Box::new(stderr()),

@@ -1,25 +1,25 @@
-//! Parts of the factor that do not wait for each other: the elimination tree, cut into branches.
+//! The elimination tree, cut into branches that are independent of each other.
 //!
-//! A supernode needs those of its own subtree alone (Liu 1990), so subtrees
-//! are tasks of their own. Supernodes keep their numbers: a subtree here is a range of them, which takes in what an awkward order puts
-//! between two descendants. Nothing of this depends on the number of threads.
+//! A supernode needs those of its own subtree alone (Liu 1990), so subtrees are separate tasks. Supernodes are not renumbered: a subtree
+//! here is a range of them, which includes any supernodes that the order puts between two descendants. The branches do not depend on the
+//! number of threads.
 
 use std::ops::Range;
 
 use crate::supernodes::Supernodes;
 
-/// Values of the factor that make a task worth while: a substitution takes a tenth of a millisecond for them.
+/// Number of values of the factor that make a task worth while: their substitution takes a tenth of a millisecond.
 const SMALLEST_TASK: usize = 100_000;
 
-/// Share of the factor that a task has at most, unless one supernode has more.
+/// Reciprocal of the largest share of the factor in one task, unless one supernode has more.
 const MOST_TASKS: usize = 32;
 
-/// Consecutive supernodes that need no others: parts, and then a stem.
+/// Consecutive supernodes that need no others: independent parts, followed by a stem.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Branch {
-    /// Branches that need nothing of each other, ascending and without a gap up to the stem; none or several.
+    /// Branches that are independent of each other, ascending and without a gap up to the stem; none or several.
     pub(crate) parts: Vec<Branch>,
-    /// Supernodes that may need those of all parts and those before them in the stem.
+    /// Supernodes that may need those of all parts and preceding ones of the stem.
     pub(crate) stem: Range<usize>,
 }
 
@@ -30,7 +30,7 @@ impl Branch {
         Self::cut(supernodes, (total / MOST_TASKS).max(SMALLEST_TASK))
     }
 
-    /// The whole factor, cut where two ranges of supernodes with more than `most` values meet.
+    /// The whole factor, cut where two adjacent ranges of supernodes have more than `most` values each.
     pub(crate) fn cut(supernodes: Supernodes<'_>, most: usize) -> Self {
         let cutting = TreePartition {
             first: first_supernodes(supernodes),
@@ -50,13 +50,13 @@ impl Branch {
     }
 }
 
-/// For each supernode the first one of the smallest range that ends with it and needs no supernode outside.
+/// First supernode of the smallest range that ends with each supernode and needs no supernode outside, shape (n_supernodes).
 fn first_supernodes(supernodes: Supernodes<'_>) -> Vec<usize> {
     let count = supernodes.len();
     let of_row = supernodes.of_rows();
     let mut first_child: Vec<usize> = (0..count).collect();
     let mut first = Vec::with_capacity(count);
-    // Last supernodes of the ranges so far that none includes.
+    // Last supernodes of the ranges so far that lie in no other range.
     let mut ends: Vec<usize> = Vec::new();
     for supernode in 0..count {
         let mut start = first_child[supernode];
@@ -75,9 +75,9 @@ fn first_supernodes(supernodes: Supernodes<'_>) -> Vec<usize> {
 
 struct TreePartition<'a> {
     supernodes: Supernodes<'a>,
-    /// As of [`first_supernodes`].
+    /// First supernode of each range, see [`first_supernodes`].
     first: Vec<usize>,
-    /// Values of the factor that are not cut any further.
+    /// Number of values of the factor up to which a range is not cut.
     most: usize,
 }
 
@@ -87,7 +87,7 @@ impl TreePartition<'_> {
         self.supernodes.values_before(end) - self.supernodes.values_before(start) > self.most
     }
 
-    /// The ranges that need nothing of each other, from the first to the last, within one that needs no others.
+    /// Independent ranges, ascending, of a range that needs no supernode outside.
     fn independent(&self, range: Range<usize>) -> Vec<Range<usize>> {
         let mut ranges = Vec::new();
         let mut end = range.end;
@@ -100,7 +100,8 @@ impl TreePartition<'_> {
         ranges
     }
 
-    /// A range that needs no others as a branch. Only where two heavy ones meet are there branches of branches, which bounds their depth.
+    /// The branch of a range that needs no supernode outside. Only where two heavy ranges meet are branches nested, which bounds their
+    /// depth.
     fn branch(&self, range: Range<usize>) -> Branch {
         let mut stem = range.end..range.end;
         let mut ranges = self.independent(range);
@@ -141,7 +142,7 @@ impl TreePartition<'_> {
     }
 }
 
-/// Supernodes one after the other.
+/// A branch of supernodes that are done one after the other.
 fn task(stem: Range<usize>) -> Branch {
     let parts = Vec::new();
     Branch { parts, stem }

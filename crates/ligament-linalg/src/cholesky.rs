@@ -1,4 +1,4 @@
-//! A supernodal factor, L L^T or L D L^T.
+//! Supernodal factor, L L^T or L D L^T.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use crate::rank_one::RankOne;
 use crate::substitution::{solve_backward, solve_backward_in, solve_forward};
 use crate::symbolic::Symbolic;
 
-/// Values of a factor.
+/// A factor with its values, panel by panel.
 pub(crate) struct Cholesky {
     symbolic: Arc<Symbolic>,
     kind: FactorKind,
@@ -22,12 +22,12 @@ pub(crate) struct Cholesky {
     /// Diagonal of the matrix in the order of elimination, shape (n).
     diagonal: Vec<DiagonalEntry>,
     negative_pivots: usize,
-    /// Made when the factor is first changed in place.
+    /// Working memory of updates in place, made at the first update.
     modification: Option<Modification>,
 }
 
 impl Cholesky {
-    /// Room for a factor; nothing is factorised yet.
+    /// Memory for a factor that is not yet computed.
     pub(crate) fn new(kind: FactorKind, symbolic: Arc<Symbolic>) -> Result<Self, FactorError> {
         Ok(Self {
             kind,
@@ -39,7 +39,7 @@ impl Cholesky {
         })
     }
 
-    /// The error for a pivot, by its row in the order of elimination, that the factor cannot have.
+    /// The error of an invalid pivot in a row, in the order of elimination.
     fn invalid_pivot_error(&self, row: usize) -> FactorError {
         let unknown = self.symbolic.unknown_of_row()[row];
         match self.kind {
@@ -48,7 +48,7 @@ impl Cholesky {
         }
     }
 
-    /// Takes note of the matrix that was just factorised.
+    /// Stores the diagonal of the matrix just factorised and counts the negative pivots.
     fn factorised(&mut self, matrix: &SymmetricMatrix) {
         let unknowns = self.symbolic.unknown_of_row().iter();
         let entries = unknowns.map(|&unknown| DiagonalEntry::new(matrix.diagonal(unknown)));
@@ -150,10 +150,10 @@ impl Factorisation for Cholesky {
     }
 }
 
-/// Memory of `count` zeros, or an error instead of an abort.
+/// Allocates `count` zeros, or returns an error instead of an abort.
 ///
-/// The system gives pages of zeros when they are first written to, which the threads that make the panels do side by side; writing
-/// zeros here would take a fifth of the time of a factorisation with two threads.
+/// The operating system zeroes pages at the first write, which the threads that compute the panels do in parallel; writing zeros here would
+/// take a fifth of the time of a factorisation with two threads.
 fn zeros(count: usize) -> Result<Vec<f64>, FactorError> {
     let bytes = count * size_of::<f64>();
     let is_there = Vec::<f64>::new().try_reserve_exact(count);

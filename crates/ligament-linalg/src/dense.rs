@@ -1,7 +1,7 @@
 //! Dense factorisation of the panel of a supernode: its columns, then the rows below.
 //!
-//! The arithmetic is faer's. Large panels are done in the blocks that faer takes on one thread, of which rows and columns that do not
-//! wait for each other are tasks, so that all bits stay as they are on one thread.
+//! The arithmetic is faer's. Large panels are divided into the blocks that faer uses on one thread; independent rows and columns of them are
+//! tasks, so that all bits are those of one thread.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::{ldlt, llt};
@@ -16,13 +16,13 @@ use rayon::prelude::*;
 
 use crate::panels::FactorKind;
 
-/// Columns that faer eliminates at once.
+/// Columns that faer eliminates together.
 const BLOCK: usize = 128;
 
-/// Rows below a block that are one task.
+/// Rows below a block in one task.
 const ROWS: usize = 128;
 
-/// Factorises a panel (n_columns, height); the error is the first column without a pivot.
+/// Factorises a panel (n_columns, height); the error is the first column without a valid pivot.
 pub(crate) fn factorise(
     kind: FactorKind,
     panel: &mut [f64],
@@ -45,7 +45,7 @@ pub(crate) fn factorise(
     Ok(())
 }
 
-/// Factorises a square by faer alone.
+/// Factorises a square matrix in one call to faer.
 fn whole(kind: FactorKind, square: MatMut<'_, f64>) -> Result<(), usize> {
     let n = square.nrows();
     let parameters = Default::default();
@@ -75,7 +75,7 @@ fn whole(kind: FactorKind, square: MatMut<'_, f64>) -> Result<(), usize> {
     Ok(())
 }
 
-/// Factorises a square block by block, right-looking.
+/// Factorises a square matrix block by block, right-looking.
 fn in_blocks(kind: FactorKind, mut square: MatMut<'_, f64>) -> Result<(), usize> {
     let n = square.nrows();
     for first in (0..n).step_by(BLOCK) {
@@ -89,7 +89,7 @@ fn in_blocks(kind: FactorKind, mut square: MatMut<'_, f64>) -> Result<(), usize>
     Ok(())
 }
 
-/// The rows below a factorised square, in tasks of some rows.
+/// Solves for the rows below a factorised square, in tasks of some rows.
 fn solve(kind: FactorKind, square: MatRef<'_, f64>, below: MatMut<'_, f64>) {
     let mut tasks = Vec::new();
     let mut rest = below;
@@ -115,7 +115,7 @@ fn solve(kind: FactorKind, square: MatRef<'_, f64>, below: MatMut<'_, f64>) {
     });
 }
 
-/// Subtracts L L^T or L D L^T of the rows below a block from what is left of a square, in tasks of some columns.
+/// Subtracts L L^T or L D L^T of the rows below a block from the remaining square, in tasks of some columns.
 fn subtract(
     kind: FactorKind,
     block: MatRef<'_, f64>,

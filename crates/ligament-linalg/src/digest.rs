@@ -1,18 +1,17 @@
-//! A number for the bits of many values.
+//! A hash of the bits of many values.
 
 use rayon::prelude::*;
 
-/// Values that one thread digests.
+/// Number of values that one thread hashes.
 const CHUNK: usize = 1 << 16;
 
-/// Digests of a chunk that are made side by side, because each waits for what it was with the value before.
+/// Number of hashes of a chunk that are computed side by side, since each step of a hash waits for the step before.
 const LANES: usize = 4;
 
-/// The digest of no values.
+/// The hash of no values.
 const NONE: u64 = 0xcbf2_9ce4_8422_2325;
 
-/// A number that tells whether the bits of some values are those of others, with a chance of some 2^-64 to be wrong; the same for any
-/// number of threads.
+/// A hash of the bits of values, the same for any number of threads; different bits give the same hash with a probability of about 2^-64.
 pub fn digest(values: &[f64]) -> u64 {
     let of_chunks: Vec<[u64; LANES]> = values.par_chunks(CHUNK).map(of_chunk).collect();
     of_chunks.into_iter().flatten().fold(NONE, with)
@@ -28,7 +27,7 @@ fn of_chunk(values: &[f64]) -> [u64; LANES] {
     digests
 }
 
-/// The hash of Fowler, Noll and Vo with one word more, of words instead of bytes, with a turn that takes high bits down.
+/// The hash of Fowler, Noll and Vo, of words instead of bytes, extended by one word; a rotation moves high bits down.
 fn with(digest: u64, word: u64) -> u64 {
     (digest.rotate_left(29) ^ word).wrapping_mul(0x0000_0100_0000_01b3)
 }

@@ -1,9 +1,8 @@
-//! Largest eigenvalues of a symmetric operator that is known only by its products.
+//! Largest eigenvalues of a symmetric operator that is given by its products.
 //!
-//! Block Lanczos with full orthogonalisation and thick restarts (Wu and Simon 2000, for
-//! blocks of one): the operator is projected on a growing orthonormal basis, and where that is full it is cut down to the
-//! best approximations found so far. A block of two sees an eigenvalue that occurs twice, as the modes of a square plate
-//! do, which a single vector finds only by rounding.
+//! Block Lanczos with full orthogonalisation and thick restarts (Wu and Simon 2000, for blocks of one): the operator is projected on a
+//! growing orthonormal basis, and a full basis is cut down to the best approximations so far. A block of two finds an eigenvalue that occurs
+//! twice, as for the modes of a square plate; a single vector would find it only by rounding.
 
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -13,13 +12,13 @@ use faer::linalg::evd::{
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par, Spec};
 
-/// Vectors that go through the operator together.
+/// Vectors multiplied by the operator together.
 const BLOCK: usize = 2;
 
 /// Vectors of the basis beyond three times the number of pairs.
 const ROOM: usize = 20;
 
-/// A vector whose part outside of the basis is smaller than this lies in it, but for rounding.
+/// Relative size of the part of a vector outside the basis below which the vector lies in the basis, but for rounding.
 const DEPENDENT: f64 = 1e-13;
 
 /// Eigenpairs of an operator of dimension n.
@@ -29,23 +28,23 @@ pub struct Eigenpairs {
     pub values: Vec<f64>,
     /// Orthonormal eigenvectors, each of shape (n).
     pub vectors: Vec<Vec<f64>>,
-    /// Whether all residuals |A v - value v| are below the tolerance times the eigenvalue. An eigenvalue that occurs more
-    /// than twice may still stand for fewer than it should: it takes a count (Sylvester's law of inertia) to know.
+    /// Whether all residuals |A v - value v| are below the tolerance times the eigenvalue. An eigenvalue that occurs more than twice may
+    /// still be found too few times: only a count (Sylvester's law of inertia) shows it.
     pub converged: bool,
-    /// Products with the operator.
+    /// Number of products with the operator.
     pub products: usize,
 }
 
-/// Settings of the search for eigenvalues.
+/// Settings of the eigenvalue search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Search {
-    /// Number of pairs.
+    /// Number of eigenpairs.
     pub count: usize,
-    /// Residual over eigenvalue below which a pair is found.
+    /// Ratio of residual to eigenvalue below which a pair has converged.
     pub tolerance: f64,
-    /// Products with the operator after which to give up.
+    /// Greatest number of products with the operator.
     pub limit: usize,
-    /// Seed of the vectors to start from.
+    /// Seed of the random start vectors.
     pub seed: u64,
 }
 
@@ -95,40 +94,40 @@ pub fn largest_eigenpairs(
             };
         }
         if is_full {
-            // Half of the room beyond the wanted pairs keeps what converges next.
+            // Half of the room beyond the wanted pairs keeps approximations that converge next.
             basis.restart(&ritz, (count + limit_of_basis) / 2 - BLOCK / 2);
         }
     }
 }
 
-/// An orthonormal basis, the operator projected on it, and the block that comes next.
+/// An orthonormal basis, the operator projected on it, and the next block.
 struct Basis {
     n: usize,
     /// Basis vectors, then the next block, shape (n, limit + BLOCK).
     vectors: Mat<f64>,
     /// Upper triangle of V^T A V, shape (limit + BLOCK, limit + BLOCK).
     projected: Mat<f64>,
-    /// Columns that are projected.
+    /// Number of projected columns.
     n_projected: usize,
-    /// Columns of the next block.
+    /// Number of columns of the next block.
     n_next: usize,
-    /// What of A times the last block lies along the next one, row-major.
+    /// Components of A times the last block along the next one, row-major.
     coupling: [[f64; BLOCK]; BLOCK],
-    /// Columns of the last block.
+    /// Number of columns of the last block.
     n_last: usize,
 }
 
-/// Approximations from the basis, largest first.
+/// Ritz pairs: approximations from the basis, largest first.
 struct Ritz {
     values: Vec<f64>,
     /// Coefficients, shape (n_projected, n_projected).
     vectors: Mat<f64>,
-    /// |A v - value v|.
+    /// Residuals |A v - value v|, shape (n_projected).
     residuals: Vec<f64>,
 }
 
 impl Basis {
-    /// A first block of random vectors.
+    /// A basis whose first block is random.
     fn start(n: usize, limit: usize, random: &mut Random) -> Self {
         let mut basis = Self {
             n,
@@ -145,7 +144,7 @@ impl Basis {
         basis
     }
 
-    /// Projects the operator on the next block, and makes the one after it; gives the number of products.
+    /// Projects the operator on the next block and makes the block after it; returns the number of products.
     fn extend(
         &mut self,
         product: &mut impl FnMut(&[f64], &mut [f64]),
@@ -160,7 +159,7 @@ impl Basis {
                 images.col_as_slice_mut(k),
             );
         }
-        // A second pass takes away what rounding left of the basis in the images.
+        // A second pass removes the part in the basis that rounding left in the images.
         for _ in 0..2 {
             let known = self.vectors.get(.., ..end);
             let mut along = Mat::<f64>::zeros(end, width);
@@ -195,7 +194,7 @@ impl Basis {
         width
     }
 
-    /// Makes the rest of an image a vector of the next block; a random one takes its place where nothing is left of it.
+    /// Makes the rest of an image a vector of the next block, or a random vector where the rest vanishes.
     fn append_image(&mut self, image: &mut [f64], column: usize, random: &mut Random) {
         let scale = self.projected[(self.n_projected - 1, self.n_projected - 1)].abs();
         for _ in 0..2 {
@@ -216,14 +215,14 @@ impl Basis {
         }
     }
 
-    /// Appends a random vector at right angles to all others, unless the basis spans the whole space.
+    /// Appends a random vector orthogonal to all others, unless the basis spans the whole space.
     fn append_random(&mut self, random: &mut Random) {
         let end = self.n_projected + self.n_next;
         if end >= self.n {
             return;
         }
         let mut vector: Vec<f64> = (0..self.n).map(|_| random.uniform()).collect();
-        // Near the whole space little is left of a random vector: passes go on until one takes nothing away.
+        // Near the whole space little remains of a random vector: passes are repeated until one removes nothing.
         loop {
             let before = dot(&vector, &vector).sqrt();
             vector.iter_mut().for_each(|value| *value /= before);
@@ -251,11 +250,10 @@ impl Basis {
         self.n_next += 1;
     }
 
-    /// Eigenpairs of the projection, largest first, with the residuals of the approximations; none where the products were
-    /// not finite.
+    /// Eigenpairs of the projection, largest first, with the residuals of the approximations; none where products are not finite.
     fn ritz(&self) -> Option<Ritz> {
         let m = self.n_projected;
-        // The decomposition reads the lower triangle, and sorts upwards: of -A, downwards.
+        // The decomposition reads the lower triangle and sorts ascending; that of -A gives A's eigenvalues descending.
         let lower = Mat::from_fn(m, m, |row, column| {
             -self.projected[(row.min(column), row.max(column))]
         });
@@ -264,7 +262,7 @@ impl Basis {
         }
         let mut values = Diag::<f64>::zeros(m);
         let mut vectors = Mat::<f64>::zeros(m, m);
-        // By divide and conquer, faer's choice from 128 on, small last entries of the vectors come out wrong: the residuals.
+        // Divide and conquer, faer's choice from 128 on, gives wrong small last entries of the vectors, from which the residuals follow.
         let mut parameters = Spec::<SelfAdjointEvdParams, f64>::default();
         parameters.recursion_threshold = usize::MAX;
         let request =
@@ -309,8 +307,8 @@ impl Basis {
         combined
     }
 
-    /// Cuts the basis down to the best `keep` approximations. The next block stays as it is: the projection of the operator
-    /// on it will couple it with all of them.
+    /// Cuts the basis down to the best `keep` approximations. The next block is unchanged: the projection of the operator on it will couple
+    /// it with all of them.
     fn restart(&mut self, ritz: &Ritz, keep: usize) {
         let kept = self.combine(&ritz.vectors, keep);
         for column in 0..keep {

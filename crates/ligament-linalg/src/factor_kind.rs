@@ -10,7 +10,7 @@ use crate::panels::FactorKind;
 use crate::symbolic::Symbolic;
 
 impl FactorKind {
-    /// Factorises a matrix whose pattern was analysed before.
+    /// Factorises a matrix whose pattern has been analysed.
     pub fn factorise(
         self,
         symbolic: &Arc<Symbolic>,

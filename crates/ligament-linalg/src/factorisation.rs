@@ -1,4 +1,4 @@
-//! What every factorisation does.
+//! The interface of all factorisations.
 
 use crate::factor_error::FactorError;
 use crate::matrix::SymmetricMatrix;
@@ -7,37 +7,35 @@ use crate::rank_one::RankOne;
 
 /// A factorised symmetric matrix.
 pub trait Factorisation: Send + Sync {
-    /// Factorises other values over the same pattern. After an error the factor must not be used before another call
-    /// succeeded.
+    /// Factorises a matrix with other values over the same pattern. After an error the factor must not be used before another call succeeds.
     fn refactorise(&mut self, matrix: &SymmetricMatrix) -> Result<(), FactorError>;
 
     /// Solves A x = b in place, b of shape (n).
     fn solve_in_place(&mut self, right_hand_side: &mut [f64]);
 
-    /// Changes the matrix A by the terms c w w^T, in place of its factor, and does the first half of solving A' x = b for a
-    /// b of few entries (unknown and value): the forward substitution.
+    /// Adds the terms c w w^T to the matrix A by updating its factor in place, and does the forward substitution of A' x = b for a sparse b,
+    /// given as (unknown, value).
     ///
-    /// Terms go in one after the other, and each matrix on the way must have a factor: what adds stiffness belongs before
-    /// what takes it. Entries of b for the same unknown add up. The cost is that of the parts of the factor that the terms
-    /// and the entries reach.
+    /// Terms are applied one after the other, and each intermediate matrix must have a factor: terms that add stiffness belong before those
+    /// that remove it. Entries of b for the same unknown add up. The cost is that of the supernodes that the terms and the entries reach.
     ///
-    /// After an error (a pivot that vanished, [`VANISHING_PIVOT`](crate::VANISHING_PIVOT)) the factor must not be used
-    /// before [`Factorisation::refactorise`] succeeded.
+    /// After an error (a vanishing pivot, [`VANISHING_PIVOT`](crate::VANISHING_PIVOT)) the factor must not be used before
+    /// [`Factorisation::refactorise`] succeeds.
     ///
     /// # Panics
     ///
-    /// Panics if there is no such unknown.
+    /// Panics if an unknown does not exist.
     fn change(
         &mut self,
         terms: &[RankOne],
         right_hand_side: &[(usize, f64)],
     ) -> Result<ForwardSubstituted, FactorError>;
 
-    /// The other half, before the factor changes again: the backward substitution; x of shape (n).
+    /// Backward substitution of a half-solved right-hand side, before the factor changes again; returns x, shape (n).
     fn finish(&self, half_solved: ForwardSubstituted) -> Vec<f64>;
 
-    /// The backward substitution in a part, in place: `vector` (n), in the order of elimination, holds the half-solved right-hand side in
-    /// the rows of the part, and the solution in those of its border.
+    /// Backward substitution in a part, in place: in `vector` (n), in the order of elimination, the rows of the part enter with the
+    /// half-solved right-hand side and leave with the solution; the rows of its border already have the solution.
     fn solve_backward_part(&self, part: &Part, vector: &mut [f64]);
 
     /// Pivots in the order of the matrix (the entries of D in L D L^T), shape (n).
@@ -46,7 +44,7 @@ pub trait Factorisation: Send + Sync {
     /// Numbers of positive and negative pivots. The eigenvalues have the same signs (Sylvester's law of inertia).
     fn inertia(&self) -> Inertia;
 
-    /// A number that differs, as good as certainly, between factors whose values differ in a bit.
+    /// A hash of the values of the factor: values that differ in a bit give, almost certainly, different hashes.
     fn digest(&self) -> u64;
 }
 
@@ -64,8 +62,8 @@ impl ForwardSubstituted {
 /// Numbers of eigenvalues by sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Inertia {
-    /// Positive ones.
+    /// Number of positive eigenvalues.
     pub positive: usize,
-    /// Negative ones.
+    /// Number of negative eigenvalues.
     pub negative: usize,
 }

@@ -9,11 +9,11 @@ pub struct GeneralMatrix {
 }
 
 impl GeneralMatrix {
-    /// The matrix of order `dimension` with these entries (row, column, value); those at the same place add up in their order.
+    /// The matrix of order `dimension` with given entries (row, column, value); entries at the same position add up in their order.
     ///
     /// # Panics
     ///
-    /// Panics if an entry lies outside.
+    /// Panics if an entry lies outside the matrix.
     pub fn of_entries(dimension: usize, mut entries: Vec<(usize, usize, f64)>) -> Self {
         let inside = |&(row, column, _): &(usize, usize, f64)| row.max(column) < dimension;
         assert!(entries.iter().all(inside), "an entry lies outside");

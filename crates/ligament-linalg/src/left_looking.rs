@@ -1,8 +1,8 @@
-//! Supernodal factorisation, left-looking (Ng and Peyton 1993): a panel is the matrix less what all panels before it add to it, and is
-//! then factorised as a dense matrix.
+//! Supernodal left-looking factorisation (Ng and Peyton 1993): a panel is the matrix less the updates by all panels before it, and is then
+//! factorised as a dense matrix.
 //!
-//! Branches of the elimination tree are made at the same time, and within the large panels near the root blocks of columns are. An
-//! entry takes what is subtracted from it in the order of the supernodes, whichever thread does it: the bits are those of one thread.
+//! Branches of the elimination tree are factorised in parallel, and so are blocks of columns within the large panels near the root. Updates
+//! are subtracted from an entry in the order of the supernodes on any thread: the bits are those of one thread.
 
 use rayon::prelude::*;
 
@@ -12,10 +12,10 @@ use crate::panels::FactorKind;
 use crate::subtraction::{Buffers, Source, Target};
 use crate::symbolic::Symbolic;
 
-/// Columns of a panel that are one task.
+/// Columns of a panel in one task.
 const TILE: usize = 64;
 
-/// A factorisation under way.
+/// A factorisation in progress.
 #[derive(Clone, Copy)]
 pub(crate) struct LeftLooking<'a> {
     pub(crate) kind: FactorKind,
@@ -25,12 +25,12 @@ pub(crate) struct LeftLooking<'a> {
 }
 
 impl LeftLooking<'_> {
-    /// Factorises into `values`; the error is the first row, in the order of elimination, that has no pivot.
+    /// Factorises into `values`; the error is the first row, in the order of elimination, without a valid pivot.
     pub(crate) fn factorise(self, values: &mut [f64]) -> Result<(), usize> {
         self.branch(self.symbolic.branch(), values)
     }
 
-    /// Makes the panels of a branch.
+    /// Computes the panels of a branch.
     fn branch(self, branch: &Branch, values: &mut [f64]) -> Result<(), usize> {
         let supernodes = self.symbolic.supernodes();
         let first_value = supernodes.values_before(branch.supernodes().start);
@@ -59,7 +59,8 @@ impl LeftLooking<'_> {
         Ok(())
     }
 
-    /// Makes the panel of a supernode, with the values of the factor before it from a place on, and a table by rows (n) to write in.
+    /// Computes the panel of a supernode from `before`, the values of the factor from a position on and that position; `place_of_row` (n) is
+    /// working memory.
     fn panel(
         self,
         supernode: usize,
@@ -75,7 +76,7 @@ impl LeftLooking<'_> {
         }
         let place_of_row = &*place_of_row;
         let height = columns.len() + below.len();
-        // The first tiles have more rows than the last: each is a task, so that threads end together.
+        // Tiles on the left have more rows than those on the right: each is a task, so that threads finish together.
         panel
             .par_chunks_mut(TILE * height)
             .enumerate()
@@ -93,7 +94,7 @@ impl LeftLooking<'_> {
         dense::factorise(self.kind, panel, columns.len()).map_err(|column| columns.start + column)
     }
 
-    /// Puts entries of the matrix into some columns of a panel, and subtracts what the panels before it have for them.
+    /// Sets some columns of a panel to the entries of the matrix and subtracts the updates by the panels before.
     fn tile(
         self,
         supernode: usize,

@@ -1,10 +1,10 @@
-//! Sparse symmetric systems: pattern, values, factorisations and eigenvalues. No points, no bonds, no time.
+//! Sparse symmetric systems: pattern, values, factorisations and eigenvalues, without points, bonds or time.
 //!
-//! The pattern of a matrix is made once ([`Pattern`]), analysed once for an order of elimination ([`Symbolic`]), and then
-//! factorised as often as its values change ([`FactorKind::factorise`]). Where a change is a sum of few terms of rank one
-//! ([`RankOne`]), the factor is changed in place ([`Factorisation::change`]), for a fraction of the cost. With the products of
-//! a factor [`largest_eigenpairs`] finds the lowest modes. Sums go in an order that the matrix alone gives, so that the same
-//! matrix has the same bits on any number of threads: those of rayon's pool that the caller is in.
+//! The pattern of a matrix is made once ([`Pattern`]), analysed once for an order of elimination ([`Symbolic`]), and the matrix is
+//! factorised whenever its values change ([`FactorKind::factorise`]). A change that is a sum of few terms of rank one ([`RankOne`]) updates
+//! the factor in place ([`Factorisation::change`]), for a fraction of the cost. With the products of a factor [`largest_eigenpairs`] finds
+//! the lowest modes. Sums are taken in an order that the matrix alone gives, so that the results have the same bits on any number of
+//! threads; work runs in the caller's rayon pool.
 
 mod branches;
 mod cholesky;

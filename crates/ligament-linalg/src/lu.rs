@@ -9,7 +9,7 @@ use faer::{Conj, MatMut, Par};
 use crate::factor_error::FactorError;
 use crate::general::GeneralMatrix;
 
-/// Factors L U of a square matrix, with its columns in an order of little fill and its rows in that of their pivots.
+/// Factors L U of a square matrix, with a fill-reducing order of columns and rows in the order of their pivots.
 pub struct Lu {
     symbolic: SymbolicLu<usize>,
     numeric: NumericLu<usize, f64>,
@@ -21,8 +21,8 @@ impl Lu {
     ///
     /// # Errors
     ///
-    /// [`FactorError::ZeroPivot`] if the pattern of the matrix is singular. One whose values are singular gives solutions that
-    /// are no numbers, or no solutions: the residual tells.
+    /// [`FactorError::ZeroPivot`] if the matrix is structurally singular. A numerically singular matrix gives solutions that are not finite
+    /// or not accurate, which the residual shows.
     pub fn factorise(matrix: &GeneralMatrix) -> Result<Self, FactorError> {
         let n = matrix.dimension();
         let out_of_memory = |bytes| FactorError::OutOfMemory { bytes };

@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
-/// Where a symmetric matrix has entries: the upper triangle by columns, rows ascending, diagonal always present (last).
+/// Sparsity pattern of a symmetric matrix: the upper triangle by columns, rows ascending, diagonal always present (last).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Pattern {
     column_starts: Vec<usize>,
     rows: Vec<usize>,
 }
 
-/// Why arrays are no pattern.
+/// Reasons why arrays do not form a pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum PatternError {
     /// Column starts do not begin at zero, do not ascend or do not end at the number of rows given.
@@ -86,17 +86,17 @@ impl SymmetricMatrix {
         Self { pattern, values }
     }
 
-    /// The pattern.
+    /// The sparsity pattern.
     pub fn pattern(&self) -> &Arc<Pattern> {
         &self.pattern
     }
 
-    /// Entry of the diagonal.
+    /// Diagonal entry at an index.
     pub fn diagonal(&self, index: usize) -> f64 {
         self.values[self.pattern.column_starts[index + 1] - 1]
     }
 
-    /// Adds weight g g^T, with the entries of g by row; those that the pattern has no place for are left out.
+    /// Adds weight g g^T, with the entries of g by row; entries outside the pattern are left out.
     pub fn add_outer(&mut self, weight: f64, entries: &[(usize, f64)]) {
         for &(column, one) in entries {
             let start = self.pattern.column_starts[column];
@@ -109,7 +109,7 @@ impl SymmetricMatrix {
         }
     }
 
-    /// Adds a diagonal matrix (n), `factor` times.
+    /// Adds `factor` times a diagonal matrix, shape (n).
     pub fn add_diagonal(&mut self, factor: f64, diagonal: &[f64]) {
         let ends = &self.pattern.column_starts[1..];
         for (&end, value) in ends.iter().zip(diagonal) {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::branches::Branch;
 use crate::supernodes::Supernodes;
 
-/// The factorisations to choose from, which store their pivots in different ways.
+/// The kinds of factorisation, which store their pivots in different ways.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FactorKind {
     /// L L^T, for positive definite matrices, with the square root of the pivot on the diagonal.
@@ -14,7 +14,7 @@ pub enum FactorKind {
     Ldlt,
 }
 
-/// A factor as its panels.
+/// A factor as dense panels, one per supernode.
 #[derive(Clone, Copy)]
 pub(crate) struct Panels<'a> {
     pub(crate) kind: FactorKind,
@@ -23,14 +23,14 @@ pub(crate) struct Panels<'a> {
 }
 
 impl Panels<'_> {
-    /// Rows that some supernodes have as columns.
+    /// Rows of the factor that are columns of a range of supernodes.
     pub(crate) fn rows(self, supernodes: Range<usize>) -> Range<usize> {
         let [start, end] =
             [supernodes.start, supernodes.end].map(|it| self.supernodes.columns_before(it));
         start..end
     }
 
-    /// The rows of each of some branches that follow each other, of a vector that begins with those of the first.
+    /// Divides a vector into the rows of each of some consecutive branches; the vector begins with the rows of the first.
     pub(crate) fn split<'a>(
         self,
         branches: &[Branch],

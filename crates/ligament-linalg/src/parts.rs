@@ -1,31 +1,31 @@
-//! Parts of a factor that can be substituted backward one by one, each after those above it.
+//! Parts of a factor that are substituted backward one by one, each after its parent.
 
 use std::ops::Range;
 
 use crate::branches::Branch;
 use crate::supernodes::Supernodes;
 
-/// Rows of a factor whose backward substitution needs, beside them, only rows of the parts above.
+/// Rows of a factor whose backward substitution needs, besides themselves, only rows of ancestor parts.
 ///
 /// Rows are counted in the order of elimination.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Part {
-    /// The part above, which has a smaller number; None of the last rows.
+    /// Number of the parent part, smaller than the part's own; `None` for the root.
     pub above: Option<usize>,
     /// Rows of the part itself.
     pub rows: Range<usize>,
-    /// Rows of parts above that the part and all parts below it need, ascending.
+    /// Rows of ancestor parts that the part and its descendants need, ascending.
     pub border: Vec<usize>,
     pub(crate) supernodes: Range<usize>,
 }
 
 impl Part {
-    /// Number of values of the factor in the part, as if it were one panel.
+    /// Number of values of the factor in the part, counted as one dense panel.
     pub fn n_values(&self) -> usize {
         self.rows.len() * (self.rows.len() / 2 + self.border.len())
     }
 
-    /// The parts of a factor, each after the one above it; no part below which there is another one has less than `least` values with it.
+    /// The parts of a factor, each after its parent; every part that has children has at least `least` values together with its descendants.
     pub(crate) fn of_factor(supernodes: Supernodes<'_>, least: usize) -> Vec<Self> {
         let mut parts = Vec::new();
         let mut branches = vec![(None, Branch::cut(supernodes, least))];

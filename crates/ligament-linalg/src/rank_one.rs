@@ -3,9 +3,8 @@
 /// A term c w w^T of a change of the matrix.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RankOne {
-    /// The factor c: positive where stiffness is added, negative where it leaves.
+    /// Factor c: positive where stiffness is added, negative where it is removed.
     pub weight: f64,
-    /// Unknowns and values of w, which add up where an unknown comes twice; every pair of unknowns must be in the pattern
-    /// of the matrix.
+    /// Unknowns and values of w; values of a repeated unknown add up. Every pair of unknowns must be in the pattern of the matrix.
     pub entries: Vec<(usize, f64)>,
 }

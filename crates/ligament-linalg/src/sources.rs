@@ -1,4 +1,4 @@
-//! What a factor is made of, in the order of elimination: entries of the matrix, and supernodes that reach each other.
+//! Sources of the values of a factor, in the order of elimination: entries of the matrix, and updates between supernodes.
 
 use crate::factor_error::FactorError;
 use crate::matrix::Pattern;
@@ -9,12 +9,12 @@ use crate::supernodes::Supernodes;
 pub(crate) struct Sources {
     /// First entry of each column, then their number, shape (n + 1).
     starts: Vec<u32>,
-    /// Row in the order of elimination and place in the matrix of each entry, shape (n_entries, 2).
+    /// Row in the order of elimination and index in the matrix of each entry, shape (n_entries, 2).
     entries: Vec<[u32; 2]>,
 }
 
 impl Sources {
-    /// The entries of a pattern, with the row of the factor for each index in the matrix (n).
+    /// The entries of a pattern, for the row of the factor of each unknown (n).
     pub(crate) fn new(pattern: &Pattern, row_of_unknown: &[usize]) -> Result<Self, FactorError> {
         if u32::try_from(pattern.n_entries()).is_err() {
             return Err(FactorError::IndexOverflow);
@@ -46,18 +46,18 @@ impl Sources {
         Ok(Self { starts, entries })
     }
 
-    /// Row and place in the matrix of each entry of a column.
+    /// Row and index in the matrix of each entry of a column.
     pub(crate) fn of_column(&self, column: usize) -> &[[u32; 2]] {
         &self.entries[self.starts[column] as usize..self.starts[column + 1] as usize]
     }
 }
 
-/// For each supernode those before it that have rows among its columns.
+/// For each supernode, the supernodes before it that update it: those with rows among its columns.
 #[derive(Debug)]
 pub(crate) struct UpdatingSupernodes {
-    /// First of each supernode, then their number, shape (n_supernodes + 1).
+    /// First updating supernode of each supernode in the list, then the length of the list, shape (n_supernodes + 1).
     starts: Vec<usize>,
-    /// Supernodes that reach it, ascending.
+    /// Updating supernodes, ascending for each supernode.
     supernodes: Vec<u32>,
 }
 
@@ -92,7 +92,7 @@ impl UpdatingSupernodes {
         }
     }
 
-    /// The supernodes that reach one, ascending.
+    /// The supernodes that update a supernode, ascending.
     pub(crate) fn supernodes(&self, reached: usize) -> &[u32] {
         &self.supernodes[self.starts[reached]..self.starts[reached + 1]]
     }

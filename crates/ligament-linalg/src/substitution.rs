@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use crate::branches::Branch;
 use crate::panels::{FactorKind, Panels};
 
-/// Columns of a panel that are read together: as many streams from memory.
+/// Columns of a panel that are read together: the number of streams from memory.
 pub(crate) const BLOCK: usize = 8;
 
 /// Solves L y = b in place, from the leaves to the root; rows in the order of elimination.
@@ -19,14 +19,14 @@ pub(crate) fn solve_forward(panels: Panels<'_>, branch: &Branch, vector: &mut [f
 /// Solves L^T x = y, or L^T x = D^-1 y, in place, from the root to the leaves.
 pub(crate) fn solve_backward(panels: Panels<'_>, branch: &Branch, vector: &mut [f64]) {
     if rayon::current_num_threads() == 1 {
-        // The same sums from the last panel to the first, as they lie in memory.
+        // Same sums as by branches, from the last panel to the first, as they lie in memory.
         solve_backward_in(panels, branch.supernodes(), vector);
     } else {
         backward_branch(panels, branch, vector, None);
     }
 }
 
-/// Solves L^T x = y, or L^T x = D^-1 y, in place for the rows of some consecutive supernodes, where the rows that these need are known.
+/// Solves L^T x = y, or L^T x = D^-1 y, in place for the rows of consecutive supernodes, where the other rows that they need are solved.
 pub(crate) fn solve_backward_in(panels: Panels<'_>, supernodes: Range<usize>, vector: &mut [f64]) {
     Arch::new().dispatch(Backward {
         panels,
@@ -37,12 +37,12 @@ pub(crate) fn solve_backward_in(panels: Panels<'_>, supernodes: Range<usize>, ve
     });
 }
 
-/// What a supernode adds to a row.
+/// Contribution of a supernode to a row: row and value.
 type Addition = (usize, f64);
 
-/// Solves for the rows of a branch; gives what it adds to rows beyond, in the order of its supernodes.
+/// Forward substitution in the rows of a branch; returns the contributions to rows beyond it, in the order of its supernodes.
 ///
-/// Sums go in the order of the supernodes, whatever parts were done at the same time: a part keeps single additions and no sums.
+/// Sums are taken in the order of the supernodes for any number of threads: a part keeps single contributions instead of sums.
 fn forward_branch(panels: Panels<'_>, branch: &Branch, vector: &mut [f64]) -> Vec<Addition> {
     let rows = panels.rows(branch.supernodes());
     let mut beyond = Vec::new();
@@ -70,7 +70,7 @@ fn forward_branch(panels: Panels<'_>, branch: &Branch, vector: &mut [f64]) -> Ve
 struct Forward<'a> {
     panels: Panels<'a>,
     stem: Range<usize>,
-    /// The row that the vector begins with.
+    /// First row of the vector.
     first_row: usize,
     vector: &'a mut [f64],
     beyond: &'a mut Vec<Addition>,
@@ -108,7 +108,7 @@ impl WithSimd for Forward<'_> {
     }
 }
 
-/// Rows that are solved for, of the stems above a branch.
+/// Solved rows of the stems above a branch.
 #[derive(Clone, Copy)]
 struct SolvedRows<'a> {
     first_row: usize,
@@ -117,7 +117,7 @@ struct SolvedRows<'a> {
 }
 
 impl<'a> SolvedRows<'a> {
-    /// Appends the values at some rows, ascending, none of them before these.
+    /// Appends the values at some rows, ascending, from this stem or those above.
     #[inline(always)]
     fn gather(mut self, mut rows: &[usize], values: &mut Vec<f64>) {
         while let Some(above) = self.above {
@@ -134,7 +134,7 @@ impl<'a> SolvedRows<'a> {
     }
 }
 
-/// Solves for the rows of a branch, with what is known above it.
+/// Backward substitution in the rows of a branch, from the solved rows above it.
 fn backward_branch(
     panels: Panels<'_>,
     branch: &Branch,
@@ -165,7 +165,7 @@ fn backward_branch(
 struct Backward<'a> {
     panels: Panels<'a>,
     stem: Range<usize>,
-    /// The row that the vector begins with.
+    /// First row of the vector.
     first_row: usize,
     vector: &'a mut [f64],
     above: Option<&'a SolvedRows<'a>>,
@@ -195,8 +195,8 @@ impl WithSimd for Backward<'_> {
     }
 }
 
-/// Solves for the columns of one supernode in place, the first entries of `column`; the others become what has to be added to the rows
-/// below.
+/// Forward substitution in the columns of one supernode, the first entries of `column`, in place; the other entries become the contributions
+/// to the rows below.
 pub(crate) fn forward_in(panels: Panels<'_>, supernode: usize, column: &mut [f64]) {
     Arch::new().dispatch(ForwardIn {
         panels,
@@ -220,7 +220,7 @@ impl WithSimd for ForwardIn<'_> {
     }
 }
 
-/// As [`forward_in`].
+/// Implementation of [`forward_in`].
 #[inline(always)]
 fn forward<S: Simd>(simd: S, panels: Panels<'_>, supernode: usize, column: &mut [f64]) {
     let Panels {
@@ -240,7 +240,7 @@ fn forward<S: Simd>(simd: S, panels: Panels<'_>, supernode: usize, column: &mut 
     }
 }
 
-/// Solves for a block of columns, the first of which has its pivot in the row `first` of them all and of `column`.
+/// Forward substitution in a block of columns, the first of which has its pivot in the row `first` of the columns and of `column`.
 #[inline(always)]
 pub(crate) fn forward_block<S: Simd>(
     simd: S,
@@ -263,7 +263,7 @@ pub(crate) fn forward_block<S: Simd>(
     subtract_block(simd, block, &solved[first..], rest);
 }
 
-/// rest <- rest - sum over the columns of a block of l x, at the last rows of the columns, which `rest` has.
+/// Computes rest <- rest - sum of l x over the columns of a block, at the last rows of the columns, as many as `rest` has.
 #[inline(always)]
 pub(crate) fn subtract_block<S: Simd>(
     simd: S,
@@ -283,7 +283,7 @@ pub(crate) fn subtract_block<S: Simd>(
     }
 }
 
-/// Solves for the columns of one supernode, the first entries of `column`, from the rows below, which are known.
+/// Backward substitution in the columns of one supernode, the first entries of `column`, from the solved rows below.
 #[inline(always)]
 fn backward<S: Simd>(simd: S, panels: Panels<'_>, supernode: usize, column: &mut [f64]) {
     let Panels {
@@ -320,7 +320,7 @@ fn backward<S: Simd>(simd: S, panels: Panels<'_>, supernode: usize, column: &mut
     }
 }
 
-/// As [`subtract_block`], for blocks of `WIDTH` columns.
+/// Implementation of [`subtract_block`] for blocks of `WIDTH` columns.
 #[inline(always)]
 fn subtract<S: Simd, const WIDTH: usize>(
     simd: S,
@@ -349,7 +349,7 @@ fn subtract<S: Simd, const WIDTH: usize>(
     }
 }
 
-/// Sums over the rows of `known` of l x for each column of the block.
+/// Sums of l x over the rows of `known`, for each column of the block.
 #[inline(always)]
 fn products<S: Simd, const WIDTH: usize>(
     simd: S,

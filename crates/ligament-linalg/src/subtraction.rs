@@ -1,4 +1,4 @@
-//! What one panel subtracts from another: L L^T, or L D L^T, at the rows and columns that they have in common.
+//! The update of a panel by another: L L^T, or L D L^T, subtracted at their common rows and columns.
 
 use std::ops::Range;
 
@@ -8,13 +8,13 @@ use faer::{Accum, MatMut, MatRef, Par};
 
 use crate::panels::FactorKind;
 
-/// Columns of a panel whose products are added up before they are subtracted.
+/// Columns of a panel whose products are summed before the subtraction.
 const DEPTH: usize = 512;
 
-/// Columns from which on nothing above the diagonal is computed.
+/// Number of columns from which on the part above the diagonal is not computed.
 const TRIANGULAR: usize = 32;
 
-/// Memory for one subtraction.
+/// Working memory of a subtraction.
 #[derive(Default)]
 pub(crate) struct Buffers {
     products: Vec<f64>,
@@ -22,29 +22,29 @@ pub(crate) struct Buffers {
     places: Vec<u32>,
 }
 
-/// A panel that others lie above.
+/// A panel that updates panels after it.
 #[derive(Clone, Copy)]
 pub(crate) struct Source<'a> {
-    /// Shape (n_columns, height).
+    /// Values, shape (n_columns, height).
     pub(crate) values: &'a [f64],
     pub(crate) n_columns: usize,
-    /// Rows below its columns, ascending.
+    /// Rows below the columns, ascending.
     pub(crate) below: &'a [usize],
 }
 
 /// Some columns of a panel.
 pub(crate) struct Target<'a> {
-    /// In the order of elimination.
+    /// Range of the columns, in the order of elimination.
     pub(crate) columns: Range<usize>,
-    /// Place in the panel of each of its rows, shape (n); others have any.
+    /// Index in the panel of each of its rows, shape (n); undefined for other rows.
     pub(crate) place_of_row: &'a [u32],
-    /// Shape (n_columns, height).
+    /// Values, shape (n_columns, height).
     pub(crate) values: &'a mut [f64],
     pub(crate) height: usize,
 }
 
 impl Target<'_> {
-    /// Subtracts what another panel has for these columns.
+    /// Subtracts the update of these columns by another panel.
     pub(crate) fn subtract(&mut self, kind: FactorKind, source: Source<'_>, buffers: &mut Buffers) {
         let Source {
             values: panel,
@@ -102,7 +102,7 @@ impl Target<'_> {
     }
 }
 
-/// - left right^T, at least on and below the diagonal, column-major.
+/// Computes - left right^T, at least on and below the diagonal, column-major.
 fn multiply(products: &mut [f64], left: MatRef<'_, f64>, right: MatRef<'_, f64>) {
     let n_columns = right.nrows();
     let products = MatMut::from_column_major_slice_mut(products, left.nrows(), n_columns);

@@ -1,16 +1,16 @@
-//! The factor as dense panels: one for each set of neighbouring columns with the same rows (a supernode).
+//! The factor as dense panels, one for each supernode: a set of consecutive columns with the same rows.
 
 use std::ops::Range;
 
 use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 use faer::sparse::linalg::cholesky::{SymbolicCholesky, SymbolicCholeskyRaw};
 
-/// Where the panels of a supernodal factor lie. Rows and columns are counted in the order of elimination.
+/// Positions of the panels of a supernodal factor. Rows and columns are counted in the order of elimination.
 #[derive(Clone, Copy)]
 pub(crate) struct Supernodes<'a>(Option<&'a SymbolicSupernodalCholesky<usize>>);
 
 impl<'a> Supernodes<'a> {
-    /// The supernodes of a symbolic analysis; a matrix without unknowns has none.
+    /// The supernodes of a symbolic analysis; none for a matrix without unknowns.
     pub(crate) fn from_analysis(cholesky: &'a SymbolicCholesky<usize>) -> Self {
         match cholesky.raw() {
             SymbolicCholeskyRaw::Supernodal(structure) => Self(Some(structure)),
@@ -41,19 +41,19 @@ impl<'a> Supernodes<'a> {
         self.structure().supernode(supernode).pattern()
     }
 
-    /// Place of the panel in the values of the factor: column-major, as high as there are columns and rows below.
+    /// Range of the panel in the values of the factor: column-major, with as many rows as columns and rows below.
     pub(crate) fn panel(self, supernode: usize) -> Range<usize> {
         let starts = self.structure().col_ptr_for_val();
         starts[supernode]..starts[supernode + 1]
     }
 
-    /// Number of values in the panels of the first supernodes.
+    /// Number of values in the panels before a supernode.
     pub(crate) fn values_before(self, supernode: usize) -> usize {
         let starts = self.0.map(|structure| structure.col_ptr_for_val());
         starts.map_or(0, |starts| starts[supernode])
     }
 
-    /// Number of columns of the first supernodes.
+    /// Number of columns before a supernode.
     pub(crate) fn columns_before(self, supernode: usize) -> usize {
         match supernode.checked_sub(1) {
             Some(last) => self.columns(last).end,
@@ -61,7 +61,7 @@ impl<'a> Supernodes<'a> {
         }
     }
 
-    /// Supernode that each row belongs to as a column, shape (n).
+    /// Supernode of each row, shape (n).
     pub(crate) fn of_rows(self) -> Vec<u32> {
         let n_rows = self.0.map_or(0, SymbolicSupernodalCholesky::nrows);
         let mut of_row = vec![0; n_rows];

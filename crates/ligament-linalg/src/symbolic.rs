@@ -17,16 +17,16 @@ use crate::parts::Part;
 use crate::sources::{Sources, UpdatingSupernodes};
 use crate::supernodes::Supernodes;
 
-/// Operations per entry of the factor above which there are supernodes. faer's own `FORCE_SUPERNODAL` is zero, which a
-/// diagonal matrix does not exceed.
+/// Operations per entry of the factor above which supernodes are formed. faer's own `FORCE_SUPERNODAL` is zero, which a diagonal matrix does
+/// not exceed.
 const ALWAYS_SUPERNODAL: SupernodalThreshold = SupernodalThreshold(-1.0);
 
-/// In which order the unknowns are eliminated.
+/// Order in which the unknowns are eliminated.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Elimination {
-    /// By approximate minimum degree.
+    /// Approximate minimum degree.
     MinimumDegree,
-    /// In the given order: a permutation of the unknowns.
+    /// Given order: a permutation of the unknowns.
     Given(Vec<usize>),
 }
 
@@ -43,7 +43,7 @@ pub struct Symbolic {
 }
 
 impl Symbolic {
-    /// Analyses a pattern.
+    /// Analyses a pattern for an order of elimination.
     ///
     /// # Panics
     ///
@@ -113,8 +113,8 @@ impl Symbolic {
             .sum()
     }
 
-    /// The parts of the factor that can be substituted backward one by one, each after the one above it; all but those below which
-    /// there is none have at least so many values with what is below them.
+    /// Parts of the factor for backward substitution part by part, each after its parent; every part that has children has at least `least`
+    /// values together with its descendants.
     pub fn parts(&self, least: usize) -> Vec<Part> {
         Part::of_factor(self.supernodes(), least)
     }
@@ -124,17 +124,17 @@ impl Symbolic {
         Supernodes::from_analysis(&self.cholesky)
     }
 
-    /// The parts of the factor that do not wait for each other.
+    /// Branches of the elimination tree that are independent of each other.
     pub(crate) fn branch(&self) -> &Branch {
         &self.branch
     }
 
-    /// Where the entries of the matrix stand in the factor.
+    /// Entries of the matrix by columns of the factor.
     pub(crate) fn sources(&self) -> &Sources {
         &self.sources
     }
 
-    /// Supernodes that reach others.
+    /// For each supernode, the supernodes before it that update it.
     pub(crate) fn reaching(&self) -> &UpdatingSupernodes {
         &self.reaching
     }
@@ -163,7 +163,7 @@ impl Symbolic {
     }
 }
 
-/// Index in the matrix of each row of the factor, and row of each index.
+/// Index in the matrix of each row of the factor, and row of the factor for each index, shape (n) each.
 fn permutation(cholesky: &SymbolicCholesky<usize>) -> (&[usize], &[usize]) {
     match cholesky.perm() {
         Some(permutation) => permutation.arrays(),
@@ -171,7 +171,7 @@ fn permutation(cholesky: &SymbolicCholesky<usize>) -> (&[usize], &[usize]) {
     }
 }
 
-/// The inverse of a permutation.
+/// Inverse of a permutation.
 fn inverse(order: &[usize]) -> Vec<usize> {
     let mut places = vec![usize::MAX; order.len()];
     for (place, &unknown) in order.iter().enumerate() {

@@ -1,6 +1,6 @@
-//! What a cell is, planar cells, and faces of solid ones.
+//! Interface of all cells, planar cells, and faces of solid cells.
 
-/// What meshes and points ask a cell in D dimensions for.
+/// Interface of a cell in D dimensions.
 pub trait MeshCell<const D: usize>: Copy + Sync {
     /// The corner nodes of the cell.
     fn corners(&self) -> &[u32];
@@ -8,19 +8,19 @@ pub trait MeshCell<const D: usize>: Copy + Sync {
     /// The corner nodes of the cell, to be renumbered.
     fn corners_mut(&mut self) -> &mut [u32];
 
-    /// The edges of the cell, each once, from the lower to the higher node.
+    /// Edges of the cell, each once, from the lower to the higher node.
     fn edges(&self) -> impl Iterator<Item = [u32; 2]> + use<Self, D>;
 
     /// Area of the cell with the nodes at `positions`, m², or in space its volume, m³.
     fn size(&self, positions: &[[f64; D]]) -> f64;
 
-    /// The corner nodes of the cell, each with its share of the size of the cell, which is the integral of its shape function: with these
-    /// the middle of mass stays where that of the cell is, if its faces are parallelograms or triangles.
+    /// Corner nodes of the cell, each with its part of the size of the cell, the integral of its shape function: these keep the centre of
+    /// mass of the cell, if its faces are parallelograms or triangles.
     fn shares(&self, positions: &[[f64; D]]) -> impl Iterator<Item = (u32, f64)>;
 }
 
-/// A planar cell given by its corner nodes (indices into the mesh's nodes), counter-clockwise; in space the face of a solid cell,
-/// whose corners stand counter-clockwise seen from its front.
+/// A planar cell given by its corner nodes (indices into the mesh's nodes), counter-clockwise; in space the face of a solid cell, whose
+/// corners are counter-clockwise seen from its front.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cell {
     /// Three corners.
@@ -30,7 +30,7 @@ pub enum Cell {
 }
 
 impl Cell {
-    /// The corner nodes of the cell, in order around it.
+    /// Corner nodes of the cell, in order around it.
     pub fn corners(&self) -> &[u32] {
         match self {
             Cell::Triangle(corners) => corners,
@@ -38,7 +38,7 @@ impl Cell {
         }
     }
 
-    /// The corner nodes of the cell, ascending, and the largest number behind those of a triangle.
+    /// Corner nodes of the cell, ascending, with the largest number as the fourth corner of a triangle.
     pub(crate) fn sorted_corners(&self) -> [u32; 4] {
         let mut sorted = [u32::MAX; 4];
         sorted[..self.corners().len()].copy_from_slice(self.corners());
@@ -46,10 +46,10 @@ impl Cell {
         sorted
     }
 
-    /// The area of the cell with the nodes at `positions`, m²; negative where the corners stand clockwise.
+    /// Area of the cell with the nodes at `positions`, m²; negative for clockwise corners.
     ///
     /// # Panics
-    /// If a corner is no index into `positions`.
+    /// Panics if a corner is no index into `positions`.
     pub fn area(&self, positions: &[[f64; 2]]) -> f64 {
         let corners = self.corners();
         let [x0, y0] = positions[corners[0] as usize];
@@ -65,11 +65,11 @@ impl Cell {
         0.5 * twice
     }
 
-    /// The area of a face in space times its unit normal, with the nodes at `positions`, m²: towards the side from which its
-    /// corners stand counter-clockwise. Where a quadrangle is no plane, it is that of any surface with its edges.
+    /// Area of a face in space times its unit normal, with the nodes at `positions`, m²: towards the side from which its corners are
+    /// counter-clockwise. For a quadrangle that is not plane, it is that of any surface with its edges.
     ///
     /// # Panics
-    /// If a corner is no index into `positions`.
+    /// Panics if a corner is no index into `positions`.
     pub fn area_vector(&self, positions: &[[f64; 3]]) -> [f64; 3] {
         let between = |from: u32, to: u32| {
             let [from, to] = [from, to].map(|node| positions[node as usize]);
@@ -86,8 +86,7 @@ impl Cell {
         ]
     }
 
-    /// The triangles that a face consists of, in its orientation: a quadrangle is split along the diagonal from its lowest node,
-    /// whichever cell it is a face of.
+    /// Triangles of a face, in its orientation: a quadrangle is split along the diagonal from its lowest node, for either of its cells.
     pub fn triangles(&self) -> impl Iterator<Item = [u32; 3]> + use<> {
         let (first, second) = match *self {
             Cell::Triangle(corners) => (corners, None),
@@ -123,7 +122,7 @@ impl MeshCell<2> for Cell {
         self.area(positions)
     }
 
-    /// A third of a triangle, a quarter of a quadrangle.
+    /// A third of a triangle, a quarter of a quadrangle for each corner.
     fn shares(&self, positions: &[[f64; 2]]) -> impl Iterator<Item = (u32, f64)> {
         let share = self.area(positions) / self.corners().len() as f64;
         self.corners().iter().map(move |&corner| (corner, share))

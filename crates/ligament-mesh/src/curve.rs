@@ -1,20 +1,20 @@
-//! The points in the order of a space-filling curve.
+//! Order of the points along a space-filling curve.
 //!
-//! Mesh generators number nodes in an order in which neighbours lie far apart. Loops that visit points and their
-//! neighbours wait for memory then; along a Hilbert curve they find them where they have just been.
+//! Mesh generators number nodes in an order in which neighbours are far apart in memory. Loops over points and their neighbours then wait
+//! for memory; along a Hilbert curve neighbours are still in the cache.
 
 use rayon::prelude::*;
 
-/// Bits of the place of a point on the curve.
+/// Number of bits of the position of a point on the curve.
 const BITS: u32 = 63;
 
-/// Steps of the curve in D dimensions, which separates places that differ by 2^-steps of the box around the points.
+/// Number of steps of the curve in D dimensions, which separates positions that differ by 2^-steps of the box around the points.
 const fn steps<const D: usize>() -> u32 {
     BITS / D as u32
 }
 
-/// All points, each once, in the order in which a Hilbert curve through the square or cube around them meets them, shape
-/// (n_points). Points at one place of the curve keep their order.
+/// All points, each once, in the order of a Hilbert curve through the square or cube around them, shape (n_points). Points at one position
+/// of the curve keep their order.
 pub fn along_hilbert_curve<const D: usize>(positions: &[[f64; D]]) -> Vec<u32> {
     let corner = |pick: fn(f64, f64) -> f64, start: f64| {
         let fold = |c: [f64; D], p: &[f64; D]| std::array::from_fn(|axis| pick(c[axis], p[axis]));
@@ -37,7 +37,7 @@ pub fn along_hilbert_curve<const D: usize>(positions: &[[f64; D]]) -> Vec<u32> {
     keys.into_par_iter().map(|(_, point)| point).collect()
 }
 
-/// Place of a cell of a grid of 2^steps cells along each axis on the Hilbert curve.
+/// Index on the Hilbert curve of a cell of a grid of 2^steps cells along each axis.
 fn hilbert_index<const D: usize>(cell: [u64; D]) -> u64 {
     match cell.as_slice() {
         &[x, y] => index_in_square(x, y),
@@ -45,8 +45,8 @@ fn hilbert_index<const D: usize>(cell: [u64; D]) -> u64 {
     }
 }
 
-/// Place of a cell of a grid in D dimensions on the Hilbert curve (J. Skilling, Programming the Hilbert curve, AIP Conf. Proc. 707,
-/// 2004): its coordinates, turned and mirrored from the coarsest step to the finest and as a Gray code, bit by bit.
+/// Index on the Hilbert curve of a cell of a grid in D dimensions (J. Skilling, Programming the Hilbert curve, AIP Conf. Proc. 707, 2004):
+/// its coordinates, turned and mirrored from the coarsest step to the finest and as a Gray code, bit by bit.
 fn index_in_cube<const D: usize>(mut cell: [u64; D]) -> u64 {
     let highest = 1 << (steps::<D>() - 1);
     let descending = || std::iter::successors(Some(highest), |bit: &u64| Some(bit >> 1));
@@ -73,10 +73,9 @@ fn index_in_cube<const D: usize>(mut cell: [u64; D]) -> u64 {
         .fold(0, |index, bit| 2 * index + bit)
 }
 
-/// Place of the cell (x, y) of a grid of squares on the Hilbert curve.
+/// Index on the Hilbert curve of the cell (x, y) of a grid of squares.
 ///
-/// At each step the curve goes through four quarters; in the first it is mirrored at the rising diagonal, in the last at
-/// the falling one.
+/// At each step the curve passes through four quarters; in the first it is mirrored at the rising diagonal, in the last at the falling one.
 fn index_in_square(mut x: u64, mut y: u64) -> u64 {
     let mut index = 0;
     for step in (0..steps::<2>()).rev() {

@@ -1,33 +1,33 @@
-//! Values between the nodes of a cell: the shares of its corners in a place.
+//! Interpolation of values at the nodes of a cell: weights of its corners at a position.
 
 use crate::cell::Cell;
 use crate::mesh::{Mesh, SolidMesh};
 use crate::solid::SolidCell;
 
-/// Depth below the sides of a cell, over its height from them, to which a place beside the mesh belongs to it: a place on a round rim
-/// lies outside the straight sides between its nodes.
+/// Depth outside the sides of a cell, over its height from them, up to which a position beside the mesh belongs to it: a position on a round
+/// rim lies outside the straight sides between its nodes.
 const OUTSIDE: f64 = 0.1;
 
-/// Shares below this are those of corners that a place on the opposite side of the cell has nothing to do with.
+/// Weight below which a corner is left out: that of corners opposite to a side, for a position on the side.
 const NOTHING: f64 = 1e-9;
 
-/// Pivot over the largest entry below which equations have no solution to speak of.
+/// Ratio of the pivot to the largest entry below which equations have no reliable solution.
 const SINGULAR: f64 = 1e-12;
 
-/// Steps of Newton's method at most, and the step after which it has found the place.
+/// Largest number of steps of Newton's method, and the step size below which it has converged.
 const STEPS: (usize, f64) = (30, 1e-13);
 
-/// A place in a cell.
+/// A position in a cell.
 struct Found {
-    /// Depth below the sides of the cell, over its height; negative outside.
+    /// Depth inside the sides of the cell, over its height; negative outside.
     depth: f64,
-    /// Corners and their shares, which add up to one.
+    /// Corners and their weights, which sum to one.
     shares: Vec<(u32, f64)>,
 }
 
 impl Mesh {
-    /// Nodes and their shares, which add up to one, in a value at a position (m): linear in a triangle, bilinear in a quadrangle. A place
-    /// beside the mesh, by less than a tenth of a cell, is moved to its side; None farther off.
+    /// Nodes and their weights, which sum to one, for the value at a position (m): linear in a triangle, bilinear in a quadrangle. A
+    /// position outside the mesh by less than a tenth of a cell is moved to its side; `None` farther off.
     pub fn interpolation_weights(&self, position: [f64; 2]) -> Option<Vec<(u32, f64)>> {
         let corner = |node: u32| self.positions[node as usize];
         let near =
@@ -40,9 +40,9 @@ impl Mesh {
 }
 
 impl SolidMesh {
-    /// Nodes and their shares, which add up to one, in a value at a position (m): linear in a tetrahedron, trilinear in a hexahedron,
-    /// linear in each of the tetrahedra of a prism or a pyramid. A place beside the mesh, by less than a tenth of a cell, is moved to its
-    /// side; None farther off.
+    /// Nodes and their weights, which sum to one, for the value at a position (m): linear in a tetrahedron, trilinear in a hexahedron,
+    /// linear in each of the tetrahedra of a prism or a pyramid. A position outside the mesh by less than a tenth of a cell is moved to its
+    /// side; `None` farther off.
     pub fn interpolation_weights(&self, position: [f64; 3]) -> Option<Vec<(u32, f64)>> {
         let corner = |node: u32| self.positions[node as usize];
         let near =
@@ -58,7 +58,7 @@ impl SolidMesh {
     }
 }
 
-/// Whether a position is in the box around some nodes, or beside it by no more than a place in a cell may be.
+/// Whether a position lies in the box around some nodes, or outside by no more than [`OUTSIDE`] allows.
 fn is_near<const D: usize>(nodes: &[u32], positions: &[[f64; D]], position: [f64; D]) -> bool {
     (0..D).all(|axis| {
         let along = nodes.iter().map(|&node| positions[node as usize][axis]);
@@ -70,7 +70,7 @@ fn is_near<const D: usize>(nodes: &[u32], positions: &[[f64; D]], position: [f64
     })
 }
 
-/// The shares where a place lies deepest, of the first of several cells.
+/// Weights in the cell in which the position lies deepest, the first of several.
 fn deepest(found: impl Iterator<Item = Found>) -> Option<Vec<(u32, f64)>> {
     let best = found.reduce(|best, it| if it.depth > best.depth { it } else { best });
     let mut shares = best.filter(|it| it.depth >= -OUTSIDE)?.shares;
@@ -94,8 +94,8 @@ fn in_simplex<const D: usize, const N: usize>(
     })
 }
 
-/// Shares of the corners of a triangle or tetrahedron: sum of lambda_k x_k = x with the sum of lambda_k = 1, by elimination. None where it
-/// is flat.
+/// Weights of the corners of a triangle or tetrahedron: sum of lambda_k x_k = x with the sum of lambda_k = 1, by elimination. `None` where
+/// it is flat.
 pub(crate) fn barycentric<const D: usize, const N: usize>(
     corners: [[f64; D]; N],
     position: [f64; D],
@@ -112,14 +112,14 @@ pub(crate) fn barycentric<const D: usize, const N: usize>(
     }))
 }
 
-/// The place in a quadrangle or hexahedron, with its corners in the order of Gmsh, by Newton's method for sum of N_k(s) x_k = x with the
-/// products N_k of s_a or 1 - s_a along each axis.
+/// Weights at a position in a quadrangle or hexahedron, with its corners in the order of Gmsh, by Newton's method for sum of N_k(s) x_k = x
+/// with the products N_k of s_a or 1 - s_a along each axis.
 fn in_block<const D: usize>(
     nodes: &[u32],
     corners: &[[f64; D]],
     position: [f64; D],
 ) -> Option<Found> {
-    // Around the base and then around the top: along x the corners are 0, 1, 1, 0, along y 0, 0, 1, 1.
+    // Corners around the base and then around the top: along x they are 0, 1, 1, 0, along y 0, 0, 1, 1.
     let is_upper = |corner: usize, axis: usize| match axis {
         0 => (corner ^ (corner >> 1)) & 1 == 1,
         _ => (corner >> axis) & 1 == 1,
@@ -160,7 +160,7 @@ fn in_block<const D: usize>(
     None
 }
 
-/// The solution of a few equations by elimination with the largest pivot of each column; None where they have none.
+/// Solution of a small linear system by elimination with the largest pivot of each column; `None` for a singular one.
 fn solution<const D: usize>(mut rows: [[f64; D]; D], mut right: [f64; D]) -> Option<[f64; D]> {
     let entries = rows.as_flattened().iter();
     let largest = entries.fold(0.0, |most: f64, it| most.max(it.abs()));

@@ -1,9 +1,8 @@
 //! Planar and solid finite-element meshes and their groups, read from Gmsh files.
 //!
-//! [`gmsh::parse`] reads the bytes of a `.msh` file (formats 2.2 and 4.1, ASCII and binary) into a
-//! [`Mesh`]: nodes, triangles and quadrangles with their corners counter-clockwise, and the physical
-//! groups as sets of nodes. What cannot be a planar mesh is refused with the place in the file.
-//! [`gmsh::parse_any`] reads solid meshes as well, of tetrahedra, hexahedra, prisms and pyramids.
+//! [`gmsh::parse`] reads the bytes of a `.msh` file (formats 2.2 and 4.1, ASCII and binary) into a [`Mesh`]: nodes, triangles and
+//! quadrangles with their corners counter-clockwise, and the physical groups as sets of nodes. Files without a valid planar mesh are refused
+//! with the position of the fault. [`gmsh::parse_any`] reads solid meshes as well, of tetrahedra, hexahedra, prisms and pyramids.
 //!
 //! ```
 //! let file = b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n\

@@ -1,4 +1,4 @@
-//! What was meshed: nodes, cells and named groups.
+//! Meshes: nodes, cells and named groups.
 
 use std::collections::BTreeMap;
 
@@ -23,7 +23,7 @@ pub struct Mesh<const D: usize = 2, C = Cell> {
     pub groups: Vec<Group>,
     /// Values at the nodes, in the order of the file.
     pub fields: Vec<NodeField>,
-    /// Remarks for the user on what was read otherwise than it stands in the file.
+    /// Remarks for the user on parts of the file that were changed or left out.
     pub remarks: Vec<Remark>,
 }
 
@@ -44,14 +44,14 @@ impl<const D: usize, C> Default for Mesh<D, C> {
 }
 
 impl Mesh {
-    /// Area of all cells together, m².
+    /// Area of all cells, m².
     pub fn area(&self) -> f64 {
         self.size()
     }
 }
 
 impl SolidMesh {
-    /// Volume of all cells together, m³.
+    /// Volume of all cells, m³.
     pub fn volume(&self) -> f64 {
         self.size()
     }
@@ -66,7 +66,7 @@ impl<const D: usize, C> Mesh<D, C> {
         sizes.sum()
     }
 
-    /// The edges of all cells, each once, ascending.
+    /// Edges of all cells, each once, ascending.
     pub fn edges(&self) -> Vec<[u32; 2]>
     where
         C: MeshCell<D>,
@@ -77,7 +77,7 @@ impl<const D: usize, C> Mesh<D, C> {
         edges
     }
 
-    /// Length that each node of some edges stands for, m, ascending by the nodes: half of each edge.
+    /// Length of some edges assigned to each of their nodes, m, ascending by node: half of each edge.
     pub fn lengths_at_nodes(&self, edges: &[[u32; 2]]) -> Vec<(u32, f64)> {
         let mut edges: Vec<[u32; 2]> = edges.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
         edges.sort_unstable();
@@ -94,14 +94,14 @@ impl<const D: usize, C> Mesh<D, C> {
         lengths.into_iter().collect()
     }
 
-    /// The first group of this name: the one of lowest dimension, then of lowest number.
+    /// First group of a given name: the one of lowest dimension, then of lowest number.
     ///
-    /// A name may stand for several groups; [`Mesh::groups_named`] gives them all.
+    /// A name may belong to several groups; [`Mesh::groups_named`] returns them all.
     pub fn group(&self, name: &str) -> Option<&Group> {
         self.groups_named(name).next()
     }
 
-    /// All groups of this name, in the order of dimension, then number.
+    /// All groups of a given name, in the order of dimension, then number.
     pub fn groups_named(&self, name: &str) -> impl Iterator<Item = &Group> {
         self.groups.iter().filter(move |group| group.name == name)
     }

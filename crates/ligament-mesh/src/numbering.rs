@@ -1,4 +1,4 @@
-//! Numbers of points: those of the file, and those along a space-filling curve.
+//! Numberings of points: as in the file, and along a space-filling curve.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -11,9 +11,9 @@ use crate::field::NodeField;
 use crate::group::Group;
 use crate::mesh::Mesh;
 
-/// How the points of a body are numbered: as in its file, which is the default, or along a space-filling curve. A copy shares its lists.
+/// Numbering of the points of a body: as in its file, which is the default, or along a space-filling curve. Copies share their lists.
 ///
-/// A point that lies near another one on the curve stands near it in memory, and so do rows of matrices and bonds.
+/// Points near each other on the curve are near each other in memory, and so are rows of matrices and bonds.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Numbering(Option<Arc<Orders>>);
 
@@ -21,12 +21,12 @@ pub struct Numbering(Option<Arc<Orders>>);
 struct Orders {
     /// Number in the file of each point, shape (n_points).
     in_file: Vec<u32>,
-    /// The point of each number of the file, shape (n_points).
+    /// Point of each number of the file, shape (n_points).
     points: Vec<u32>,
 }
 
 impl Numbering {
-    /// Numbers along the Hilbert curve through positions in the order of a file (n_points).
+    /// Numbering along the Hilbert curve through positions in the order of a file (n_points).
     pub fn along_curve<const D: usize>(positions: &[[f64; D]]) -> Self {
         let in_file = along_hilbert_curve(positions);
         if in_file.is_sorted() {
@@ -47,7 +47,7 @@ impl Numbering {
         }
     }
 
-    /// The point of a number of the file.
+    /// Point of a number of the file.
     pub fn point(&self, in_file: u32) -> u32 {
         match &self.0 {
             None => in_file,
@@ -55,7 +55,7 @@ impl Numbering {
         }
     }
 
-    /// The points in the order of the file, shape (n_points); none where that is their own.
+    /// Points in the order of the file, shape (n_points); `None` where that is the order of the points.
     pub fn order_of_file(&self) -> Option<&[u32]> {
         self.0.as_ref().map(|orders| orders.points.as_slice())
     }
@@ -70,7 +70,7 @@ impl Numbering {
         Cow::Owned(sorted)
     }
 
-    /// Parts of a body by their numbers at the points (n_points), numbered in the order of their first points in the file; shape
+    /// Parts of a body, given by their numbers at the points (n_points), renumbered in the order of their first points in the file; shape
     /// (n_points) in the order of the points.
     pub fn parts_in_file(&self, of_points: &[u32]) -> Vec<u32> {
         if self.0.is_none() {
@@ -90,7 +90,7 @@ impl Numbering {
         of_points.iter().map(number).collect()
     }
 
-    /// The ends of a bond, that of the smaller number in the file first.
+    /// Ends of a bond, that of the smaller number in the file first.
     pub fn ordered(&self, [a, b]: [u32; 2]) -> [u32; 2] {
         match self.in_file(b) < self.in_file(a) {
             true => [b, a],
@@ -103,7 +103,7 @@ impl Numbering {
         self.ordered(ends).map(|end| self.in_file(end))
     }
 
-    /// Bonds in the order of their ends in the file, shape (n_bonds); none where that is their own.
+    /// Bonds in the order of their ends in the file, shape (n_bonds); `None` where that is the order of the bonds.
     pub fn bonds_in_file(&self, ends: &[[u32; 2]]) -> Option<Vec<u32>> {
         self.0.as_ref()?;
         let in_file = ends.par_iter().map(|ends| self.ends_in_file(*ends));
@@ -112,12 +112,12 @@ impl Numbering {
         Some(bonds.into_iter().map(|(_, bond)| bond).collect())
     }
 
-    /// Values in the order of the points, so many a point, taken to the order of the file.
+    /// Reorders values from the order of the points to that of the file, with any number of values per point.
     pub fn to_file<T: Copy>(&self, values: Vec<T>) -> Vec<T> {
         taken(self.order_of_file(), values)
     }
 
-    /// Values in the order of the file, so many a point, taken to the order of the points.
+    /// Reorders values from the order of the file to that of the points, with any number of values per point.
     pub fn from_file<T: Copy>(&self, values: Vec<T>) -> Vec<T> {
         let order = self.0.as_ref().map(|orders| orders.in_file.as_slice());
         taken(order, values)
@@ -137,7 +137,7 @@ impl Numbering {
         }
     }
 
-    /// Groups of a mesh whose nodes are numbered so.
+    /// Groups of a mesh with renumbered nodes.
     fn groups(&self, groups: Vec<Group>) -> Vec<Group> {
         let group = |mut group: Group| {
             self.renumber(&mut group.nodes);
@@ -158,7 +158,7 @@ impl Numbering {
             .for_each(|it| self.renumber(it.corners_mut()));
     }
 
-    /// Fields of a mesh whose nodes are numbered so.
+    /// Fields of a mesh with renumbered nodes.
     fn fields(&self, fields: Vec<NodeField>) -> Vec<NodeField> {
         let field = |mut field: NodeField| {
             let values = field.values.iter();
@@ -170,7 +170,7 @@ impl Numbering {
     }
 }
 
-/// Values, so many a row, in an order of the rows (n_rows).
+/// Values in a given order of their rows (n_rows), with any number of values per row.
 fn taken<T: Copy>(order: Option<&[u32]>, values: Vec<T>) -> Vec<T> {
     let Some(order) = order else {
         return values;
@@ -181,7 +181,7 @@ fn taken<T: Copy>(order: Option<&[u32]>, values: Vec<T>) -> Vec<T> {
 }
 
 impl<const D: usize, C: MeshCell<D>> Mesh<D, C> {
-    /// The mesh with its nodes numbered along a curve; cells stay in the order of the file.
+    /// The mesh with its nodes numbered along a curve; cells keep the order of the file.
     pub fn along_curve(self) -> (Self, Numbering) {
         let numbering = Numbering::along_curve(&self.positions);
         let mut cells = self.cells;

@@ -1,4 +1,4 @@
-//! Cells that cover others without an edge or a face in common, as a coarse mesh over a fine one.
+//! Cells that overlap without a common edge or face, such as a coarse mesh over a fine one.
 
 use rayon::prelude::*;
 use rstar::primitives::GeomWithData;
@@ -6,14 +6,14 @@ use rstar::{AABB, RTree};
 
 use crate::interpolation::barycentric;
 
-/// Depth within a triangle or tetrahedron, over its height from each of its sides, at which a place lies in it. Sound cells that only
-/// touch are none the deeper for rounded coordinates or bent faces.
+/// Depth within a triangle or tetrahedron, over its height from each of its sides, beyond which a position lies inside. Rounded coordinates
+/// or bent faces do not bring valid cells that only touch to this depth.
 const DEPTH: f64 = 0.01;
 
-/// The first cell in which a node lies that is none of its corners, or the middle of another cell, and the first such cell.
+/// First pair of a cell and another cell with a node, or the middle, inside the first one, whose corner the node is not.
 ///
-/// `corners` holds the nodes of each cell, `simplices` gives the triangles, in space the tetrahedra, that it consists of. A middle is
-/// no centroid: its weights are uneven, as centroids of regular meshes lie on edges of others.
+/// `corners` has the nodes of each cell, `simplices` returns its triangles, in space its tetrahedra. A middle is not the centroid: its
+/// weights are uneven, since centroids of regular meshes lie on edges of others.
 pub(crate) fn first_covering<const D: usize, const N: usize, S: Iterator<Item = [u32; N]>>(
     positions: &[[f64; D]],
     corners: &[&[u32]],
@@ -41,7 +41,7 @@ pub(crate) fn first_covering<const D: usize, const N: usize, S: Iterator<Item = 
     })
 }
 
-/// The nodes, each with the first cell that has it, and the middles of the cells.
+/// Nodes, each with its first cell, and the middles of the cells.
 fn places<const D: usize>(
     positions: &[[f64; D]],
     corners: &[&[u32]],
@@ -68,7 +68,7 @@ fn places<const D: usize>(
     nodes.chain(middles).collect()
 }
 
-/// Whether a place lies in a triangle or tetrahedron, no nearer to a side than the depth; a flat one has no inside.
+/// Whether a position lies in a triangle or tetrahedron, at least the depth from each side; a flat one has no interior.
 fn is_inside<const D: usize, const N: usize>(corners: [[f64; D]; N], place: [f64; D]) -> bool {
     barycentric(corners, place).is_some_and(|shares| shares.iter().all(|share| *share >= DEPTH))
 }

@@ -1,15 +1,15 @@
-//! Remarks on a mesh that was read.
+//! Remarks on a mesh file.
 
 use std::fmt;
 
-/// A remark on something that was read otherwise than it stands in the file.
+/// A remark on a part of the file that was changed or left out.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Remark {
-    /// Cells of second or higher order, of which only the corner nodes were taken.
+    /// Cells of second or higher order, of which only the corner nodes were read.
     HigherOrderCells {
         /// Number of such cells.
         cells: usize,
-        /// Number of nodes dropped with it: those on sides and inside of the cells.
+        /// Number of nodes dropped with these cells: those on sides and in the interior.
         nodes: usize,
     },
     /// Nodes that no cell uses, dropped from the mesh and from its groups.
@@ -17,7 +17,7 @@ pub enum Remark {
         /// Number of nodes.
         nodes: usize,
     },
-    /// A physical group that the file names or uses, but in which no node of a cell is left.
+    /// A physical group that the file names or uses, but which has no node of a cell.
     EmptyGroup {
         /// Name of the group, or its number in decimal.
         name: String,

@@ -1,9 +1,9 @@
-//! Sentences about settings, each of which a layer names in its own words.
+//! Messages about settings, which each layer names by its own keywords.
 
 use std::borrow::Cow;
 use std::fmt;
 
-/// A sentence that names settings of type S: in the words of Rust by its [`Display`](fmt::Display), in those of another layer by
+/// A message that names settings of type S: with their Rust names by [`Display`](fmt::Display), with the names of another layer by
 /// [`said`](Self::said).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Advice<S> {
@@ -12,13 +12,13 @@ pub struct Advice<S> {
 }
 
 impl<S> Advice<S> {
-    /// A sentence with settings in the places of its `{}`, one for each.
+    /// A message with settings in the places of its `{}`, one for each.
     pub fn new(text: impl Into<Cow<'static, str>>, settings: impl Into<Vec<S>>) -> Self {
         let (text, settings) = (text.into(), settings.into());
         Self { text, settings }
     }
 
-    /// The sentence with the words of a layer for each setting.
+    /// The message with each setting named by a function.
     pub fn said(&self, words: impl Fn(&S) -> String) -> String {
         let mut pieces = self.text.splitn(self.settings.len() + 1, "{}");
         let begin = pieces.next().unwrap_or_default().to_owned();

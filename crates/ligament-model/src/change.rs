@@ -1,49 +1,48 @@
-//! The elements that a breakage changes.
+//! Elements that a breakage changes.
 //!
-//! The bonds that break lose their elements, and elements that lean on them change.
+//! Breaking bonds lose their elements, and elements supported by these bonds change.
 
 use crate::deformation::Deformation;
 use crate::element::{Element, Elements, Term};
 use crate::system::{ElementSystem, UnbrokenBonds};
 use crate::thermal::ThermalStrain;
 
-/// The elements that bonds change which break together.
+/// Elements that change when some bonds break together.
 pub trait ChangedElements: std::fmt::Debug {
-    /// Number of elements that change.
+    /// Number of changed elements.
     fn n_elements(&self) -> usize;
 
-    /// Terms of the stiffness that the elements had before.
+    /// Terms of the stiffness of the elements before the breakage.
     fn lost_terms(&self) -> Vec<Term>;
 
-    /// Terms of the stiffness that the elements have afterwards.
+    /// Terms of the stiffness of the elements after the breakage.
     fn gained_terms(&self) -> Vec<Term>;
 
-    /// Force that nothing balances any more, for displacements (n_degrees_of_freedom): what the elements exerted on their
-    /// points, less what they exert now; parts of it with their degrees of freedom.
+    /// Unbalanced force after the breakage at displacements (n_degrees_of_freedom), N and N m: forces of the elements on their points
+    /// before, less those after; contributions with their degrees of freedom.
     fn unbalanced_force(
         &self,
         displacement: &[f64],
         expansion: ThermalStrain<'_>,
     ) -> Vec<(usize, f64)>;
 
-    /// Energy released at a fixed load, with the displacements after it (n_degrees_of_freedom), J:
-    /// 1/2 u^T (K_before - K_after) u'.
+    /// Energy 1/2 u^T (K_before - K_after) u' released at a fixed load, with the displacements u' after it (n_degrees_of_freedom), J.
     fn released(&self, displacement: &[f64], expansion: ThermalStrain<'_>) -> f64;
 }
 
 /// An element that a breakage changes.
 #[derive(Debug, Clone, PartialEq)]
 struct ChangedElement<const D: usize, const M: usize, E: Element<D, M>> {
-    /// Ends of its bond.
+    /// Ends of the bond.
     ends: [u32; 2],
-    /// The element before, with its deformation when the bonds break.
+    /// Element before, with its deformation at the breakage.
     before: (E, E::Deformation),
-    /// The element after, with its deformation then; none if its bond itself breaks.
+    /// Element after, with its deformation; `None` if its own bond breaks.
     after: Option<(E, E::Deformation)>,
 }
 
 impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
-    /// The elements that change when some of the bonds that are `left` break, at displacements (n_degrees_of_freedom).
+    /// Elements that change when some of the bonds that are `left` break, at displacements (n_degrees_of_freedom).
     pub(crate) fn changed(
         &self,
         left: UnbrokenBonds<'_>,
@@ -135,7 +134,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ChangedElements
     }
 }
 
-/// Deformation of an element without what its temperature gives it.
+/// Deformation of an element less its thermal deformation.
 fn deformation<const D: usize, const M: usize, E: Element<D, M>>(
     element: &E,
     ends: [u32; 2],

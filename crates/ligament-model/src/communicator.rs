@@ -1,15 +1,15 @@
-//! What the processes of a run exchange, in the words of MPI.
+//! Collective communication between the processes of a run, in the words of MPI.
 
 use std::fmt::Debug;
 
-/// Numbers of all processes together that are added up at a time.
+/// Numbers, of all processes together, that are summed at a time.
 const PIECE: usize = 1 << 18;
 
 /// The processes of a run. Every function but [`rank`](Self::rank), [`size`](Self::size) and [`poison`](Self::poison) is collective: all
-/// processes call it in the same order, by one thread each. What comes back from a reduction, an all-gather or a broadcast is the same to
-/// the bit on all of them. A failure on one process ends all.
+/// processes call it in the same order, from one thread each. The results of a reduction, an all-gather or a broadcast are the same to the
+/// bit on all processes. A failure on one process ends all.
 pub trait Communicator: Debug + Send + Sync {
-    /// Number of this process, from 0 on.
+    /// Rank of this process, from 0.
     fn rank(&self) -> usize;
 
     /// Number of processes.
@@ -18,22 +18,22 @@ pub trait Communicator: Debug + Send + Sync {
     /// Replaces each value by its largest over all processes.
     fn all_reduce_max(&self, values: &mut [f64]);
 
-    /// The values of all processes in the order of their ranks; `counts` has the number of values of each.
+    /// The values of all processes in the order of their ranks, for the number of values of each process, `counts`.
     fn all_gather(&self, own: &[f64], counts: &[usize]) -> Vec<f64>;
 
-    /// Sends values to each process, `to` says how many, those for rank 0 first; gives the values that this process receives, as many as
-    /// `from` says of each. Processes without values exchange no message.
+    /// Sends `to` values to each process, those for rank 0 first, and returns the `from` values received from each. Processes without values
+    /// exchange no message.
     fn all_to_all(&self, own: &[f64], to: &[usize], from: &[usize]) -> Vec<f64>;
 
     /// Replaces the bytes on every process by those of rank 0.
     fn broadcast(&self, bytes: &mut Vec<u8>);
 
-    /// Value at points that a process does not know; NaN in tests, so that a read of one shows.
+    /// Value at points without a known value on a process; NaN in tests, so that a read of one shows.
     fn poison(&self) -> f64 {
         0.0
     }
 
-    /// Replaces each value by its sum over all processes, added up in the order of their ranks.
+    /// Replaces each value by its sum over all processes, in the order of their ranks.
     fn all_reduce_sum(&self, values: &mut [f64]) {
         // One piece at a time bounds the memory of the gathered values.
         for piece in values.chunks_mut((PIECE / self.size()).max(1)) {
@@ -47,7 +47,7 @@ pub trait Communicator: Debug + Send + Sync {
         }
     }
 
-    /// Whether this is rank 0, which writes tables, checkpoints and messages.
+    /// Whether this process is rank 0, which writes tables, checkpoints and messages.
     fn is_root(&self) -> bool {
         self.rank() == 0
     }
@@ -55,10 +55,10 @@ pub trait Communicator: Debug + Send + Sync {
 
 /// A value that processes exchange as N numbers.
 pub trait Wire<const N: usize>: Sized {
-    /// The numbers of the value.
+    /// Returns the value as numbers.
     fn numbers(&self) -> [f64; N];
 
-    /// The value of some numbers.
+    /// Returns the value of some numbers.
     fn from_numbers(numbers: [f64; N]) -> Self;
 }
 
@@ -113,7 +113,7 @@ impl<const N: usize> Wire<N> for [u32; N] {
 }
 
 impl dyn Communicator + '_ {
-    /// Lists of all processes, one after the other in the order of their ranks; only the processes themselves know the lengths.
+    /// Concatenates the lists of all processes in the order of their ranks; each process needs the length of its own list only.
     pub fn all_gather_list<T: Wire<N>, const N: usize>(&self, own: Vec<T>) -> Vec<T> {
         if self.size() == 1 {
             return own;
@@ -136,7 +136,7 @@ impl dyn Communicator + '_ {
     }
 }
 
-/// The only process of a run: each exchange gives what it was given.
+/// A run of one process, whose exchanges return their arguments.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Solo;
 

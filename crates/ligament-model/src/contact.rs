@@ -1,18 +1,17 @@
-//! Contact of the faces of cracks: pairs of points that were parted, and carry pressure again where they close.
+//! Contact of crack faces: pairs of points whose bond is broken or cut, and that carry pressure where the faces close.
 //!
-//! A pair was bonded before its bond broke, or would be but for a pre-crack. Its gap along the normal n of the crack, from A
-//! to B, is
+//! A pair was bonded before its bond broke, or would be bonded without a pre-crack. Its gap along the normal n of the crack, from A to B, is
 //!
 //! g = (u_B - u_A) . n - l (e x n) . (phi_A + phi_B)/2 - l n . (eps_T e),
 //!
-//! with the length l and direction e of the bond, the rotations phi of the points (in the plane theta about z) and
-//! the strain eps_T that the temperature gives. A rigid motion leaves it as it is, and so does the sliding of the faces along
-//! each other. Where g < 0 the pair is closed and stores 1/2 k g^2: an energy, so that nothing is lost over a cycle. The
-//! rotations in g put moments -k g l (e x n)/2 on both ends, which balance the couple of two forces that are not in line.
+//! with the length l and direction e of the bond, the rotations phi of the points (in the plane theta about z) and the thermal strain eps_T.
+//! The gap does not change in a rigid motion, or when the faces slide along each other. Where g < 0 the pair is closed and stores the energy
+//! 1/2 k g^2, so that a cycle does not dissipate. The rotations in g put moments -k g l (e x n)/2 on both ends, which balance the couple of
+//! two forces that are not in line.
 //!
-//! k = (K_n (e . n)^2 + K_s |e x n|^2)/l^2 is what the bond resists along n with, its axial rigidity K_n and its shear rigidity
-//! K_s: in a uniform strain eps_nn the closed pairs across a straight crack exert the traction of the body without the crack.
-//! What strain along the crack adds to it (Poisson) is not recovered, nor is shear along the crack: there is no friction.
+//! k = (K_n (e . n)^2 + K_s |e x n|^2)/l^2 is the stiffness of the bond along n, with its axial rigidity K_n and its shear rigidity K_s: in
+//! a uniform strain eps_nn the closed pairs across a straight crack exert the traction of the body without the crack. The contribution of
+//! strain along the crack to the traction (Poisson) is not recovered, nor is shear along the crack: there is no friction.
 
 use crate::bonds::{BondSet, Incidence};
 use crate::communicator::Wire;
@@ -33,19 +32,19 @@ pub struct CutBond<const D: usize = 2> {
     pub shear: f64,
 }
 
-/// Faces of cracks: what pre-cracks cut, and whether faces that close carry pressure.
+/// Crack faces: bonds cut by pre-cracks, and whether faces that close carry pressure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Faces<const D: usize = 2> {
     /// Bonds that pre-cracks cut, in the order of their ends.
     cut: Vec<CutBond<D>>,
-    /// The points that bonds and closed faces couple with each point, ascending; none where faces do not close.
+    /// Points that bonds and closed faces couple with each point, ascending; `None` where faces do not close.
     coupled: Option<Incidence>,
 }
 
 /// Two points on either side of a crack.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactPair {
-    /// Number of the broken bond; cut bonds are numbered on from the bonds.
+    /// Number of the broken bond; cut bonds are numbered after all bonds.
     pub number: u32,
     /// Points A < B.
     pub ends: [u32; 2],
@@ -53,27 +52,28 @@ pub struct ContactPair {
     pub normal: [f64; 3],
     /// Stiffness k along the normal, N/m.
     pub stiffness: f64,
-    /// Symmetric part of l n (x) e: what a strain of both points makes of the gap, and what the force across makes of their stress, m.
+    /// Symmetric part of l n (x) e, m: the gap changes by its contraction with a strain of both points, and the contact force contributes to
+    /// their stress by it.
     pub spread: SymTensor<3>,
-    /// Degrees of freedom and their factors in the gap; the factors are zero beyond those that two points have.
+    /// Degrees of freedom and their coefficients in the gap; the coefficients are zero beyond the degrees of freedom of two points.
     pub row: [(u32, f64); 12],
 }
 
-/// A pair that is closed.
+/// A closed pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClosedPair {
-    /// The pair.
+    /// Contact pair.
     pub pair: ContactPair,
     /// Gap of the pair, negative, m.
     pub gap: f64,
 }
 
-/// Two points whose faces have passed through each other.
+/// Two points whose crack faces overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overlap {
-    /// How far, along the normal of the crack, m.
+    /// Depth of the overlap along the normal of the crack, m.
     pub depth: f64,
-    /// The points.
+    /// Points A < B.
     pub ends: [u32; 2],
 }
 
@@ -90,14 +90,14 @@ impl Wire<3> for Overlap {
 }
 
 impl ContactPair {
-    /// The gap for the motions of all points, shape (n_degrees_of_freedom), m.
+    /// Gap for the motions of all points, shape (n_degrees_of_freedom), m.
     pub fn gap(&self, motions: &[f64], expansion: ThermalStrain<'_>) -> f64 {
         let of_motions = |(dof, factor): &(u32, f64)| factor * motions[*dof as usize];
         let gap: f64 = self.row.iter().map(of_motions).sum();
         gap - self.growth(expansion)
     }
 
-    /// What the strain of a temperature makes of the gap, m.
+    /// Thermal extension of the pair along the normal, m, by which the gap is smaller.
     pub fn growth(&self, expansion: ThermalStrain<'_>) -> f64 {
         if expansion.is_none() {
             return 0.0;
@@ -112,7 +112,7 @@ impl ClosedPair {
         self.pair.stiffness * self.gap
     }
 
-    /// What the second end exerts on the first along a component, N.
+    /// Force of the second end on the first along a component, N.
     pub fn pull(&self, component: Component) -> f64 {
         if component.is_rotation() {
             0.0
@@ -121,7 +121,7 @@ impl ClosedPair {
         }
     }
 
-    /// Virial stress that it gives an end of a volume, m^3, Pa: half of the force dyad.
+    /// Contribution of the pair to the virial stress of an end with a given volume (m^3), Pa: half of the force dyad over the volume.
     pub fn virial_share(&self, volume: f64) -> SymTensor<3> {
         self.pair.spread.scaled(0.5 * self.force() / volume)
     }
@@ -139,12 +139,12 @@ impl<const D: usize> Default for Faces<D> {
 }
 
 impl<const D: usize> Faces<D> {
-    /// Faces that bonds cut by pre-cracks leave, and that carry no pressure.
+    /// Faces of bonds cut by pre-cracks, without contact pressure.
     pub fn open(cut: Vec<CutBond<D>>) -> Self {
         Self { cut, coupled: None }
     }
 
-    /// Faces that carry pressure where they close, of bonds that broke as well.
+    /// Faces with contact pressure where they close, also of broken bonds.
     pub fn closing(cut: Vec<CutBond<D>>, bonds: &BondSet<D>) -> Self {
         let all = || {
             bonds
@@ -168,12 +168,12 @@ impl<const D: usize> Faces<D> {
         self.coupled.is_some()
     }
 
-    /// The bonds that pre-cracks cut.
+    /// Bonds cut by pre-cracks.
     pub fn cut(&self) -> &[CutBond<D>] {
         &self.cut
     }
 
-    /// The points that bonds and closed faces couple with each point; none where faces do not close.
+    /// Points that bonds and closed faces couple with each point; `None` where faces do not close.
     pub(crate) fn coupled(&self) -> Option<&Incidence> {
         self.coupled.as_ref()
     }

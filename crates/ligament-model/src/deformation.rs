@@ -1,7 +1,7 @@
 //! Deformations of all bonds of a body.
 //!
-//! A bond in the plane has at most three strains, which are what criteria measure. One in space has a stretch and two vectors, of which
-//! criteria see the lengths: they stand beside the vectors, so that what judges bonds reads the same array in the plane and in space.
+//! A bond in the plane has at most three strains, which criteria measure. One in space has a stretch and two vectors, whose lengths criteria
+//! measure: the lengths are stored beside the vectors, so that criteria read the same array in the plane and in space.
 
 use std::fmt;
 use std::ops::Deref;
@@ -17,13 +17,13 @@ use crate::tensor::{minus, norm};
 pub struct SpaceDeformation {
     /// Stretch s = n . (u_B - u_A)/l.
     pub stretch: f64,
-    /// Shear gamma = P (u_B - u_A)/l - 1/2 (phi_A + phi_B) x n, at right angles to n, rad.
+    /// Shear gamma = P (u_B - u_A)/l - 1/2 (phi_A + phi_B) x n, orthogonal to n, rad.
     pub shear: [f64; 3],
     /// Relative rotation phi_B - phi_A of the ends, rad.
     pub rotation: [f64; 3],
 }
 
-/// Deformation of a bond as its element has it, from which follows what criteria measure.
+/// Deformation of a bond in the type of its element, from which the strains of the criteria follow.
 pub trait Deformation: Copy + Default + PartialEq + fmt::Debug + Send + Sync + 'static {
     /// The deformation times a factor.
     fn scaled(&self, factor: f64) -> Self;
@@ -34,13 +34,13 @@ pub trait Deformation: Copy + Default + PartialEq + fmt::Debug + Send + Sync + '
     /// Strains that criteria measure.
     fn measured(&self) -> BondDeformation;
 
-    /// A deformation in which criteria measure these strains; energies do not depend on its directions.
+    /// A deformation with given strains of the criteria; energies do not depend on its directions.
     fn with_measures(measured: &BondDeformation) -> Self;
 
     /// Deformations of all bonds, shape (n_bonds).
     fn of_bonds(deformations: &Deformations) -> &[Self];
 
-    /// Deformations of so many bonds that a function writes: all of them, and each by its number.
+    /// Deformations of `n_bonds` bonds written by a function, which must write every bond.
     fn written(
         room: &DeformationPool,
         n_bonds: usize,
@@ -107,7 +107,7 @@ impl Deformation for SpaceDeformation {
         }
     }
 
-    /// The stretch s, |gamma| and the size of the relative rotation.
+    /// Stretch s, |gamma| and the size of the relative rotation.
     #[inline]
     fn measured(&self) -> BondDeformation {
         BondDeformation::new([self.stretch, norm(self.shear), norm(self.rotation)])
@@ -143,20 +143,21 @@ impl Deformation for SpaceDeformation {
     }
 }
 
-/// Memory of deformations that nobody needs any more, for those of the next sweep; clones share it.
+/// Reusable memory of deformations for the next sweeps, common to all clones.
 ///
-/// Fresh memory of a large body comes from the system, which clears it page by page, and goes back there: a quarter of the time of a sweep.
+/// Fresh memory of a large body comes from the operating system, which clears it page by page, and is returned to it: a quarter of the time
+/// of a sweep.
 #[derive(Clone, Default)]
 pub struct DeformationPool(Arc<Mutex<Spare>>);
 
 impl fmt::Debug for DeformationPool {
-    /// What lies there belongs to no deformations, and to no system.
+    /// Prints the type only: the spare memory belongs to no system.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("DeformationPool")
     }
 }
 
-/// At most so many arrays are kept: a sweep writes one while the one before is in use.
+/// Largest number of arrays kept: a sweep writes one while the previous one is in use.
 const SPARE: usize = 2;
 
 #[derive(Default)]
@@ -166,7 +167,7 @@ struct Spare {
 }
 
 impl DeformationPool {
-    /// An array of so many deformations, whatever they are.
+    /// An array of `n_bonds` deformations with arbitrary values.
     fn taken<T: Clone + Default>(
         &self,
         n_bonds: usize,
@@ -181,13 +182,13 @@ impl DeformationPool {
     }
 }
 
-/// Deformations of all bonds. It reads as the slice of what criteria measure of them, shape (n_bonds).
+/// Deformations of all bonds; dereferences to the strains of the criteria, shape (n_bonds).
 #[derive(Debug, Clone, Default)]
 pub struct Deformations {
     measured: Vec<BondDeformation>,
     /// Deformations of bonds in space, shape (n_bonds); empty in the plane.
     in_space: Vec<SpaceDeformation>,
-    /// Where the memory goes.
+    /// Memory pool to which the arrays return.
     room: DeformationPool,
 }
 
@@ -220,7 +221,7 @@ impl Deformations {
         &self.measured
     }
 
-    /// Multiples of all of them.
+    /// All deformations times a factor.
     pub fn scaled(&self, factor: f64) -> Self {
         if self.in_space.is_empty() {
             scaled::<BondDeformation>(self, factor)
@@ -229,7 +230,7 @@ impl Deformations {
         }
     }
 
-    /// Deformations on the line from here along slopes (n_bonds), `by` times the slopes ahead.
+    /// Deformations plus `by` times the slopes (n_bonds).
     pub fn ahead(&self, slopes: &Self, by: f64) -> Self {
         if self.in_space.is_empty() {
             ahead::<BondDeformation>(self, slopes, by)

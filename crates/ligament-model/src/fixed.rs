@@ -1,49 +1,49 @@
-//! What the preparation of a model finds and an analysis does not change.
+//! Fields of the model preparation that an analysis does not change.
 
 use crate::scatter::Factors;
 
-/// Fields of points and bonds that an analysis does not change, beside those of the bond system.
+/// Constant fields of points and bonds, in addition to those of the bond system.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConstantFields {
     /// Horizons, shape (n_points), m.
     pub horizon: Vec<f64>,
-    /// Share of its bonds that pre-cracks cut, shape (n_points).
+    /// Fraction of the bonds of each point that pre-cracks cut, shape (n_points).
     pub precrack_share: Vec<f64>,
-    /// Energy density over the continuum's in uniform strains: in the plane uniaxial x, uniaxial y, biaxial and shear.
+    /// Ratio of the energy density to the continuum's in uniform strains: in the plane uniaxial x, uniaxial y, biaxial and shear.
     pub energy_ratios: Vec<EnergyRatio>,
-    /// Omega of each bond, shape (n_bonds).
+    /// Factor Omega of each bond, shape (n_bonds).
     pub domain_factor: Vec<f64>,
-    /// Factors of the shear stiffness over Omega, shape (n_bonds); empty where all are 1.
+    /// Ratio of the factor of the shear stiffness to Omega, shape (n_bonds); empty where all are 1.
     pub shear_ratio: Vec<f64>,
-    /// What the patch correction leaves of the equations of each point, shape (n_points); empty without it.
+    /// Residual of the equations of the patch correction at each point, shape (n_points); empty without it.
     pub patch_residual: Vec<f64>,
     /// Points whose bonds never fail, shape (n_points).
     pub no_fail: Vec<bool>,
-    /// Factors by which a property varies at random, where one does.
+    /// Random factors of a property; `None` where no property is random.
     pub scatter: Option<Factors>,
-    /// Pairs within a horizon that are no bonds, in the order of their ends.
+    /// Pairs within a horizon that are not bonded, in the order of their ends.
     pub absent: Vec<AbsentBond>,
 }
 
-/// Energy density of the bonds in a uniform strain over the continuum's.
+/// Ratio of the energy density of the bonds in a uniform strain to the continuum's.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EnergyRatio {
     /// Name of the field in results: `energy_ratio_x`.
     pub field: &'static str,
-    /// The strain in words: `uniaxial x`.
+    /// Name of the strain in text: `uniaxial x`.
     pub strain: &'static str,
     /// Ratio at each point, shape (n_points).
     pub at_points: Vec<f64>,
 }
 
-/// A pair of points, one in the horizon of the other, that is no bond.
+/// A pair of points, at least one of which lies in the horizon of the other, without a bond.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AbsentBond {
     /// Points A < B.
     pub ends: [u32; 2],
     /// Bond horizon H, m.
     pub horizon: f64,
-    /// What separates them.
+    /// Reason of the absence.
     pub absence: Absence,
 }
 
@@ -57,7 +57,7 @@ pub enum Absence {
 }
 
 impl Absence {
-    /// The number that stands for the reason in files.
+    /// Number of the reason in files.
     pub fn number(self) -> i64 {
         match self {
             Self::PreCrack => 1,
@@ -65,7 +65,7 @@ impl Absence {
         }
     }
 
-    /// The reason that a number in a file stands for; None for a bond.
+    /// Reason for a number in a file; `None` for a bond.
     pub fn from_number(number: i64) -> Option<Self> {
         [Self::PreCrack, Self::Void]
             .into_iter()

@@ -2,7 +2,7 @@
 
 use crate::tensor::{dot, minus, norm};
 
-/// Lowest and highest corner of the box around some positions, with sides along the axes; without positions infinite and minus infinite.
+/// Lowest and highest corner of the box around some positions, with sides along the axes; infinite and minus infinite without positions.
 pub(crate) fn bounding_box<const D: usize>(
     positions: impl IntoIterator<Item = [f64; D]>,
 ) -> [[f64; D]; 2] {
@@ -21,12 +21,12 @@ pub(crate) fn boxes_meet<const D: usize>(one: [[f64; D]; 2], other: [[f64; D]; 2
     (0..D).all(|axis| one[0][axis] <= other[1][axis] && other[0][axis] <= one[1][axis])
 }
 
-/// The point of a segment at a place: its first end at 0, its second at 1.
+/// The point of a segment at a parameter: 0 at its first end, 1 at its second.
 pub(crate) fn point_at<const D: usize>([a, b]: [[f64; D]; 2], place: f64) -> [f64; D] {
     std::array::from_fn(|axis| a[axis] + place * (b[axis] - a[axis]))
 }
 
-/// The place of a segment that is nearest to a point: 0 at its first end, 1 at its second.
+/// Parameter of the point of a segment nearest to a point: 0 at its first end, 1 at its second.
 pub(crate) fn nearest_place<const D: usize>([a, b]: [[f64; D]; 2], point: [f64; D]) -> f64 {
     let way = minus(b, a);
     let square = dot(way, way);
@@ -44,13 +44,13 @@ pub(crate) fn distance_to<const D: usize>(segment: [[f64; D]; 2], point: [f64; D
     ))
 }
 
-/// Whether a point lies on the line between two others and at none of them, as far as the place along the line tells.
+/// Whether a point lies on the line between two others and at neither of them, judged by its parameter along the line.
 pub(crate) fn is_between<const D: usize>(point: [f64; D], [start, end]: [[f64; D]; 2]) -> bool {
     dot(minus(point, start), minus(end, start)) > 0.0
         && dot(minus(point, end), minus(start, end)) > 0.0
 }
 
-/// A point of a plane in space by the two coordinates in which an area with this normal is widest, right-handed about the normal or its
+/// Two coordinates of a point of a plane in space: those in which an area with this normal is widest, right-handed about the normal or its
 /// opposite.
 pub(crate) fn flattened(point: [f64; 3], normal: [f64; 3]) -> [f64; 2] {
     let [x, y, z] = normal.map(f64::abs);
@@ -63,12 +63,12 @@ pub(crate) fn flattened(point: [f64; 3], normal: [f64; 3]) -> [f64; 2] {
     }
 }
 
-/// The edges of a triangle, around it.
+/// Edges of a triangle, in order around it.
 pub(crate) fn edges_of<T: Copy>([a, b, c]: [T; 3]) -> [[T; 2]; 3] {
     [[a, b], [b, c], [c, a]]
 }
 
-/// The ends of an edge, the smaller number first.
+/// Ends of an edge, the smaller number first.
 pub(crate) fn ascending([a, b]: [u32; 2]) -> [u32; 2] {
     [a.min(b), a.max(b)]
 }

@@ -2,13 +2,13 @@
 
 use crate::subdomain::Subdomain;
 
-/// The ghosts of a process. Only the process that owns a point sends its values, and only to processes that read it.
+/// Ghosts of a process. Only the owner of a point sends its values, and only to processes that read the point.
 #[derive(Debug, Clone)]
 pub struct Ghosts {
     subdomain: Subdomain,
-    /// Owned points that other processes read, in the order of these ranks, and their number for each rank.
+    /// Owned points that other processes read, in the order of the ranks of these, and their number for each rank.
     sent: (Vec<u32>, Vec<usize>),
-    /// Ghosts in the order of the ranks that own them, and their number for each rank.
+    /// Ghosts in the order of the ranks of their owners, and their number for each rank.
     received: (Vec<u32>, Vec<usize>),
 }
 
@@ -42,12 +42,12 @@ impl Ghosts {
         }
     }
 
-    /// The ghosts.
+    /// Points that are ghosts, in the order of the ranks of their owners.
     pub fn points(&self) -> &[u32] {
         &self.received.0
     }
 
-    /// Points by other numbers.
+    /// The ghosts with points renumbered by a function.
     pub fn renumbered(mut self, number: impl Fn(u32) -> u32) -> Self {
         let points = self.sent.0.iter_mut().chain(&mut self.received.0);
         points.for_each(|point| *point = number(*point));

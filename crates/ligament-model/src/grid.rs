@@ -1,34 +1,34 @@
-//! The body as fields of its points are drawn on it.
+//! Geometry of a body for the output of its fields.
 
 use ligament_mesh::{Cell, Numbering, SolidCell};
 
-/// A body with its points, their tags and what their fields are drawn on.
+/// A body with its points, their tags and the cells or boxes of its fields.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyGrid {
     /// Positions of the points, shape (n_points), m; in the plane z = 0.
     pub positions: Vec<[f64; 3]>,
-    /// How the points are numbered: here, and in the file.
+    /// Numbering of the points, internal and in the file.
     pub numbering: Numbering,
-    /// Tags that points go by: of the nodes in a mesh file, of the cells of a lattice, shape (n_points).
+    /// Tags of the points: of the nodes in a mesh file, or of the cells of a lattice, shape (n_points).
     pub tags: Vec<i64>,
-    /// What a tag is one of: `node`, `cell` or `point`.
+    /// Kind of a tag: `node`, `cell` or `point`.
     pub tagged: &'static str,
-    /// What the fields of the points are drawn on.
+    /// Cells or boxes for the fields of the points.
     pub canvas: Canvas,
 }
 
-/// What the fields of the points are drawn on.
+/// Cells or boxes for the fields of the points.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Canvas {
     /// Cells between the points, whose fields are point data.
     Between(Vec<Cell>),
-    /// A cell of its own for each point, whose fields are cell data. Its corners (n_points, counter-clockwise, m) belong to
-    /// no other cell: they move with the point, and cracks open.
+    /// A cell for each point, whose fields are cell data. Its corners (n_points, counter-clockwise, m) belong to no other cell: they move
+    /// with the point, and cracks open.
     Around(Vec<[[f64; 2]; 4]>),
     /// Solid cells between the points, whose fields are point data.
     Solid(Vec<SolidCell>),
-    /// A box of its own for each point, whose fields are cell data: its lowest and its highest corner (n_points, m). It moves
-    /// with the point, and cracks open.
+    /// A box for each point, whose fields are cell data: its lowest and its highest corner (n_points, m). It moves with the point, and
+    /// cracks open.
     Boxes(Vec<[[f64; 3]; 2]>),
 }
 
@@ -64,13 +64,13 @@ impl BodyGrid {
 }
 
 impl Canvas {
-    /// Whether the body is one in space.
+    /// Whether the body lies in space.
     pub fn is_solid(&self) -> bool {
         matches!(self, Self::Solid(_) | Self::Boxes(_))
     }
 }
 
-/// Positions in the plane as ones in space with z = 0.
+/// Positions in the plane as positions in space with z = 0.
 pub fn raised<const D: usize>(positions: &[[f64; D]]) -> Vec<[f64; 3]> {
     let coordinate = |position: &[f64; D], axis: usize| position.get(axis).copied();
     let raised = |it| std::array::from_fn(|axis| coordinate(it, axis).unwrap_or(0.0));

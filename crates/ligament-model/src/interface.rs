@@ -1,6 +1,6 @@
-//! What equations may ask of bonds: the one interface between the mechanics and what solves its equations.
+//! Interface between the mechanics of bonds and the equations to be solved.
 //!
-//! A sweep over all bonds is one call through the interface; the loop inside knows the element as a type.
+//! A sweep over all bonds is one call through the interface; the loop inside has the element as a type parameter.
 
 use ligament_mesh::Numbering;
 use rayon::prelude::*;
@@ -18,23 +18,23 @@ use crate::sweep::BondSweep;
 use crate::system::UnbrokenBonds;
 use crate::thermal::ThermalStrain;
 
-/// The bonds of a body as equations see them. Points, bonds and degrees of freedom are numbers; where the points lie, and in
-/// how many dimensions, is known behind this interface alone.
+/// The bonds of a body, as equations use them. Points, bonds and degrees of freedom are numbers; coordinates and the number of dimensions
+/// stay behind this interface.
 ///
-/// Where processes share a body out, each has the bonds at its own points, and arrays of shape (n_bonds) are over those. What is said of
-/// the whole body, or of forces at points, is the same on all of them, and all of them ask for it at the same time: stiffnesses by sign,
-/// what is resisted, point stiffnesses, rigid motions, forces and energies of a sweep, overlaps. Energy densities and stresses of points
-/// are right at own points, and each process asks for them by itself.
+/// Where a body is divided between processes, each has the bonds at its owned points, and arrays of shape (n_bonds) are over those. Results
+/// for the whole body, and forces at points, are the same on all processes, and their calls are collective: stiffnesses by sign, resisted
+/// degrees of freedom, point stiffnesses, rigid motions, forces and energies of a sweep, overlaps. Energy densities and stresses of points
+/// are valid at owned points, and their calls are not collective.
 pub trait Bonds: BondTopology + BondKinetics + BondReadings + BondContact {}
 
 impl<T: BondTopology + BondKinetics + BondReadings + BondContact> Bonds for T {}
 
-/// Points, bonds and what they are connected with: numbers without coordinates.
+/// Points, bonds and their connections: numbers without coordinates.
 pub trait BondTopology: std::fmt::Debug + Send + Sync {
     /// Number of points.
     fn n_points(&self) -> usize;
 
-    /// How the points are numbered: here, and in the file.
+    /// Numbering of the points, internal and in the file.
     fn numbering(&self) -> &Numbering;
 
     /// The points and bonds of the body on this process.
@@ -43,7 +43,7 @@ pub trait BondTopology: std::fmt::Debug + Send + Sync {
     /// Components of the motion of a point, in the order of the arrays over degrees of freedom.
     fn components(&self) -> &'static [Component];
 
-    /// Where arrays over degrees of freedom hold the motions of the points.
+    /// Positions of the motions of the points in arrays over degrees of freedom.
     fn layout(&self) -> Layout {
         Layout {
             n_points: self.n_points(),
@@ -57,12 +57,12 @@ pub trait BondTopology: std::fmt::Debug + Send + Sync {
     /// Points A < B of each bond, shape (n_bonds).
     fn ends(&self) -> &[[u32; 2]];
 
-    /// Numbers in the file of the ends of a bond, ascending: what is tied goes by them.
+    /// Numbers in the file of the ends of a bond, ascending, by which ties are broken.
     fn ends_in_file(&self, bond: u32) -> [u32; 2] {
         self.numbering().ends_in_file(self.ends()[bond as usize])
     }
 
-    /// The bonds of each point.
+    /// Bonds of each point.
     fn incidence(&self) -> &Incidence;
 
     /// Ends and families of the bonds.
@@ -73,16 +73,16 @@ pub trait BondTopology: std::fmt::Debug + Send + Sync {
         }
     }
 
-    /// The bonds whose elements couple each point, ascending; on the imaginary lattice more than those that end there.
+    /// Bonds whose elements couple each point, ascending; on the imaginary lattice these include bonds that do not end at the point.
     fn elements_at_points(&self) -> &Incidence;
 
-    /// The other points that elements couple with each point.
+    /// Other points that elements couple with each point.
     fn coupled_points(&self) -> CoupledPoints<'_>;
 
     /// Volume of each point, shape (n_points), m^3.
     fn volumes(&self) -> &[f64];
 
-    /// Distance of each point from its nearest one, shape (n_points), m.
+    /// Distance of each point from its nearest neighbour, shape (n_points), m.
     fn spacing(&self) -> &[f64];
 
     /// Horizon of each bond, shape (n_bonds), m.
@@ -91,42 +91,41 @@ pub trait BondTopology: std::fmt::Debug + Send + Sync {
     /// Weight of each bond in the damage of its ends, shape (n_bonds).
     fn weights(&self) -> &[f64];
 
-    /// Share of the energy of a bond that belongs to one of its ends: mostly a half.
+    /// Fraction of the energy of a bond that belongs to one of its ends: mostly a half.
     fn share(&self, bond: u32, point: u32) -> f64;
 
     /// Diagonal of the box around all points of the body, m.
     fn extent(&self) -> f64;
 
-    /// Sorts points so that those of the first half lie before those of the second along the longest side of all; ties are
-    /// broken by number.
+    /// Sorts points so that the first half lies before the second along the longest side of their box; ties are broken by number.
     fn halve(&self, points: &mut [u32]);
 }
 
-/// Stiffness and forces of the bonds, and the motions that cost no energy.
+/// Stiffness and forces of the bonds, and motions that cost no energy.
 pub trait BondKinetics: BondTopology {
     /// Whether forces are linear in the displacements.
     fn is_linear(&self) -> bool;
 
-    /// Whether forces are those of an energy, so that the stiffness is symmetric.
+    /// Whether forces derive from an energy, so that the stiffness is symmetric.
     fn has_energy(&self) -> bool;
 
     /// Whether every bond resists stretch and shear, so that the stiffness is definite.
     fn all_positive(&self) -> bool;
 
-    /// Whether some bond has a negative stiffness, so that that of the body may be indefinite.
+    /// Whether some bond has a negative stiffness, so that the stiffness of the body may be indefinite.
     fn some_negative(&self) -> bool;
 
-    /// Whether some bond has a negative stiffness against shear.
+    /// Whether some bond has a negative shear stiffness.
     fn some_negative_shear(&self) -> bool;
 
-    /// For each degree of freedom, whether some bond resists it, shape (n_degrees_of_freedom).
+    /// Whether some bond resists each degree of freedom, shape (n_degrees_of_freedom).
     fn resisted(&self) -> Vec<bool>;
 
     /// Stiffness of each point with all its bonds, shape (n_points).
     fn point_stiffness(&self) -> Vec<PointStiffness>;
 
-    /// Degrees of freedom that hold the rigid motions of some connected points which cost no energy, as far as fixed ones do
-    /// not; those that hold most first, of equals the first in the file. `can_hold` tells what has a stiffness.
+    /// Degrees of freedom to fix so that no rigid motion of some connected points that costs no energy is free, beyond the fixed ones; the
+    /// most effective first, ties by number in the file. Only those for which `can_hold` returns true are chosen.
     fn holds(
         &self,
         points: &[u32],
@@ -134,12 +133,12 @@ pub trait BondKinetics: BondTopology {
         can_hold: &dyn Fn(usize) -> bool,
     ) -> Vec<usize>;
 
-    /// Displacements and rotations of some connected points in each rigid motion of theirs that costs no energy and that no
-    /// fixed degree of freedom prevents, shape (motions, degrees of freedom of the points).
+    /// Displacements and rotations of some connected points in each of their rigid motions that costs no energy and is not prevented by
+    /// fixed degrees of freedom, shape (n_motions, n_degrees_of_freedom of the points).
     fn free_shapes(&self, points: &[u32], is_fixed: &dyn Fn(usize) -> bool) -> Vec<Vec<f64>>;
 
-    /// The rigid motions of some connected points that cost no energy and that no fixed degree of freedom prevents, with the
-    /// work that forces do on them.
+    /// Rigid motions of some connected points that cost no energy and are not prevented by fixed degrees of freedom, with the work of given
+    /// forces on them.
     fn free_motions(
         &self,
         points: &[u32],
@@ -147,19 +146,19 @@ pub trait BondKinetics: BondTopology {
         force: &dyn Fn(usize) -> f64,
     ) -> Vec<FreeMotion>;
 
-    /// Displacements and rotations of some points in each rigid motion of them as a whole, whether it costs energy or not, shape
-    /// (motions, degrees of freedom of the points): translations of size one along the axes, then rotations about the middle of
-    /// the points by one over their radius, along which they turn as well.
+    /// Displacements and rotations of some points in each rigid motion, whether it costs energy or not, shape (n_motions,
+    /// n_degrees_of_freedom of the points): unit translations along the axes, then rotations about the middle of the points by one over
+    /// their radius, which include the rotations of the points.
     fn rigid_shapes(&self, points: &[u32]) -> Vec<Vec<f64>>;
 
-    /// The rigid motions of the whole body about the centre of its masses (n_points).
+    /// Rigid motions of the whole body about its centre of mass, for the masses of the points (n_points), kg.
     fn motions_about_centre(&self, masses: &[f64]) -> CentralMotions;
 
-    /// Displacements u_i = x_j, u_j = x_i of all points for each pair of axes i <= j, each of shape (n_degrees_of_freedom): the motions of
-    /// uniform strain.
+    /// Motions of uniform strain: displacements u_i = x_j, u_j = x_i of all points for each pair of axes i <= j, each of shape
+    /// (n_degrees_of_freedom).
     fn motions_of_strain(&self) -> Vec<Vec<f64>>;
 
-    /// Deformation of every bond without what its temperature gives it, broken or not, shape (n_bonds).
+    /// Deformation of every bond less its thermal deformation, broken or not, shape (n_bonds).
     fn deformations(
         &self,
         intact: &[bool],
@@ -167,7 +166,7 @@ pub trait BondKinetics: BondTopology {
         expansion: ThermalStrain<'_>,
     ) -> Deformations;
 
-    /// What criteria measure of some bonds, in their order, for displacements (n_degrees_of_freedom) at the temperature without strains.
+    /// Deformations that criteria measure, of some bonds in their order, for displacements (n_degrees_of_freedom) without thermal strains.
     fn measured(
         &self,
         intact: &[bool],
@@ -177,8 +176,8 @@ pub trait BondKinetics: BondTopology {
 
     /// Forces and energy of bonds with given deformations (n_bonds).
     ///
-    /// Nothing depends on the number of threads: the bonds of a part are added up by one thread in their order, and the parts
-    /// after each other.
+    /// The result does not depend on the number of threads: the bonds of a part are summed by one thread in their order, and the parts one
+    /// after another.
     fn forces(
         &self,
         bonds: UnbrokenBonds<'_>,
@@ -186,23 +185,23 @@ pub trait BondKinetics: BondTopology {
         expansion: ThermalStrain<'_>,
     ) -> BondSweep;
 
-    /// Stiffness of a bond with what remains of it, as a sum of terms.
+    /// Stiffness of a bond with its remaining factors, as a sum of terms.
     fn terms(&self, intact: &[bool], bond: usize, remaining: &StiffnessFactors) -> Vec<Term>;
 
-    /// Adds up the blocks of the stiffness in the columns of a point at the rows of its `lower` coupled points (ascending) and
-    /// of itself, shape (n_lower + 1, components, components).
+    /// Adds the blocks of the stiffness in the columns of a point at the rows of its `lower` coupled points (ascending) and of itself, shape
+    /// (n_lower + 1, n_components, n_components).
     fn add_blocks(&self, bonds: UnbrokenBonds<'_>, point: u32, lower: &[u32], blocks: &mut [f64]);
 
-    /// The product K u of the stiffness of the bonds that are left with motions u, shape (n_degrees_of_freedom) both; of bonds whose
-    /// forces are linear in the displacements. What `forces` held is lost.
+    /// The product K u of the stiffness of the unbroken bonds with motions u, shape (n_degrees_of_freedom) both; for bonds whose forces are
+    /// linear in the displacements. The result overwrites `forces`.
     ///
-    /// Nothing depends on the number of threads, as in [`BondKinetics::forces`].
+    /// The result does not depend on the number of threads, as in [`BondKinetics::forces`].
     fn multiply(&self, bonds: UnbrokenBonds<'_>, motions: &[f64], forces: &mut [f64]);
 
     /// Adds the derivatives of the forces by the displacements: row, column, value.
     fn add_derivatives(&self, intact: &[bool], add: &mut dyn FnMut(usize, usize, f64));
 
-    /// The elements that change when some of the bonds that are `left` break, at displacements (n_degrees_of_freedom).
+    /// Elements that change when some of the bonds that are `left` break, at displacements (n_degrees_of_freedom).
     fn changed(
         &self,
         left: UnbrokenBonds<'_>,
@@ -212,9 +211,9 @@ pub trait BondKinetics: BondTopology {
     ) -> Box<dyn ChangedElements>;
 }
 
-/// Energies, stresses and forces that are read off a state of the bonds.
+/// Energies, stresses and forces derived from a state of the bonds.
 pub trait BondReadings: BondTopology {
-    /// 1/2 u^T K u', J, of an unbroken bond with what remains of its stiffness, for two deformations of all bonds.
+    /// Energy 1/2 u^T K u', J, of an unbroken bond with its remaining stiffness, for two deformations of all bonds.
     fn mutual_energy(
         &self,
         intact: &[bool],
@@ -223,7 +222,7 @@ pub trait BondReadings: BondTopology {
         deformations: [&Deformations; 2],
     ) -> f64;
 
-    /// Energy 1/2 u^T K u, J, of an unbroken bond with what remains of its stiffness, from what criteria measure of its deformation.
+    /// Energy 1/2 u^T K u, J, of an unbroken bond with its remaining stiffness, from its deformation as criteria measure it.
     fn stored_energy(
         &self,
         intact: &[bool],
@@ -232,7 +231,7 @@ pub trait BondReadings: BondTopology {
         measured: &BondDeformation,
     ) -> f64;
 
-    /// Strain energy density of a point, J/m^3: its share of the energy of its bonds over its volume.
+    /// Strain energy density of a point, J/m^3: its part of the energy of its bonds over its volume.
     fn energy_density(
         &self,
         bonds: UnbrokenBonds<'_>,
@@ -244,7 +243,7 @@ pub trait BondReadings: BondTopology {
     fn stress(&self, bonds: UnbrokenBonds<'_>, deformations: &Deformations, point: u32)
     -> Vec<f64>;
 
-    /// Stress of every point in one reading of the forces of the bonds.
+    /// Stresses of all points by one reading of the forces of the bonds.
     fn stresses(
         &self,
         reading: StressReading,
@@ -252,8 +251,8 @@ pub trait BondReadings: BondTopology {
         deformations: &Deformations,
     ) -> Stresses;
 
-    /// Sum of a component of what the far ends of some bonds exert on the near ones, which are the first where marked, N; of
-    /// bonds of two points alone.
+    /// Sum of a component of the forces of the far ends of some bonds on the near ends, N, for bonds of two points only; the flag of a bond
+    /// marks its first end as near.
     fn force_through(
         &self,
         bonds: UnbrokenBonds<'_>,
@@ -262,21 +261,20 @@ pub trait BondReadings: BondTopology {
         component: Component,
     ) -> f64;
 
-    /// Energy that a bond stores at its limit under a criterion, with the stiffness that the criterion is about, J; 0 where
-    /// the bond never gets there.
+    /// Energy of a bond at the limit of a criterion, from the rigidity that the criterion weakens, J; 0 where the limit is infinite.
     fn energy_at_limit(&self, criterion: &Criterion, bond: usize) -> f64;
 }
 
 /// Pairs of points across cracks.
 pub trait BondContact: BondTopology {
-    /// Whether faces of cracks carry pressure where they close.
+    /// Whether crack faces carry pressure where they close.
     fn faces_close(&self) -> bool;
 
-    /// The pairs across cracks while the bonds marked in `intact` (n_bonds) are unbroken, in the order of their numbers.
+    /// Pairs of points across cracks while the bonds marked in `intact` (n_bonds) are unbroken, in the order of their numbers.
     fn contact_pairs(&self, intact: &[bool]) -> Vec<ContactPair>;
 
-    /// The pair across a crack whose faces have passed through each other farthest, beyond a depth (m), of the points that are
-    /// asked for (n_points); for displacements (n_degrees_of_freedom), and none where faces close.
+    /// Pair across a crack with the largest overlap of the faces, beyond a depth (m), among the points marked in `asked` (n_points), for
+    /// displacements (n_degrees_of_freedom); none where faces close.
     fn overlap(
         &self,
         intact: &[bool],
@@ -286,7 +284,7 @@ pub trait BondContact: BondTopology {
         asked: &[bool],
     ) -> Option<Overlap>;
 
-    /// Adds the stresses of closed pairs to the stresses of every point in a reading.
+    /// Adds the stresses of closed pairs to the stresses of all points by a reading.
     fn add_contact_stresses(
         &self,
         reading: StressReading,
@@ -300,7 +298,7 @@ pub trait BondContact: BondTopology {
 pub struct Topology<'a> {
     /// Points A < B of each bond, shape (n_bonds).
     pub ends: &'a [[u32; 2]],
-    /// The bonds of each point.
+    /// Bonds of each point.
     pub incidence: &'a Incidence,
 }
 
@@ -312,16 +310,16 @@ impl Topology<'_> {
     }
 }
 
-/// The other points that elements couple with each point.
+/// Other points that elements couple with each point.
 #[derive(Clone, Copy)]
 pub struct CoupledPoints<'a> {
     pub(crate) lists: &'a Incidence,
-    /// Ends of the bonds, where the lists are of bonds.
+    /// Ends of the bonds, where the lists contain bonds instead of points.
     pub(crate) ends: Option<&'a [[u32; 2]]>,
 }
 
 impl<'a> CoupledPoints<'a> {
-    /// The points that elements couple with a point, ascending.
+    /// Points that elements couple with a point, ascending.
     pub fn at(self, point: u32) -> impl Iterator<Item = u32> + 'a {
         self.lists.at(point).iter().map(move |&entry| {
             self.ends.map_or(entry, |ends| {
@@ -332,12 +330,12 @@ impl<'a> CoupledPoints<'a> {
     }
 }
 
-/// Force and moment on a point for a displacement and a rotation of size one against its neighbours.
+/// Force and moment on a point for a unit displacement and a unit rotation against its neighbours.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointStiffness {
     /// Force for a displacement of 1 m, N/m.
     pub force: f64,
-    /// Moment for a rotation of 1 rad, in the units of what it is compared with.
+    /// Moment for a rotation of 1 rad over the bond length, N.
     pub moment: f64,
 }
 
@@ -371,9 +369,9 @@ impl PointStiffness {
 /// Readings of the forces of the bonds as stresses, see [`crate::stress`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StressReading {
-    /// The mean of the force dyads of a point's bonds.
+    /// Virial: the mean of the force dyads of the bonds of a point.
     Virial,
-    /// The force through small planes at a point.
+    /// Traction: the force through small planes at a point.
     Traction,
 }
 
@@ -386,11 +384,11 @@ pub struct Stresses {
     pub values: Vec<f64>,
 }
 
-/// The rigid motions of a body about the centre of its masses.
+/// Rigid motions of a body about its centre of mass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CentralMotions {
-    /// Centre of the masses, as in the mesh file, m.
+    /// Centre of mass, in the coordinates of the mesh file, m.
     pub centre: Vec<f64>,
-    /// Translations of size one along the axes, then rotations of size one, each of shape (n_degrees_of_freedom).
+    /// Unit translations along the axes, then unit rotations, each of shape (n_degrees_of_freedom).
     pub motions: Vec<Vec<f64>>,
 }

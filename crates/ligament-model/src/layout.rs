@@ -1,4 +1,4 @@
-//! Components of the motion of a point, and where arrays over all degrees of freedom hold them.
+//! Components of the motion of a point, and their positions in arrays over all degrees of freedom.
 
 use std::ops::Range;
 
@@ -35,7 +35,7 @@ impl Component {
         Self::RotationZ,
     ];
 
-    /// All components in so many dimensions, in their order at a point.
+    /// All components for a number of dimensions, in their order at a point.
     pub const fn in_dimensions(dimensions: usize) -> &'static [Self] {
         match dimensions {
             2 => &Self::ALL,
@@ -49,7 +49,7 @@ impl Component {
         !matches!(self, Self::X | Self::Y | Self::Z)
     }
 
-    /// Place of the component among those of [`Component::IN_SPACE`]: the rotation of the plane is one about z.
+    /// Index of the component in [`Component::IN_SPACE`]: the rotation of the plane is one about z.
     pub(crate) fn in_space(self) -> usize {
         match self {
             Self::X => 0,
@@ -61,7 +61,7 @@ impl Component {
         }
     }
 
-    /// Name of the force or moment that belongs to it, as columns have it.
+    /// Name of the conjugate force or moment, as in column names.
     pub fn force_name(self) -> &'static str {
         match self {
             Self::X => "force_x",
@@ -88,8 +88,7 @@ impl Component {
     }
 }
 
-/// Where arrays over degrees of freedom hold the motion of each point: the components of a point stand side by side, one point
-/// after the other.
+/// Layout of arrays over degrees of freedom: the components of a point are adjacent, one point after the other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Layout {
     /// Number of points.
@@ -104,7 +103,7 @@ impl Layout {
         self.components.contains(&Component::Z)
     }
 
-    /// Components of the forces and moments on a body, whether or not its points turn.
+    /// Components of the resultant forces and moments on a body, whether or not its points have rotations.
     pub fn of_body(self) -> &'static [Component] {
         if self.is_in_space() {
             &Component::IN_SPACE
@@ -125,7 +124,7 @@ impl Layout {
         first..first + self.components.len()
     }
 
-    /// Degree of freedom of a component of a point; None where points do not have it.
+    /// Degree of freedom of a component of a point; `None` where points do not have the component.
     pub fn degree_of_freedom(self, point: u32, component: Component) -> Option<usize> {
         let place = self.components.iter().position(|it| *it == component)?;
         Some(self.range(point).start + place)
@@ -143,11 +142,11 @@ impl Layout {
         self.components[self.point_and_place(degree_of_freedom).1 as usize]
     }
 
-    /// Point of a degree of freedom, and the place of its component there.
+    /// Point of a degree of freedom, and the index of its component.
     #[inline]
     fn point_and_place(self, degree_of_freedom: usize) -> (u32, u32) {
         let dof = degree_of_freedom as u32;
-        // Divisions by a number that the compiler knows cost a tenth, and stand in loops over all unknowns.
+        // Divisions by a number known to the compiler are faster by a tenth, in loops over all unknowns.
         match self.components.len() as u32 {
             2 => (dof / 2, dof % 2),
             3 => (dof / 3, dof % 3),
@@ -156,20 +155,20 @@ impl Layout {
         }
     }
 
-    /// Value of a component of a point among those of all degrees of freedom; zero where points do not have it.
+    /// Value of a component of a point among those of all degrees of freedom; zero where points do not have the component.
     pub fn value(self, point: u32, component: Component, of_all: &[f64]) -> f64 {
         let dof = self.degree_of_freedom(point, component);
         dof.map_or(0.0, |dof| of_all[dof])
     }
 
-    /// The displacements among the values of all degrees of freedom: the first components of each point.
+    /// Displacements among the values of all degrees of freedom: the first components of each point.
     pub fn displacements(self, of_all: &[f64]) -> impl Iterator<Item = f64> {
         let n_displacements = self.components.partition_point(|it| !it.is_rotation());
         let of_points = of_all.chunks(self.components.len());
         of_points.flat_map(move |it| it[..n_displacements].iter().copied())
     }
 
-    /// The values of the components that `other` has as well, from those of all components of some points.
+    /// Values of the components that `other` also has, from the values of all components of some points.
     pub fn reduced<T>(self, other: Self, of_all: Vec<T>) -> Vec<T> {
         let is_in_other = |place: usize| other.components.contains(&self.component(place));
         let values = of_all.into_iter().enumerate();

@@ -10,11 +10,11 @@
 //! | micromoduli | [`BondStiffness`] | [`law`] |
 //! | factors alpha and Omega | [`Correction`] | [`correction`] |
 //! | failure criteria with their limits | [`Criteria`](failure::Criteria) | [`failure`] |
-//! | what the equations are made of | [`BondSystem`] | [`system`] |
+//! | points, bonds and rigidities of the equations | [`BondSystem`] | [`system`] |
 //! | masses, for modes | [`LumpedMass`] | [`mass`] |
 //!
-//! All quantities are in SI units. No matrices, no files and no printing here. Equations carry the key of their source, such
-//! as NHPD or MPPD: `docs/references.md` lists the papers.
+//! All quantities are in SI units. The crate has no matrices, files or printing. Equations carry the key of their source, such as NHPD or
+//! MPPD: `docs/references.md` lists the papers.
 
 pub mod advice;
 pub mod bonds;

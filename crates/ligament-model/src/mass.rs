@@ -5,7 +5,7 @@ use crate::cloud::PointCloud;
 /// Masses and rotational inertias of the points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LumpedMass {
-    /// Mass M_i = rho_i V_i, with the mean density by volume where materials meet, shape (n_points), kg.
+    /// Mass M_i = rho_i V_i, with the volume-weighted mean density where materials meet, shape (n_points), kg.
     pub mass: Vec<f64>,
     /// Rotational inertia J_i = M_i r_i with the squared radius of gyration r_i, shape (n_points), kg m^2.
     pub inertia: Vec<f64>,

@@ -23,7 +23,7 @@ pub struct Material {
     pub compressive_strength: Option<f64>,
     /// Fracture energy G_c, J/m^2; where opening and sliding differ, the fracture energy of opening, G_Ic.
     pub fracture_energy: Option<f64>,
-    /// Fracture energy of sliding, mode II, G_IIc, J/m^2; None where it equals that of opening.
+    /// Fracture energy of sliding, mode II, G_IIc, J/m^2; `None` where it equals that of opening.
     pub fracture_energy_sliding: Option<f64>,
     /// Exponent eta of the interpolation between both fracture energies (Benzeggagh and Kenane 1996).
     pub mixed_mode_exponent: Option<f64>,

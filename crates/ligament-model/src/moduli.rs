@@ -1,4 +1,4 @@
-//! Elastic constants of the discrete body: what the bonds of a point make of a uniform strain.
+//! Elastic constants of the discrete body, from the energy of the bonds of a point in a uniform strain.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -12,10 +12,9 @@ use crate::tensor::SymTensor;
 ///
 /// C = 1/(2 V_A) sum over B of Omega alpha V_A V_B l (k_n s s^T + k_t g g^T)
 ///
-/// with the stretch s and the shear g of a bond for strains of size one; with imaginary elements C = 1/V_A times the sum of its
-/// shares of D. The common rotation of the points, where they have one,
-/// is free and takes the value that costs least; it does not matter for families that are symmetric. In an infinite lattice
-/// this is the stiffness of the body.
+/// with the stretch s and the shear g of a bond for strains of size one; with imaginary elements C = 1/V_A times the sum of the point's
+/// fractions of D. The common rotation of the points, where they have one, is free and minimises the energy; it is zero for symmetric
+/// families. In an infinite lattice this is the stiffness of the body.
 pub fn family_stiffness(system: &BondSystem, point: u32) -> Matrix3<f64> {
     let rigidities = &system.rigidities;
     if system.element.has_strains() {
@@ -28,7 +27,7 @@ pub fn family_stiffness(system: &BondSystem, point: u32) -> Matrix3<f64> {
         return sum / system.cloud.volumes[point as usize];
     }
     let mut stiffness = Matrix3::zeros();
-    // Of the shear for a common rotation of size one, which is -1 for every bond.
+    // Coupling with the shear of a common rotation of size one, which is -1 for every bond.
     let mut coupling = Vector3::zeros();
     let mut rotation = 0.0;
     for &bond in system.bonds.incidence.at(point) {
@@ -48,7 +47,7 @@ pub fn family_stiffness(system: &BondSystem, point: u32) -> Matrix3<f64> {
     stiffness / (2.0 * system.cloud.volumes[point as usize])
 }
 
-/// Engineering constants of a stiffness along some axes; of one of the plane as plane stress would read them.
+/// Engineering constants of a stiffness along some axes; of a stiffness of the plane as in plane stress.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EngineeringConstants<const D: usize = 2> {
     /// Young's moduli along the axes, Pa.
@@ -60,7 +59,7 @@ pub struct EngineeringConstants<const D: usize = 2> {
 }
 
 impl<const D: usize> EngineeringConstants<D> {
-    /// The constants along the first E axes, or for E > D with zeros beyond their own.
+    /// The constants along the first E axes; for E > D with zeros beyond the D axes.
     pub fn resized<const E: usize>(&self) -> EngineeringConstants<E> {
         let along = |values: &[f64; D]| {
             std::array::from_fn(|axis| values.get(axis).copied().unwrap_or(0.0))
@@ -74,8 +73,8 @@ impl<const D: usize> EngineeringConstants<D> {
 }
 
 impl EngineeringConstants {
-    /// The constants that belong to a stiffness of the plane (3, 3), Pa, along x and y: reciprocals of the entries of its inverse. None
-    /// where the stiffness has no inverse.
+    /// Constants of a stiffness of the plane (3, 3), Pa, along x and y: reciprocals of the entries of its inverse. `None` where the
+    /// stiffness has no inverse.
     pub fn from_stiffness(stiffness: Matrix3<f64>) -> Option<Self> {
         let stiffness = Stiffness::from_column_slice(3, 3, stiffness.as_slice());
         Self::along(stiffness, [[1.0, 0.0], [0.0, 1.0]])
@@ -83,11 +82,10 @@ impl EngineeringConstants {
 }
 
 impl<const D: usize> EngineeringConstants<D> {
-    /// The constants that belong to a stiffness, Pa, along axes at right angles, of which the unit vectors are given. None where the
-    /// stiffness has no inverse.
+    /// Constants of a stiffness, Pa, along orthogonal axes given by their unit vectors. `None` where the stiffness has no inverse.
     pub fn along(stiffness: Stiffness, axes: [[f64; D]; D]) -> Option<Self> {
         let compliance = stiffness.try_inverse()?;
-        // A stress of size one along an axis or between two, and what reads the strain there from engineering strains.
+        // Unit stress along an axis or between two; its work-conjugate strain is read from engineering strains.
         let stress = |i: usize, j: usize| {
             let dyad = SymTensor::dyad(axes[i], axes[j]);
             dyad.scaled(if i == j { 1.0 } else { 2.0 })

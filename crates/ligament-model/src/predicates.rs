@@ -1,23 +1,23 @@
-//! On which side of a line in the plane, or of a plane in space, a point lies: decided exactly.
+//! Exact predicates: the side of a line in the plane, or of a plane in space, on which a point lies.
 
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
 use crate::geometry::{bounding_box, boxes_meet};
 use crate::tensor::{minus, norm};
 
-/// The area of the parallelogram of b - a and c - a, with the right sign: positive where c lies on the left, seen from a to b.
+/// Area of the parallelogram of b - a and c - a, with the exact sign: positive where c lies on the left, seen from a to b.
 pub(crate) fn left(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     let coord = |[x, y]: [f64; 2]| Coord { x, y };
     orient2d(coord(a), coord(b), coord(c))
 }
 
-/// The sign of [`left`], or zero: the product of two small areas may underflow.
+/// Sign of [`left`], or zero: the product of two small areas may underflow.
 pub(crate) fn orientation(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     let area = left(a, b, c);
     if area == 0.0 { 0.0 } else { area.signum() }
 }
 
-/// The [`orientation`] of c; zero where of b and c the nearer to a is within `slack` (m) of the line to the other.
+/// The [`orientation`] of c; zero where the nearer to a of b and c lies within `slack` (m) of the line to the other.
 pub(crate) fn side_of_line([a, b]: [[f64; 2]; 2], c: [f64; 2], slack: f64) -> f64 {
     let reach = norm(minus(b, a)).max(norm(minus(c, a)));
     if left(a, b, c).abs() <= slack * reach {
@@ -43,18 +43,18 @@ pub(crate) fn meet([p, q]: [[f64; 2]; 2], [r, s]: [[f64; 2]; 2]) -> bool {
         && orientation(r, s, p) * orientation(r, s, q) <= 0.0
 }
 
-/// The volume of the parallelepiped of b - a, c - a and x - a, with the right sign: positive where x lies on the side from which a, b
-/// and c stand counter-clockwise.
+/// Volume of the parallelepiped of b - a, c - a and x - a, with the exact sign: positive where x lies on the side from which a, b and c are
+/// counter-clockwise.
 pub(crate) fn above(a: [f64; 3], b: [f64; 3], c: [f64; 3], x: [f64; 3]) -> f64 {
     let coord = |[x, y, z]: [f64; 3]| Coord3D { x, y, z };
     -orient3d(coord(a), coord(b), coord(c), coord(x))
 }
 
-/// Relative error of a determinant of differences, of the sum of the sizes of its terms (J. R. Shewchuk, Adaptive precision
-/// floating-point arithmetic and fast robust geometric predicates, 1997).
+/// Relative error of a determinant of differences, as a fraction of the sum of the absolute values of its terms (J. R. Shewchuk, Adaptive
+/// precision floating-point arithmetic and fast robust geometric predicates, 1997).
 const ERROR: f64 = 7.8e-16;
 
-/// The sign of [`above`], which is exact; zero where the volume is no more than `least`.
+/// Exact sign of [`above`]; zero where the volume is at most `least`.
 pub(crate) fn side_of_plane([a, b, c]: [[f64; 3]; 3], x: [f64; 3], least: f64) -> i8 {
     let (u, v, w) = (minus(b, a), minus(c, a), minus(x, a));
     let terms = [0, 1, 2].map(|k| {
@@ -64,7 +64,7 @@ pub(crate) fn side_of_plane([a, b, c]: [[f64; 3]; 3], x: [f64; 3], least: f64) -
     let terms = terms.as_flattened();
     let estimate: f64 = terms.iter().sum();
     let error = ERROR * terms.iter().map(|term| term.abs()).sum::<f64>();
-    // Along a flat side all volumes are next to nothing: their exact digits would be sought in vain.
+    // Along a flat side all volumes nearly vanish: the exact computation of their signs would be wasted.
     if estimate.abs() + error <= least {
         return 0;
     }

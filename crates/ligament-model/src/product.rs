@@ -1,7 +1,7 @@
-//! The product of the stiffness with a vector, without a matrix: one sweep over the bonds.
+//! Matrix-free product of the stiffness with a vector, in one sweep over the bonds.
 //!
-//! Iterative solvers ask for it several times a bond breakage. Nothing depends on the number of threads: the bonds are divided
-//! into fixed parts, those of a part are added up by one thread in their order, and the parts after each other.
+//! Iterative solvers need it several times per bond breakage. The result does not depend on the number of threads: the bonds are divided
+//! into fixed parts, those of a part are summed by one thread in their order, and the parts one after another.
 
 use std::ops::Range;
 
@@ -10,15 +10,15 @@ use rayon::prelude::*;
 use crate::element::{Element, Elements};
 use crate::system::{ElementSystem, UnbrokenBonds};
 
-/// Parts into which the bonds are divided; fixed, so that the order of summation is fixed too. Each part but the first adds to
-/// forces of its own at all points.
+/// Number of parts into which the bonds are divided; fixed, so that the order of summation is fixed. Each part but the first adds to forces
+/// of its own at all points.
 const PARTS: usize = 4;
 
-/// Points that make a task worth while.
+/// Number of points that make a task worth while.
 const TASK: usize = 2048;
 
-/// Adds up forces at points with M components over bonds that are divided into fixed parts: `add` adds those of a range of bonds to
-/// the forces of all points. What `forces` (M n_points) held is lost.
+/// Sums forces at points with M components over bonds that are divided into fixed parts: `add` adds those of a range of bonds to the forces
+/// of all points. The result overwrites `forces` (M n_points).
 fn over_parts<const M: usize>(
     n_bonds: usize,
     forces: &mut [f64],
@@ -55,7 +55,7 @@ fn add_to<const M: usize>(sum: &mut [f64; M], force: [f64; M]) {
 }
 
 impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
-    /// The product of the stiffness of the bonds that are left with motions, shape (M n_points) both.
+    /// Product of the stiffness of the unbroken bonds with motions, shape (M n_points) both.
     pub(crate) fn multiply(&self, bonds: UnbrokenBonds<'_>, motions: &[f64], forces: &mut [f64]) {
         over_parts::<M>(self.system.bonds.len(), forces, |of_part, sums| {
             for bond in of_part {

@@ -1,20 +1,20 @@
-//! The rigid motions of some points that cost no energy, and what of them degrees of freedom hold.
+//! Rigid motions of some points that cost no energy, and the degrees of freedom that prevent them.
 
 use crate::layout::{Component, Layout};
 use crate::tensor::{dot, minus, norm};
 
-/// Below this sine of the angle to what is held already, a degree of freedom holds no further rigid motion.
+/// Sine of the angle to the motions already prevented, below which a degree of freedom prevents no further rigid motion.
 const RANK_TOLERANCE: f64 = 1e-6;
 
-/// Loads whose work on a free motion is less than this part of their size are in equilibrium: well above the rounding of loads
-/// spread over many points, and below what results are read to.
+/// Ratio of the work of loads on a free motion to their size below which they are in equilibrium: well above the rounding of loads spread
+/// over many points, and below the accuracy of interest.
 const BALANCE_TOLERANCE: f64 = 1e-6;
 
-/// A rigid motion as one in space: displacements along x, y and z at the middle, and angles about x, y and z times the radius.
+/// A rigid motion in space: displacements along x, y and z at the middle, and angles about x, y and z times the radius.
 type Motion = [f64; 6];
 
-/// The rigid motions of some points in D dimensions, about their middle and scaled by their size: the translations, and the rotations where
-/// they cost no energy either.
+/// Rigid motions of some points in D dimensions that cost no energy, about their middle and scaled by their size: the translations, and the
+/// rotations unless they cost energy.
 pub(crate) struct RigidMotions<'a, const D: usize> {
     layout: Layout,
     positions: &'a [[f64; D]],
@@ -26,15 +26,16 @@ pub(crate) struct RigidMotions<'a, const D: usize> {
 /// Cost and effect of rotating some points as a whole.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Turn {
-    /// A rotation that costs energy: bonds between points without rotations resist it by their shear.
+    /// Rotation that costs energy: bonds between points without rotations resist it by their shear.
     Costly,
-    /// A free rotation that moves the points; their own rotations have no stiffness, so that holding one holds nothing.
+    /// Free rotation of the positions only; the points' own rotations have no stiffness, so that fixing one prevents nothing.
     OfPositions,
-    /// A free rotation along which the points turn as well.
+    /// Free rotation of the positions and of the points.
     OfPointsAlong,
 }
 
-/// How motions of size one move a component at a place from the middle, over the radius: a rotation omega moves a place r by omega x r.
+/// Values of a component, at a position from the middle over the radius, in the unit motions: a rotation omega moves a position r by omega x
+/// r.
 fn row<const D: usize>(turn: Turn, component: Component, place: [f64; D]) -> Motion {
     let along = |axis: usize| if axis < D { place[axis] } else { 0.0 };
     let [x, y, z] = [0, 1, 2].map(along);
@@ -56,7 +57,7 @@ fn row<const D: usize>(turn: Turn, component: Component, place: [f64; D]) -> Mot
     row
 }
 
-/// The rigid motions of size one of points at positions from a centre, each as a column over their degrees of freedom.
+/// Unit rigid motions of points at positions about a centre, each as a column over their degrees of freedom.
 pub(crate) fn columns<const D: usize>(
     layout: Layout,
     positions: &[[f64; D]],
@@ -99,7 +100,7 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         }
     }
 
-    /// The motions of a body, as places of a [`Motion`]: translations first.
+    /// Motions of a body, as indices in a [`Motion`]: translations first.
     fn motions(&self) -> impl Iterator<Item = (Component, usize)> + use<D> {
         let of_body = self.layout.of_body().iter();
         of_body.map(|&component| (component, component.in_space()))
@@ -114,7 +115,7 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         points.iter().flat_map(move |&point| layout.range(point))
     }
 
-    /// How many there are.
+    /// Number of the motions.
     fn count(&self) -> usize {
         match self.turn {
             Turn::Costly => D,
@@ -122,7 +123,7 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         }
     }
 
-    /// How the motions move a degree of freedom, m a m (a rotation: as an angle times the radius).
+    /// Values of a degree of freedom in the unit motions, m per m (a rotation: as an angle times the radius).
     fn row(&self, degree_of_freedom: usize) -> Motion {
         let position = self.positions[self.layout.point(degree_of_freedom) as usize];
         let place: [f64; D] =
@@ -130,7 +131,7 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         row(self.turn, self.layout.component(degree_of_freedom), place)
     }
 
-    /// What a motion does to a degree of freedom, m or rad.
+    /// Value of a degree of freedom in a motion, m or rad.
     fn value(&self, degree_of_freedom: usize, motion: Motion) -> f64 {
         let value = dot(self.row(degree_of_freedom), motion);
         if self.layout.component(degree_of_freedom).is_rotation() {
@@ -140,7 +141,7 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         }
     }
 
-    /// Orthonormal directions of the motions that the spanned ones leave, translations first.
+    /// Orthonormal basis of the motions orthogonal to the spanned ones, translations first.
     fn left_by(&self, spanned: &[Motion]) -> Vec<Motion> {
         let mut all = spanned.to_vec();
         for (_, motion) in self.motions().take(self.count()) {
@@ -155,7 +156,7 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         all.split_off(spanned.len())
     }
 
-    /// Work of forces (N) and couples (N m) at some degrees of freedom on a motion, and the sum of their sizes, N.
+    /// Work of forces (N) and couples (N m) at some degrees of freedom on a motion, and the sum of their absolute values, N.
     fn work(&self, motion: Motion, forces: impl Iterator<Item = (usize, f64)>) -> [f64; 2] {
         forces.fold([0.0; 2], |[work, size], (dof, force)| {
             let is_couple = self.layout.component(dof).is_rotation();
@@ -171,7 +172,7 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         })
     }
 
-    /// What of a degree of freedom the spanned directions do not hold (the directions are orthonormal).
+    /// Part of the unit row of a degree of freedom orthogonal to the (orthonormal) spanned directions.
     fn remainder(&self, spanned: &[Motion], degree_of_freedom: usize) -> Motion {
         let row = self.row(degree_of_freedom);
         let norm = dot(row, row).sqrt();
@@ -181,7 +182,7 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         without(row.map(|value| value / norm), spanned)
     }
 
-    /// Adds the direction that a degree of freedom holds, if there is a new one.
+    /// Adds the direction that a degree of freedom prevents, if it is a new one.
     fn extend(&self, spanned: &mut Vec<Motion>, degree_of_freedom: usize) {
         let rest = self.remainder(spanned, degree_of_freedom);
         let norm = dot(rest, rest).sqrt();
@@ -190,7 +191,7 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         }
     }
 
-    /// Orthonormal directions of the motions that the fixed degrees of freedom of some points hold.
+    /// Orthonormal basis of the motions that the fixed degrees of freedom of some points prevent.
     fn spanned_by(&self, points: &[u32], is_fixed: impl Fn(usize) -> bool) -> Vec<Motion> {
         let mut spanned = Vec::new();
         for dof in self.degrees_of_freedom(points).filter(|&dof| is_fixed(dof)) {
@@ -202,7 +203,7 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         spanned
     }
 
-    /// The degree of freedom that holds most of what the spanned directions do not.
+    /// The degree of freedom with the largest part orthogonal to the spanned directions.
     fn most_independent(
         &self,
         spanned: &[Motion],
@@ -219,8 +220,8 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         best
     }
 
-    /// Of the motions along the axes and the rotations those that the spanned directions leave free: translations of the
-    /// whole by 1 m, and rotations by an angle of 1 rad about the place that they hold, or the middle.
+    /// Free motions among the translations along the axes and the rotations, given the spanned directions: translations of the whole by 1 m,
+    /// and rotations by 1 rad about the place that is fixed, or the middle.
     fn free(&self, spanned: &[Motion]) -> Vec<(Component, Motion)> {
         let mut held = spanned.to_vec();
         let mut free = Vec::new();
@@ -245,8 +246,8 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         free
     }
 
-    /// The degrees of freedom that hold what the fixed ones leave free of the motions of `points`, in the order in which they
-    /// are found; those that hold most first. `can_hold` tells what has a stiffness.
+    /// Degrees of freedom to fix so that no motion of `points` is free, beyond the fixed ones, in the order in which they are found; the
+    /// most effective first. Only those for which `can_hold` returns true are chosen.
     pub(crate) fn holds(
         &self,
         points: &[u32],
@@ -268,8 +269,8 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         holds
     }
 
-    /// Displacements and rotations of `points` in each of the motions that no fixed degree of freedom prevents, shape
-    /// (motions, degrees of freedom of the points).
+    /// Displacements and rotations of `points` in each motion that no fixed degree of freedom prevents, shape (n_motions,
+    /// n_degrees_of_freedom of the points).
     pub(crate) fn free_shapes(
         &self,
         points: &[u32],
@@ -279,7 +280,7 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         self.moved(points, &free)
     }
 
-    /// Displacements and rotations of `points` in each of all motions, shape (motions, degrees of freedom of the points).
+    /// Displacements and rotations of `points` in all motions, shape (n_motions, n_degrees_of_freedom of the points).
     pub(crate) fn shapes(&self, points: &[u32]) -> Vec<Vec<f64>> {
         self.moved(points, &self.left_by(&[]))
     }
@@ -292,8 +293,7 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         motions.iter().map(shape).collect()
     }
 
-    /// The motions of `points` that no fixed degree of freedom prevents, with the work that forces (by degree of freedom, N
-    /// and N m) do on them.
+    /// Motions of `points` that no fixed degree of freedom prevents, with the work of forces (by degree of freedom, N and N m) on them.
     pub(crate) fn free_motions(
         &self,
         points: &[u32],
@@ -321,15 +321,15 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
     }
 }
 
-/// A rigid motion that nothing holds.
+/// A rigid motion that no support prevents.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FreeMotion {
     /// A translation along an axis, or a rotation.
     pub component: Component,
-    /// Force of the given loads at load factor 1 along the motion, N; for a rotation the moment about the place that is
-    /// held, or the middle of the points, N m.
+    /// Force of the given loads at load factor 1 along the motion, N; for a rotation the moment about the fixed place, or the middle of the
+    /// points, N m.
     pub load: f64,
-    /// Work of the loads along the motion, relative to the sizes of the loads on the part, 0 to 1.
+    /// Work of the loads along the motion, relative to the sum of their absolute values, 0 to 1.
     pub imbalance: f64,
 }
 
@@ -340,7 +340,7 @@ impl FreeMotion {
     }
 }
 
-/// What of a motion is orthogonal to some orthonormal directions.
+/// Part of a motion orthogonal to some orthonormal directions.
 fn without(motion: Motion, directions: &[Motion]) -> Motion {
     directions.iter().fold(motion, |rest, direction| {
         let share = dot(rest, *direction);

@@ -1,8 +1,8 @@
 //! Points and bonds of a body on one process.
 //!
-//! Each process knows all points and owns some of them; each point has one owner. A process holds the bonds that end at a point it owns,
-//! so that it makes every sum over the bonds of an owned point, in their order, by itself. A bond is owned by the process that owns its
-//! first end: counts and sums over bonds take each bond once. One process alone owns everything.
+//! Each process knows all points and owns some of them; each point has one owner. A process has the bonds that end at an owned point, so
+//! that it computes every sum over the bonds of an owned point, in their order, by itself. The owner of the first end of a bond owns the
+//! bond: counts and sums over bonds include each bond once. A single process owns everything.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -10,17 +10,18 @@ use std::sync::Arc;
 
 use crate::communicator::{Communicator, Solo, Wire};
 
-/// The points of each rank: parts of the body by recursive bisection.
+/// Assignment of the points to ranks: parts of the body by recursive bisection.
 #[derive(Debug, Clone)]
 pub struct Partition {
-    /// First place of each rank, and the number of points.
+    /// First position of each rank, and the number of points.
     starts: Vec<usize>,
-    /// Points in the order of their ranks, and the place of each point in that order; none for one rank, whose order is that of the points.
+    /// Points in the order of their ranks, and the position of each point in that order; `None` for one rank, whose order is that of the
+    /// points.
     order: Option<[Vec<u32>; 2]>,
 }
 
 impl Partition {
-    /// All points on one rank.
+    /// The partition with all points on one rank.
     pub fn whole(n_points: usize) -> Self {
         Self {
             starts: vec![0, n_points],
@@ -28,8 +29,8 @@ impl Partition {
         }
     }
 
-    /// Equal parts: cuts the points at the median of the longest side, by a function that halves some points, until every border
-    /// between ranks is a cut, so that the number of ranks need not be a power of two.
+    /// Divides the points into equal parts: cuts them at the median of the longest side, with a function that halves some points, until
+    /// every border between ranks is a cut; the number of ranks need not be a power of two.
     pub fn new(n_points: usize, n_ranks: usize, halve: &dyn Fn(&mut [u32])) -> Self {
         if n_ranks == 1 {
             return Self::whole(n_points);
@@ -72,30 +73,30 @@ impl Partition {
         self.places(rank).map(|place| self.point(place))
     }
 
-    /// Places of the points of a rank.
+    /// Positions of the points of a rank.
     pub fn places(&self, rank: usize) -> Range<usize> {
         self.starts[rank]..self.starts[rank + 1]
     }
 
-    /// Place over all ranks of the first point of a rank; for the rank after the last one, the number of points.
+    /// Position of the first point of a rank; for the rank after the last one, the number of points.
     pub fn first(&self, rank: usize) -> usize {
         self.starts[rank]
     }
 
-    /// Place of a point in the order of the ranks.
+    /// Position of a point in the order of the ranks.
     #[inline]
     pub fn place(&self, point: u32) -> usize {
         let order = self.order.as_ref();
         order.map_or(point, |[_, places]| places[point as usize]) as usize
     }
 
-    /// The point at a place in the order of the ranks.
+    /// Point at a position in the order of the ranks.
     fn point(&self, place: usize) -> u32 {
         let order = self.order.as_ref();
         order.map_or(place as u32, |[points, _]| points[place])
     }
 
-    /// The rank that owns a point.
+    /// Rank that owns a point.
     pub fn rank(&self, point: u32) -> usize {
         self.starts
             .partition_point(|&start| start <= self.place(point))
@@ -109,7 +110,7 @@ impl Partition {
     }
 }
 
-/// Orders points, of which the first stands at a place among all, so that those of each rank stand together.
+/// Orders points, the first of which has position `first` among all, so that the points of each rank are adjacent.
 fn bisect(halve: &dyn Fn(&mut [u32]), points: &mut [u32], first: usize, starts: &[usize]) {
     let inside = first + 1..first + points.len();
     if points.len() < 2 || !starts.iter().any(|start| inside.contains(start)) {
@@ -122,11 +123,11 @@ fn bisect(halve: &dyn Fn(&mut [u32]), points: &mut [u32], first: usize, starts: 
     bisect(halve, upper, first + middle, starts);
 }
 
-/// Points and bonds of a body on one process, and the exchange with the processes that hold the others. A copy shares its parts.
+/// Points and bonds of a body on one process, and the communicator to the other processes. Copies share their data.
 #[derive(Debug, Clone)]
 pub struct Subdomain {
     partition: Arc<Partition>,
-    /// Places of the owned points.
+    /// Positions of the owned points.
     owned: Range<usize>,
     communicator: Arc<dyn Communicator>,
 }
@@ -137,7 +138,7 @@ impl Subdomain {
         Self::new(Partition::whole(n_points), Arc::new(Solo))
     }
 
-    /// The points of a partition that this process owns.
+    /// The subdomain of this process in a partition.
     pub fn new(partition: Partition, communicator: Arc<dyn Communicator>) -> Self {
         Self {
             owned: partition.places(communicator.rank()),
@@ -146,23 +147,23 @@ impl Subdomain {
         }
     }
 
-    /// Whether this process owns all points and holds all bonds.
+    /// Whether this process owns all points and bonds.
     #[inline]
     pub fn is_whole(&self) -> bool {
         self.partition.n_ranks() == 1
     }
 
-    /// The points of each rank.
+    /// Assignment of the points to ranks.
     pub fn partition(&self) -> &Arc<Partition> {
         &self.partition
     }
 
-    /// The processes between which the body is divided.
+    /// Processes between which the body is divided.
     pub fn communicator(&self) -> &dyn Communicator {
         &*self.communicator
     }
 
-    /// The owned points, ascending.
+    /// Owned points, ascending.
     pub fn owned(&self) -> impl ExactSizeIterator<Item = u32> + Clone + '_ {
         self.owned.clone().map(|place| self.partition.point(place))
     }
@@ -173,7 +174,7 @@ impl Subdomain {
         self.owned.contains(&self.partition.place(point))
     }
 
-    /// Whether this process holds a bond with these ends.
+    /// Whether this process has a bond with given ends, because it owns one of them.
     pub fn contains_bond(&self, ends: [u32; 2]) -> bool {
         ends.iter().any(|&end| self.owns(end))
     }
@@ -184,8 +185,8 @@ impl Subdomain {
         self.owns(first)
     }
 
-    /// Replaces the values at every point by those of its owner, shape (n_points, n_values). This sends the whole body to every process;
-    /// [`Ghosts`](crate::ghosts::Ghosts) exchange values near cuts alone.
+    /// Replaces the values at every point by those of its owner, shape (n_points, n_values). The whole body is sent to every process;
+    /// [`Ghosts`](crate::ghosts::Ghosts) exchange only values near cuts.
     pub fn all_gather_points(&self, values: &mut [f64], n_values: usize) {
         if self.is_whole() {
             return;
@@ -213,7 +214,7 @@ impl Subdomain {
         Cow::Owned(all)
     }
 
-    /// Values of the owned points among those of all points, shape (n_points, M).
+    /// Values of the owned points in an array over all points, shape (n_points, M).
     pub fn from_owned<const M: usize>(&self, of_owned: Vec<[f64; M]>) -> Vec<f64> {
         if self.is_whole() {
             return of_owned.into_flattened();
@@ -225,19 +226,19 @@ impl Subdomain {
         all
     }
 
-    /// Replaces each value by its sum over all processes, added up in the order of their ranks.
+    /// Replaces each value by its sum over all processes, in the order of their ranks.
     pub fn all_reduce_sum(&self, values: &mut [f64]) {
         self.communicator.all_reduce_sum(values);
     }
 
-    /// The sum of a value over all processes.
+    /// Sum of a value over all processes.
     pub fn sum(&self, value: f64) -> f64 {
         let mut sum = [value];
         self.all_reduce_sum(&mut sum);
         sum[0]
     }
 
-    /// The sum of a number over all processes.
+    /// Sum of a count over all processes.
     pub fn count(&self, here: usize) -> usize {
         self.sum(here as f64) as usize
     }
@@ -247,7 +248,7 @@ impl Subdomain {
         self.communicator.all_reduce_max(values);
     }
 
-    /// The largest of a value over all processes.
+    /// Largest of a value over all processes.
     pub fn max(&self, value: f64) -> f64 {
         let mut largest = [value];
         self.all_reduce_max(&mut largest);
@@ -259,28 +260,28 @@ impl Subdomain {
         self.communicator.any(here)
     }
 
-    /// The smallest row over all processes, compared from its first number on; a process may have none.
+    /// Smallest row over all processes, compared from its first number on; a process may have none.
     pub fn all_reduce_min<const N: usize>(&self, own: Option<[f64; N]>) -> Option<[f64; N]> {
         let all = self.all_gather_list(own.into_iter().collect()).into_iter();
         all.reduce(|one, other| if other < one { other } else { one })
     }
 
-    /// Lists of all processes, one after the other in the order of their ranks.
+    /// Concatenates the lists of all processes in the order of their ranks.
     pub fn all_gather_list<T: Wire<N>, const N: usize>(&self, own: Vec<T>) -> Vec<T> {
         self.communicator.all_gather_list(own)
     }
 }
 
-/// The forces and bonds that this process adds up: a type, so that a loop over bonds asks once whether the body is divided.
+/// Forces and bonds that this process sums: a type parameter, so that a loop over bonds checks once whether the body is divided.
 pub(crate) trait Share: Copy {
-    /// Place of a point in an array over the owned points; none for points of other processes.
+    /// Position of a point in an array over the owned points; `None` for points of other processes.
     fn row(self, point: u32) -> Option<usize>;
 
-    /// Whether this process owns a bond with these ends.
+    /// Whether this process owns a bond with given ends.
     fn owns_bond(self, ends: [u32; 2]) -> bool;
 }
 
-/// The share of one process alone.
+/// The share of a single process, which owns everything.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Whole;
 

@@ -12,56 +12,56 @@ use crate::subdomain::{Share, Subdomain, Whole};
 use crate::system::{ElementSystem, UnbrokenBonds};
 use crate::thermal::ThermalStrain;
 
-/// Parts into which the bonds are divided when their forces are added up; fixed, so that the order of summation is fixed
-/// too. Each part adds to forces of its own at all points, so more parts cost memory.
+/// Number of parts into which the bonds are divided for the sum of their forces; fixed, so that the order of summation is fixed. Each part
+/// has forces of its own at all points, so more parts cost memory.
 const PARTS: usize = 4;
 
-/// Bonds that make a task worth while.
+/// Number of bonds that make a task worth while.
 const TASK: usize = 2048;
 
-/// What a sweep over all bonds gives.
+/// Results of a sweep over all bonds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BondSweep {
-    /// Deformation of every bond without what its temperature gives it, broken or not, shape (n_bonds).
+    /// Deformation of every bond less its thermal deformation, broken or not, shape (n_bonds).
     pub deformations: Deformations,
     /// Internal forces of the intact bonds.
     pub internal: InternalForces,
-    /// Sum of the sizes of the end forces that meet at each degree of freedom, shape (n_degrees_of_freedom), N and N m; of own points.
+    /// Sum of the absolute end forces at each degree of freedom, shape (n_degrees_of_freedom), N and N m; at owned points.
     pub sizes: Vec<f64>,
     /// Energy stored in the intact bonds, J (the E of NHPD's convergence rule, eq. 21).
     pub stored_energy: f64,
-    /// What they would store if what the temperature gives them at load factor 1 were their deformation, J.
+    /// Energy that the intact bonds would store with their thermal deformation at load factor 1, J.
     pub expansion_energy: f64,
 }
 
 impl BondSweep {
-    /// Energy 1/2 u^T K u that the motions of the points alone would store at a load factor lambda, J: with the deformations
-    /// beyond the expansion, B u - lambda e, the stored energy is 1/2 (B u - lambda e) C (B u - lambda e).
+    /// Energy 1/2 u^T K u of the motions of the points alone at a load factor lambda, J: with the deformations beyond the expansion, B u -
+    /// lambda e, the stored energy is 1/2 (B u - lambda e) C (B u - lambda e).
     ///
-    /// A stable body has a positive one. Its stored energy need not be: where bonds have negative stiffnesses, expansions that
-    /// do not fit together may store less than nothing.
+    /// This energy is positive for a stable body. The stored energy need not be: where bonds have negative stiffnesses, incompatible
+    /// expansions may store negative energy.
     pub fn energy_of_motion(&self, load_factor: f64) -> f64 {
         self.stored_energy
             + load_factor * (load_factor * self.expansion_energy - self.internal.thermal)
     }
 }
 
-/// Internal forces and the sizes that their residual is compared with.
+/// Internal forces and the scales of their residual.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InternalForces {
-    /// Sum of the bonds' end forces K u at each degree of freedom, shape (n_degrees_of_freedom), N and N m; where processes share the body
-    /// out, at own points.
+    /// Sum of the end forces K u of the bonds at each degree of freedom, shape (n_degrees_of_freedom), N and N m; at owned points where the
+    /// body is divided between processes.
     pub values: Vec<f64>,
-    /// Largest sum of |end forces| that meet at a point along one axis, N.
+    /// Largest sum of absolute end forces at a point along one axis, N.
     pub force_scale: f64,
-    /// Largest sum of |end moments| that meet at a point, N m.
+    /// Largest sum of absolute end moments at a point, N m.
     pub moment_scale: f64,
-    /// -sum over the bonds of force . thermal deformation, for the one at load factor 1: what does work while it grows, J.
+    /// Work -sum over the bonds of force . thermal deformation at load factor 1, J: the rate at which a growing expansion does work.
     pub thermal: f64,
 }
 
 impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
-    /// Deformation of every bond without what its temperature gives it, broken or not, shape (n_bonds).
+    /// Deformation of every bond less its thermal deformation, broken or not, shape (n_bonds).
     pub(crate) fn deformations(
         &self,
         intact: &[bool],
@@ -80,16 +80,15 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
                 }
             }
         };
-        // Written in place: a closure that gives a deformation to be collected is called bond by bond, which costs more.
+        // Written in place: a closure that returns a deformation to be collected would be called bond by bond, which costs more.
         Deformation::written(&self.system.room, ends.len(), |all| {
             all.par_chunks_mut(TASK).enumerate().for_each(of_task);
         })
     }
 
     /// Forces and energy of bonds with given deformations (n_bonds).
-    ///
-    /// Nothing depends on the number of threads: the bonds of a part are added up by one thread in their order, and the parts
-    /// after each other.
+    /// The result does not depend on the number of threads: the bonds of a part are summed by one thread in their order, and the parts one
+    /// after another.
     pub(crate) fn forces(
         &self,
         bonds: UnbrokenBonds<'_>,
@@ -116,7 +115,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
 }
 
 impl BondSweep {
-    /// The sweep over the bonds of some parts, between points with these components; summed over the processes.
+    /// Sums the sweeps over the parts of the bonds, between points with given components, and over the processes.
     fn of_parts<const M: usize>(
         parts: &[Part<M>],
         components: &[Component; M],
@@ -170,20 +169,20 @@ impl BondSweep {
     }
 }
 
-/// What the bonds of one part give.
+/// Sums over the bonds of one part.
 struct Part<const M: usize> {
-    /// At the owned points.
+    /// Forces at the owned points.
     forces: Vec<PointForces<M>>,
     energy: f64,
     thermal: f64,
     expansion_energy: f64,
 }
 
-/// The end forces that meet at a point.
+/// Sum of the end forces at a point.
 #[derive(Debug, Clone, Copy)]
 struct PointForces<const M: usize> {
     sum: [f64; M],
-    /// Sum of their sizes.
+    /// Sum of their absolute values.
     size: [f64; M],
 }
 
@@ -254,7 +253,7 @@ impl<const M: usize> Part<M> {
         }
     }
 
-    /// Adds what the temperature does to the bonds of the part.
+    /// Adds the thermal work and energy of the bonds of the part.
     fn add_expansion<const D: usize, E: Elements<D, M>>(
         &mut self,
         typed: &ElementSystem<D, M, E>,

@@ -1,4 +1,4 @@
-//! The bond system: everything the equations are made of.
+//! The bond system: points, bonds and rigidities, from which the equations are made.
 
 mod answers;
 mod contact;
@@ -15,12 +15,12 @@ use crate::element::strain_stiffness::StrainStiffness;
 use crate::element::{Element, ElementKind, Elements, Rigidities, StiffnessFactors};
 use crate::law::BondStiffness;
 
-/// Points and bonds in D dimensions with their rigidities; it never changes after construction.
+/// Points and bonds in D dimensions with their rigidities; constant after construction.
 #[derive(Debug, Clone)]
 pub struct BondSystem<const D: usize = 2> {
-    /// The points.
+    /// Material points.
     pub cloud: PointCloud<D>,
-    /// The bonds (without those that pre-cracks cut).
+    /// Bonds without those that pre-cracks cut.
     pub bonds: BondSet<D>,
     /// Omega alpha of each bond: its weight in the damage of its ends, shape (n_bonds).
     pub weight: Vec<f64>,
@@ -28,17 +28,17 @@ pub struct BondSystem<const D: usize = 2> {
     pub rigidities: Rigidities,
     /// Kinematics of the bonds.
     pub element: ElementKind,
-    /// The part of the rigidities of each bond that corrections know nothing of ([`BondStiffness`] at interfaces), shape (n_bonds); empty
-    /// where there is none.
+    /// Part of the rigidities of each bond that corrections do not apply to ([`BondStiffness`] at interfaces), shape (n_bonds); empty where
+    /// no bond has such a part.
     pub beyond_correction: Vec<StiffnessFactors>,
-    /// Faces of the cracks.
+    /// Crack faces.
     pub faces: Faces<D>,
-    /// Memory of deformations.
+    /// Reusable memory for deformations.
     pub room: DeformationPool,
 }
 
 impl<const D: usize> BondSystem<D> {
-    /// Puts the results of the earlier stages together: factors alpha and Omega and densities of all `bonds`.
+    /// Combines the results of the earlier stages: the factors alpha and Omega and the stiffness densities of all `bonds`.
     pub fn new(
         cloud: PointCloud<D>,
         bonds: BondSet<D>,
@@ -96,20 +96,20 @@ impl<const D: usize> BondSystem<D> {
         }
     }
 
-    /// The system with faces of cracks.
+    /// The system with crack faces.
     pub fn with_faces(self, faces: Faces<D>) -> Self {
         Self { faces, ..self }
     }
 }
 
-/// A bond system whose elements, between points with M components, are known as a type, so that loops over its bonds ask for it once.
+/// A bond system whose elements, between points with M components, are a type parameter, so that loops over bonds resolve it once.
 #[derive(Debug, Clone)]
 pub(crate) struct ElementSystem<const D: usize, const M: usize, E> {
     pub(crate) system: BondSystem<D>,
     pub(crate) elements: E,
 }
 
-/// The bonds that are left, with their remaining stiffness.
+/// Unbroken bonds with their remaining stiffness.
 #[derive(Debug, Clone, Copy)]
 pub struct UnbrokenBonds<'a> {
     /// For each bond, whether it is unbroken, shape (n_bonds).
@@ -119,7 +119,7 @@ pub struct UnbrokenBonds<'a> {
 }
 
 impl<'a> UnbrokenBonds<'a> {
-    /// Unbroken bonds (n_bonds) with all of their stiffness.
+    /// Unbroken bonds (n_bonds) with their whole stiffness.
     pub fn whole(intact: &'a [bool]) -> Self {
         Self {
             intact,
@@ -128,9 +128,9 @@ impl<'a> UnbrokenBonds<'a> {
     }
 }
 
-// The sweeps over all bonds are these functions: the compiler left some as calls, which cost them a fifth more time.
+// These functions are the sweeps over all bonds: the compiler left some as calls, which cost the sweeps a fifth more time.
 impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
-    /// The element of a bond with all of its stiffness, while the bonds marked in `intact` (n_bonds) are unbroken.
+    /// The element of a bond with its whole stiffness, while the bonds marked in `intact` (n_bonds) are unbroken.
     #[inline(always)]
     pub(crate) fn whole(&self, intact: &[bool], bond: usize) -> E::Element {
         let BondSystem {
@@ -139,7 +139,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
         self.elements.element(bonds, rigidities, intact, bond)
     }
 
-    /// The element of a bond with what is left of it; None if it is broken.
+    /// The element of a bond with its remaining stiffness; `None` if the bond is broken.
     #[inline(always)]
     pub(crate) fn left(&self, bonds: UnbrokenBonds<'_>, bond: usize) -> Option<E::Element> {
         if !bonds.intact[bond] {

@@ -1,10 +1,10 @@
 //! Vectors and symmetric tensors in D dimensions.
 
-/// The components of a symmetric tensor as row and column, in the order of all files and names: those of the plane come first, so that the
-/// plane is a part of space.
+/// Components of a symmetric tensor as row and column, in the order of all files and names: those of the plane come first, so that the plane
+/// is a part of space.
 pub(crate) const ORDER: [[usize; 2]; 6] = [[0, 0], [1, 1], [0, 1], [2, 2], [0, 2], [1, 2]];
 
-/// Names of the components of a symmetric tensor, in their order.
+/// Names of the components of a symmetric tensor, in order.
 const NAMES: [&str; 6] = ["xx", "yy", "xy", "zz", "xz", "yz"];
 
 /// Scalar product a . b.
@@ -39,7 +39,7 @@ pub fn norm<const D: usize>(a: [f64; D]) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// Unit vectors at right angles to a unit vector: one in the plane, turned to its left, and two in space ([`tangents`]).
+/// Unit vectors orthogonal to a unit vector: one in the plane, to its left, and two in space ([`tangents`]).
 pub fn directions_across<const D: usize>(n: [f64; D]) -> Vec<[f64; D]> {
     match D {
         2 => vec![std::array::from_fn(
@@ -53,8 +53,8 @@ pub fn directions_across<const D: usize>(n: [f64; D]) -> Vec<[f64; D]> {
     }
 }
 
-/// Two unit vectors at right angles to a unit vector n and to each other, right-handed with it: n x t_1 = t_2. The first comes from the
-/// axis to which n is least inclined, the first of equals.
+/// Two unit vectors orthogonal to a unit vector n and to each other, right-handed with it: n x t_1 = t_2. The first is derived from the axis
+/// least inclined to n, the first of equals.
 pub fn tangents(n: [f64; 3]) -> [[f64; 3]; 2] {
     let mut least = 0;
     for axis in 1..3 {
@@ -94,7 +94,7 @@ impl<const D: usize> SymTensor<D> {
     /// Names of the components in their order.
     pub const NAMES: &'static [&'static str] = NAMES.split_at(D * (D + 1) / 2).0;
 
-    /// The tensor with the components that a function gives by row and column (row <= column).
+    /// The tensor whose components a function gives by row and column (row <= column).
     #[inline]
     pub fn from_fn(mut component: impl FnMut(usize, usize) -> f64) -> Self {
         let mut rows = [[0.0; D]; D];
@@ -106,14 +106,14 @@ impl<const D: usize> SymTensor<D> {
         Self { rows }
     }
 
-    /// The tensor with components in their order, of which there must be D (D + 1)/2.
+    /// The tensor with components in order, of which there must be D (D + 1)/2.
     pub fn from_components(components: &[f64]) -> Self {
         assert_eq!(components.len(), Self::COMPONENTS.len());
         let mut values = components.iter();
         Self::from_fn(|_, _| *values.next().unwrap_or(&0.0))
     }
 
-    /// The multiple of the unit tensor.
+    /// The unit tensor times a value.
     pub fn isotropic(value: f64) -> Self {
         Self::from_fn(|row, column| if row == column { value } else { 0.0 })
     }
@@ -170,7 +170,7 @@ impl<const D: usize> SymTensor<D> {
         self.rows.map(|row| dot(row, n))
     }
 
-    /// The tensor with a function of each component.
+    /// The tensor with a function applied to each component.
     #[inline]
     pub fn map(&self, function: impl Fn(f64) -> f64) -> Self {
         Self {
@@ -206,7 +206,7 @@ impl<const D: usize> SymTensor<D> {
         Self::from_fn(|row, column| dot(axes[row], columns[column]))
     }
 
-    /// The part of the tensor in the first E dimensions, or for E > D the tensor with zeros beyond its own.
+    /// The part of the tensor in the first E dimensions; for E > D with zeros beyond the D dimensions.
     #[inline]
     pub fn resized<const E: usize>(&self) -> SymTensor<E> {
         SymTensor::from_fn(|row, column| {

@@ -1,8 +1,8 @@
-//! Strains that a temperature gives without stress.
+//! Stress-free thermal strains.
 
 use crate::tensor::SymTensor;
 
-/// Strains of points without stress; those of a body in the plane have no components out of it.
+/// Stress-free strains of the points; those of a body in the plane have no components out of it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StressFreeStrains {
     of_points: Vec<SymTensor<3>>,
@@ -16,12 +16,12 @@ impl StressFreeStrains {
         }
     }
 
-    /// Whether there is none anywhere.
+    /// Whether no point has a strain.
     pub fn is_empty(&self) -> bool {
         self.of_points.is_empty()
     }
 
-    /// Strains of all points, shape (n_points); empty where there are none.
+    /// Strains of all points, shape (n_points); empty without thermal strains.
     pub fn of_points(&self) -> &[SymTensor<3>] {
         &self.of_points
     }
@@ -35,7 +35,7 @@ impl StressFreeStrains {
     }
 }
 
-/// Strains that the temperature would give the points without stress, at some load factor.
+/// Stress-free thermal strains of the points at a load factor.
 #[derive(Debug, Clone, Copy)]
 pub struct ThermalStrain<'a> {
     of_points: &'a [SymTensor<3>],
@@ -43,13 +43,13 @@ pub struct ThermalStrain<'a> {
 }
 
 impl ThermalStrain<'_> {
-    /// No strain anywhere.
+    /// Zero strain at all points.
     pub const NONE: Self = ThermalStrain {
         of_points: &[],
         load_factor: 0.0,
     };
 
-    /// Whether there is none anywhere.
+    /// Whether no point has a strain.
     pub fn is_none(&self) -> bool {
         self.of_points.is_empty()
     }
@@ -62,12 +62,12 @@ impl ThermalStrain<'_> {
         }
     }
 
-    /// The strain of a point.
+    /// Strain of a point.
     pub fn of_point(&self, point: usize) -> SymTensor<3> {
         self.of_points[point].scaled(self.load_factor)
     }
 
-    /// The mean strain of the ends of a bond.
+    /// Mean strain of the ends of a bond.
     #[inline]
     pub fn of_bond<const D: usize>(&self, ends: [u32; 2]) -> SymTensor<D> {
         let [a, b] = ends.map(|end| &self.of_points[end as usize]);

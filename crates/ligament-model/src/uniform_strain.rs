@@ -1,4 +1,4 @@
-//! Uniform strains of a body: what its bonds make of the forces that its cells give them.
+//! Uniform strains of a body: response of its bonds to the forces of its cells.
 
 use nalgebra::DMatrix;
 
@@ -14,24 +14,23 @@ use crate::thermal::ThermalStrain;
 
 const ROOT: f64 = std::f64::consts::SQRT_2;
 
-/// The strains of a free body under the forces of the uniform strains of [`CellForces`], which have the size one, in the order of
-/// [`SymTensor`].
+/// Strains of a free body under the forces of the unit uniform strains of [`CellForces`], in the order of [`SymTensor`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct UniformStrains {
     /// Mean strains of the body in the basis of the uniform ones, a column for each, shape (n_strains, n_strains): those of the affine
-    /// motion on which the forces do the work that they do on the body. The unit matrix if the body is as stiff as its cells.
+    /// motion on which the forces do the same work as on the body. The unit matrix if the body is as stiff as its cells.
     pub mean: DMatrix<f64>,
-    /// Root mean square over the bonds of what their stretch has more than in the mean strain, for each of the strains.
+    /// Root mean square over the bonds of the deviation of their stretch from that of the mean strain, for each strain.
     pub scatter: Vec<f64>,
-    /// The most that the stretch of a bond has more in some uniform strain of size one.
+    /// Largest deviation of the stretch of a bond in a uniform strain of size one.
     pub largest: f64,
-    /// The bond that has it.
+    /// Bond with the largest deviation.
     pub bond: usize,
 }
 
 impl UniformStrains {
-    /// The strains that displacements, shape (n_strains, n_degrees_of_freedom), give to the bonds under forces of size one. None
-    /// without bonds or where the forces do no work on some uniform strain.
+    /// Strains of the body from displacements, shape (n_strains, n_degrees_of_freedom), under the forces of unit strains. `None` without
+    /// bonds or where the forces do no work on some uniform strain.
     pub fn measure<const D: usize>(
         system: &dyn System<D>,
         forces: &CellForces<D>,
@@ -42,7 +41,7 @@ impl UniformStrains {
         let mut squares = vec![0.0; displacements.len()];
         let (mut largest, mut place) = (-1.0, None);
         for (bond, (&ends, &n)) in bonds.ends.iter().zip(&bonds.direction).enumerate() {
-            // Stretches of a bond of this direction in the strains.
+            // Stretches of a bond of this direction in the unit strains.
             let projected = |&[i, j]: &[usize; 2]| match i == j {
                 true => n[i] * n[j],
                 false => ROOT * n[i] * n[j],
@@ -75,14 +74,13 @@ impl UniformStrains {
         })
     }
 
-    /// Elastic constants of the body along axes at right angles, of which the unit vectors are given, with cells of a stiffness, Pa, that is
-    /// the same in all of them.
+    /// Elastic constants of the body along orthogonal axes given by their unit vectors, for cells of one stiffness, Pa.
     pub fn constants<const D: usize>(
         &self,
         stiffness: &Stiffness,
         axes: [[f64; D]; D],
     ) -> Option<EngineeringConstants<D>> {
-        // From tensors of size one to engineering strains.
+        // Conversion from unit tensors to engineering strains.
         let places = SymTensor::<D>::COMPONENTS.iter();
         let sizes = places
             .map(|[i, j]| if i == j { 1.0 } else { ROOT })
@@ -94,7 +92,7 @@ impl UniformStrains {
 }
 
 /// Forces and moments on all degrees of freedom in each of the uniform strains, shape (n_strains, n_degrees_of_freedom), N and N m: those of
-/// the cells, and what bonds across an interface have more than in the softer material.
+/// the cells, and the excess of bonds across an interface over bonds in the softer material.
 ///
 /// In a uniform strain the tractions jump at an interface. The cells give the jump to the points on it, as far as bonds across are bonds of
 /// the softer material, which is how they are corrected. As two halves in series they pull their ends by more, and that part of the jump
@@ -114,7 +112,7 @@ pub fn loads<const D: usize>(system: &dyn System<D>, forces: &CellForces<D>) -> 
     uniform_strains().enumerate().map(of_strain).collect()
 }
 
-/// What bonds across an interface exert on their ends in a uniform strain more than in the softer material, shape
+/// Excess forces of bonds across an interface on their ends in a uniform strain, over bonds in the softer material, shape
 /// (n_degrees_of_freedom).
 fn excess_across<const D: usize>(system: &dyn System<D>, strain: &SymTensor<D>) -> Vec<f64> {
     let (cloud, beyond) = (&system.cloud, &system.beyond_correction);
@@ -123,7 +121,7 @@ fn excess_across<const D: usize>(system: &dyn System<D>, strain: &SymTensor<D>) 
     if beyond.is_empty() {
         return motions;
     }
-    // The motion of the strain itself about the middle of the body.
+    // Affine motion of the strain about the middle of the body.
     for (point, &position) in (0..).zip(&cloud.positions) {
         motions[layout.range(point)][..D].copy_from_slice(&strain.times(position));
     }
@@ -137,8 +135,7 @@ fn excess_across<const D: usize>(system: &dyn System<D>, strain: &SymTensor<D>) 
     sweep.internal.values
 }
 
-/// The strains a_l of affine motions on which all forces do the work that they do on displacements u_l: sum over m of
-/// (F_k . e_m x) a_ml = F_k . u_l.
+/// Strains a_l of affine motions on which all forces do the same work as on displacements u_l: sum over m of (F_k . e_m x) a_ml = F_k . u_l.
 fn mean_strains<const D: usize>(
     cloud: &PointCloud<D>,
     layout: Layout,

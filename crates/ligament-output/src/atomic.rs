@@ -1,4 +1,4 @@
-//! Whole-file writes that no reader can catch half done.
+//! Atomic writes of whole files.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 
 use crate::Error;
 
-/// Writes `contents` to `path`, and what was there to `older`; all of it is safely on the disk when this returns.
+/// Writes `contents` to `path`, and moves the previous file to `older`; both are synced to disk when this returns.
 ///
-/// At any moment one of the two is whole.
+/// At any moment at least one of the two files is complete.
 ///
 /// # Errors
 ///
-/// If the file cannot be written or put in its place.
+/// If the file cannot be written or renamed.
 pub(crate) fn rotate_file(path: &Path, older: &Path, contents: &[u8]) -> Result<(), Error> {
     let rotate = || {
         let temporary = temporary_path(path)?;
@@ -31,20 +31,20 @@ pub(crate) fn rotate_file(path: &Path, older: &Path, contents: &[u8]) -> Result<
     rotate().map_err(Error::system("write", path))
 }
 
-/// Removes a file, if there is one.
+/// Removes a file, if it exists.
 ///
 /// # Errors
 ///
-/// If it cannot be removed.
+/// If the file cannot be removed.
 pub(crate) fn remove_file(path: &Path) -> Result<(), Error> {
     remove_if_there(path).map_err(Error::system("remove", path))
 }
 
-/// Removes a file, if there is one, with the error of the system for callers that have their own.
+/// Removes a file, if it exists, with the system's error for callers with error types of their own.
 ///
 /// # Errors
 ///
-/// If it cannot be removed.
+/// If the file cannot be removed.
 pub fn remove_if_there(path: &Path) -> io::Result<()> {
     match fs::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
@@ -52,7 +52,7 @@ pub fn remove_if_there(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Brings the names in the folder of a file to the disk; some systems cannot, and need not.
+/// Syncs the folder of a file to disk, on systems where that is possible and needed.
 fn sync_folder(path: &Path) -> io::Result<()> {
     #[cfg(unix)]
     if let Some(folder) = path.parent().filter(|it| !it.as_os_str().is_empty()) {
@@ -61,7 +61,7 @@ fn sync_folder(path: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// The text of a file.
+/// Reads the text of a file.
 ///
 /// # Errors
 ///
@@ -74,7 +74,7 @@ pub fn read_text(path: &Path) -> Result<String, Error> {
     text.map_err(Error::system("read", path))
 }
 
-/// The bytes of a file; of a pipe or a device, which may never end, none.
+/// Reads the bytes of a file; refuses a pipe or a device, which may never end.
 pub(crate) fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
     let kind = fs::metadata(path)?.file_type();
     match kind.is_file() || kind.is_dir() {
@@ -86,7 +86,7 @@ pub(crate) fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
     }
 }
 
-/// Gives a file or folder another name.
+/// Renames a file or folder.
 ///
 /// # Errors
 ///
@@ -95,7 +95,7 @@ pub fn rename(from: &Path, to: &Path) -> Result<(), Error> {
     fs::rename(from, to).map_err(Error::system("move", from))
 }
 
-/// Writes `contents` to a temporary file beside `path`, which then takes its name.
+/// Writes `contents` to a temporary file beside `path`, and renames it to `path`.
 pub(crate) fn replace_regular(path: &Path, contents: &[u8]) -> io::Result<()> {
     let temporary = temporary_path(path)?;
     let written = write_synced(&temporary, contents).and_then(|()| fs::rename(&temporary, path));
@@ -107,11 +107,11 @@ pub(crate) fn replace_regular(path: &Path, contents: &[u8]) -> io::Result<()> {
 }
 
 fn write_synced(path: &Path, contents: &[u8]) -> io::Result<()> {
-    // One of a process of the same number that was killed; never a file that a link in its place leads to.
+    // A leftover of a killed process with the same number; the target of a link in its place is never written.
     remove_if_there(path)?;
     let mut file = File::create_new(path)?;
     file.write_all(contents)?;
-    // Full quotas and remote disks may report a failed write only here; it must be known before the rename.
+    // Full quotas and remote disks may report a failed write only here, before the rename.
     file.sync_all()
 }
 

@@ -1,4 +1,4 @@
-//! Checkpoint files: all that a run needs in order to go on, whatever happened to it.
+//! Checkpoint files: the complete state from which a run can be resumed.
 //!
 //! | bytes | what |
 //! |---|---|
@@ -8,8 +8,8 @@
 //! | ... | version of the program, inputs, solution, results, notices |
 //! | 8 | XXH64 of all before |
 //!
-//! Numbers are little-endian. A file is written beside the last one and takes its name when it is whole and on the disk; the last
-//! one is kept as well, so that one that was damaged later is no loss.
+//! Numbers are little-endian. A file is written under a temporary name and renamed when it is complete and synced to disk; the previous
+//! checkpoint is kept, in case the newest one is damaged later.
 
 use std::io;
 use std::path::Path;
@@ -21,10 +21,10 @@ use twox_hash::XxHash64;
 use crate::Error;
 use crate::atomic::{read_bytes, remove_file, rotate_file};
 
-/// The newest checkpoint in a result folder, and the one before.
+/// File names of the newest checkpoint in a result folder, and of the previous one.
 pub const NAMES: [&str; 2] = ["checkpoint.bin", "checkpoint.older.bin"];
 
-/// Number of the format, which changes whenever what is in a checkpoint does.
+/// Number of the format, which changes with every change of the content.
 pub const FORMAT: u32 = 5;
 
 const BEGINNING: &[u8; 19] = b"ligament checkpoint";
@@ -32,18 +32,18 @@ const BEGINNING: &[u8; 19] = b"ligament checkpoint";
 /// Bytes before the content.
 const HEADER: usize = BEGINNING.len() + size_of::<u32>() + size_of::<u64>();
 
-/// A run at a moment.
+/// The state of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Checkpoint {
-    /// Version of the program that wrote it.
+    /// Version of the program that wrote the checkpoint.
     pub version: String,
     /// All inputs of the run, as text.
     pub inputs: String,
-    /// The solution and how far the driver is.
+    /// Solution and state of the driver.
     pub solution: Vec<u8>,
-    /// What was written so far.
+    /// State of the written results.
     pub results: Vec<u8>,
-    /// What the user should know so far.
+    /// Notices for the user so far.
     pub notices: Vec<String>,
 }
 
@@ -56,11 +56,11 @@ serial!(Checkpoint {
 });
 
 impl Checkpoint {
-    /// Writes it into a folder as the newest one, and gives its size in bytes.
+    /// Writes the checkpoint into a folder as the newest one, and returns its size in bytes.
     ///
     /// # Errors
     ///
-    /// If it cannot be written; the one before is then still there.
+    /// If the file cannot be written; the previous checkpoint then still exists.
     pub fn write(&self, folder: &Path) -> Result<usize, Error> {
         let mut bytes = BEGINNING.to_vec();
         FORMAT.write(&mut bytes);
@@ -78,7 +78,7 @@ impl Checkpoint {
         XxHash64::oneshot(0, bytes).write(bytes);
     }
 
-    /// The checkpoints of a folder that are there, the newest first.
+    /// The existing checkpoints of a folder, the newest first.
     pub fn list(folder: &Path) -> Vec<Result<Self, Error>> {
         let paths = NAMES.iter().map(|name| folder.join(name));
         let read = paths.map(|path| match read_bytes(&path) {
@@ -95,17 +95,17 @@ impl Checkpoint {
     ///
     /// # Errors
     ///
-    /// If they cannot be removed.
+    /// If the files cannot be removed.
     pub fn remove(folder: &Path) -> Result<(), Error> {
         let mut names = NAMES.iter();
         names.try_for_each(|name| remove_file(&folder.join(name)))
     }
 
-    /// The checkpoint in these bytes, or why there is none.
+    /// Parses a checkpoint; as the error the reason why the bytes are none.
     ///
     /// # Errors
     ///
-    /// If they are of something else, of another format, or damaged.
+    /// If the bytes are no checkpoint, of another format, or damaged.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
         let Some(mut rest) = bytes.strip_prefix(BEGINNING) else {
             return Err("it is no checkpoint of a run".to_owned());

@@ -1,10 +1,10 @@
-//! Words in columns, for people.
+//! Text in aligned columns.
 
-/// Letters of a column at most; a longer word stands out of it.
+/// Largest width of a column, in characters; longer words exceed it.
 pub const WIDEST: usize = 120;
 
-/// Rows of words as lines whose columns are equally wide and two spaces apart: words of the first `n_left` columns stand at
-/// the left, others at the right. A row of two in a wider table is a name with a remark, which widens no column.
+/// Rows of words as lines of columns, two spaces apart: the first `n_left` columns are left-aligned, the others right-aligned. A row of two
+/// words in a wider table is a name with a remark, which widens no column.
 pub fn aligned(rows: &[Vec<String>], n_left: usize) -> Vec<String> {
     let n_columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |column: usize| {

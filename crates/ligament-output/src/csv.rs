@@ -21,11 +21,11 @@ pub enum Value<'a> {
     Integer(i64),
     /// A count.
     Count(u64),
-    /// A number, printed with the fewest digits that read back to the same bits; `nan`, `inf` and `-inf` as words.
+    /// A number, printed with the fewest digits that are read back exactly; `nan`, `inf` and `-inf` as words.
     Float(f64),
     /// A text, quoted where needed.
     Text(&'a str),
-    /// Nothing: an empty field, which readers of tables take for a missing value.
+    /// A missing value, written as an empty field.
     Missing,
 }
 
@@ -67,15 +67,15 @@ impl<'a> From<&'a str> for Value<'a> {
 
 /// A CSV file with a fixed header that grows by whole rows.
 ///
-/// Each row reaches the operating system before [`Table::append`] returns, so the table of a running or failed job is
-/// readable. Rows end in a line feed. Python's `float`, NumPy and current pandas read the numbers back exactly; older
-/// versions of pandas need `float_precision="round_trip"` for that.
+/// Each row is passed to the operating system before [`Table::append`] returns, so the table of a running or failed job is readable. Rows
+/// end in a line feed. Python's `float`, NumPy and current pandas read the numbers back exactly; older versions of pandas need
+/// `float_precision="round_trip"`.
 #[derive(Debug)]
 pub struct Table {
     path: PathBuf,
     file: File,
     n_columns: usize,
-    /// Of all bytes so far.
+    /// Digest of all bytes so far.
     digest: XxHash64,
 }
 
@@ -84,7 +84,7 @@ impl Table {
     ///
     /// # Errors
     ///
-    /// If a link is in the place, which may lead to anybody's file, or the file cannot be written.
+    /// If the path is a link, whose target may be any file, or the file cannot be written.
     pub fn create(path: impl Into<PathBuf>, columns: &[&str]) -> Result<Self, Error> {
         let path = path.into();
         refuse_link(&path)?;
@@ -105,11 +105,11 @@ impl Table {
         Self::create(path, &header.split(',').collect::<Vec<_>>())
     }
 
-    /// Opens a table again and cuts it back to so many bytes, where rows go on.
+    /// Opens an existing table and truncates it to `length` bytes, after which rows are appended.
     ///
     /// # Errors
     ///
-    /// If there is no such file, it is shorter, or it cannot be written.
+    /// If the file does not exist, is shorter, or cannot be written.
     pub fn cut_back(
         path: impl Into<PathBuf>,
         n_columns: usize,
@@ -132,11 +132,11 @@ impl Table {
         })
     }
 
-    /// The table so far, which is safely on the disk when this returns.
+    /// Syncs the table to disk and returns its length and digest.
     ///
     /// # Errors
     ///
-    /// If the system cannot tell, or cannot get it there.
+    /// If the file cannot be synced, or its length read.
     pub fn synced(&self) -> Result<Written, Error> {
         let synced = self.file.sync_data().and_then(|()| self.file.metadata());
         let metadata = synced.map_err(Error::system("write", &self.path))?;
@@ -156,7 +156,7 @@ impl Table {
             );
             return Err(Error::Refused { path, reason });
         }
-        // The file has no buffer of its own: the row goes out in one write and needs no flush.
+        // The file is not buffered: the row needs one write and no flush.
         let line = line(row);
         let written = self.file.write_all(line.as_bytes());
         self.digest.write(line.as_bytes());
@@ -164,7 +164,7 @@ impl Table {
     }
 }
 
-/// A row as text, with the line feed at its end: for tables that are replaced as a whole.
+/// A row as text, ending in a line feed, for tables that are replaced as a whole.
 pub fn line(row: &[Value<'_>]) -> String {
     let mut line = String::new();
     for (column, value) in row.iter().enumerate() {
@@ -193,7 +193,7 @@ fn push_value(line: &mut String, value: Value<'_>) {
 }
 
 fn push_text(line: &mut String, text: &str) {
-    // An empty text is quoted as well: alone in its row it would be a blank line, which readers skip.
+    // An empty text is quoted as well: as the only value of a row it would be a blank line, which readers skip.
     if !text.is_empty() && !text.contains([',', '"', '\n', '\r']) {
         line.push_str(text);
         return;

@@ -1,10 +1,10 @@
-//! What can go wrong when results are written or read.
+//! Errors of writing and reading results.
 
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Where the values of a field live.
+/// Location of the values of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FieldLocation {
     /// One value per point.
@@ -22,7 +22,7 @@ impl fmt::Display for FieldLocation {
     }
 }
 
-/// A failure to write results, or to read them back. The path is that of the file or folder meant.
+/// Error of writing or reading results, with the path of the file or folder.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The operating system refused an operation.
@@ -30,36 +30,36 @@ pub enum Error {
     System {
         /// The operation, a verb.
         action: &'static str,
-        /// The file or folder meant.
+        /// Path of the file or folder.
         path: PathBuf,
         /// The cause.
         source: io::Error,
     },
-    /// A result file that is not as this program writes it.
+    /// A result file in another form than this program writes.
     #[error("cannot use {path}: {reason}")]
     Unreadable {
-        /// The file meant.
+        /// Path of the file.
         path: PathBuf,
-        /// The reason why the file cannot be used.
+        /// Reason why the file cannot be used.
         reason: String,
     },
-    /// A folder that should hold the results of a run and does not.
+    /// A folder without the expected results of a run.
     #[error("{path} holds no results of a run: {reason}")]
     NoResults {
-        /// The folder meant.
+        /// Path of the folder.
         path: PathBuf,
         /// The reason, and what to do.
         reason: String,
     },
-    /// Values that readers of the file would refuse or take for something else: lengths that do not fit, names given twice.
+    /// Values that readers of the file would refuse or misread, such as wrong lengths or duplicate names.
     #[error("{path}: {reason}")]
     Refused {
-        /// The file meant, which was not written.
+        /// Path of the file, which was not written.
         path: PathBuf,
-        /// What does not fit, with its numbers.
+        /// The mismatch, with its numbers.
         reason: String,
     },
-    /// The folder holds the results of an earlier run and may not be replaced.
+    /// The folder has the results of an earlier run and may not be replaced.
     #[error(
         "{0} already holds the results of an earlier run; choose another folder with --out, or replace them with --force"
     )]
@@ -70,52 +70,52 @@ pub enum Error {
         process.map_or_else(|| "another run".to_owned(), |it| format!("another run (process {it})"))
     )]
     Busy {
-        /// The folder meant.
+        /// Path of the folder.
         path: PathBuf,
-        /// Number of the process, where it has told.
+        /// Number of the process, where known.
         process: Option<u32>,
     },
-    /// The folder holds files, but nothing shows that they are results, so it is never replaced.
+    /// The folder has files but no marker of results, so it is never replaced.
     #[error(
         "{path} exists and is not a result folder (it holds files, but no {marker}), so \
          not even --force replaces it; choose another folder with --out, or remove it yourself"
     )]
     NotAResultFolder {
-        /// The folder meant.
+        /// Path of the folder.
         path: PathBuf,
-        /// The file that would show it.
+        /// Name of the missing marker file.
         marker: &'static str,
     },
-    /// A file is in the place of a file that was asked for.
+    /// The file to be written exists.
     #[error("{0} is there already: write to another file with --out, or replace it with --force")]
     FileExists(PathBuf),
-    /// A folder, a disk or the like is in the place of a file that was asked for.
+    /// The path of a file to be written is a folder, a disk or the like.
     #[error(
         "{0} exists and is not a file, so nothing is written there; choose another file with --out"
     )]
     NoPlaceForFile(PathBuf),
-    /// Something other than a folder is in the place of the folder.
+    /// The path of the folder is not a folder.
     #[error("{0} exists and is not a folder; choose another folder with --out")]
     NotAFolder(PathBuf),
-    /// A link in the place of a file or folder of the program's own, which may lead anywhere.
+    /// The path of a file or folder of the program is a link, whose target may be anything.
     #[error(
         "{0} is a link, and results are neither read nor written through links: put the file itself in its place, or remove the link"
     )]
     Link(PathBuf),
-    /// The place the old results are moved to while they are replaced is taken.
+    /// The path to which earlier results are moved during their replacement exists.
     #[error(
         "cannot move the old results aside: {0} exists, probably left by an interrupted run; look into it, then \
          remove or rename it, or choose another folder with --out"
     )]
     ReplacedExists(PathBuf),
-    /// A path such as `..` or `/`, which names no folder that could be moved aside.
+    /// A path such as `..` or `/`, without the name of a folder that could be renamed.
     #[error(
         "{0} cannot be replaced because the path does not end in a folder name; choose a named folder with --out"
     )]
     UnnamedFolder(PathBuf),
 }
 
-/// What to do about an operation that the system refused.
+/// Advice for an operation that the system refused.
 fn remedy(action: &str, source: &io::Error) -> &'static str {
     match source.kind() {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {

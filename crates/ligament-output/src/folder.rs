@@ -1,4 +1,4 @@
-//! The folder that holds the results of one run.
+//! The folder with the results of one run.
 
 mod entries;
 mod kind;
@@ -20,30 +20,29 @@ pub use entries::{refuse_link, refuse_links, remove_unfinished_pages};
 pub use kind::{Kind, REPORT, RESOLVED_CASE, is_made_later};
 pub use replacement::{put_in_place, recover};
 
-/// A folder for the results of one run, to which no other process writes.
+/// A folder for the results of one run, locked against other processes.
 ///
-/// A run writes the marker of its kind first: by it a later run recognises the folder as one it may replace. Results that
-/// replace earlier ones are made in `NAME.new` beside them, and take their place when [`ResultFolder::finish`] says that they
-/// are complete; until then the earlier ones are as they were.
+/// A run writes the marker of its kind first, by which a later run recognises a folder that it may replace. Results that replace earlier
+/// ones are written to `NAME.new` and replace them in [`ResultFolder::finish`]; until then the earlier results are unchanged.
 #[derive(Debug)]
 pub struct ResultFolder {
-    /// The place where files are written.
+    /// Folder to which files are written.
     path: PathBuf,
     kind: Kind,
     lock: Lock,
-    /// The earlier results that these are to replace, and the lock on them.
+    /// Folder of earlier results to be replaced, and its lock.
     replaces: Option<(PathBuf, Lock)>,
 }
 
 impl ResultFolder {
     /// Creates the folder of a run and its parents. An existing empty folder is used as it is.
     ///
-    /// A folder with results is refused unless `replace` is set; then the new ones are made beside it. A folder with other
-    /// files alone is refused in any case.
+    /// A folder with results is refused unless `replace` is set; then new results are written beside it. A folder with other files only is
+    /// always refused.
     ///
     /// # Errors
     ///
-    /// If the folder may not be used, another process writes to it, or it cannot be made.
+    /// If the folder may not be used, another process writes to it, or it cannot be created.
     pub fn create(path: impl AsRef<Path>, replace: bool) -> Result<Self, Error> {
         Self::create_marked(path, Kind::RUN, replace)
     }
@@ -52,21 +51,21 @@ impl ResultFolder {
     ///
     /// # Errors
     ///
-    /// As [`ResultFolder::create`].
+    /// As for [`ResultFolder::create`].
     pub fn create_marked(path: impl AsRef<Path>, kind: Kind, replace: bool) -> Result<Self, Error> {
         let given = path.as_ref();
         Self::check_marked(given, kind, replace)?;
         let path = resolved(given);
         fs::create_dir_all(&path).map_err(Error::system("create", &path))?;
         let lock = locked(&path, kind)?;
-        // Another process may have filled the folder before the lock was there.
+        // Another process may have filled the folder before it was locked.
         match Occupant::usable_content(&path, given, kind, replace)? {
             Occupant::Nothing => Ok(Self::locked(path, kind, lock)),
             Occupant::Results => Self::beside(path, kind, lock),
         }
     }
 
-    /// A new folder beside earlier results; what a run that was killed has left there goes.
+    /// Creates a new folder beside earlier results; files left there by a killed run are removed.
     fn beside(path: PathBuf, kind: Kind, lock: Lock) -> Result<Self, Error> {
         let new = beside(&path)?;
         Occupant::usable_content(&new, &new, kind, true)?;
@@ -88,11 +87,11 @@ impl ResultFolder {
         }
     }
 
-    /// A folder that is there already, with what it holds: for work that is taken up again.
+    /// Opens an existing folder with its files, to continue work in it.
     ///
     /// # Errors
     ///
-    /// If another process writes to the folder, or it cannot be written.
+    /// If another process writes to the folder, or the folder cannot be written.
     pub fn existing(path: impl AsRef<Path>, kind: Kind) -> Result<Self, Error> {
         let path = resolved(path.as_ref());
         recover(&path, kind)?;
@@ -100,12 +99,12 @@ impl ResultFolder {
         Ok(Self::locked(path, kind, lock))
     }
 
-    /// The folder of a run that was stopped, with what it holds. Where the run was to replace earlier results, `NAME` and
-    /// `NAME.new` both give the new ones, which take the place of the earlier ones when they are finished.
+    /// Opens the folder of a stopped run with its files. Where the run was to replace earlier results, both paths `NAME` and `NAME.new`
+    /// open the new results, which replace the earlier ones in [`ResultFolder::finish`].
     ///
     /// # Errors
     ///
-    /// As [`ResultFolder::existing`].
+    /// As for [`ResultFolder::existing`].
     pub fn resumed(path: impl AsRef<Path>) -> Result<Self, Error> {
         let (path, kind) = (resolved(path.as_ref()), Kind::RUN);
         recover(&path, kind)?;
@@ -122,11 +121,11 @@ impl ResultFolder {
         })
     }
 
-    /// The folder of a run to which nothing writes now, to be read; a replacement that was cut short is ended.
+    /// Path of a folder for reading, to which no process writes; an interrupted replacement is completed first.
     ///
     /// # Errors
     ///
-    /// If another process writes to it.
+    /// If another process writes to the folder.
     pub fn settled(path: impl AsRef<Path>) -> Result<PathBuf, Error> {
         let path = resolved(path.as_ref());
         recover(&path, Kind::RUN)?;
@@ -134,7 +133,7 @@ impl ResultFolder {
         Ok(path)
     }
 
-    /// Fails as [`ResultFolder::create`] would, and makes nothing: for a run to ask before its work begins.
+    /// Fails as [`ResultFolder::create`] would, without creating anything: a check before a run starts.
     ///
     /// # Errors
     ///
@@ -156,12 +155,12 @@ impl ResultFolder {
         Ok(())
     }
 
-    /// The folder itself, where files are written: `NAME.new` while earlier results are there.
+    /// Folder to which files are written: `NAME.new` as long as earlier results exist.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The earlier results that these are to replace.
+    /// Folder of earlier results to be replaced.
     pub fn replaces(&self) -> Option<&Path> {
         self.replaces.as_ref().map(|(folder, _)| folder.as_path())
     }
@@ -171,71 +170,71 @@ impl ResultFolder {
         self.path.join(name)
     }
 
-    /// Writes a text file in the folder atomically, replacing an earlier one of that name.
+    /// Writes a text file in the folder atomically, replacing an earlier file of that name.
     ///
     /// # Errors
     ///
-    /// If it cannot be written.
+    /// If the file cannot be written.
     pub fn write_text(&self, name: &str, text: &str) -> Result<(), Error> {
         replace_file(&self.file(name), text.as_bytes())
     }
 
-    /// Removes a file of the folder, if it is there.
+    /// Removes a file of the folder, if it exists.
     ///
     /// # Errors
     ///
-    /// If it cannot be removed.
+    /// If the file cannot be removed.
     pub fn remove(&self, name: &str) -> Result<(), Error> {
         remove_file(&self.file(name))
     }
 
-    /// Removes files that were made of the results of the run as they were, as those of its cracks.
+    /// Removes files that were derived from the earlier results of the run, such as those of its cracks.
     ///
     /// # Errors
     ///
-    /// If they cannot be listed or removed.
+    /// If the files cannot be listed or removed.
     pub fn remove_made_later(&self) -> Result<(), Error> {
         remove_files(&self.path, is_made_later)
     }
 
-    /// Ends the work on the folder: the results are complete, and take the place of earlier ones.
+    /// Completes the folder: its results replace earlier ones.
     ///
-    /// Files that are not the program's own stay; a link to a folder stays a link.
+    /// Files that are not the program's are kept; a link to a folder remains a link.
     ///
     /// # Errors
     ///
-    /// If the results cannot be put in place; they are then where they were made.
+    /// If the results cannot be moved; they then remain where they were written.
     pub fn finish(mut self) -> Result<(), Error> {
         let Some((folder, mut old_lock)) = self.replaces.take() else {
             return Ok(());
         };
         put_in_place(&self.path, &folder, self.kind, || Ok(()))?;
-        // Its file went with the old results.
+        // The lock's file was removed with the old results.
         old_lock.moved_to(&self.path);
         self.lock.moved_to(&folder);
         Ok(())
     }
 }
 
-/// The lock on a folder in which nothing leads elsewhere; files that a killed process had not finished go.
+/// Locks a folder without links among its result files; removes unfinished files of killed processes.
 fn locked(folder: &Path, kind: Kind) -> Result<Lock, Error> {
     refuse_links(folder, kind)?;
     let lock = Lock::take(folder)?;
-    // Nobody else writes files of this kind here now.
+    // No other process writes files of this kind here while this one has the lock.
     remove_files(folder, |name| kind.is_unfinished(name))?;
     Ok(lock)
 }
 
-/// The occupant of the place of a result folder, where a run may put its results.
+/// Content of a path to which a run may write its results.
 enum Occupant {
-    /// Nothing, or an empty folder.
+    /// No folder, or an empty one.
     Nothing,
-    /// Results, to be replaced.
+    /// Results that are to be replaced.
     Results,
 }
 
 impl Occupant {
-    /// The occupant of a path, which the user gave as `given`.
+    /// Content of a path, if a run may write there; `given` is the user's form of the path.
     fn usable_content(path: &Path, given: &Path, kind: Kind, replace: bool) -> Result<Self, Error> {
         let metadata = match fs::metadata(path) {
             Ok(metadata) => metadata,
@@ -248,7 +247,7 @@ impl Occupant {
         }
         let entries = fs::read_dir(path).map_err(Error::system("list", path))?;
         let mut names = entries.flatten().map(|entry| entry.file_name());
-        // What a run that was killed leaves before it has written anything.
+        // A run that was killed before its first output leaves only these.
         let is_trace = |name: &str| name.starts_with('.') && kind.may_remove(name);
         if names.all(|name| is_trace(&name.to_string_lossy())) {
             return Ok(Self::Nothing);

@@ -5,14 +5,14 @@
 //! | [`vtu`] | the fields of one output on points and cells, for ParaView, VTK, PyVista and meshio |
 //! | [`pvd`] | the list of those outputs with their times, which ParaView opens as a series |
 //! | [`csv`] | tables of scalars over the steps |
-//! | [`columns`] | words in columns, for people |
-//! | [`checkpoint`] | a run at a moment, from which it can go on |
-//! | [`folder`] | the folder that holds them, without destroying what was there |
-//! | [`results`] | all of these from a run, as its observer |
+//! | [`columns`] | text in aligned columns |
+//! | [`checkpoint`] | the state of a run, from which it can be resumed |
+//! | [`folder`] | the folder of results, without loss of earlier files |
+//! | [`summary`] | a run in numbers |
+//! | [`results`] | all of these files from a run, as its observer |
 //!
-//! A file is either appended to by whole rows (CSV) or replaced as a whole by a rename (all others), so the results of
-//! a job can be opened while it is running. Only [`results`] knows about models and analyses: the others take plain
-//! slices.
+//! A file is either appended to by whole rows (CSV) or replaced as a whole by a rename (all others), so the results of a job can be opened
+//! while it is running. Only [`results`] depends on models and analyses: the other modules take slices.
 
 mod atomic;
 pub mod checkpoint;
@@ -24,6 +24,7 @@ pub mod pvd;
 pub mod quantity;
 pub mod results;
 mod single_file;
+pub mod summary;
 pub mod terminal;
 pub mod vtu;
 mod written;

@@ -22,7 +22,7 @@ pub struct Collection {
 impl Collection {
     /// An empty collection that will be written to `path`.
     ///
-    /// The file appears with the first output: ParaView rejects a collection without files.
+    /// The file is created with the first output: ParaView rejects a collection without files.
     pub fn new(path: impl Into<PathBuf>) -> Self {
         Self {
             path: path.into(),
@@ -30,7 +30,7 @@ impl Collection {
         }
     }
 
-    /// A collection with these outputs, whose file is made anew; without any there is none.
+    /// A collection with these outputs, whose file is rewritten, or removed without outputs.
     ///
     /// # Errors
     ///

@@ -1,25 +1,25 @@
-//! Numbers for people: four digits that count, and a unit with the prefix that makes them short.
+//! Formatted quantities: four significant digits, and a unit with a suitable prefix.
 //!
-//! Files keep all digits in SI units; terminals and pictures show quantities as here.
+//! Files keep all digits in SI units; terminals and pictures show quantities in this form.
 
-/// The unit to show values of a quantity in.
+/// Unit in which the values of a quantity are shown.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shown {
-    /// What a value in SI units is multiplied by.
+    /// Factor of values in SI units.
     pub factor: f64,
     /// Prefix of the unit: `k`; `u` for a millionth.
     pub prefix: &'static str,
     /// SI unit without the prefix: `J/m^2`; empty for a number of no unit.
     pub unit: String,
-    /// Power of ten that stands beside the number, where no prefix does; 0 for none.
+    /// Power of ten behind the number, where the unit has no prefix; 0 for none.
     pub power: i32,
 }
 
-/// Prefixes by the power of ten, in steps of three from 10^-12.
+/// Prefixes of the powers of ten, in steps of three from 10^-12.
 const PREFIXES: [&str; 9] = ["p", "n", "u", "m", "", "k", "M", "G", "T"];
 
 impl Shown {
-    /// The unit for values of a size in an SI unit such as `J/m^3`; `-` is none.
+    /// The unit for values of a size, in an SI unit such as `J/m^3`; `-` is no unit.
     pub fn new(unit: &str, size: f64) -> Self {
         let exact = if size > 0.0 && size.is_finite() {
             size.log10()
@@ -32,7 +32,7 @@ impl Shown {
             "m^3" => return Self::of_lengths(symbol, exact, 3),
             _ => {}
         }
-        // Lengths are read best as 0.1 to 100, all else as 1 to 1000.
+        // Lengths are shown as 0.1 to 100, all other quantities as 1 to 1000.
         let shift = if unit == "m" { 1.0 } else { 0.0 };
         let thousands = ((exact + shift) / 3.0 + 1e-9).floor() as i32;
         let first = ["Pa", "Hz", "N", "J", "rad"];
@@ -53,7 +53,7 @@ impl Shown {
         }
     }
 
-    /// The unit itself.
+    /// The unit without a prefix.
     fn plain(symbol: &str) -> Self {
         Self {
             factor: 1.0,
@@ -63,8 +63,8 @@ impl Shown {
         }
     }
 
-    /// Areas and volumes: square or cubic millimetres below a hundredth of a square or a thousandth of a cubic metre, and micrometres where
-    /// those are small.
+    /// Unit of areas and volumes: square or cubic millimetres below a hundredth of a square or a thousandth of a cubic metre, and
+    /// micrometres for smaller values.
     fn of_lengths(symbol: &str, exact: f64, dimensions: i32) -> Self {
         let prefix = match exact {
             exact if exact >= -f64::from(dimensions) => return Self::plain(symbol),
@@ -100,7 +100,8 @@ impl Shown {
     }
 }
 
-/// A size below which a value in an SI unit is what is left of sums that cancel: 10^-20 of most, of a length far less than an atom.
+/// Size below which a value in an SI unit is shown as zero, as the rounding error of a sum: 10^-20 for most units, for lengths far less
+/// than an atom.
 fn least(unit: &str) -> f64 {
     match unit {
         "m" => 1e-15,
@@ -110,7 +111,7 @@ fn least(unit: &str) -> f64 {
     }
 }
 
-/// A value in an SI unit as people read it: `quantity(6.4e5, "N")` is `640.0 kN`; `-` is no unit.
+/// Formats a value in an SI unit: `quantity(6.4e5, "N")` is `640.0 kN`; `-` is no unit.
 pub fn quantity(value: f64, unit: &str) -> String {
     let value = if value.abs() < least(unit) {
         0.0
@@ -120,7 +121,7 @@ pub fn quantity(value: f64, unit: &str) -> String {
     Shown::new(unit, value.abs()).value(value)
 }
 
-/// A smallest and a largest value in one unit: `1.113 to 2.264 mm`; one of them where both read alike.
+/// Formats a smallest and a largest value in one unit: `1.113 to 2.264 mm`; one value where both are formatted alike.
 pub fn between([min, max]: [f64; 2], unit: &str) -> String {
     let shown = Shown::new(unit, min.abs().max(max.abs()));
     let [low, high] = [min, max].map(|value| shown.number(value));
@@ -131,7 +132,7 @@ pub fn between([min, max]: [f64; 2], unit: &str) -> String {
     }
 }
 
-/// A place: `(12.50, -3.000) mm`.
+/// Formats a position: `(12.50, -3.000) mm`.
 pub fn place(position: &[f64]) -> String {
     let largest = position.iter().map(|it| it.abs()).fold(0.0, f64::max);
     let shown = Shown::new("m", largest);
@@ -139,12 +140,12 @@ pub fn place(position: &[f64]) -> String {
     format!("({}) {}", coordinates.join(", "), shown.symbol())
 }
 
-/// A number with four digits that count.
+/// Formats a number with four significant digits.
 pub fn four_digits(value: f64) -> String {
     if !value.is_finite() {
         return format!("{}", value.abs());
     }
-    // What nine decimals do not show is nothing beside other values in the unit: a force of rounding in kN.
+    // A value below nine decimals is negligible in the unit, such as a rounding error of a force in kN.
     if value.abs() < 5e-10 {
         return "0".to_owned();
     }

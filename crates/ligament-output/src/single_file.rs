@@ -1,7 +1,7 @@
-//! Single files at places that people name, as that of `ligament plot --out`.
+//! Single output files at paths of the user, such as that of `ligament plot --out`.
 //!
-//! A file that is there gives way only where its user says so. What is no file, as a pipe, a device or `/dev/stdout`, is written to
-//! and stays what it is; a link is neither replaced nor followed to a file.
+//! An existing file is replaced only with the user's consent. Pipes, devices and `/dev/stdout` are written to; a link is neither replaced
+//! nor followed to a file.
 
 use std::fs::{self, File, FileType, OpenOptions};
 use std::io::{self, Write};
@@ -10,22 +10,22 @@ use std::path::Path;
 use crate::Error;
 use crate::atomic::replace_regular;
 
-/// What is at the place of a file.
+/// Kind of the object at the path of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Occupant {
-    /// Nothing.
+    /// The path does not exist.
     Nothing,
-    /// A file.
+    /// A regular file.
     File,
-    /// Something that takes bytes and keeps none: a pipe, a device, or an open file of this process.
+    /// A pipe, a device, or an open file of this process.
     Stream,
 }
 
-/// Fails where [`write_file`] would because of what is at the place, and writes nothing: for a command to ask before its work begins.
+/// Fails as [`write_file`] would for the path, without writing: a check before the work of a command.
 ///
 /// # Errors
 ///
-/// If a file is there and may not be replaced, or something that can be neither replaced nor written to.
+/// If a file exists and may not be replaced, or the path can be neither replaced nor written to.
 pub fn check_file(path: &Path, replace: bool) -> Result<(), Error> {
     match occupant(path)? {
         Occupant::File if !replace => Err(Error::FileExists(path.to_path_buf())),
@@ -33,25 +33,24 @@ pub fn check_file(path: &Path, replace: bool) -> Result<(), Error> {
     }
 }
 
-/// Writes `contents` to `path`: as a whole file, which takes the place of an earlier one only with `replace`, or into the pipe or
-/// device that is there.
+/// Writes `contents` to `path`: as a whole file, which replaces an earlier one only with `replace`, or into an existing pipe or device.
 ///
 /// # Errors
 ///
-/// As [`check_file`], or if the system refuses.
+/// As for [`check_file`], or if the system refuses.
 pub fn write_file(path: &Path, contents: &[u8], replace: bool) -> Result<(), Error> {
     check_file(path, replace)?;
     replace_file(path, contents)
 }
 
-/// Writes `contents` to `path`, replacing the file that is there; into a pipe or a device they are written.
+/// Writes `contents` to `path`, replacing an existing file, or into an existing pipe or device.
 ///
-/// A file's contents go to a temporary file in the same folder (a rename works only within one file system), which then takes the
-/// name `path`. On failure `path` is as before and the temporary file is removed.
+/// Contents of a file are written to a temporary file in the same folder (a rename works only within one file system), which is renamed to
+/// `path`. On failure `path` is unchanged and the temporary file is removed.
 ///
 /// # Errors
 ///
-/// If a link to a file or a folder is in the place, or it cannot be written.
+/// If the path is a link to a file or a folder, or cannot be written.
 pub fn replace_file(path: &Path, contents: &[u8]) -> Result<(), Error> {
     let written = match occupant(path)? {
         Occupant::Stream => write_stream(path, contents),
@@ -60,12 +59,12 @@ pub fn replace_file(path: &Path, contents: &[u8]) -> Result<(), Error> {
     written.map_err(Error::system("write", path))
 }
 
-/// Whether what is written to a place goes elsewhere than to a file: into a pipe, a device or an open file of this process.
+/// Whether a path is a pipe, a device or an open file of this process.
 pub fn is_stream(path: &Path) -> bool {
     matches!(occupant(path), Ok(Occupant::Stream))
 }
 
-/// Whether a place is the standard output of this process.
+/// Whether a path is the standard output of this process.
 pub fn is_standard_output(path: &Path) -> bool {
     descriptor(path) == Some(1)
 }
@@ -74,12 +73,12 @@ fn occupant(path: &Path) -> Result<Occupant, Error> {
     if descriptor(path).is_some() {
         return Ok(Occupant::Stream);
     }
-    // What else is the matter, as a folder that is missing, the system tells when the file is written.
+    // Other errors, such as a missing folder, are reported when the file is written.
     let Ok(found) = fs::symlink_metadata(path) else {
         return Ok(Occupant::Nothing);
     };
     let kind = found.file_type();
-    // A link to a device, as many in /dev are, or to a pipe leads to nothing that could be lost.
+    // Writing through a link to a device, such as many in /dev, or to a pipe destroys nothing.
     let target = fs::metadata(path).map(|it| it.file_type());
     match target {
         Ok(target) if is_pipe_or_device(target) => Ok(Occupant::Stream),
@@ -92,7 +91,7 @@ fn occupant(path: &Path) -> Result<Occupant, Error> {
 #[cfg(unix)]
 fn is_pipe_or_device(kind: FileType) -> bool {
     use std::os::unix::fs::FileTypeExt;
-    // Not a disk, which a page of results would make unreadable.
+    // Disks, which writing would destroy, are excluded.
     kind.is_fifo() || kind.is_char_device()
 }
 
@@ -101,9 +100,9 @@ fn is_pipe_or_device(_: FileType) -> bool {
     false
 }
 
-/// The number of the open file of this process that a path such as `/dev/stdout` or `/dev/fd/3` names.
+/// Number of the open file of this process with a path such as `/dev/stdout` or `/dev/fd/3`.
 ///
-/// Such a path is a link to whatever the shell has opened, which may be a file.
+/// Such a path is a link to an object opened by the shell, which may be a file.
 #[cfg(unix)]
 fn descriptor(path: &Path) -> Option<u32> {
     match path.to_str()? {
@@ -123,7 +122,7 @@ fn descriptor(_: &Path) -> Option<u32> {
 
 fn write_stream(path: &Path, contents: &[u8]) -> io::Result<()> {
     match descriptor(path) {
-        // Opened a second time, a file would be written from its beginning by both.
+        // A file opened a second time would be overwritten from its beginning.
         Some(1) => {
             let mut stdout = io::stdout().lock();
             stdout.write_all(contents)?;
@@ -134,7 +133,7 @@ fn write_stream(path: &Path, contents: &[u8]) -> io::Result<()> {
     }
 }
 
-/// A pipe waits here for its reader.
+/// Opens a stream for appending; a pipe blocks until it has a reader.
 fn opened(path: &Path) -> io::Result<File> {
     OpenOptions::new().append(true).open(path)
 }

@@ -1,16 +1,16 @@
-//! Texts of others on a terminal.
+//! Output of foreign texts on a terminal.
 //!
-//! A title, a name of a group or a line of a file may hold escape sequences, by which a terminal can be made to hide, to rename or
-//! to answer. What goes to people is written through [`Plain`], which shows control characters instead of sending them.
+//! A title, a name of a group or a line of a file may contain escape sequences that control a terminal. [`Plain`] shows control characters
+//! instead of sending them.
 
 use std::borrow::Cow;
 use std::io::{self, Write};
 
-/// A writer that shows control characters but tabs and line ends as `\u{1b}`.
+/// A writer that shows control characters, except tabs and line ends, in the form `\u{1b}`.
 #[derive(Debug)]
 pub struct Plain<W> {
     inner: W,
-    /// Whether the last byte was the first one of the two that a control character above 0x7f has.
+    /// Whether the last byte may be the first of the two bytes of a control character above 0x7f.
     is_in_control: bool,
 }
 
@@ -18,7 +18,7 @@ pub struct Plain<W> {
 const LEAD: u8 = 0xc2;
 
 impl<W: Write> Plain<W> {
-    /// A plain view of a writer.
+    /// A plain writer around another writer.
     pub fn new(inner: W) -> Self {
         Self {
             inner,
@@ -50,7 +50,7 @@ impl<W: Write> Write for Plain<W> {
     }
 }
 
-/// A text with its control characters shown.
+/// A text with its control characters shown in the form `\u{1b}`.
 pub fn plain(text: &str) -> Cow<'_, str> {
     if !text
         .chars()

@@ -29,12 +29,12 @@ pub enum Cell {
     Vertex([u32; 1]),
     /// A segment, such as a bond.
     Line([u32; 2]),
-    /// Three corners.
+    /// A triangle.
     Triangle([u32; 3]),
-    /// Four corners in order around the cell.
+    /// A quadrangle, with corners in order around the cell.
     Quad([u32; 4]),
-    /// A tetrahedron, hexahedron, prism or pyramid, its corners as Gmsh has them: VTK then finds a positive volume. For prisms its
-    /// documentation says otherwise, and meshio turns both triangles round.
+    /// A tetrahedron, hexahedron, prism or pyramid with corners in the order of Gmsh, for which VTK finds a positive volume. For prisms
+    /// VTK's documentation differs, and meshio reverses both triangles.
     Solid(SolidCell),
 }
 
@@ -50,7 +50,7 @@ impl Cell {
         }
     }
 
-    /// The cell with other numbers for its points.
+    /// The cell with its points renumbered.
     fn renumbered(self, number: impl Fn(u32) -> u32) -> Self {
         use SolidCell::{Hexahedron, Prism, Pyramid, Tetrahedron};
         match self {
@@ -67,7 +67,7 @@ impl Cell {
         }
     }
 
-    /// The cell of a number in `vtkCellType.h`; None where it is of another kind, or has other points.
+    /// The cell of a type in `vtkCellType.h`; `None` for other types, or another number of points.
     fn from_vtk(vtk_type: u8, points: &[u32]) -> Option<Self> {
         use SolidCell::{Hexahedron, Prism, Pyramid, Tetrahedron};
         match vtk_type {
@@ -83,7 +83,7 @@ impl Cell {
         }
     }
 
-    /// The number of the kind in `vtkCellType.h`.
+    /// The cell's type in `vtkCellType.h`.
     fn vtk_type(&self) -> u8 {
         match self {
             Self::Vertex(_) => 1,
@@ -101,9 +101,9 @@ impl Cell {
 /// A grid with its fields.
 #[derive(Debug, Clone, Copy)]
 pub struct UnstructuredGrid<'a> {
-    /// Reference positions; z = 0 of a planar grid.
+    /// Reference positions, m; z = 0 in a planar grid.
     pub points: &'a [[f64; 3]],
-    /// Cells on these points, of any mixture of kinds.
+    /// Cells on these points, of mixed types.
     pub cells: &'a [Cell],
     /// Fields on the points. ParaView colours by the first scalar and warps by the first vector.
     pub point_fields: &'a [Field<'a>],
@@ -142,7 +142,7 @@ impl UnstructuredGrid<'_> {
                         "{location} field '{name}' has {found} values, expected {expected}, one per {location}"
                     ));
                 }
-                // Readers would keep one of them only.
+                // Readers would keep only one of two fields of the same name.
                 if !names.insert(name) {
                     return refused(format!(
                         "two {location} fields are named '{name}'; give each its own name"
@@ -153,7 +153,7 @@ impl UnstructuredGrid<'_> {
         Ok(())
     }
 
-    /// The document, the same for any number of threads: they share arrays and blocks of fixed size.
+    /// The document, independent of the number of threads, which share arrays and blocks of fixed size.
     fn to_xml(self) -> String {
         let mut xml = format!(
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
@@ -190,7 +190,8 @@ fn cell_arrays(cells: &[Cell]) -> [String; 3] {
     .map(Field::to_xml)
 }
 
-/// The element `PointData` or `CellData`, or what is said of it for all pieces of a grid. It names the first scalar and the first vector, which readers show first.
+/// Appends the element `PointData` or `CellData`, or its outline for all pieces of a grid, naming the first scalar and the first vector,
+/// which readers show first.
 fn push_fields(
     xml: &mut String,
     element: &str,

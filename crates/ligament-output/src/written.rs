@@ -1,4 +1,4 @@
-//! What a file had when it was written, so that a change since is seen.
+//! Length and digest of a written file, to detect later changes.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -8,33 +8,33 @@ use ligament_analysis::serial;
 use std::hash::Hasher;
 use twox_hash::XxHash64;
 
-/// The beginning of a file as it was written: its length and digest.
+/// Length and digest of the beginning of a written file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Written {
-    /// Bytes.
+    /// Length, bytes.
     pub length: u64,
-    /// XXH64 of these bytes.
+    /// XXH64 digest of these bytes.
     pub digest: u64,
 }
 
 serial!(Written { length, digest });
 
-/// Bytes of a file that are read at once.
+/// Size of a buffer for reading, bytes.
 const AT_ONCE: usize = 1 << 16;
 
 impl Written {
-    /// A whole file as it is now.
+    /// Length and digest of a whole file.
     ///
     /// # Errors
     ///
-    /// If it cannot be read.
+    /// If the file cannot be read.
     pub(crate) fn now(path: &Path) -> io::Result<Self> {
         let (digest, length) = digested(path, u64::MAX)?;
         let digest = digest.finish();
         Ok(Self { length, digest })
     }
 
-    /// Why a file no longer begins as it was written; none if it does.
+    /// Reason why a file no longer begins as it was written; `None` if it does.
     pub(crate) fn obstacle(self, path: &Path) -> Option<String> {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let length = self.length;
@@ -56,7 +56,7 @@ impl Written {
     }
 }
 
-/// The digest of at most so many bytes at the beginning of a file, to which more may be added, and how many there were.
+/// Digest of at most `most` bytes at the beginning of a file, which can be continued, and the number of bytes.
 pub(crate) fn digested(path: &Path, most: u64) -> io::Result<(XxHash64, u64)> {
     let mut digest = XxHash64::with_seed(0);
     let mut file = File::open(path)?.take(most);

@@ -1,14 +1,14 @@
-//! What a state of bonds means: cracks as lines and surfaces, and how the directions of bonds distort yield.
+//! Evaluation of the state of bonds: cracks as lines and surfaces, and the anisotropy of yield from the directions of bonds.
 //!
-//! Nothing here is part of an equation: results of a run, or the criteria of a model, are read.
+//! The crate is not part of any equation: it reads results of a run, or the criteria of a model.
 //!
-//! | module | holds |
+//! | module | content |
 //! |---|---|
 //! | [`crack`] | cracks of a body in the plane as lines |
-//! | [`surfaces`] | in a solid, cracks as triangles, and where a field has a value |
+//! | [`surfaces`] | cracks of a solid as triangles, and level sets of fields |
 //! | [`yielding`] | first yield of a family of bonds under a uniform strain |
 //!
-//! All quantities are in SI units. No files and no printing here.
+//! All quantities are in SI units. The crate has no files and no printing.
 
 pub mod crack;
 pub mod surfaces;

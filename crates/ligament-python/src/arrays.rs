@@ -1,4 +1,4 @@
-//! Arrays of NumPy: moved there, not copied, and read only, as they are what a result has.
+//! Arrays of NumPy: moved, not copied, and read only, because they are results.
 
 use numpy::{Element, IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
@@ -17,7 +17,7 @@ pub(crate) fn rows<T: Element>(
     columns: usize,
 ) -> PyResult<Bound<'_, PyAny>> {
     let n = values.len() / columns.max(1);
-    // Made so before it gets its shape: a view of what cannot be written cannot be made writable.
+    // Read only before it is reshaped: a view of a read-only array cannot be made writable.
     let array = values.into_pyarray(py);
     array.readwrite().make_nonwriteable();
     Ok(array.reshape([n, columns])?.into_any())

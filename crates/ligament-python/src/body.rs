@@ -17,19 +17,18 @@ pub(crate) fn kind(body: &AnyBody) -> BodyKind {
     }
 }
 
-/// A body that a setup stands on, whatever it was made of.
+/// A body of a setup, of any origin.
 #[pyclass(frozen, module = "ligament._native")]
 pub(crate) struct Body {
     pub(crate) body: AnyBody,
 }
 
-/// Elements of a mesh: their dimension, tags of the corners of each, shape (n, corners), and the group that they make.
+/// Elements of a mesh: dimension, tags of the corners, shape (n, corners), and name of their group.
 type Elements<'py> = (u8, PyReadonlyArray2<'py, u64>, Option<String>);
 
 #[pymethods]
 impl Body {
-    /// A body of points at positions (n, 2) or (n, 3), each with the area or volume that it stands for (n), and groups by their
-    /// indices.
+    /// A body of points at positions (n, 2) or (n, 3), m, with areas, m^2, or volumes, m^3, (n), and groups by indices.
     #[staticmethod]
     fn of_points(
         py: Python<'_>,

@@ -1,4 +1,4 @@
-//! The next value of a key to try, so that a result meets its target.
+//! The next trial value of a key for a result to meet its target.
 
 use ligament_study::calibrate::RESOLUTION;
 use ligament_study::calibrate::search::{Next, Search, Trial, Verdict};
@@ -8,8 +8,8 @@ use pyo3::types::PyDict;
 
 use crate::errors;
 
-/// What to do after trials, pairs of a value and its result, with a target and how near to it, relative to it, the result is to be: `("try", value)`, or how the search ended, `("met", value)`,
-/// `("jump", value)`, `("out-of-reach", None)`, `("out-of-trials", None)`.
+/// Next action after trials, pairs of a value and its result, for an aim of a target and a relative tolerance: `("try", value)`, or the end
+/// of the search, `("met", value)`, `("jump", value)`, `("out-of-reach", None)`, `("out-of-trials", None)`.
 #[pyfunction]
 pub(crate) fn next_trial(
     trials: Vec<(f64, f64)>,
@@ -42,11 +42,11 @@ pub(crate) fn next_trial(
     }
 }
 
-/// The numbers of a summary in JSON by their dotted names; of one name alone where it is asked for.
+/// The numbers of a summary in JSON by their dotted names, or only the number of a given name.
 ///
 /// # Errors
 ///
-/// If there is no number of that name, with the nearest one.
+/// If there is no number of that name, with the most similar name.
 #[pyfunction]
 pub(crate) fn numbers<'py>(
     py: Python<'py>,

@@ -12,7 +12,7 @@ use crate::body::{Body, kind};
 use crate::errors::{Failure, of_case, of_request};
 use crate::{document, errors};
 
-/// A checked case, with the body that it stands on where that is in memory.
+/// A checked case, with its body if that is in memory.
 #[pyclass(frozen, module = "ligament._native")]
 pub(crate) struct Case {
     pub(crate) file: CaseFile,
@@ -21,7 +21,7 @@ pub(crate) struct Case {
 
 #[pymethods]
 impl Case {
-    /// The case in a file, with changes to it.
+    /// The case in a file, with overrides.
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf, changes: &Bound<'_, PyDict>) -> PyResult<Self> {
         let overrides = document::overrides(changes)?;
@@ -29,7 +29,7 @@ impl Case {
         Ok(Self { file, body: None })
     }
 
-    /// The case in a text, with changes to it; `path` says where a file of it would be.
+    /// The case in a text, with overrides; `path` is the path that its file would have.
     #[staticmethod]
     fn parse(
         py: Python<'_>,
@@ -42,8 +42,8 @@ impl Case {
         Ok(Self { file, body: None })
     }
 
-    /// The case of sections in memory, with changes to it, on a body in memory or the one that it names; `path` says where a file
-    /// of it would be.
+    /// The case of sections in memory, with overrides, on a body in memory or the body of its sections; `path` is the path that its file
+    /// would have.
     #[staticmethod]
     fn of_sections(
         py: Python<'_>,
@@ -65,7 +65,7 @@ impl Case {
         })
     }
 
-    /// The case with further changes.
+    /// The case with further overrides.
     fn changed(&self, py: Python<'_>, changes: &Bound<'_, PyDict>) -> PyResult<Self> {
         let more = document::overrides(changes)?;
         let file = self
@@ -90,7 +90,7 @@ impl Case {
         self.file.name()
     }
 
-    /// Whether the case asks for natural modes.
+    /// Whether the case is an analysis of natural modes.
     #[getter]
     fn is_modal(&self) -> bool {
         self.file.case.modal.is_some()
@@ -102,7 +102,7 @@ impl Case {
         number.map_err(|error| of_request(py, &error.to_string()))
     }
 
-    /// The case as TOML with every default filled in.
+    /// The case as TOML with all defaults.
     fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
         let text = self.file.resolved_toml();
         text.map_err(|error| errors::of_request(py, &error.to_string()))

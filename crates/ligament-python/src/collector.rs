@@ -1,4 +1,4 @@
-//! The observer that keeps history, breakages and fields, and tells how far a run is.
+//! The observer that collects history, breakages and fields, and reports progress.
 
 use std::sync::atomic::{AtomicU8, Ordering};
 use std::sync::mpsc::Sender;
@@ -16,7 +16,7 @@ use ligament_output::results::{
 
 use crate::table::Table;
 
-/// How far a run is: number of the step, load factor, displacement and force of the control load, broken bonds.
+/// Progress of a run: step, load factor, displacement and force of the control load, number of broken bonds.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Progress {
     pub(crate) step: usize,
@@ -26,17 +26,17 @@ pub(crate) struct Progress {
     pub(crate) broken_bonds: usize,
 }
 
-/// How often the user has asked a run to stop: once ends it where it can be told from what is known, twice at once.
+/// Number of the user's requests to stop: the first ends the run at the next state, the second immediately.
 #[derive(Debug, Default)]
 pub(crate) struct Stop(AtomicU8);
 
 impl Stop {
-    /// Asks once more.
+    /// Adds a request to stop.
     pub(crate) fn ask(&self) {
         self.0.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// Whether it was asked so many times.
+    /// Whether there were at least `times` requests.
     pub(crate) fn asked(&self, times: u8) -> bool {
         self.0.load(Ordering::Relaxed) >= times
     }
@@ -55,18 +55,18 @@ pub(crate) struct Collector<'a> {
     stop: &'a Stop,
 }
 
-/// What is kept of a run.
+/// Collected results of a run.
 pub(crate) struct Kept {
     pub(crate) history: Table,
     pub(crate) breaks: Table,
     pub(crate) fields: Vec<(usize, PointFields)>,
     pub(crate) notices: Vec<String>,
     pub(crate) first: FirstBonds,
-    /// Ends of the bonds that broke, in their order.
+    /// Ends of the broken bonds, in the order of breaking.
     pub(crate) broken: Vec<[u32; 2]>,
-    /// Ends of the bonds that opened as they softened, with the step.
+    /// Ends of the softening bonds that opened, with the step.
     pub(crate) opened: Vec<([u32; 2], usize)>,
-    /// Step in which each bond broke, -1 where it did not, shape (n_bonds).
+    /// Step in which each bond broke, -1 for intact bonds, shape (n_bonds).
     pub(crate) step_of_breaking: Vec<i64>,
 }
 
@@ -162,7 +162,7 @@ impl Observer for Collector<'_> {
             let fields = point_fields(self.rule, view);
             kept.fields.push((record.step, fields));
         }
-        // Nobody listens any more where the user has gone away.
+        // The receiver may be closed after the user's interrupt.
         let _ = self.progress.send(Progress {
             step: record.step,
             load_factor: record.load_factor,

@@ -1,4 +1,4 @@
-//! Objects of Python as sections of a case.
+//! Conversion of Python objects to sections of a case.
 
 use ligament_case::case::document::{Entry, Node, Origin, Value};
 use ligament_case::case::key_path::KeyPath;
@@ -8,22 +8,22 @@ use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
 
 use crate::errors;
 
-/// Lists and dictionaries within each other; no case has more than six. Something that holds itself has more than any.
+/// Largest nesting of lists and dictionaries; no case has more than six, and a cyclic object exceeds any limit.
 const DEEPEST: usize = 32;
 
-/// Values of a case at most: lists that are shared by others many times over have more than any memory.
+/// Largest number of values of a case; lists that share others repeatedly could exceed the memory.
 const MOST_VALUES: usize = 1_000_000;
 
-/// The document of a dictionary of sections; an entry that is `None` is left out.
+/// The document of a dictionary of sections, without entries that are `None`.
 ///
 /// # Errors
 ///
-/// If something in it is no value of a case, is nested too deep, as what holds itself is, or there is too much of it.
+/// If an object is not a value of a case, is nested too deeply or cyclic, or there are too many values.
 pub(crate) fn document(sections: &Bound<'_, PyDict>) -> PyResult<Node> {
     Reading::default().table(sections, &KeyPath::default())
 }
 
-/// Overrides as the command line has them, `key=value`, or `-key` where the value is `None`.
+/// Overrides in the form of the command line: `key=value`, or `-key` where the value is `None`.
 pub(crate) fn overrides(changes: &Bound<'_, PyDict>) -> PyResult<Vec<String>> {
     let mut all = Vec::new();
     for (key, value) in changes {
@@ -48,12 +48,12 @@ fn in_memory(value: Value) -> Node {
     }
 }
 
-/// A reading of objects, which goes on for ever in what holds itself.
+/// Converter of objects, with limits for cyclic ones.
 #[derive(Debug, Default)]
 struct Reading {
-    /// Objects around the present one.
+    /// Number of objects that enclose the present one.
     depth: usize,
-    /// Values so far.
+    /// Number of values so far.
     n_values: usize,
 }
 
@@ -74,7 +74,7 @@ impl Reading {
         Ok(in_memory(Value::Table(entries)))
     }
 
-    /// A value at a place, within the bounds of a case.
+    /// Converts a value at a key, within the limits of a case.
     fn node(&mut self, value: &Bound<'_, PyAny>, place: &KeyPath) -> PyResult<Node> {
         self.n_values += 1;
         let fault = if self.depth == DEEPEST {
@@ -89,7 +89,7 @@ impl Reading {
             String::new()
         };
         if !fault.is_empty() {
-            // The place of something deep within itself would fill pages.
+            // The key of a deeply nested object is shortened.
             let at = KeyPath(place.0.iter().take(3).cloned().collect());
             return Err(errors::at_key(value.py(), &at, &fault));
         }
@@ -99,7 +99,7 @@ impl Reading {
         node
     }
 
-    /// A value at a place; arrays and numbers of NumPy are taken as lists and numbers, paths as their text.
+    /// Converts a value at a key; arrays and numbers of NumPy become lists and numbers, paths their text.
     fn value(&mut self, value: &Bound<'_, PyAny>, place: &KeyPath) -> PyResult<Node> {
         if value.is_instance_of::<PyBool>() {
             return Ok(in_memory(Value::Boolean(value.extract()?)));

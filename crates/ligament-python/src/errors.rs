@@ -1,4 +1,4 @@
-//! Exceptions of the package: words, and what a program can take from them.
+//! Exceptions of the package: message and machine-readable parts.
 
 use ligament::SetupError;
 use ligament_case::case::key_path::KeyPath;
@@ -6,7 +6,7 @@ use ligament_case::case::{CaseError, CaseFile, Location};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// Parts of an error that a program can take from it.
+/// Machine-readable parts of an error.
 #[derive(Debug, Default)]
 struct Parts {
     key: Option<String>,
@@ -16,29 +16,29 @@ struct Parts {
     hint: Option<String>,
 }
 
-/// Why a run could not begin.
+/// Error of a run.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// A key of the case, or a field of its setup.
+    /// Error of a key of the case, or of a field of its setup.
     Case(CaseError),
-    /// Anything else.
+    /// Any other error.
     Other(anyhow::Error),
-    /// The user wanted it to stop before there was a result.
+    /// The user stopped the run before there was a result.
     Stopped,
 }
 
 impl Failure {
-    /// The failure of a computation of a case, at the key that it comes from.
+    /// The failure of a computation of a case, at the responsible key.
     pub(crate) fn computing(case: &CaseFile, error: ligament::Error) -> Self {
         Self::Other(case.explained(error))
     }
 
-    /// The failure of a setup of a case, at the key that it comes from.
+    /// The failure of a setup of a case, at the responsible key.
     pub(crate) fn setup(case: &CaseFile, error: SetupError) -> Self {
         Self::Case(case.located(error))
     }
 
-    /// The exception for it.
+    /// The exception for the failure.
     pub(crate) fn exception(self, py: Python<'_>) -> PyErr {
         match self {
             Self::Case(error) => of_case(py, &error),
@@ -67,7 +67,7 @@ impl From<anyhow::Error> for Failure {
 }
 
 impl Parts {
-    /// What is to be done stands behind the first semicolon of a message.
+    /// The hint of a message follows its first semicolon.
     fn of_message(message: &str) -> Self {
         let hint = message.split_once("; ").map(|(_, hint)| hint.to_owned());
         Self {
@@ -121,12 +121,12 @@ pub(crate) fn at_key(py: Python<'_>, key: &KeyPath, fault: &str) -> PyErr {
     raised(py, "CaseError", &format!("{key}: {fault}"), parts)
 }
 
-/// The exception for a body that arrays do not make.
+/// The exception for arrays that make no body.
 pub(crate) fn of_body(py: Python<'_>, fault: &str) -> PyErr {
     raised(py, "BodyError", fault, Parts::of_message(fault))
 }
 
-/// The exception for what cannot be drawn or sought.
+/// The exception for a request that cannot be fulfilled.
 pub(crate) fn of_request(py: Python<'_>, fault: &str) -> PyErr {
     raised(py, "LigamentError", fault, Parts::of_message(fault))
 }

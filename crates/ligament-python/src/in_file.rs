@@ -1,4 +1,4 @@
-//! Results in memory in the order of the file, or of the arrays, that a body comes from.
+//! Reordering of results in memory to the order of the body's file or arrays.
 
 use ligament_model::{AbsentBond, BodyGrid, ConstantFields, Numbering};
 use ligament_output::results::PointFields;
@@ -7,7 +7,7 @@ use ligament_output::results::fields::FieldValues;
 use crate::collector::Kept;
 use crate::solution::{Solved, SystemArrays};
 
-/// The results of a run on a body, points and bonds in the order of its file.
+/// The results of a run with points and bonds in the order of the body's file.
 pub(crate) fn in_order_of_file(solved: Solved) -> Solved {
     let order = Order::new(&solved.grid, &solved.arrays.ends);
     let mut outcome = solved.outcome;
@@ -36,7 +36,7 @@ fn fields_in_file(numbering: &Numbering, fields: PointFields) -> PointFields {
 /// The order of the points and bonds of a file.
 struct Order {
     numbering: Numbering,
-    /// None where it is that of the bonds.
+    /// Order of the bonds; none where it is the present one.
     bonds: Option<Vec<u32>>,
 }
 

@@ -1,20 +1,20 @@
-//! The Python package `ligament`: what Python gives becomes a setup, and what a run gives becomes arrays.
+//! The Python package `ligament`: Python objects become a setup, and results of a run become arrays.
 //!
-//! The front door is that of the library, [`Setup`](ligament::Setup) to [`Model`](ligament::Model) to its outcome, in memory; sections are
-//! those of a case ([`ligament_case`]). What Python users call is in `python/ligament`, which calls this module.
+//! The steps are those of the library, [`Setup`](ligament::Setup) to [`Model`](ligament::Model) to its outcome, in memory; sections are
+//! those of a case ([`ligament_case`]). The interface for Python users is in `python/ligament`, which calls this module.
 //!
 //! | module | holds |
 //! |---|---|
-//! | `document` | objects of Python as sections of a case |
+//! | `document` | conversion of Python objects to sections of a case |
 //! | `body` | bodies from arrays |
 //! | `case` | cases |
-//! | `solution` | a run on a thread of its own, which progress and Ctrl-C reach |
-//! | `collector` | the observer that keeps history, breakages and fields |
-//! | `run` | what a run gave, as arrays |
+//! | `solution` | a run on a separate thread, with progress and Ctrl-C |
+//! | `collector` | the observer that collects history, breakages and fields |
+//! | `run` | results of a run, as arrays |
 //! | `modes` | natural modes, as arrays |
 //! | `table`, `arrays` | tables that grow by rows, arrays that are moved and not copied |
 //! | `drawing` | pictures of results in memory |
-//! | `calibration` | the next value of a key to try |
+//! | `calibration` | the next trial value of a key |
 //! | `errors` | exceptions with key, line and hint |
 //! | `program` | the command line |
 

@@ -17,7 +17,7 @@ use crate::errors::Failure;
 use crate::run::positions;
 use crate::solution::watched;
 
-/// Finds the natural modes of a case: arrays over the modes, and a shape over the points for each.
+/// Finds the natural modes of a case: arrays over the modes, and for each mode a shape over the points.
 #[pyfunction]
 pub(crate) fn modes<'py>(py: Python<'py>, case: &Bound<'py, Case>) -> PyResult<Bound<'py, PyDict>> {
     let case = case.get();
@@ -64,11 +64,11 @@ pub(crate) fn modes<'py>(py: Python<'py>, case: &Bound<'py, Case>) -> PyResult<B
 /// Natural modes of a model.
 struct Found {
     outcome: ModalOutcome,
-    /// What the user should know of the model and of the modes.
+    /// Warnings about the model and the modes.
     warnings: Vec<String>,
     /// Layout of the shapes.
     layout: Layout,
-    /// The body.
+    /// Grid of the body.
     grid: BodyGrid,
 }
 

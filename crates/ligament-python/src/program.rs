@@ -1,4 +1,4 @@
-//! The command line, from Python.
+//! The command line, called from Python.
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use ligament_cli::program;
 use pyo3::prelude::*;
 
-/// Does what the arguments of the program ask for, its name first, and gives the exit code; `itself` is the command that calls it.
+/// Executes the program with its arguments, its name first, and returns the exit code; `itself` is the command that calls it.
 #[pyfunction]
 pub(crate) fn execute(py: Python<'_>, arguments: Vec<OsString>, itself: Vec<OsString>) -> u8 {
     let ended = py.detach(|| program::execute(&arguments, &itself));

@@ -1,4 +1,4 @@
-//! What a run gave, as arrays.
+//! Results of a run, as arrays.
 
 use ligament_analysis::driver::Outcome;
 use ligament_mesh::Cell;
@@ -21,13 +21,13 @@ use crate::errors;
 use crate::in_file::in_order_of_file;
 use crate::solution::{Solved, solve, watched};
 
-/// What a run gave.
+/// Results of a run.
 #[pyclass(frozen, module = "ligament._native")]
 pub(crate) struct Run {
-    /// The history, a column each.
+    /// Columns of the history.
     #[pyo3(get)]
     history: Py<PyDict>,
-    /// The breakages in their order, a column each.
+    /// Columns of the breakages, in the order of breaking.
     #[pyo3(get)]
     breaks: Py<PyDict>,
     /// Arrays over the points.
@@ -39,25 +39,25 @@ pub(crate) struct Run {
     /// Arrays over the points by step and name.
     #[pyo3(get)]
     fields: Py<PyDict>,
-    /// Cells that fields are drawn on, by their kind.
+    /// Cells for drawing fields, by their kind.
     #[pyo3(get)]
     cells: Py<PyDict>,
-    /// The run in numbers, as JSON.
+    /// Summary of the run, as JSON.
     #[pyo3(get)]
     summary: String,
-    /// Noun that the tags of points belong to.
+    /// Kind of the points' tags, `node`, `cell` or `point`.
     #[pyo3(get)]
     tagged: &'static str,
     grid: BodyGrid,
-    /// None of a solid.
+    /// Cracks; none for a solid.
     cracks: Option<StoredCracks>,
 }
 
-/// A line of a crack: its places (n, 2), what each end is, and its length, m.
+/// A line of a crack: vertices (n, 2), m, kinds of the ends, and length, m.
 type Line<'py> = (Bound<'py, PyAny>, [&'static str; 2], f64);
 
-/// Runs a case; calls `report` with step, load factor, displacement, force and number of broken bonds for each record. Gives the run,
-/// and whether Ctrl-C stopped it.
+/// Runs a case; calls `report` with step, load factor, displacement, force and number of broken bonds for each record. Returns the run, and
+/// whether Ctrl-C stopped it.
 #[pyfunction]
 pub(crate) fn run(
     py: Python<'_>,
@@ -84,7 +84,12 @@ impl Run {
             .collect()
     }
 
+<<<<<<< libraries
     /// A picture of a field (n_points), by the words for its quantity, its name and a title, on the body moved by a displacement (n_points, 3).
+=======
+    /// A picture (SVG) of a field (n_points), given by a description of its quantity, its name and a title, on the body moved by a
+    /// displacement (n_points, 3).
+>>>>>>> summary
     fn draw(
         &self,
         py: Python<'_>,
@@ -159,7 +164,7 @@ impl Run {
         })
     }
 
-    /// What is drawn as lines and maps is in the plane.
+    /// Refuses a solid, for which there are no lines and maps.
     fn require_plane(&self, py: Python<'_>, what: &str) -> PyResult<()> {
         if self.grid.canvas.is_solid() {
             let fault = format!(
@@ -172,7 +177,7 @@ impl Run {
     }
 }
 
-/// The cracks in the plane; of a solid none.
+/// The cracks of a body in the plane; `None` for a solid.
 fn cracks(solved: &Solved) -> Option<StoredCracks> {
     let Solved {
         fixed,
@@ -213,7 +218,7 @@ fn named(py: Python<'_>, fields: PointFields, in_space: bool) -> PyResult<Bound<
     Ok(named)
 }
 
-/// Fields of the points that never change.
+/// Adds the fields of the points that do not change.
 fn fixed(points: &Bound<'_, PyDict>, fixed: ConstantFields) -> PyResult<()> {
     let py = points.py();
     let ratios = fixed.energy_ratios.into_iter();
@@ -234,14 +239,14 @@ fn fixed(points: &Bound<'_, PyDict>, fixed: ConstantFields) -> PyResult<()> {
     Ok(())
 }
 
-/// What the last state says of the bonds.
+/// Adds the arrays over the bonds in the last state.
 fn of_outcome(bonds: &Bound<'_, PyDict>, outcome: Outcome) -> PyResult<()> {
     let py = bonds.py();
     bonds.set_item("intact", array(py, outcome.state.intact))?;
     bonds.set_item("dissipated_energy", array(py, outcome.state.dissipated))
 }
 
-/// Positions of the points: (n_points, 2) in the plane, (n_points, 3) in space.
+/// Positions of the points, m: (n_points, 2) in the plane, (n_points, 3) in space.
 pub(crate) fn positions<'py>(py: Python<'py>, grid: &BodyGrid) -> PyResult<Bound<'py, PyAny>> {
     match grid.canvas.is_solid() {
         true => rows(py, grid.positions.as_flattened().to_vec(), 3),
@@ -249,8 +254,8 @@ pub(crate) fn positions<'py>(py: Python<'py>, grid: &BodyGrid) -> PyResult<Bound
     }
 }
 
-/// Cells that fields are drawn on: `triangles` (n, 3) and `quadrangles` (n, 4) between the points, or `corners` (n_points, 4, 2) of
-/// the cell around each. In space `tetrahedra`, `pyramids`, `prisms` and `hexahedra`, or the `corners` (n_points, 8, 3) of boxes.
+/// Cells for drawing fields: `triangles` (n, 3) and `quadrangles` (n, 4) between the points, or `corners` (n_points, 4, 2) of the cell
+/// around each point. In space `tetrahedra`, `pyramids`, `prisms` and `hexahedra`, or the `corners` (n_points, 8, 3) of boxes.
 fn cells<'py>(py: Python<'py>, grid: &BodyGrid) -> PyResult<Bound<'py, PyDict>> {
     let cells = PyDict::new(py);
     match &grid.canvas {

@@ -1,4 +1,4 @@
-//! A run on a thread of its own, so that progress and Ctrl-C reach it.
+//! A run on a separate thread, for progress and Ctrl-C.
 
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
@@ -14,28 +14,28 @@ use ligament_case::case::CaseFile;
 use ligament_model::{BodyGrid, BondSystem, ConstantFields};
 use ligament_run::loading::write_rule;
 use ligament_run::memory;
-use ligament_run::provenance::Provenance;
+use ligament_run::provenance::of_inputs;
 use ligament_run::stages::Stages;
-use ligament_run::summary::{Noted, Summary};
+use ligament_run::summary::{self, Noted};
 use pyo3::prelude::*;
 
 use crate::case::Case;
 use crate::collector::{Collector, Kept, Progress, Stop};
 use crate::errors::Failure;
 
-/// Time between two looks for a signal.
+/// Time between two checks for a signal.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// What a run in memory came to.
+/// Results of a run in memory.
 pub(crate) struct Solved {
     pub(crate) fixed: ConstantFields,
     pub(crate) arrays: SystemArrays,
-    /// Thickness of the body, m; 1 of a solid.
+    /// Thickness of the body, m; 1 for a solid.
     pub(crate) thickness: f64,
     pub(crate) grid: BodyGrid,
     pub(crate) outcome: Outcome,
     pub(crate) kept: Kept,
-    /// The run in numbers, as `summary.json` has them.
+    /// Summary of the run, as in `summary.json`.
     pub(crate) summary: String,
 }
 
@@ -50,7 +50,7 @@ pub(crate) struct SystemArrays {
 }
 
 impl SystemArrays {
-    /// The arrays of a system that nobody needs any more.
+    /// The arrays of a system that is no longer needed.
     fn new<const D: usize>(system: BondSystem<D>) -> Self {
         Self {
             volumes: system.cloud.volumes,
@@ -63,12 +63,12 @@ impl SystemArrays {
     }
 }
 
-/// Does some work on a thread of its own while this one lets others have Python, calls `report` for what the work tells, and
-/// looks for signals; gives what the work came to and whether it was to stop.
+/// Runs `work` on a separate thread without Python's global lock, calls `report` for its progress, and checks for signals; returns the
+/// result of the work and whether it was stopped.
 ///
 /// # Errors
 ///
-/// If `report` fails; the work is stopped then.
+/// If `report` fails; the work is then stopped.
 pub(crate) fn watched<T: Send>(
     py: Python<'_>,
     report: Option<&Bound<'_, PyAny>>,
@@ -96,7 +96,7 @@ pub(crate) fn watched<T: Send>(
     }
 }
 
-/// Reports until the work has ended; gives the first signal or failure, which asks the work to stop.
+/// Reports progress until the work has ended; returns the first signal or failure, which stops the work.
 fn watch(receiver: &Receiver<Progress>, report: Option<&Py<PyAny>>, stop: &Stop) -> PyResult<()> {
     let mut ended = Ok(());
     loop {
@@ -128,7 +128,7 @@ fn watch(receiver: &Receiver<Progress>, report: Option<&Py<PyAny>>, stop: &Stop)
     }
 }
 
-/// Builds the model of a case and follows its loads.
+/// Builds the model of a case and runs its analysis.
 pub(crate) fn solve(
     case: &Case,
     progress: Sender<Progress>,
@@ -180,7 +180,7 @@ fn solve_here(
     drop(problem);
     drop(loading);
     let Model { system, fixed, .. } = model;
-    // The model is nobody else's any more, so that its arrays can be taken.
+    // The model is no longer shared, so that its arrays can be taken.
     let arrays = match system {
         AnySystem::Plane(system) => system.into_parts().map(SystemArrays::new),
         AnySystem::Solid(system) => system.into_parts().map(SystemArrays::new),
@@ -197,20 +197,20 @@ fn solve_here(
     })
 }
 
-/// The numbers of a run, as `summary.json` has them.
+/// Summary of a run, as in `summary.json`.
 fn summary(
     case: &CaseFile,
     (model, boundary): (&Model, &ProportionalLoading),
     (outcome, kept): (&Outcome, &Kept),
     stages: &Stages,
 ) -> Result<String, Failure> {
-    let provenance = Provenance::of_inputs(ligament_cli::BUILD, Vec::new());
+    let provenance = of_inputs(ligament_cli::BUILD, Vec::new());
     let noted = Noted {
         provenance,
         notices: kept.notices.clone(),
         first: kept.first,
         stages: stages.done().to_vec(),
     };
-    let summary = Summary::new(case, model, boundary, outcome, noted);
+    let summary = summary::summary(case, model, boundary, outcome, noted);
     serde_json::to_string(&summary).map_err(|error| Failure::Other(error.into()))
 }

@@ -1,4 +1,4 @@
-//! Tables that grow by rows and end as a column each.
+//! Tables that grow by rows and become columns.
 
 use ligament_output::csv::Value;
 use pyo3::prelude::*;
@@ -29,7 +29,7 @@ impl Table {
         }
     }
 
-    /// Adds a row, the first of which says of what kind the columns are.
+    /// Adds a row; the first row determines the types of the columns.
     pub(crate) fn append(&mut self, row: &[Value<'_>]) {
         if self.columns.is_empty() {
             self.columns = row.iter().map(Column::for_values_like).collect();

@@ -1,29 +1,29 @@
-//! The body of a run: its points in the order of the page, and the triangles that are drawn.
+//! The body of a run: its points in the order of the page, and its triangles.
 
 use ligament_output::results::location;
 use ligament_output::vtu::Cell;
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::{Error, FieldLocation};
 
-/// Cells of a side of the raster that the order of the points follows.
+/// Number of squares along a side of the raster for the order of the points.
 const RASTER: f64 = 65_535.0;
 
-/// A body as it is drawn.
+/// A body for drawing.
 #[derive(Debug)]
 pub(crate) struct Body {
     /// The noun that tags belong to: `node` or `cell`.
     pub(crate) tagged: &'static str,
-    /// Whether the fields belong to points or cells of the files.
+    /// Location of the fields in the files, points or cells.
     pub(crate) location: FieldLocation,
     /// Tags of the points, in the order of the page.
     pub(crate) tags: Vec<i64>,
     /// Positions of the points, in the order of the page, m.
     pub(crate) positions: Vec<[f64; 2]>,
-    /// Corners of the cells around the points, four a point, m; none where cells lie between the points.
+    /// Corners of the cells around the points, four per point, m; empty where cells are between the points.
     pub(crate) corners: Vec<[f64; 2]>,
-    /// Triangles between points of the page; none where each point has a cell.
+    /// Triangles between points of the page; empty where each point has a cell.
     pub(crate) triangles: Vec<[u32; 3]>,
-    /// Numbers of the points in the files, in the order of the page.
+    /// Indices of the points in the files, in the order of the page.
     pub(crate) order: Vec<u32>,
 }
 
@@ -85,7 +85,7 @@ impl Body {
     }
 }
 
-/// Values in the order of the page.
+/// Values, reordered to the order of the page.
 pub(crate) fn ordered<T: Copy>(values: &[T], order: &[u32]) -> Vec<T> {
     order.iter().map(|it| values[*it as usize]).collect()
 }
@@ -94,8 +94,8 @@ fn middle(corners: &[[f64; 2]]) -> [f64; 2] {
     [0, 1].map(|axis| corners.iter().map(|it| it[axis]).sum::<f64>() / corners.len() as f64)
 }
 
-/// The points along a curve that goes through the squares of a raster quadrant by quadrant (Z-order), so that neighbours stand side
-/// by side and predict each other's values.
+/// Indices of the points along a curve through the squares of a raster, quadrant by quadrant (Z-order), so that neighbours are close in the
+/// order and predict each other's values.
 fn order(positions: &[[f64; 2]]) -> Vec<u32> {
     let bound = |axis: usize, start: f64, of: fn(f64, f64) -> f64| {
         positions.iter().map(|it| it[axis]).fold(start, of)
@@ -115,7 +115,7 @@ fn order(positions: &[[f64; 2]]) -> Vec<u32> {
     order
 }
 
-/// The bits of a number with a free one between each two.
+/// The bits of a number, interleaved with zeros.
 fn spread(number: u32) -> u64 {
     (0..16).fold(0, |sum, bit| {
         sum | u64::from(number >> bit & 1) << (2 * bit)

@@ -1,4 +1,4 @@
-//! Bonds of a run: ends, factors and limits, how near each came to them, and in which step it broke.
+//! Bonds of a run: ends, factors, limits, largest utilisations, and steps of breaking.
 
 use std::collections::HashMap;
 
@@ -13,13 +13,13 @@ const DIGITS: u32 = 5;
 /// Bonds as columns, in the order of their first and second ends.
 #[derive(Debug)]
 pub(crate) struct Bonds {
-    /// The number of pairs, bonds and those that are none.
+    /// Number of pairs, bonds and absent bonds.
     pub(crate) count: usize,
-    /// Ends by their places in the page, the smaller one first: what must be there for any of the others.
+    /// Ends by their indices in the page, the smaller one first; required by all other columns.
     pub(crate) ends: [Column; 2],
-    /// Columns by name, those first that a reader wants first.
+    /// Columns by name, the most important ones first.
     pub(crate) columns: Vec<(String, Column)>,
-    /// Broken bonds in the order of breaking: number of the bond, step, round, number of the criterion.
+    /// Broken bonds in the order of breaking: index of the bond, step, round, index of the criterion.
     pub(crate) breaks: [Vec<i64>; 4],
     /// Utilisations at breaking, in the order of breaking.
     pub(crate) utilisation_at_break: Vec<f64>,
@@ -28,7 +28,7 @@ pub(crate) struct Bonds {
 }
 
 impl Bonds {
-    /// The bonds of a stored run whose points are those of a body.
+    /// The bonds of a stored run with the points of a body.
     pub(crate) fn new(run: &StoredRun, body: &Body) -> Self {
         let places: HashMap<i64, u32> = body.tags.iter().copied().zip(0..).collect();
         let model = &run.model;
@@ -58,7 +58,7 @@ impl Bonds {
         }
     }
 
-    /// Letters that the ends take in a page.
+    /// Number of characters of the ends in a page.
     pub(crate) fn letters(&self) -> usize {
         self.ends.iter().map(Column::letters).sum()
     }
@@ -90,7 +90,7 @@ fn columns(run: &StoredRun, order: &[usize]) -> Vec<(String, Column)> {
     columns
 }
 
-/// The broken bonds in the order of breaking, by their numbers among the sorted pairs.
+/// The broken bonds in the order of breaking, by their indices among the sorted pairs.
 fn breaks(
     run: &StoredRun,
     places: &HashMap<i64, u32>,

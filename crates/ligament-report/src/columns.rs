@@ -1,30 +1,30 @@
-//! Columns of numbers as short texts, which a browser reads back without a library.
+//! Columns of numbers as short texts, which a browser decodes without a library.
 //!
-//! A step of a column is rounded to whole multiples of a power of ten, so that its largest value has a given number of digits.
-//! Each multiple is predicted from the steps before it, and from the number before it in the column; what the prediction leaves is
-//! small where a body is loaded in equal steps and neighbours stand side by side. Its bytes are stored plane by plane, several steps
-//! together, compressed by raw deflate and written in base64.
+//! A step of a column is rounded to whole multiples of a power of ten, so that its largest value has a given number of digits. Each
+//! multiple is predicted from the steps before it, and from the number before it in the column; the residual is small where a body is
+//! loaded in equal steps and neighbours are adjacent. The residuals' bytes are stored plane by plane, several steps together, compressed by
+//! raw deflate and written in base64.
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use miniz_oxide::deflate::compress_to_vec;
 
-/// Steps that are compressed together, and read back together.
+/// Number of steps that are compressed and decoded together.
 pub(crate) const GROUP: usize = 8;
 
-/// Level of compression: higher ones take several times as long for a hundredth.
+/// Compression level: higher ones take several times as long and save a hundredth.
 const LEVEL: u8 = 6;
 
-/// The multiples that stand for no number and for infinity; no other is as large.
+/// Codes for NaN and infinity, larger than all other multiples.
 const NOT_A_NUMBER: i32 = 1 << 30;
 const INFINITY: i32 = NOT_A_NUMBER + 1;
 
-/// Digits that a column keeps.
+/// Digits of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Digits {
-    /// So many of the largest value of each step.
+    /// Number of digits of the largest value of each step.
     OfLargest(u32),
-    /// All of whole numbers.
+    /// All digits of whole numbers.
     Whole,
 }
 
@@ -33,7 +33,7 @@ pub(crate) enum Digits {
 pub(crate) struct Column {
     /// Base64 of the groups of steps.
     pub(crate) groups: Vec<String>,
-    /// Powers of ten that the values of the steps are multiples of.
+    /// Exponents of the powers of ten whose multiples are the values of each step.
     pub(crate) exponents: Vec<i32>,
 }
 
@@ -51,13 +51,13 @@ impl Column {
         Self::single(&values, Digits::Whole)
     }
 
-    /// Letters that it takes in a page.
+    /// Number of characters in a page.
     pub(crate) fn letters(&self) -> usize {
         self.groups.iter().map(String::len).sum()
     }
 }
 
-/// A column that grows step by step.
+/// Encoder of a column, step by step.
 #[derive(Debug)]
 pub(crate) struct Encoder {
     digits: Digits,
@@ -108,13 +108,13 @@ impl Encoder {
         self.column.exponents.push(exponent);
     }
 
-    /// The whole column.
+    /// Completes the column.
     pub(crate) fn finish(mut self) -> Column {
         self.close_group();
         self.column
     }
 
-    /// What predictions leave: of order `time` over the steps, and from the number before where `along`.
+    /// Residuals of a prediction of order `time` over the steps, and from the number before where `along`.
     fn left(&self, multiples: &[i32], unit: f64, time: u8, along: bool) -> Vec<i32> {
         let [last, before] = &self.before;
         let mut previous = 0_i32;
@@ -147,7 +147,7 @@ impl Encoder {
     }
 }
 
-/// The power of ten that the values are rounded to multiples of.
+/// Exponent of the power of ten to whose multiples values are rounded.
 fn exponent(values: &[f64], digits: Digits) -> i32 {
     let finite = values.iter().filter(|it| it.is_finite());
     let largest = finite.fold(0.0_f64, |largest, it| largest.max(it.abs()));
@@ -159,7 +159,7 @@ fn exponent(values: &[f64], digits: Digits) -> i32 {
     }
 }
 
-/// The power as a decimal number is read, by this program as by a browser.
+/// Power of ten, rounded as a parsed decimal number, equal in this program and a browser.
 fn power_of_ten(exponent: i32) -> f64 {
     format!("1e{exponent}").parse().unwrap_or(1.0)
 }
@@ -174,7 +174,7 @@ fn multiple(value: f64, unit: f64) -> i32 {
     }
 }
 
-/// The value of a multiple, 0 for what is none: the value that predictions are made from.
+/// The value of a multiple for predictions, 0 for NaN and infinity.
 fn value(multiple: i32, unit: f64) -> f64 {
     if multiple >= NOT_A_NUMBER {
         0.0
@@ -188,18 +188,18 @@ fn nearest(value: f64) -> i32 {
     (value + 0.5).floor() as i32
 }
 
-/// Signs in the lowest bit, so that small numbers have few bits whatever their sign.
+/// Zigzag code, with the sign in the lowest bit, so that small numbers of both signs have few bits.
 fn zigzag(value: i32) -> u32 {
     ((value << 1) ^ (value >> 31)) as u32
 }
 
-/// Bits that numbers need by themselves, a measure for their size once compressed.
+/// Number of significant bits of numbers, a measure for their compressed size.
 fn bits(values: &[i32]) -> u64 {
     let of_value = |it: &i32| u64::from(32 - zigzag(*it).leading_zeros());
     values.iter().map(of_value).sum()
 }
 
-/// Writes how many bytes the largest number has, then the bytes of all numbers, the lowest ones first.
+/// Writes the number of bytes of the largest number, then the bytes of all numbers, the lowest ones first.
 fn write_planes(bytes: &mut Vec<u8>, values: &[i32]) {
     let folded: Vec<u32> = values.iter().map(|&it| zigzag(it)).collect();
     let all = folded.iter().fold(0, |all, it| all | it);

@@ -1,10 +1,10 @@
-//! Why there is no page.
+//! Error of making a page.
 
 use ligament_output::Error;
 use ligament_plot::picture::PictureError;
 use thiserror::Error as ThisError;
 
-/// Why there is no page.
+/// Error of making a page.
 #[derive(Debug, ThisError)]
 pub enum ReportError {
     /// Results cannot be read, or the page cannot be written.
@@ -13,12 +13,12 @@ pub enum ReportError {
     /// A solid cannot be drawn.
     #[error(transparent)]
     Picture(#[from] PictureError),
-    /// There are as many labels as results, or none.
+    /// The number of labels differs from that of the results.
     #[error("{n_labels} labels for {n_results} results; give one for each, in their order")]
     Labels {
-        /// Labels given.
+        /// Number of labels.
         n_labels: usize,
-        /// Results given.
+        /// Number of results.
         n_results: usize,
     },
 }

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use crate::body::{Body, ordered};
 use crate::columns::{Column, Digits, Encoder};
 
-/// Share of the points whose size is at most the usual one.
+/// Share of the points whose value is at most the usual one.
 const USUAL: f64 = 0.98;
 
 /// A field of all steps.
@@ -19,22 +19,22 @@ const USUAL: f64 = 0.98;
 pub(crate) struct Field {
     /// Name in the files.
     pub(crate) name: String,
-    /// SI unit, `-` without one.
+    /// SI unit, or `-`.
     pub(crate) unit: &'static str,
-    /// Names of the components; none of a scalar.
+    /// Names of the components; empty for a scalar.
     pub(crate) components: Vec<String>,
-    /// A column a component.
+    /// One column per component.
     pub(crate) columns: Vec<Column>,
     /// Smallest and largest value of each component over the steps.
     pub(crate) ranges: Vec<[f64; 2]>,
-    /// Largest size of the steps: of a vector its length, else the largest component.
+    /// Largest size over the steps: for a vector its length, otherwise the largest component.
     pub(crate) magnitude: f64,
-    /// Largest size of the steps that few points exceed, so that a piece which flew off does not count.
+    /// Largest size over the steps exceeded by few points only, so that a detached part does not count.
     pub(crate) usual: f64,
 }
 
 impl Field {
-    /// Whether a reader wants it first.
+    /// Whether the field is of main interest.
     pub(crate) fn is_main(&self) -> bool {
         self.interest() != Interest::Low
     }
@@ -43,7 +43,7 @@ impl Field {
         ResultField::named(&self.name).map_or(Interest::Low, |it| it.interest)
     }
 
-    /// Letters that it takes in a page.
+    /// Number of characters in a page.
     pub(crate) fn letters(&self) -> usize {
         self.columns.iter().map(Column::letters).sum()
     }
@@ -52,7 +52,7 @@ impl Field {
 /// A field while its steps are read.
 struct Growing {
     name: String,
-    /// Numbers a point in the files.
+    /// Number of values per point in the files.
     stride: usize,
     components: Vec<String>,
     encoders: Vec<Encoder>,
@@ -61,11 +61,11 @@ struct Growing {
     usual: f64,
 }
 
-/// The fields of the outputs, those first that a reader wants first; `digits` of the largest value of each step are kept.
+/// Reads the fields of the outputs, the most important ones first; `digits` is the number of digits of the largest value of each step.
 ///
 /// # Errors
 ///
-/// If a file cannot be used, or has other points than the first.
+/// If a file cannot be used, or has other points than the first one.
 pub(crate) fn read(
     files: &BTreeMap<usize, PathBuf>,
     body: &Body,

@@ -1,4 +1,4 @@
-//! The table of the steps of a run, and how its iterations converged.
+//! The table of the steps of a run, and the convergence of its iterations.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 /// Digits of the numbers of the history.
 const DIGITS: i32 = 7;
 
-/// The columns of the history with their units, and of each row how many iterations it took and the last residual.
+/// The columns of the history with their units, and for each row the number of iterations and the last residual.
 ///
 /// # Errors
 ///
@@ -27,7 +27,7 @@ pub(crate) fn read(folder: &Path) -> Result<Value, Error> {
     let mut columns = Vec::new();
     for name in sheet.columns() {
         let Ok(values) = sheet.values::<f64>(name) else {
-            // Names of stages.
+            // The column has names of stages.
             continue;
         };
         let unit = match name.as_str() {
@@ -42,7 +42,7 @@ pub(crate) fn read(folder: &Path) -> Result<Value, Error> {
     Ok(Value::Array(columns))
 }
 
-/// A column with the unit to show it in.
+/// A column with its unit for display.
 pub(crate) fn column(name: &str, unit: &str, values: &[f64]) -> Value {
     let shown = shown(
         unit,
@@ -52,7 +52,7 @@ pub(crate) fn column(name: &str, unit: &str, values: &[f64]) -> Value {
     json!({"name": name, "unit": shown.0, "shift": shown.1, "values": rounded})
 }
 
-/// A unit with its prefix, and the power of ten that values in SI units are multiplied by to be in it.
+/// A unit with its prefix, and the exponent of the power of ten that converts values from SI units.
 pub(crate) fn shown(unit: &str, size: f64) -> (String, i32) {
     let shown = Shown::new(unit, size);
     let shift = shown.factor.log10().round() as i32;
@@ -65,7 +65,7 @@ fn rounded(value: f64) -> f64 {
     format!("{value:.digits$e}").parse().unwrap_or(value)
 }
 
-/// Columns over the rows of the history: iterations, and the last residual of each.
+/// Columns over the rows of the history: number of iterations, and last residual.
 fn iterations(folder: &Path, steps: &[usize]) -> Result<Vec<Value>, Error> {
     let path = folder.join("iterations.csv");
     if !path.is_file() {

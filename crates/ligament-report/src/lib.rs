@@ -1,19 +1,19 @@
-//! Results of runs as one page for a browser: no network, no other file.
+//! Results of runs as one page for a browser, without network access or other files.
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`page`] | the page: what is asked for, and the file that is written |
-//! | `run` | a folder of results as the page has it |
-//! | `parts` | what both kinds of bodies give to a page |
-//! | [`ReportError`] | why there is no page |
+//! | [`page`] | the request for a page, and the written file |
+//! | `run` | a result folder as data of the page |
+//! | `parts` | common parts of a page for bodies in the plane and solids |
+//! | [`ReportError`] | errors of making a page |
 //! | `solid` | pictures of a solid over the steps |
 //! | `body` | points, cells and the order of the points |
 //! | `fields` | fields over the steps |
-//! | `bonds` | bonds, their limits and what became of them |
+//! | `bonds` | bonds, their limits and their breakage |
 //! | `history` | the table of the steps |
-//! | `summary` | title, warnings and results in words |
-//! | `columns` | numbers rounded, predicted, compressed and as text |
-//! | `viewer/` | the program of the page: HTML, CSS and JavaScript, joined as they are |
+//! | `summary` | title, warnings and results as text |
+//! | `columns` | encoding of numbers as compressed text |
+//! | `viewer/` | the program of the page: HTML, CSS and JavaScript, joined without changes |
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")

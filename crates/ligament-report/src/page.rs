@@ -1,4 +1,4 @@
-//! The page: what is asked for, and the file that is written.
+//! The request for a page, and the written file.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -12,7 +12,7 @@ use crate::parts::{Choice, Texts};
 use crate::run::PageRun;
 use crate::summary::escaped;
 
-/// The page with places for its parts, and the parts of its program in the order in which they are joined.
+/// Template of the page, and the parts of its program in the order in which they are joined.
 const PAGE: &str = include_str!("viewer/page.html");
 const STYLE: &str = include_str!("viewer/style.css");
 const PROGRAM: [&str; 12] = [
@@ -30,49 +30,49 @@ const PROGRAM: [&str; 12] = [
     include_str!("viewer/main.js"),
 ];
 
-/// Letters of a page that are none of columns: program, summaries and histories of usual length.
+/// Number of characters of a page besides columns: program, summaries and histories of usual length.
 const OTHER_LETTERS: usize = 400_000;
 
-/// A page that is asked for.
+/// Request for a page.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
     /// Folders with results.
     pub folders: Vec<PathBuf>,
     /// Labels of the results; where empty, the names of their folders.
     pub labels: Vec<String>,
-    /// The file; None: `report.html` in the first folder.
+    /// Path of the page; by default `report.html` in the first folder.
     pub output: Option<PathBuf>,
-    /// Whether it may replace a file that is there; the page in the first folder always does, as a file of the program's own.
+    /// Whether an existing file may be replaced; the default page in the first folder always is.
     pub force: bool,
     /// Digits of the largest value of a field in each step.
     pub digits: u32,
-    /// Steps of each result at most; None: 60, and 12 of a solid, of whose steps there are pictures.
+    /// Largest number of steps of each result; by default 60, and 12 for a solid, which has pictures of its steps.
     pub steps: Option<usize>,
-    /// Bytes of the page at most, as far as fields and bonds are concerned.
+    /// Size of the page up to which fields and bonds are included, bytes.
     pub size: usize,
 }
 
-/// What was written.
+/// Description of the written page.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Written {
-    /// The file.
+    /// Path of the file.
     pub path: PathBuf,
-    /// Bytes of the file.
+    /// Size of the file, bytes.
     pub size: usize,
-    /// What it has of each result.
+    /// Contents of the page for each result.
     pub contents: Vec<Contents>,
 }
 
-/// What a page has of a result.
+/// Contents of a page for a result.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Contents {
     /// Label of the result.
     pub label: String,
-    /// Points of its body.
+    /// Number of points of the body.
     pub points: usize,
-    /// Steps, or modes.
+    /// Number of steps, or modes.
     pub steps: usize,
-    /// Names of fields and properties of bonds for which there was no room.
+    /// Names of fields and properties of bonds that were left out for their size.
     pub left_out: Vec<String>,
 }
 
@@ -80,7 +80,7 @@ pub struct Contents {
 ///
 /// # Errors
 ///
-/// If there are no results, they cannot be used, or the page cannot be written.
+/// If there are no results, or they cannot be used, or the page cannot be written.
 pub fn write_report(request: &Request) -> Result<Written, ReportError> {
     let labels = labels(request)?;
     let first = || request.folders.first().cloned().unwrap_or_default();
@@ -181,7 +181,7 @@ fn page(runs: &[PageRun], texts: &Texts, request: &Request) -> String {
     ])
 }
 
-/// The page with its parts in their places.
+/// The page's template with its parts inserted.
 fn filled(parts: &[(&str, &str)]) -> String {
     let mut page = String::new();
     let mut rest = PAGE;
@@ -198,7 +198,7 @@ fn filled(parts: &[(&str, &str)]) -> String {
     page
 }
 
-/// JSON that cannot end the script that it stands in.
+/// JSON text escaped so that it cannot end its script element.
 fn script_safe(json: &str) -> String {
     json.replace('<', "\\u003c")
 }

@@ -1,4 +1,4 @@
-//! What bodies in the plane and solids give to a page: texts of columns and pictures, and what there is room for.
+//! Common parts of a page for bodies in the plane and solids: texts of columns and pictures, and the budget of size.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -8,34 +8,34 @@ use serde_json::{Value, json};
 
 use crate::columns::Column;
 
-/// What a page takes of a run.
+/// Choice of a run's contents in a page.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Choice {
     /// Digits of the largest value of a field in each step.
     pub(crate) digits: u32,
-    /// Steps at most; None: as many as suit the body.
+    /// Largest number of steps; by default that of the body's kind.
     pub(crate) steps: Option<usize>,
-    /// Letters that its body, fields and bonds may take.
+    /// Largest number of characters of body, fields and bonds.
     pub(crate) letters: usize,
 }
 
-/// Texts of columns, which the description of a run names by number.
+/// Texts of columns, referenced by index from the description of a run.
 #[derive(Debug, Default)]
 pub(crate) struct Texts(pub(crate) Vec<String>);
 
 impl Texts {
-    /// Adds a text, and gives its number.
+    /// Adds a text, and returns its index.
     pub(crate) fn push(&mut self, text: String) -> usize {
         self.0.push(text);
         self.0.len() - 1
     }
 
-    /// Letters of all texts.
+    /// Number of characters of all texts.
     pub(crate) fn letters(&self) -> usize {
         self.0.iter().map(String::len).sum()
     }
 
-    /// Adds a column, and gives what the description says of it.
+    /// Adds a column, and returns its entry for the description.
     pub(crate) fn add(&mut self, column: Column) -> Value {
         let first = self.0.len();
         self.0.extend(column.groups);
@@ -43,30 +43,30 @@ impl Texts {
     }
 }
 
-/// The outputs of a run that a page has.
+/// The outputs of a run in a page.
 pub(crate) struct Stored<'a> {
-    /// The folder.
+    /// Folder of the results.
     pub(crate) folder: &'a Path,
-    /// The files of the steps, or modes.
+    /// Files of the steps, or modes.
     pub(crate) files: &'a BTreeMap<usize, PathBuf>,
-    /// What they are.
+    /// Kind of the outputs.
     pub(crate) kind: OutputKind,
 }
 
-/// What a page draws of a run.
+/// Drawn contents of a run.
 pub(crate) struct Drawn {
     /// Parts of the description that belong to the body.
     pub(crate) parts: Value,
-    /// Points of the body.
+    /// Number of points of the body.
     pub(crate) points: usize,
-    /// Names of what there was no room for.
+    /// Names of the contents that were left out for their size.
     pub(crate) left_out: Vec<String>,
 }
 
-/// Letters that are left for columns.
+/// Remaining number of characters for columns.
 pub(crate) struct Budget {
     letters: usize,
-    /// Names of what there was no room for.
+    /// Names of the contents that were left out for their size.
     pub(crate) left_out: Vec<String>,
 }
 
@@ -78,7 +78,7 @@ impl Budget {
         }
     }
 
-    /// Whether there is room for so many letters, which are then taken.
+    /// Takes a number of characters from the budget; returns whether they fit.
     pub(crate) fn takes(&mut self, name: &str, letters: usize) -> bool {
         match self.letters.checked_sub(letters) {
             Some(left) => {

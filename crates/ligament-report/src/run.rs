@@ -1,4 +1,4 @@
-//! The results of a run as a page has them.
+//! The results of a run as data of a page.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -25,38 +25,38 @@ use crate::history::{self, shown};
 use crate::parts::{Budget, Choice, Drawn, Stored, Texts};
 use crate::{solid, summary};
 
-/// Digits of positions, of the largest coordinate.
+/// Digits of positions, relative to the largest coordinate.
 const PLACES: u32 = 6;
 
-/// Steps of a body in the plane, which the page draws, where nobody says how many ...
+/// Default number of steps of a body in the plane, which the page draws.
 const DRAWN: usize = 60;
 
-/// ... and of a solid, of which it has a picture for each step, view and field.
+/// Default number of steps of a solid, with a picture for each step, view and field.
 const PICTURED: usize = 12;
 
 /// A run in a page.
 #[derive(Debug)]
 pub(crate) struct PageRun {
-    /// What the viewer reads.
+    /// Data for the viewer.
     pub(crate) description: Value,
-    /// Summary, warnings and case.
+    /// Summary, warnings and case as HTML.
     pub(crate) html: String,
     /// Title of the case.
     pub(crate) title: String,
-    /// Points of the body.
+    /// Number of points of the body.
     pub(crate) points: usize,
-    /// Steps, or modes.
+    /// Number of steps, or modes.
     pub(crate) steps: usize,
     /// Names of fields and properties of bonds that are not in the page.
     pub(crate) left_out: Vec<String>,
 }
 
 impl PageRun {
-    /// The results in a folder.
+    /// Reads the results in a folder.
     ///
     /// # Errors
     ///
-    /// If there are none, or a file cannot be used.
+    /// If there are no results, or a file cannot be used.
     pub(crate) fn read(
         folder: &Path,
         label: &str,
@@ -67,7 +67,7 @@ impl PageRun {
         let is_solid = has_solid(folder)?;
         let usual = if is_solid { PICTURED } else { DRAWN };
         let files = chosen(&outputs, choice.steps.unwrap_or(usual))?;
-        let summary = summary_of(folder)?;
+        let words = summary::in_words(folder, outputs.kind)?;
         let case = read_text(&folder.join(RESOLVED_CASE))?;
         let steps: Vec<usize> = files.keys().copied().collect();
         let first = VtuFile::open(first(&files, folder)?)?;
@@ -85,7 +85,7 @@ impl PageRun {
             true => modes(folder)?,
             false => history::read(folder)?,
         };
-        let title = summary["title"].as_str().unwrap_or(label).to_owned();
+        let title = words.title.unwrap_or_else(|| label.to_owned());
         let follows_path = stored_loading(folder)?.follows_path;
         let mut description = json!({
             "label": label,
@@ -99,7 +99,7 @@ impl PageRun {
             all.extend(parts);
         }
         Ok(Self {
-            html: summary::html(&summary, outputs.kind, &case),
+            html: words.html + &summary::case_html(&case),
             points: drawn.points,
             steps: steps.len(),
             left_out: drawn.left_out,
@@ -109,7 +109,7 @@ impl PageRun {
     }
 }
 
-/// A body in the plane, which the page draws itself: its fields, bonds and cracks.
+/// Contents for a body in the plane, which the page draws: fields, bonds and cracks.
 fn drawn(
     of: &Stored<'_>,
     first: &VtuFile,
@@ -152,7 +152,7 @@ fn drawn(
     })
 }
 
-/// The files of the steps of a page: all, or an even choice with the first, the largest load and the last.
+/// The files of the steps of a page: all, or an even selection with the first step, the peak and the last step.
 fn chosen(outputs: &Outputs, most: usize) -> Result<BTreeMap<usize, PathBuf>, Error> {
     let count = outputs.files.len();
     if count <= most || outputs.kind == OutputKind::Modes {
@@ -177,7 +177,7 @@ fn chosen(outputs: &Outputs, most: usize) -> Result<BTreeMap<usize, PathBuf>, Er
         .collect())
 }
 
-/// The first of the files.
+/// The first file.
 fn first<'a>(files: &'a BTreeMap<usize, PathBuf>, folder: &Path) -> Result<&'a Path, Error> {
     let first = files.values().next().map(PathBuf::as_path);
     first.ok_or_else(|| Error::NoResults {
@@ -186,26 +186,13 @@ fn first<'a>(files: &'a BTreeMap<usize, PathBuf>, folder: &Path) -> Result<&'a P
     })
 }
 
-/// The summary; empty where the run has not come to its end.
-fn summary_of(folder: &Path) -> Result<Value, Error> {
-    let path = folder.join("summary.json");
-    if !path.is_file() {
-        let words = "The run did not come to its end: what is here is what it wrote so far.";
-        return Ok(json!({ "warnings": [words] }));
-    }
-    serde_json::from_str(&read_text(&path)?).map_err(|error| Error::Unreadable {
-        path,
-        reason: error.to_string(),
-    })
-}
-
-/// The model with its bonds, where the run wrote it.
+/// The stored run with its bonds, if the run wrote its model.
 fn stored(folder: &Path) -> Result<Option<StoredRun>, Error> {
     let is_there = folder.join("model.vtu").is_file() && folder.join("history.csv").is_file();
     is_there.then(|| StoredRun::open(folder)).transpose()
 }
 
-/// The body, with the largest displacement that most of its points keep to, m.
+/// Data of the body; `usual` is the displacement that few points exceed, m.
 fn describe_body(body: &Body, usual: f64, texts: &mut Texts) -> Value {
     let mut places = |positions: &[[f64; 2]]| {
         [0, 1].map(|axis| {
@@ -233,7 +220,7 @@ fn describe_body(body: &Body, usual: f64, texts: &mut Texts) -> Value {
 }
 
 fn describe_field(field: Field, kind: OutputKind, texts: &mut Texts) -> Value {
-    // A mode has no size of its own.
+    // The amplitude of a mode is arbitrary.
     let unit = match kind {
         OutputKind::Steps => field.unit,
         OutputKind::Modes => "-",
@@ -251,7 +238,7 @@ fn describe_field(field: Field, kind: OutputKind, texts: &mut Texts) -> Value {
     })
 }
 
-/// A number that JSON can hold; 0 for others, of columns without a number.
+/// A finite number for JSON; 0 for NaN and infinity.
 fn finite(value: f64) -> f64 {
     if value.is_finite() { value } else { 0.0 }
 }
@@ -283,7 +270,7 @@ fn describe_bonds(bonds: Bonds, texts: &mut Texts, budget: &mut Budget) -> Value
     })
 }
 
-/// Frequencies of the modes, as a table of one row a mode.
+/// Frequencies of the modes, as a table of one row per mode.
 fn modes(folder: &Path) -> Result<Value, Error> {
     let rows = Sheet::read(folder.join("modes.csv"))?.numbers(["mode", "frequency_hz"])?;
     let [mode, frequency] = [0, 1].map(|it| rows.iter().map(|row| row[it]).collect::<Vec<f64>>());
@@ -293,7 +280,7 @@ fn modes(folder: &Path) -> Result<Value, Error> {
     ]))
 }
 
-/// The crack lines of the steps, each a list of lines of coordinates x, y; `null` for lines as in the step before.
+/// The crack lines of the steps, each a list of lines of coordinates x, y; `null` where unchanged from the step before.
 fn cracks(folder: &Path, steps: &[usize]) -> Result<Value, Error> {
     let cracks = StoredCracks::open(folder)?;
     let mut before = Value::Null;

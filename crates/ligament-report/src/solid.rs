@@ -1,4 +1,4 @@
-//! A solid in a page: pictures of its outside, of sections and of its crack over the steps, as `ligament plot` draws them.
+//! A solid in a page: pictures of its outside, of sections and of its crack over the steps, drawn as by `ligament plot`.
 
 use std::collections::BTreeSet;
 
@@ -22,37 +22,37 @@ use serde_json::{Value, json};
 use crate::error::ReportError;
 use crate::parts::{Budget, Choice, Drawn, Stored, Texts};
 
-/// Level of compression: higher ones take several times as long for a hundredth.
+/// Compression level: higher ones take several times as long and save a hundredth.
 const LEVEL: u8 = 6;
 
-/// Series that are drawn before it is asked whether there is room for more.
+/// Number of series that are drawn between checks of the budget.
 const AT_ONCE: usize = 8;
 
-/// Width of a picture, mm: letters of nine pixels are read well on a screen.
+/// Width of a picture, mm, with letters of nine pixels on a screen.
 const WIDTH: f64 = 100.0;
 
-/// Fields, of those that a reader wants first, that are shown from behind and in sections too.
+/// Number of the most important fields, which are also shown from behind and in sections.
 const EVERYWHERE: usize = 2;
 
-/// From where a solid is seen, and what of it.
+/// A view of a solid.
 #[derive(Debug, Clone)]
 struct SolidView {
-    /// A word for programs.
+    /// Identifier of the view.
     id: &'static str,
-    /// Words for people.
+    /// Label of the view.
     label: String,
     drawn: SolidRequest,
     crack: Option<CrackDrawing>,
 }
 
-/// A field seen in one way over the steps.
+/// Pictures of a field in one view over the steps.
 #[derive(Debug)]
 struct Series<'a> {
     sight: &'a SolidView,
     field: String,
 }
 
-/// The pictures of a solid, what a reader wants first as long as there is room.
+/// Contents for a solid: pictures in the order of importance, as far as the budget allows.
 ///
 /// # Errors
 ///
@@ -108,7 +108,7 @@ pub(crate) fn drawn(
     })
 }
 
-/// The outside from two sides, sections through the middle across the axes, and the crack where something broke.
+/// The views: the outside from two sides, sections through the middle across the axes, and the crack where bonds broke.
 fn sights(of: &Stored<'_>, body: &SolidBody) -> Result<Vec<SolidView>, Error> {
     let may_crack = of.kind == OutputKind::Steps && of.folder.join("breaks.csv").is_file();
     let outside = |id, label: &str, view| SolidView {
@@ -169,7 +169,7 @@ fn sights(of: &Stored<'_>, body: &SolidBody) -> Result<Vec<SolidView>, Error> {
     Ok(sights)
 }
 
-/// The place of a field among those of which there are pictures.
+/// Rank of a field among those with pictures.
 fn rank(name: &str) -> Option<u8> {
     match ResultField::named(name)?.interest {
         Interest::Pictured(rank) => Some(rank),
@@ -177,14 +177,14 @@ fn rank(name: &str) -> Option<u8> {
     }
 }
 
-/// A coordinate in mm without digits that nobody reads.
+/// A coordinate in mm, rounded to three decimals.
 fn rounded(mm: f64) -> f64 {
     let rounded = (1e3 * mm).round() / 1e3;
-    // No minus before a zero.
+    // Adding zero removes the sign of -0.
     rounded + 0.0
 }
 
-/// The fields that a reader wants, as pictures name them, and of vectors their components apart; what is zero everywhere is left out.
+/// Names of the fields for pictures, and separately of vectors' components, without fields that are zero everywhere.
 fn fields(of: &Stored<'_>, location: FieldLocation) -> Result<[Vec<String>; 2], Error> {
     let mut found = BTreeSet::new();
     let mut names: [Vec<String>; 2] = Default::default();
@@ -219,7 +219,7 @@ fn fields(of: &Stored<'_>, location: FieldLocation) -> Result<[Vec<String>; 2], 
     Ok(names)
 }
 
-/// The series of a page in the order in which a reader wants them.
+/// The series of a page in the order of importance.
 fn series<'a>(sights: &'a [SolidView], [fields, components]: &[Vec<String>; 2]) -> Vec<Series<'a>> {
     let of = |id: &str, fields: &[String]| {
         let sights = sights.iter().filter(|it| it.id.starts_with(id));
@@ -243,7 +243,7 @@ fn series<'a>(sights: &'a [SolidView], [fields, components]: &[Vec<String>; 2]) 
 }
 
 impl Series<'_> {
-    /// The pictures of the steps as texts of a page; none where there is nothing to see.
+    /// The pictures of the steps as texts of a page; empty without values.
     fn pictures(&self, of: &Stored<'_>) -> Result<Vec<String>, PictureError> {
         let number = |it: &usize| StepChoice::One(StepName::Number(*it));
         let drawn = pictures_of_each(&FieldRequest {
@@ -272,7 +272,7 @@ impl Series<'_> {
             BASE64_STANDARD.encode(compress_to_vec(svg.as_bytes(), LEVEL))
         };
         match drawn {
-            // Nothing opened in any of the steps.
+            // No crack opened in any of the steps.
             Err(PictureError::NoValues(_)) => Ok(Vec::new()),
             drawn => Ok(drawn?.into_iter().map(packed).collect()),
         }

@@ -1,13 +1,19 @@
-//! What a run came to, in words and numbers, as HTML that is there without a script.
+//! Summary of a run as static HTML.
 
+use std::path::Path;
+
+use ligament_output::Error;
 use ligament_output::results::outputs::OutputKind;
+use ligament_output::summary::{
+    self, BondEvent, Input, ModalSummary, ModeSummary, ModelSummary, PathPoint, Provenance, Stage,
+    Summary, UnitsSummary,
+};
 use ligament_plot::picture::units::Shown;
-use serde_json::Value;
 
-/// Steps of a stage that a reader of results wants to know the time of, s.
+/// Shortest time of a stage that is shown, s.
 const WORTH_TELLING: f64 = 0.005;
 
-/// Text that stands for itself in HTML.
+/// Text escaped for HTML.
 pub(crate) fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -23,26 +29,81 @@ pub(crate) fn escaped(text: &str) -> String {
     escaped
 }
 
-/// The warnings, the main results, where they came from, and the case.
-pub(crate) fn html(summary: &Value, kind: OutputKind, case: &str) -> String {
-    let mut html = String::new();
-    html.push_str(&warnings(summary));
-    let results = match kind {
-        OutputKind::Steps => results_of_steps(summary),
-        OutputKind::Modes => results_of_modes(summary),
-    };
-    html.push_str(&table("Results", &results));
-    html.push_str(&table("Model", &model(summary)));
-    html.push_str(&table("Computed by", &provenance(summary)));
-    html.push_str(&format!(
-        "<details class=\"card case\"><summary>Case file</summary><pre tabindex=\"0\">{}</pre></details>\n",
-        escaped(case)
-    ));
-    html
+/// Summary of a run.
+pub(crate) struct InWords {
+    /// Title of the case; none where the run has not ended.
+    pub(crate) title: Option<String>,
+    /// The warnings, the main results and their origin as HTML.
+    pub(crate) html: String,
 }
 
-/// A row of a table: a name and what is said of it.
+/// Summary of the results in a folder.
+///
+/// # Errors
+///
+/// If the summary cannot be read.
+pub(crate) fn in_words(folder: &Path, kind: OutputKind) -> Result<InWords, Error> {
+    let ended = match kind {
+        OutputKind::Steps => summary::read(folder)?.map(of_steps),
+        OutputKind::Modes => summary::read(folder)?.map(of_modes),
+    };
+    Ok(ended.unwrap_or_else(|| InWords {
+        title: None,
+        html: warnings(&["The run did not come to its end: what is here is what it wrote so far."]),
+    }))
+}
+
+/// The case file as HTML.
+pub(crate) fn case_html(case: &str) -> String {
+    format!(
+        "<details class=\"card case\"><summary>Case file</summary><pre tabindex=\"0\">{}</pre></details>\n",
+        escaped(case)
+    )
+}
+
+fn of_steps(summary: Summary) -> InWords {
+    let mut texts = Vec::new();
+    if summary.without_equilibrium {
+        texts.push("No state under load is in equilibrium: there are no results.");
+    } else if summary.last_state_not_at_rest {
+        texts
+            .push("The last state is no answer: its bonds were still breaking when the run ended.");
+    }
+    texts.extend(summary.warnings.iter().map(String::as_str));
+    let computed = provenance(&summary.model, summary.provenance.as_ref(), &summary.stages);
+    let html = [
+        warnings(&texts),
+        table("Results", &results_of_steps(&summary)),
+        table("Model", &model(&summary.model)),
+        table("Computed by", &computed),
+    ];
+    InWords {
+        html: html.concat(),
+        title: Some(summary.model.title),
+    }
+}
+
+fn of_modes(summary: ModalSummary) -> InWords {
+    let texts: Vec<&str> = summary.warnings.iter().map(String::as_str).collect();
+    let computed = provenance(&summary.model, summary.provenance.as_ref(), &summary.stages);
+    let html = [
+        warnings(&texts),
+        table("Results", &results_of_modes(&summary)),
+        table("Model", &model(&summary.model)),
+        table("Computed by", &computed),
+    ];
+    InWords {
+        html: html.concat(),
+        title: Some(summary.model.title),
+    }
+}
+
+/// A row of a table: name and text.
 type Entry = (String, String);
+
+fn entry(name: &str, text: impl Into<String>) -> Entry {
+    (name.to_owned(), text.into())
+}
 
 fn table(title: &str, rows: &[Entry]) -> String {
     if rows.is_empty() {
@@ -58,183 +119,123 @@ fn table(title: &str, rows: &[Entry]) -> String {
     )
 }
 
-fn warnings(summary: &Value) -> String {
-    let mut texts: Vec<String> = Vec::new();
-    if summary["without_equilibrium"] == true {
-        texts.push("No state under load is in equilibrium: there are no results.".to_owned());
-    } else if summary["last_state_not_at_rest"] == true {
-        let last = "The last state is no answer: its bonds were still breaking when the run ended.";
-        texts.push(last.to_owned());
-    }
-    let told = summary["warnings"].as_array();
-    texts.extend(
-        told.into_iter()
-            .flatten()
-            .filter_map(Value::as_str)
-            .map(str::to_owned),
-    );
+fn warnings(texts: &[&str]) -> String {
     if texts.is_empty() {
         return String::new();
     }
-    let item = |text: &String| format!("<li>{}</li>\n", escaped(text));
+    let item = |text: &&str| format!("<li>{}</li>\n", escaped(text));
     let items: String = texts.iter().map(item).collect();
     format!("<section class=\"card warnings\"><h3>Warnings</h3><ul>\n{items}</ul></section>\n")
 }
 
-/// A value with the prefix of its unit that gives a short number.
-fn quantity(value: &Value, unit: &str) -> Option<String> {
-    let value = value.as_f64()?;
-    Some(Shown::new(unit, value.abs()).value(value))
+/// A value with a suitable prefix of its unit.
+fn quantity(value: f64, unit: &str) -> String {
+    Shown::new(unit, value.abs()).value(value)
 }
 
-/// Load and displacement at a point of the curve.
-fn load_at(point: &Value, units: [&str; 2]) -> Option<String> {
-    let displacement = quantity(&point["displacement"], units[0])?;
-    let force = quantity(&point["reaction"], units[1])?;
-    Some(format!("{force} at {displacement}"))
-}
-
-fn results_of_steps(summary: &Value) -> Vec<Entry> {
-    let unit = |of: &str, other| summary["units"][of].as_str().unwrap_or(other);
-    let units = [unit("displacement", "m"), unit("force", "N")];
-    let broke = summary["broken_bonds"].as_u64().unwrap_or(0);
-    let onset = match summary["first_softened_bond"].is_object() {
-        true => "First softening",
-        false => "First breakage",
+fn results_of_steps(summary: &Summary) -> Vec<Entry> {
+    let UnitsSummary {
+        displacement,
+        force,
+    } = &summary.units;
+    let load_at = |name: &str, point: Option<PathPoint>| {
+        let point = point.filter(|it| it.reaction.is_finite() && it.displacement.is_finite())?;
+        let load = quantity(point.reaction, force);
+        let at = quantity(point.displacement, displacement);
+        Some(entry(name, format!("{load} at {at}")))
     };
-    let mut rows = Vec::new();
-    let mut tell = |name: &str, text: Option<String>| {
-        rows.extend(text.map(|text| (name.to_owned(), text)));
+    let bond =
+        |name: &str, bond: &Option<BondEvent>| bond.as_ref().map(|it| entry(name, words(it)));
+    let onset = match summary.first_softened_bond {
+        Some(_) => "First softening",
+        None => "First breakage",
     };
-    tell("Largest load", load_at(&summary["peak"], units));
-    let first_peak = &summary["first_peak"];
-    let is_other = *first_peak != summary["peak"];
-    tell(
-        "First peak",
-        load_at(first_peak, units).filter(|_| is_other),
-    );
-    tell(onset, load_at(&summary["first_break"], units));
-    tell("First softened bond", bond(&summary["first_softened_bond"]));
-    tell("First broken bond", bond(&summary["first_broken_bond"]));
-    let stiffness = format!("{}/{}", units[1], units[0]);
-    tell(
-        "Elastic stiffness",
-        quantity(&summary["elastic_stiffness"], &stiffness),
-    );
-    let steps = match summary["exact_path"] == true {
+    let other_peak = summary.first_peak.filter(|it| Some(*it) != summary.peak);
+    let stiffness = |it| {
+        entry(
+            "Elastic stiffness",
+            quantity(it, &summary.units.stiffness()),
+        )
+    };
+    let steps = match summary.exact_path {
         true => "states of the exact path",
         false => "load steps",
     };
-    let count = summary["steps"].as_u64();
-    tell(
-        "Broken bonds",
-        count.map(|count| format!("{broke} in {count} {steps}")),
-    );
-    let balance = summary["energy_balance_error"].as_f64();
-    tell(
-        "Energy balance",
-        balance.map(|it| format!("off by {it:.1e} of the work")),
-    );
-    let ended = summary["termination_message"].as_str();
-    tell("Ended because", ended.map(str::to_owned));
-    rows
+    let broken = format!("{} in {} {steps}", summary.broken_bonds, summary.steps);
+    let balance = format!("off by {:.1e} of the work", summary.energy_balance_error);
+    let rows = [
+        load_at("Largest load", summary.peak),
+        load_at("First peak", other_peak),
+        load_at(onset, summary.first_break),
+        bond("First softened bond", &summary.first_softened_bond),
+        bond("First broken bond", &summary.first_broken_bond),
+        summary.elastic_stiffness.map(stiffness),
+        Some(entry("Broken bonds", broken)),
+        Some(entry("Energy balance", balance)),
+        Some(entry("Ended because", &*summary.termination_message)),
+    ];
+    rows.into_iter().flatten().collect()
 }
 
-fn bond(bond: &Value) -> Option<String> {
-    let ends = bond["ends"].as_array()?;
-    let [a, b] = [ends.first()?, ends.get(1)?].map(Value::to_string);
-    let place = bond["place"].as_array()?;
-    let mm = |it: &Value| Some(format!("{:.2}", 1e3 * it.as_f64()?));
-    let place: Option<Vec<String>> = place.iter().map(mm).collect();
-    let (step, criterion) = (&bond["step"], bond["criterion"].as_str()?);
-    let place = place?.join(", ");
-    Some(format!(
-        "{a} to {b} at ({place}) mm, in step {step}, by {criterion}"
-    ))
+fn words(bond: &BondEvent) -> String {
+    let [a, b] = bond.ends;
+    let place = bond.place.iter().map(|it| format!("{:.2}", 1e3 * it));
+    let place = place.collect::<Vec<String>>().join(", ");
+    let (step, criterion) = (bond.step, &bond.criterion);
+    format!("{a} to {b} at ({place}) mm, in step {step}, by {criterion}")
 }
 
-fn results_of_modes(summary: &Value) -> Vec<Entry> {
-    let modes = summary["modes"].as_array();
-    let row = |mode: &Value| {
-        let frequency = quantity(&mode["frequency"], "Hz")?;
-        let kind = mode["kind"].as_str()?;
-        Some((
-            format!("Mode {}", mode["mode"]),
-            format!("{frequency}, {kind}"),
-        ))
+fn results_of_modes(summary: &ModalSummary) -> Vec<Entry> {
+    let row = |mode: &ModeSummary| {
+        let frequency = quantity(mode.frequency, "Hz");
+        let text = format!("{frequency}, {}", mode.kind);
+        (format!("Mode {}", mode.mode), text)
     };
-    let mut rows: Vec<Entry> = modes.into_iter().flatten().filter_map(row).collect();
-    rows.extend(quantity(&summary["mass"], "kg").map(|it| ("Mass".to_owned(), it)));
-    rows
+    let modes = summary.modes.iter().map(row);
+    modes
+        .chain([entry("Mass", quantity(summary.mass, "kg"))])
+        .collect()
 }
 
-fn model(summary: &Value) -> Vec<Entry> {
-    let mut rows = Vec::new();
-    let mut tell = |name: &str, text: Option<String>| {
-        rows.extend(text.map(|text| (name.to_owned(), text)));
-    };
-    let count = |name: &str| summary[name].as_u64().filter(|it| *it > 0);
-    tell(
-        "Formulation",
-        summary["formulation"].as_str().map(str::to_owned),
-    );
-    tell("Points", count("points").map(|it| it.to_string()));
-    let cut = count("cut_bonds").map_or(String::new(), |it| format!(", {it} cut by pre-cracks"));
-    tell("Bonds", count("bonds").map(|it| format!("{it}{cut}")));
-    tell(
-        "Points with no_fail",
-        count("no_fail_points").map(|it| it.to_string()),
-    );
-    let horizon = |of: &str| quantity(&summary["horizon"][of], "m");
-    let spread = || {
-        Some(format!(
-            "{} to {}, mean {}",
-            horizon("min")?,
-            horizon("max")?,
-            horizon("mean")?
-        ))
-    };
-    tell("Horizon", spread());
-    tell(
-        "Volume",
-        summary["volume"]
-            .as_f64()
-            .map(|it| Shown::new("m^3", it).value(it)),
-    );
-    rows
+fn model(model: &ModelSummary) -> Vec<Entry> {
+    let count = |it: usize| Some(it).filter(|it| *it > 0);
+    let cut =
+        count(model.cut_bonds).map_or(String::new(), |it| format!(", {it} cut by pre-cracks"));
+    let [min, max, mean] =
+        [model.horizon.min, model.horizon.max, model.horizon.mean].map(|it| quantity(it, "m"));
+    let rows = [
+        Some(entry("Formulation", &*model.formulation)),
+        count(model.points).map(|it| entry("Points", it.to_string())),
+        count(model.bonds).map(|it| entry("Bonds", format!("{it}{cut}"))),
+        count(model.no_fail_points).map(|it| entry("Points with no_fail", it.to_string())),
+        Some(entry("Horizon", format!("{min} to {max}, mean {mean}"))),
+        Some(entry("Volume", quantity(model.volume, "m^3"))),
+    ];
+    rows.into_iter().flatten().collect()
 }
 
-fn provenance(summary: &Value) -> Vec<Entry> {
-    let of = &summary["provenance"];
-    let mut rows = Vec::new();
-    let version = summary["version"].as_str();
-    let commit = of["commit"]
-        .as_str()
-        .map(|it| it.chars().take(10).collect::<String>());
+fn provenance(model: &ModelSummary, record: Option<&Provenance>, stages: &[Stage]) -> Vec<Entry> {
+    let commit = record.and_then(|it| it.build.commit.as_ref());
+    let commit = commit.map(|it| it.chars().take(10).collect::<String>());
     let commit = commit.map_or(String::new(), |it| format!(", commit {it}"));
-    rows.extend(version.map(|it| ("Program".to_owned(), format!("ligament {it}{commit}"))));
-    rows.extend(
-        of["processor"]
-            .as_str()
-            .map(|it| ("Processor".to_owned(), it.to_owned())),
-    );
-    let inputs = of["inputs"].as_array().into_iter().flatten();
-    let digest = |input: &Value| {
-        let (file, digest) = (input["file"].as_str()?, input["xxh64"].as_str()?);
-        let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
-        Some(("Input".to_owned(), format!("{name}, xxh64 {digest}")))
-    };
-    rows.extend(inputs.filter_map(digest));
-    let stages = summary["stages"].as_array().into_iter().flatten();
-    let time = |stage: &Value| {
-        let seconds = stage["seconds"]
-            .as_f64()
-            .filter(|it| *it >= WORTH_TELLING)?;
-        Some(format!("{} {seconds:.2} s", stage["name"].as_str()?))
-    };
-    let times: Vec<String> = stages.filter_map(time).collect();
+    let mut rows = vec![entry(
+        "Program",
+        format!("ligament {}{commit}", model.version),
+    )];
+    if let Some(record) = record {
+        rows.extend(record.processor.as_deref().map(|it| entry("Processor", it)));
+        let digest = |Input { file, content, .. }: &Input| {
+            let file = file.to_string_lossy();
+            let name = file.rsplit(['/', '\\']).next().unwrap_or(&file);
+            entry("Input", format!("{name}, xxh64 {}", content.xxh64))
+        };
+        rows.extend(record.inputs.iter().map(digest));
+    }
+    let long = stages.iter().filter(|it| it.seconds >= WORTH_TELLING);
+    let times = long.map(|Stage { name, seconds, .. }| format!("{name} {seconds:.2} s"));
+    let times = times.collect::<Vec<String>>().join(", ");
     if !times.is_empty() {
-        rows.push(("Time".to_owned(), times.join(", ")));
+        rows.push(entry("Time", times));
     }
     rows
 }

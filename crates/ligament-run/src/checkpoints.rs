@@ -1,4 +1,4 @@
-//! When a run writes checkpoints, and what goes into them.
+//! Schedule and content of the checkpoints of a run.
 
 use std::time::{Duration, Instant};
 
@@ -8,23 +8,23 @@ use ligament_output::checkpoint::Checkpoint;
 use ligament_output::folder::ResultFolder;
 use ligament_output::results::OutputState;
 
-/// The wish that a run stop, which is asked for after each equilibrium.
+/// Returns whether the run should stop; called after each equilibrium.
 pub type IsStopped<'a> = &'a (dyn Fn() -> bool + Sync);
 
-/// Version of the program, which a checkpoint names.
+/// Version of the program in a checkpoint.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Time between two checkpoints where the case says nothing, ...
+/// Default time between two checkpoints; longer where [`TIMES_ITS_COST`] demands.
 const EVERY: Duration = Duration::from_secs(30);
 
-/// ... and how many times what the last one took, so that all take a fiftieth of the time.
+/// Smallest ratio of the time between two checkpoints to the time that writing one takes, so that they cost a fiftieth of the run.
 const TIMES_ITS_COST: u32 = 50;
 
 /// The checkpoints of a run.
 pub(crate) struct Checkpoints<'a> {
     folder: &'a ResultFolder,
     inputs: String,
-    /// Time between two, s, if the case has it.
+    /// Time between two checkpoints, s, if given in the case.
     every: Option<f64>,
     last: Instant,
     cost: Duration,
@@ -32,7 +32,7 @@ pub(crate) struct Checkpoints<'a> {
 }
 
 impl<'a> Checkpoints<'a> {
-    /// The checkpoints of a run with these inputs; the first is due after the time between two.
+    /// The checkpoints of a run with these inputs; the first is due after one interval.
     pub(crate) fn new(folder: &'a ResultFolder, inputs: String, every: Option<f64>) -> Self {
         Self {
             folder,
@@ -44,7 +44,7 @@ impl<'a> Checkpoints<'a> {
         }
     }
 
-    /// Finds out whether one is due in the next moment, in which the run ends, perhaps, for a reason.
+    /// Determines whether a checkpoint is due in the next state; `end` is the reason if the run ends there.
     pub(crate) fn ask(&mut self, end: Option<&Termination>) {
         let passed = self.last.elapsed();
         self.is_due = match (end, self.every) {
@@ -55,12 +55,12 @@ impl<'a> Checkpoints<'a> {
         };
     }
 
-    /// Whether one is due.
+    /// Whether a checkpoint is due.
     pub(crate) fn is_due(&self) -> bool {
         self.is_due
     }
 
-    /// Writes one, the work on which began at an instant.
+    /// Writes a checkpoint; `begun` is the start of the work on it.
     pub(crate) fn write(
         &mut self,
         begun: Instant,
@@ -83,7 +83,7 @@ impl<'a> Checkpoints<'a> {
         Ok(())
     }
 
-    /// Removes the checkpoints of a run that came to its end.
+    /// Removes the checkpoints of a run that ended, unless they are kept.
     pub(crate) fn end(&self, end: &Termination) -> Result<(), ligament_output::Error> {
         if is_kept(end, self.every) {
             Ok(())
@@ -93,7 +93,7 @@ impl<'a> Checkpoints<'a> {
     }
 }
 
-/// Whether a run that ended so keeps a checkpoint, for it may go on with another rule.
+/// Whether a run keeps its checkpoint after this end, because it may continue with another stop rule.
 fn is_kept(end: &Termination, every: Option<f64>) -> bool {
     *end == Termination::Stopped || (end.is_by_rule() && every != Some(0.0))
 }

@@ -1,15 +1,15 @@
-//! The folder of a run while its results are made.
+//! Result folder of a run while results are written.
 
 use std::io;
 
 use ligament_case::case::CaseFile;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 
-/// Makes the results of a case in a folder, which takes the place of earlier results if all are there: what is made says so.
+/// Writes the results of a case into a folder, which replaces earlier results if `make` returns that the results are complete.
 ///
 /// # Errors
 ///
-/// If the folder cannot be opened, or the results cannot be made; earlier results are then as they were.
+/// If the folder cannot be opened, or the results cannot be written; earlier results are then unchanged.
 pub(crate) fn make_results<T>(
     case: &CaseFile,
     open: impl FnOnce() -> Result<ResultFolder, ligament_output::Error>,
@@ -31,11 +31,11 @@ pub(crate) fn make_results<T>(
     Ok(made)
 }
 
-/// What a run that failed has left, and what to do with it, where that is not plain.
+/// Message about the files of a failed run and their use, where needed.
 fn failed_run_message(folder: &ResultFolder, error: &anyhow::Error) -> Option<String> {
     let place = folder.path().display();
     let was_not_written = error.chain().any(|it| it.is::<io::Error>());
-    // Without its case a run cannot go on.
+    // A run cannot be resumed without its case.
     let can_go_on = was_not_written && folder.file(RESOLVED_CASE).is_file();
     let onward = can_go_on.then(|| {
         format!(
@@ -53,7 +53,7 @@ fn failed_run_message(folder: &ResultFolder, error: &anyhow::Error) -> Option<St
     }
 }
 
-/// Words for the user where earlier results are replaced.
+/// Message to the user where earlier results are replaced.
 pub(crate) fn words(folder: &ResultFolder) -> Option<String> {
     let earlier = folder.replaces()?.display();
     let place = folder.path().display();

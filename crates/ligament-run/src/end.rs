@@ -1,34 +1,35 @@
-//! How a run ended, as its exit code tells: one rule for all ways to load a body.
+//! End of a run and its exit code, by one rule for all analyses.
 
 use ligament_analysis::Termination;
+use ligament_output::summary::Summary;
 
-/// What the end of a run makes of its results.
+/// End of a run, by the use of its results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
-    /// The loading was done, a rule of the case ended the run, or the body fell apart.
+    /// The loading was completed, a rule of the case ended the run, or the body separated.
     Done,
-    /// A signal stopped the run, which can go on.
+    /// A signal stopped the run, which can be resumed.
     Stopped,
     /// No state under load is in equilibrium: there is no result.
     NoResult,
-    /// No equilibrium was found for a load, whether or not bonds were breaking then: the results reach up to there.
+    /// No equilibrium was found at a load, whether or not bonds were breaking; the results end before it.
     NoEquilibrium,
-    /// The run ended while bonds were breaking, other than by its user or a rule of its case: the last state is no answer to its load.
+    /// The run ended during breakage, other than by its user or a rule of its case: the last state is not a solution for its load.
     NotAtRest,
 }
 
 impl End {
-    /// The end of a run by the name of its [`Termination`], whether no state under load is in equilibrium, and whether the last one is
-    /// not at rest.
-    pub fn from_termination(termination: &str, has_no_result: bool, is_not_at_rest: bool) -> Self {
+    /// The end of a run by its summary.
+    pub fn of(summary: &Summary) -> Self {
         const ASKED_FOR: [&str; 2] = ["bonds-broken", "wall-time"];
+        let termination = &*summary.termination;
         if termination == Termination::Stopped.name() {
             Self::Stopped
-        } else if has_no_result {
+        } else if summary.without_equilibrium {
             Self::NoResult
         } else if termination == NO_EQUILIBRIUM {
             Self::NoEquilibrium
-        } else if is_not_at_rest && !ASKED_FOR.contains(&termination) {
+        } else if summary.last_state_not_at_rest && !ASKED_FOR.contains(&termination) {
             Self::NotAtRest
         } else {
             Self::Done
@@ -58,21 +59,21 @@ impl End {
     }
 }
 
-/// A signal stopped a run before its first solution, while nothing was written that it could go on with.
+/// Error of a run that a signal stopped before its first solution, so that it cannot be resumed.
 #[derive(Debug, Clone, Copy, thiserror::Error)]
 #[error("stopped before the first solution: nothing was written")]
 pub struct StoppedBeforeSolution;
 
 impl StoppedBeforeSolution {
-    /// The exit code of the program: that of every run that a signal stops.
+    /// The exit code of the program, the same as of every run that a signal stops.
     pub fn exit_code(self) -> u8 {
         End::Stopped.exit_code()
     }
 }
 
-/// Name of the end of a run without equilibrium, as summaries have it.
+/// Name in summaries of the end of a run without equilibrium.
 pub const NO_EQUILIBRIUM: &str = "no-equilibrium";
 
-/// Words for a run that ended without equilibrium after other states.
+/// Message about a run that ended without equilibrium after other states.
 pub(crate) const UP_TO_THERE: &str =
     "the run ended at a load for which no equilibrium was found: its results reach up to there";

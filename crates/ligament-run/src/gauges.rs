@@ -1,11 +1,11 @@
-//! What the user is told of a body that supports and loads do not hold.
+//! Message about the rigid motions of a body that supports and loads leave free.
 
 use ligament::Body;
 use ligament_analysis::Component;
 use ligament_analysis::gauges::{FreeBody, FreeMotion};
 
-/// Words on the rigid motions that are free, on what is held instead, and on whether the loads are in equilibrium without
-/// it; `closing` tells whether faces of cracks may carry them.
+/// Message about the free rigid motions, the points fixed instead, and the equilibrium of the loads without these; `closing`: whether faces
+/// of cracks may carry loads.
 pub fn words(free: &FreeBody, body: &dyn Body, closing: bool) -> String {
     let what = if free.is_whole {
         "the body".to_owned()

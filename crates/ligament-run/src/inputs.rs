@@ -1,20 +1,19 @@
-//! What decides about the results of a run: its resolved case and the content of the files that it reads.
+//! Inputs that determine the results of a run: its resolved case and the contents of its files.
 
 use std::collections::HashMap;
-use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use ligament_case::case::{CaseFile, Stop};
 use ligament_case::input_file;
-use serde::{Deserialize, Serialize};
+use ligament_output::summary::Identity;
 
-/// All inputs of a run as text, which depends neither on where its files lie nor on the number of threads.
+/// All inputs of a run as text, independent of the paths of files and of the number of threads.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Inputs(String);
 
-/// Keys that may be others when a run goes on: none of them changes what was computed before. Load steps that were done must
-/// stay, which the driver sees to.
+/// Keys that may change when a run is resumed, because they do not change earlier results. The driver checks that completed load steps
+/// stay.
 pub const MAY_CHANGE: [&str; 9] = [
     "fracture.stop.load_fraction",
     "fracture.stop.displacement",
@@ -27,32 +26,7 @@ pub const MAY_CHANGE: [&str; 9] = [
     "output.picture",
 ];
 
-/// The identity of the content of a file.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Identity {
-    /// Size, bytes.
-    pub bytes: u64,
-    /// XXH64 digest of all bytes, 16 hexadecimal digits.
-    pub xxh64: String,
-}
-
-impl Identity {
-    /// The identity of some bytes.
-    pub fn new(bytes: &[u8]) -> Self {
-        Self {
-            bytes: bytes.len() as u64,
-            xxh64: format!("{:016x}", twox_hash::XxHash64::oneshot(0, bytes)),
-        }
-    }
-}
-
-impl fmt::Display for Identity {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} bytes, xxh64 {}", self.bytes, self.xxh64)
-    }
-}
-
-/// Contents of files by their path, each read once.
+/// Identities of the contents of files by path, each read once.
 #[derive(Debug, Default)]
 pub struct Contents(HashMap<PathBuf, Identity>);
 
@@ -61,7 +35,7 @@ impl Contents {
     ///
     /// # Errors
     ///
-    /// If it cannot be read.
+    /// If the file cannot be read.
     pub fn identity(&mut self, path: &Path) -> io::Result<Identity> {
         if let Some(known) = self.0.get(path) {
             return Ok(known.clone());
@@ -73,7 +47,7 @@ impl Contents {
 }
 
 impl Inputs {
-    /// The inputs of a case; `mesh` stands for the content of its mesh file where that is not there yet.
+    /// The inputs of a case; `mesh`, if given, replaces the content of a mesh file that does not exist yet.
     ///
     /// # Errors
     ///
@@ -103,11 +77,11 @@ impl Inputs {
                 *file = content(file)?.into();
             }
         }
-        // What cannot be written as TOML cannot be run either, and says so there.
+        // A case that cannot be written as TOML fails when it is run.
         Ok(Self(plain.resolved_toml().unwrap_or_default()))
     }
 
-    /// The inputs that decide about the course of a run as far as it came: all but those that [`MAY_CHANGE`].
+    /// The inputs that determine the run up to its present state: all except [`MAY_CHANGE`].
     ///
     /// # Errors
     ///
@@ -131,12 +105,12 @@ impl Inputs {
         Self::from_case(&plain, None, contents)
     }
 
-    /// The text of the inputs, as a record keeps it.
+    /// The text of the inputs for a record.
     pub fn text(&self) -> &str {
         &self.0
     }
 
-    /// The difference from the inputs of an earlier run, in a few words.
+    /// Short description of the difference from the inputs of an earlier run.
     pub fn difference(&self, earlier: &str) -> String {
         let added: Vec<&str> = self.0.lines().filter(|line| !has(earlier, line)).collect();
         let gone = earlier.lines().filter(|line| !has(&self.0, line)).count();
@@ -148,7 +122,7 @@ impl Inputs {
     }
 }
 
-/// The files that a case names, with their keys.
+/// The files of a case, with their keys.
 pub fn files(case: &CaseFile) -> Vec<(String, PathBuf)> {
     let mesh = case.case.mesh.iter();
     let mut found: Vec<(String, PathBuf)> = mesh
@@ -161,7 +135,7 @@ pub fn files(case: &CaseFile) -> Vec<(String, PathBuf)> {
     found
 }
 
-/// The error of a file that cannot be read, in words for the user.
+/// The error of a file that cannot be read, with its path for the user.
 pub(crate) fn unread((path, error): (PathBuf, io::Error)) -> anyhow::Error {
     anyhow::Error::new(error).context(format!("cannot read {}", path.display()))
 }

@@ -1,21 +1,21 @@
-//! A run of a case: from the file to a folder with its results. It changes when a run is to do, tell or write something else.
+//! A run of a case: from the file to a folder with its results.
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`run`] | the route of loads, and of natural modes |
-//! | [`resume`] | going on with a run that was stopped, from its checkpoint |
-//! | [`repeat`] | repeating a run from its record, and comparing both to the last bit |
-//! | [`inputs`] | what decides about the results of a run |
-//! | [`provenance`] | what results came from: program, processor, files |
-//! | [`model`] | the discrete model of a case, its stages timed and shown |
-//! | [`loading`] | a body under loads, and by which rule its results are written |
-//! | [`end`] | how a run ended, as its exit code tells |
+//! | [`run`] | the run of a case under loads, or of natural modes |
+//! | [`resume`] | resuming a stopped run from its checkpoint |
+//! | [`repeat`] | repeating a run from its record, and comparing both bitwise |
+//! | [`inputs`] | the inputs that determine the results of a run |
+//! | [`provenance`] | the origin of results: program, processor, files |
+//! | [`model`] | the discrete model of a case, with its stages timed and shown |
+//! | [`loading`] | a body under loads, and the rule by which its results are written |
+//! | [`end`] | the end of a run and its exit code |
 //! | [`summary`] | `summary.json`, and the lines at the end of a run |
-//! | [`watch`], [`progress`] | the observer that writes results, and how far the run is |
-//! | `processes`, `pieces` | what processes exchange, and what those beside rank 0 write |
-//! | [`stages`], [`memory`], [`disk`] | time, memory and room on a disk that a run takes |
-//! | `processors` | threads that other programs leave a processor to |
-//! | [`gauges`] | rigid motions that nothing holds, in words |
+//! | [`watch`], [`progress`] | the observer that writes results, and the display of progress |
+//! | `processes`, `pieces` | the communication of processes, and the output of ranks other than 0 |
+//! | [`stages`], [`memory`], [`disk`] | time, memory and disk space that a run needs |
+//! | `processors` | the number of processors that other programs leave free |
+//! | [`gauges`] | messages about free rigid motions |
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")

@@ -1,6 +1,5 @@
-//! A body under loads, from its first state or from a checkpoint, to results in a folder.
+//! Runs a body under loads, from its first state or from a checkpoint, and writes the results into a folder.
 
-use anyhow::Context;
 use ligament::run::{follow, resume};
 use ligament::setup::Analysis;
 use ligament::{Loading, Model};
@@ -8,19 +7,17 @@ use ligament_analysis::driver::Restored;
 use ligament_case::case::{CaseFile, StressField};
 use ligament_output::folder::ResultFolder;
 use ligament_output::results::{OutputState, PieceWriter, ResultWriter, Time, WriteRule};
+use ligament_output::summary::{self, Build, Summary};
 
 use crate::checkpoints::{Checkpoints, IsStopped};
 use crate::inputs::{Contents, Inputs, unread};
 use crate::pieces::Pieces;
 use crate::processes::broadcast_path;
 use crate::progress::Progress;
-use crate::provenance::{Build, Provenance};
+use crate::provenance::provenance;
 use crate::stages::Stages;
-use crate::summary::{Noted, Summary};
+use crate::summary::{Noted, summary};
 use crate::watch::Watch;
-
-/// Name of the file with all numbers of a run.
-pub(crate) const SUMMARY: &str = "summary.json";
 
 /// A body under loads.
 pub(crate) struct LoadedBody<'a> {
@@ -31,7 +28,7 @@ pub(crate) struct LoadedBody<'a> {
     pub(crate) is_stopped: IsStopped<'a>,
 }
 
-/// Where a run begins if not with the unloaded body.
+/// State of a checkpoint from which a run continues.
 pub(crate) struct Kept {
     pub(crate) restored: Restored,
     pub(crate) results: OutputState,
@@ -39,7 +36,7 @@ pub(crate) struct Kept {
 }
 
 impl LoadedBody<'_> {
-    /// Follows the loads from the unloaded body on or from what was kept, and writes all results into the folder: what rank 0 does.
+    /// Runs the analysis on rank 0 from the unloaded body or from a checkpoint's state, and writes all results into the folder.
     pub(crate) fn follow(
         &self,
         folder: &ResultFolder,
@@ -51,7 +48,7 @@ impl LoadedBody<'_> {
             case,
             model,
             loading,
-            build,
+            ref build,
             is_stopped,
         } = *self;
         let problem = loading.problem(model);
@@ -61,7 +58,7 @@ impl LoadedBody<'_> {
         let (fixed, rule) = (&model.fixed, write_rule(case, analysis));
         let mut contents = Contents::default();
         let inputs = Inputs::of_course(case, &mut contents).map_err(unread)?;
-        let mut provenance = Provenance::new(build, case, &mut contents).map_err(unread)?;
+        let mut provenance = provenance(build.clone(), case, &mut contents).map_err(unread)?;
         provenance.resumed = kept.is_some();
         let every = case.case.output.checkpoint_every;
         let checkpoints = Checkpoints::new(folder, inputs.text().to_owned(), every);
@@ -92,18 +89,16 @@ impl LoadedBody<'_> {
             first,
             stages: stages.done().to_vec(),
         };
-        let summary = Summary::new(case, model, boundary, &outcome, noted);
-        let text = serde_json::to_string_pretty(&summary)
-            .context("the summary cannot be written as JSON")?;
-        folder.write_text(SUMMARY, &(text + "\n"))?;
+        let summary = summary(case, model, boundary, &outcome, noted);
+        summary::write(folder, &summary)?;
         checkpoints.end(&outcome.termination)?;
         Ok(summary)
     }
 }
 
 impl LoadedBody<'_> {
-    /// Follows the loads as [`LoadedBody::follow`] does on rank 0, from the unloaded body or from a restored run, and writes the pieces of
-    /// grids of this process into the folder of rank 0.
+    /// Runs the analysis on a rank other than 0, from the unloaded body or from a restored run, and writes this process's pieces of grids
+    /// into the folder of rank 0. The counterpart on rank 0 is [`LoadedBody::follow`].
     pub(crate) fn follow_beside(&self, restored: Option<Restored>) -> anyhow::Result<()> {
         let Self {
             case,
@@ -129,7 +124,7 @@ impl LoadedBody<'_> {
     }
 }
 
-/// The rule by which results of a case with an analysis are written.
+/// The rule by which the results of a case with an analysis are written.
 pub fn write_rule(case: &CaseFile, analysis: &Analysis) -> WriteRule {
     let output = &case.case.output;
     WriteRule {

@@ -1,4 +1,4 @@
-//! Memory that a case takes, foreseen, and what there is.
+//! Estimate of the memory that a case needs, and the available memory.
 
 use std::f64::consts::PI;
 use std::fs;
@@ -14,40 +14,39 @@ use ligament_analysis::stiffness::Stiffness;
 use ligament_case::case::{CaseFile, LatticeSection};
 use ligament_model::Bonds;
 
-/// Bytes of one bond while equations are solved, an estimate: 96 of the model (its record, rigidities, limit and two entries in
-/// the lists of its ends), the rest for state, deformation, points and cells. With it, runs of plates on a lattice took 1.20,
-/// 1.18, 1.09 and 1.07 times the equations and the program at 6016, 9392, 37,588 and 99,276 points. The correction, which is
-/// over by then, had taken 190 a bond at its peak.
+/// Estimated bytes of one bond while equations are solved: 96 of the model (its record, rigidities, limit and two entries in the lists of
+/// its ends), the rest for state, deformation, points and cells. With it, runs of plates on a lattice took 1.20, 1.18, 1.09 and 1.07 times
+/// the equations and the program at 6016, 9392, 37,588 and 99,276 points. The correction, which has ended by then, takes 190 per bond at
+/// its peak.
 const BOND: usize = 250;
 
-/// Bytes of a point before there is any bond (position, volume, cell and corners), an estimate to the safe side: the lattice of
-/// 99,276 points took about 100.
+/// Upper estimate of the bytes of a point without bonds (position, volume, cell and corners): the lattice of 99,276 points took about 100.
 const POINT: usize = 200;
 
-/// Equations over their bonds, at most, a bound to the safe side: below this share of the memory nothing need be analysed to know
-/// that it suffices. Plates of 6016 points with horizon factors of 1.1 to 5 take 4.2 to 5.2 times what their bonds take, and of 99,276
-/// points with 1.1 to 3 6.0 to 8.9 times: the factor grows with the logarithm of the points.
+/// Upper bound of the memory of equations over that of their bonds: where this bound fits, no symbolic analysis is needed. Plates of 6016
+/// points with horizon factors of 1.1 to 5 have ratios of 4.2 to 5.2, of 99,276 points with 1.1 to 3 ratios of 6.0 to 8.9: the ratio grows
+/// with the logarithm of the number of points.
 const MOST_OVER_BONDS: usize = 40;
 
-/// Values of L U over those of the Cholesky factor of the same pattern: both triangles, rows that wait for their pivots, and the
-/// parts of the fronts on their way. Elastic plates under the law `mbb-pd` in the form `pairwise`, of 1600, 6400 and 14,400 points with
-/// horizon factor 3, took 7.4, 8.2 and 9.0 times as many.
+/// Values of L U over those of the Cholesky factor of the same pattern: both triangles, rows with delayed pivots, and temporary parts of
+/// the fronts. Elastic plates under the law `mbb-pd` in the form `pairwise`, of 1600, 6400 and 14,400 points with horizon factor 3, took
+/// 7.4, 8.2 and 9.0 times as many.
 const UNSYMMETRIC: usize = 10;
 
-/// Bytes of a degree of freedom where equations are solved without a matrix: some twenty vectors, the blocks of the points, and the
-/// coarse space with its factor and the forces that resist it; in the plane and in space. Bodies of 160,000 points in the plane took
-/// 290, of 105,000 and 170,000 in space 1770 and 1020.
+/// Bytes of a degree of freedom where equations are solved without a matrix, in the plane and in space: about twenty vectors, the blocks of
+/// the points, and the coarse space with its factor and forces. Bodies of 160,000 points in the plane took 290, of 105,000 and 170,000 in
+/// space 1770 and 1020.
 const WITHOUT_MATRIX: [usize; 2] = [500, 1800];
 
-/// What the program itself takes, bytes.
+/// Memory of the program itself, bytes.
 const PROGRAM: u64 = 10_000_000;
 
-/// Factor for what the estimate leaves out: the course of the run, files on their way to disk, room that the allocator keeps.
-/// The peaks of runs of 846 to 99,276 points were 1.07 to 1.35 times the equations and the program where bonds stand for
-/// themselves, 1.41 where they soften, and 1.45 with the strains of the law `mbb-pd`.
+/// Factor for memory outside of the estimate: history, output buffers, reserves of the allocator. The peaks of runs of 846 to 99,276 points
+/// were 1.07 to 1.35 times the equations and the program where bonds are independent, 1.41 where they soften, and 1.45 with the strains of
+/// the law `mbb-pd`.
 const MARGIN: f64 = 1.5;
 
-/// A run that would take more memory than there is.
+/// Error of a run that would need more than the available memory.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
     "the run would take {:.1} GB of memory{}, and there are {:.1} GB for it; take fewer points or a smaller horizon, run it on a \
@@ -57,11 +56,11 @@ const MARGIN: f64 = 1.5;
     gigabytes(*available)
 )]
 pub struct TooLarge {
-    /// Bytes that the run takes.
+    /// Memory that the run needs, bytes.
     pub needed: u64,
-    /// Whether it may take far more: the factor is not counted in.
+    /// Whether the need is a lower bound, without the matrix factor.
     pub is_bound: bool,
-    /// Bytes that there are.
+    /// Available memory, bytes.
     pub available: u64,
 }
 
@@ -69,7 +68,7 @@ fn gigabytes(bytes: u64) -> f64 {
     bytes as f64 / 1e9
 }
 
-/// Estimated bytes of the equations of a system and of what stands around them; without a stiffness they are solved without a matrix.
+/// Estimated bytes of the equations of a system and of its bonds; without a stiffness the equations are solved without a matrix.
 pub fn of_equations(system: &dyn Bonds, stiffness: Option<&Stiffness>) -> usize {
     let Some(stiffness) = stiffness else {
         let unknowns = system.layout().n_degrees_of_freedom();
@@ -81,27 +80,27 @@ pub fn of_equations(system: &dyn Bonds, stiffness: Option<&Stiffness>) -> usize 
     stiffness.bytes() + further * factor + BOND * system.ends().len()
 }
 
-/// Bytes that the matrix and its factor may take in a run of a case, so that all that stands around them fits as well.
+/// Bytes available to the matrix and its factor in a run of a case, after the program and the bonds.
 pub fn for_factor(case: &CaseFile, system: &dyn Bonds) -> Option<usize> {
     let of_equations = allowed(case)? as f64 / MARGIN - PROGRAM as f64;
     Some((of_equations as usize).saturating_sub(BOND * system.ends().len()))
 }
 
-/// Values of a factor over those of the symmetric one.
+/// Number of values of a factor over that of the symmetric factor.
 fn times_of_factor(is_unsymmetric: bool) -> usize {
     if is_unsymmetric { UNSYMMETRIC } else { 1 }
 }
 
-/// Bytes that a run takes at most whose equations take so many.
+/// Largest memory of a run whose equations take `equations` bytes.
 pub fn of_run(equations: usize) -> u64 {
     (MARGIN * (equations as u64 + PROGRAM) as f64) as u64
 }
 
-/// Fails where the points and bonds of a lattice, not yet made, would take more memory than there is in one of some processes.
+/// Refuses a lattice whose points and bonds, not yet built, would exceed the available memory of one of several processes.
 ///
 /// # Errors
 ///
-/// With both numbers.
+/// If the available memory is exceeded, with both numbers.
 pub fn foresee_lattice(
     case: &CaseFile,
     lattice: &LatticeSection,
@@ -118,15 +117,15 @@ pub fn foresee_lattice(
     require_memory_for_bonds(case, points, family.unwrap_or_default(), processes)
 }
 
-/// Fails where the bonds of a body that one process has of it, not yet searched, would take more memory than there is.
+/// Refuses a body whose bonds on one process, not yet searched, would exceed the available memory.
 ///
 /// # Errors
 ///
-/// With both numbers.
+/// If the available memory is exceeded, with both numbers.
 pub fn foresee_model(case: &CaseFile, setup: &Setup) -> Result<(), TooLarge> {
     let dimensions = setup.body.dimensions();
     let points = setup.body.n_points() as f64;
-    // Volume of a ball of radius 1 in so many dimensions.
+    // Volume of a ball of radius 1 in the body's dimension.
     let ball = if dimensions == 2 { PI } else { 4.0 * PI / 3.0 };
     let family = match setup.horizon {
         Horizon::Factor(factor) => ball * factor.powi(dimensions as i32),
@@ -143,8 +142,8 @@ pub fn foresee_model(case: &CaseFile, setup: &Setup) -> Result<(), TooLarge> {
     require_memory_for_bonds(case, points, family, partition_communicator(setup).size())
 }
 
-/// Each bond is one of two families; no point has more neighbours than there are others. Of several processes each has all points and its
-/// part of the bonds, or a little more.
+/// Refuses a number of points and a size of families that exceed the available memory. Each bond belongs to two families, and no point has
+/// more neighbours than other points exist. Each process has all points and about its part of the bonds.
 fn require_memory_for_bonds(
     case: &CaseFile,
     points: f64,
@@ -156,11 +155,11 @@ fn require_memory_for_bonds(
     compare(case, needed, true)
 }
 
-/// Fails where the equations of a problem would take more memory than there is.
+/// Refuses a problem whose equations would exceed the available memory.
 ///
 /// # Errors
 ///
-/// With both numbers, or if the equations cannot be analysed.
+/// If the available memory is exceeded, with both numbers, or if the equations cannot be analysed.
 pub fn foresee_equations(
     case: &CaseFile,
     system: &dyn Bonds,
@@ -175,11 +174,11 @@ pub fn foresee_equations(
     Ok(foresee(case, system, equilibrium.stiffness())?)
 }
 
-/// Fails where equations that were analysed would take more memory than there is.
+/// Refuses analysed equations that would exceed the available memory.
 ///
 /// # Errors
 ///
-/// With both numbers.
+/// If the available memory is exceeded, with both numbers.
 pub fn foresee(
     case: &CaseFile,
     system: &dyn Bonds,
@@ -203,15 +202,14 @@ fn compare(case: &CaseFile, needed: u64, is_bound: bool) -> Result<(), TooLarge>
     }
 }
 
-/// Memory that a case may take, bytes: what it says, or what there is.
+/// Memory that a case may use, bytes: the given or the available memory.
 pub fn allowed(case: &CaseFile) -> Option<u64> {
     let given = case.case.solver.memory;
     given.map(|it| (1e9 * it) as u64).or_else(available)
 }
 
-/// Memory that programs can take without others being moved out, bytes: what the system has left and, under limits for this
-/// process (cgroups, as batch systems and containers set them, or that of the shell), what these leave. `None` where none is
-/// known.
+/// Memory that programs can use without swapping, bytes: the smaller one of the system's free memory and the rest of this process's limits
+/// (cgroups, as of batch systems and containers, or the shell's). `None` where neither is known.
 pub fn available() -> Option<u64> {
     let limits = [
         of_system(),
@@ -225,7 +223,7 @@ pub fn available() -> Option<u64> {
     limits.into_iter().flatten().min()
 }
 
-/// The number of KiB behind a name in a list such as /proc/meminfo, in bytes.
+/// The value in KiB behind a name in a list such as /proc/meminfo, converted to bytes.
 fn kibibytes(list: &str, name: &str) -> Option<u64> {
     let text = fs::read_to_string(list).ok()?;
     let line = text.lines().find_map(|line| line.strip_prefix(name))?;
@@ -252,7 +250,7 @@ fn of_files(folder: &Path, [limit, usage]: [&str; 2]) -> Option<u64> {
     Some(number(limit)?.saturating_sub(number(usage)?))
 }
 
-/// What `ulimit -v` leaves of the addresses of this process.
+/// The rest of this process's address space under `ulimit -v`, bytes.
 fn of_shell() -> Option<u64> {
     let limits = fs::read_to_string("/proc/self/limits").ok()?;
     let line = limits

@@ -16,7 +16,7 @@ use crate::stages::Stages;
 use crate::summary;
 use ligament_case::case::{CaseFile, StressField};
 
-/// Times the stages of a case and tells of what they find.
+/// Watcher that times the stages of a case and shows their results.
 struct Preparation<'a> {
     stages: &'a mut Stages,
     progress: &'a Progress,
@@ -58,7 +58,7 @@ impl StageWatcher for Preparation<'_> {
 ///
 /// # Errors
 ///
-/// If a file cannot be read, or the case does not go together with its body.
+/// If a file cannot be read, or the case contradicts its body.
 pub fn build_model(
     case: &CaseFile,
     stages: &mut Stages,
@@ -71,7 +71,7 @@ pub fn build_model(
 ///
 /// # Errors
 ///
-/// As of [`build_model`], and if the body is a solid.
+/// As for [`build_model`], and if the body is a solid.
 pub fn build_model_in_plane(
     case: &CaseFile,
     stages: &mut Stages,
@@ -85,7 +85,7 @@ pub fn build_model_in_plane(
 ///
 /// # Errors
 ///
-/// As of [`build_model`].
+/// As for [`build_model`].
 pub fn build_model_on(
     case: &CaseFile,
     communicator: Arc<dyn MatrixCommunicator>,
@@ -111,10 +111,10 @@ pub fn build_model_on(
     Ok(model)
 }
 
-/// Does short loops, one after the other, on as many threads as have a processor beside the tasks of others.
+/// Runs successive short loops on as many threads as there are processors beside the tasks of other programs.
 ///
-/// At the end of each loop all threads wait for the last one. One that shares its processor loses it for longer than a loop takes, so
-/// that several such threads take longer than one.
+/// At the end of each loop all threads wait for the last one. A thread that shares its processor is suspended for longer than a loop, so
+/// that several threads may take longer than one.
 fn on_free_processors<T: Send>(
     tasks: usize,
     work: impl FnOnce() -> T + Send,

@@ -1,17 +1,15 @@
-//! The route of a modal analysis: from the model to modes on disk.
+//! A modal analysis, from the model to modes on disk.
 
-use anyhow::Context;
 use ligament::Vibration;
 use ligament_analysis::modal::{ModalAnalysis, ModalSettings};
 use ligament_output::folder::ResultFolder;
 use ligament_output::results::write_modes;
+use ligament_output::summary::{self, ModalSummary, Provenance};
 
 use crate::destination::make_results;
-use crate::loading::SUMMARY;
 use crate::memory;
-use crate::provenance::Provenance;
 use crate::stages::Stages;
-use crate::summary::ModalSummary;
+use crate::summary::modal_summary;
 use ligament::Model;
 use ligament_case::case::CaseFile;
 
@@ -31,16 +29,14 @@ pub(crate) fn find_modes(
 
     let outcome = stages.time("modes", || analysis.find())?;
 
-    // Nothing is written, and nothing replaced, before the modes are there.
+    // Nothing is written or replaced before the modes are found.
     make_results(case, create, |folder| {
         stages.time("output", || {
             let grid = model.body().grid();
             write_modes(folder, &grid, &*model.system, &model.fixed, &outcome)
         })?;
-        let summary = ModalSummary::new(case, model, &outcome, provenance, stages.done());
-        let text = serde_json::to_string_pretty(&summary)
-            .context("the summary cannot be written as JSON")?;
-        folder.write_text(SUMMARY, &(text + "\n"))?;
+        let summary = modal_summary(case, model, &outcome, provenance, stages.done());
+        summary::write(folder, &summary)?;
         Ok((summary, true))
     })
 }

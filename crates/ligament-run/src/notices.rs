@@ -1,14 +1,14 @@
-//! What a run notices on its way, in words with the tags of the body.
+//! Messages for the notices of a run, with the tags of the body.
 
 use ligament::Body;
 use ligament_analysis::history::{LargestOverlap, Notice};
 
 use crate::gauges;
 
-/// Points that a notice lists.
+/// Largest number of points listed in a notice.
 const SHOWN: usize = 5;
 
-/// A notice with points given by their tags; `closing` says whether faces of cracks carry pressure where they close.
+/// Message for a notice, with points by their tags; `closing`: whether faces of cracks carry pressure where they close.
 pub fn words(notice: &Notice, body: &dyn Body, closing: bool) -> String {
     match notice {
         Notice::FreeBody(free) => gauges::words(free, body, closing),

@@ -1,4 +1,4 @@
-//! The observer of the processes beside rank 0.
+//! The observer of ranks other than 0.
 
 use ligament_analysis::Termination;
 use ligament_analysis::history::{Moment, Observer, ObserverError, Onward, StepRecord, View};
@@ -6,17 +6,17 @@ use ligament_output::results::PieceWriter;
 
 use crate::checkpoints::IsStopped;
 
-/// The observer of a process beside rank 0: writes its pieces of grids, and stops with all other processes.
+/// The observer of a rank other than 0, which writes its pieces of grids and stops together with all other processes.
 pub(crate) struct Pieces<'a> {
     is_stopped: IsStopped<'a>,
-    /// Whether the run stops in the next moment.
+    /// Whether the run stops in the next state.
     stops: bool,
-    /// None where the body is not divided: rank 0 then writes whole grids.
+    /// Writer of pieces; none where the body is not divided and rank 0 writes whole grids.
     writer: Option<PieceWriter<'a>>,
 }
 
 impl<'a> Pieces<'a> {
-    /// The observer of a run with a writer, where the body is divided.
+    /// The observer of a run, with a writer where the body is divided.
     pub(crate) fn new(writer: Option<PieceWriter<'a>>, is_stopped: IsStopped<'a>) -> Self {
         Self {
             is_stopped,

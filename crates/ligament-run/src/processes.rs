@@ -1,4 +1,4 @@
-//! What the processes of a run exchange beside the equations.
+//! Communication between the processes of a run outside of the equations.
 
 use std::path::{Path, PathBuf};
 
@@ -15,7 +15,7 @@ use crate::memory;
 ///
 /// # Errors
 ///
-/// If a name of the case is not in the body, or the results asked for need all bonds on one process and the body is divided.
+/// If a name of the case is not in the body, or the requested results need all bonds on one process and the body is divided.
 pub(crate) fn loading(case: &CaseFile, model: &Model) -> anyhow::Result<Loading> {
     let is_whole = model.system.subdomain().is_whole();
     ensure!(
@@ -33,16 +33,16 @@ pub(crate) fn loading(case: &CaseFile, model: &Model) -> anyhow::Result<Loading>
     Ok(loading)
 }
 
-/// Whether some process was asked to stop; collective.
+/// Whether any process should stop; collective.
 pub(crate) fn any_stopped(communicator: &dyn Communicator, is_stopped: IsStopped<'_>) -> bool {
     communicator.any(is_stopped())
 }
 
-/// The path that rank 0 has; the others give none. Collective.
+/// The path of rank 0; other ranks pass `None`. Collective.
 ///
 /// # Errors
 ///
-/// If the path is not UTF-8 on the others.
+/// If the path received by another rank is not UTF-8.
 pub(crate) fn broadcast_path(
     communicator: &dyn Communicator,
     path: Option<&Path>,
@@ -55,11 +55,11 @@ pub(crate) fn broadcast_path(
     })
 }
 
-/// The solution of a checkpoint that rank 0 has found, if it has found one. Collective.
+/// The solution of a checkpoint found by rank 0, if any. Collective.
 ///
 /// # Errors
 ///
-/// If what arrives is damaged.
+/// If the received bytes are damaged.
 pub(crate) fn broadcast_solution(
     communicator: &dyn Communicator,
     solution: Option<Vec<u8>>,

@@ -1,21 +1,21 @@
-//! Processors that other programs leave to this one.
+//! Number of processors that other programs leave free.
 
 use std::fs;
 use std::thread;
 
-/// Tasks of all programs that run or wait for a processor at this moment, the one that asks left out; 0 where the system does not tell.
+/// Number of tasks of all programs that run or wait for a processor, without the calling one; 0 where unknown.
 pub(crate) fn tasks_of_others() -> usize {
     let load = fs::read_to_string("/proc/loadavg").unwrap_or_default();
     runnable(&load).unwrap_or(1).saturating_sub(1)
 }
 
-/// How many of so many threads find a processor for themselves beside the tasks of others; one at least.
+/// Number of `threads` with a processor of their own beside `tasks` of other programs, at least one.
 pub(crate) fn free_threads(tasks: usize, threads: usize) -> usize {
     let processors = thread::available_parallelism().map_or(threads, usize::from);
     processors.saturating_sub(tasks).clamp(1, threads)
 }
 
-/// The tasks that run or wait, the first number of the fourth field.
+/// Number of tasks that run or wait, the first number of the fourth field of `/proc/loadavg`.
 fn runnable(load: &str) -> Option<usize> {
     let (runnable, _) = load.split_whitespace().nth(3)?.split_once('/')?;
     runnable.parse().ok()

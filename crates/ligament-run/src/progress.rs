@@ -1,4 +1,4 @@
-//! How far a run is: a bar on a terminal, lines in a log, nothing when quiet. All on stderr.
+//! Progress of a run on stderr: a bar on a terminal, lines in a log, nothing when quiet.
 
 use std::fmt::Write as _;
 use std::io::{self, IsTerminal, Write};
@@ -11,20 +11,20 @@ use ligament_analysis::distributed_matrix::Communicator;
 use ligament_output::quantity::quantity;
 use ligament_output::terminal::plain;
 
-/// Steps that follow sooner than this on the last logged one are left out of a log, ...
+/// Shortest time between two logged steps, unless [`LOG_SHARE`] is reached.
 const LOG_PAUSE: Duration = Duration::from_secs(2);
 
-/// ... unless this share of all steps has been done since.
+/// Share of all steps after which a step is logged in any case.
 const LOG_SHARE: f64 = 0.1;
 
-/// Where progress is shown.
+/// Display of progress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ProgressMode {
-    /// A bar that is redrawn, on a terminal.
+    /// A redrawn bar on a terminal.
     Terminal,
-    /// Lines, in a log.
+    /// Lines in a log.
     Log,
-    /// Nowhere.
+    /// No display.
     Quiet,
 }
 
@@ -46,17 +46,17 @@ pub struct StepLine {
     pub step: u64,
     /// Load factor of the step.
     pub load_factor: f64,
-    /// The displacement that goes with the load, if there is one.
+    /// Displacement of the load, if there is one, in [`units`](Self::units).
     pub displacement: Option<f64>,
-    /// The load, if there is one.
+    /// Size of the load, if there is one, in [`units`](Self::units).
     pub load: Option<f64>,
-    /// Units of both.
+    /// Units of displacement and load.
     pub units: Units,
-    /// Bonds broken so far.
+    /// Number of broken bonds.
     pub broken_bonds: u64,
-    /// Unbroken bonds whose force has begun to fall, at the end of the last load step; none where no bond softens.
+    /// Number of unbroken bonds that soften at the end of the last load step; none where no bond can soften.
     pub softened_bonds: Option<u64>,
-    /// Stage of a programme, at the end of the last load step.
+    /// Stage of a load program, at the end of the last load step.
     pub stage: Option<String>,
 }
 
@@ -86,7 +86,7 @@ impl StepLine {
     }
 }
 
-/// Shows how far a run is.
+/// Display of the progress of a run.
 #[derive(Debug)]
 pub struct Progress {
     mode: ProgressMode,
@@ -97,7 +97,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Progress that is shown in the given way.
+    /// Progress with a mode of display.
     pub fn new(mode: ProgressMode) -> Self {
         Self {
             mode,
@@ -108,7 +108,7 @@ impl Progress {
         }
     }
 
-    /// Progress that rank 0 shows in the given way.
+    /// Progress with a mode of display on rank 0 and none on other ranks.
     pub(crate) fn on(communicator: &dyn Communicator, mode: ProgressMode) -> Self {
         Self::new(match communicator.is_root() {
             true => mode,
@@ -116,7 +116,7 @@ impl Progress {
         })
     }
 
-    /// Tells of a stage that is done: "bonds: 2716 points, 38120 bonds".
+    /// Shows a message about a completed stage: "bonds: 2716 points, 38120 bonds".
     pub fn stage(&self, message: &str) {
         match (&self.bar, self.mode) {
             (_, ProgressMode::Quiet) => {}
@@ -125,7 +125,7 @@ impl Progress {
         }
     }
 
-    /// Begins the load steps, of which there will be at most `total` where that is known.
+    /// Starts the load steps; `total` is their largest number, where known.
     pub fn begin_steps(&mut self, total: Option<u64>) {
         self.total = total;
         self.started = Instant::now();
@@ -138,7 +138,7 @@ impl Progress {
         }
     }
 
-    /// Shows the state within a load step, such as after a round of breaking.
+    /// Shows the state within a load step, such as after a round of breakages.
     pub fn round(&mut self, line: &StepLine) {
         self.show(line, false);
     }
@@ -184,7 +184,7 @@ fn style(has_total: bool) -> ProgressStyle {
     ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
-/// Progress that cannot be written (a closed pipe) must not end the run.
+/// Writes a line to stderr; a failure, such as a closed pipe, must not end the run.
 fn write_line(line: &str) {
     let _ = writeln!(io::stderr().lock(), "{}", plain(line));
 }
@@ -202,7 +202,7 @@ fn log_line(line: &StepLine, done: bool, total: Option<u64>, elapsed: Duration) 
     text
 }
 
-/// A time in two units: "1 h 2 min".
+/// A duration in two units: "1 h 2 min".
 pub fn duration_text(duration: Duration) -> String {
     match duration.as_secs() {
         seconds @ 0..60 => format!("{seconds} s"),
@@ -211,14 +211,14 @@ pub fn duration_text(duration: Duration) -> String {
     }
 }
 
-/// Decides which steps go into a log.
+/// Selection of the steps for a log.
 #[derive(Debug, Default)]
 struct LogPace {
     last: Option<(u64, Duration)>,
 }
 
 impl LogPace {
-    /// Whether a line is due after so many steps and so much time; if so it counts as written.
+    /// Whether a line is due after a number of steps and a time; a due line counts as written.
     fn is_due(&mut self, steps_done: u64, total: Option<u64>, elapsed: Duration) -> bool {
         let due = match self.last {
             None => true,

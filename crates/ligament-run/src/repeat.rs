@@ -1,4 +1,4 @@
-//! Repeating a run from the record in the folder of its results, and comparing both to the last bit.
+//! Repetition of a run from the record in its result folder, with a bitwise comparison.
 
 use std::ffi::OsString;
 use std::fs;
@@ -11,48 +11,45 @@ use ligament_analysis::Termination;
 use ligament_analysis::distributed_matrix::Solo;
 use ligament_case::case::CaseFile;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
-use ligament_output::read_text;
 use ligament_output::results::outputs::require_results;
-use serde_json::Value;
+use ligament_output::summary::{self, Build, Input, Provenance, SUMMARY, Summary};
 
 use crate::checkpoints::{IsStopped, VERSION};
 use crate::comparison::{Comparison, Ending};
 use crate::inputs::{Contents, files, unread};
-use crate::loading::SUMMARY;
 use crate::progress::ProgressMode;
-use crate::provenance::{Build, Input, Provenance};
+use crate::provenance::provenance;
 use crate::run;
 
-/// What the folder of a repetition has behind the name of the results.
+/// Suffix of the result folder's name for the folder of a repetition.
 const SUFFIX: &str = ".repeat";
 
-/// A run that is to be repeated.
+/// Request to repeat a run.
 pub struct Request<'a> {
-    /// The folder of its results.
+    /// Result folder of the run.
     pub folder: &'a Path,
-    /// The folder for the results of the repetition, which stay there; without one they are made beside those of the run, and go if
-    /// they are the same.
+    /// Folder in which the results of the repetition are kept; without one they are written beside those of the run, and removed if equal.
     pub out: Option<&'a Path>,
-    /// The mesh, where it no longer lies where the run found it.
+    /// Path of the mesh, where it has moved since the run.
     pub mesh: Option<&'a Path>,
-    /// Threads, where they are to be others.
+    /// Number of threads, if other than that of the case.
     pub threads: Option<u32>,
-    /// The program that repeats it.
+    /// Build of the repeating program.
     pub build: Build,
-    /// Tells whether the user wants it to stop.
+    /// Whether the user wants to stop the repetition.
     pub is_stopped: IsStopped<'a>,
 }
 
-/// What a repetition found.
+/// Result of a repetition.
 #[derive(Debug)]
 pub struct Repetition {
     folder: PathBuf,
-    /// The results of the repetition, where they were kept.
+    /// Folder of the repetition's results, if kept.
     kept: Option<PathBuf>,
     comparison: Comparison,
-    /// What the user should know of the run.
+    /// Notes on the run for the user.
     notes: Vec<String>,
-    /// What was otherwise when the run was done: what, then, now.
+    /// Differing circumstances of the run: name, earlier value, present value.
     circumstances: Vec<[String; 3]>,
     /// Whether a note may explain differences.
     is_explained: bool,
@@ -61,35 +58,32 @@ pub struct Repetition {
 impl Request<'_> {
     /// Repeats the run with its case and mesh and compares all tables, fields and the summary.
     ///
-    /// A run that was stopped is followed up to where it was stopped.
+    /// A stopped run is repeated up to the state where it was stopped.
     ///
     /// # Errors
     ///
-    /// If the folder holds no results of a run that has ended, another process writes to it, a file that it read is another now, or
-    /// the run fails.
+    /// If the folder has no results of a run that has ended, another process writes to it, an input file has changed, or the run fails.
     pub fn repeat(&self, mode: ProgressMode) -> anyhow::Result<Repetition> {
         let folder = ResultFolder::settled(self.folder).map_err(in_use)?;
         require_results(&folder)?;
         let summary = summary_of(&folder)?;
         let case = self.case(&folder)?;
-        let record = &summary["provenance"];
-        let has_record = record.is_object();
         let mut contents = Contents::default();
-        if has_record {
+        if let Some(record) = &summary.provenance {
             check_inputs(&folder, record, &case, &mut contents)?;
         }
         let out = self.place(&folder)?;
-        let now = Provenance::new(self.build, &case, &mut contents).map_err(unread)?;
+        let now = provenance(self.build.clone(), &case, &mut contents).map_err(unread)?;
         if let Err(error) = self.run_again(&case, &folder, &out, &summary, mode) {
             if self.out.is_none() {
-                // Nothing was there before; what cannot be removed harms nobody.
+                // The folder did not exist before; a rest that cannot be removed is harmless.
                 let _ = fs::remove_dir_all(&out);
             }
             return Err(error);
         }
-        let ending = match summary["termination"].as_str() {
-            Some(name) if name == WALL_TIME => Ending::ByTime,
-            _ => Ending::ByCourse,
+        let ending = match summary.termination == WALL_TIME {
+            true => Ending::ByTime,
+            false => Ending::ByCourse,
         };
         let comparison = Comparison::new(&folder, &out, ending)?;
         let kept = (self.out.is_some() || !comparison.is_same()).then(|| out.clone());
@@ -97,16 +91,16 @@ impl Request<'_> {
             fs::remove_dir_all(&out).with_context(|| format!("cannot remove {}", out.display()))?;
         }
         Ok(Repetition {
-            notes: notes(&summary, has_record),
-            circumstances: circumstances(&summary, &serde_json::to_value(now)?),
-            is_explained: !has_record || record["resumed"] == true,
+            notes: notes(&summary),
+            circumstances: circumstances(&summary, &now),
+            is_explained: summary.provenance.as_ref().is_none_or(|it| it.resumed),
             folder: self.folder.to_path_buf(),
             kept,
             comparison,
         })
     }
 
-    /// The case of the run, on the threads that are wanted now.
+    /// The case of the run, with the requested number of threads.
     fn case(&self, folder: &Path) -> anyhow::Result<CaseFile> {
         let mut case = CaseFile::load(&folder.join(RESOLVED_CASE), &[])?;
         let threads = &mut case.case.solver.threads;
@@ -117,14 +111,14 @@ impl Request<'_> {
             };
             section.file = std::path::absolute(mesh)?;
         }
-        // A repetition may take its time: it is stopped where the run was.
+        // A repetition has no limit of wall time: it is stopped where the run was.
         if let Some(fracture) = &mut case.case.fracture {
             fracture.stop.wall_time = None;
         }
         Ok(case)
     }
 
-    /// The folder for the results of the repetition, where nothing is yet.
+    /// The folder for the results of the repetition, which must not exist yet.
     fn place(&self, folder: &Path) -> anyhow::Result<PathBuf> {
         let place = match self.out {
             Some(out) => out.to_path_buf(),
@@ -143,18 +137,18 @@ impl Request<'_> {
         Ok(place)
     }
 
-    /// Does the run anew, up to where it was stopped if it was.
+    /// Runs the case again, up to the state where the run was stopped, if it was.
     fn run_again(
         &self,
         case: &CaseFile,
         folder: &Path,
         out: &Path,
-        summary: &Value,
+        summary: &Summary,
         mode: ProgressMode,
     ) -> anyhow::Result<()> {
         let was_cut_short = [Termination::Stopped.name(), WALL_TIME]
             .iter()
-            .any(|name| summary["termination"] == *name);
+            .any(|name| summary.termination == *name);
         let length = |folder: &Path| TOLD.iter().map(|name| length_of(&folder.join(name))).sum();
         let end: u64 = length(folder);
         let is_at_its_end = || was_cut_short && length(out) >= end;
@@ -162,7 +156,7 @@ impl Request<'_> {
             case,
             out,
             force: false,
-            build: self.build,
+            build: self.build.clone(),
             communicator: Arc::new(Solo),
             is_stopped: &|| (self.is_stopped)() || is_at_its_end(),
         };
@@ -177,13 +171,13 @@ impl Request<'_> {
     }
 }
 
-/// Name of the end by a limit of time.
+/// Name in summaries of the end by a limit of wall time.
 const WALL_TIME: &str = "wall-time";
 
-/// Tables that grow with each equilibrium, of which a run can be stopped at the end.
+/// Tables that grow with each equilibrium, after which a run can be stopped.
 const TOLD: [&str; 2] = ["iterations.csv", "breaks.csv"];
 
-/// The error of a folder that another process writes to.
+/// Converts the error of a folder that another process writes to.
 fn in_use(error: ligament_output::Error) -> anyhow::Error {
     match error {
         ligament_output::Error::Busy { path, .. } => anyhow::anyhow!(
@@ -198,41 +192,33 @@ fn length_of(path: &Path) -> u64 {
     fs::metadata(path).map_or(0, |file| file.len())
 }
 
-/// The summary of a run that has ended or was stopped.
-fn summary_of(folder: &Path) -> anyhow::Result<Value> {
-    let path = folder.join(SUMMARY);
-    ensure!(
-        path.is_file(),
-        "the run in {0} has not come to its end, for it has no {SUMMARY}: `ligament resume {0}` goes on with it",
-        folder.display()
-    );
-    serde_json::from_str(&read_text(&path)?)
-        .with_context(|| format!("cannot use {}", path.display()))
+/// Reads the summary of a run that has ended or was stopped.
+fn summary_of(folder: &Path) -> anyhow::Result<Summary> {
+    let summary = summary::read(folder)?;
+    summary.with_context(|| {
+        format!(
+            "the run in {0} has not come to its end, for it has no {SUMMARY}: `ligament resume {0}` goes on with it",
+            folder.display()
+        )
+    })
 }
 
-/// Refuses to repeat a run whose case or files are others than they were, with their names.
+/// Refuses to repeat a run whose case or files have changed, with their names.
 fn check_inputs(
     folder: &Path,
-    record: &Value,
+    record: &Provenance,
     case: &CaseFile,
     contents: &mut Contents,
 ) -> anyhow::Result<()> {
-    let inputs: Vec<Input> =
-        serde_json::from_value(record["inputs"].clone()).with_context(|| {
-            format!(
-                "cannot use the record in {}",
-                folder.join(SUMMARY).display()
-            )
-        })?;
     let now = files(case);
     let mut changed = Vec::new();
-    for Input { key, file, content } in inputs {
+    for Input { key, file, content } in &record.inputs {
         let named = |key: &String| now.iter().find(|(other, _)| other == key);
-        let (what, path) = match &key {
-            None => ("the case of the run".to_owned(), folder.join(&file)),
+        let (what, path) = match key {
+            None => ("the case of the run".to_owned(), folder.join(file)),
             Some(key) => (
                 format!("`{key}`"),
-                named(key).map_or(file, |(_, path)| path.clone()),
+                named(key).map_or_else(|| file.clone(), |(_, path)| path.clone()),
             ),
         };
         let found = contents.identity(&path).map_err(|error| {
@@ -242,7 +228,7 @@ fn check_inputs(
             };
             unread((path.clone(), error)).context(format!("{what} cannot be read{hint}"))
         })?;
-        if found != content {
+        if found != *content {
             let path = path.display();
             changed.push(format!("{what}, {path}: {content} then, {found} now"));
         }
@@ -256,70 +242,71 @@ fn check_inputs(
     Ok(())
 }
 
-/// What the user should know of a run that is compared.
-fn notes(summary: &Value, has_record: bool) -> Vec<String> {
-    let mut notes = Vec::new();
-    if !has_record {
-        notes.push(
+/// Notes for the user on a run that is compared.
+fn notes(summary: &Summary) -> Vec<String> {
+    let is_cut_short =
+        summary.termination == Termination::Stopped.name() || summary.termination == WALL_TIME;
+    let record = summary.provenance.as_ref();
+    let all = [
+        (
+            record.is_none(),
             "the results have no record of commit and inputs, for they are of an earlier version; the files that the case names were \
-             taken as they are now"
-                .to_owned(),
-        );
-    }
-    if summary["provenance"]["resumed"] == true {
-        notes.push(
-            "the run was resumed: what came before may be from other settings of its output, or another build"
-                .to_owned(),
-        );
-    }
-    if summary["without_equilibrium"] == true {
-        notes.push(
-            "the run has no equilibrium under load: only the way there was compared".to_owned(),
-        );
-    }
-    if summary["termination"] == Termination::Stopped.name() || summary["termination"] == WALL_TIME
-    {
-        notes.push("the run was cut short: it was compared up to there".to_owned());
-    }
-    notes
+             taken as they are now",
+        ),
+        (
+            record.is_some_and(|it| it.resumed),
+            "the run was resumed: what came before may be from other settings of its output, or another build",
+        ),
+        (
+            summary.without_equilibrium,
+            "the run has no equilibrium under load: only the way there was compared",
+        ),
+        (
+            is_cut_short,
+            "the run was cut short: it was compared up to there",
+        ),
+    ];
+    let said = all.into_iter().filter(|(applies, _)| *applies);
+    said.map(|(_, note)| note.to_owned()).collect()
 }
 
-/// What was otherwise when the run was done, and may explain a difference: what, then, now.
-fn circumstances(then: &Value, now: &Value) -> Vec<[String; 3]> {
-    let word = |value: &Value| match value {
-        Value::Null => "not known".to_owned(),
-        Value::String(text) => text.clone(),
-        other => other.to_string(),
+/// Differing circumstances of the run that may explain a difference: name, earlier value, present value.
+fn circumstances(summary: &Summary, now: &Provenance) -> Vec<[String; 3]> {
+    let word = |it: Option<&str>| it.unwrap_or("not known").to_owned();
+    let then = summary.provenance.as_ref();
+    let commit = |of: &Build| match of.uncommitted_changes {
+        Some(true) => format!("{} with uncommitted changes", word(of.commit.as_deref())),
+        _ => word(of.commit.as_deref()),
     };
-    let record = &then["provenance"];
-    let has_record = record.is_object();
-    let commit = |of: &Value| match of["uncommitted_changes"].as_bool() {
-        Some(true) => format!("{} with uncommitted changes", word(&of["commit"])),
-        _ => word(&of["commit"]),
+    let named = |it: &Provenance| {
+        let build = &it.build;
+        [
+            ("commit", commit(build)),
+            ("profile", word(build.profile.as_deref())),
+            ("target", word(build.target.as_deref())),
+            ("compiler", word(build.compiler.as_deref())),
+            ("processor", word(it.processor.as_deref())),
+            ("vectors", word(it.vector_instructions.as_deref())),
+        ]
     };
-    let named = |key: &str| [word(&record[key]), word(&now[key])];
-    [
-        ("version", [word(&then["version"]), VERSION.to_owned()]),
-        ("commit", [commit(record), commit(now)]),
-        ("profile", named("profile")),
-        ("target", named("target")),
-        ("compiler", named("compiler")),
-        ("processor", named("processor")),
-        ("vectors", named("vector_instructions")),
-    ]
-    .into_iter()
-    .filter(|(what, [then, now])| then != now && (has_record || *what == "version"))
-    .map(|(what, [then, now])| [what.to_owned(), then, now])
-    .collect()
+    let version = [summary.model.version.to_string(), VERSION.to_owned()];
+    let recorded = then
+        .into_iter()
+        .flat_map(|then| named(then).into_iter().zip(named(now)));
+    let recorded = recorded.map(|((what, then), (_, now))| (what, [then, now]));
+    let all = [("version", version)].into_iter().chain(recorded);
+    all.filter(|(_, [then, now])| then != now)
+        .map(|(what, [then, now])| [what.to_owned(), then, now])
+        .collect()
 }
 
 impl Repetition {
-    /// Whether all was the same to the last bit.
+    /// Whether all results are bitwise equal.
     pub fn is_same(&self) -> bool {
         self.comparison.is_same()
     }
 
-    /// The lines that a user sees.
+    /// Writes the report for the user.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let (folder, compared) = (self.folder.display(), self.comparison.compared);
         let differing = self.comparison.differing.as_slice();
@@ -368,5 +355,5 @@ impl Repetition {
     }
 }
 
-/// Files after the first whose difference is shown.
+/// Number of files after the first whose difference is shown.
 const SHOWN: usize = 5;

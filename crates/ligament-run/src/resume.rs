@@ -1,9 +1,9 @@
-//! Going on with a run that was stopped or killed, in the folder of its results.
+//! Resuming a stopped or killed run in its result folder.
 
 use std::path::Path;
 use std::sync::Arc;
 
-use anyhow::{Context, bail, ensure};
+use anyhow::{bail, ensure};
 use ligament::run::{on_threads, restore};
 use ligament_analysis::distributed_matrix::MatrixCommunicator;
 use ligament_analysis::driver::{Problem, Restored};
@@ -11,46 +11,44 @@ use ligament_analysis::serial::Serial;
 use ligament_case::case::CaseFile;
 use ligament_output::checkpoint::Checkpoint;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
-use ligament_output::read_text;
 use ligament_output::results::OutputState;
 use ligament_output::results::outputs::{clear, require_results};
-use serde_json::Value;
+use ligament_output::summary::{self, Build, SUMMARY, Summary};
 
 use crate::checkpoints::{IsStopped, VERSION};
 use crate::destination::make_results;
+use crate::end::End;
 use crate::inputs::{Contents, Inputs, MAY_CHANGE, unread};
-use crate::loading::{Kept, LoadedBody, SUMMARY};
+use crate::loading::{Kept, LoadedBody};
 use crate::model::build_model_on;
 use crate::processes::{any_stopped, broadcast_path, broadcast_solution, loading};
 use crate::progress::{Progress, ProgressMode};
-use crate::provenance::Build;
 use crate::run::Report;
 use crate::stages::Stages;
 
-/// A run that is to go on.
+/// Request to resume a run.
 pub struct Request<'a> {
-    /// The folder of its results.
+    /// Result folder of the run.
     pub folder: &'a Path,
-    /// Settings that are to be others from now on, `key=value` each.
+    /// Changed settings, `key=value` each.
     pub settings: &'a [String],
-    /// Threads, where they are to be others.
+    /// Number of threads, if other than that of the case.
     pub threads: Option<u32>,
-    /// The program that goes on with it.
+    /// Build of the resuming program.
     pub build: Build,
-    /// Tells whether the user wants it to stop again.
+    /// Whether the user wants to stop the run again.
     pub is_stopped: IsStopped<'a>,
-    /// The processes that go on with it together; rank 0 writes all but the pieces of grids that each writes.
+    /// Processes of the resumed run; rank 0 writes all results but the pieces of grids of each process.
     pub communicator: Arc<dyn MatrixCommunicator>,
 }
 
 impl Request<'_> {
-    /// Goes on with the run from its last good checkpoint, to the same results as if it had never stopped; one that has no
-    /// checkpoint yet starts anew.
+    /// Resumes the run from its last valid checkpoint, with the same results as an uninterrupted run; a run without a checkpoint starts
+    /// anew.
     ///
     /// # Errors
     ///
-    /// If the folder holds no run or one that has ended, if a setting would change what was computed, or if no checkpoint can be
-    /// used.
+    /// If the folder has no run or one that has ended, if a setting would change earlier results, or if no checkpoint can be used.
     pub fn resume(&self, mode: ProgressMode) -> anyhow::Result<Report> {
         self.settings.iter().try_for_each(|it| check_setting(it))?;
         let is_root = self.communicator.is_root();
@@ -63,16 +61,16 @@ impl Request<'_> {
         on_threads(case.threads(), || self.resume_here(&case, folder, mode))?
     }
 
-    /// The folder, locked, with the results of a run.
+    /// Opens and locks the folder with the results of a run.
     fn open(&self) -> anyhow::Result<ResultFolder> {
         let folder = ResultFolder::resumed(self.folder);
-        // That there are no results says more than that a folder cannot be locked.
+        // The error of missing results takes precedence over that of the lock.
         let folder = folder.map_err(|error| require_results(self.folder).err().unwrap_or(error))?;
         require_results(folder.path())?;
         Ok(folder)
     }
 
-    /// Goes on with the run of a case on the threads of the caller; rank 0 alone has the folder.
+    /// Resumes the run of a case on the caller's threads; only rank 0 has the folder.
     fn resume_here(
         &self,
         case: &CaseFile,
@@ -91,7 +89,7 @@ impl Request<'_> {
         self.go_on(case, folder, found, progress)
     }
 
-    /// Goes on with the model of a case from what was found.
+    /// Builds the model of a case and continues from the checkpoint that was found, if any.
     fn go_on(
         &self,
         case: &CaseFile,
@@ -115,7 +113,7 @@ impl Request<'_> {
             case,
             model: &model,
             loading: &loading,
-            build: self.build,
+            build: self.build.clone(),
             is_stopped: &is_stopped,
         };
         let Some(folder) = folder else {
@@ -134,7 +132,7 @@ impl Request<'_> {
                 anyhow::Ok(kept)
             });
         let kept = kept.transpose()?;
-        // From here on the results of the run change.
+        // The results of the run change from here on.
         folder.remove(SUMMARY)?;
         folder.remove_made_later()?;
         if kept.is_none() {
@@ -146,7 +144,7 @@ impl Request<'_> {
             |folder| {
                 let summary = body.follow(folder, kept, &mut stages, &mut progress)?;
                 progress.finish(&summary.termination_message);
-                let is_complete = !summary.is_stopped();
+                let is_complete = End::of(&summary) != End::Stopped;
                 Ok((summary, is_complete))
             },
         )?;
@@ -154,7 +152,7 @@ impl Request<'_> {
     }
 }
 
-/// Refuses a setting that would change what was computed.
+/// Refuses a setting that would change earlier results.
 fn check_setting(setting: &str) -> anyhow::Result<()> {
     let key = setting.split_once('=').map_or(setting, |it| it.0).trim();
     ensure!(
@@ -166,8 +164,7 @@ fn check_setting(setting: &str) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The newest checkpoint that is whole, of this version and this case, and whose files are there; none where there is no
-/// checkpoint at all.
+/// The newest intact checkpoint of this version and case whose result files exist; `None` where there is no checkpoint.
 fn find_checkpoint(
     folder: &ResultFolder,
     case: &CaseFile,
@@ -219,7 +216,7 @@ fn check_inputs(checkpoint: &Checkpoint, case: &CaseFile) -> anyhow::Result<()> 
     Ok(())
 }
 
-/// The run of a checkpoint, ready to go on.
+/// The state of a checkpoint from which the run continues.
 fn kept(
     checkpoint: Checkpoint,
     results: OutputState,
@@ -237,15 +234,12 @@ fn kept(
     })
 }
 
-/// Refuses a run that has come to its end.
+/// Refuses a run that has ended.
 fn ensure_unfinished(folder: &ResultFolder) -> anyhow::Result<()> {
-    let path = folder.file(SUMMARY);
-    if !path.is_file() {
+    let Some(summary) = summary::read::<Summary>(folder.path())? else {
         return Ok(());
-    }
-    let summary: Value = serde_json::from_str(&read_text(&path)?)
-        .with_context(|| format!("cannot use {}", path.display()))?;
-    let end = summary["termination_message"].as_str();
+    };
+    let end = Some(&*summary.termination_message).filter(|it| !it.is_empty());
     bail!(
         "the run in {} has come to its end ({}): there is nothing to go on with",
         folder.path().display(),

@@ -8,6 +8,7 @@ use ligament::run::on_threads;
 use ligament::setup::Analysis;
 use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use ligament_output::folder::ResultFolder;
+use ligament_output::summary::{Build, ModalSummary, Summary};
 
 use crate::destination::{self, make_results};
 use crate::end::{End, StoppedBeforeSolution};
@@ -18,35 +19,35 @@ use crate::model::{Model, build_model_on};
 use crate::modes::find_modes;
 use crate::processes::{any_stopped, loading};
 use crate::progress::{Progress, ProgressMode};
-use crate::provenance::{Build, Provenance};
+use crate::provenance::provenance;
 use crate::stages::Stages;
-use crate::summary::{ModalSummary, Summary};
+use crate::summary::{write, write_modal};
 use ligament_case::case::CaseFile;
 
 pub use crate::checkpoints::IsStopped;
 
-/// What a run found.
+/// Report of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Report {
-    /// The answer to loads.
+    /// Summary of a run under loads.
     Loading(Box<Summary>),
-    /// Natural modes.
+    /// Summary of an analysis of natural modes.
     Modes(Box<ModalSummary>),
-    /// This process is not rank 0, which alone has the report.
+    /// Ranks other than 0 have no report.
     OfRankZero,
 }
 
 impl Report {
-    /// The lines that a user sees at the end of a run.
+    /// Writes the report of a run for the user.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         match self {
-            Self::Loading(summary) => summary.write(out),
-            Self::Modes(summary) => summary.write(out),
+            Self::Loading(summary) => write(summary, out),
+            Self::Modes(summary) => write_modal(summary, out),
             Self::OfRankZero => Ok(()),
         }
     }
 
-    /// Why no state under load is in equilibrium, where none is.
+    /// Reason why no state under load is in equilibrium, if none is.
     pub fn without_equilibrium(&self) -> Option<&str> {
         match self {
             Self::Loading(summary) if summary.without_equilibrium => {
@@ -56,37 +57,37 @@ impl Report {
         }
     }
 
-    /// How the run ended.
+    /// End of the run.
     pub fn end(&self) -> End {
         match self {
-            Self::Loading(summary) => summary.end(),
+            Self::Loading(summary) => End::of(summary),
             Self::Modes(_) | Self::OfRankZero => End::Done,
         }
     }
 
-    /// Whether the run was stopped by its user, and can go on.
+    /// Whether the run was stopped by its user, and can be resumed.
     pub fn is_stopped(&self) -> bool {
         self.end() == End::Stopped
     }
 }
 
-/// A run that is asked for.
+/// Request to run a case.
 pub struct Request<'a> {
-    /// The case.
+    /// Case of the run.
     pub case: &'a CaseFile,
-    /// The folder of its results.
+    /// Folder for the results.
     pub out: &'a Path,
     /// Whether results of an earlier run may be replaced.
     pub force: bool,
-    /// The program that runs it.
+    /// Build of the running program.
     pub build: Build,
-    /// Tells whether the user wants it to stop.
+    /// Whether the user wants to stop the run.
     pub is_stopped: IsStopped<'a>,
-    /// The processes that run it together; rank 0 writes all but the pieces of grids that each writes.
+    /// Processes of the run; rank 0 writes all results but the pieces of grids of each process.
     pub communicator: Arc<dyn MatrixCommunicator>,
 }
 
-/// Runs a case and writes its results into a new folder; the record of these says nothing of the build.
+/// Runs a case and writes its results into a new folder, without a record of the build.
 pub fn run(case: &CaseFile, out: &Path, force: bool, mode: ProgressMode) -> anyhow::Result<Report> {
     let request = Request {
         case,
@@ -100,16 +101,16 @@ pub fn run(case: &CaseFile, out: &Path, force: bool, mode: ProgressMode) -> anyh
 }
 
 impl Request<'_> {
-    /// Runs the case and writes its results into a new folder, until it is stopped.
+    /// Runs the case and writes its results into a new folder, up to its end or until it is stopped.
     ///
     /// # Errors
     ///
-    /// If the folder cannot be used, something is wrong with the case, or results cannot be written.
+    /// If the folder cannot be used, the case is wrong, or results cannot be written.
     pub fn run(&self, mode: ProgressMode) -> anyhow::Result<Report> {
         on_threads(self.case.threads(), || self.run_here(mode))?
     }
 
-    /// Runs the case on the threads of the caller.
+    /// Runs the case on the caller's threads.
     fn run_here(&self, mode: ProgressMode) -> anyhow::Result<Report> {
         let communicator = &self.communicator;
         if communicator.is_root() {
@@ -121,7 +122,7 @@ impl Request<'_> {
         self.solve(&model, stages, progress)
     }
 
-    /// Loads a model or finds its modes.
+    /// Runs the analysis of a model under loads, or of its modes.
     fn solve(
         &self,
         model: &Model,
@@ -132,12 +133,12 @@ impl Request<'_> {
             progress.stage(&format!("warning: {warning}"));
         }
         if let Analysis::Modal(settings) = model.setup.analysis {
-            // Modes need the whole body on one process.
+            // The modal analysis runs on one process with the whole body.
             if !self.communicator.is_root() {
                 return Ok(Report::OfRankZero);
             }
             let create = || ResultFolder::create(self.out, self.force);
-            let provenance = Provenance::new(self.build, self.case, &mut Contents::default());
+            let provenance = provenance(self.build.clone(), self.case, &mut Contents::default());
             let provenance = provenance.map_err(unread)?;
             let body = (model, provenance);
             let summary = find_modes(self.case, settings, body, create, stages)?;
@@ -149,7 +150,7 @@ impl Request<'_> {
     }
 }
 
-/// Loads a model, breaks its bonds if the case says so, and writes what happens into a new folder.
+/// Runs the analysis of a model under loads, and writes the results into a new folder.
 fn follow_loads(
     request: &Request<'_>,
     model: &Model,
@@ -168,14 +169,14 @@ fn follow_loads(
         case,
         model,
         loading: &loading,
-        build: request.build,
+        build: request.build.clone(),
         is_stopped: &is_stopped,
     };
     if !communicator.is_root() {
         body.follow_beside(None)?;
         return Ok(Report::OfRankZero);
     }
-    // Nothing is written, and nothing replaced, before all input was found good.
+    // Nothing is written or replaced before all input is checked.
     let create = || ResultFolder::create(request.out, request.force);
     let summary = make_results(case, create, |folder| {
         if let Some(words) = destination::words(folder) {
@@ -183,7 +184,7 @@ fn follow_loads(
         }
         let summary = body.follow(folder, None, &mut stages, &mut progress)?;
         progress.finish(&summary.termination_message);
-        let is_complete = !summary.is_stopped();
+        let is_complete = End::of(&summary) != End::Stopped;
         Ok((summary, is_complete))
     })?;
     Ok(Report::Loading(Box::new(summary)))

@@ -2,20 +2,9 @@
 
 use std::time::Instant;
 
-use serde::Serialize;
+use ligament_output::summary::Stage;
 
-/// What a stage took.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Stage {
-    /// Name of the stage.
-    pub name: &'static str,
-    /// Wall time, s.
-    pub seconds: f64,
-    /// Peak memory of the process up to its end, bytes; not known on every system.
-    pub peak_bytes: Option<u64>,
-}
-
-/// The stages done so far.
+/// Stages completed so far, with time and memory.
 #[derive(Debug, Default)]
 pub struct Stages {
     done: Vec<Stage>,
@@ -23,7 +12,7 @@ pub struct Stages {
 }
 
 impl Stages {
-    /// Does a stage and notes what it took.
+    /// Runs a stage and records its time and memory.
     pub fn time<T>(&mut self, name: &'static str, stage: impl FnOnce() -> T) -> T {
         self.begin();
         let result = stage();
@@ -36,23 +25,23 @@ impl Stages {
         self.begun = Some(Instant::now());
     }
 
-    /// Ends the stage that was begun last, and notes what it took.
+    /// Ends the current stage and records its time and memory.
     pub(crate) fn end(&mut self, name: &'static str) {
         let start = self.begun.take();
         self.done.push(Stage {
-            name,
+            name: name.into(),
             seconds: start.map_or(0.0, |start| start.elapsed().as_secs_f64()),
             peak_bytes: peak_memory(),
         });
     }
 
-    /// The stages in their order.
+    /// Completed stages in their order.
     pub fn done(&self) -> &[Stage] {
         &self.done
     }
 }
 
-/// Peak resident memory of this process, bytes, where the system tells (Linux).
+/// Peak resident memory of this process, bytes, where known (Linux).
 fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status

@@ -1,4 +1,4 @@
-//! Watches a run: writes its results, shows its progress and keeps its notices.
+//! Observer of a run that writes its results, shows its progress and collects its notices.
 
 use std::time::Instant;
 
@@ -14,7 +14,7 @@ use crate::checkpoints::{Checkpoints, IsStopped};
 use crate::notices::words;
 use crate::progress::{Progress, StepLine};
 
-/// Notices that are shown while the run goes on; all are in `summary.json`.
+/// Largest number of notices shown during the run; all are in `summary.json`.
 const SHOWN: usize = 5;
 
 /// The observer of `ligament run`.
@@ -22,7 +22,7 @@ pub(crate) struct Watch<'a> {
     writer: ResultWriter<'a>,
     checkpoints: Checkpoints<'a>,
     is_stopped: IsStopped<'a>,
-    /// Whether the run stops in the next moment.
+    /// Whether the run stops in the next state.
     stops: bool,
     progress: &'a mut Progress,
     notices: Vec<String>,
@@ -33,7 +33,7 @@ pub(crate) struct Watch<'a> {
 }
 
 impl<'a> Watch<'a> {
-    /// Watches the run of a setup with a writer, checkpoints and a progress display; it goes on with some notices.
+    /// The observer of a run of a setup, with a writer, checkpoints, a progress display and the notices of an earlier part of the run.
     pub(crate) fn new(
         (writer, checkpoints): (ResultWriter<'a>, Checkpoints<'a>),
         is_stopped: IsStopped<'a>,
@@ -65,7 +65,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// What the user should know of the run, its first bonds that gave way, and its checkpoints.
+    /// Notices, first broken and softened bonds, and checkpoints of the run.
     pub(crate) fn into_parts(self) -> (Vec<String>, FirstBonds, Checkpoints<'a>) {
         (self.notices, self.writer.first_bonds(), self.checkpoints)
     }

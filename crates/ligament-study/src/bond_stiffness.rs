@@ -16,15 +16,15 @@ use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::Stages;
 use ligament_run::summary::heading;
 
-/// Why there are no curves.
+/// Error of a request for curves of stiffness.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DirectionError {
-    /// Bonds with strains of their own.
+    /// Bonds with strains of their own have no such stiffness.
     #[error(
         "the bonds of \"{0}\" resist the strains of a rectangle by a matrix, and have no k_n, k_t and k_theta: take another law"
     )]
     NoStiffness(&'static str),
-    /// A length that no bond has.
+    /// A length of bonds out of range.
     #[error("--length must be greater than 0 and at most 1 (the horizon), found {0}")]
     Length(f64),
 }
@@ -32,7 +32,7 @@ pub enum DirectionError {
 /// A request to `ligament stiffness`.
 #[derive(Debug)]
 pub struct Request {
-    /// The case whose materials and law are looked at.
+    /// Case with the materials and the law.
     pub case: Box<CaseFile>,
     /// Length of the bonds over their horizon.
     pub length: f64,
@@ -42,7 +42,7 @@ pub struct Request {
     pub force: bool,
 }
 
-/// The file by which a folder is known to hold curves of stiffness.
+/// File that marks a folder with curves of stiffness.
 const TABLE: &str = "stiffness.csv";
 
 const COLUMNS: &str = "material,direction_deg,k_n,k_t,k_theta,c_xx,c_ss";
@@ -56,7 +56,7 @@ const KIND: Kind = Kind {
 /// Directions of the curves: a degree apart, over half a turn.
 const DEGREES: u32 = 180;
 
-/// Computes the curves of all materials of a case, tells of their extremes and writes them.
+/// Computes the curves of all materials of a case, prints their extremes and writes them.
 ///
 /// # Errors
 ///
@@ -103,13 +103,14 @@ pub fn bond_stiffness(request: &Request, screen: &mut dyn Write) -> anyhow::Resu
     Ok(writeln!(screen, "results in {}", request.out.display())?)
 }
 
-/// Name of a material, "body" where one fills the whole.
+/// Name of a material: its group, or "body" where it fills the whole body.
 fn name_of(setup: &Setup, index: usize) -> String {
     let group = setup.materials[index].group.clone();
     group.unwrap_or_else(|| "body".to_owned())
 }
 
-/// The part of a file's name that tells its material: the name where it is plain, else the number, as a name with `/` leads elsewhere.
+/// Part of a file's name for a material: its name if it has only letters, digits, hyphens and underscores, otherwise its number, since a
+/// name with `/` would be a path.
 fn file_stem(name: &str, index: usize) -> String {
     let is_plain = |it: char| it.is_ascii_alphanumeric() || matches!(it, '-' | '_');
     match name.chars().all(is_plain) {
@@ -118,7 +119,7 @@ fn file_stem(name: &str, index: usize) -> String {
     }
 }
 
-/// The quantities that have a curve.
+/// Name of a quantity with a curve, and the function that returns it.
 type Quantity = (&'static str, fn(&InDirection) -> f64);
 
 const STIFFNESSES: [Quantity; 3] = [
@@ -127,7 +128,7 @@ const STIFFNESSES: [Quantity; 3] = [
     ("k_theta", |it| it.rotational),
 ];
 
-/// Values along x and y, and the smallest and largest with their directions.
+/// Prints values along x and y, and the smallest and largest values with their directions.
 fn tell(screen: &mut dyn Write, name: &str, curves: &[InDirection]) -> anyhow::Result<()> {
     writeln!(screen, "{name}")?;
     for (quantity, value) in STIFFNESSES {
@@ -176,8 +177,8 @@ fn append(table: &mut Table, name: &str, curves: &[InDirection]) -> anyhow::Resu
     Ok(())
 }
 
-/// Diagrams of k_n and of k_t with the off-axis moduli of the continuum, each over its largest value, so that the shapes can be
-/// compared; radii of negative stiffness are dashed. The names of the files end in `stem`.
+/// Diagrams of k_n and of k_t with the off-axis moduli of the continuum, each over its largest value, so that shapes can be compared;
+/// negative values are dashed. The names of the files end in `stem`.
 pub fn plots(name: &str, stem: &str, curves: &[InDirection]) -> Vec<PolarPlot> {
     let pairs: [[Quantity; 2]; 2] = [
         [STIFFNESSES[0], ("C_xx", |it| it.normal_modulus)],
@@ -206,7 +207,7 @@ pub fn plots(name: &str, stem: &str, curves: &[InDirection]) -> Vec<PolarPlot> {
     pairs.into_iter().map(plot).filter(drawable).collect()
 }
 
-/// A curve over all directions, over its largest size; no point where it is negative.
+/// A curve over all directions, normalised by its largest absolute value; NaN where it is negative.
 fn whole(curves: &[InDirection], value: impl Fn(&InDirection) -> f64) -> Vec<[f64; 2]> {
     let largest = curves.iter().map(|it| value(it).abs()).fold(0.0, f64::max);
     let radius = |it: &InDirection| {

@@ -1,14 +1,14 @@
-//! Questions that take many runs or a whole family of bonds. It changes when a study is to ask something else.
+//! Studies of many runs or of whole families of bonds.
 //!
-//! | module | asks |
+//! | module | determines |
 //! |---|---|
-//! | [`sweep`] | what a case gives over all combinations of some of its settings |
-//! | [`calibrate`] | with which value of a key a result meets a target |
-//! | [`bond_stiffness`] | how stiff bonds are over their direction |
-//! | [`yielding`] | at which load the first bond yields, and how the directions of the bonds distort that |
+//! | [`sweep`] | the results of a case over all combinations of some of its settings |
+//! | [`calibrate`] | the value of a key with which a result equals a target |
+//! | [`bond_stiffness`] | the stiffness of bonds over their direction |
+//! | [`yielding`] | the load at which the first bond yields, and its distortion by the directions of the bonds |
 //!
-//! What they share: results by their names ([`quantities`]), lines of least squares (`line_fit`), and meshes made by other programs
-//! ([`meshing`]), because a study may vary a geometry.
+//! Common parts are results by name ([`quantities`]), lines of least squares (`line_fit`), and meshes made by other programs ([`meshing`]),
+//! because a study may vary a geometry.
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")

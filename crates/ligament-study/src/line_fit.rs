@@ -1,15 +1,15 @@
-//! The straight line through points by least squares.
+//! Straight lines by least squares.
 
-/// A straight line y = slope x + intercept through points, each of which counts the same.
+/// A straight line y = slope x + intercept, fitted to points of equal weight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineFit {
     /// Rise of y over x.
     pub slope: f64,
     /// Value at x = 0.
     pub intercept: f64,
-    /// Standard error of the slope, from the scatter of the points; `None` where two points leave none.
+    /// Standard error of the slope, from the scatter of the points; `None` for two points.
     pub slope_error: Option<f64>,
-    /// Standard error of the intercept, likewise.
+    /// Standard error of the intercept; `None` for two points.
     pub intercept_error: Option<f64>,
     /// Share of the variance of y that the line explains; 1 where y does not vary.
     pub r_squared: f64,
@@ -17,16 +17,16 @@ pub struct LineFit {
     pub points: usize,
 }
 
-/// Points that no line fits.
+/// Error of points that determine no line.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum FitError {
     /// Fewer than two points.
     #[error("a line takes two points or more, there {}", if *.0 == 1 { "is one" } else { "are none" })]
     TooFew(usize),
-    /// All at the same x.
+    /// All points have the same x.
     #[error("a line takes points at two places or more, all are at x = {0}")]
     OnePlace(f64),
-    /// A coordinate is no finite number.
+    /// A coordinate is not finite.
     #[error("a point has a coordinate that is no finite number")]
     NotFinite,
 }
@@ -34,8 +34,8 @@ pub enum FitError {
 impl LineFit {
     /// The line with the least sum of squared distances along y to the points, shape (n, 2).
     ///
-    /// With S_xx = sum (x - mean x)^2 and the residual variance s^2 = sum r^2/(n - 2), the standard errors are s/sqrt(S_xx) of
-    /// the slope and s sqrt(1/n + mean(x)^2/S_xx) of the intercept.
+    /// The standard errors are s/sqrt(S_xx) of the slope and s sqrt(1/n + mean(x)^2/S_xx) of the intercept, with S_xx = sum (x - mean x)^2
+    /// and the residual variance s^2 = sum r^2/(n - 2).
     ///
     /// # Errors
     ///

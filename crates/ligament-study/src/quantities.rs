@@ -1,4 +1,4 @@
-//! Results by their names: the numbers and words of a summary, such as `first_peak.reaction`.
+//! Results of a summary by name, such as `first_peak.reaction`.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -10,20 +10,20 @@ use ligament_case::input_file;
 use ligament_output::folder::refuse_link;
 use ligament_run::end::NO_EQUILIBRIUM;
 
-/// What a summary has and no table of runs wants one by one: lists whose length is all that matters, ...
+/// Lists of a summary of which a table of runs has the lengths only.
 const COUNTED: [&str; 1] = ["warnings"];
 
-/// ... what the results came from, ...
+/// Key of the provenance, which tables of runs do not have.
 const PROVENANCE: &str = "provenance";
 
-/// ... and the stages, of which time and memory of the whole run are left.
+/// Key of the stages, of which tables of runs have the total time and the peak memory.
 const STAGES: &str = "stages";
 
 /// The single results of a run, in the order of its summary.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Quantities(Vec<(String, Value)>);
 
-/// Why a result is not there.
+/// Error of a missing result.
 #[derive(Debug, thiserror::Error)]
 pub enum QuantityError {
     /// The summary could not be read.
@@ -34,7 +34,7 @@ pub enum QuantityError {
         /// The system's reason.
         source: io::Error,
     },
-    /// The summary lies elsewhere.
+    /// The summary is a link.
     #[error(transparent)]
     Link(#[from] ligament_output::Error),
     /// The summary is not JSON.
@@ -45,7 +45,7 @@ pub enum QuantityError {
         /// The parser's reason.
         source: serde_json::Error,
     },
-    /// There is no result of this name.
+    /// No result has this name.
     #[error(
         "there is no result `{name}`{}",
         hint(name, known, "results with numbers", '`')
@@ -53,22 +53,22 @@ pub enum QuantityError {
     Unknown {
         /// The name.
         name: String,
-        /// The names of the numbers that there are.
+        /// Names of the existing numbers.
         known: Vec<String>,
     },
-    /// The run has no value of this result, or one that is no number.
+    /// The run has no value of this result, or one that is not a number.
     #[error("`{name}` has no number in this run: it is {value}")]
     NotANumber {
         /// The name.
         name: String,
-        /// What is there instead.
+        /// The value.
         value: Value,
     },
 }
 
 impl Quantities {
-    /// Flattens a summary: parts of tables and lists are joined by dots, `modes.0.frequency`. Of the warnings their number
-    /// is left, of the stages `seconds` and `peak_bytes`; of the provenance nothing.
+    /// Flattens a summary: names of nested values are joined by dots, `modes.0.frequency`. Warnings become their number, stages `seconds`
+    /// and `peak_bytes`; the provenance is left out.
     pub fn of_summary(summary: &Value) -> Self {
         let mut all = Vec::new();
         for (name, value) in summary.as_object().into_iter().flatten() {
@@ -93,7 +93,7 @@ impl Quantities {
         Self(all)
     }
 
-    /// Reads those of a run from the summary in its folder.
+    /// Reads the results of a run from the summary in its folder.
     pub(crate) fn read(folder: &Path) -> Result<Self, QuantityError> {
         let path = folder.join("summary.json");
         refuse_link(&path)?;
@@ -106,7 +106,7 @@ impl Quantities {
         Ok(Self::of_summary(&summary))
     }
 
-    /// Names and values: numbers, words, truth values, or null where a run has none.
+    /// Names and values: numbers, texts, Booleans, or null where the run has no value.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &Value)> {
         self.0.iter().map(|(name, value)| (name.as_str(), value))
     }
@@ -120,7 +120,7 @@ impl Quantities {
     /// The number of a result.
     pub fn number(&self, name: &str) -> Result<f64, QuantityError> {
         let Some(value) = self.get(name) else {
-            // A part of a run that has none is null as a whole: `first_break` instead of `first_break.reaction`.
+            // A missing part is null as a whole: `first_break` instead of `first_break.reaction`.
             let above = self.iter().find(|(other, value)| {
                 value.is_null()
                     && name
@@ -144,7 +144,7 @@ impl Quantities {
         })
     }
 
-    /// Why the run has no result under load, or none beyond some load, where it ended without equilibrium.
+    /// Reason why the run has no result under load, or none beyond some load, if it ended without equilibrium.
     pub(crate) fn without_equilibrium(&self) -> Option<String> {
         let reason = self.get("termination_message").and_then(Value::as_str);
         let reason = reason.unwrap_or("no equilibrium was found");
@@ -154,7 +154,7 @@ impl Quantities {
         (self.get("termination")? == NO_EQUILIBRIUM).then(|| reason.to_owned())
     }
 
-    /// Whether the last state of the run is none in which it could stay.
+    /// Whether breakage continued in the last state of the run.
     pub(crate) fn ends_not_at_rest(&self) -> bool {
         self.get("last_state_not_at_rest")
             .is_some_and(|it| it == true)
@@ -166,7 +166,7 @@ impl Quantities {
     }
 }
 
-/// Adds the single values below one, by their dotted names.
+/// Appends the scalar values within a value, by their dotted names.
 pub(crate) fn flatten(name: String, value: &Value, out: &mut Vec<(String, Value)>) {
     match value {
         Value::Object(parts) => {

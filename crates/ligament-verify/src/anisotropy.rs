@@ -1,4 +1,4 @@
-//! First yield on irregular meshes beside that of lattices: what the directions of their bonds do to criteria.
+//! First yield on irregular meshes, compared with lattices: effect of the bonds' directions on criteria.
 
 use std::sync::Arc;
 
@@ -42,7 +42,7 @@ static PLATE: Template = template!("plate-tension/case.toml");
 static DISK_MESH: StoredMesh = stored_mesh!("disk-2mm-platen-1.5mm.msh");
 static PLATE_MESH: StoredMesh = stored_mesh!("plate.msh");
 
-/// Limits that are the same for all bonds; the errors under one measure do not depend on them.
+/// Strengths for limits that are equal for all bonds; the errors under one measure do not depend on them.
 const STRENGTHS: Strengths = Strengths::OF_THE_TABLES;
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
@@ -73,7 +73,7 @@ fn uniform(criterion: &str, n_bonds: usize) -> anyhow::Result<Criteria> {
     Ok(combination.criteria(&STRENGTHS, n_bonds)?)
 }
 
-/// The error of the lattice whose families have this many bonds, or nearly so.
+/// The error of the lattice whose families have about `size` bonds, %.
 fn on_lattice(size: f64, criterion: &str, strains: PrincipalStretches) -> anyhow::Result<f64> {
     let directions = lattice::directions(lattice::ratio_of_size(size));
     let criteria = uniform(criterion, directions.len())?;
@@ -81,7 +81,7 @@ fn on_lattice(size: f64, criterion: &str, strains: PrincipalStretches) -> anyhow
     Ok(100.0 * worst.context("nothing yields")?.error)
 }
 
-/// The criterion of an entry: of stretch only the tension, so that pure shear is not cut off by compression.
+/// The criterion of an entry: for stretch only its limit in tension, so that compression does not limit pure shear.
 fn criterion(labels: Labels<'_>) -> Result<&str, LabelError> {
     Ok(match labels.text("criterion")? {
         "stretch" => "tension",
@@ -89,14 +89,14 @@ fn criterion(labels: Labels<'_>) -> Result<&str, LabelError> {
     })
 }
 
-/// What is known of the errors of a mesh.
+/// Statistics of the errors on a mesh.
 #[derive(Debug, Clone)]
 struct Anisotropy {
     /// Mean number of bonds of an interior point.
     size: f64,
     /// Errors of the interior points.
     errors: Distribution,
-    /// Largest less smallest of the mean errors at one orientation for all points.
+    /// Largest minus smallest mean error over all points at one orientation.
     range: f64,
 }
 
@@ -170,7 +170,7 @@ fn anisotropy(
     })
 }
 
-/// The statistics over lambda, with the lattice beside them.
+/// Plot of the statistics over lambda, compared with the lattice.
 fn plot(table: &Table, criterion: &str, strain: &str) -> Result<Plot, LabelError> {
     let mut series = Vec::new();
     for (mesh, colour, of_lattice) in [

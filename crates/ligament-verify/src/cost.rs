@@ -1,4 +1,4 @@
-//! The cost of imaginary elements beside that of pairs of points (MBB-PD, introduction and conclusion 1).
+//! The cost of imaginary elements, compared with pairs of points (MBB-PD, introduction and conclusion 1).
 
 use anyhow::bail;
 

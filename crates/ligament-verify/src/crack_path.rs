@@ -1,20 +1,20 @@
-//! Where a crack starts, how far it reaches and how it lies, read from the bonds that broke and the damage that they leave.
+//! Start, extent and path of a crack, from the broken bonds and the resulting damage.
 //!
-//! Apart from the lines of [`ligament_post::crack`]: published tables and the page of the papers were measured by points with much damage,
-//! which also show cracks that branch, crush or stay shorter than a horizon, where lines leave such parts out.
+//! Independent of the lines of [`ligament_post::crack`]: published tables and the page of the papers were measured by points of large
+//! damage, which also show cracks that branch, crush or are shorter than a horizon, while lines omit such parts.
 
 use ligament::Model;
 use ligament_analysis::Observer;
 use ligament_analysis::fields::damage;
 use ligament_analysis::history::{BreakRecord, ObserverError, StepRecord, View};
 
-/// Damage (NHPD eq. 17) above which a point belongs to a crack: a straight cut beside a point takes up to a half of it.
+/// Damage (NHPD eq. 17) above which a point belongs to a crack: a straight cut beside a point gives up to one half.
 pub(super) const CRACKED: f64 = 0.3;
 
-/// An observer that keeps all breakages in their order.
+/// An observer that collects all breakages in their order.
 #[derive(Debug, Default)]
 pub(super) struct Breakages {
-    /// The breakages.
+    /// Records of the breakages.
     pub(super) records: Vec<BreakRecord>,
 }
 
@@ -29,7 +29,7 @@ impl Observer for Breakages {
     }
 }
 
-/// A place with the horizon there.
+/// A position with its horizon.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
     /// Coordinates, m.
@@ -38,26 +38,26 @@ pub(super) struct Place {
     pub(super) horizon: f64,
 }
 
-/// A straight line from one place to another, m.
+/// A straight line between two positions, m.
 pub(super) type Segment = [[f64; 2]; 2];
 
-/// The points of a body that a crack went through.
+/// The cracked points of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Crack {
     /// Points with a damage above [`CRACKED`].
     pub(super) points: Vec<Place>,
 }
 
-/// How far a crack is from its own image after half a turn about the origin.
+/// Distances of a crack from its image after half a turn about the origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct HalfTurn {
-    /// Mean distance of a turned point from the nearest one, m.
+    /// Mean distance of a turned point from the nearest point of the crack, m.
     pub(super) mean: f64,
-    /// Largest such distance, m.
+    /// Largest distance of a turned point from the nearest point of the crack, m.
     pub(super) largest: f64,
 }
 
-/// The middle of a bond.
+/// Midpoint of a bond, with its horizon.
 pub(super) fn middle(model: &Model, bond: usize) -> Place {
     let [a, b] = ends(model, bond);
     Place {
@@ -66,7 +66,7 @@ pub(super) fn middle(model: &Model, bond: usize) -> Place {
     }
 }
 
-/// Places of the ends of a bond, m.
+/// Positions of the ends of a bond, m.
 pub(super) fn ends(model: &Model, bond: usize) -> Segment {
     model.plane().bonds.ends[bond].map(|end| place(model, end as usize))
 }
@@ -77,7 +77,7 @@ fn place(model: &Model, point: usize) -> [f64; 2] {
     [x + cloud.origin[0], y + cloud.origin[1]]
 }
 
-/// Distance of a place from a segment, m.
+/// Distance of a position from a segment, m.
 pub(super) fn distance([x, y]: [f64; 2], [from, to]: Segment) -> f64 {
     let along = [to[0] - from[0], to[1] - from[1]];
     let offset = [x - from[0], y - from[1]];
@@ -90,7 +90,7 @@ pub(super) fn distance([x, y]: [f64; 2], [from, to]: Segment) -> f64 {
 }
 
 impl Crack {
-    /// The crack that these breakages leave.
+    /// The crack after these breakages.
     pub(super) fn from_breakages(model: &Model, records: &[BreakRecord]) -> Self {
         let mut intact = vec![true; model.plane().bonds.len()];
         for record in records {
@@ -107,10 +107,10 @@ impl Crack {
         }
     }
 
-    /// The place where the breakages first leave a crack: the first point whose damage rises above [`CRACKED`].
+    /// The first cracked point: the first point whose damage exceeds [`CRACKED`].
     pub(super) fn first_point(model: &Model, records: &[BreakRecord]) -> Option<Place> {
         let count = |until: usize| Self::from_breakages(model, &records[..until]).points.len();
-        // Damage only grows, so that the first breakage that leaves a crack is found by halving.
+        // Damage only grows, so that the breakage that cracks the first point is found by bisection.
         let (mut none, mut some) = (0, records.len());
         if count(some) == 0 {
             return None;
@@ -137,8 +137,8 @@ impl Crack {
         }
     }
 
-    /// The part of the crack that starts at a segment: a chain of its points leads there, each in the horizon of the one before, and
-    /// the segment is in the horizon of the first.
+    /// The part of the crack that starts at a segment: points connected to it by a chain in which each point is in the horizon of the one
+    /// before, and the segment in that of the first.
     pub(super) fn part_from(&self, segment: Segment) -> Self {
         let is_at = |point: &Place| distance(point.at, segment) <= point.horizon;
         let mut reached: Vec<bool> = self.points.iter().map(is_at).collect();
@@ -162,7 +162,7 @@ impl Crack {
         }
     }
 
-    /// Whether the crack joins two segments: the part of it that starts at one has a point with the other in its horizon.
+    /// Whether the crack joins two segments: a point of the part that starts at one segment has the other in its horizon.
     pub(super) fn joins(&self, from: Segment, to: Segment) -> bool {
         let part = self.part_from(from);
         part.points
@@ -170,7 +170,7 @@ impl Crack {
             .any(|point| distance(point.at, to) <= point.horizon)
     }
 
-    /// Distance of the nearest of its points from a segment, m; infinite without points.
+    /// Distance of the nearest point of the crack from a segment, m; infinite without points.
     pub(super) fn gap_to(&self, segment: Segment) -> f64 {
         let distances = self.points.iter().map(|point| distance(point.at, segment));
         distances.fold(f64::INFINITY, f64::min)
@@ -182,12 +182,12 @@ impl Crack {
         gaps.fold(f64::INFINITY, f64::min)
     }
 
-    /// Mean horizon of its points, m.
+    /// Mean horizon of the cracked points, m.
     pub(super) fn mean_horizon(&self) -> f64 {
         self.points.iter().map(|point| point.horizon).sum::<f64>() / self.points.len() as f64
     }
 
-    /// The mean place of its points, m; none without points.
+    /// Mean position of the cracked points, m; `None` without points.
     pub(super) fn centre(&self) -> Option<[f64; 2]> {
         let mean = |axis: usize| {
             self.points.iter().map(|point| point.at[axis]).sum::<f64>() / self.points.len() as f64
@@ -195,8 +195,8 @@ impl Crack {
         (!self.points.is_empty()).then(|| [mean(0), mean(1)])
     }
 
-    /// The points of the crack that are no farther from the origin than its parts on both sides of the line through the origin across
-    /// `along` reach; none where one of them is missing.
+    /// The points of the crack within the smaller one of the distances from the origin that its parts on the two sides of the line through
+    /// the origin across `along` reach; `None` where one part is missing.
     pub(super) fn common_part(&self, along: [f64; 2]) -> Option<Self> {
         let reach = |sign: f64| {
             let side = self.part(|[x, y]| sign * (x * along[0] + y * along[1]) > 0.0);
@@ -212,8 +212,8 @@ impl Crack {
         points.max_by(|a, b| radius(a.at).total_cmp(&radius(b.at)))
     }
 
-    /// Distances of the points of the [common part](Self::common_part), turned by half a turn about the origin, from the
-    /// nearest point of the crack.
+    /// Distances of the points of the [common part](Self::common_part), after half a turn about the origin, from the nearest point of the
+    /// crack.
     pub(super) fn half_turn(&self, along: [f64; 2]) -> Option<HalfTurn> {
         let compared = self.common_part(along)?;
         let nearest = |at: [f64; 2]| self.gap_to([at; 2]);

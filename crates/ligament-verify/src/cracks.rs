@@ -41,20 +41,20 @@ const SECTION: f64 = SIDE * 1e-3;
 
 const MEGAPASCALS: f64 = 1e-6;
 
-/// What the tables read in a run.
+/// Results of a run for the tables.
 #[derive(Debug, Clone)]
 struct Failure {
-    /// Stress on the whole section at the first breakage, MPa; not known of true strains.
+    /// Stress on the whole section at the first breakage, MPa; unknown for true strains.
     first: f64,
     /// Largest stress, MPa.
     peak: f64,
     /// Displacement of the upper row at the largest stress, mm.
     at_peak: f64,
-    /// Share of the broken bonds that do not cross the lines along which the cracks should run.
+    /// Share of the broken bonds that do not cross the expected lines of the cracks.
     beside: f64,
     /// Largest difference of the damage between a point and its mirror images.
     asymmetry: f64,
-    /// Strain (%) and stress that a test with a rising displacement shows.
+    /// Strain (%) and stress (MPa) of a test with increasing displacement.
     curve: Vec<[f64; 2]>,
 }
 
@@ -145,10 +145,10 @@ fn stress(failure: &Failure, labels: Labels<'_>) -> anyhow::Result<f64> {
     }
 }
 
-/// The plate with a criterion, its points so many millimetres apart.
+/// The plate with a criterion and a spacing `d`, mm.
 pub(super) fn trial(case: &str, d: f64, criterion: &str) -> anyhow::Result<Trial> {
     let cells = (1e3 * SIDE / d).round() as u32;
-    // The path of the printed criteria dips and rises again.
+    // The load along the path of the printed criteria falls and rises again.
     let fraction = if criterion == "mixed-mode" { 0.8 } else { 0.5 };
     Ok((template(case)?.trial())
         .on_lattice([cells, cells], 1e-3 * d)
@@ -156,7 +156,7 @@ pub(super) fn trial(case: &str, d: f64, criterion: &str) -> anyhow::Result<Trial
         .set("fracture.criterion.0.kind", criterion))
 }
 
-/// The exact path of a plate with a criterion, of which the curves of new runs are kept.
+/// Results of the exact path of a plate with a criterion; curves of new runs are appended.
 fn failure(
     runs: &mut Memory<Failure>,
     curves: &mut Curves,
@@ -186,7 +186,7 @@ fn in_steps(runs: &mut Memory<Failure>, strains: &str) -> anyhow::Result<Failure
     runs.reading(&trial, |it| Failure::from_solution(it, lines("central")))
 }
 
-/// Heights of the lines along which the cracks of a plate should run, m.
+/// Heights of the expected lines of a plate's cracks, m.
 fn lines(case: &str) -> &'static [f64] {
     match case {
         "hole" => &[-0.005, 0.005],
@@ -222,7 +222,7 @@ impl Failure {
     }
 }
 
-/// Share of the broken bonds that cross none of the lines at some heights, m.
+/// Share of the broken bonds that cross none of the horizontal lines at some heights, m.
 fn beside(solution: &Solution, lines: &[f64]) -> f64 {
     let (system, intact) = (solution.model.plane(), &solution.outcome.state.intact);
     let height = |point: u32| system.cloud.positions[point as usize][1];

@@ -49,11 +49,11 @@ pub(super) fn trial(spacing: f64, nu: f64) -> Trial {
 
 /// The radial displacement of a point, m.
 pub(super) struct Radial {
-    /// Place of the point, m.
+    /// Position of the point, m.
     pub(super) place: [f64; 2],
-    /// By the lattice.
+    /// Radial displacement by the lattice, m.
     pub(super) found: f64,
-    /// By Lame.
+    /// Radial displacement by Lame, m.
     pub(super) exact: f64,
 }
 
@@ -65,7 +65,7 @@ fn difference(solution: &Solution, nu: f64) -> f64 {
     (apart / size).sqrt()
 }
 
-/// The radial displacements of all points, beside
+/// The radial displacements of all points, compared with
 ///
 /// u_r = (1 + nu)/E A ((1 - 2 nu) r + r_o^2/r), A = p r_i^2/(r_o^2 - r_i^2).
 pub(super) fn radial(solution: &Solution, nu: f64) -> Vec<Radial> {
@@ -73,8 +73,7 @@ pub(super) fn radial(solution: &Solution, nu: f64) -> Vec<Radial> {
     let places = cloud.positions.iter();
     let places = places.map(|[x, y]| [x + cloud.origin[0], y + cloud.origin[1]]);
     let points: Vec<([f64; 2], [f64; 2])> = places.zip(displacements(solution)).collect();
-    // The lattice is symmetric about the centre: the least rigid motion is the mean displacement and the mean rotation. A
-    // rotation has no u_r.
+    // The lattice is symmetric about the centre: the rigid motion is the mean displacement and the mean rotation. A rotation has no u_r.
     let count = points.len() as f64;
     let mean = [0, 1].map(|axis| points.iter().map(|(_, u)| u[axis]).sum::<f64>() / count);
     let constant = PRESSURE * INNER.powi(2) / (OUTER.powi(2) - INNER.powi(2));

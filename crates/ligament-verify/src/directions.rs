@@ -49,7 +49,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     })
 }
 
-/// Largest difference of the curves with turned axes from the curves at the angle to the axes, over the largest value.
+/// Largest difference of the curves with turned axes from the shifted curves, over the largest value.
 fn turned(extent: Extent) -> anyhow::Result<Table> {
     published!("omppd-figure-10").judge(extent, |labels| {
         let mut memory = Memory::default();
@@ -111,7 +111,7 @@ fn curves(
     })
 }
 
-/// The stiffness that an entry is about.
+/// The stiffness of an entry.
 fn stiffness(labels: Labels<'_>) -> anyhow::Result<fn(&InDirection) -> f64> {
     Ok(match labels.text("stiffness")? {
         "k_n" => |it| it.axial,
@@ -134,7 +134,7 @@ fn in_direction(curves: &[InDirection], labels: Labels<'_>) -> anyhow::Result<f6
     Ok(found / 1e9)
 }
 
-/// Spread over the directions of a stiffness over the modulus of the continuum, %.
+/// Spread over the directions of the ratio of a stiffness to the modulus of the continuum, %.
 fn spread(curves: &[InDirection], labels: Labels<'_>) -> anyhow::Result<f64> {
     let value = stiffness(labels)?;
     let is_axial = labels.text("stiffness")? == "k_n";

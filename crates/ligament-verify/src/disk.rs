@@ -37,7 +37,7 @@ static MESHES: [(&str, StoredMesh); 3] = [
     ("2 mm", stored_mesh!("disk-2mm-platen-1.5mm.msh")),
 ];
 
-/// The mesh of 2 mm whose platens are wider: |x| <= 5 mm.
+/// The mesh of 2 mm with wider platens: |x| <= 5 mm.
 const WIDE_PLATENS: &str = "2 mm, platens of 5 mm";
 static WIDE: StoredMesh = stored_mesh!("disk-2mm-platen-5mm.msh");
 
@@ -54,7 +54,7 @@ const CURVES: [(f64, Colour); 6] = [
     (4.0, Colour::Vermilion),
 ];
 
-/// A test of the disk by its settings.
+/// Settings of a test of the disk.
 #[derive(Debug, Clone, Copy)]
 struct Case<'a> {
     mesh: &'a str,
@@ -126,7 +126,7 @@ fn of_labels<'a>(labels: Labels<'a>) -> Result<Case<'a>, LabelError> {
     })
 }
 
-/// The straight line of the peaks over the horizon factor, and what lies off it.
+/// Parameters of the straight line through the peaks over the horizon factor, or deviations from it.
 fn line(labels: Labels<'_>, tests: &mut Memory<DiskTest>) -> anyhow::Result<f64> {
     let (mesh, correction) = (labels.text("mesh")?, labels.text("correction")?);
     let mut peaks = Vec::new();
@@ -197,7 +197,7 @@ fn spread_of(labels: Labels<'_>, tests: &mut Memory<DiskTest>) -> anyhow::Result
     Ok(spread(&values))
 }
 
-/// Where damage starts.
+/// Position of the start of damage.
 fn start(labels: Labels<'_>, tests: &mut Memory<DiskTest>) -> anyhow::Result<f64> {
     let test = of_labels(labels)?.test(tests)?;
     Ok(match labels.text("of")? {
@@ -208,7 +208,7 @@ fn start(labels: Labels<'_>, tests: &mut Memory<DiskTest>) -> anyhow::Result<f64
     })
 }
 
-/// How the crack lies at a stage.
+/// Position and extent of the crack at a stage.
 fn crack(labels: Labels<'_>, tests: &mut Memory<DiskTest>) -> anyhow::Result<f64> {
     let test = of_labels(labels)?.test(tests)?;
     let band = match labels.text("stage")? {
@@ -251,14 +251,14 @@ fn sizes(mesh: &str, of: &str, memory: &mut Memory<Equations>) -> anyhow::Result
     Ok(sizes)
 }
 
-/// Horizon factors at which the equations are larger than at the one before.
+/// Number of horizon factors at which the equations are larger than at the one before.
 fn rises(labels: Labels<'_>, memory: &mut Memory<Equations>) -> anyhow::Result<f64> {
     let sizes = sizes(labels.text("mesh")?, labels.text("of")?, memory)?;
     let rises = sizes.windows(2).filter(|pair| pair[1][1] > pair[0][1]);
     Ok(rises.count() as f64)
 }
 
-/// Multiplications that the factor takes, over those at lambda = 2 (in place of the times of Fig. 8).
+/// Plot of the multiplications of the factor over those at lambda = 2 (in place of the times of Fig. 8).
 fn cost_plot(memory: &mut Memory<Equations>) -> anyhow::Result<Plot> {
     let mut series = Vec::new();
     for ((mesh, _), colour) in MESHES
@@ -315,7 +315,7 @@ fn peak_plot(table: &Table) -> anyhow::Result<Plot> {
     ))
 }
 
-/// Load over displacement for all horizon factors (Fig. 7).
+/// Plot of load over displacement for all horizon factors (Fig. 7).
 fn curves(mesh: &str, correction: &str, tests: &mut Memory<DiskTest>) -> anyhow::Result<Plot> {
     let mut series = vec![Series::dashes(
         "pi D t F_t/2",

@@ -1,4 +1,4 @@
-//! What is read in a test of the intact Brazilian disk.
+//! Results of a test of the intact Brazilian disk.
 
 use std::f64::consts::PI;
 
@@ -15,33 +15,33 @@ const RADIUS: f64 = 0.05;
 /// Half-width of the platens, m.
 const PLATEN: f64 = 0.0015;
 
-/// Load at which a disk of a material with this strength splits: pi D t F_t/2, N.
+/// Splitting load of the disk in closed form: pi D t F_t/2, N.
 pub(super) const CLOSED_FORM: f64 = 0.5 * PI * (2.0 * RADIUS) * 1.0 * 3.81e6;
 
-/// Breakages among which those at the rim are counted.
+/// Number of first breakages among which those at the rim are counted.
 const EARLY: usize = 100;
 
 /// Distance from the circle within which a point is on the rim, m: coordinates of a mesh are rounded.
 const ON_RIM: f64 = 1e-9;
 
-/// A test of the intact disk up to its split.
+/// Results of a test of the intact disk up to its split.
 #[derive(Debug, Clone)]
 pub(super) struct DiskTest {
     /// Largest load before it first falls, over [`CLOSED_FORM`].
     pub(super) peak: f64,
     /// Force over displacement before the first breakage, N/m.
     pub(super) stiffness: f64,
-    /// Displacement, mm, and load, kN.
+    /// Curve of displacement, mm, and load, kN.
     pub(super) curve: Vec<[f64; 2]>,
     /// Distance of the first broken bond from the loaded diameter's middle along it, over the radius.
     pub(super) first_bond: f64,
-    /// Distance of the first cracked point, likewise.
+    /// Distance of the first cracked point from the loaded diameter's middle along it, over the radius.
     pub(super) first_crack: f64,
     /// Share of the first [`EARLY`] broken bonds that end on the rim, %.
     pub(super) at_rim: f64,
     /// The crack at the peak.
     pub(super) at_peak: Band,
-    /// The crack when the load has fallen.
+    /// The crack after the load has fallen.
     pub(super) at_end: Band,
 }
 
@@ -50,11 +50,11 @@ pub(super) struct DiskTest {
 pub(super) struct Band {
     /// Extent along the loaded diameter, over the diameter.
     pub(super) length: f64,
-    /// Mean distance of the cracked points from the loaded diameter, to one side, over the radius.
+    /// Mean signed distance of the cracked points from the loaded diameter, over the radius.
     pub(super) aside: f64,
     /// Root mean square of that distance, over the radius.
     pub(super) width: f64,
-    /// Mean place along the loaded diameter, from the middle, over the radius.
+    /// Mean position along the loaded diameter, from the middle, over the radius.
     pub(super) above: f64,
     /// Whether the crack joins the platens.
     pub(super) splits: bool,
@@ -90,7 +90,7 @@ impl DiskTest {
 }
 
 impl Band {
-    /// Where a crack lies; a point without any has length 0 and lies in the middle.
+    /// Position and extent of a crack; without points it has length 0 in the middle.
     fn new(crack: &Crack) -> Self {
         let count = crack.points.len().max(1) as f64;
         let mean = |of: &dyn Fn([f64; 2]) -> f64| {

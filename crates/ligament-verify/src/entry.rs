@@ -1,78 +1,78 @@
-//! An entry of a table: a known value, whether it is to be trusted, and the verdict on what was computed.
+//! An entry of a table: a known value, its reliability, and the verdict on the computed value.
 
 use super::printed::{Allowed, Printed};
 
-/// A value that is known before it is computed.
+/// A known value for comparison with a computed one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Entry {
     /// Labels of the value, one for each key of the heading.
     pub labels: Vec<String>,
-    /// The value.
+    /// Known value.
     pub known: Printed,
     /// Allowed distance of the computed value from the known one.
     pub allowed: Allowed,
-    /// Whether the value is to be trusted.
+    /// Reliability of the value.
     pub standing: Reliability,
     /// Whether the entry belongs to the fast subset.
     pub is_fast: bool,
 }
 
-/// Whether a known value is to be trusted.
+/// Reliability of a known value.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Reliability {
-    /// The value is to be trusted.
+    /// The value is reliable.
     Sound,
-    /// The value is to be trusted, but its last digit was cut off, not rounded.
+    /// The value is reliable, but truncated after its last digit, not rounded.
     Truncated {
-        /// The evidence for the cut.
+        /// Evidence for the truncation.
         reason: String,
     },
-    /// The value was printed in error.
+    /// The value is a misprint.
     Misprint {
-        /// What should stand there, and is compared with.
+        /// Correct value, for the comparison.
         instead: Printed,
-        /// The evidence for the error.
+        /// Evidence for the misprint.
         reason: String,
     },
-    /// The set-up of the table does not lead to the value, for no known reason.
+    /// The set-up of the table does not give the value, for unknown reasons.
     Open {
-        /// What an independent calculation gives, and is compared with.
+        /// Value of an independent calculation, for the comparison.
         instead: Printed,
-        /// The knowledge about the value.
+        /// Knowledge about the value.
         reason: String,
     },
-    /// The value is to be trusted, and the method does not come near enough to it.
+    /// The value is reliable, and the method does not reach it within the tolerance.
     Missed {
-        /// What the method gives, and is compared with where it misses the value.
+        /// Value of the method, for the comparison where it misses the known value.
         instead: Printed,
-        /// The reason why it misses it.
+        /// Reason why the method misses the value.
         reason: String,
     },
 }
 
-/// The outcome of comparing an entry with what was computed.
+/// Verdict on the computed value of an entry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
-    /// The computed value, rounded, is the known one to its last digit.
+    /// The computed value, rounded, equals the known one to its last digit.
     Rounded,
-    /// The computed value, cut off, is the known one to its last digit.
+    /// The computed value, truncated, equals the known one to its last digit.
     Truncated,
-    /// The computed value is as near as it should be.
+    /// The computed value is within the tolerance.
     Within,
-    /// The known value is a misprint, and the computed one is what should stand there.
+    /// The known value is a misprint, and the computed one agrees with the correct value.
     Misprint,
-    /// The known value is not met for no known reason, and the computed one is that of an independent calculation.
+    /// The known value is not met for unknown reasons, and the computed one agrees with an independent calculation.
     Differs,
-    /// The known value is right and is not met, for a known reason.
+    /// The known value is right and not met, for a known reason.
     Missed,
-    /// The entry is shown, not judged.
+    /// The entry is shown without a judgement.
     Shown,
-    /// The computed value should be near the known one, and is not.
+    /// The computed value is outside of the tolerance.
     Failed,
 }
 
 impl Entry {
-    /// What becomes of the entry with this computed value.
+    /// Verdict on a computed value.
     pub(super) fn verdict(&self, computed: f64) -> Verdict {
         let agrees = |printed: &Printed| self.allowed.admits(printed, computed);
         match &self.standing {
@@ -98,7 +98,7 @@ impl Entry {
 }
 
 impl Reliability {
-    /// The reason why the known value is not taken as it is.
+    /// Reason why the known value is not used directly, if any.
     pub(super) fn reason(&self) -> Option<&str> {
         match self {
             Self::Sound => None,
@@ -109,7 +109,7 @@ impl Reliability {
         }
     }
 
-    /// What the computed value is compared with instead of the known one.
+    /// Value for the comparison in place of the known one, if any.
     pub(super) fn instead(&self) -> Option<&Printed> {
         match self {
             Self::Misprint { instead, .. }
@@ -133,7 +133,7 @@ impl Verdict {
         Self::Failed,
     ];
 
-    /// In words.
+    /// Text of the verdict.
     pub fn words(self) -> &'static str {
         match self {
             Self::Rounded => "rounded",

@@ -1,20 +1,20 @@
-//! How large the equations of a model are: what its work goes with, on every machine.
+//! Sizes of the equations of a model, a measure of the work on any machine.
 
 use anyhow::Context;
 use ligament::setup::ELASTIC_ENERGY_TOLERANCE;
 use ligament::{Loading, Model};
 use ligament_analysis::Equilibrium;
 
-/// Sizes of the equations of equilibrium, with the order of elimination that the program chooses.
+/// Sizes of the equations of equilibrium, with the program's elimination order.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Equations {
-    /// Unknowns: the order of the stiffness matrix.
+    /// Number of unknowns, the order of the stiffness matrix.
     pub(super) unknowns: f64,
-    /// Entries of its lower triangle.
+    /// Number of entries of the matrix's lower triangle.
     pub(super) matrix: f64,
-    /// Values of its factor.
+    /// Number of values of the matrix's factor.
     pub(super) factor: f64,
-    /// Multiplications that the factor takes.
+    /// Number of multiplications of the factorisation.
     pub(super) multiplications: f64,
 }
 
@@ -23,7 +23,7 @@ impl Equations {
     ///
     /// # Errors
     ///
-    /// If its supports and loads, or the equations, cannot be made.
+    /// If the supports and loads, or the equations, cannot be set up.
     pub(super) fn from_model(model: &Model) -> anyhow::Result<Self> {
         let loading = Loading::new(model)?;
         let problem = loading.problem(model);

@@ -1,4 +1,4 @@
-//! An experiment, and what it comes to.
+//! An experiment and its results.
 
 use anyhow::Context;
 use ligament_plot::picture::maps::Maps;
@@ -7,18 +7,18 @@ use ligament_plot::plots::Plot;
 use super::table::{Extent, Table};
 use super::trial::Template;
 
-/// A published case, or several that belong together.
+/// One or several related published cases.
 #[derive(Debug, Clone, Copy)]
 pub struct Experiment {
     /// Name on the command line.
     pub name: &'static str,
-    /// Title.
+    /// Title of the experiment.
     pub title: &'static str,
     /// Paper, tables and figures, or closed form.
     pub source: &'static str,
-    /// What is computed, and how.
+    /// Description of the computation.
     pub setup: &'static str,
-    /// The cases that are run, with settings of each entry.
+    /// Cases that are run, with settings of each entry.
     pub cases: &'static [&'static Template],
     /// Computes the tables, or their fast subset.
     pub compute: fn(Extent) -> anyhow::Result<Findings>,
@@ -29,7 +29,7 @@ impl Experiment {
     ///
     /// # Errors
     ///
-    /// If a case of it cannot be run.
+    /// If a case of the experiment cannot be run.
     pub fn run(&self, extent: Extent) -> anyhow::Result<Findings> {
         let mut findings = (self.compute)(extent)
             .with_context(|| format!("experiment {} cannot be run", self.name))?;
@@ -38,12 +38,12 @@ impl Experiment {
     }
 }
 
-/// What an experiment comes to.
+/// Results of an experiment.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Findings {
-    /// Known and computed values.
+    /// Tables of known and computed values.
     pub tables: Vec<Table>,
-    /// Curves of them.
+    /// Plots of the values.
     pub plots: Vec<Plot>,
     /// Pictures of bodies.
     pub maps: Vec<Maps>,

@@ -27,7 +27,7 @@ pub(super) static CASE: Template = template!("verification/square-modes.toml");
 /// Density of the case, kg/m^3.
 const DENSITY: f64 = 2500.0;
 
-/// The lamina stands on its base.
+/// Axis of the lamina, which is supported at its base: y.
 pub(super) const ALONG: usize = 1;
 
 pub(super) const TABLES: [Published; 3] = [

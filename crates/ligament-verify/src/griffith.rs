@@ -1,4 +1,4 @@
-//! Cracks that the fracture energy drives: failure stress of a plate with a central crack, energy and straightness of a crack.
+//! Cracks controlled by the fracture energy: failure stress of a plate with a central crack, energy and straightness of a crack.
 
 use std::f64::consts::PI;
 
@@ -39,7 +39,7 @@ static MESHES: [(f64, StoredMesh); 3] = [
 /// Half of the plate's width, W, m.
 const HALF_WIDTH: f64 = 0.05;
 
-/// Half of its height, m.
+/// Half of the plate's height, m.
 const HALF_HEIGHT: f64 = 0.1;
 
 /// Thickness t of the plate, m.
@@ -48,33 +48,33 @@ const THICKNESS: f64 = 0.01;
 /// Half-length a of the central crack, m.
 const HALF_LENGTH: f64 = 0.0152;
 
-/// Where the tip of the edge crack stands, m.
+/// Position of the tip of the edge crack, m.
 const EDGE_TIP: f64 = -0.02;
 
-/// Distance by which the part of the line whose crossings are counted stands aside, m. Bonds of a lattice cross at the
-/// points of the lattice, and the ends of that part should lie between them.
+/// Shift of the part of the line whose crossings are counted, m. Bonds of a lattice cross at the points of the lattice, and the ends of
+/// that part should be between them.
 const ASIDE: f64 = 1.1e-4;
 
-/// E, Pa.
+/// Young's modulus E, Pa.
 const YOUNG: f64 = 15e9;
 
-/// G_c, J/m^2.
+/// Fracture energy G_c, J/m^2.
 const FRACTURE_ENERGY: f64 = 20.0;
 
 /// Distance from the crack within which the horizon is averaged: half the height of the fine strip of the meshes, m.
 const STRIP: f64 = 0.005;
 
-/// Share of delta/a by which the label of an entry may be off.
+/// Largest relative error of delta/a in the label of an entry.
 const LABEL_TOLERANCE: f64 = 5e-3;
 
-/// What the tables of the edge crack read in the same run.
+/// Results of a run of the edge crack for the tables.
 #[derive(Debug, Clone, Copy)]
 struct Separation {
-    /// Energy that the breakages released over the new surface, over G_c.
+    /// Energy released by the breakages per new surface, over G_c.
     work: f64,
-    /// Energy of the broken bonds at their limits over the new surface, over G_c.
+    /// Energy of the broken bonds at their limits per new surface, over G_c.
     energy: f64,
-    /// Largest distance of the middle of a broken bond from the line of the crack over the horizon there.
+    /// Largest distance of a broken bond's midpoint from the line of the crack, over its horizon.
     deviation: f64,
 }
 
@@ -131,7 +131,7 @@ const CURVES: [(&str, Colour, &str); 6] = [
     ),
 ];
 
-/// Strength over the horizon; on one lattice by its own mark, because the horizon factor varies there.
+/// Plot of strength over the horizon; one lattice has a mark of its own, because its horizon factor varies.
 fn plot(strength: &Table) -> Result<Plot, LabelError> {
     let lefm = vec![[0.1, 1.0], [0.7, 1.0]];
     let mut series = vec![Series::dashes("LEFM", Colour::Black, lefm)];
@@ -155,7 +155,7 @@ fn plot(strength: &Table) -> Result<Plot, LabelError> {
 ///
 /// sigma = sqrt(E G_c/(pi a))/F, F = (1 - 0.025 (a/W)^2 + 0.06 (a/W)^4) sqrt(sec(pi a/(2W)))
 ///
-/// (Tada 2000, section 2.1: 0.1 % off for a long plate).
+/// (Tada 2000, section 2.1: error of 0.1 % for a long plate).
 fn failure_stress() -> f64 {
     let ratio = HALF_LENGTH / HALF_WIDTH;
     let width = 1.0 - 0.025 * ratio.powi(2) + 0.06 * ratio.powi(4);
@@ -163,7 +163,7 @@ fn failure_stress() -> f64 {
     (YOUNG * FRACTURE_ENERGY / (PI * HALF_LENGTH)).sqrt() / (width * secant.sqrt())
 }
 
-/// The trial with law, Poisson's ratio, criterion and horizon factor of an entry; keys that its table does not have stay.
+/// The trial with law, Poisson's ratio, criterion and horizon factor of an entry; the law is unchanged where its table has none.
 fn with_labels(trial: Trial, labels: Labels<'_>) -> anyhow::Result<Trial> {
     let trial = trial
         .set("material.poisson", labels.number("nu")?)
@@ -182,13 +182,13 @@ fn mesh(labels: Labels<'_>) -> anyhow::Result<&'static StoredMesh> {
     Ok(mesh)
 }
 
-/// Runs the plate with a central crack, on a lattice or a mesh; without the crack if `intact`, for its model alone.
+/// Runs the plate with a central crack, on a lattice or a mesh; without the crack if `intact`, only for its model.
 fn central_crack(labels: Labels<'_>, intact: bool) -> anyhow::Result<Solution> {
     let is_lattice = labels.text("body")? == "lattice";
     let template = if is_lattice { &ON_LATTICE } else { &ON_MESH };
     let mut trial = with_labels(template.trial(), labels)?;
     if intact {
-        // A line beside the plate cuts nothing, and a load that breaks nothing ends the run at once.
+        // A line beside the plate cuts no bond, and a load that breaks no bond ends the run at once.
         trial = trial
             .set("precrack.0.points", [[1.0, 0.0], [2.0, 0.0]])
             .set("load.0.force_per_length.y", 1.0)
@@ -229,8 +229,8 @@ fn horizon(solution: &Solution) -> f64 {
     sum / count
 }
 
-/// Energy at the limits of the bonds that cross the middle part of the line y = 0 of a plate without crack, over G_c times
-/// the surface t dx of that part.
+/// Energy at the limits of the bonds across the middle part of the line y = 0 of a plate without crack, over G_c times the surface t dx of
+/// that part.
 fn crossing_energy(labels: Labels<'_>) -> anyhow::Result<f64> {
     let solution = central_crack(labels, true)?;
     let half = 0.5 * HALF_WIDTH;

@@ -39,10 +39,10 @@ const YOUNG: f64 = 15e9;
 /// Traction on the ends, Pa: the force per length of the case over its thickness.
 const TRACTION: f64 = 1e6;
 
-/// What K_t is from, in the order of the readings.
+/// Quantities from which K_t is obtained, in the order of the readings.
 const FROM: [&str; 3] = ["strain", "virial stress", "traction"];
 
-/// K_t and the scatter about it, %, from each.
+/// K_t and the scatter about it, %, from each quantity.
 type Reading = [[f64; 2]; FROM.len()];
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
@@ -107,7 +107,7 @@ fn read(solution: &Solution) -> anyhow::Result<Reading> {
     ])
 }
 
-/// a + b of the fit a + b cos(2 theta) to values over theta, and what it leaves over that, %.
+/// Value a + b of the fit a + b cos(2 theta) to values over theta, and its residual over that, %.
 fn fit(values: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
     let values: Vec<[f64; 2]> = values.collect();
     let count = values.len() as f64;

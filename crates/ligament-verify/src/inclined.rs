@@ -50,7 +50,7 @@ static MESH: StoredMesh = stored_mesh!("diagonal-plate-4mm.msh");
 /// Horizon factors of the paper with its adjusted strengths, Pa.
 const ADJUSTED: [(f64, f64); 3] = [(2.2, 14.286e6), (3.0, 10e6), (4.0, 7.273e6)];
 
-/// What is read in a test.
+/// Results of a test.
 #[derive(Debug, Clone)]
 struct PlateTest {
     /// Largest load before it first falls, kN.
@@ -59,7 +59,7 @@ struct PlateTest {
     start: f64,
     /// Mean distance of the crack from its image after half a turn, over the mean horizon of its points.
     mismatch: f64,
-    /// See [`towards_left`], degrees.
+    /// Angle by [`towards_left`], degrees.
     towards_left: f64,
     /// Whether the crack reaches farther on the left.
     leads_left: bool,
@@ -87,8 +87,8 @@ impl PlateTest {
     }
 }
 
-/// Angle to the x axis of the mean direction in which the crack leaves the right end of the slot, less that at the left end, degrees, as
-/// far as both reach: how much nearer to the direction of the fine side the crack lies there. NaN where there is none at an end.
+/// Angle to the x axis of the mean direction of the crack from the right end of the slot, minus that from the left end, degrees, over their
+/// common length: the difference between the fine and the coarse side of the mesh. NaN where there is no crack at an end.
 fn towards_left(crack: &Crack, [left, right]: Segment) -> f64 {
     let angle = |end: [f64; 2], sign: f64| {
         let common = crack.common_part([1.0, 0.0])?;
@@ -101,13 +101,13 @@ fn towards_left(crack: &Crack, [left, right]: Segment) -> f64 {
     }
 }
 
-/// Largest distance of a point of the crack from the middle of the plate on a side of it, m; 0 without any.
+/// Largest distance of a point of the crack from the middle of the plate on one side, m; 0 without points.
 fn reach(crack: &Crack, sign: f64) -> f64 {
     let tip = crack.part(|[x, _]| sign * x > 0.0).tip();
     tip.map_or(0.0, |tip| tip.at[0].hypot(tip.at[1]))
 }
 
-/// A test by its settings.
+/// Settings of a test.
 #[derive(Debug, Clone, Copy)]
 struct Case<'a> {
     theta: &'a str,
@@ -126,7 +126,7 @@ impl Case<'_> {
         let trial = trial.set("material.tensile_strength", *strength);
         let trial = match self.correction {
             "domain" => trial,
-            // In place of the whole section: the sweeps are those of the other correction alone.
+            // The whole section is replaced: sweeps belong to the other correction.
             other => trial.set("correction", format_args!("{{ surface = {other:?} }}")),
         };
         Ok(trial.on_mesh(&MESH))
@@ -198,7 +198,7 @@ fn crack(labels: Labels<'_>, tests: &mut Memory<PlateTest>) -> anyhow::Result<f6
     })
 }
 
-/// What all tests together say of the symmetry of the cracks.
+/// Statistic of the symmetry of the cracks over all tests.
 fn symmetry(labels: Labels<'_>, tests: &mut Memory<PlateTest>) -> anyhow::Result<f64> {
     let correction = labels.text("correction")?;
     let mut all = Vec::new();
@@ -229,7 +229,7 @@ fn symmetry(labels: Labels<'_>, tests: &mut Memory<PlateTest>) -> anyhow::Result
 /// Colours of the horizon factors.
 const COLOURS: [Colour; 3] = [Colour::Sky, Colour::Green, Colour::Vermilion];
 
-/// Peaks over the angle of the slot (Fig. 23).
+/// Plots of the peaks over the angle of the slot (Fig. 23).
 fn plots(tests: &mut Memory<PlateTest>) -> anyhow::Result<Vec<Plot>> {
     let mut plots = Vec::new();
     for correction in ["domain", "patch"] {

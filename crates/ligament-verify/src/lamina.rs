@@ -27,7 +27,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
 
 pub(super) static CASE: Template = template!("verification/lamina-modes.toml");
 
-/// The lamina sticks out along x.
+/// Axis of the lamina, a cantilever along x.
 const ALONG: usize = 0;
 
 const TABLES: [Published; 3] = [
@@ -36,7 +36,7 @@ const TABLES: [Published; 3] = [
     published!("omppd-table-5"),
 ];
 
-/// Cells along x: half of them along y.
+/// Number of cells along x; along y half as many.
 const COARSE: u32 = 40;
 const MIDDLE: u32 = 80;
 const FINE: u32 = 160;
@@ -64,7 +64,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     Ok(findings)
 }
 
-/// Tables 3 to 5 on a lattice with so many cells along x.
+/// Tables 3 to 5 on a lattice with `cells` cells along x.
 fn tables(
     extent: Extent,
     memory: &mut Memory<Frequencies>,
@@ -86,7 +86,7 @@ fn tables(
     })
 }
 
-/// Largest change of a frequency from the coarse lattice, and largest difference of the fine one from finite elements.
+/// Table of the largest change of a frequency from the coarse lattice, and the largest difference of the fine lattice from finite elements.
 fn convergence(coarse: &[Table], middle: &[Table], fine: &[Table]) -> anyhow::Result<Table> {
     let changes = differences(coarse.iter().zip(middle).flat_map(|(coarse, middle)| {
         let rows = rows_of(coarse, "lattice").zip(rows_of(middle, "lattice"));
@@ -105,13 +105,13 @@ fn convergence(coarse: &[Table], middle: &[Table], fine: &[Table]) -> anyhow::Re
     })
 }
 
-/// The rows that compare with the paper's lattice or with its finite elements.
+/// The rows for the paper's lattice or for its finite elements.
 fn rows_of<'a>(table: &'a Table, of: &'a str) -> impl Iterator<Item = &'a Row> {
     let belongs = move |row: &&Row| table.labels(row).text("of") == Ok(of);
     table.rows.iter().filter(belongs)
 }
 
-/// |one/other - 1| of pairs, %, ascending.
+/// Relative differences |one/other - 1| of pairs, %, ascending.
 fn differences(pairs: impl Iterator<Item = (f64, f64)>) -> Vec<f64> {
     let mut all: Vec<f64> = pairs
         .map(|(one, other)| 100.0 * (one / other - 1.0).abs())
@@ -120,7 +120,7 @@ fn differences(pairs: impl Iterator<Item = (f64, f64)>) -> Vec<f64> {
     all
 }
 
-/// A frequency over the angle of the axes.
+/// Plot of a frequency over the angle of the axes.
 fn of_angle(table: &Table) -> Result<Plot, LabelError> {
     let elements = table.known("angle", "of=finite elements")?;
     let printed = table.known("angle", "of=lattice")?;
@@ -133,7 +133,7 @@ fn of_angle(table: &Table) -> Result<Plot, LabelError> {
     Ok(table.plot(["angle of axis 1, degrees", "frequency, Hz"], series))
 }
 
-/// The first flexural frequency over that of finite elements, on three lattices.
+/// Plot of the ratio of the first flexural frequency to that of finite elements, on three lattices.
 fn of_horizon(tables: [&Table; 3]) -> Result<Plot, LabelError> {
     let angles = [
         ("0", Colour::Blue),

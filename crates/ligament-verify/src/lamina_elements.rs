@@ -12,20 +12,19 @@ const THICKNESS: f64 = 1e-3;
 
 const DENSITY: f64 = 2500.0;
 
-/// Length of the end that is held, of the modes, m.
+/// Length of the fixed end for the modes, m.
 const HELD: f64 = 0.01;
 
-/// Thickness of the layers whose displacement is given in tension, m: the three columns of the lattice that are less than a horizon
-/// from the end.
+/// Thickness of the layers with prescribed displacement in tension, m: the three columns of the lattice within a horizon of the end.
 const LAYER: f64 = 0.015;
 
 /// Displacement of the ends in tension, m.
 const STROKE: f64 = 0.5e-3;
 
-/// Nodes nearer than this to a line of the mesh lie on it, m.
+/// Distance from a mesh line within which nodes lie on it, m.
 const NEAR: f64 = 1e-4;
 
-/// The lamina with axis 1 at an angle (rad), and a line of the mesh so far from both ends (m).
+/// The lamina with axis 1 at an angle (rad), and a mesh line at the distance `layer` (m) from both ends.
 pub(super) fn lamina(angle: f64, layer: f64) -> Body {
     let elasticity = Elasticity::Orthotropic(Orthotropic {
         young: [15e9, 5e9],
@@ -38,7 +37,7 @@ pub(super) fn lamina(angle: f64, layer: f64) -> Body {
     Body::new(mesh, &elasticity, THICKNESS)
 }
 
-/// The three lowest modes of the lamina whose left end is held.
+/// The three lowest modes of the lamina with a fixed left end.
 pub(super) fn modes(angle: f64) -> anyhow::Result<(Mesh, Vec<Mode>)> {
     let body = lamina(angle, HELD);
     let held: Vec<_> = (body.mesh.nodes.iter())
@@ -48,14 +47,14 @@ pub(super) fn modes(angle: f64) -> anyhow::Result<(Mesh, Vec<Mode>)> {
     Ok((body.mesh, modes))
 }
 
-/// The displacements of the nodes with the layers at both ends pulled apart along x, m.
+/// The displacements of the nodes under tension by the layers at both ends along x, m.
 pub(super) fn displacements(angle: f64) -> anyhow::Result<(Mesh, Vec<[f64; 2]>)> {
     let body = lamina(angle, LAYER);
     let inner = HEIGHT - LAYER - NEAR;
     let mut prescribed: Vec<_> = (body.mesh.nodes.iter())
         .map(|[x, _]| [(x.abs() > inner).then(|| STROKE * x.signum()), None])
         .collect();
-    // One node holds the motion along y, which nothing else does.
+    // One node is fixed along y, against the free rigid motion.
     prescribed[body.mesh.nearest_node([HEIGHT, 0.0])][1] = Some(0.0);
     let forces = vec![[0.0; 2]; body.mesh.nodes.len()];
     let displacements = body.displacements(&prescribed, &forces)?;

@@ -1,13 +1,13 @@
-//! The program `ligament-verify`: runs the published cases and compares, entry by entry.
+//! The program `ligament-verify`: runs the published cases and compares the results, entry by entry.
 //!
 //! | Module | Holds |
 //! |--------|-------|
 //! | `published` | the reader of `published/*.csv`: known values, tolerances, misprints with their reasons |
-//! | [`table`], [`entry`], `printed` | a table, the verdict on an entry, numbers with their printed digits |
+//! | [`table`], [`entry`], `printed` | tables, verdicts on entries, numbers with their printed digits |
 //! | `trial` | a case of the repository, run in memory by the functions of `ligament run` |
-//! | `disk`, `poisson`, ... | the experiments, a file each |
-//! | [`finite_elements`] | classical elasticity, which the papers compare their lattices with |
-//! | `papers` | the papers' tables and figures, and which table of ours compares each |
+//! | `disk`, `poisson`, ... | the experiments, one file each |
+//! | [`finite_elements`] | classical elasticity, for comparison with the lattices of the papers |
+//! | `papers` | the papers' tables and figures, and the tables of this report that compare them |
 //! | `report`, [`tally`] | console, the page of the papers, the long report, CSV and SVG |
 #![cfg_attr(
     test,
@@ -140,33 +140,32 @@ pub struct Request {
     pub force: bool,
 }
 
-/// Why a verification is not a success.
+/// Error of a verification.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum VerifyError {
-    /// There is no such experiment.
+    /// No experiment has this name.
     #[error("no experiment `{name}`{}", hint(name, known, "experiments", '`'))]
     UnknownExperiment {
         /// The name given.
         name: String,
-        /// The names that there are.
+        /// Existing names.
         known: Vec<String>,
     },
-    /// Entries that should agree do not.
+    /// Entries fail.
     #[error("{failed} of {entries} entries fail: those marked {} above", Verdict::Failed.words())]
     EntriesFail {
-        /// Entries that fail.
+        /// Number of entries that fail.
         failed: usize,
-        /// All entries.
+        /// Number of all entries.
         entries: usize,
     },
 }
 
-/// Lists the experiments; or runs some, prints their tables as each is done, and writes the report.
+/// Lists the experiments, or runs some, prints the tables of each, and writes the report.
 ///
 /// # Errors
 ///
-/// If a name is not known, the folder cannot be used, an experiment cannot be run, or, with the report written, an
-/// entry fails.
+/// If a name is unknown, the folder cannot be used, an experiment cannot be run, or, after the report is written, if an entry fails.
 pub fn verify(request: &Request, screen: &mut dyn Write) -> anyhow::Result<()> {
     if request.list {
         return Ok(console::list(screen, &EXPERIMENTS)?);
@@ -204,7 +203,7 @@ pub fn verify(request: &Request, screen: &mut dyn Write) -> anyhow::Result<()> {
     Ok(conclude(&all)?)
 }
 
-/// Whether no entry fails.
+/// Returns an error if an entry fails.
 fn conclude(all: &Tally) -> Result<(), VerifyError> {
     let (failed, entries) = (all.count(Verdict::Failed), all.entries());
     if failed == 0 {
@@ -218,7 +217,7 @@ fn conclude(all: &Tally) -> Result<(), VerifyError> {
 ///
 /// # Errors
 ///
-/// If a name is not known.
+/// If a name is unknown.
 pub fn select(names: &[String]) -> Result<Vec<&'static Experiment>, VerifyError> {
     let known = || {
         EXPERIMENTS

@@ -1,4 +1,4 @@
-//! Elastic constants of lattices: what the bond laws make of the constants that they are given.
+//! Elastic constants of lattices under the bond laws, compared with the given constants.
 
 use ligament_model::law::{Calibration, LAWS};
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};
@@ -59,7 +59,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     })
 }
 
-/// Whether the constants of a law are sums over the families, unless a case says otherwise.
+/// Whether the default constants of a law are sums over the families.
 fn is_of_sums(word: &str) -> bool {
     let mut laws = LAWS.into_iter().filter(|law| law.word == word);
     laws.any(|law| law.options.calibration == Some(Calibration::Discrete))
@@ -95,7 +95,7 @@ fn constants(
     })
 }
 
-/// A constant over the horizon.
+/// Plot of a constant over the horizon.
 fn plot(table: &Table, constant: &str, axis: &str) -> Result<Plot, LabelError> {
     let laws = [
         ("BBPD", "1/3", Colour::Green),

@@ -1,4 +1,4 @@
-//! The modes of a cantilever by their names.
+//! The modes of a cantilever by name.
 
 use anyhow::{Context, anyhow, ensure};
 use ligament_analysis::modal::Mode;
@@ -7,11 +7,11 @@ use super::published::Published;
 use super::table::{Extent, LabelError, Labels, Table};
 use super::trial::Trial;
 
-/// The modes of the three tables in the papers.
+/// Frequencies of the three tables in the papers.
 const MODES: [fn(Frequencies) -> f64; 3] =
     [|it| it.flexural, |it| it.axial, |it| it.second_flexural];
 
-/// Names of these modes, as the papers have them.
+/// Names of the modes of the three tables, as in the papers.
 pub(super) const NAMES: [&str; 3] = ["flexural I", "axial I", "flexural II"];
 
 /// Frequencies of the three lowest modes of a cantilever, Hz.
@@ -26,7 +26,7 @@ pub(super) struct Frequencies {
 }
 
 impl Frequencies {
-    /// No frequencies: of an entry that is not computed.
+    /// Frequencies of an entry that is not computed: NaN.
     pub(super) const NONE: Self = Self {
         flexural: f64::NAN,
         axial: f64::NAN,
@@ -35,15 +35,15 @@ impl Frequencies {
 
     /// The named frequencies of a trial with three modes, whose cantilever lies along the component `axis` (0: x, 1: y).
     ///
-    /// The axial mode has the largest effective mass along the cantilever, wherever it stands among the three:
-    /// with PDS it is below the first flexural one for nu < 0, and equal to it for nu = 0.
+    /// The axial mode has the largest effective mass along the cantilever, at any place among the three: with PDS its frequency is below
+    /// the first flexural one for nu < 0, and equal to it for nu = 0.
     pub(super) fn from_trial(trial: &Trial, axis: usize) -> anyhow::Result<Self> {
         let modes = trial.modes()?;
         let named = |mode: &Mode| (mode.frequency(), mode.participation[axis]);
         Self::from_modes(modes.iter().map(named))
     }
 
-    /// The named frequencies of three modes, each a frequency and its share in a motion along the cantilever.
+    /// The named frequencies of three modes, each given by its frequency and its participation along the cantilever.
     pub(super) fn from_modes(modes: impl Iterator<Item = (f64, f64)>) -> anyhow::Result<Self> {
         let [flexural, axial, second_flexural] = in_named_order(modes.collect(), |it| it.1)?;
         Ok(Self {
@@ -54,8 +54,8 @@ impl Frequencies {
     }
 }
 
-/// The first flexural, the axial and the second flexural of three modes with rising frequencies, by their shares in a motion
-/// along the cantilever.
+/// The first flexural, the axial and the second flexural one of three modes with ascending frequencies, by their participations along the
+/// cantilever.
 pub(super) fn in_named_order<T>(
     modes: Vec<T>,
     along: impl Fn(&T) -> f64,
@@ -75,7 +75,7 @@ pub(super) fn in_named_order<T>(
     })
 }
 
-/// Tables of the first flexural, the axial and the second flexural mode, of the frequencies that an entry asks for.
+/// Tables of the first flexural, the axial and the second flexural mode, from the frequencies of each entry.
 pub(super) fn tables(
     published: [Published; 3],
     extent: Extent,
@@ -87,8 +87,8 @@ pub(super) fn tables(
     published.into_iter().zip(MODES).map(table).collect()
 }
 
-/// A table of the distances of the lattice from the finite elements, %: of an entry for the table of a number, from the rows
-/// of that table with the labels of the lattice and of the elements.
+/// A table of the differences of the lattice from finite elements, %: each entry has the index of a table, and `rows` returns the labels of
+/// the lattice's and the elements' row there.
 pub(super) fn errors(
     published: Published,
     extent: Extent,

@@ -1,4 +1,4 @@
-//! The five papers: what stands in them, and the tables of this report that compare it.
+//! The five papers: their contents, and the tables of this report that compare them.
 
 use ligament_output::csv::read::records;
 
@@ -6,7 +6,7 @@ use super::experiment::Findings;
 use super::published::TableError;
 use super::table::{LabelError, Row, Table};
 
-/// The papers by their short names, as `papers.csv` has them.
+/// The papers by their short names in `papers.csv`.
 pub(super) const PAPERS: [(&str, &str); 5] = [
     (
         "NHPD",
@@ -37,26 +37,26 @@ pub(super) const PAPERS: [(&str, &str); 5] = [
 pub(super) struct Item {
     /// Short name of the paper.
     pub(super) paper: String,
-    /// Where it stands: `Table 4, PDS`.
+    /// Place in the paper: `Table 4, PDS`.
     pub(super) place: String,
-    /// What it is about.
+    /// Subject of the item.
     pub(super) content: String,
-    /// What compares it.
+    /// Comparison with the item.
     pub(super) comparison: Comparison,
-    /// What the numbers do not say: why nothing is computed, or what stands in place of printed values.
+    /// Remark: the reason why the item is not computed, or the substitute of printed values.
     pub(super) remark: String,
 }
 
-/// What compares an item.
+/// Comparison with an item.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Comparison {
-    /// No result: a sketch, a mesh.
+    /// The item is no result, such as a sketch or a mesh.
     NoResult,
-    /// A picture without numbers, which is drawn.
+    /// The item is a picture without numbers, which is drawn.
     Drawn,
-    /// Nothing, though it is a result.
+    /// The item is a result that is not computed.
     NotComputed,
-    /// Rows of tables.
+    /// Rows of tables compare the item.
     Rows(Vec<Selection>),
 }
 
@@ -77,7 +77,7 @@ const COLUMNS: [&str; 5] = ["paper", "item", "content", "tables", "remark"];
 ///
 /// # Errors
 ///
-/// If the list of items is not as it should be.
+/// If the list of items is wrong.
 pub(super) fn items() -> Result<Vec<Item>, TableError> {
     let at = |line: usize, fault: &str| TableError {
         name: "papers".to_owned(),
@@ -150,7 +150,7 @@ impl Item {
 }
 
 impl Selection {
-    /// `table` or `table[key=label, ...]`.
+    /// Parses `table` or `table[key=label, ...]`.
     fn parse(text: &str) -> Self {
         let text = text.trim();
         let (table, of) = (text.strip_suffix(']'))

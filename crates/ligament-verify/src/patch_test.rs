@@ -65,7 +65,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     })
 }
 
-/// The trial of an entry: what its table does not label is as in the case.
+/// The trial of an entry; settings without labels in its table are those of the case.
 fn trial(labels: Labels<'_>) -> anyhow::Result<Trial> {
     let label = |key: &str| labels.text(key).ok();
     let body = label("mesh").unwrap_or("bar");
@@ -92,7 +92,7 @@ fn trial(labels: Labels<'_>) -> anyhow::Result<Trial> {
     Ok(trial)
 }
 
-/// A lattice of so many cells, with NHPD as on the meshes.
+/// A lattice of `cells` cells, with NHPD as on the meshes.
 fn lattice(cells: [u32; 2]) -> Trial {
     let trial = LATTICE
         .trial()
@@ -109,7 +109,7 @@ fn mesh(name: &str) -> anyhow::Result<&'static StoredMesh> {
         .with_context(|| format!("no mesh `{name}`"))
 }
 
-/// What an entry asks of a test.
+/// Result of a test for an entry.
 fn read(test: &PatchTest, of: &str) -> anyhow::Result<f64> {
     let constants = || {
         test.constants

@@ -30,7 +30,7 @@ pub(super) static SHEAR: Template = template!("mbb-plate/shear.toml");
 pub(super) static THERMAL: Template = template!("thermal-plates/case.toml");
 pub(super) static THERMAL_LEFT: Template = template!("thermal-plates/three-edges.toml");
 
-/// Problem, d, x, y (mm), u_x, u_y (um) by finite elements.
+/// Table of problem, d, x, y (mm), u_x, u_y (um) by finite elements.
 const ELEMENTS: &str = include_str!("../../../tests/reference/mbb-pd-elements.csv");
 
 /// Side of the plate, m.
@@ -120,26 +120,26 @@ fn spacing(labels: Labels<'_>) -> anyhow::Result<f64> {
     Ok(1e-3 * labels.number("d")?)
 }
 
-/// The plate on the lattice of a spacing.
+/// The plate on a lattice with a spacing (m).
 fn on_lattice(trial: Trial, spacing: f64) -> Trial {
     let cells = (SIDE / spacing).round() as u32;
     trial.on_lattice([cells, cells], spacing)
 }
 
-/// u at the middle of a free side, -nu s/E (L - d)/2, m.
+/// Displacement at the middle of a free side, -nu s/E (L - d)/2, m.
 fn narrowing_by_hooke(labels: Labels<'_>) -> anyhow::Result<f64> {
     Ok(-labels.number("nu")? * 200e6 / 65.8e9 * 0.5 * (SIDE - spacing(labels)?))
 }
 
-/// Where finite elements give displacements, and these.
+/// Displacement by finite elements at a point.
 #[derive(Debug, Clone, PartialEq)]
 struct Elements {
     problem: String,
     /// Spacing of the lattice, mm.
     spacing: f64,
-    /// x, y, m.
+    /// Position x, y, m.
     place: [f64; 2],
-    /// u_x, u_y, m.
+    /// Displacement u_x, u_y, m.
     displacement: [f64; 2],
 }
 
@@ -158,12 +158,12 @@ fn elements() -> Result<Vec<Elements>, ligament_output::Error> {
         .collect())
 }
 
-/// A plate against finite elements.
+/// Comparison of a plate with finite elements.
 #[derive(Debug, Clone, Copy)]
 struct Compared {
-    /// L2 norm of the difference of u_x and u_y over that by finite elements.
+    /// L2 norm of the differences of u_x and u_y over the norm by finite elements.
     difference: [f64; 2],
-    /// u_x at the right end of the row above the middle, m.
+    /// Displacement u_x at the right end of the row above the middle, m.
     middle: f64,
     /// Force of the first load, N.
     force: f64,
@@ -195,7 +195,7 @@ impl Compared {
     }
 }
 
-/// u_A over Poisson's ratio.
+/// Plot of u_A over Poisson's ratio.
 fn plot(table: &Table) -> anyhow::Result<Plot> {
     let (along_x, along_y) = ("d=2, along=x", "d=2, along=y");
     let series = vec![

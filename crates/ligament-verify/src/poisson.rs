@@ -1,4 +1,4 @@
-//! Poisson's ratio from uniaxial tension: what a test would read off the model.
+//! Poisson's ratio from uniaxial tension, as measured in a test.
 
 use super::experiment::{Experiment, Findings};
 use super::published::published;
@@ -70,7 +70,7 @@ fn ratio(solution: &Solution, [along, across]: [f64; 2]) -> anyhow::Result<f64> 
     Ok(contraction / strain)
 }
 
-/// What the input is missed by, for each label of a key.
+/// Plot of the differences from the input, for each label of a key.
 fn plot(table: &Table, key: &str, curves: &[(&str, Colour)]) -> Result<Plot, LabelError> {
     let mut series = vec![Series::dashes(
         "closed form",

@@ -1,45 +1,45 @@
-//! Numbers as they are printed, and how near another number is to them.
+//! Printed numbers, and tolerances for the comparison with them.
 
 use std::fmt;
 
-/// A number with the digits it was printed with.
+/// A number with its printed digits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Printed {
     text: String,
     value: f64,
 }
 
-/// How far a computed value may be from the known one.
+/// Allowed difference of a computed value from the known one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Allowed {
     /// Half a unit of the last printed digit.
     Digits,
-    /// A share of the known value.
+    /// Tolerance relative to the known value.
     Relative(f64),
-    /// An amount in the unit of the table.
+    /// Tolerance in the unit of the table.
     Absolute(f64),
-    /// Any distance: the value is shown and not judged.
+    /// Any difference: the value is shown and not judged.
     Any,
 }
 
 /// Difference of two values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Difference {
-    /// In the unit of the table.
+    /// Difference in the unit of the table.
     Amount(f64),
-    /// Relative to the known value.
+    /// Difference relative to the known value.
     Share(f64),
 }
 
 impl Printed {
-    /// A number as it is printed, with or without an exponent; `None` if the text is none.
+    /// Parses a printed number, with or without an exponent; `None` if the text is not a finite number.
     pub(super) fn parse(text: &str) -> Option<Self> {
         let value = text.parse().ok().filter(|value: &f64| value.is_finite())?;
         let text = text.to_owned();
         Some(Self { text, value })
     }
 
-    /// The number.
+    /// Value of the number.
     pub(super) fn value(&self) -> f64 {
         self.value
     }
@@ -56,7 +56,7 @@ impl Printed {
         10f64.powi(exponent.parse().unwrap_or(0) - decimals as i32)
     }
 
-    /// Another number with one digit more than this one, four at least.
+    /// Text of another number with one digit more than this one, at least four.
     pub(super) fn like(&self, value: f64) -> String {
         let digits = 1 - self.last_digit().log10().round() as i32;
         let decimals = match self.value.abs() {
@@ -72,23 +72,23 @@ impl Printed {
         }
     }
 
-    /// Whether this is another number, rounded to the printed digits.
+    /// Whether this is `value`, rounded to the printed digits.
     pub(super) fn is_rounded_from(&self, value: f64) -> bool {
         (value - self.value).abs() <= 0.5 * self.last_digit() * (1.0 + ROUNDING)
     }
 
-    /// Whether this is another number, cut off after the printed digits.
+    /// Whether this is `value`, truncated after the printed digits.
     pub(super) fn is_cut_from(&self, value: f64) -> bool {
         let rest = (value - self.value) * if self.value < 0.0 { -1.0 } else { 1.0 };
         (-ROUNDING..1.0 + ROUNDING).contains(&(rest / self.last_digit()))
     }
 }
 
-/// What a comparison of digits leaves to the rounding of the numbers themselves.
+/// Tolerance of a comparison of digits for rounding errors, over the last digit.
 const ROUNDING: f64 = 1e-6;
 
 impl Allowed {
-    /// Whether a computed value is near enough to a known one.
+    /// Whether a computed value is within the tolerance of a known one.
     pub(super) fn admits(self, known: &Printed, computed: f64) -> bool {
         let distance = (computed - known.value).abs();
         match self {
@@ -101,7 +101,7 @@ impl Allowed {
 }
 
 impl Difference {
-    /// The difference in words with its sign, an amount with one digit more than the known value.
+    /// Text of the difference with its sign; an amount has one digit more than the known value.
     pub(super) fn words(self, known: &Printed) -> String {
         let (digits, unit) = match self {
             Self::Share(share) => (format!("{:.2}", 100.0 * share), " %"),

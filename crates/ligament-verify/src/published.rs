@@ -1,4 +1,4 @@
-//! Reads a table of known values from CSV.
+//! Reader of tables of known values from CSV.
 //!
 //! ```text
 //! # title: First flexural frequency
@@ -11,9 +11,8 @@
 //! 0.1,pds,2025.5,digits,full,misprint,2053,"why it is one"
 //! ```
 //!
-//! What stands before `known` are the labels of an entry. `allowed` is `digits`, a share such as `3 %`, an amount in
-//! the unit of the table, or `any`; `subset` is `fast` or `full`; `standing` is empty, `truncated`, `misprint`,
-//! `open` or `missed`.
+//! The columns before `known` are the labels of an entry. `allowed` is `digits`, a share such as `3 %`, an amount in the unit of the table,
+//! or `any`; `subset` is `fast` or `full`; `standing` is empty, `truncated`, `misprint`, `open` or `missed`.
 
 use ligament_output::csv::read::{StringRecord, records};
 
@@ -21,12 +20,12 @@ use super::entry::{Entry, Reliability};
 use super::printed::{Allowed, Printed};
 use super::table::{Extent, Heading, Known, Labels, Table};
 
-/// Columns that every table has, after those of its labels.
+/// Columns of every table, after those of its labels.
 const COLUMNS: [&str; 6] = [
     "known", "allowed", "subset", "standing", "instead", "reason",
 ];
 
-/// A file of `published/`, as it was when the program was built.
+/// A file of `published/`, embedded in the program.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Published {
     /// Name of the file, without `.csv`.
@@ -35,7 +34,7 @@ pub(super) struct Published {
     pub(super) text: &'static str,
 }
 
-/// A file of `published/` by its name, without `.csv`.
+/// Embeds a file of `published/`, given by its name without `.csv`.
 macro_rules! published {
     ($name:literal) => {
         $crate::published::Published {
@@ -53,11 +52,11 @@ macro_rules! published {
 pub(super) use published;
 
 impl Published {
-    /// The table, or its fast subset, with what `compute` gives for the labels of each entry.
+    /// The table, or its fast subset, with the results of `compute` for the labels of each entry.
     ///
     /// # Errors
     ///
-    /// If the file is no table of known values, and those of `compute`, with the labels of the entry.
+    /// If the file is not a table of known values, or `compute` fails, with the labels of the entry.
     pub(super) fn judge(
         self,
         extent: Extent,
@@ -67,19 +66,19 @@ impl Published {
     }
 }
 
-/// What is wrong with a table, and where.
+/// Error of a table, with its line.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("published table {name}, line {line}: {fault}")]
 pub(super) struct TableError {
     /// Name of the table.
     pub(super) name: String,
-    /// Line, from 1.
+    /// Line number, from 1.
     pub(super) line: usize,
-    /// What is wrong.
+    /// Description of the error.
     pub(super) fault: String,
 }
 
-/// The known values of a table in a file of this name.
+/// Parses the known values of a table; `name` is that of its file.
 pub(super) fn known_values(name: &str, text: &str) -> Result<Known, TableError> {
     let at = |line: usize| {
         move |fault| TableError {

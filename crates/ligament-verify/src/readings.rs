@@ -1,4 +1,4 @@
-//! What MPPD leaves open, read in many ways: how many of its micropolar values each reading meets (Tables 1 to 6).
+//! Readings of the details that MPPD leaves open: number of its micropolar values that each reading meets (Tables 1 to 6).
 
 use anyhow::ensure;
 
@@ -31,10 +31,10 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute,
 };
 
-/// Rows of points along a side of the static plates.
+/// Number of points along a side of the static plates.
 const POINTS: u32 = 61;
 
-/// Spacing of the points, m, and the half-width of the plate with the cells of its outermost points.
+/// Spacing of the points, and half-width of the plate including the cells of its outermost points, m.
 const SPACING: f64 = 0.01;
 const HALF_WIDTH: f64 = 0.305;
 
@@ -57,17 +57,17 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     })
 }
 
-/// How well a reading meets the printed values.
+/// Agreement of a reading with the printed values.
 #[derive(Debug, Clone, Copy)]
 struct Score {
-    /// Values met to the digits.
+    /// Number of values met to the printed digits.
     met: usize,
     /// Median and largest difference, %.
     median: f64,
     largest: f64,
 }
 
-/// The statistic `of` which an entry is, of the tables that its reading leads to.
+/// The statistic of an entry (label `of`), for the tables under its reading.
 fn score(
     labels: Labels<'_>,
     memory: &mut Memory<Score>,
@@ -85,7 +85,7 @@ fn score(
 }
 
 impl Score {
-    /// The score of tables in which the values that do not count are not computed.
+    /// The score of tables; entries that are not computed do not count.
     fn from_tables(tables: &[Table]) -> anyhow::Result<Self> {
         let counts = |row: &&Row| row.computed.is_finite() && row.entry.known.value() != 0.0;
         let rows = || tables.iter().flat_map(|table| &table.rows).filter(counts);
@@ -103,7 +103,7 @@ impl Score {
     }
 }
 
-/// Whether an entry of the paper's tables is one of the micropolar lattice with a k_t.
+/// Whether an entry of the paper's tables is of the micropolar lattice with a nonzero k_t.
 fn is_micropolar(printed: Labels<'_>) -> anyhow::Result<bool> {
     Ok(printed.text("model")? == "MPPD" && printed.text("nu")? != "1/3")
 }
@@ -168,7 +168,7 @@ fn with_law(trial: Trial, reading: Labels<'_>) -> anyhow::Result<Trial> {
         .set("correction.surface", reading.text("surface")?))
 }
 
-/// A trial whose load is spread over so many outermost rows of points.
+/// A trial with the load on the outermost `rows` rows of points.
 fn loaded_on(trial: Trial, load: SquareLoad, rows: u32) -> Trial {
     match load {
         SquareLoad::Traction => trial

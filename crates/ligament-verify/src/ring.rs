@@ -30,10 +30,10 @@ const YOUNG: f64 = 65.8e9;
 const POISSON: f64 = 0.2;
 const PRESSURE: f64 = 100e6;
 
-/// Share of a radius within which a point lies on it.
+/// Relative distance from a radius within which a point lies on it.
 const ON_RIM: f64 = 1e-6;
 
-/// Mean u_r on the inside and on the outside over Lame's, and the L2 norm of the differences, %.
+/// Mean ratios of u_r to Lame's solution on the inside and on the outside, and L2 norm of the differences over its norm, %.
 type Reading = [f64; 3];
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
@@ -61,7 +61,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     })
 }
 
-/// u_r = (1 + nu)/E A ((1 - 2 nu) r + r_o^2/r), A = p r_i^2/(r_o^2 - r_i^2).
+/// Lame's solution u_r = (1 + nu)/E A ((1 - 2 nu) r + r_o^2/r), A = p r_i^2/(r_o^2 - r_i^2), m.
 fn lame(r: f64) -> f64 {
     let constant = PRESSURE * INNER.powi(2) / (OUTER.powi(2) - INNER.powi(2));
     (1.0 + POISSON) / YOUNG * constant * ((1.0 - 2.0 * POISSON) * r + OUTER.powi(2) / r)
@@ -72,7 +72,7 @@ fn read(solution: &Solution) -> Reading {
     let places = cloud.positions.iter();
     let places = places.map(|[x, y]| [x + cloud.origin[0], y + cloud.origin[1]]);
     let moved: Vec<([f64; 2], [f64; 2])> = places.zip(displacements(solution)).collect();
-    // Lame's field has no mean over the volume, and a rotation has no u_r.
+    // Lame's field has a zero mean over the volume, and a rotation has no u_r.
     let volume: f64 = cloud.volumes.iter().sum();
     let mean = [0, 1].map(|axis| {
         let weighted = moved.iter().zip(&cloud.volumes);

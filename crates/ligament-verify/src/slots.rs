@@ -61,7 +61,7 @@ const ADJUSTED: [(f64, f64); 3] = [(2.5, 4.69e6), (3.0, 3.81e6), (3.5, 3.21e6)];
 /// Strength of the intact disk in closed form: pi D t F_t/2, N.
 const INTACT: f64 = 0.5 * PI * 0.1 * 1.0 * 3.81e6;
 
-/// Share of the largest load at which a test ends: the cracks of most have run then, and halves between platens carry no load again.
+/// Share of the largest load at which a test ends: most cracks are then complete, and halves between platens carry no further load.
 const END: f64 = 0.8;
 
 /// Radius of the disk, m.
@@ -73,21 +73,21 @@ const PLATENS: [Segment; 2] = [
     [[-0.003, -RADIUS], [0.003, -RADIUS]],
 ];
 
-/// What is read in a test.
+/// Results of a test.
 #[derive(Debug, Clone)]
 struct SlottedTest {
     /// Largest load before it first falls, over [`INTACT`].
     peak: f64,
-    /// Displacement, mm, and load over [`INTACT`].
+    /// Curve of displacement, mm, and load over [`INTACT`].
     curve: Vec<[f64; 2]>,
     /// Distance of the first broken bond from the nearest end of a slot, over its horizon.
     start: f64,
-    /// Distance of the first cracked point from it, likewise.
+    /// Distance of the first cracked point from the nearest end of a slot, over its horizon.
     first_crack: f64,
-    /// Distance that a crack from a slot is short of a platen, of both platens the longer, over the radius.
+    /// Distance between a crack from a slot and a platen, the larger one of both platens, over the radius.
     to_platens: f64,
-    /// Distance that the cracks of neighbouring slots are short of each other or of these slots, the longest of all pairs, over the mean
-    /// horizon of cracked points; 0 with one slot.
+    /// Distance between the cracks of neighbouring slots or these slots, the largest one of all pairs, over the mean horizon of cracked
+    /// points; 0 with one slot.
     between_slots: f64,
     /// Mean distance of the crack from its image after half a turn, over the mean horizon of its points.
     mismatch: f64,
@@ -138,7 +138,7 @@ impl SlottedTest {
     }
 }
 
-/// A test by its settings.
+/// Settings of a test.
 #[derive(Debug, Clone, Copy)]
 struct Case<'a> {
     slots: &'a str,
@@ -214,7 +214,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     })
 }
 
-/// F_t (MPa) that keeps the strength of the structure where the horizon factor is not 3: eq. 22.
+/// Strength F_t (MPa) by eq. 22 that preserves the strength of the structure for other horizon factors than 3.
 fn adjusted(labels: Labels<'_>) -> anyhow::Result<f64> {
     let lambda = labels.number("lambda")?;
     let at_3 = match labels.text("section")? {
@@ -249,7 +249,7 @@ fn crack(labels: Labels<'_>, tests: &mut Memory<SlottedTest>) -> anyhow::Result<
 /// Colours of the horizon factors.
 const COLOURS: [Colour; 3] = [Colour::Sky, Colour::Green, Colour::Vermilion];
 
-/// Peaks over the angle of one slot, and the curves of all tests on the fine mesh (Figs 14 and 17).
+/// Plots of the peaks over the angle of one slot, and of the curves of all tests on the fine mesh (Figs 14 and 17).
 fn plots(tests: &mut Memory<SlottedTest>) -> anyhow::Result<Vec<Plot>> {
     let mesh = "2 mm";
     let mut plots = Vec::new();

@@ -1,4 +1,4 @@
-//! Bonds that soften: the area under the curve of a bar against its fracture energy.
+//! Softening bonds: the area under the curve of a bar, compared with its fracture energy.
 
 use anyhow::{Context, bail};
 use ligament_analysis::driver::LoadPoint;
@@ -47,7 +47,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     })
 }
 
-/// The bar that some labels ask for.
+/// The bar of some labels.
 fn bar(labels: &Labels<'_>) -> anyhow::Result<Trial> {
     let law = labels.text("law")?.to_owned();
     let trial = rows(BAR.trial(), labels.text("rows")?)?
@@ -60,13 +60,13 @@ fn bar(labels: &Labels<'_>) -> anyhow::Result<Trial> {
     end(trial, labels.text("end")?)
 }
 
-/// The bar on a lattice of so many rows.
+/// The bar on a lattice of `rows` rows.
 fn rows(trial: Trial, rows: &str) -> anyhow::Result<Trial> {
     let rows: u32 = rows.parse().context("rows must be a whole number")?;
     Ok(trial.on_lattice([5 * rows, rows], 0.012 / f64::from(rows)))
 }
 
-/// The bar with an end of its law, or with that of the fracture energy. The force of an exponential one takes longer to fall.
+/// The bar with a given end of its softening law, or with the end by the fracture energy. An exponential law needs a larger displacement.
 fn end(trial: Trial, end: &str) -> anyhow::Result<Trial> {
     match end {
         "energy" => Ok(trial
@@ -88,7 +88,7 @@ fn area(curve: &[LoadPoint]) -> f64 {
     pairs.map(of_pair).sum()
 }
 
-/// Curves of three lattices.
+/// Plot of the curves of three lattices.
 fn curves(wanted: &str, title: &str) -> anyhow::Result<Plot> {
     let lattices = [
         ("12", Colour::Orange),

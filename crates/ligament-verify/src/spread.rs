@@ -1,6 +1,6 @@
-//! How far values lie apart.
+//! Spread of values.
 
-/// Largest less smallest value over the mean, %.
+/// Largest minus smallest value over the mean, %.
 pub(super) fn spread(values: &[f64]) -> f64 {
     let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let smallest = values.iter().copied().fold(f64::INFINITY, f64::min);

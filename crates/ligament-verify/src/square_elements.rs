@@ -1,4 +1,4 @@
-//! The square plates of MPPD as finite elements, as the paper has them (section 3, footnote 7).
+//! The square plates of MPPD as finite elements, as in the paper (section 3, footnote 7).
 
 use ligament_model::material::{Elasticity, Isotropic};
 
@@ -10,24 +10,24 @@ const SPACING: f64 = 0.01;
 
 const THICKNESS: f64 = 1e-3;
 
-/// Stress that a load comes to, Pa.
+/// Stress of a load, Pa.
 const STRESS: f64 = 10e6;
 
-/// Height of the plate that is held, of the modes, m: three rows of elements.
+/// Height of the fixed part of the plate for the modes, m: three rows of elements.
 const HELD: f64 = 0.03;
 
 /// A load of MPPD Fig. 11.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum SquareLoad {
-    /// Along y on top and bottom.
+    /// Traction along y on top and bottom.
     Traction,
-    /// Along all sides, without the corners.
+    /// Shear along all sides, without the corners.
     Shear,
-    /// Along x on both sides, proportional to y.
+    /// Traction along x on both sides, proportional to y.
     Bending,
 }
 
-/// A plate of so many elements along each side, with four nodes each.
+/// A plate of `cells` elements with four nodes along each side.
 fn plate(poisson: f64, cells: usize) -> Body {
     let elasticity = Elasticity::Isotropic(Isotropic {
         young: 70e9,
@@ -37,14 +37,14 @@ fn plate(poisson: f64, cells: usize) -> Body {
     Body::new(mesh, &elasticity, THICKNESS)
 }
 
-/// The frequencies of the plate of 60 x 60 elements whose lowest 30 mm are held, Hz.
+/// The frequencies of the plate of 60 x 60 elements with its lowest 30 mm fixed, Hz.
 pub(super) fn frequencies(poisson: f64, density: f64) -> anyhow::Result<Frequencies> {
     let (_, modes) = modes(poisson, density)?;
     let named = |mode: &Mode| (mode.frequency, mode.participation[1]);
     Frequencies::from_modes(modes.iter().map(named))
 }
 
-/// The three lowest modes of that plate.
+/// The three lowest modes of the plate of 60 x 60 elements with its lowest 30 mm fixed.
 pub(super) fn modes(poisson: f64, density: f64) -> anyhow::Result<(Mesh, Vec<Mode>)> {
     let body = plate(poisson, 60);
     let base = -30.0 * SPACING + HELD + 0.5 * SPACING;
@@ -55,7 +55,7 @@ pub(super) fn modes(poisson: f64, density: f64) -> anyhow::Result<(Mesh, Vec<Mod
     Ok((body.mesh, modes))
 }
 
-/// The largest |u_x| and |u_y| of all nodes under a load on the volume of the outermost elements, m, the middle at rest.
+/// The largest |u_x| and |u_y| of all nodes under a body force on the outermost elements, m, with the middle fixed.
 ///
 pub(super) fn largest_displacements(load: SquareLoad, poisson: f64) -> anyhow::Result<[f64; 2]> {
     let (_, displacements) = displacements(load, poisson)?;
@@ -64,9 +64,9 @@ pub(super) fn largest_displacements(load: SquareLoad, poisson: f64) -> anyhow::R
     Ok(displacements.iter().fold([0.0, 0.0], larger))
 }
 
-/// The displacements of the nodes under such a load, m.
+/// The displacements of the nodes under a body force on the outermost elements, m.
 ///
-/// The numbers of the paper come from 61 x 61 elements in traction and shear, and from 60 x 60 in bending.
+/// The values of the paper are from 61 x 61 elements in traction and shear, and from 60 x 60 in bending.
 pub(super) fn displacements(
     load: SquareLoad,
     poisson: f64,
@@ -108,7 +108,7 @@ pub(super) fn displacements(
     Ok((body.mesh, displacements))
 }
 
-/// Turns displacements so that they have no rotation in the mean, about the origin in the middle of the nodes.
+/// Removes the mean rotation about the origin, the middle of the nodes, from displacements.
 fn remove_rotation(nodes: &[[f64; 2]], displacements: &mut [[f64; 2]]) {
     let (mut turned, mut inertia) = (0.0, 0.0);
     for ([x, y], [u, v]) in nodes.iter().zip(&*displacements) {

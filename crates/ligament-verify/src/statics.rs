@@ -34,7 +34,7 @@ pub(super) static BENDING: Template = template!("verification/square-bending.tom
 /// Half-width of the plate between its outermost points, m.
 const HALF_WIDTH: f64 = 0.3;
 
-/// Distance from the middle, a horizon inside the sides, at which Poisson's ratio is read (MPPD eq. 59), m.
+/// Distance from the middle, a horizon inside the sides, at which Poisson's ratio is evaluated (MPPD eq. 59), m.
 const INSIDE: f64 = 0.27;
 
 /// Stress of the loads, Pa.
@@ -108,21 +108,21 @@ pub(super) fn case_of(load: SquareLoad) -> &'static Template {
     }
 }
 
-/// What the tables read in a run, m.
+/// Results of a run for the tables, m.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Reading {
     /// Largest |u_x| and |u_y| of all points.
     pub(super) largest: [f64; 2],
-    /// |u_x| and |u_y| in the middles of the right and the upper side.
+    /// Values |u_x| and |u_y| in the middles of the right and the upper side.
     pub(super) middle: [f64; 2],
-    /// Mean of u_x at the middle of the upper side and u_y at the middle of the right side, what a rigid rotation leaves of
-    /// them; twice.
+    /// Mean of u_x at the middle of the upper side and u_y at the middle of the right side, which does not depend on a rigid rotation;
+    /// twice.
     pub(super) of_sides: [f64; 2],
-    /// |u_x| and |u_y| on the diagonal, inside.
+    /// Values |u_x| and |u_y| on the diagonal at [`INSIDE`].
     inside: [f64; 2],
-    /// Poisson's ratio inside, of a plate in traction.
+    /// Poisson's ratio at [`INSIDE`], for a plate in traction.
     poisson: f64,
-    /// Shear angle inside, of a plate in shear.
+    /// Shear angle at [`INSIDE`], for a plate in shear.
     shear_angle: f64,
 }
 
@@ -140,7 +140,7 @@ impl Reading {
     }
 }
 
-/// u_x over Poisson's ratio, known and computed.
+/// Plot of u_x over Poisson's ratio, known and computed.
 fn plot(table: &Table, title: &str) -> anyhow::Result<Plot> {
     let mut series = Vec::new();
     for (model, colour) in [("PDS", Colour::Blue), ("MPPD", Colour::Vermilion)] {

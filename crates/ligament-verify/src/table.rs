@@ -1,4 +1,4 @@
-//! A table of known values, and what becomes of them.
+//! Tables of known and computed values.
 
 use std::fmt;
 
@@ -8,21 +8,21 @@ use ligament_plot::plots::{Plot, Series};
 use super::entry::{Entry, Verdict};
 use super::printed::{Allowed, Difference};
 
-/// How much of the tables is computed.
+/// Extent of the computation of the tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
-    /// What the tests compute.
+    /// Entries of the fast subset, as in the tests.
     Fast,
-    /// Everything.
+    /// All entries.
     Full,
 }
 
-/// A table before it is computed: what is known, and where from.
+/// A table of known values with their source, before the computation.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Known {
-    /// What the table is.
+    /// Heading of the table.
     pub(super) heading: Heading,
-    /// Values of the table, in their order.
+    /// Entries of the table, in their order.
     pub(super) entries: Vec<Entry>,
 }
 
@@ -31,17 +31,17 @@ pub(super) struct Known {
 pub struct Heading {
     /// Name of the table's file.
     pub name: String,
-    /// Title.
+    /// Title of the table.
     pub title: String,
-    /// Where the values are from.
+    /// Source of the values.
     pub source: String,
     /// The quantity and its unit.
     pub quantity: String,
-    /// What the known values are called: `printed`, `eq. 22`, `closed form`.
+    /// Kind of the known values: `printed`, `eq. 22`, `closed form`.
     pub known: String,
     /// Reason for the tolerances.
     pub tolerance: String,
-    /// What the labels of an entry are called.
+    /// Names of the labels of an entry.
     pub keys: Vec<String>,
 }
 
@@ -54,14 +54,14 @@ pub struct Table {
     pub rows: Vec<Row>,
 }
 
-/// An entry and what the program makes of it.
+/// An entry with its computed value and verdict.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// What is known.
+    /// Entry with the known value.
     pub entry: Entry,
-    /// What was computed.
+    /// Computed value.
     pub computed: f64,
-    /// How the two go together.
+    /// Verdict on the computed value.
     pub verdict: Verdict,
 }
 
@@ -72,18 +72,18 @@ pub struct Labels<'a> {
     labels: &'a [String],
 }
 
-/// A label that an experiment asks for and its table does not have.
+/// Error of a label that an experiment needs.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(super) enum LabelError {
     /// The table has no such key.
     #[error("no key `{key}`; keys: {}", keys.join(", "))]
     NoKey {
-        /// The key asked for.
+        /// Requested key.
         key: String,
         /// The keys of the table.
         keys: Vec<String>,
     },
-    /// The label is no number.
+    /// The label is not a number.
     #[error("`{label}` of key `{key}` is neither a number nor a fraction such as 1/3")]
     NotANumber {
         /// The key.
@@ -119,20 +119,20 @@ impl Known {
 }
 
 impl Heading {
-    /// Whether the known values are those of a paper: printed, fitted or stated there.
+    /// Whether the known values are from a paper: printed, fitted or stated there.
     pub(super) fn is_of_a_paper(&self) -> bool {
         ["printed", "stated", "statement", "eq. 22"].contains(&&*self.known)
     }
 }
 
 impl Table {
-    /// Computed values over the numbers of a key, from the rows with all the labels of `of` (`law=pds, of=lattice`; none for
-    /// all rows), shape (n, 2).
+    /// Computed values over the numbers of a key, from the rows with all the labels of `of` (`law=pds, of=lattice`; empty for all rows),
+    /// shape (n, 2).
     pub(super) fn computed(&self, x: &str, of: &str) -> Result<Vec<[f64; 2]>, LabelError> {
         self.points(x, of, |row| row.computed)
     }
 
-    /// Known values over the numbers of a key, from the rows that `of` names as in [`Table::computed`], shape (n, 2).
+    /// Known values over the numbers of a key, from the rows with the labels of `of` as in [`Table::computed`], shape (n, 2).
     pub(super) fn known(&self, x: &str, of: &str) -> Result<Vec<[f64; 2]>, LabelError> {
         self.points(x, of, |row| row.entry.known.value())
     }
@@ -158,8 +158,8 @@ impl Table {
         Plot::new(&self.heading.name, &self.heading.title, axes, series)
     }
 
-    /// Computed less known value of a row: an amount in a table that allows amounts and where the known value is 0, a
-    /// share of the known value elsewhere.
+    /// Computed minus known value of a row: an amount in a table with absolute tolerances or where the known value is 0, otherwise a share
+    /// of the known value.
     pub(super) fn difference(&self, row: &Row) -> Difference {
         let is_amount = |row: &Row| matches!(row.entry.allowed, Allowed::Absolute(_));
         let known = row.entry.known.value();
@@ -183,7 +183,7 @@ impl<'a> Labels<'a> {
         Self { keys, labels }
     }
 
-    /// Whether these labels are among them: `law=pds, of=lattice`; nothing asks for nothing.
+    /// Whether all labels in a text such as `law=pds, of=lattice` are among these; true for an empty text.
     pub(super) fn are(&self, of: &str) -> Result<bool, LabelError> {
         let mut belongs = true;
         for (key, label) in of.split(", ").filter_map(|it| it.split_once('=')) {

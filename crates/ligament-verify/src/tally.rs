@@ -1,4 +1,4 @@
-//! How many entries got which verdict.
+//! Numbers of entries by verdict.
 
 use std::fmt;
 use std::iter::Sum;
@@ -6,23 +6,23 @@ use std::iter::Sum;
 use super::entry::Verdict;
 use super::experiment::Findings;
 
-/// How many entries got each verdict.
+/// Numbers of entries by verdict, in the order of [`Verdict::ALL`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Tally([usize; Verdict::ALL.len()]);
 
 impl Tally {
-    /// The verdicts of an experiment.
+    /// Counts the verdicts of an experiment.
     pub fn from_findings(findings: &Findings) -> Self {
         let rows = findings.tables.iter().flat_map(|table| &table.rows);
         Self::from_verdicts(rows.map(|row| row.verdict))
     }
 
-    /// So many of each.
+    /// Counts verdicts.
     pub(super) fn from_verdicts(verdicts: impl Iterator<Item = Verdict> + Clone) -> Self {
         Self(Verdict::ALL.map(|verdict| verdicts.clone().filter(|it| *it == verdict).count()))
     }
 
-    /// Entries with a verdict.
+    /// Number of entries with a verdict.
     pub fn count(&self, verdict: Verdict) -> usize {
         let place = Verdict::ALL.iter().position(|it| *it == verdict);
         place.map_or(0, |place| self.0[place])
@@ -33,7 +33,7 @@ impl Tally {
         self.0
     }
 
-    /// All entries.
+    /// Number of all entries.
     pub fn entries(&self) -> usize {
         self.0.iter().sum()
     }

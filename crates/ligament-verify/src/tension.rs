@@ -1,4 +1,4 @@
-//! An orthotropic lamina with a hole in tension against finite elements (OMPPD Figs 16, 17).
+//! An orthotropic lamina with a hole in tension, compared with finite elements (OMPPD Figs 16, 17).
 
 use super::experiment::{Experiment, Findings};
 use super::published::published;
@@ -22,7 +22,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
 
 pub(super) static CASE: Template = template!("verification/lamina-tension.toml");
 
-/// Angle (degrees), x, y (m), u_x, u_y (m) by finite elements along the upper edge.
+/// Table of angle (degrees), x, y (m), u_x, u_y (m) by finite elements along the upper edge.
 const ELEMENTS: &str = include_str!("../../../tests/reference/fem-hole-edge.csv");
 
 const MILLIMETRES: f64 = 1e3;
@@ -31,11 +31,11 @@ const MILLIMETRES: f64 = 1e3;
 #[derive(Debug, Clone)]
 struct Edge {
     angle: f64,
-    /// x, m.
+    /// Coordinates x of the points, m.
     along: Vec<f64>,
-    /// By finite elements, m.
+    /// Displacements by finite elements, m.
     elements: Vec<[f64; 2]>,
-    /// By the lattice, m.
+    /// Displacements by the lattice, m.
     lattice: Vec<[f64; 2]>,
 }
 
@@ -80,7 +80,7 @@ impl Edge {
         edge
     }
 
-    /// Largest difference of a component over the largest by finite elements; NaN without points.
+    /// Largest difference of a component over its largest value by finite elements; NaN without points.
     fn difference(&self, component: usize) -> f64 {
         let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(f64::NAN, f64::max);
         let pairs = || self.elements.iter().zip(&self.lattice);

@@ -1,4 +1,4 @@
-//! A case of the repository, run in memory with settings of its own.
+//! A case of the repository, run in memory with changed settings.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -16,7 +16,7 @@ use ligament_case::case::CaseFile;
 
 use super::crack_path::Breakages;
 
-/// A case file of the repository, as it was when the program was built.
+/// A case file of the repository, embedded in the program.
 #[derive(Debug)]
 pub struct Template {
     /// Path of the case in the repository.
@@ -25,7 +25,7 @@ pub struct Template {
     pub(super) text: &'static str,
 }
 
-/// A case file of `cases/` by its path there.
+/// Embeds a case file of `cases/`, given by its path there.
 macro_rules! template {
     ($path:literal) => {
         $crate::trial::Template {
@@ -35,7 +35,7 @@ macro_rules! template {
     };
 }
 
-/// A mesh of `meshes/` by its name.
+/// Embeds a mesh of `meshes/`, given by its name.
 macro_rules! stored_mesh {
     ($name:literal) => {
         $crate::trial::StoredMesh {
@@ -47,7 +47,7 @@ macro_rules! stored_mesh {
 
 pub(super) use {stored_mesh, template};
 
-/// A mesh of the repository, as it was when the program was built.
+/// A mesh of the repository, embedded in the program.
 pub(super) struct StoredMesh {
     /// Path of the mesh from the folder of a case.
     pub(super) path: &'static str,
@@ -55,7 +55,7 @@ pub(super) struct StoredMesh {
     pub(super) bytes: &'static [u8],
 }
 
-/// A case and the settings (`key=value`, as with `--set`) that it is run with.
+/// A case with settings (`key=value`, as with `--set`) for a run.
 pub(super) struct Trial {
     template: &'static Template,
     settings: Vec<String>,
@@ -63,7 +63,7 @@ pub(super) struct Trial {
 }
 
 impl Template {
-    /// A trial of the case as it is.
+    /// A trial of the case without settings.
     pub(super) fn trial(&'static self) -> Trial {
         Trial {
             template: self,
@@ -80,13 +80,13 @@ impl Trial {
         self
     }
 
-    /// The trial on a lattice of so many cells along x and y, a spacing (m) wide each.
+    /// The trial on a lattice of `cells` cells along x and y, with a spacing (m).
     pub(super) fn on_lattice(self, cells: [u32; 2], spacing: f64) -> Self {
         self.set("lattice.cells", cells)
             .set("lattice.spacing", spacing)
     }
 
-    /// The trial on a stored mesh, as `ligament run` has it where the file is.
+    /// The trial on a stored mesh, equivalent to `ligament run` with the file.
     pub(super) fn on_mesh(self, mesh: &'static StoredMesh) -> Self {
         Self {
             mesh: Some(mesh),
@@ -99,7 +99,7 @@ impl Trial {
         self.with_setup(|case, setup| run(case, setup, &mut NoObserver))
     }
 
-    /// Runs the case, and keeps all breakages in their order.
+    /// Runs the case, and returns all breakages in their order.
     pub(super) fn solve_with_breakages(&self) -> anyhow::Result<(Solution, Vec<BreakRecord>)> {
         let mut breakages = Breakages::default();
         let solution = self.with_setup(|case, setup| run(case, setup, &mut breakages))?;
@@ -111,7 +111,7 @@ impl Trial {
         self.model_with(|_| {})
     }
 
-    /// The discrete model of the case after a change of its setup that no setting makes.
+    /// The discrete model of the case after a change of its setup.
     pub(super) fn model_with(&self, change: impl FnOnce(&mut Setup)) -> anyhow::Result<Model> {
         self.with_setup(|case, mut setup| {
             change(&mut setup);
@@ -130,7 +130,7 @@ impl Trial {
         })
     }
 
-    /// What `work` makes of the setup of the case; the command stands above its errors.
+    /// Result of `work` on the setup of the case; errors include the command.
     fn with_setup<T>(
         &self,
         work: impl FnOnce(&CaseFile, Setup) -> anyhow::Result<T>,
@@ -159,7 +159,7 @@ impl Trial {
     }
 }
 
-/// What a case comes to, if it gets anywhere.
+/// Solves a setup; a run that ends without equilibrium or during breakage is an error.
 fn run(
     case: &CaseFile,
     setup: Setup,
@@ -185,7 +185,7 @@ pub(super) fn probe(solution: &Solution, name: &str) -> anyhow::Result<f64> {
         .with_context(|| format!("the run has no probe `{name}`"))
 }
 
-/// The displacement of the point nearest to a place, in the last state of a run, m.
+/// The displacement of the point nearest to a position, in the last state of a run, m.
 pub(super) fn displacement_at(solution: &Solution, place: [f64; 2]) -> [f64; 2] {
     let point = solution.model.plane().cloud.nearest_point(place);
     displacement(solution, point)
@@ -212,12 +212,12 @@ pub(super) fn largest_displacements(solution: &Solution) -> anyhow::Result<[f64;
     }))
 }
 
-/// Results of runs that several entries share, by the commands of the runs.
+/// Cached results of runs that several entries share, by the commands of the runs.
 #[derive(Debug)]
 pub(super) struct Memory<T>(BTreeMap<String, T>);
 
 impl<T: Clone> Memory<T> {
-    /// The result of a run, which is done if it was not yet.
+    /// The result of a run, computed on its first use.
     pub(super) fn result(
         &mut self,
         command: String,
@@ -231,7 +231,7 @@ impl<T: Clone> Memory<T> {
         Ok(result)
     }
 
-    /// What is read in the run of a trial, which is done if it was not yet.
+    /// The reading from the run of a trial, computed on its first use.
     pub(super) fn reading(
         &mut self,
         trial: &Trial,
@@ -240,7 +240,7 @@ impl<T: Clone> Memory<T> {
         self.result(trial.command(), || read(&trial.solve()?))
     }
 
-    /// What is read in the run of a trial and in its breakages, which is done if it was not yet.
+    /// The reading from the run of a trial and its breakages, computed on its first use.
     pub(super) fn reading_with_breakages(
         &mut self,
         trial: &Trial,

@@ -85,7 +85,7 @@ fn path(labels: Labels<'_>) -> anyhow::Result<PrincipalStretches> {
     ))
 }
 
-/// Stress of a bar at first yield over its tensile strength, for the criterion that a case gives its bonds.
+/// Stress of a bar at first yield over its tensile strength, under the criterion of an entry.
 fn bar_yield(labels: Labels<'_>) -> anyhow::Result<f64> {
     let frictional = |calibration| Choice {
         calibration: Some(calibration),
@@ -115,7 +115,7 @@ fn bar_yield(labels: Labels<'_>) -> anyhow::Result<f64> {
     Ok(1.0 / family.theoretical_utilisation(strains))
 }
 
-/// Errors of a simple extension over its orientation (MPPD Figs 28 and 30).
+/// Plot of the errors of a simple extension over its orientation (MPPD Figs 28 and 30).
 fn over_orientation(criterion: &str) -> anyhow::Result<Plot> {
     let combination = named(criterion)?;
     let extension = PrincipalStretches::new(1.0, 0.0);

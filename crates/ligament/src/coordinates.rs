@@ -1,8 +1,8 @@
-//! Coordinates in words.
+//! Formatting and conversion of coordinates.
 
 use crate::setup::Position;
 
-/// Coordinates as errors show them.
+/// Coordinates (m) as text for errors.
 pub(crate) fn coordinates(position: &[f64]) -> String {
     let coordinates = position.iter().map(|it| format!("{it:.6}"));
     coordinates.collect::<Vec<_>>().join(", ")
@@ -13,7 +13,7 @@ pub(crate) fn narrowed<const D: usize>(position: Position) -> [f64; D] {
     std::array::from_fn(|axis| position[axis])
 }
 
-/// A position in D dimensions with zeros for what it does not have.
+/// A position in D dimensions, padded with zeros to three coordinates.
 pub(crate) fn widened<const D: usize>(position: [f64; D]) -> Position {
     std::array::from_fn(|axis| position.get(axis).copied().unwrap_or(0.0))
 }

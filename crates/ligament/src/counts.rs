@@ -1,4 +1,4 @@
-//! Numbers of the bonds of a whole body, whichever of several processes knows them.
+//! Numbers of the bonds of a whole body, summed over the processes.
 
 use ligament_model::{Absence, AbsentBond, BondSet, PointCloud};
 
@@ -7,20 +7,20 @@ use crate::stage::Finding;
 /// Numbers of bonds, each counted once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct BondCounts {
-    /// Bonds without those that pre-cracks cut.
+    /// Number of bonds without those that pre-cracks cut.
     pub bonds: usize,
-    /// Bonds that pre-cracks cut.
+    /// Number of bonds that pre-cracks cut.
     pub cut: usize,
-    /// Pairs of points that would be bonded but for a void of the body between them.
+    /// Number of pairs of points that are not bonded because a void of the body separates them.
     pub across_voids: usize,
-    /// Bonds that cross a material which neither of their ends has.
+    /// Number of bonds that cross a material which neither of their ends has.
     pub across_layers: usize,
-    /// Fewest and most bonds of a point.
+    /// Smallest and largest number of bonds of a point.
     pub of_points: [usize; 2],
 }
 
 impl BondCounts {
-    /// The numbers of bonds between the points of a cloud and of pairs that are none.
+    /// Counts the bonds between the points of a cloud and the pairs of points that are not bonded.
     pub fn new<const D: usize>(
         cloud: &PointCloud<D>,
         bonds: &BondSet<D>,
@@ -45,7 +45,7 @@ fn across_layers<const D: usize>(cloud: &PointCloud<D>, bonds: &BondSet<D>) -> u
     cloud.subdomain.count(counted.count())
 }
 
-/// What the search of bonds has found.
+/// Numbers of points, bonds and pairs across voids after the search of bonds.
 pub(crate) fn finding<const D: usize>(
     cloud: &PointCloud<D>,
     bonds: &BondSet<D>,
@@ -58,7 +58,7 @@ pub(crate) fn finding<const D: usize>(
     }
 }
 
-/// Number of pairs that are no bonds for a reason.
+/// Number of pairs of points that are not bonded for a reason.
 fn count<const D: usize>(cloud: &PointCloud<D>, absent: &[AbsentBond], absence: Absence) -> usize {
     let counted = |it: &&AbsentBond| it.absence == absence && cloud.subdomain.owns_bond(it.ends);
     cloud.subdomain.count(absent.iter().filter(counted).count())

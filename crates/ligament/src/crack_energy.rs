@@ -1,4 +1,4 @@
-//! Energy that a crack through a model spends under its criteria, beside the fracture energy that the material is given.
+//! Energy dissipated by a crack through a model under its failure criteria, for comparison with the material's fracture energy.
 
 use ligament_model::failure::crack_opening::CrackEnergy;
 
@@ -6,9 +6,9 @@ use crate::model::Model;
 
 /// Energies of cracks that open along x, and along y, through a material of a model.
 ///
-/// Only points count whose families are whole, of the one material, and free to break: a crack near a surface, an interface or a part
-/// that may not fail is another matter. None for solids, where there is no such point, without criteria, and for bonds with strains of their own
-/// (`mbb-pd`), whose criteria take the fracture energy by their definition.
+/// Only points count whose families are complete, of the one material, and free to break, so that surfaces, interfaces and parts without
+/// failure do not contribute. `None` for solids, where there is no such point, without criteria, and for bonds with strains of their own
+/// (`mbb-pd`), whose criteria dissipate the fracture energy by definition.
 pub fn crack_energies(model: &Model, material: usize) -> Option<[CrackEnergy; 2]> {
     let system = model.system.of_dimension::<2>()?;
     if model.criteria.list.is_empty() {
@@ -16,7 +16,7 @@ pub fn crack_energies(model: &Model, material: usize) -> Option<[CrackEnergy; 2]
     }
     let cloud = &system.cloud;
     let rim = model.body().rim().into_iter().enumerate();
-    // Three times the smallest number above 1: shares are quotients of volumes.
+    // Tolerance of three times the machine epsilon: shares are quotients of volumes.
     let is_mixed = |point| cloud.shares(point)[material] < 1.0 - 3.0 * f64::EPSILON;
     let is_excluded = |(point, on_rim)| on_rim || model.fixed.no_fail[point] || is_mixed(point);
     let excluded: Vec<bool> = rim.map(is_excluded).collect();
@@ -26,8 +26,8 @@ pub fn crack_energies(model: &Model, material: usize) -> Option<[CrackEnergy; 2]
 }
 
 impl Model {
-    /// Marks the points whose families are whole (n_points): neither they nor a neighbour are marked in `excluded` (n_points), such as the
-    /// [rim](crate::Body::rim) of the body, and pre-cracks cut none of their bonds.
+    /// Whether the family of each point is complete, shape (n_points): neither the point nor a neighbour is marked in `excluded`
+    /// (n_points), such as the [rim](crate::Body::rim) of the body, and pre-cracks cut none of their bonds.
     pub fn interior(&self, excluded: &[bool]) -> Vec<bool> {
         let bonds = self.system.topology();
         let is_whole = |point: u32| {

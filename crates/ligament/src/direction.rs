@@ -1,4 +1,4 @@
-//! The stiffness of bonds over their direction (OMPPD eqs 58, 59), as the law of a setup has it, beside that of the continuum.
+//! Stiffness of bonds over their direction (OMPPD eqs 58, 59) under the law of a setup, and the stiffness of the continuum.
 
 use ligament_model::bonds::star::star;
 use ligament_model::{Elasticity, Horizons};
@@ -11,11 +11,11 @@ use crate::setup::{Calibration, Setup};
 pub struct InDirection {
     /// Angle of the direction to the x axis, rad.
     pub angle: f64,
-    /// k_n, N/m^6.
+    /// Axial stiffness k_n, N/m^6.
     pub axial: f64,
-    /// k_t, N/m^6.
+    /// Shear stiffness k_t, N/m^6.
     pub shear: f64,
-    /// k_theta, N/m^5.
+    /// Rotational stiffness k_theta, N/m^5.
     pub rotational: f64,
     /// Off-axis modulus C_xx of the continuum (OMPPD eq. 29), Pa.
     pub normal_modulus: f64,
@@ -58,7 +58,7 @@ pub fn over_direction(
     Some(angles.iter().enumerate().map(in_direction).collect())
 }
 
-/// C_xx and C_ss (Pa) of axes at an angle to x: the stresses that a unit stretch along, and a unit shear between, the turned axes take.
+/// Moduli C_xx and C_ss (Pa) of axes at an angle to x: the stresses under a unit strain along, and a unit shear between, the turned axes.
 fn off_axis_moduli(setup: &Setup, elasticity: &Elasticity, angle: f64) -> [f64; 2] {
     let stiffness = elasticity.plane_stiffness(setup.plane());
     let (sin, cos) = angle.sin_cos();

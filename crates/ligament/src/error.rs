@@ -1,4 +1,4 @@
-//! What can be wrong with a setup, where, and what to do about it.
+//! Errors of a setup: field, fault and remedy.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -15,7 +15,7 @@ use crate::implausible::Implausible;
 use crate::setup::setting::Setting;
 use crate::suggestion::hint;
 
-/// Why a computation could not begin. How it went is in its outcome.
+/// Error that prevents a computation from starting. The end of a computation that started is in its outcome.
 #[derive(Debug, Error)]
 pub enum Error {
     /// A field of the setup is wrong.
@@ -36,20 +36,20 @@ pub enum Error {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{field}: {fault}")]
 pub struct SetupError {
-    /// Place of the field in the setup.
+    /// Path of the field in the setup.
     pub field: Field,
     /// Fault of the field, with what to do about it.
     pub fault: Box<Fault>,
 }
 
-/// A field of [`Setup`](crate::Setup): `loads[1].place`.
+/// Path of a field of [`Setup`](crate::Setup): `loads[1].place`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Field {
     /// Name of the field: `loads`.
     pub name: &'static str,
-    /// Index in it, where it is a list.
+    /// Index of the element, where the field is a list.
     pub index: Option<usize>,
-    /// Part of it or of its element: `place`.
+    /// Part of the field or of its element: `place`.
     pub part: Option<&'static str>,
 }
 
@@ -62,17 +62,17 @@ pub enum Fault {
         hint(found, candidates, "there are", '`')
     )]
     UnknownName {
-        /// What the name should be of, and where: `physical group in the mesh`.
+        /// Kind of the named object, and its place: `physical group in the mesh`.
         what: &'static str,
         /// The name as given.
         found: String,
-        /// Names that there are.
+        /// Names that exist.
         candidates: Vec<String>,
     },
-    /// A value lies outside of what makes sense.
+    /// A value outside of its range.
     #[error("must be {expected}, found {found}")]
     OutOfRange {
-        /// The condition, in words.
+        /// Description of the condition.
         expected: Cow<'static, str>,
         /// The value as given.
         found: String,
@@ -82,10 +82,10 @@ pub enum Fault {
     NameTwice {
         /// The name.
         name: String,
-        /// The field that has it first.
+        /// The field that has the name first.
         first: Field,
     },
-    /// A material lacks what another field needs.
+    /// A property of a material that another field needs and that is missing.
     #[error("missing {property}: it is required {reason}")]
     Missing {
         /// The field of the material: `density`.
@@ -93,18 +93,18 @@ pub enum Fault {
         /// The setting that needs the property.
         reason: String,
     },
-    /// A criterion does not go together with itself, with a material or with the analysis.
+    /// A criterion that contradicts itself, a material or the analysis.
     #[error(transparent)]
     Unfit(Box<Unfit>),
-    /// A criterion leaves bonds without a limit, or nothing after it.
+    /// A criterion that leaves bonds without a limit, or without energy for softening after the limit.
     #[error("{reason}{}", cause.as_ref().map_or(String::new(), |it| format!(". {it}")))]
     NoLimit {
-        /// Reason why there is none.
+        /// Reason why there is no limit.
         reason: NoLimit,
-        /// Constant of a material that is hardly ever meant, from which it may come.
+        /// Implausible constant of a material that may be the cause.
         cause: Option<Box<Implausible>>,
     },
-    /// Points without a neighbour, which no correction gives a stiffness.
+    /// Points without a neighbour, which have no stiffness under any correction.
     #[error(
         "{count} of {n_points} points have no neighbour in their horizon (the first is {first}): they need a larger horizon, or \
          must go"
@@ -114,7 +114,7 @@ pub enum Fault {
         count: usize,
         /// Number of points.
         n_points: usize,
-        /// The first of them, in words.
+        /// Description of the first of these points.
         first: String,
     },
     /// Two points that nearly coincide.
@@ -124,38 +124,38 @@ pub enum Fault {
         places[0], places[1]
     )]
     NearPoints {
-        /// The two points, in words.
+        /// Descriptions of the two points.
         places: [String; 2],
         /// Distance between the two points, m.
         distance: f64,
-        /// Side of the square of the area of the first, m.
+        /// Side of a square with the area of the first point, m.
         size: f64,
     },
-    /// Bonds that do not hold a body together which its cells do.
+    /// A body with connected cells that its bonds do not connect.
     #[error(transparent)]
     Torn(Box<Torn>),
-    /// A bond whose stiffness is not a number.
+    /// A bond whose stiffness is not a finite number.
     #[error(
         "the stiffness of the bond from {} to {} is not a number: look for a size, thickness or stiffness that is out of all \
          proportion (SI units: m, Pa)", places[0], places[1]
     )]
     NoNumber {
-        /// Ends of the bond, in words.
+        /// Descriptions of the bond's ends.
         places: [String; 2],
     },
-    /// A factor of a correction that is not a number.
+    /// A factor of a correction that is not a finite number.
     #[error(
         "the surface correction has gone astray: its factor for the bond from {} to {} is not a number. Its equations bear no cells that are much \
          longer than wide, nor sizes that change this steeply (the nearest neighbours of points are {:.1e} to {:.1e} m away): take cells \
          of about equal sides, or the correction by volume (correction.surface)", places[0], places[1], spacing[0], spacing[1]
     )]
     NoCorrection {
-        /// Ends of the bond, in words.
+        /// Descriptions of the bond's ends.
         places: [String; 2],
         /// Smallest and largest distance of a point of the body to its nearest neighbour, m.
         spacing: [f64; 2],
     },
-    /// Bonds too stiff or too soft for their energies to be numbers.
+    /// Bonds too stiff or too soft for their energies to be finite numbers.
     #[error(
         "the stiffest bond has {rigidity:.1e} J, and numbers end at 1e308 and 1e-308: look for a size, thickness or stiffness that \
          is out of all proportion (SI units: m, Pa)"
@@ -172,7 +172,7 @@ pub enum Fault {
     OffBody {
         /// The position, m.
         position: Vec<f64>,
-        /// The nearest point, in words.
+        /// Description of the nearest point.
         nearest: String,
         /// Distance from the nearest point, m.
         distance: f64,
@@ -180,32 +180,32 @@ pub enum Fault {
     /// A line that no bond crosses.
     #[error("no bond crosses this line: a force through it would be 0 N whatever the load")]
     NothingCrossed,
-    /// Cells of a mesh on top of others.
+    /// Cells of a mesh that overlap.
     #[error(
         "cells of the mesh overlap: its outline crosses itself between {from} and {to}. Bodies that touch share nodes: mesh them as one \
          geometry (`Coherence;`)"
     )]
     Overlap {
-        /// An end of an edge that another crosses, in words.
+        /// Description of one end of an edge that a side of the outline crosses.
         from: String,
-        /// The other end.
+        /// Description of the edge's other end.
         to: String,
     },
     /// A rectangle without a point.
     #[error("there is no point of the body in this box")]
     EmptyBox,
-    /// A group of a material that has no cells.
+    /// A group of a material without cells.
     #[error(
         "`{group}` has no cells: a material needs a physical surface, of a solid a physical volume"
     )]
     NoCells {
-        /// The group.
+        /// Name of the group.
         group: String,
     },
-    /// Two materials for a cell.
+    /// A cell with two materials.
     #[error("cells of this material belong to material `{other}` as well")]
     CellsTwice {
-        /// The other material.
+        /// Name of the other material.
         other: String,
     },
     /// Cells without a material.
@@ -216,21 +216,21 @@ pub enum Fault {
         /// Number of cells.
         n_cells: usize,
     },
-    /// Two values for a component of a point.
+    /// Two prescribed values for a component of a point.
     #[error(
         "component {component} of {place} is prescribed twice: as {first:?} by an earlier support or load, as {second:?} here"
     )]
     PrescribedTwice {
         /// The component.
         component: &'static str,
-        /// The point, in words.
+        /// Description of the point.
         place: String,
-        /// The earlier value.
+        /// Value of the earlier support or load.
         first: f64,
-        /// The value here.
+        /// Value of this support or load.
         second: f64,
     },
-    /// A motion of a point that two loads prescribe, where each follows a factor of its own.
+    /// A motion of a point that two loads with different load factors prescribe.
     #[error(
         "component {component} of {place} is moved by load `{other}` as well, and in stages each load follows a factor of its own: let one \
          load move it"
@@ -238,12 +238,12 @@ pub enum Fault {
     MovedTwice {
         /// The component.
         component: &'static str,
-        /// The point, in words.
+        /// Description of the point.
         place: String,
-        /// The other load.
+        /// Name of the other load.
         other: String,
     },
-    /// No load, and no point whose temperature changes.
+    /// A setup without a load and without a change of temperature.
     #[error("there is no load and no point whose temperature changes: nothing would happen")]
     NothingHappens,
     /// A first load of zero.
@@ -251,7 +251,7 @@ pub enum Fault {
         "the first load must be other than zero: it is the axis of the force-displacement curve"
     )]
     ZeroControl,
-    /// A platen on points that lie one behind the other along the load.
+    /// A platen on points that all have one position across the load.
     #[error(
         "a platen tilts about points that lie beside each other across the load, and its group has {points} in one place: give a group that \
          is wider, or leave `tilts` out"
@@ -263,18 +263,18 @@ pub enum Fault {
     /// A load that is zero at all of its points.
     #[error("the load does nothing: its profile is zero at every point that it acts on")]
     ZeroProfile,
-    /// A force per length on points without a length.
+    /// A force per length on a group without a length.
     #[error(
         "a force per length needs a physical curve of a mesh, or rows or columns at a side of a lattice: this group has no length; a \
          surface of a solid takes a force per area"
     )]
     NoLength,
-    /// A force per area on points without an area.
+    /// A force per area on a group without an area.
     #[error(
         "a force per area needs a physical surface of a solid mesh, or cells at a side of a box: this group has no area"
     )]
     NoArea,
-    /// A pressure on points without an outline.
+    /// A pressure on a group without an outline.
     #[error(
         "a pressure needs a physical curve on the outline of a mesh, a physical surface of a solid, or cells of a lattice at a side or a \
          hole: this group has no part of the outline"
@@ -283,7 +283,7 @@ pub enum Fault {
     /// A pressure on an edge inside of the body.
     #[error(transparent)]
     OffOutline(OffOutline),
-    /// A couple on points that nothing keeps from turning.
+    /// A couple on points without rotational stiffness.
     #[error(
         "the couple acts on {points} points that no bond keeps from turning (Poisson's ratio makes the shear stiffness of their \
          bonds zero, or the bonds have no rotations): apply it as a pair of forces"
@@ -295,40 +295,40 @@ pub enum Fault {
     /// Two samples of a temperature at a point.
     #[error("{place} has sample {first} already: sample {second} must go")]
     SampledTwice {
-        /// The point, in words.
+        /// Description of the point.
         place: String,
         /// Index of the first sample.
         first: usize,
         /// Index of the second sample.
         second: usize,
     },
-    /// Points to which a table or a field gives no temperature, though it holds there.
+    /// Points within the place of a table or a field of temperatures that get no temperature from it.
     #[error("{points} points get no temperature: {reason}; the first is {first}")]
     NoTemperature {
         /// Number of such points.
         points: usize,
         /// Reason why the points get no temperature.
         reason: &'static str,
-        /// The first of them, in words.
+        /// Description of the first of these points.
         first: String,
     },
-    /// A field of the mesh that is no temperature at one time.
+    /// A field of the mesh that does not exist or is not a scalar field at one time.
     #[error("{0}")]
     NoSuchField(String),
-    /// The setup is for another analysis than the one that is asked for.
+    /// A setup with another analysis than the requested one.
     #[error("it says {found}, and {wanted} was asked for: set it, or ask for the other")]
     OtherAnalysis {
         /// The analysis of the setup.
         found: &'static str,
-        /// What was asked for.
+        /// The requested analysis.
         wanted: &'static str,
     },
-    /// Choices that do not go together.
+    /// Settings that contradict each other.
     #[error("{0}")]
     Contradiction(Advice<Setting>),
 }
 
-/// A body that its cells hold together and its bonds do not: sides of cells are longer than the horizon.
+/// Error of a body with connected cells that its bonds do not connect, because sides of cells are longer than the horizon.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
     "the body falls into {parts} parts that no bond connects, where its cells make {of_body}: from {} to {} it is {length:.4e} m \
@@ -336,19 +336,19 @@ pub enum Fault {
      a horizon factor of 3", places[0], places[1], direction(along)
 )]
 pub struct Torn {
-    /// Number of parts by the bonds.
+    /// Number of parts that the bonds connect.
     pub parts: usize,
     /// Number of parts of the mesh.
     pub of_body: usize,
-    /// Ends of a side of a cell that lie in two parts, in words.
+    /// Descriptions of the ends, in two parts, of a side of a cell.
     pub places: [String; 2],
     /// Direction of the side, without sign.
     pub along: Vec<f64>,
     /// Length of the side, m.
     pub length: f64,
-    /// Horizon of its ends, m.
+    /// Horizon of the side's ends, m.
     pub horizon: f64,
-    /// The horizon that the side needs, in words.
+    /// Description of the horizon that the side needs.
     pub remedy: String,
 }
 

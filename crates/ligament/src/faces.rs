@@ -1,4 +1,4 @@
-//! Faces of the cracks of a model: what pre-cracks cut, and how stiff it is when faces close.
+//! Faces of the cracks of a model: the bonds that pre-cracks cut, and their rigidities when faces close.
 
 use ligament_model::bonds::precrack::{Crack, normals};
 use ligament_model::contact::{CutBond, Faces};
@@ -7,7 +7,7 @@ use ligament_model::{BondSet, BondStiffness, BondSystem, Correction, PointCloud}
 
 use crate::formulation::Formulation;
 
-/// Rigidities of the bonds of the whole body that are cut (n_bonds).
+/// Rigidities of the bonds that pre-cracks cut, computed in the whole body; `is_cut` has shape (n_bonds).
 pub(crate) fn rigidities<const D: usize>(
     formulation: &Formulation<'_, D>,
     bonds: &BondSet<D>,
@@ -24,7 +24,7 @@ pub(crate) fn rigidities<const D: usize>(
     BondSystem::new(cloud.clone(), bonds, element, stiffness, alpha, omega).rigidities
 }
 
-/// The faces of a body with the bonds that are left, and of those that pre-cracks cut the ends and the rigidities, if they close.
+/// The faces of a body: remaining bonds, and ends and rigidities of the bonds that pre-cracks cut, if faces close.
 pub(crate) fn faces<const D: usize>(
     (closing, cracks): (bool, &[Crack]),
     cloud: &PointCloud<D>,

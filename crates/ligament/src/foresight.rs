@@ -1,4 +1,4 @@
-//! What a loading comes to first, before it is followed: the first bond at its limit, told by the first solutions of the run itself.
+//! Prediction of the first bond at its limit from the first solutions of a run.
 
 use ligament_analysis::driver::{self, Prediction, Problem};
 use ligament_analysis::{Observer, Termination};
@@ -7,13 +7,13 @@ use crate::error::Error;
 use crate::run::follow;
 use crate::setup::Analysis;
 
-/// What a problem comes to first under an analysis of loads; none where it has an elastic answer and nothing breaks.
+/// Predicts the first bond at its limit under an analysis of loads; `None` for an elastic analysis, in which no bond breaks.
 ///
-/// The observer hears what a run would tell it before its first load step.
+/// The observer receives the notices of a run before its first load step.
 ///
 /// # Errors
 ///
-/// If the run would be refused: its equations cannot be set up, nothing resists the loads, or the analysis is of natural modes.
+/// If the equations cannot be set up, nothing resists the loads, or the analysis is of natural modes.
 pub fn predict(
     problem: &Problem,
     analysis: &Analysis,
@@ -35,7 +35,7 @@ pub fn predict(
     })
 }
 
-/// Refuses, without a solution, what the analysis of a problem does not take.
+/// Refuses, without a solution, problems that the analysis cannot treat.
 ///
 /// # Errors
 ///

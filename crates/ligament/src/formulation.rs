@@ -31,7 +31,7 @@ pub struct Formulation<'a, const D: usize = 2> {
 }
 
 impl<'a, const D: usize> Formulation<'a, D> {
-    /// The formulation for points with their horizons, on cells with the index of the material of each (n_cells).
+    /// The formulation for points with their horizons; `material_of_cell` (n_cells) has the index of each cell's material.
     pub fn new(
         setup: &'a Setup,
         cloud: &'a PointCloud<D>,
@@ -78,7 +78,7 @@ impl<'a, const D: usize> Formulation<'a, D> {
         self.with_rotational_scale(stiffness, bonds, alpha, &elasticity)
     }
 
-    /// Stiffness densities of a law with the rotational ones in the size that the setup wants.
+    /// Stiffness densities of a law, with the rotational densities scaled as the setup demands.
     fn with_rotational_scale(
         &self,
         stiffness: BondStiffness,
@@ -101,7 +101,7 @@ impl<'a, const D: usize> Formulation<'a, D> {
         rotational::calibrated(scaled, alpha, bonds, cloud, &moduli)
     }
 
-    /// The correction of bonds with stiffness densities and factors alpha (n_bonds), found between [milder] materials.
+    /// The correction of bonds with stiffness densities and factors alpha (n_bonds), computed with materials of a [milder] contrast.
     pub fn correction(
         &self,
         bonds: &BondSet<D>,
@@ -124,7 +124,7 @@ impl<'a, const D: usize> Formulation<'a, D> {
         between.corrected(bonds, &stiffness, alpha)
     }
 
-    /// Energies of the points in uniform strains over the continuum's, of bonds with a stiffness in which the correction has its part.
+    /// Energies of the points in uniform strains over the energies of the continuum, for bonds with corrected stiffness.
     pub(crate) fn energy_ratios(
         &self,
         bonds: &BondSet<D>,
@@ -187,7 +187,7 @@ impl<'a, const D: usize> Formulation<'a, D> {
     }
 }
 
-/// Stiffness of each material with the constants that the law makes of its own (n_materials), Pa.
+/// Stiffness of each material with the effective constants of the law, shape (n_materials), Pa.
 pub(crate) fn stiffness_of_materials(setup: &Setup) -> Vec<Stiffness> {
     let (law, space) = (setup.law, setup.space());
     let materials = setup.materials.iter();
@@ -199,8 +199,8 @@ pub(crate) fn stiffness_of_materials(setup: &Setup) -> Vec<Stiffness> {
 ///
 /// # Errors
 ///
-/// If a criterion does not exist in the dimension of the body, the strengths of a material leave a criterion without a limit, or its
-/// fracture energy leaves nothing after the limit.
+/// If a criterion does not exist in the dimension of the body, the strengths of a material leave it without a limit, or the fracture energy
+/// is too small for the energy up to the limit.
 pub fn criteria<const D: usize>(
     setup: &Setup,
     system: &BondSystem<D>,
@@ -235,7 +235,7 @@ pub fn criteria<const D: usize>(
     })
 }
 
-/// Points in the plane as a lattice.
+/// Lattice of the points of a body in the plane.
 fn lattice(setup: &Setup, system: &BondSystem) -> Lattice {
     let spacing = (system.cloud.spacing.iter().copied()).fold(f64::INFINITY, f64::min);
     Lattice {

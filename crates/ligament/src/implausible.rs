@@ -1,4 +1,4 @@
-//! Values that are possible and hardly ever meant, and properties that are rare, in words.
+//! Messages about implausible values and rare properties.
 
 use std::f64::consts::TAU;
 
@@ -14,26 +14,26 @@ pub(crate) const LARGEST_STRAIN: f64 = 0.1;
 /// atoms a of 0.2 nm (Orowan 1949).
 pub(crate) const LEAST_ENERGY: f64 = 1e-11;
 
-/// Something in a setup that is hardly ever meant.
+/// An implausible value or choice in a setup.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Implausible {
-    /// A modulus far below those of solids.
+    /// A Young's modulus far below the moduli of solids.
     #[error(
         "Young's modulus of {material} is {young} Pa, less than 1 MPa: moduli are in Pa (25 GPa is 25e9)"
     )]
     Soft {
-        /// The material, in words.
+        /// Description of the material.
         material: String,
         /// Young's modulus, the smaller one of a material with axes, Pa.
         young: f64,
     },
-    /// A strength that its stiffness does not allow.
+    /// A strength that is implausibly large for the stiffness.
     #[error(
         "the {property} of {material} is {:.4} of its Young's modulus, and no material is as strong as a tenth: strengths and moduli are in Pa \
          (3 MPa is 3e6)", strength / young
     )]
     Strong {
-        /// The material, in words.
+        /// Description of the material.
         material: String,
         /// Key of the strength.
         property: &'static str,
@@ -42,7 +42,7 @@ pub enum Implausible {
         /// Young's modulus, the larger one of a material with axes, Pa.
         young: f64,
     },
-    /// A limit beyond small strains.
+    /// A limit of a bond beyond small strains.
     #[error(
         "by the criterion \"{criterion}\" bonds reach their limits at {limit:.4}, and strains of more than {LARGEST_STRAIN} are not small: a limit is a \
          strain, strengths are in Pa, a fracture energy is in J/m^2 (0.1 N/mm is 100 J/m^2)"
@@ -53,61 +53,61 @@ pub enum Implausible {
         /// The smallest limit of a bond.
         limit: f64,
     },
-    /// A fracture energy below that of surfaces.
+    /// A fracture energy below the energy of two surfaces.
     #[error(
         "the fracture energy of {material} is {energy} J/m^2, less than new surfaces cost in any solid as stiff (E times 0.01 nm, {:.4} J/m^2): it \
          is in J/m^2 (0.1 N/mm is 100 J/m^2)", LEAST_ENERGY * young
     )]
     LowEnergy {
-        /// The material, in words.
+        /// Description of the material.
         material: String,
         /// Fracture energy, J/m^2.
         energy: f64,
         /// Young's modulus, Pa.
         young: f64,
     },
-    /// A zone of softening shorter than the distance of points.
+    /// A softening zone shorter than the distance between points.
     #[error(
         "the characteristic length of {material}, E G_c/F_t^2, is {length:.3e} m, less than the distance of points, {spacing:.3e} m: no zone of \
          softening fits between them; look at the units of fracture_energy (J/m^2) and strength (Pa), or take a finer body"
     )]
     ShortLength {
-        /// The material, in words.
+        /// Description of the material.
         material: String,
         /// Characteristic length, m.
         length: f64,
         /// Smallest distance of a point to its nearest neighbour, m.
         spacing: f64,
     },
-    /// A zone of softening far longer than the body.
+    /// A softening zone far longer than the body.
     #[error(
         "the characteristic length of {material}, E G_c/F_t^2, is {length:.3e} m, more than ten times the body ({body:.3e} m): no crack in it comes to \
          its end of softening; look at the units of fracture_energy (J/m^2) and strength (Pa)"
     )]
     LongLength {
-        /// The material, in words.
+        /// Description of the material.
         material: String,
         /// Characteristic length, m.
         length: f64,
         /// Longer side of the box around the body, m.
         body: f64,
     },
-    /// An angle in degrees.
+    /// An angle that appears to be in degrees.
     #[error(
         "{what} is {angle} rad, more than a whole turn: angles are in rad (45 degrees are 0.7854)"
     )]
     Angle {
-        /// The angle, in words.
+        /// Description of the angle.
         what: String,
         /// The angle, rad.
         angle: f64,
     },
-    /// A thickness that stands nowhere.
+    /// A thickness that is not given.
     #[error(
         "the thickness of the body is not given: 1 m is taken, and forces are those of a body 1 m thick; give it `thickness`, in m"
     )]
     NoThickness,
-    /// Pre-cracks beside the body.
+    /// Pre-cracks that cut no bond.
     #[error(
         "{} no bond: nothing of the body lies on both sides of what was given, and the body reaches from ({}) to ({}) m; are the coordinates \
          in m?", numbered(cracks), coordinates(&corners[0]), coordinates(&corners[1])
@@ -118,7 +118,7 @@ pub enum Implausible {
         /// Corners of the box around the body, m.
         corners: [Vec<f64>; 2],
     },
-    /// Criteria without a bond.
+    /// Criteria without a bond that may fail.
     #[error(
         "no bond may fail: all of them have an end in a part where bonds never do ([[no_fail]]), so that nothing will ever break; are its \
          coordinates in m?"
@@ -126,22 +126,22 @@ pub enum Implausible {
     NothingFails,
 }
 
-/// A property that is rare and meant, as a rule.
+/// A property that is rare but usually intended.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Note {
-    /// A body that widens where it is pulled.
+    /// A body that widens under tension.
     #[error(
         "Poisson's ratio of {material} is negative ({poisson}): a body of it widens where it is pulled"
     )]
     Auxetic {
-        /// The material, in words.
+        /// Description of the material.
         material: String,
         /// Poisson's ratio.
         poisson: f64,
     },
 }
 
-/// Pre-cracks by their places in the list, with a verb: "pre-crack 2 cuts".
+/// Pre-cracks by their numbers from 1, with a verb: "pre-crack 2 cuts".
 fn numbered(cracks: &[usize]) -> String {
     let numbers: Vec<String> = cracks.iter().map(|it| (it + 1).to_string()).collect();
     match numbers.as_slice() {

@@ -1,7 +1,7 @@
 //! Peridynamics in memory: a typed setup in, a broken body out.
 //!
-//! A body is a set of points, each bonded to the others within its horizon. Forces go through the bonds, and cracks are bonds
-//! that broke. A computation goes three steps:
+//! A body is a set of points, each bonded to the others within its horizon. Forces go through the bonds, and cracks are bonds that broke. A
+//! computation has three steps:
 //!
 //! | step | value | page |
 //! |---|---|---|
@@ -9,11 +9,11 @@
 //! | make bonds of it | [`Model`]: points, corrected bonds, limits, warnings | [`model`] |
 //! | solve | [`Solution`](run::Solution): history, last state, why it ended; or natural modes | [`run`] |
 //!
-//! The first page is [`body`]: where points come from, a mesh, a lattice or arrays. [`formulation`] turns law and corrections
-//! into stiffness ([`direction`] shows it over the direction of a bond), [`loading`] supports and loads into what acts on
-//! the points, [`patch_test`] and [`bending_test`] tell how stiff the body has become, [`crack_energy`] what a crack through it
-//! spends, [`foresight`] what the loading comes to first, and [`plausibility`] what is hardly ever meant. What is wrong with a setup is a [`SetupError`] that
-//! names the field, and what a user should know of a model is a [`Warning`].
+//! The first page is [`body`]: points from a mesh, a lattice or arrays. [`formulation`] turns law and corrections into stiffness
+//! ([`direction`] gives it over the direction of a bond), [`loading`] supports and loads into forces and constraints on the points.
+//! [`patch_test`] and [`bending_test`] measure the stiffness of the discrete body, [`crack_energy`] the energy that a crack dissipates,
+//! [`foresight`] predicts the first bond at its limit, and [`plausibility`] finds implausible values. The error of a setup is a
+//! [`SetupError`] that names the field; remarks about a model are [`Warning`]s.
 //!
 //! ```
 //! use ligament::prelude::*;
@@ -35,9 +35,8 @@
 //! # }
 //! ```
 //!
-//! Whoever wants to see what happens on the way gives an [`Observer`](ligament_analysis::Observer) in the place of
-//! [`NoObserver`](run::Unobserved); whoever wants the model first calls [`Model::build`]. Nothing is printed and no file is
-//! read or written here.
+//! An [`Observer`](ligament_analysis::Observer) in the place of [`NoObserver`](run::Unobserved) receives the load steps of a run;
+//! [`Model::build`] only builds the model. Nothing is printed and no file is read or written here.
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")

@@ -28,7 +28,7 @@ use crate::stage::{Finding, StageWatcher, stage};
 use crate::system::{AnySystem, over_dimension};
 use crate::warning::{self, Warning};
 
-/// The discrete model: all that comes before the first equation.
+/// The discrete model: everything before the equations.
 #[derive(Debug)]
 pub struct Model {
     /// Setup that the model was built from.
@@ -37,20 +37,20 @@ pub struct Model {
     pub system: AnySystem,
     /// Fields that an analysis does not change.
     pub fixed: ConstantFields,
-    /// Report on the domain correction, where there was one.
+    /// Report on the iteration of the correction; none where nothing was iterated.
     pub correction: Option<CorrectionReport>,
-    /// Smallest and largest Omega.
+    /// Smallest and largest factor Omega of the bonds.
     pub correction_range: (f64, f64),
     /// Numbers of bonds.
     pub counts: BondCounts,
     /// Failure criteria of the bonds.
     pub criteria: Arc<Criteria>,
-    /// What the user should know.
+    /// Warnings for the user.
     pub warnings: Vec<Warning>,
 }
 
 impl Model {
-    /// Builds the model of a setup, on the threads of the caller; where its solver has several processes, they share the bonds out.
+    /// Builds the model of a setup on the caller's threads; where its solver has several processes, the bonds are divided between them.
     ///
     /// # Errors
     ///
@@ -123,7 +123,7 @@ impl Model {
         })
     }
 
-    /// Number of pairs of points that would be bonded but for a void of the body between them.
+    /// Number of pairs of points that are not bonded because a void of the body separates them.
     pub fn across_voids(&self) -> usize {
         self.counts.across_voids
     }
@@ -167,7 +167,7 @@ impl Model {
         })
     }
 
-    /// Distance of a point from a position, m; zero where no more than rounding is between them.
+    /// Distance of a point from a position, m; zero within rounding errors.
     pub fn distance_to(&self, point: u32, position: Position) -> f64 {
         let slack = over_dimension!(&self.system, system => system.cloud.slack(point));
         let place = self.body().position(point).iter();
@@ -197,8 +197,8 @@ impl Model {
     }
 }
 
-/// The processes between which the body of a setup is divided. Elements that lean on bonds beside them, faces that close and natural modes
-/// need the whole body on each process.
+/// The processes between which the body of a setup is divided. Elements that couple more points than the bond's ends, closing faces and
+/// natural modes need the whole body on each process.
 pub fn partition_communicator(setup: &Setup) -> Arc<dyn Communicator> {
     let needs_all = setup.closing
         || !setup.law.row.couples_ends_alone
@@ -209,11 +209,11 @@ pub fn partition_communicator(setup: &Setup) -> Arc<dyn Communicator> {
     }
 }
 
-/// The outline of a meshed body that bonds do not leave.
+/// The outline of a meshed body, which bonds must not cross.
 type Bounds<'a, const D: usize> = Option<Box<dyn BodyOutline<D> + 'a>>;
 
-/// The points of the body, with the index of the material of each cell (n_cells) and those that this process owns, and the outline of a
-/// mesh that bonds do not leave.
+/// The points of the body with this process's subdomain, and the outline of a mesh, which bonds must not cross; `material_of_cell`
+/// (n_cells) has the index of each cell's material.
 fn points<'a, const D: usize>(
     setup: &Setup,
     body: &'a dyn Geometry<D>,
@@ -254,7 +254,7 @@ fn bond_system<const D: usize>(
     Ok(system.with_faces(faces))
 }
 
-/// The bonds, followed through the cells of a body of several materials.
+/// The bonds, in a body of several materials with their composition from the cells that they cross.
 fn composed<const D: usize>(
     body: &dyn Geometry<D>,
     bonds: BondSet<D>,
@@ -267,7 +267,7 @@ fn composed<const D: usize>(
     }
 }
 
-/// The bonds inside the body, and those that its voids part.
+/// The bonds inside the body, and the pairs of points that its voids separate.
 fn inside_body<const D: usize>(
     body: &dyn Geometry<D>,
     bonds: BondSet<D>,
@@ -286,7 +286,7 @@ fn inside_body<const D: usize>(
     (bonds.retained(&keep), absent)
 }
 
-/// Pairs that are no bonds, and those that pre-cracks cut (n_bonds), in the order of their ends.
+/// Absent bonds and the bonds that pre-cracks cut, in the order of their ends; `is_cut` has shape (n_bonds).
 fn with_cut<const D: usize>(
     mut absent: Vec<AbsentBond>,
     bonds: &BondSet<D>,
@@ -297,7 +297,7 @@ fn with_cut<const D: usize>(
     absent
 }
 
-/// The bonds for which `is_absent` (n_bonds) is true, as what is none.
+/// The bonds for which `is_absent` (n_bonds) is true, as absent bonds.
 fn absent_bonds<const D: usize>(
     bonds: &BondSet<D>,
     is_absent: &[bool],
@@ -314,7 +314,7 @@ fn absent_bonds<const D: usize>(
         .collect()
 }
 
-/// Bonds that pre-cracks leave, with their stiffness and correction.
+/// Bonds that pre-cracks do not cut, with their stiffness and correction.
 struct Corrected<const D: usize> {
     bonds: BondSet<D>,
     stiffness: BondStiffness,
@@ -323,8 +323,7 @@ struct Corrected<const D: usize> {
     faces: Faces<D>,
 }
 
-/// Gives the bonds of the whole body their stiffness and correction and then drops those that pre-cracks cut, or the other
-/// way round if the setup says so.
+/// Computes stiffness and correction of the bonds before the pre-cracks' bonds are removed, or after, as the setup demands.
 fn correct<const D: usize>(
     formulation: &Formulation<'_, D>,
     bonds: BondSet<D>,
@@ -371,7 +370,7 @@ fn correct<const D: usize>(
     }
 }
 
-/// Some bonds with their stiffness and correction, and no faces.
+/// Stiffness and correction of some bonds, without faces.
 fn of_bonds<const D: usize>(formulation: &Formulation<'_, D>, bonds: BondSet<D>) -> Corrected<D> {
     let alpha = formulation.alpha(&bonds);
     let stiffness = formulation.stiffness(&bonds, &alpha);
@@ -386,7 +385,7 @@ fn of_bonds<const D: usize>(formulation: &Formulation<'_, D>, bonds: BondSet<D>)
     }
 }
 
-/// What a correction leaves in the fields of a model, with the points where bonds never fail (n_points); the other fields are empty.
+/// Fixed fields of a correction, with the points whose bonds never fail (n_points); the other fields are empty.
 fn of_correction(correction: &Correction, no_fail: Vec<bool>) -> ConstantFields {
     ConstantFields {
         horizon: Vec::new(),
@@ -401,7 +400,7 @@ fn of_correction(correction: &Correction, no_fail: Vec<bool>) -> ConstantFields 
     }
 }
 
-/// What the user should know of a model, with the pre-cracks that cut no bond and the number of the bonds that they only touch.
+/// Warnings about a model; `crossed` has the pre-cracks that cut no bond and the number of bonds that only touch one.
 fn warnings<const D: usize>(
     setup: &Setup,
     cloud: &PointCloud<D>,

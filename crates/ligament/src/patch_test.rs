@@ -1,8 +1,8 @@
-//! The patch test of a model: Young's modulus and Poisson's ratio of the body as it is discretised, and how far its bonds are from
-//! uniform strains.
+//! The patch test of a model: Young's modulus and Poisson's ratio of the discrete body, and the deviation of its bonds from uniform
+//! strains.
 //!
-//! The body is free and has the forces on it that its cells give to its points in a uniform strain: consistent tractions on its outline,
-//! holes included, and jumps of the tractions at interfaces. A continuum would strain uniformly.
+//! The free body is loaded by the forces of its cells in a uniform strain: consistent tractions on its outline, holes included, and jumps
+//! of the tractions at interfaces. A continuum would strain uniformly.
 
 use std::sync::Arc;
 
@@ -26,38 +26,38 @@ use crate::run::NoObserver;
 use crate::setup::{ELASTIC_ENERGY_TOLERANCE, Setup};
 use crate::system::over_dimension;
 
-/// Strains that the body is given: so small that strains over distances after the deformation are none others.
+/// Size of the applied strains, small enough for strains over deformed distances to be equal.
 pub(crate) const SIZE: f64 = 1e-6;
 
-/// What a body makes of uniform strains.
+/// Result of the patch test.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PatchTest {
-    /// Elastic constants; none of a body of several materials, which strains uniformly under no uniform stress.
+    /// Elastic constants; none for a body of several materials, which has no uniform strain under uniform stress.
     pub constants: Option<Constants>,
-    /// Root mean square over the bonds of what their strain has more than the mean strain of the body, over the size of that, for uniform
-    /// strains along x, along y, in shear in xy, and in space along z, in xz and in yz.
+    /// Root mean square over the bonds of the deviation from the body's mean strain, over the size of that, for uniform strains along x,
+    /// along y, in shear in xy, and in space along z, in xz and in yz.
     pub scatter: Vec<f64>,
-    /// The most that the strain of a bond has more in some uniform strain, over the size of that.
+    /// Largest deviation of a bond in any uniform strain, over the size of that strain.
     pub largest: f64,
-    /// Middle of the bond that has it, m.
+    /// Midpoint of the bond with the largest deviation, m.
     pub place: Vec<f64>,
 }
 
-/// Elastic constants of a body, and those of its material as the law has them.
+/// Elastic constants of a body, and of its material under the law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Constants {
-    /// Angle from x to the first axis of the material, along which the constants are, rad; none without axes.
+    /// Angle from x to the first axis of the material, the axis of the constants, rad; none without axes.
     pub angle: Option<f64>,
-    /// Constants of the body; those beyond the plane are zero in the plane.
+    /// Constants of the body; in the plane those along z are zero.
     pub body: EngineeringConstants<3>,
     /// Constants of the material.
     pub material: EngineeringConstants<3>,
 }
 
-/// Why a body has no patch test.
+/// Error of a patch or bending test that cannot be done.
 #[derive(Debug, Error)]
 pub enum Untested {
-    /// Nothing knows the forces of a uniform strain.
+    /// The body has no cells, which give the forces of a uniform strain.
     #[error(
         "the body has points without cells, and cells alone know the forces of a uniform strain"
     )]
@@ -71,13 +71,13 @@ pub enum Untested {
     /// The free body has no equilibrium.
     #[error("{0}")]
     Unbalanced(Unbalanced),
-    /// The strains of the body do not tell its stiffness.
+    /// The strains of the body do not determine its stiffness.
     #[error("the uniform strains of the body cannot be told apart")]
     Degenerate,
-    /// The bending test finds no section of the body.
+    /// The body has no section for the bending test.
     #[error("there are no cells with sides that lie opposite to each other")]
     NoSection,
-    /// The outline of a body has many sides for its thinnest section to be sought.
+    /// The outline has too many sides for the search of the thinnest section.
     #[error(
         "the outline of the body has {sides} sides, and among so many its thinnest section takes long to find; ask with --patch-test"
     )]
@@ -85,7 +85,7 @@ pub enum Untested {
         /// Number of the sides.
         sides: usize,
     },
-    /// A strip for the bending test is too large.
+    /// The strip of the bending test has too many points.
     #[error("the strip at the thinnest section has {points} points; ask with --patch-test")]
     TooLarge {
         /// Number of points of the strip.
@@ -136,7 +136,7 @@ fn of_bonds<const D: usize>(model: &Model, system: &dyn System<D>) -> Result<Pat
     })
 }
 
-/// Displacements of the free body under the forces of each of the strains, shape (n_strains, n_degrees_of_freedom), over their size.
+/// Displacements of the free body under the forces of each strain over the strain's size, shape (n_strains, n_degrees_of_freedom), m.
 fn displacements(
     Model { setup, system, .. }: &Model,
     forces: Vec<Vec<f64>>,
@@ -169,7 +169,7 @@ fn displacements(
     Ok(found)
 }
 
-/// Forces (n_degrees_of_freedom) on a body that nothing holds.
+/// Loading of a body without supports by forces (n_degrees_of_freedom).
 pub(crate) fn free_loading(layout: Layout, force: Vec<f64>) -> Arc<ProportionalLoading> {
     let control = Control {
         kind: ControlKind::Force,
@@ -183,7 +183,7 @@ pub(crate) fn free_loading(layout: Layout, force: Vec<f64>) -> Arc<ProportionalL
     })
 }
 
-/// The constants of a body of one material, along the axes of that.
+/// The constants of a body of one material, along the material's axes.
 fn constants<const D: usize>(
     setup: &Setup,
     forces: &CellForces<D>,
@@ -198,7 +198,7 @@ fn constants<const D: usize>(
         Elasticity::Isotropic(_) | Elasticity::Anisotropic(_) => None,
     };
     let axes: [[f64; D]; D] = axes(angle.unwrap_or_default());
-    // In plane strain a temperature widens the section.
+    // Isotropic constants from plane strain are converted to those of the material.
     let is_strain = elasticity.isotropic().is_some() && setup.space() == Plane::Strain.into();
     let read = |constants| match is_strain {
         true => out_of_plane_strain(constants),

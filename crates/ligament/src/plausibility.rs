@@ -1,4 +1,4 @@
-//! What is possible, and hardly ever meant: values that come of other units than those of the SI, and cracks and criteria without an effect.
+//! Search for implausible values, such as values in other than SI units, and for cracks and criteria without an effect.
 
 use ligament_model::failure::softening::Law as Softening;
 use ligament_model::failure::{Choice, Criteria, NoLimit};
@@ -9,16 +9,16 @@ use crate::error::Fault;
 use crate::implausible::{Implausible, LARGEST_STRAIN, LEAST_ENERGY, Note};
 use crate::setup::{Action, Analysis, Setup};
 
-/// Young's modulus that no solid body has which is computed with small strains, Pa: one in GPa was taken for one in Pa.
+/// Smallest plausible Young's modulus of a body with small strains, Pa; a smaller value is probably in GPa.
 const SOFTEST: f64 = 1e6;
 
-/// Density that no solid body is below, kg/m^3.
+/// Smallest plausible density of a solid, kg/m^3.
 const LIGHTEST: f64 = 10.0;
 
-/// Characteristic length over that of the body above which a crack in the body never softens to its end.
+/// Characteristic length over the body's length above which no crack in the body softens completely.
 const LONGEST: f64 = 10.0;
 
-/// What is rare in a setup, and meant as a rule.
+/// Notes on properties of a setup that are rare but usually intended.
 pub fn notes(setup: &Setup) -> Vec<Note> {
     let materials = setup.materials.iter().map(|it| &it.material);
     let auxetic = materials.filter_map(|material| {
@@ -35,7 +35,7 @@ pub fn notes(setup: &Setup) -> Vec<Note> {
     auxetic.collect()
 }
 
-/// What is hardly ever meant in a setup and its model, with the limits of its bonds and the pre-cracks that cut none, by their indices.
+/// Implausible values of a setup and its model; `criteria` has the limits of the bonds, `idle` the indices of pre-cracks that cut no bond.
 pub(crate) fn of_model<const D: usize>(
     setup: &Setup,
     cloud: &PointCloud<D>,
@@ -50,7 +50,7 @@ pub(crate) fn of_model<const D: usize>(
             softening.filter_map(|it| of_length(&*setup.body, cloud, &region.material, it));
         found.extend(lengths.take(1));
     }
-    // Limits follow from constants: where those are wrong, theirs is the warning.
+    // Limits follow from constants: where constants are implausible, only these are reported.
     let of_limits = of_limits(cloud, criteria).into_iter();
     let is_sound = found.is_empty();
     found.extend(of_limits.filter(|it| is_sound || *it == Implausible::NothingFails));
@@ -64,7 +64,7 @@ pub(crate) fn of_model<const D: usize>(
     [setup.remarks.clone(), found].concat()
 }
 
-/// The fault of bonds that get no limit in a setup, with a constant that is hardly ever meant, if there is one.
+/// The fault of bonds without a limit, with an implausible constant as its cause, if there is one.
 pub(crate) fn without_limit(setup: &Setup, reason: NoLimit) -> Fault {
     let materials = setup.materials.iter();
     let mut causes = materials.flat_map(|it| of_constants(&it.material, &setup.analysis));
@@ -91,11 +91,11 @@ fn moduli(elasticity: &Elasticity) -> [f64; 2] {
 
 fn of_constants(material: &Material, analysis: &Analysis) -> Vec<Implausible> {
     let [softest, stiffest] = moduli(&material.elasticity);
-    // Modes are often asked for in units of their own, in which the density is about 1 as well.
+    // Modes are often computed in scaled units, in which the density is about 1.
     let is_light = material.density.is_some_and(|it| it < LIGHTEST);
     let has_own_units = is_light && matches!(analysis, Analysis::Modal(_));
     if softest < SOFTEST && !has_own_units {
-        // What is measured by the modulus says no more than that this is wrong.
+        // Ratios to a wrong modulus would only repeat this.
         return vec![Implausible::Soft {
             material: words(material),
             young: softest,
@@ -124,14 +124,15 @@ fn of_constants(material: &Material, analysis: &Analysis) -> Vec<Implausible> {
     strong.chain(low).collect()
 }
 
-/// Whether bonds that opened soften so that they take the fracture energy.
+/// Whether opened bonds soften so that they dissipate the fracture energy.
 fn softens_by_energy(choice: &Choice) -> bool {
     let Softening { softens, .. } = choice.after.law;
     let opens = choice.kind.measures.iter().any(|it| it.opens());
     softens && choice.parameter_from_energy().is_some() && opens
 }
 
-/// The characteristic length E G_c/F_t^2 of a material where it is no length of the body; with the limit of a criterion in the place of F_t/E.
+/// Remark on the characteristic length E G_c/F_t^2 of a material where it does not fit the body; the limit of a criterion, if given,
+/// replaces F_t/E.
 fn of_length<const D: usize>(
     body: &dyn Body,
     cloud: &PointCloud<D>,
@@ -178,7 +179,7 @@ pub fn corners(body: &dyn Body) -> [Vec<f64>; 2] {
     ]
 }
 
-/// Limits that no bond of a body with small strains reaches, or that no bond has at all.
+/// Remarks on limits beyond small strains, and on criteria under which no bond has a limit.
 fn of_limits<const D: usize>(cloud: &PointCloud<D>, criteria: &Criteria) -> Vec<Implausible> {
     let smallest = criteria.list.iter().map(|criterion| {
         let smallest = criterion
@@ -202,7 +203,7 @@ fn of_limits<const D: usize>(cloud: &PointCloud<D>, criteria: &Criteria) -> Vec<
     large.collect()
 }
 
-/// Angles of more than a turn: of materials, of criteria, and of loads that turn points.
+/// Remarks on angles of more than a turn, of materials, of criteria and of prescribed rotations.
 fn of_angles(setup: &Setup) -> Vec<Implausible> {
     let mut angles: Vec<(String, f64)> = Vec::new();
     for region in &setup.materials {

@@ -1,4 +1,4 @@
-//! Pre-cracks of a setup as what cuts the bonds of its body.
+//! Pre-cracks of a setup as lines and surfaces that cut bonds.
 
 use ligament_mesh::Cell;
 use ligament_model::bonds::precrack::{
@@ -14,7 +14,7 @@ use crate::setup::{CrackShape, PreCrack};
 ///
 /// # Errors
 ///
-/// If a surface is none, or the body has no group of its name.
+/// If a surface is degenerate, or the body has no group of its name.
 pub(crate) fn cracks<const D: usize>(
     body: &dyn Geometry<D>,
     precracks: &[PreCrack],
@@ -55,7 +55,7 @@ pub(crate) fn cracks<const D: usize>(
     numbered.map(crack).collect()
 }
 
-/// The faces of a surface group as triangles, quadrangles along a diagonal.
+/// The faces of a surface group as triangles, with quadrangles split along a diagonal.
 fn triangles_of_group(
     field: Field,
     body: &dyn Body,
@@ -85,11 +85,11 @@ fn triangles_of_group(
 pub(crate) struct Precracked {
     /// Whether a pre-crack cuts each bond, shape (n_bonds).
     pub(crate) is_cut: Vec<bool>,
-    /// Number of the bonds that only touch an end of one.
+    /// Number of bonds that only touch an end of a pre-crack.
     pub(crate) touched: usize,
     /// Indices of the pre-cracks that cut no bond.
     pub(crate) idle: Vec<usize>,
-    /// Share of its bonds that each point loses, shape (n_points).
+    /// Share of each point's bonds that pre-cracks cut, shape (n_points).
     pub(crate) share: Vec<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! What most programs use: `use ligament::prelude::*`.
+//! Names that most programs use: `use ligament::prelude::*`.
 
 pub use ligament_analysis::modal::{ModalOutcome, ModalSettings};
 pub use ligament_analysis::{Component, Observer};

@@ -15,24 +15,24 @@ use crate::loading::{Loading, Vibration};
 use crate::model::Model;
 use crate::setup::{Analysis, Setup};
 
-/// What a setup of loads comes to.
+/// Solution of a setup with loads: model, probes and outcome.
 #[derive(Debug)]
 pub struct Solution {
     /// The discrete model.
     pub model: Model,
-    /// Probes; their values stand in the records of the outcome, in this order.
+    /// Probes, in the order of their values in the records of the outcome.
     pub probes: Arc<[Probe]>,
     /// Outcome of the analysis: history, last state, and why it ended.
     pub outcome: Outcome,
 }
 
 impl Setup {
-    /// Builds the model and follows the loads on the threads of the setup: the elastic solution, or the breaking of bonds up to the
-    /// end of the loading or of the body.
+    /// Builds the model and runs the analysis on the threads of the setup: an elastic solution, or the breakage of bonds up to the end of
+    /// the loading or the failure of the body.
     ///
     /// # Errors
     ///
-    /// If a field of the setup is wrong, or the equations cannot be set up. How the analysis ends is in the outcome.
+    /// If a field of the setup is wrong, or the equations cannot be set up. The outcome has the end of the analysis.
     pub fn solve(self, observer: &mut (dyn Observer + Send)) -> Result<Solution, Error> {
         on_threads(self.threads, || {
             let model = Model::build(self, &mut ())?;
@@ -85,7 +85,7 @@ pub fn follow(
     })
 }
 
-/// The run that a checkpoint holds, ready to go on.
+/// The run of a checkpoint, for [`resume`].
 ///
 /// # Errors
 ///
@@ -102,7 +102,7 @@ pub fn restore(
     })
 }
 
-/// Goes on with a run from its checkpoint, to the same bits as if it had never stopped.
+/// Continues a run from its checkpoint, bitwise identical to an uninterrupted run.
 ///
 /// # Errors
 ///
@@ -131,7 +131,7 @@ fn other_analysis(found: &Analysis, wanted: &'static str) -> Error {
     Field::whole("analysis").error(fault).into()
 }
 
-/// Does some work on so many threads; on those of the caller without a number.
+/// Runs `work` on a number of threads, or without a number on the caller's threads.
 ///
 /// # Errors
 ///
@@ -149,7 +149,7 @@ pub fn on_threads<T: Send>(
     }
 }
 
-/// An observer that keeps nothing: the outcome has the history.
+/// An observer that records nothing: the outcome has the history.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NoObserver;
 

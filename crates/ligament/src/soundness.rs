@@ -1,4 +1,4 @@
-//! Whether points and bonds are fit for a computation: what no equation would tell.
+//! Checks of points and bonds for defects that the equations would not reveal.
 
 use ligament_model::element::Rigidities;
 use ligament_model::tensor::{minus, norm};
@@ -8,13 +8,13 @@ use crate::body::{Body, BodyOutline};
 use crate::error::{Fault, Field, SetupError, Torn};
 use crate::setup::{Horizon, Setup};
 
-/// Part of the size of a point below which its nearest point is one with it.
+/// Distance over the size of a point below which two points coincide.
 ///
 /// Double nodes of exports in single precision lie up to 1e-7 of the body's size apart, 1e-5 of cells of a hundredth of it. Of two
 /// points nearer than this one bond would be 1e5 times as stiff as all others.
 const DISTINCT: f64 = 1e-5;
 
-/// Refuses cells that lie on others.
+/// Refuses meshes whose cells overlap.
 pub(crate) fn forbid_overlap<const D: usize>(
     body: &dyn Body,
     outline: &dyn BodyOutline<D>,
@@ -71,7 +71,8 @@ fn require_neighbours<const D: usize>(
     Err(Field::whole("horizon").error(fault))
 }
 
-/// Refuses bonds that leave points alone, or a body of cells in more parts than it has: edges of its cells are longer than the horizons.
+/// Refuses bonds that leave points without a neighbour, or that connect a body of cells in more parts than its cells do, because edges of
+/// cells are longer than the horizons.
 pub(crate) fn require_connected<const D: usize>(
     setup: &Setup,
     cloud: &PointCloud<D>,
@@ -116,7 +117,7 @@ pub(crate) fn require_connected<const D: usize>(
     Err(Field::whole("horizon").error(Fault::Torn(Box::new(torn))))
 }
 
-/// Refuses bonds whose stiffness is no number that equations can be made of.
+/// Refuses bonds whose stiffness is not finite or out of range.
 pub(crate) fn require_finite_rigidities<const D: usize>(
     body: &dyn Body,
     system: &BondSystem<D>,
@@ -124,15 +125,15 @@ pub(crate) fn require_finite_rigidities<const D: usize>(
     require_rigidities(body, &system.cloud, &system.rigidities, &system.bonds.ends)
 }
 
-/// Refuses factors of a correction (n_bonds) that are no numbers, of bonds between some ends with an axial stiffness (n_bonds both) of a size
-/// with which a correction can compute.
+/// Refuses factors of a correction (n_bonds) that are not finite, unless the axial stiffness (n_bonds) of the bond is out of range. `ends`
+/// has shape (n_bonds).
 pub(crate) fn require_factors<const D: usize>(
     body: &dyn Body,
     cloud: &PointCloud<D>,
     (factors, axial): (&[f64], &[f64]),
     ends: &[[u32; 2]],
 ) -> Result<(), SetupError> {
-    // What is larger or smaller has a square that is no number.
+    // The square of a larger or smaller stiffness overflows or underflows.
     let is_sound = |stiffness: &f64| (1e-150..1e150).contains(&stiffness.abs());
     let mut both = factors.iter().zip(axial);
     let wrong = both.position(|(factor, axial)| !factor.is_finite() && is_sound(axial));
@@ -147,7 +148,7 @@ pub(crate) fn require_factors<const D: usize>(
     Err(Field::whole("correction").error(Fault::NoCorrection { places, spacing }))
 }
 
-/// The first bond that is wrong, over all processes, by its ends in words; `wrong` is the one of this process, if it has one.
+/// Descriptions of the ends of the first wrong bond of all processes; `wrong` is the first one of this process, if any.
 fn first_of<const D: usize>(
     body: &dyn Body,
     cloud: &PointCloud<D>,
@@ -160,7 +161,7 @@ fn first_of<const D: usize>(
     Some((cloud.numbering.ordered(ends)).map(|end| body.place(end)))
 }
 
-/// Refuses rigidities of bonds between some ends (n_bonds) that are no numbers to make equations of.
+/// Refuses rigidities of bonds that are not finite or out of range; `ends` has shape (n_bonds).
 fn require_rigidities<const D: usize>(
     body: &dyn Body,
     cloud: &PointCloud<D>,
@@ -184,16 +185,16 @@ fn require_rigidities<const D: usize>(
     // The square of a strain of one in 10^14 counts as well.
     let sizes = axial.iter().map(|it| it.abs());
     let largest = cloud.subdomain.max(sizes.fold(f64::NEG_INFINITY, f64::max));
-    // Without any bond there is no largest one.
+    // A body without bonds has no largest rigidity.
     if largest < 0.0 || (1e-270..1e270).contains(&largest) {
         return Ok(());
     }
     Err(Field::whole("materials").error(Fault::OutOfNumbers { rigidity: largest }))
 }
 
-/// Points that hang together by pairs.
+/// Connected parts of points that pairs link.
 struct Parts {
-    /// The first point of the part of each point.
+    /// First point of each point's part, shape (n_points).
     first: Vec<u32>,
 }
 
@@ -217,7 +218,7 @@ impl Parts {
         Self { first }
     }
 
-    /// Points of a body that hang together by its bonds.
+    /// Connected parts of the points of a body by its bonds, over all processes.
     fn of_bonds<const D: usize>(cloud: &PointCloud<D>, bonds: &BondSet<D>) -> Self {
         let known = Self::new(cloud.len(), bonds.ends.iter().copied());
         if cloud.subdomain.is_whole() {

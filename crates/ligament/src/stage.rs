@@ -1,40 +1,40 @@
-//! Stages of a computation, for those who show or time them.
+//! Stages of a computation, for progress and timing.
 
 use ligament_model::correction::CorrectionReport;
 
 use crate::setup::Correction;
 
-/// Watcher of the stages of a computation; `()` if nobody need know.
+/// Watcher of the stages of a computation; `()` ignores them.
 pub trait StageWatcher {
-    /// Tells that a stage begins: `points`, `bonds`, `correction`.
+    /// Called at the start of a stage: `points`, `bonds`, `correction`.
     fn begins(&mut self, _stage: &'static str) {}
 
-    /// Tells that a stage has ended.
+    /// Called at the end of a stage.
     fn ends(&mut self, _stage: &'static str) {}
 
-    /// Tells what the preparation has found.
+    /// Called with a result of the preparation.
     fn found(&mut self, _finding: &Finding<'_>) {}
 }
 
 impl StageWatcher for () {}
 
-/// What the preparation of a model has found.
+/// Result of the preparation of a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Finding<'a> {
-    /// Points and bonds.
+    /// Numbers of points and bonds.
     Bonds {
         /// Number of points.
         points: usize,
         /// Number of bonds, before pre-cracks cut any.
         bonds: usize,
-        /// Number of pairs of points that a void of the body parts.
+        /// Number of pairs of points that a void of the body separates.
         across_voids: usize,
     },
-    /// The correction, and how it went; none where nothing was iterated.
+    /// The correction and the report on its iteration; no report where nothing was iterated.
     Correction(&'a Correction, Option<&'a CorrectionReport>),
 }
 
-/// Does a stage, and tells of its beginning and its end.
+/// Runs the work of a stage, and notifies the watcher of its start and end.
 pub fn stage<T>(watcher: &mut dyn StageWatcher, name: &'static str, work: impl FnOnce() -> T) -> T {
     watcher.begins(name);
     let result = work();

@@ -1,12 +1,12 @@
-//! Nearest names for "did you mean".
+//! Most similar names for "did you mean".
 
 /// Lists longer than this are not printed in an error.
 const SHORT_LIST: usize = 16;
 
-/// Names less alike than this (Jaro-Winkler, 0 to 1) are not suggested.
+/// Smallest similarity of a suggested name (Jaro-Winkler, 0 to 1).
 const LIKENESS: f64 = 0.8;
 
-/// The candidate most like `found`, if one is alike enough to be what was meant.
+/// The candidate most similar to `found`, if one is similar enough.
 pub fn nearest<'a>(found: &str, candidates: &'a [String]) -> Option<&'a str> {
     let found = found.to_lowercase();
     candidates
@@ -24,7 +24,7 @@ pub fn nearest<'a>(found: &str, candidates: &'a [String]) -> Option<&'a str> {
 
 /// The tail of an error about a name: `; did you mean ...? valid keys: ...`.
 ///
-/// `noun` is what the candidates are called, in the plural; `quote` goes on both sides of a name.
+/// `noun` names the candidates in the plural; `quote` encloses a name.
 pub fn hint(found: &str, candidates: &[String], noun: &str, quote: char) -> String {
     let quoted = |name: &str| format!("{quote}{name}{quote}");
     let suggestion =

@@ -28,7 +28,7 @@ impl AnySystem {
         any.expect("bodies have two or three dimensions")
     }
 
-    /// The bonds in D dimensions; none where they have another number of dimensions.
+    /// The bonds in D dimensions; `None` for bonds in another number of dimensions.
     pub fn of_dimension<const D: usize>(&self) -> Option<&Arc<dyn System<D>>> {
         let system: &dyn Any = match self {
             Self::Plane(system) => system,
@@ -37,7 +37,7 @@ impl AnySystem {
         system.downcast_ref()
     }
 
-    /// The bonds as equations are made of them.
+    /// The bonds behind their dimension-independent interface.
     pub fn to_bonds(&self) -> Arc<dyn Bonds> {
         match self {
             Self::Plane(system) => system.clone(),
@@ -57,7 +57,8 @@ impl Deref for AnySystem {
     }
 }
 
-/// Work of code over D on the bonds of a model: `over_dimension!(system, typed => work)`, with `typed` an `&Arc<dyn System<D>>`.
+/// Runs code that is generic over D on the bonds of a model: `over_dimension!(system, typed => work)`, with `typed` an `&Arc<dyn
+/// System<D>>`.
 macro_rules! over_dimension {
     ($system:expr, $typed:ident => $work:expr) => {
         match $system {

@@ -14,13 +14,13 @@ pub struct Units {
 }
 
 impl Units {
-    /// A force and the displacement along it.
+    /// Units of a force and its displacement.
     pub const FORCE: Self = Self::new("m", "N", "N/m");
-    /// A couple and its rotation.
+    /// Units of a couple and its rotation.
     pub const COUPLE: Self = Self::new("rad", "N m", "N m/rad");
-    /// A pressure and the volume that it sweeps.
+    /// Units of a pressure and its swept volume.
     pub const PRESSURE: Self = Self::new("m^3", "Pa", "Pa/m^3");
-    /// A change of temperature and what does work with it.
+    /// Units of a change of temperature and its conjugate.
     pub const TEMPERATURE: Self = Self::new("K", "J/K", "J/K^2");
 
     const fn new(displacement: &'static str, force: &'static str, stiffness: &'static str) -> Self {
@@ -33,7 +33,7 @@ impl Units {
 }
 
 impl Setup {
-    /// Units of the displacement and the force in the history, which are those of the load of the curve, or of the temperature.
+    /// Units of displacement and force in the history: those of the load of the curve, or of the temperature.
     pub fn units(&self) -> Units {
         let load = self.curve_load();
         load.map_or(Units::TEMPERATURE, |load| self.loads[load].action.units())

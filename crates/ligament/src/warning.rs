@@ -1,4 +1,4 @@
-//! What a user should know about a model before trusting its results.
+//! Warnings about a model that concern the trust in its results.
 
 use ligament_model::correction::{CorrectionReport, DomainReport, patch};
 use ligament_model::failure::Measure;
@@ -13,31 +13,31 @@ use crate::implausible::Implausible;
 use crate::plausibility::corners;
 use crate::setup::{Horizon, Setup};
 
-/// Below this the domain correction is not known to have a fixed point.
+/// Horizon factor below which the domain correction is not known to have a fixed point.
 const SMALLEST_SAFE_FACTOR: f64 = 2.0;
 
 /// Relative error of a point's energy under uniaxial strain above which a warning names the point.
 const ENERGY_TOLERANCE: f64 = 1e-4;
 
-/// Horizon over the distance of points that most cases take.
+/// Usual horizon over the distance between points.
 const USUAL_FACTOR: f64 = 3.0;
 
-/// A body larger than this, m, was drawn in millimetres in all likelihood.
+/// Length of a body, m, above which its coordinates are probably in millimetres.
 pub const SUSPICIOUSLY_LARGE: f64 = 20.0;
 
-/// A Poisson's ratio within this of the one that a law fixes counts as that one: users write 0.333.
+/// Tolerance of the Poisson's ratio that a law fixes: users write 0.333.
 const POISSON_TOLERANCE: f64 = 1e-3;
 
-/// Something that a user should know about a model before trusting its results.
+/// Warning about a model that concerns the trust in its results.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Warning {
-    /// Something about the body.
+    /// Remark about the body.
     #[error("{0}")]
     Body(String),
-    /// Something that is hardly ever meant.
+    /// An implausible value or choice.
     #[error(transparent)]
     Implausible(Implausible),
-    /// A body as large as one in millimetres is when they are taken for metres.
+    /// A body whose coordinates are probably in millimetres.
     #[error(
         "the body is {length:.1} m across, if its lengths are in m as they should be: a mesh in mm must be scaled by 0.001 (in Gmsh: \
          Mesh.ScalingFactor = 0.001)"
@@ -67,7 +67,7 @@ pub enum Warning {
          each other, and the answer is not that of the material; a horizon factor of 3 is usual"
     )]
     LargeHorizon {
-        /// A point with the smallest horizon, in words.
+        /// Description of a point with the smallest horizon.
         place: String,
         /// Horizon of the point, m.
         horizon: f64,
@@ -86,33 +86,33 @@ pub enum Warning {
         sweeps: usize,
         /// Change of the last sweep.
         last_change: f64,
-        /// Number of points whose energy is off.
+        /// Number of points with an error above the tolerance.
         off: usize,
         /// Number of points.
         n_points: usize,
         /// Largest error of the energy.
         error: f64,
-        /// The point with the largest error, in words.
+        /// Description of the point with the largest error.
         worst: String,
         /// Position of the point, m.
         position: Vec<f64>,
     },
-    /// A patch correction whose equations the bonds cannot meet.
+    /// A patch correction whose equations the bonds cannot satisfy.
     #[error(
         "the patch correction cannot make every uniform strain an equilibrium: forces of {:.2} % of the size of their terms are left in \
          the mean, of {:.0} % at worst ({worst} at {}); {}, or take correction.surface = \"domain\"",
         100.0 * left, 100.0 * largest, place(position), more_bonds(*factor)
     )]
     NotMet {
-        /// Root mean square of what is left of the scaled equations.
+        /// Root mean square of the residuals of the scaled equations.
         left: f64,
-        /// The largest that is left at a point.
+        /// Largest residual at a point.
         largest: f64,
-        /// The point, in words.
+        /// Description of the point.
         worst: String,
         /// Position of the point, m.
         position: Vec<f64>,
-        /// The horizon factor with which most bodies meet the equations, where that of the body is smaller.
+        /// The horizon factor with which most bodies satisfy the equations, if larger than that of the body.
         factor: Option<f64>,
     },
     /// Bonds that only touch an end of a pre-crack.
@@ -124,14 +124,14 @@ pub enum Warning {
         /// Number of such bonds.
         bonds: usize,
     },
-    /// Virial stresses where points stand irregularly.
+    /// Virial stresses at irregular points.
     #[error(
         "virial stresses (output.stress, probes of stress_xx and so on) are those of the body in the mean alone: at single points of an \
          irregular mesh they are off by a tenth to a quarter inside the body, and by a third and more at its edges, also with the patch \
          correction; take means over many points, or the force through a section (probes with `section`)"
     )]
     PointStress,
-    /// Random factors that vary faster than the points can show.
+    /// Random factors with a correlation length below the distance between points.
     #[error(
         "fracture.scatter.correlation_length = {length:.4e} m is less than the largest distance between points, {spacing:.4e} m: there the \
          points decide over how far strengths go together; take a finer body or a greater length (0: each point for itself)"
@@ -142,7 +142,7 @@ pub enum Warning {
         /// Largest distance of a point to its nearest neighbour, m.
         spacing: f64,
     },
-    /// A word for one straight line that often means two.
+    /// The word "bilinear" for one straight line, which often means two.
     #[error(
         "after = \"bilinear\" is the older word for \"linear\", one straight line down; the two lines that concrete has, to a third of \
          the force and then to zero, are \"two-branch\""
@@ -177,7 +177,7 @@ pub enum Warning {
     /// A Poisson's ratio that makes shear stiffness negative in space.
     #[error("{0}")]
     NegativeShearInSpace(NegativeShear),
-    /// Points without rotations, whose bonds resist rotations of the body.
+    /// A law without rotations of points, whose bonds resist rotations of the body.
     #[error(
         "law = \"{law}\": points have no rotations, so that every rotation of the body costs energy that it should not: where the body \
          bends, twists or shears it is up to tens of times too stiff, although its Young's modulus is right; \"mppd\" and \"nhpd\" have rotations"
@@ -197,7 +197,7 @@ pub enum Warning {
         /// The law.
         law: &'static str,
     },
-    /// A criterion of energy where shear gives energy back, so that bonds nearly along a crack have none to reach a limit with.
+    /// A criterion of energy with a negative shear stiffness, so that bonds nearly along a crack never reach a limit.
     #[error(
         "criterion \"bond-energy\": above Poisson's ratio {limit:.4} (here {poisson}) shear lowers the energy of the bonds, and \
          those nearly along a crack never fail; \"critical-stretch\" breaks them"
@@ -210,14 +210,14 @@ pub enum Warning {
     },
 }
 
-/// A position as warnings show it.
+/// A position (m) as text for warnings.
 fn place(position: &[f64]) -> String {
     let coordinates = position.iter().map(|it| format!("{it:.4}"));
     coordinates.collect::<Vec<_>>().join(", ")
 }
 
-/// Warnings about the body, the horizons over the distances `spacing` (n_points) of nearest points, the correction,
-/// pre-cracks (`touched`: bonds that only touch an end of one) and the materials.
+/// Warnings about the body, the horizons over the distances `spacing` (n_points, m) of nearest points, the correction, pre-cracks
+/// (`touched`: number of bonds that only touch an end of one) and the materials.
 pub(crate) fn of_model(
     setup: &Setup,
     spacing: &[f64],
@@ -276,17 +276,18 @@ pub(crate) fn of_model(
     warnings
 }
 
-/// What to know of virial stresses at the points of a body: all but those of lattices stand irregularly.
+/// Warning about virial stresses at irregular points, for all bodies but lattices.
 pub fn of_virial_stress(origin: &Origin<'_>) -> Option<Warning> {
     let is_regular = matches!(origin, Origin::Lattice(_) | Origin::SolidLattice(_));
     (!is_regular).then_some(Warning::PointStress)
 }
 
-/// Largest share of its equations that the patch correction leaves without a warning, as a root mean square.
+/// Largest root mean square residual of the patch correction's scaled equations without a warning.
 ///
-/// Above the one of the plane uniform strains are off by percents. Edges and corners of solids leave more, and do less harm: measured on
-/// boxes, balls and cases, bodies of two cells and more across leave .06 to 2.3 % at factors of 2.5 and 3, with E right to .1 %, nu to .0003
-/// and the strains of bonds to .6 %; what is thinner or sharper leaves 2 to 12 %, with strains of bonds off by .8 to 2.5 %.
+/// Above the value of the plane, uniform strains have errors of percents. Edges and corners of solids have larger residuals and smaller
+/// errors: measured on boxes, balls and cases, bodies of two cells and more across have residuals of .06 to 2.3 % at factors of 2.5 and 3,
+/// with errors of .1 % in E, .0003 in nu and .6 % in the strains of bonds; thinner or sharper bodies have 2 to 12 %, with errors of .8 to
+/// 2.5 % in the strains of bonds.
 fn largest_left(space: Space) -> f64 {
     match space {
         Space::Plane(_) => 5e-3,
@@ -294,7 +295,8 @@ fn largest_left(space: Space) -> f64 {
     }
 }
 
-/// Horizon factor from which on bodies meet the equations of the patch correction: at 2 tetrahedra leave 3 %, at 2.5 and at 3 less than 1 %.
+/// Horizon factor from which bodies satisfy the equations of the patch correction: tetrahedra have residuals of 3 % at 2, below 1 % at 2.5
+/// and 3.
 fn patch_factor(space: Space) -> f64 {
     match space {
         Space::Plane(_) => 3.0,
@@ -307,7 +309,7 @@ fn small_horizon(setup: &Setup, spacing: &[f64], fixed: &ConstantFields) -> Opti
     (factor < SMALLEST_SAFE_FACTOR).then_some(Warning::SmallHorizon { factor, is_given })
 }
 
-/// The smallest horizon over the nearest distance of a point, and whether the setup gives it.
+/// The smallest horizon of a point over the distance to its nearest point, and whether the setup gives it.
 fn smallest_factor(setup: &Setup, spacing: &[f64], fixed: &ConstantFields) -> (f64, bool) {
     match setup.horizon {
         Horizon::Factor(factor) => (factor, true),
@@ -357,7 +359,7 @@ fn not_met(body: &dyn Body, report: &patch::Report, factor: Option<f64>) -> Warn
     }
 }
 
-/// What lets a body meet the equations of the patch correction.
+/// Advice for a body that does not satisfy the equations of the patch correction.
 fn more_bonds(factor: Option<f64>) -> String {
     match factor {
         Some(factor) => format!("more bonds a point help (model.horizon_factor = {factor})"),
@@ -391,7 +393,7 @@ fn not_converged(body: &dyn Body, correction: &DomainReport, fixed: &ConstantFie
     }
 }
 
-/// Bonds with a shear stiffness between points without rotations; above the Poisson's ratio of central forces they give energy.
+/// Warning about bonds with a positive shear stiffness between points without rotations.
 fn rotation_resisted(setup: &Setup, material: &Isotropic) -> Option<Warning> {
     let (poisson, limit) = poisson_and_limit(setup, material);
     let resists = setup.law.row.resists_rotations() && poisson < limit - POISSON_TOLERANCE;
@@ -399,13 +401,13 @@ fn rotation_resisted(setup: &Setup, material: &Isotropic) -> Option<Warning> {
     resists.then_some(Warning::RotationResisted { law })
 }
 
-/// The shear of a bond between points without rotations is that of the body and its rotation together.
+/// Warning about criteria of shear between points without rotations, where the shear of a bond includes the rotation of the body.
 fn rotation_as_sliding(setup: &Setup) -> Option<Warning> {
     let law = &setup.law;
     if law.element() != ElementKind::Spring {
         return None;
     }
-    // Without a shear stiffness there is no energy of shear.
+    // Bonds without a shear stiffness have no energy of shear.
     let counts = |it: &Measure| !(it.needs_shear_stiffness() && law.row.fixes_poisson);
     let sees_rotations = |it: &Measure| it.takes_sliding() && counts(it);
     let mut kinds = setup.criteria.iter().map(|it| it.kind);
@@ -438,7 +440,7 @@ fn of_poisson(setup: &Setup, material: &Isotropic) -> Option<Warning> {
     };
     let horizon_factor = match setup.horizon {
         Horizon::Factor(factor) => factor,
-        // A horizon of one length has no factor: it is taken for the usual one.
+        // A horizon of one length has no factor: the usual one is assumed.
         Horizon::Length(_) => USUAL_FACTOR,
     };
     (poisson > limit).then(|| match setup.space() {

@@ -1,8 +1,8 @@
-//! Which points hang together in a body that processes share out.
+//! Connected parts of a body that is divided over processes.
 //!
-//! Each process knows which points its bonds hold together, and what hangs together so is named by its first point. Neighbours tell each
-//! other these names at ghosts, until none finds an earlier one. All know the parts as they were; they tell each other the points of
-//! what came off, and not of the largest part that is left.
+//! Each process finds the points connected by its bonds and labels each set by its first point. Neighbours exchange these labels at
+//! ghosts until none finds an earlier one. All processes know the previous parts; they exchange the points of split-off parts, but
+//! not of the largest part that remains.
 
 use std::collections::BTreeMap;
 
@@ -10,8 +10,8 @@ use ligament_model::Bonds;
 use ligament_model::ghosts::Ghosts;
 use ligament_model::subdomain::Subdomain;
 
-/// The first point of the part of each point by intact bonds of all processes, shape (n_points); these are parts of earlier ones, given by
-/// that of each point and by the points of each.
+/// First point of the part of each point by intact bonds of all processes, shape (n_points). The parts refine the previous ones,
+/// given by the previous part of each point and the points of each part.
 pub(super) fn parted(
     system: &dyn Bonds,
     intact: &[bool],
@@ -34,7 +34,7 @@ pub(super) fn parted(
     for [of, first, count] in subdomain.all_gather_list(rows) {
         *sizes.entry([of as u32, first as u32]).or_default() += count as usize;
     }
-    // The largest part of each of those before: it is what the others leave.
+    // Largest part of each previous part: it keeps the points that the others leave.
     let mut largest: BTreeMap<u32, (u32, usize)> = BTreeMap::new();
     for (&[of, _], size) in &sizes {
         let whole = (first_before(of), points[of as usize].len());
@@ -62,8 +62,7 @@ pub(super) fn parted(
     first_of_each
 }
 
-/// Whether a body may come apart, of which this process does not hold the ends of some bonds together any more: what any process holds
-/// together does so whatever the others have.
+/// Whether a body may split, where this process no longer connects the ends of some bonds: a connection on any process suffices.
 pub(super) fn may_split(subdomain: &Subdomain, apart: Vec<[u32; 2]>) -> bool {
     let mut of_all = subdomain.all_gather_list(apart);
     of_all.sort_unstable();
@@ -74,7 +73,7 @@ pub(super) fn may_split(subdomain: &Subdomain, apart: Vec<[u32; 2]>) -> bool {
     })
 }
 
-/// The first of the points that hang together with each own point by intact bonds of all processes.
+/// First point of the part of each owned point by intact bonds of all processes.
 fn first_points(system: &dyn Bonds, intact: &[bool]) -> Vec<u32> {
     let subdomain = system.subdomain();
     let n_points = system.n_points();
@@ -107,21 +106,21 @@ fn first_points(system: &dyn Bonds, intact: &[bool]) -> Vec<u32> {
         .collect()
 }
 
-/// Points that hang together, each set of them led by its first point.
+/// Disjoint sets of connected points, each represented by its first point.
 struct Parts {
-    /// A point of the same part that is not after it, shape (n_points).
+    /// A point of the same set that is not after it, shape (n_points).
     before: Vec<u32>,
 }
 
 impl Parts {
-    /// Every point by itself.
+    /// Sets of single points.
     fn new(n_points: usize) -> Self {
         Self {
             before: (0..n_points as u32).collect(),
         }
     }
 
-    /// The first point of the part of a point.
+    /// First point of the set of a point.
     fn first(&mut self, mut point: u32) -> u32 {
         while self.before[point as usize] != point {
             let next = self.before[point as usize];
@@ -131,7 +130,7 @@ impl Parts {
         point
     }
 
-    /// Makes one part of those of two points.
+    /// Joins the sets of two points.
     fn join(&mut self, points: [u32; 2]) {
         let [one, other] = points.map(|point| self.first(point));
         let [first, last] = [one.min(other), one.max(other)];

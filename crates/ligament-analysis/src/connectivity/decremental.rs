@@ -1,8 +1,8 @@
-//! Which points hang together while bonds break, without a search of the whole body for every bond.
+//! Connected parts while bonds break, without a search of the whole body for every bond.
 //!
-//! The ends of a broken bond nearly always have a common neighbour left. So two breadth-first searches run from them
-//! towards each other, the smaller one first: they meet after a few points, and where they do not, the one that comes to
-//! an end has found the part that came loose, at the cost of that part.
+//! The ends of a broken bond nearly always have a common neighbour. Two breadth-first searches therefore run from them towards each
+//! other, the smaller one first: they meet after a few points, or else the one that ends first has found the detached part, at the
+//! cost of that part.
 
 use ligament_model::Bonds;
 use ligament_model::interface::Topology;
@@ -10,7 +10,7 @@ use ligament_model::interface::Topology;
 use super::{AddedSupport, Fragments, across_ranks};
 use crate::restraints::Restraints;
 
-/// The fragments of a body whose bonds break, numbered as [`Fragments::find`] numbers them.
+/// Fragments of a body whose bonds break, numbered as by [`Fragments::find`].
 #[derive(Debug, Clone)]
 pub struct Connectivity {
     fragments: Fragments,
@@ -24,17 +24,17 @@ pub struct Connectivity {
 struct Search {
     /// Number of the search that reached each point, shape (n_points); [`NEITHER`] everywhere between two broken bonds.
     reached_by: Vec<u8>,
-    /// Points that each search reached, in that order.
+    /// Points that each search reached, in order.
     reached: [Vec<u32>; 2],
-    /// Points that all searches so far reached.
+    /// Number of points reached by all searches so far.
     effort: usize,
 }
 
-/// Mark of a point that no search reached; the searches mark theirs 0 and 1.
+/// Mark of a point that no search reached; the searches mark their points 0 and 1.
 const NEITHER: u8 = 2;
 
 impl Connectivity {
-    /// The body with all its bonds.
+    /// Connectivity of the body with all its bonds.
     pub fn new(system: &dyn Bonds) -> Self {
         let fragments = Fragments::find(system, &vec![true; system.ends().len()]);
         Self {
@@ -48,7 +48,7 @@ impl Connectivity {
         }
     }
 
-    /// The body with the bonds that are intact (n_bonds), where all is held that can be.
+    /// Connectivity of the body with intact bonds (n_bonds), whose fragments are all supported as far as possible.
     pub(crate) fn held(system: &dyn Bonds, intact: &[bool]) -> Self {
         Self {
             fragments: Fragments::find(system, intact),
@@ -57,20 +57,20 @@ impl Connectivity {
         }
     }
 
-    /// The fragments.
+    /// Connected parts of the body.
     pub fn fragments(&self) -> &Fragments {
         &self.fragments
     }
 
-    /// Points that the searches reached so far, both ends of every broken bond among them: what the breakages cost.
+    /// Number of points reached by all searches so far, including both ends of every broken bond: the cost of the breakages.
     pub fn effort(&self) -> usize {
         self.search.effort
     }
 
-    /// Takes bonds out of those that are `intact` (n_bonds), and splits the fragments that they held together.
+    /// Removes broken bonds from the `intact` ones (n_bonds), and splits the fragments that they connected.
     ///
-    /// The bonds go one by one, and the later ones hold until their turn comes: where two of them split a fragment in three, each
-    /// split is seen. Where processes share the body out each takes the bonds that it knows.
+    /// The bonds are removed one by one, and later ones connect until their turn: where two of them split a fragment in three, each
+    /// split is found. On a divided body each process removes its local bonds.
     pub fn bonds_broke(&mut self, system: &dyn Bonds, intact: &mut [bool], bonds: &[u32]) {
         for &bond in bonds {
             intact[bond as usize] = true;
@@ -103,7 +103,7 @@ impl Connectivity {
         }
     }
 
-    /// Finds the fragments anew, and which of them are parts of earlier ones.
+    /// Finds all fragments anew, and marks those that are parts of earlier ones.
     fn find_again(&mut self, system: &dyn Bonds, intact: &[bool]) {
         let found = self.fragments.parted(system, intact);
         let before = std::mem::replace(&mut self.fragments, found);
@@ -115,11 +115,10 @@ impl Connectivity {
         self.changed.extend(parts.map(|points| points[0]));
     }
 
-    /// The degrees of freedom to hold so that no fragment can move rigidly, with the arguments of
-    /// [`Fragments::missing_supports`].
+    /// Degrees of freedom to fix so that no fragment can move rigidly, with the arguments of [`Fragments::missing_supports`].
     ///
-    /// Asked are the fragments whose points changed since the last call, at first all. The others are held as far as they
-    /// can be: their rigid motions depend on their points alone, and what is fixed stays fixed.
+    /// Only fragments whose points changed since the last call are checked, at first all. The others are already supported as far
+    /// as possible: their rigid motions depend on their points alone, and fixed degrees of freedom stay fixed.
     pub fn missing_supports(
         &mut self,
         system: &dyn Bonds,
@@ -138,7 +137,7 @@ impl Connectivity {
 }
 
 impl Search {
-    /// The points that hang together with one of two points, if those no longer hang together with the other.
+    /// Points connected with one of two points, if the two are no longer connected.
     fn detached_part(
         &mut self,
         topology: Topology<'_>,
@@ -157,7 +156,7 @@ impl Search {
         part
     }
 
-    /// The search that came to an end; None if the two met.
+    /// Search that ended; None if the two met.
     fn ended(&mut self, topology: Topology<'_>, intact: &[bool], ends: [u32; 2]) -> Option<usize> {
         for (side, end) in ends.into_iter().enumerate() {
             self.reach(side, end);

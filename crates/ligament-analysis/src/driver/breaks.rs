@@ -1,4 +1,4 @@
-//! What is recorded of bonds that break.
+//! Records of bonds that break.
 
 use ligament_model::communicator::Wire;
 use ligament_model::element::BondDeformation;
@@ -7,25 +7,25 @@ use ligament_model::failure::Criteria;
 use crate::bond_numbers::BondNumbers;
 use crate::history::BreakRecord;
 
-/// Criteria with the deformations that they judge.
+/// Criteria and the deformations to which they apply.
 #[derive(Clone, Copy)]
 pub(super) struct CriteriaAtDeformations<'a> {
     pub(super) criteria: &'a Criteria,
-    /// Deformation of a bond by its place among those that break, and the bond.
+    /// Deformation of a bond, by its index among the breaking bonds and its local number.
     pub(super) deformation: &'a dyn Fn(usize, usize) -> BondDeformation,
 }
 
 /// Bonds that are about to break.
 pub(super) struct Breaking<'a> {
-    /// Ends of all bonds that are known here, shape (n_bonds).
+    /// Ends of all local bonds, shape (n_bonds).
     pub(super) ends: &'a [[u32; 2]],
     pub(super) judged: CriteriaAtDeformations<'a>,
-    /// What the records have in common, with the number of bonds broken before.
+    /// Fields common to all records, with the number of bonds broken before.
     pub(super) moment: BreakRecord,
 }
 
 impl Breaking<'_> {
-    /// The records of bonds that break, by their numbers among all bonds of the body, in their order. Collective.
+    /// Records of breaking bonds, given by global numbers, in their order. Collective.
     pub(super) fn records(&self, numbers: &BondNumbers, bonds: &[u32]) -> Vec<BreakRecord> {
         let owned = |(place, &number): (usize, &u32)| {
             let bond = numbers.local(number).filter(|&it| numbers.owns(it))?;
@@ -37,7 +37,7 @@ impl Breaking<'_> {
         records
     }
 
-    /// The record of a bond with a number, at its place among those that break.
+    /// Record of a bond with a global number, at its index among the breaking bonds.
     fn record(&self, place: usize, bond: usize, number: u32) -> Option<BreakRecord> {
         let deformation = (self.judged.deformation)(place, bond);
         let verdict = self.judged.criteria.breaking(bond, &deformation)?;

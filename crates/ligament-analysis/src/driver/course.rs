@@ -1,4 +1,4 @@
-//! How far a run is: what a checkpoint holds of it beside the state, and the run that is read back from one.
+//! Progress of a run: contents of a checkpoint other than the state, and the run restored from one.
 
 use super::recorder::{Energies, StepCounters};
 use super::start::ElasticAnswer;
@@ -14,25 +14,25 @@ use crate::serial;
 use crate::serial::{Damaged, Serial};
 use crate::state::State;
 
-/// The course of a run up to now.
+/// Progress of a run.
 pub(super) struct Course {
     pub(super) elastic: ElasticAnswer,
     pub(super) broken: usize,
     pub(super) history: Vec<StepRecord>,
     pub(super) peak: f64,
     pub(super) energy_was_negative: bool,
-    /// Solves up to the last equilibrium, and up to the last record.
+    /// Numbers of solves up to the last equilibrium and up to the last record.
     pub(super) solves: [usize; 2],
     pub(super) negative_eigenvalues: usize,
-    /// Factors of the loads at the start of the present part of a programme; empty without one.
+    /// Load factors at the start of the present part of a programme; empty without a programme.
     pub(super) part_start: Vec<f64>,
-    /// Part of the programme; 0 without one.
+    /// Index of the present part of the programme; 0 without a programme.
     pub(super) part: usize,
-    /// Value of what controls the present part at its start, m, rad or J; 0 where nothing does.
+    /// Value of the controlling motion or energy at the start of the present part, m, rad or J; 0 without control.
     pub(super) control_start: f64,
     /// Largest force at a point in any record, N.
     pub(super) largest_force: f64,
-    /// Faces of cracks that passed through each other farthest.
+    /// Largest overlap of crack faces so far.
     pub(super) overlap: Option<LargestOverlap>,
 }
 
@@ -52,7 +52,7 @@ serial!(Course {
 });
 
 impl Course {
-    /// The problem with the loads of the present part of its programme; None where the course is of another one.
+    /// Problem with the loads of the present part of its programme; None where the progress belongs to another programme.
     fn problem(&self, problem: &Problem) -> Option<Problem> {
         let mut problem = problem.clone();
         let Some(first) = problem.loads.course() else {
@@ -67,28 +67,28 @@ impl Course {
     }
 }
 
-/// How far a driver is.
+/// Position of a driver.
 pub(super) enum Place {
-    /// On the way to an event of the exact path.
+    /// Before an event of the exact path.
     Event(ToEvent),
-    /// In a load step.
+    /// Within a load step.
     LoadStep(InLoadStep),
 }
 
-/// The way to an event.
+/// Position before an event.
 pub(super) struct ToEvent {
     /// Number of the event.
     pub(super) step: usize,
-    /// What the displacements grow by with the load factor, shape (n_degrees_of_freedom); empty where they are in proportion to it.
+    /// Rate of the displacements with the load factor, shape (n_degrees_of_freedom); empty where they are proportional to it.
     pub(super) growth: Vec<f64>,
 }
 
 serial!(ToEvent { step, growth });
 
-/// How far a load step is.
+/// Position within a load step.
 pub(super) struct InLoadStep {
     pub(super) counters: StepCounters,
-    /// Load factors of the steps so far, this one the last; the unloaded body is the first.
+    /// Load factors of the steps up to the present one, that of the unloaded body first.
     pub(super) load_factors: Vec<f64>,
 }
 
@@ -120,7 +120,7 @@ impl Serial for Place {
     }
 }
 
-/// A run as it was at a moment, in equilibrium and ready to go on.
+/// A restored run, in equilibrium and ready to continue.
 pub struct Restored {
     pub(super) problem: Problem,
     pub(super) place: Place,
@@ -132,17 +132,17 @@ pub struct Restored {
 }
 
 impl Restored {
-    /// Load factor of the moment.
+    /// Load factor of the restored state.
     pub fn load_factor(&self) -> f64 {
         self.state.load_factor
     }
 
-    /// Bonds broken up to the moment.
+    /// Number of bonds broken up to the restored state.
     pub fn broken_bonds(&self) -> usize {
         self.course.broken
     }
 
-    /// The run that a checkpoint holds.
+    /// Restores the run of a checkpoint.
     pub(super) fn read(
         problem: &Problem,
         energy_tolerance: f64,
@@ -178,7 +178,7 @@ impl Restored {
         Ok(restored)
     }
 
-    /// Whether what stands twice is the same: a record a step, the broken bonds, the solves.
+    /// Whether redundant data agree: the numbers of records, broken bonds and solves.
     fn agrees(&self) -> bool {
         let step = match &self.place {
             Place::Event(it) => it.step,
@@ -201,12 +201,12 @@ impl Restored {
     }
 }
 
-/// What sums over the bonds may differ by, relatively, where another number of processes makes them.
+/// Relative difference of sums over the bonds that is accepted between different numbers of processes.
 const OTHER_SUMS: f64 = 1e-9;
 
-/// Numbers of an equilibrium that hardly any other one has.
+/// Check values of an equilibrium, which hardly agree for another one.
 pub(super) struct CheckValues {
-    /// Processes that share the body out; 0 where one has all of it.
+    /// Number of processes over which the body is divided; 0 where one has all of it.
     n_ranks: usize,
     stored_energy: f64,
     force_scale: f64,
@@ -219,7 +219,7 @@ serial!(CheckValues {
 });
 
 impl CheckValues {
-    /// The numbers of an equilibrium of a problem.
+    /// Check values of an equilibrium of a problem.
     pub(super) fn new(problem: &Problem, balanced: &Balanced) -> Self {
         let subdomain = problem.system.subdomain();
         Self {
@@ -229,7 +229,7 @@ impl CheckValues {
         }
     }
 
-    /// Whether the numbers are the same, to the bit where as many processes have computed them.
+    /// Whether the check values agree, bit for bit where the number of processes is equal.
     fn agrees(&self, then: &Self) -> bool {
         let numbers = |it: &Self| [it.stored_energy, it.force_scale];
         let mut both = numbers(self).into_iter().zip(numbers(then));

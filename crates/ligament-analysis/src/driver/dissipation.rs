@@ -1,4 +1,4 @@
-//! What the laws of the bonds take for good.
+//! Energy dissipated by the constitutive laws of the bonds.
 
 use ligament_model::element::StiffnessFactors;
 
@@ -6,7 +6,7 @@ use crate::history::BreakRecord;
 use crate::problem::Problem;
 use crate::state::State;
 
-/// Brings the bonds that soften up to date with their extremes.
+/// Updates the dissipated energy of softening bonds to their extreme deformations.
 pub(super) fn soften(problem: &Problem, state: &mut State) {
     if state.softening.remaining.is_empty() {
         return;
@@ -18,10 +18,10 @@ pub(super) fn soften(problem: &Problem, state: &mut State) {
     }
 }
 
-/// Adds what a bond that breaks takes with it, and notes by which criterion it broke.
+/// Adds the energy dissipated by a bond that breaks, and records the criterion by which it broke.
 ///
-/// A brittle bond takes what it stored when it reached its limit: its energy now over the square of its utilisation. One that
-/// softened takes the whole area under its law.
+/// A brittle bond dissipates the energy that it stored at its limit: its present energy over the square of its utilisation. A
+/// softening bond dissipates the whole area under its law.
 pub(super) fn break_bond(problem: &Problem, state: &mut State, bond: usize, record: &BreakRecord) {
     let criterion = record.criterion;
     let after = &problem.criteria.list[criterion].after;
@@ -37,7 +37,7 @@ pub(super) fn break_bond(problem: &Problem, state: &mut State, bond: usize, reco
     state.broken_by[bond] = u8::try_from(criterion).ok();
 }
 
-/// Energy that the criteria that soften took from a bond; from the criterion whose `end` it reached, all of it.
+/// Energy that a bond dissipated by softening criteria; the total energy of the criterion `end`, whose end it reached.
 fn by_softening(problem: &Problem, state: &State, bond: usize, end: Option<usize>) -> f64 {
     let of = |criterion: usize| {
         let law = &problem.criteria.list[criterion];
@@ -47,7 +47,7 @@ fn by_softening(problem: &Problem, state: &State, bond: usize, end: Option<usize
             let softened = state.softening.bond(&problem.criteria, criterion, bond);
             softened.dissipated
         };
-        // A bond that never fails takes nothing, however far its limit is.
+        // A bond that never fails dissipates nothing, however large its limit.
         if taken == 0.0 {
             0.0
         } else {

@@ -1,4 +1,4 @@
-//! Linear elastic answer: one solve at load factor one, or one at the end of each part of a programme.
+//! Linear elastic driver: one solve at load factor one, or one at the end of each part of a programme.
 
 use super::outcome::{Outcome, Rows};
 use super::path::Path;
@@ -10,8 +10,8 @@ use crate::error::SetupError;
 use crate::history::{Observer, Termination};
 use crate::problem::Problem;
 
-/// Solves the problem at load factor one, or at the end of each part of its programme; no bond breaks. The history has the unloaded
-/// body as step 0.
+/// Solves the problem at load factor one, or at the end of each part of its programme, without breakage. The history has the
+/// unloaded body as step 0.
 pub fn run(
     problem: &Problem,
     energy_tolerance: f64,
@@ -21,7 +21,7 @@ pub fn run(
     let nothing = Breakage::default();
     let mut termination = Termination::StepsDone;
     let ends = ends(problem);
-    // An iteration begins at what it has found already; a factor finds it again to the bit.
+    // An iterative solver starts from the known solution; a direct one recomputes it bit for bit.
     let iterates = path.equilibrium.choice().iterates();
     let found = at_one.filter(|_| iterates && problem.loads.course().is_none());
     for (step, &(part, load_factor)) in ends.iter().enumerate() {
@@ -49,7 +49,7 @@ pub fn run(
     Ok(path.into_outcome(termination, Rows::LoadSteps))
 }
 
-/// The part of a programme and the load factor of each solution, the unloaded body first.
+/// Part of a programme and load factor of each solution, the unloaded body first.
 fn ends(problem: &Problem) -> Vec<(usize, f64)> {
     let ends: Vec<(usize, f64)> = match problem.loads.course() {
         None => vec![(0, 1.0)],

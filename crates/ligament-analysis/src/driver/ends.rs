@@ -1,4 +1,4 @@
-//! What ends a run on its way: rules, and a body that carries no load any more.
+//! Ends of a run before its last load: stop rules, and a body that carries no load any more.
 
 use super::path::Path;
 use crate::balanced::Balanced;
@@ -6,11 +6,11 @@ use crate::history::{Notice, ObserverError, Termination};
 use crate::load_program::{ControlKind, LoadCourse};
 use crate::unbalanced::Unbalanced;
 
-/// Below this fraction of the peak a body carries no load any more: what is left is rounding.
+/// Fraction of the peak load below which a body carries no load, only rounding.
 pub(super) const NO_LOAD: f64 = 1e-9;
 
 impl Path<'_> {
-    /// Whether the load of an equilibrium is rounding against the largest so far.
+    /// Whether the load of an equilibrium is rounding relative to the largest load so far.
     pub(super) fn carries_nothing(&self, balanced: &Balanced) -> bool {
         if let Some(loads) = self.problem.loads.course() {
             return self.carries_no_programme_load(loads, balanced);
@@ -19,8 +19,8 @@ impl Path<'_> {
         reaction <= NO_LOAD * self.largest_load()
     }
 
-    /// The largest load so far, N. A body whose first load step breaks it was at rest under none: then the load counts that it would carry
-    /// whole, where a motion gives it.
+    /// Largest load so far, N. For a body that breaks in its first load step, under a prescribed motion, the load of the intact
+    /// body at that motion.
     fn largest_load(&self) -> f64 {
         let (loads, peak) = (&self.problem.loads, self.course.peak);
         if loads.control().kind == ControlKind::Force {
@@ -31,10 +31,10 @@ impl Path<'_> {
         if peak <= NO_LOAD * whole { whole } else { peak }
     }
 
-    /// The rule that ends the run wherever it is, if one does.
+    /// Stop rule for broken bonds or wall time that applies at present.
     pub(super) fn interruption(&self) -> Option<Termination> {
         let mut seconds = [self.started.elapsed().as_secs_f64()];
-        // All processes stop at the same time, or none does.
+        // All processes stop at the same time.
         if self.stop.wall_time.is_some() {
             let communicator = &self.problem.solver.communicator;
             communicator.all_reduce_max(&mut seconds);
@@ -47,8 +47,8 @@ impl Path<'_> {
         (self.stop.wall_time.filter(is_over)).map(|seconds| Termination::WallTime { seconds })
     }
 
-    /// The end of a run in a step without equilibrium: where bonds broke, or softened, holds that would have to carry a load tell
-    /// that the body collapsed under it.
+    /// Termination by a step without equilibrium: where bonds broke or softened, a load on an added support means that the body
+    /// collapsed.
     pub(super) fn without_equilibrium(&self, step: usize, reason: Unbalanced) -> Termination {
         match reason {
             Unbalanced::LoadOnAddedSupport { place, force } if !self.is_whole() => {
@@ -58,7 +58,7 @@ impl Path<'_> {
         }
     }
 
-    /// What ends the run with an equilibrium that is at rest, however far the body is loaded.
+    /// Termination by an equilibrium without further breakage, at any load: displacement reached, or body fell apart.
     pub(super) fn end_at_rest(&self, balanced: &Balanced) -> Option<Termination> {
         let (displacement, _) = self.control(balanced);
         if let Some(displacement) = self
@@ -69,7 +69,7 @@ impl Path<'_> {
             return Some(Termination::DisplacementReached { displacement });
         }
         let carried = self.load_of_damaged_body(balanced)?;
-        // What fell apart carries again where its faces close.
+        // Separated parts may carry load again where their faces close.
         let is_over = !self.problem.system.faces_close();
         let carries_nothing = match self.problem.loads.course() {
             None => carried <= NO_LOAD * self.largest_load(),
@@ -78,11 +78,11 @@ impl Path<'_> {
         (is_over && carries_nothing).then_some(Termination::FellApart)
     }
 
-    /// Whether no point of a body carries anything of the loads of a programme that act on it.
+    /// Whether no point of a body carries the loads of a programme that act on it.
     fn carries_no_programme_load(&self, course: &LoadCourse, balanced: &Balanced) -> bool {
         let factors = course.factors(self.state.load_factor);
         let acts = factors.iter().any(|factor| *factor != 0.0);
-        // As with one load: what its first load step breaks was at rest under nothing.
+        // Where the first load step breaks the body, the largest force in any state counts instead of that at rest.
         let (at_rest, met) = (self.course.largest_force, self.equilibrium.largest_force());
         let largest = if at_rest <= NO_LOAD * met {
             met
@@ -92,7 +92,7 @@ impl Path<'_> {
         acts && balanced.internal.force_scale <= NO_LOAD * largest
     }
 
-    /// The end of a run whose body carries only a fraction of the largest load so far, in an equilibrium at rest in which it
+    /// Termination by a load below the stop fraction of the largest load so far, in an equilibrium without further breakage that
     /// could carry more.
     pub(super) fn end_by_load_fraction(&self, balanced: &Balanced) -> Option<Termination> {
         let carried = self.load_of_damaged_body(balanced)?;
@@ -101,21 +101,22 @@ impl Path<'_> {
         Some(Termination::LoadFraction { fraction })
     }
 
-    /// The load in an equilibrium, in its own direction, of a body of which bonds broke or softened, N.
+    /// Load of an equilibrium in its own direction, N; None for a body without broken or softened bonds.
     fn load_of_damaged_body(&self, balanced: &Balanced) -> Option<f64> {
-        // Bonds that soften take load away before any breaks.
+        // Softening reduces the load before any bond breaks.
         if self.course.broken == 0
             && (self.state.softening.remaining.is_empty() || self.course.peak == 0.0)
         {
             return None;
         }
-        // A load the other way is carried the other way.
+        // A negative load has a negative reaction.
         let (_, reaction) = self.control(balanced);
         let factor = self.problem.loads.control_factor(self.state.load_factor);
         Some(if factor < 0.0 { -reaction } else { reaction })
     }
 
-    /// Tells of a way on where a force has passed what a body of which bonds broke or softened carries: a larger one has no equilibrium.
+    /// Notifies the observer where a force exceeded the peak load of a body with broken or softened bonds, beyond which there is no
+    /// equilibrium.
     pub(super) fn report_past_peak(&mut self, end: &Termination) -> Result<(), ObserverError> {
         let is_force = self.problem.loads.control().kind == ControlKind::Force;
         let gave_way = matches!(

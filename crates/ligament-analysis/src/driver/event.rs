@@ -1,10 +1,10 @@
-//! The exact equilibrium path, from breakage to breakage.
+//! Exact equilibrium path from breakage to breakage.
 //!
-//! Between two breakages the body is linear, and where the next bond reaches its limit is known in closed form: in proportion to
-//! the load factor (`proportional`), or along the line A + w B of a part of a programme (`affine`). It breaks there, the load
-//! held; the new equilibrium is in general no longer admissible at this load (or admissible beyond it), and the path
-//! goes on along its line to the next critical load factor, which may be lower. So the path snaps back as it must, and
-//! there is no step size. A stepped test in displacement follows its envelope, [`super::Outcome::envelope`].
+//! Between two breakages the body is linear, and the load factor at which the next bond reaches its limit is known in closed form:
+//! in proportion to the load factor (`proportional`), or along the line A + w B of a part of a programme (`affine`). The bond
+//! breaks at fixed load; the new equilibrium is in general not admissible at this load (or admissible beyond it), and the path
+//! continues along its line to the next critical load factor, which may be lower. The path thus includes snap-back without a step
+//! size. A test under displacement control follows its envelope, [`super::Outcome::envelope`].
 
 mod affine;
 mod passing;
@@ -32,21 +32,21 @@ use crate::state::State;
 use passing::Passed;
 use way::{EquilibriumLine, Goal};
 
-/// Settings of the exact path: how it is followed, and when to stop. The path ends at load factor one in any case, or with the last stage.
+/// Settings of the exact path, with its stop rules. The path ends at load factor one in any case, or with the last stage.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EventSettings {
-    /// Bonds whose s/s_0 is within this relative distance of the largest break together with it.
+    /// Relative distance in s/s_0 from the largest within which bonds break together.
     pub tie_tolerance: f64,
     /// Relative change of the energy that ends Newton-Raphson (NHPD eq. 21).
     pub energy_tolerance: f64,
-    /// When to stop before load factor one.
+    /// Rules for a stop before load factor one.
     pub stop: StopRules,
 }
 
 /// Follows the path; the criteria of the problem must be brittle.
 ///
-/// The history has the unloaded body, then a record an event: the state in which its bonds break, just before they do. The
-/// last record breaks none: it is where the run ended.
+/// The history contains the unloaded body, then a record for each event: the state in which its bonds break, just before breakage.
+/// The last record is the end of the run, without breakage.
 pub fn run(
     problem: &Problem,
     settings: &EventSettings,
@@ -66,7 +66,7 @@ pub fn run(
         ..Default::default()
     };
     path.record(&unloaded, counters, false)?;
-    // Where there is no equilibrium at load factor one, the first event finds it out again and says why.
+    // A missing equilibrium at load factor one is reported by the first event, with its reason.
     match at_one.filter(|_| !is_staged) {
         Some(at_one) => path.state = at_one,
         None if is_staged => {}
@@ -77,11 +77,11 @@ pub fn run(
     Ok(following.path.into_outcome(termination, Rows::Events))
 }
 
-/// What the path comes to first.
+/// Predicts the first failure on the path.
 ///
 /// # Errors
 ///
-/// If the path cannot be followed, as of [`run`].
+/// If the path cannot be followed, as in [`run`].
 pub fn predict(
     problem: &Problem,
     settings: &EventSettings,
@@ -91,11 +91,11 @@ pub fn predict(
     prediction::predict(path, at_one, None)
 }
 
-/// Refuses what is no path of straight lines, or none at all.
+/// Refuses problems whose path is not made of straight lines.
 ///
 /// # Errors
 ///
-/// If bonds soften; in stages if faces of cracks close, or a criterion has no closed form along a line.
+/// If bonds soften; in stages, also if crack faces close or a criterion has no closed form along a line.
 pub fn refuse(problem: &Problem) -> Result<(), SetupError> {
     if problem.criteria.soften() {
         return Err(SetupError::Softening);
@@ -113,7 +113,7 @@ pub fn refuse(problem: &Problem) -> Result<(), SetupError> {
     }
 }
 
-/// The run before its first event, and its equilibrium at load factor one, if there is one.
+/// Run before its first event, and its equilibrium at load factor one, if there is one.
 fn begin<'a>(
     problem: &'a Problem,
     settings: &EventSettings,
@@ -125,11 +125,11 @@ fn begin<'a>(
     Ok((path, at_one))
 }
 
-/// The run of a checkpoint, ready to go on.
+/// Restores a run from a checkpoint.
 ///
 /// # Errors
 ///
-/// If the checkpoint is damaged, or of another problem or driver.
+/// If the checkpoint is damaged, or belongs to another problem or driver.
 pub fn restore(
     problem: &Problem,
     settings: &EventSettings,
@@ -142,11 +142,11 @@ pub fn restore(
     }
 }
 
-/// Goes on with a run as if it had never stopped; the stop rules may be others than before.
+/// Continues a run as if it had never stopped; the stop rules may differ from those before.
 ///
 /// # Errors
 ///
-/// If the run is of another driver, or an observer fails.
+/// If the run belongs to another driver, or an observer fails.
 pub fn resume(
     settings: &EventSettings,
     mut restored: Restored,
@@ -162,16 +162,16 @@ pub fn resume(
     Ok(following.path.into_outcome(termination, Rows::Events))
 }
 
-/// The run on its way.
+/// Run along the exact path.
 struct Following<'a> {
     path: Path<'a>,
     way: Box<dyn EquilibriumLine>,
     tie_tolerance: f64,
-    /// Parts of the body that may be left behind; made when events may first be passed over.
+    /// Parts of the body whose displacements may be updated later; built when events may first be skipped.
     body: OnceCell<Option<Rc<Body>>>,
 }
 
-/// What the way along a line changes, as it was before.
+/// State before a move along a line.
 struct Before {
     load_factor: f64,
     displacement: Vec<f64>,
@@ -187,7 +187,7 @@ impl Before {
         }
     }
 
-    /// Exchanges it for what it is now.
+    /// Exchanges the stored state and the present one.
     fn swap(&mut self, path: &mut Path<'_>) {
         mem::swap(&mut self.load_factor, &mut path.state.load_factor);
         mem::swap(&mut self.displacement, &mut path.state.displacement);
@@ -212,7 +212,7 @@ impl<'a> Following<'a> {
         }
     }
 
-    /// Follows the path from an equilibrium of the whole body to the end of the run.
+    /// Follows the path from an equilibrium of the intact body to the end of the run.
     fn follow(&mut self) -> Result<Termination, SetupError> {
         let step = 1;
         self.path.enter(step, 0)?;
@@ -274,7 +274,7 @@ impl<'a> Following<'a> {
         }
     }
 
-    /// Parts of the body that may be left behind in a step; None where the step is to be seen whole.
+    /// Parts of the body whose displacements may be updated later in a step; None where the step needs the whole body.
     fn body(&self, step: usize) -> Option<Rc<Body>> {
         if !passing::may_pass(&self.path, step) {
             return None;
@@ -287,8 +287,8 @@ impl<'a> Following<'a> {
         body.filter(|body| passing::may_wait(&self.path, body))
     }
 
-    /// Follows the line of an equilibrium to its next event, and breaks the bonds there; gives the critical equilibrium and the breakage, or
-    /// the end of the run.
+    /// Follows the line of an equilibrium to its next event and breaks the bonds there; returns the critical equilibrium and the
+    /// breakage, or the end of the run.
     fn follow_line(
         &mut self,
         step: &mut usize,
@@ -325,7 +325,7 @@ impl<'a> Following<'a> {
         }
     }
 
-    /// Records the state at the end of the way along a line.
+    /// Records the state at the end of a line.
     fn record(
         &mut self,
         step: usize,
@@ -346,7 +346,7 @@ impl<'a> Following<'a> {
         self.path.record(critical, counters, is_last)
     }
 
-    /// Offers the moment before the way along a line, when it is known whether the run ends there.
+    /// Offers the state before the move along a line to the observer, once it is known whether the run ends there.
     fn offer(
         &mut self,
         mut before: Before,

@@ -1,4 +1,4 @@
-//! Drivers: one file for each way to follow a loading.
+//! Drivers, one file for each way to follow a load program.
 
 mod breaks;
 mod course;

@@ -1,4 +1,4 @@
-//! How a run went, and what its force-displacement curve tells.
+//! Result of a run, and evaluation of its force-displacement curve.
 
 use crate::balanced::Stability;
 use crate::costs::Costs;
@@ -7,39 +7,39 @@ use crate::serial;
 use crate::solver::SolverChoice;
 use crate::state::State;
 
-/// How a run went.
+/// Result of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
     /// Records of all load steps, or of all events.
     pub history: Vec<StepRecord>,
-    /// What the records are.
+    /// Kind of the records.
     pub rows: Rows,
-    /// The last state; where processes share the body out, with the bonds that this one knows.
+    /// Last state; on a divided body, with the local bonds of this process.
     pub state: State,
-    /// Broken bonds.
+    /// Number of broken bonds.
     pub broken_bonds: usize,
-    /// Unbroken bonds whose force has begun to fall beyond a limit.
+    /// Number of unbroken bonds that have begun to soften.
     pub softened_bonds: usize,
-    /// The reason why the run ended.
+    /// Reason why the run ended.
     pub termination: Termination,
     /// Force over displacement of the control load before the first breakage, N/m.
     pub elastic_stiffness: f64,
-    /// Where the first bond breaks, if the loading gets there.
+    /// Point at which the first bond breaks, if the loading reaches it.
     pub first_break: Option<LoadPoint>,
-    /// Faces of cracks that passed through each other farthest, if they did so farther than results bear.
+    /// Largest overlap of crack faces, if it exceeds the limit for valid results.
     pub overlap: Option<LargestOverlap>,
     /// Inertia of the intact stiffness, where it may be indefinite.
     pub stability: Option<Stability>,
-    /// What the equations cost.
+    /// Costs of the equations.
     pub costs: Costs,
-    /// How the equations were solved.
+    /// Solver of the equations.
     pub solver: SolverChoice,
 }
 
-/// What the records of a history are.
+/// Kind of the records of a history.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rows {
-    /// States at rest under rising loads.
+    /// Equilibrium states at the ends of load steps.
     LoadSteps,
     /// States of the exact path, each just before its bonds break.
     Events,
@@ -63,7 +63,8 @@ serial!(LoadPoint {
 });
 
 impl Outcome {
-    /// Whether no state under load is at rest: there is nothing but the unloaded body. A run that was stopped may still find one.
+    /// Whether the run ended without any equilibrium of the loaded body; false for a run that was stopped, which may still reach
+    /// one.
     pub fn is_without_equilibrium(&self) -> bool {
         let is_answer = |step: &StepRecord| step.at_rest && step.step > 0;
         let ended_so = matches!(
@@ -76,7 +77,7 @@ impl Outcome {
         ended_so && !self.history.iter().any(is_answer)
     }
 
-    /// The record at rest with the largest reaction.
+    /// Record at rest with the largest reaction.
     pub fn peak(&self) -> Option<LoadPoint> {
         let at_rest = self.history.iter().filter(|step| step.at_rest);
         let largest = at_rest.reduce(|best, step| {
@@ -89,11 +90,11 @@ impl Outcome {
         largest.map(LoadPoint::from)
     }
 
-    /// The curve that a test with a displacement that only rises shows: the load steps at rest, or of the exact path what
-    /// lies beyond all displacements before it.
+    /// Curve of a test with increasing displacement: the load steps at rest, or the points of the exact path beyond all
+    /// displacements before them.
     ///
-    /// Where the exact path comes back from a snap-back, the curve falls at the largest displacement so far, onto the line
-    /// through the origin that leads to the next event; in stages, whose lines lead elsewhere, the next event follows as it is.
+    /// Where the exact path returns from a snap-back, the curve drops at the largest displacement so far onto the line through the
+    /// origin to the next event; in stages, whose lines do not pass through the origin, the next event follows directly.
     pub fn envelope(&self) -> Vec<LoadPoint> {
         let at_rest = self.history.iter().filter(|step| step.at_rest);
         let is_proportional = self.history.iter().all(|step| step.factors.is_empty());
@@ -115,16 +116,16 @@ impl Outcome {
         curve
     }
 
-    /// The point of the [envelope](Self::envelope) with the largest reaction before the reaction first fell by more than
-    /// `drop` of it.
+    /// Point of the [envelope](Self::envelope) with the largest reaction before the reaction first fell by more than the fraction
+    /// `drop`.
     ///
-    /// A body that is split may carry more load again, as the halves of a disk between platens do; this is the strength
-    /// of the whole body. It is the peak where the load never falls so far.
+    /// A body that is split may carry more load again, as the halves of a disk between platens do; this point is the strength of
+    /// the whole body. It is the peak where the load never falls that far.
     pub fn first_peak(&self, drop: f64) -> Option<LoadPoint> {
         let mut best: Option<LoadPoint> = None;
         for point in self.envelope() {
             match best {
-                // A load that another one presses the other way first has not risen yet.
+                // A negative reaction, due to another load, is no peak.
                 Some(peak)
                     if peak.reaction > 0.0 && point.reaction < (1.0 - drop) * peak.reaction =>
                 {
@@ -139,7 +140,7 @@ impl Outcome {
 }
 
 impl LoadPoint {
-    /// The point on the same line through the origin.
+    /// Point on the line through the origin, scaled by a factor.
     fn scaled(self, factor: f64) -> Self {
         Self {
             displacement: factor * self.displacement,

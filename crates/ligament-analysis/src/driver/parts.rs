@@ -1,4 +1,4 @@
-//! A run on its way through the parts of a programme.
+//! Transitions of a run between the parts of a programme.
 
 use super::path::Path;
 use crate::bond_numbers::sum_over_bonds;
@@ -7,7 +7,7 @@ use crate::history::StepRecord;
 use crate::load_program::{LoadCourse, PartControl};
 
 impl Path<'_> {
-    /// Goes over to the part of this index of a programme, which begins where the present one ends.
+    /// Begins the part of this index of a programme at the end of the present part.
     pub(super) fn begin_part(&mut self, part: usize) {
         let Some(here) = self.problem.loads.course().filter(|it| it.part != part) else {
             return;
@@ -31,8 +31,8 @@ impl Path<'_> {
         self.equilibrium.load_with(loads);
     }
 
-    /// Seeks equilibrium from here on after a share of the present part: of the way of what controls it, or else at the load factor of
-    /// the state.
+    /// Prescribes the state of the following equilibria at a share of the present part: by its controlling motion or energy, or
+    /// else by the load factor of the state.
     pub(super) fn aim(&mut self, share: f64) {
         let loads = &self.problem.loads;
         let control = (loads.course()).and_then(|it| Some((it, it.control()?)));
@@ -67,19 +67,19 @@ impl Path<'_> {
         self.equilibrium.aim(held);
     }
 
-    /// Energy that the bonds have taken for good, J.
+    /// Energy dissipated by the bonds, J.
     pub(super) fn dissipated_energy(&self) -> f64 {
         let dissipated = self.state.dissipated.iter().copied();
         sum_over_bonds(&*self.problem.system, dissipated)
     }
 
-    /// Whether something else than the load factor controls the present part.
+    /// Whether a motion or energy controls the present part instead of the load factor.
     pub(super) fn is_controlled(&self) -> bool {
         let course = self.problem.loads.course();
         course.and_then(LoadCourse::control).is_some()
     }
 
-    /// Factor of the control load in a record.
+    /// Load factor of the control load in a record.
     pub(super) fn control_factor(&self, record: &StepRecord) -> f64 {
         match self.problem.loads.course() {
             Some(loads) => record.factors[loads.programme.control],

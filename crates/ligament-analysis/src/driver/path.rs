@@ -1,7 +1,6 @@
-//! A run on its way: what the drivers that break bonds share.
+//! State of a run, as all drivers that break bonds use it.
 //!
-//! Equilibria with their energies, the breaking of bonds and the holding of what comes loose, records, and the rules
-//! that end a run.
+//! It computes equilibria with their energies, breaks bonds, fixes detached parts, makes records and applies stop rules.
 
 use std::borrow::Cow;
 use std::time::Instant;
@@ -34,23 +33,23 @@ use crate::softening::Softening;
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
 
-/// A run on its way.
+/// State of a run.
 pub(super) struct Path<'a> {
-    /// The problem, with the loads of the present part of its programme.
+    /// Problem with the loads of the present part of its programme.
     pub(super) problem: Problem,
     pub(super) observer: &'a mut dyn Observer,
     pub(super) equilibrium: Equilibrium,
     pub(super) state: State,
     pub(super) energies: Energies,
     pub(super) course: Course,
-    /// Whether a given force acts on a part that nothing holds any more.
+    /// Whether a given force acts on a detached part.
     pub(super) collapsed: bool,
     pub(super) stop: StopRules,
     pub(super) started: Instant,
 }
 
 impl<'a> Path<'a> {
-    /// Begins with the unloaded body; also gives the equilibrium at load factor one, if there is one.
+    /// Begins with the unloaded body; also returns the equilibrium at load factor one, if there is one.
     pub(super) fn begin(
         problem: &'a Problem,
         energy_tolerance: f64,
@@ -94,9 +93,9 @@ impl<'a> Path<'a> {
         Ok((path, at_one))
     }
 
-    /// Refuses loads that deform nothing; `at_one` is the equilibrium at load factor one, if there is one.
+    /// Refuses loads that cause no deformation; `at_one` is the equilibrium at load factor one, if there is one.
     pub(super) fn require_resistance(&self, at_one: Option<&State>) -> Result<(), SetupError> {
-        // Parts that the full load pulls off each other may be pressed by a part of it.
+        // Parts that the full load separates may be pressed together by a smaller load.
         let may_press = self.problem.system.faces_close();
         if at_one.is_some() && self.course.elastic.stiffness.is_nan() && !may_press {
             return Err(SetupError::NothingResists);
@@ -104,7 +103,7 @@ impl<'a> Path<'a> {
         Ok(())
     }
 
-    /// Goes on from a checkpoint; also gives the equilibrium there.
+    /// Continues from a checkpoint; also returns its equilibrium.
     pub(super) fn go_on(
         stop: StopRules,
         restored: Restored,
@@ -124,22 +123,22 @@ impl<'a> Path<'a> {
         (path, restored.balanced)
     }
 
-    /// Lets the bonds soften from here on, if those of the criteria do.
+    /// Enables softening from here on, if the criteria soften.
     pub(super) fn soften(&mut self) {
         let n_bonds = self.problem.system.ends().len();
         self.state.softening = Softening::of_sound_bonds(&self.problem.criteria, n_bonds);
         self.equilibrium.soften();
     }
 
-    /// Tells the observer what comes next.
+    /// Notifies the observer of the next step and round.
     pub(super) fn enter(&mut self, step: usize, round: usize) -> Result<(), ObserverError> {
         let load_factor = self.state.load_factor;
         self.observer
             .round(step, round, load_factor, self.course.broken)
     }
 
-    /// Equilibrium of the state after the last breakage; a negative energy is none unless the case says to go on. Without an
-    /// equilibrium the displacements stay as they were.
+    /// Equilibrium of the state after the last breakage; a negative energy is no equilibrium if the stop rules refuse it. Without
+    /// an equilibrium the state stays unchanged.
     pub(super) fn balance(
         &mut self,
         step: usize,
@@ -184,8 +183,8 @@ impl<'a> Path<'a> {
         self.course.broken == 0 && self.state.softening.remaining.is_empty()
     }
 
-    /// Offers the present moment, an equilibrium that is accounted for, to the observer. Gives the reason why the run ends
-    /// there: the given one, or that the observer stops it.
+    /// Offers the present equilibrium, whose energies are counted, to the observer. Returns the reason why the run ends there:
+    /// `end`, or a stop by the observer.
     pub(super) fn offer(
         &mut self,
         place: &dyn Fn() -> Place,
@@ -213,7 +212,7 @@ impl<'a> Path<'a> {
             CheckValues::new(problem, balanced).write(&mut out);
             out
         };
-        // Where the body is divided all processes make it, and the one that asked has it.
+        // On a divided body all processes take part in the checkpoint, and those that need it receive it.
         let is_divided = !numbers.subdomain().is_whole();
         let is_made = is_divided && numbers.subdomain().any(asked);
         let made = is_made.then(checkpoint);
@@ -226,7 +225,7 @@ impl<'a> Path<'a> {
         Ok(end.or_else(|| (onward == Onward::Stop).then_some(Termination::Stopped)))
     }
 
-    /// Adds up work and released energy, and reports mechanisms.
+    /// Adds work and released energy, and reports mechanisms.
     pub(super) fn account(
         &mut self,
         step: usize,
@@ -242,7 +241,7 @@ impl<'a> Path<'a> {
         Ok(())
     }
 
-    /// The bonds that proportional loading breaks first at deformations (n_bonds).
+    /// Bonds that break first under proportional loading, at deformations (n_bonds).
     pub(super) fn first_to_break(
         &self,
         tie_tolerance: f64,
@@ -261,7 +260,7 @@ impl<'a> Path<'a> {
         )
     }
 
-    /// Breaks bonds of an equilibrium and holds what came loose.
+    /// Breaks bonds of an equilibrium and fixes detached parts.
     pub(super) fn break_bonds(
         &mut self,
         bonds: &[u32],
@@ -278,8 +277,8 @@ impl<'a> Path<'a> {
         self.break_deformed(bonds, judged, balanced, step, round)
     }
 
-    /// Breaks bonds by criteria, with their deformations by place and bond, in an equilibrium of which no more is asked than forces of the
-    /// control load, in a step and a round; and holds what came loose.
+    /// Breaks bonds by criteria and their deformations, in an equilibrium of which only the forces of the control load are used,
+    /// and fixes detached parts.
     pub(super) fn break_deformed(
         &mut self,
         bonds: &[u32],
@@ -317,7 +316,7 @@ impl<'a> Path<'a> {
             }
         }
         let breakage = self.equilibrium.break_bonds(&mut self.state, bonds);
-        // Where faces close, a part that came loose may be pressed on, and the equilibrium tells.
+        // Where faces close, a detached part may be pressed against others, which the equilibrium decides.
         let may_press = self.problem.system.faces_close();
         self.collapsed |= !may_press && self.loaded_part_is_detached(&breakage.holds);
         let fragments = self.equilibrium.fragments();
@@ -325,7 +324,7 @@ impl<'a> Path<'a> {
         Ok(breakage)
     }
 
-    /// The criteria with the limits of the bonds that are left in an equilibrium.
+    /// Criteria with the limits of the intact bonds in an equilibrium.
     pub(super) fn criteria(&self, balanced: &Balanced) -> Cow<'_, Criteria> {
         let criteria = &self.problem.criteria;
         criteria.in_state(&self.state.intact, &balanced.deformations)
@@ -369,7 +368,7 @@ impl<'a> Path<'a> {
         self.keep(record)
     }
 
-    /// Records an equilibrium that is known at supported and loaded points alone.
+    /// Records an equilibrium that is known only at supported and loaded points.
     pub(super) fn record_in_passing(
         &mut self,
         balanced: &Balanced,
@@ -379,7 +378,7 @@ impl<'a> Path<'a> {
         self.keep(record)
     }
 
-    /// The record of an equilibrium, shown to the observer.
+    /// Record of an equilibrium, passed to the observer.
     fn show(
         &mut self,
         balanced: &Balanced,
@@ -421,7 +420,7 @@ impl<'a> Path<'a> {
         Ok(record)
     }
 
-    /// Keeps a record, with what its energies give reason to tell.
+    /// Adds a record to the history, with notices about its energies.
     fn keep(&mut self, record: StepRecord) -> Result<(), SetupError> {
         let history = &mut self.course.history;
         if let Some(notice) = remarks::energies(&self.problem, &record, history.last()) {
@@ -434,13 +433,13 @@ impl<'a> Path<'a> {
         Ok(())
     }
 
-    /// What has softened in the present state. Collective.
+    /// Numbers of softened bonds in the present state. Collective.
     fn softened(&self) -> SoftenedOfAll {
         let ends = self.problem.system.ends();
         SoftenedOfAll::in_state(&self.state, self.equilibrium.numbers(), ends)
     }
 
-    /// What the run was.
+    /// Result of the run.
     pub(super) fn into_outcome(mut self, termination: Termination, rows: Rows) -> Outcome {
         let n_components = self.problem.system.layout().components.len();
         let subdomain = self.problem.system.subdomain();

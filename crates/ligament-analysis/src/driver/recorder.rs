@@ -1,4 +1,4 @@
-//! Bookkeeping that every driver shares: energies and records.
+//! Energies and records, as all drivers use them.
 
 use ligament_model::deformation::Deformations;
 use ligament_model::element::StiffnessFactors;
@@ -18,30 +18,30 @@ use crate::serial;
 use crate::serial::Serial;
 use crate::state::State;
 
-/// Share of the largest work of a run below which its work counts as given back: that of a hundredth of the load.
+/// Share of the largest work of a run below which the work counts as returned: the work of a hundredth of the load.
 const UNLOADED: f64 = 1e-4;
 
 /// Energies along the path.
 ///
-/// Between two states of equilibrium with the same bonds everything is linear, so the trapezoidal rule gives the work
-/// of supports and loads exactly; a breakage at fixed load releases 1/2 u^T K_b u' for each broken bond, with u before
-/// and u' after it. A bond whose secant falls from omega to omega' releases the same with (omega - omega') K_b: with the
-/// trapezoidal rule that leaves nothing over, whatever the step.
+/// Between two equilibria with the same bonds everything is linear, so that the trapezoidal rule gives the work of supports and
+/// loads exactly; a breakage at fixed load releases 1/2 u^T K_b u' for each broken bond, with u before and u' after it. A bond
+/// whose secant falls from omega to omega' releases the same with (omega - omega') K_b; with the trapezoidal rule the energies then
+/// balance for any step.
 #[derive(Debug, Clone)]
 pub(super) struct Energies {
     pub(super) external_work: f64,
     pub(super) released: f64,
     /// Largest external work so far.
     largest_work: f64,
-    /// Degrees of freedom that something moves or loads.
+    /// Degrees of freedom that are prescribed or loaded.
     loaded: Vec<u32>,
     /// Forces and displacements of the loaded degrees of freedom in the last state.
     last_loaded: Vec<Loaded>,
-    /// Factor of the temperature and [`InternalForces::thermal`] in the last state.
+    /// Temperature factor and [`InternalForces::thermal`] in the last state.
     thermal: (f64, f64),
-    /// Deformations in the last state, and what was left of the bonds; empty where no bond softens.
+    /// Deformations and remaining stiffness of the bonds in the last state; empty where no bond softens.
     last: (Deformations, Vec<StiffnessFactors>),
-    /// Pairs across cracks that were closed in the last state; none where faces do not close.
+    /// Closed pairs across cracks in the last state; none where faces do not close.
     contact: ContactEnergy,
 }
 
@@ -58,7 +58,7 @@ serial!(Loaded {
 });
 
 impl Energies {
-    /// Appends what is not made of the problem and the state.
+    /// Appends the data that do not follow from the problem and the state.
     pub(super) fn write(&self, out: &mut Vec<u8>) {
         let Self {
             external_work,
@@ -77,7 +77,7 @@ impl Energies {
         thermal.write(out);
     }
 
-    /// The energies that were written in a state of equilibrium.
+    /// Restores the energies from the bytes of [`Energies::write`], in an equilibrium state.
     pub(super) fn read(
         problem: &Problem,
         state: &State,
@@ -100,7 +100,7 @@ impl Energies {
         Ok(energies)
     }
 
-    /// The energies of the unloaded body.
+    /// Energies of the unloaded body.
     pub(super) fn unloaded(problem: &Problem) -> Self {
         let loaded = problem.loads.loaded_degrees_of_freedom();
         Self {
@@ -138,19 +138,19 @@ impl Energies {
         self.largest_work = self.largest_work.max(self.external_work.abs());
     }
 
-    /// Half the work of the present forces on the way from the unloaded body, J: what is stored where all is in proportion to the load
-    /// (Clapeyron).
+    /// Half the work of the present forces on the displacements from the unloaded body, J: the stored energy under proportional
+    /// loading (Clapeyron).
     pub(super) fn stored_in_proportion(&self) -> f64 {
         let of_loaded = self.last_loaded.iter();
         0.5 * of_loaded.map(|it| it.force * it.displacement).sum::<f64>()
     }
 
-    /// Energy below which differences are rounding of what was done before, J: an unloaded body has given its work back.
+    /// Energy below which differences are rounding of earlier energies, J; an unloaded body has returned its work.
     fn floor(&self) -> f64 {
         UNLOADED * self.largest_work
     }
 
-    /// Adds what a breakage released, and what softening did since the last state.
+    /// Adds the energy released by a breakage and by softening since the last state.
     pub(super) fn add_released(
         &mut self,
         problem: &Problem,
@@ -177,13 +177,13 @@ impl Energies {
         self.keep(state, balanced);
     }
 
-    /// Goes over to a part of a programme that begins at this load factor.
+    /// Begins a part of a programme at this load factor.
     pub(super) fn begin_part(&mut self, load_factor: f64) {
         self.contact.begin_part(load_factor);
     }
 
-    /// Takes in which pairs across cracks opened and closed since the last state: at a fixed load, after a breakage, that releases
-    /// energy; on the way from one load to another it is what the trapezoidal rule misses of the work.
+    /// Adds the energy of pairs across cracks that opened or closed since the last state: after a breakage, at fixed load, it is
+    /// released; between two loads it corrects the work by the trapezoidal rule.
     pub(super) fn add_contact(
         &mut self,
         problem: &Problem,
@@ -200,7 +200,7 @@ impl Energies {
         }
     }
 
-    /// Keeps deformations and what is left of the bonds.
+    /// Stores the deformations and the remaining stiffness of the bonds.
     fn keep(&mut self, state: &State, balanced: &Balanced) {
         let remaining = &state.softening.remaining;
         if !remaining.is_empty() {
@@ -233,7 +233,7 @@ serial!(StepCounters {
     largest_ratio,
 });
 
-/// The record of a state of equilibrium.
+/// Record of an equilibrium.
 pub(super) fn step_record(
     problem: &Problem,
     state: &State,
@@ -280,7 +280,7 @@ pub(super) fn step_record(
     }
 }
 
-/// Forces and moments that each group exerts on the body: the reactions at its points and its own given forces.
+/// Forces and moments of each group on the body: the reactions at its points and its own given forces.
 fn group_forces(problem: &Problem, load_factor: f64, reactions: &[f64]) -> Vec<Vec<f64>> {
     let layout = problem.system.layout();
     let groups = problem.loads.groups().iter();

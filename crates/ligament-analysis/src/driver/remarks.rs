@@ -1,4 +1,4 @@
-//! What a record gives reason to tell the user, once a run.
+//! Notices to the user about records, each once a run.
 
 use ligament_model::contact::Overlap;
 
@@ -7,26 +7,24 @@ use crate::history::{LargestOverlap, Notice, StepRecord};
 use crate::problem::Problem;
 use crate::state::State;
 
-/// What work and energies may miss each other by, relative to the work: both are exact between two equilibria, and these are solved
-/// for to 1e-10.
+/// Largest imbalance of energies, relative to the work: energies are exact between two equilibria, whose residual is 1e-10.
 const ENERGY_ERROR: f64 = 1e-6;
 
-/// Limit of the same error where bonds soften: equilibria are known to 1e-6 of the forces.
+/// Largest imbalance of energies where bonds soften: the residual of equilibria is up to 1e-6.
 const SOFTENING_ENERGY_ERROR: f64 = 1e-4;
 
-/// Share of the largest work by which bonds may have dissipated more than was spent on the body, so that its load steps are not called too
-/// coarse: where bonds soften, work and released energy follow the chords of a step and what is dissipated the curves between them.
+/// Share of the largest work by which the dissipated energy may exceed the work spent before load steps count as too coarse: where
+/// bonds soften, work and released energy follow the chords of a step, dissipation the curves between them.
 const DISSIPATED_BEYOND: f64 = 0.05;
 
-/// Overlap of two faces, relative to the largest displacement of a point, from which results are not those of a body with a crack. A
-/// part of a sound body as long as a horizon shortens by less.
+/// Overlap of two faces, relative to the largest displacement of a point, above which results are not valid for a body with a
+/// crack. A part of an intact body of the size of a horizon shortens by less.
 const LARGEST: f64 = 0.1;
 
-/// Overlap over the distance of points that is rounding, in a body that is unloaded again.
+/// Overlap over the point spacing that is rounding, in a body that is unloaded again.
 const ROUNDING: f64 = 1e-12;
 
-/// What to tell of the first record whose energies do not balance, with the record before it; forces without an energy have none that
-/// would.
+/// Notice for the first record whose energies do not balance, given the record before it; None for forces without an energy.
 pub(super) fn energies(
     problem: &Problem,
     record: &StepRecord,
@@ -41,7 +39,7 @@ pub(super) fn energies(
     } else {
         ENERGY_ERROR
     };
-    // An error that is not a number is no balance either.
+    // An error that is not a number counts as an imbalance.
     let is_balanced = |it: &StepRecord| it.energy_error().abs() <= limit;
     let is_first = !is_balanced(record) && last.is_none_or(is_balanced);
     is_first.then(|| Notice::EnergyUnbalanced {
@@ -50,7 +48,7 @@ pub(super) fn energies(
     })
 }
 
-/// What to tell of the first record at which bonds have dissipated more than work less stored energy can have paid for.
+/// Notice for the first record at which bonds have dissipated more than work minus stored energy.
 pub(super) fn dissipation(record: &StepRecord, before: &[StepRecord]) -> Option<Notice> {
     let work = |it: &StepRecord| it.external_work.abs();
     let largest = before.iter().map(work).fold(work(record), f64::max);
@@ -63,7 +61,7 @@ pub(super) fn dissipation(record: &StepRecord, before: &[StepRecord]) -> Option<
     })
 }
 
-/// What to tell of the first state in which faces of cracks pass through each other; keeps the largest overlap so far.
+/// Notice for the first state with overlapping crack faces; updates the largest overlap so far.
 pub(super) fn overlap(
     problem: &Problem,
     state: &State,
@@ -80,9 +78,9 @@ pub(super) fn overlap(
     is_first.then_some(Notice::Overlap(now))
 }
 
-/// The largest overlap of faces in a state, if it is more than results bear.
+/// Largest overlap of faces in a state, if it exceeds the limits.
 ///
-/// A part that nothing holds at all lies where it came loose, so that what passes through it says nothing.
+/// A part without any supports stays where it was detached, so that its overlap is not counted.
 fn largest(problem: &Problem, state: &State, fragments: &Fragments) -> Option<Overlap> {
     let system = &*problem.system;
     let layout = system.layout();

@@ -1,4 +1,4 @@
-//! What every driver does first: hold what nothing holds, and look at the elastic answer.
+//! First step of every driver: fixes detached parts and solves the elastic problem.
 
 use super::outcome::LoadPoint;
 use super::recorder::{Energies, StepCounters, largest_ratio, step_record};
@@ -12,18 +12,18 @@ use crate::problem::Problem;
 use crate::serial;
 use crate::state::State;
 
-/// What is known before the first load step.
+/// State and elastic solution before the first load step.
 pub(super) struct Start {
-    /// The unloaded body, with its holds.
+    /// Unloaded body, with its added supports.
     pub(super) unloaded: State,
     pub(super) elastic: ElasticAnswer,
-    /// The equilibrium at load factor one, if there is one.
+    /// Equilibrium at load factor one, if there is one.
     pub(super) at_one: Option<State>,
 }
 
-/// What the elastic solution tells of the loading to come.
+/// Results of the elastic solution.
 pub(super) struct ElasticAnswer {
-    /// NaN where there is no equilibrium, or nothing resists the load.
+    /// Force over displacement of the control load, N/m; NaN where there is no equilibrium or nothing resists the load.
     pub(super) stiffness: f64,
     pub(super) first_break: Option<LoadPoint>,
     pub(super) stability: Option<Stability>,
@@ -35,9 +35,9 @@ serial!(ElasticAnswer {
     stability
 });
 
-/// Holds what nothing holds, and solves once at load factor one for the stiffness, the first breakage and the inertia.
+/// Fixes detached parts, and solves once at load factor one for the stiffness, the first breakage and the inertia.
 ///
-/// Of a programme of stages that is the answer to the load of the curve alone, which foretells no breakage.
+/// In a programme of stages the solution is that of the control load alone, which predicts no breakage.
 pub(super) fn begin(
     problem: &Problem,
     equilibrium: &mut Equilibrium,
@@ -88,7 +88,7 @@ fn begin_proportional(
         },
         at_one: None,
     };
-    // Without an equilibrium the first load step fails as well, and says why.
+    // Without an equilibrium the first load step fails too, and reports the reason.
     if let Attempt::Balanced(balanced) =
         equilibrium.balance(&mut at_one, &breakage, &mut NoObserver)?
     {
@@ -104,8 +104,8 @@ fn begin_proportional(
     Ok(start)
 }
 
-/// Whether the energy at a load factor of one is more than rounding of its displacements; temperatures may change a free body
-/// without any.
+/// Whether the energy at load factor one exceeds the rounding of its displacements; temperatures may change a free body without
+/// energy.
 fn is_deformed(problem: &Problem, at_one: &State, balanced: &Balanced) -> bool {
     let temperatures = problem.loads.temperature_change(at_one.load_factor);
     let is_heated = temperatures.iter().any(|change| *change != 0.0);
@@ -114,8 +114,8 @@ fn is_deformed(problem: &Problem, at_one: &State, balanced: &Balanced) -> bool {
 }
 
 impl Start {
-    /// Stiffness and first breakage from the elastic answer: everything is proportional to the load factor, but for true strains, which
-    /// foretell no breakage.
+    /// Sets the stiffness and first breakage from the elastic solution: everything is proportional to the load factor, except with
+    /// true strains, which predict no breakage.
     fn read_off(
         &mut self,
         problem: &Problem,
@@ -142,7 +142,7 @@ impl Start {
     }
 }
 
-/// Inertia of the intact stiffness where it may be indefinite; the observer gets a notice where it is not as it should be.
+/// Inertia of the intact stiffness where it may be indefinite; notifies the observer where it is not as expected.
 fn stability(
     problem: &Problem,
     equilibrium: &Equilibrium,
@@ -161,7 +161,7 @@ fn stability(
     Ok(stability)
 }
 
-/// Tells of parts that came loose.
+/// Notifies the observer of detached parts.
 pub(super) fn report_detached_parts(
     step: usize,
     fragments: &Fragments,
@@ -182,7 +182,7 @@ pub(super) fn report_detached_parts(
     })
 }
 
-/// Tells of mechanisms that the factorisation met.
+/// Notifies the observer of mechanisms that the factorisation found.
 pub(super) fn report_mechanisms(
     step: usize,
     balanced: &Balanced,
@@ -195,7 +195,7 @@ pub(super) fn report_mechanisms(
     observer.notice(&Notice::Mechanisms { step, points })
 }
 
-/// Watches nothing.
+/// Observer without effect.
 pub(super) struct NoObserver;
 
 impl Observer for NoObserver {

@@ -1,7 +1,7 @@
 //! Stepped loading with ordered bond breaking (NHPD section 2.4, Fig. 5).
 //!
-//! In a load step: equilibrium; the bonds beyond their critical stretch in order; the first of them break; equilibrium
-//! again; until none is left to break.
+//! A load step solves for equilibrium, orders the bonds beyond their critical stretch, breaks the first of them and solves again,
+//! until no bond is left to break.
 
 use std::time::Instant;
 
@@ -22,25 +22,25 @@ use crate::load_program::Part;
 use crate::problem::Problem;
 use crate::state::State;
 
-/// How to step and when to stop.
+/// Settings of load steps, with their stop rules.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SteppedSettings {
-    /// Load factor at the end of each step; where it falls, the body is unloaded. None with a programme of stages, which has its own
-    /// steps.
+    /// Load factor at the end of each step; where it falls, the body is unloaded. None with a programme of stages, which has its
+    /// own steps.
     pub load_factors: Vec<f64>,
-    /// Divide what is left of the first breakage's step, after a step that ends exactly there, into so many; 0: off.
+    /// Number of steps into which the rest of the first breakage's step is divided, after a step that ends exactly there; 0: off.
     pub refine_first_break: usize,
-    /// Rule by which the bonds that break in a round are picked.
+    /// Rule that selects the bonds that break in a round.
     pub rule: BreakingRule,
     /// Relative change of the energy that ends Newton-Raphson (NHPD eq. 21).
     pub energy_tolerance: f64,
-    /// Rounds of breaking allowed in a step.
+    /// Largest number of rounds of breaking in a step.
     pub round_limit: usize,
-    /// When to stop before the last step.
+    /// Rules for a stop before the last step.
     pub stop: StopRules,
 }
 
-/// Follows the loading.
+/// Follows the load program.
 pub fn run(
     problem: &Problem,
     settings: &SteppedSettings,
@@ -58,7 +58,7 @@ pub fn run(
     Ok(stepping.path.into_outcome(termination, Rows::LoadSteps))
 }
 
-/// What the load steps come to first.
+/// Predicts the first failure in the load steps.
 ///
 /// # Errors
 ///
@@ -73,7 +73,7 @@ pub fn predict(
     prediction::predict(path, at_one, Some(&factors))
 }
 
-/// The run before its first load step, its equilibrium at load factor one, if there is one, and all load steps.
+/// Run before its first load step, its equilibrium at load factor one, if there is one, and all load steps.
 fn begin<'a>(
     problem: &'a Problem,
     settings: &SteppedSettings,
@@ -89,11 +89,11 @@ fn begin<'a>(
     Ok((path, at_one, plan))
 }
 
-/// The run of a checkpoint, ready to go on.
+/// Restores a run from a checkpoint.
 ///
 /// # Errors
 ///
-/// If the checkpoint is damaged, or of another problem or driver, or if the load steps up to it are others.
+/// If the checkpoint is damaged, belongs to another problem or driver, or has other load steps so far.
 pub fn restore(
     problem: &Problem,
     settings: &SteppedSettings,
@@ -119,11 +119,11 @@ pub fn restore(
     }
 }
 
-/// Goes on with a run as if it had never stopped; the stop rules may be others than before, and load steps may follow.
+/// Continues a run as if it had never stopped; the stop rules may differ from those before, and load steps may be added.
 ///
 /// # Errors
 ///
-/// If the run is of another driver, or an observer fails.
+/// If the run belongs to another driver, or an observer fails.
 pub fn resume(
     settings: &SteppedSettings,
     restored: Restored,
@@ -151,9 +151,9 @@ pub fn resume(
 /// A load step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct LoadStep {
-    /// Part of the programme of stages; 0 without one.
+    /// Index of the part of the programme of stages; 0 without one.
     part: usize,
-    /// Load factor at its end, or the share of the way of the motion that controls its part.
+    /// Load factor at the end of the step, or the share of the controlling motion or energy of its part.
     load_factor: f64,
 }
 
@@ -175,7 +175,7 @@ fn plan(problem: &Problem, settings: &SteppedSettings, elastic: &ElasticAnswer) 
     std::iter::once(step(0)(0.0)).chain(steps).collect()
 }
 
-/// The load factors with the step of the first breakage divided.
+/// Load factors with the step of the first breakage divided.
 fn refined(settings: &SteppedSettings, first_break: Option<LoadPoint>) -> Vec<f64> {
     let factors = &settings.load_factors;
     let (
@@ -206,7 +206,7 @@ fn refined(settings: &SteppedSettings, first_break: Option<LoadPoint>) -> Vec<f6
         .collect()
 }
 
-/// The run on its way.
+/// Run through load steps.
 struct Stepping<'a> {
     path: Path<'a>,
     settings: &'a SteppedSettings,
@@ -215,7 +215,7 @@ struct Stepping<'a> {
 }
 
 impl Stepping<'_> {
-    /// Does the load steps from one on, and gives the reason why the run ends.
+    /// Performs the load steps from `first` on, and returns the reason why the run ends.
     fn steps_from(&mut self, first: usize) -> Result<Termination, SetupError> {
         for step in first..self.plan.len() {
             if let Some(end) = self.load_step(step)? {
@@ -225,7 +225,7 @@ impl Stepping<'_> {
         Ok(Termination::StepsDone)
     }
 
-    /// Does one load step, and gives the reason why the run ends, if it does.
+    /// Performs one load step, and returns the reason why the run ends, if it does.
     fn load_step(&mut self, step: usize) -> Result<Option<Termination>, SetupError> {
         let LoadStep { part, load_factor } = self.plan[step];
         self.path.begin_part(part);
@@ -248,9 +248,9 @@ impl Stepping<'_> {
         }
     }
 
-    /// Breaks the bonds of a load step from an equilibrium on, until none is left to break.
+    /// Breaks bonds in a load step, from an equilibrium on, until none is left to break.
     ///
-    /// Where breakages leave no equilibrium, the step shows the last one before them.
+    /// Where a breakage leaves no equilibrium, the step records the last one before it.
     fn break_until_admissible(
         &mut self,
         mut counters: StepCounters,
@@ -301,7 +301,7 @@ impl Stepping<'_> {
         next
     }
 
-    /// What ends the run in an equilibrium of a load step.
+    /// Reason why the run ends in an equilibrium of a load step.
     fn end(&self, balanced: &Balanced, counters: &StepCounters) -> Option<Termination> {
         let exhausted = !counters.at_rest && counters.rounds >= self.settings.round_limit;
         let not_at_rest = exhausted.then_some(Termination::NotAtRest {
@@ -315,8 +315,8 @@ impl Stepping<'_> {
         })
     }
 
-    /// What ends the run in an equilibrium that is at rest. A load that is taken back is no failure, and shows what the body
-    /// can carry only when it is again as large as it was.
+    /// Reason why the run ends in an equilibrium at rest. Unloading is no failure, and the load fraction counts only where the load
+    /// is as large as it was before.
     fn end_at_rest(&self, balanced: &Balanced, step: usize) -> Option<Termination> {
         if self.path.is_controlled() {
             let end = self.path.end_at_rest(balanced);
@@ -336,7 +336,7 @@ impl Stepping<'_> {
         end.or(fallen.flatten())
     }
 
-    /// Offers the moment of an equilibrium of a load step.
+    /// Offers an equilibrium of a load step to the observer.
     fn offer(
         &mut self,
         balanced: &Balanced,
@@ -357,7 +357,7 @@ impl Stepping<'_> {
         self.path.offer(&place, balanced, end)
     }
 
-    /// Ends the load step: records it and tells whether it was the last.
+    /// Records the end of the load step, and returns the reason why the run ends, if it does.
     fn record(
         &mut self,
         balanced: &Balanced,

@@ -1,22 +1,22 @@
-//! When a run ends before its loading does.
+//! Rules for the end of a run before the end of its loading.
 
 /// Rules that end a run early.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StopRules {
-    /// The load at rest fell to this fraction of the largest so far, after bonds broke; not where the load was taken back.
+    /// Fraction of the largest load so far to which the load at rest falls after breakage, except by unloading.
     pub load_fraction: Option<f64>,
-    /// The displacement of the control load reached this, m.
+    /// Largest displacement of the control load, m.
     pub displacement: Option<f64>,
-    /// So many bonds broke.
+    /// Largest number of broken bonds.
     pub bonds: Option<usize>,
-    /// So many seconds passed.
+    /// Largest wall time, s.
     pub wall_time: Option<f64>,
-    /// The stored energy became negative: the body has lost its stability.
+    /// Whether the run ends at a negative stored energy, where the body has lost its stability.
     pub negative_energy: bool,
 }
 
 impl StopRules {
-    /// The whole loading, as long as the body is stable.
+    /// Rules for the whole loading, as long as the body is stable.
     pub const NONE: Self = Self {
         load_fraction: None,
         displacement: None,

@@ -1,4 +1,4 @@
-//! How near to equilibrium a state is, and how near it is to come.
+//! Accuracy of equilibrium: residuals of states, and the accuracy asked of the solver.
 
 use ligament_model::Bonds;
 use ligament_model::subdomain::Subdomain;
@@ -10,29 +10,29 @@ use crate::state::State;
 use crate::tangent::AllowedResidual;
 use crate::unknowns::{Layout, Unknowns};
 
-/// Share of a residual that is sought to which a solver that iterates goes: the next residual is measured against other forces.
+/// Share of the sought residual to which an iterative solver solves, since the next residual is scaled by other forces.
 const SURELY: f64 = 0.3;
 
-/// What the levers of a body make of the forces that are given to it, at most: in a bar a thousand times as long as thick the
-/// forces between points are some thousand times its load.
+/// Largest ratio of the forces in a body to the forces on it, by leverage: in a bar a thousand times as long as thick the forces
+/// between points are some thousand times its load.
 const LARGEST_LEVERAGE: f64 = 1e6;
 
-/// What forces out of balance are judged by.
+/// Scales by which residual forces are judged.
 pub(super) struct Accuracy {
     pub(super) local_stiffness: LocalStiffness,
-    /// Degrees of freedom that loads act on while nothing prescribes their motion, ascending.
+    /// Loaded degrees of freedom without a prescribed motion, ascending.
     loaded: Vec<u32>,
     /// Degrees of freedom with prescribed motions, ascending.
     prescribed: Vec<u32>,
-    /// Whether the temperature changes: what it makes of the forces in a body has no bound here.
+    /// Whether the temperature changes, so that the forces in the body have no bound here.
     is_heated: bool,
     /// Largest stiffness of a point against displacements, N/m.
     pub(super) stiffest: f64,
     /// Diagonal of the box around the body, m.
     pub(super) size: f64,
-    /// Largest forces and moments that met at a point so far: a body that is unloaded keeps their rounding.
+    /// Largest forces and moments at a point so far, whose rounding remains in a body that is unloaded.
     pub(super) largest_extents: Extents,
-    /// Tolerance of a solver that iterates.
+    /// Relative tolerance of an iterative solver; None for a direct one.
     tolerance: Option<f64>,
     subdomain: Subdomain,
 }
@@ -46,7 +46,7 @@ pub(super) struct Loaded<'a> {
 }
 
 impl Accuracy {
-    /// Nothing is known yet of the forces in a body; `tolerance` is that of a solver that iterates.
+    /// Scales of a body before its first equilibrium; `tolerance` is that of an iterative solver.
     pub(super) fn new(system: &dyn Bonds, loads: &dyn LoadProgram, tolerance: Option<f64>) -> Self {
         let of_bonds = LocalStiffness::new(system);
         let n_dofs = system.layout().n_degrees_of_freedom();
@@ -64,23 +64,23 @@ impl Accuracy {
         }
     }
 
-    /// Extents of the sizes of the forces at the points of the body (n_degrees_of_freedom), N and N m.
+    /// Extents over all processes of the sizes of the forces at the points (n_degrees_of_freedom), N and N m.
     pub(super) fn extents(&self, sizes: &[f64]) -> Extents {
         let here = self.local_stiffness.extents(sizes);
         here.of_all(&self.subdomain)
     }
 
-    /// The largest displacement of a point of a state along an axis, m.
+    /// Largest displacement of a point of a state along an axis, over all processes, m.
     pub(super) fn largest_displacement(&self, layout: Layout, state: &State) -> f64 {
         self.subdomain.max(largest_displacement(layout, state))
     }
 
-    /// Takes other loads.
+    /// Replaces the loads.
     pub(super) fn load_with(&mut self, loads: &dyn LoadProgram) {
         self.loaded = loaded(loads);
     }
 
-    /// Forces out of balance at the unknowns (n_unknowns) relative to what may act there, and what of them rests on holds;
+    /// Relative residual of the residual forces at the unknowns (n_unknowns), with the largest force at an added support;
     /// `displacement` is the [largest](largest_displacement) of the state.
     pub(super) fn residual(
         &self,
@@ -93,7 +93,7 @@ impl Accuracy {
         let scales = self.scales(at, &given, extents, displacement);
         let dofs = at.unknowns.degrees_of_freedom().iter().copied();
         let of_unknowns = dofs.zip(out_of_balance);
-        // No bond resists these: what loads them is carried by nothing.
+        // No bond resists these degrees of freedom, so that loads on them are carried by nothing.
         let is_known = |dof: usize| !at.unknowns.is_unknown(dof);
         let of_others = given.iter().filter(|(dof, _)| is_known(*dof as usize));
         let of_others = of_others.copied();
@@ -103,13 +103,13 @@ impl Accuracy {
         scales.residual_of_all(residual, &self.subdomain)
     }
 
-    /// Relative residual that is sought after a breakage, or without one.
+    /// Relative residual to be reached after a breakage, or without one.
     pub(super) fn sought(&self, breakage: &Breakage) -> f64 {
         let tolerance = self.tolerance.filter(|_| !breakage.bonds.is_empty());
         tolerance.map_or(RESIDUAL_TOLERANCE, |it| it.max(RESIDUAL_TOLERANCE))
     }
 
-    /// What a solver may leave of the force out of balance, so that the relative residual is one that is sought.
+    /// Residual of the linear equations that a solver may leave to reach the relative residual `sought`.
     pub(super) fn left(&self, at: Loaded<'_>, extents: Extents, sought: f64) -> AllowedResidual {
         if self.tolerance.is_none() {
             return AllowedResidual::Share(0.0);
@@ -118,7 +118,7 @@ impl Accuracy {
         let displacement = self.largest_displacement(at.unknowns.layout(), at.state);
         let scales = self.scales(at, &given, extents, displacement);
         let of_unknown = |dof: &u32| match SURELY * sought * scales.at(*dof as usize) {
-            // Nothing is known yet of what acts there: the next residual tells.
+            // The forces at this degree of freedom are not known yet; the next residual judges them.
             0.0 => f64::INFINITY,
             size => size,
         };
@@ -126,13 +126,13 @@ impl Accuracy {
         AllowedResidual::AtMost(dofs.map(of_unknown).collect())
     }
 
-    /// What a solver may leave of a force that no state is known to be near: a share of its tolerance.
+    /// Residual that a solver may leave in the rate of an equilibrium line: a share of its tolerance.
     pub(super) fn left_of_line(&self, share: f64) -> AllowedResidual {
         AllowedResidual::Share(share * self.tolerance.unwrap_or_default())
     }
 
-    /// Forces at the degrees of freedom that are rounding of the displacements of a state, shape (n_degrees_of_freedom); where the solver
-    /// iterates, what its tolerance makes of it.
+    /// Forces due to the rounding of the displacements of a state, shape (n_degrees_of_freedom), N and N m; with an iterative
+    /// solver, due to its tolerance.
     pub(super) fn rounding(&self, layout: Layout, state: &State) -> Vec<f64> {
         let tolerance = self.tolerance.unwrap_or_default();
         let times = (tolerance / RESIDUAL_TOLERANCE).max(1.0);
@@ -140,15 +140,15 @@ impl Accuracy {
         self.local_stiffness.rounding(times * displacement)
     }
 
-    /// The given forces of a state, by degree of freedom.
+    /// Given forces of a state, by degree of freedom, N and N m.
     fn given(&self, at: Loaded<'_>) -> Vec<(u32, f64)> {
         let forces = at.loads.forces(at.state.load_factor, &self.loaded);
         self.loaded.iter().copied().zip(forces).collect()
     }
 
-    /// Size that forces in the body of a state can have by what is given to it, its forces, moments and motions, and by what met at a point
-    /// in equilibria before, N; infinite where the temperature changes. Larger ones are no measure: a body that has become a mechanism
-    /// makes them of nothing.
+    /// Bound of the forces in the body from its given forces, moments and motions and from the largest force in earlier equilibria,
+    /// N; infinite where the temperature changes. Larger forces are no scale, because they arise without loads in a body that has
+    /// become a mechanism.
     pub(super) fn bound(&self, at: Loaded<'_>) -> f64 {
         self.bound_by(&self.given(at), at.state)
     }
@@ -167,7 +167,7 @@ impl Accuracy {
         LARGEST_LEVERAGE * (given + self.stiffest * motion + self.largest_extents.force())
     }
 
-    /// Largest prescribed motion in a state: of a displacement, or of a rotation times the size of the body, m.
+    /// Largest prescribed motion in a state, a displacement or a rotation times the size of the body, m.
     pub(super) fn largest_prescribed(&self, state: &State) -> f64 {
         let layout = self.local_stiffness.layout();
         let motion = |&dof: &u32| {
@@ -177,7 +177,7 @@ impl Accuracy {
         self.prescribed.iter().map(motion).fold(0.0, f64::max)
     }
 
-    /// What may act in a body with some extents and a largest displacement under given forces.
+    /// Scales of the forces in a body with the given extents, largest displacement and given forces.
     fn scales(
         &self,
         at: Loaded<'_>,
@@ -193,13 +193,13 @@ impl Accuracy {
     }
 }
 
-/// The largest displacement of a point that is known here, m.
+/// Largest displacement of a point on this process, m.
 fn largest_displacement(layout: Layout, state: &State) -> f64 {
     let displacements = layout.displacements(&state.displacement);
     displacements.fold(0.0, |largest, value| largest.max(value.abs()))
 }
 
-/// Degrees of freedom that loads act on while nothing prescribes their motion, ascending.
+/// Loaded degrees of freedom without a prescribed motion, ascending.
 fn loaded(loads: &dyn LoadProgram) -> Vec<u32> {
     let mut loaded = loads.loaded_degrees_of_freedom();
     loaded.retain(|&dof| !loads.is_prescribed(dof as usize));

@@ -1,9 +1,9 @@
-//! Equilibrium of linear bonds whose crack faces may close: Newton's method on the pairs that are closed, with an exact line
+//! Equilibrium of linear bonds with crack faces that may close: Newton's method on the set of closed pairs, with an exact line
 //! search (semismooth Newton, Hintermueller 2002).
 //!
-//! The energy is piecewise quadratic, with a continuous derivative, and convex where that of the bonds is. Each iteration solves with the
-//! stiffness of the pairs that are closed now; where that goes too far, because other pairs close on the way, the step ends where
-//! the energy is lowest along it. So the energy falls from iteration to iteration and no set of closed pairs comes back.
+//! The energy is piecewise quadratic with a continuous derivative, and convex where that of the bonds is. Each iteration solves
+//! with the stiffness of the pairs closed at present; where other pairs close along the step, it ends at the minimum of the energy
+//! along it. The energy therefore falls from iteration to iteration and no set of closed pairs recurs.
 
 use super::equations::Equations;
 use super::iterate::Iterate;
@@ -14,24 +14,24 @@ use crate::contact;
 use crate::history::{Observer, ObserverError};
 use crate::state::State;
 
-/// Iterations after which a solve is given up. Faces that close as a whole take some five; a loose part that is pressed away takes all.
+/// Largest number of iterations. Faces that close as a whole take some five; a detached part that is pushed away takes all.
 const ITERATION_LIMIT: usize = 60;
 
-/// Slope of the energy at the end of a step, over that at its beginning, up to which the step goes all the way.
+/// Ratio of the final to the initial slope of the energy along a step up to which the whole step is taken.
 const ACCEPTED_SLOPE: f64 = 0.1;
 
 /// Residual that is sought as long as it falls from iteration to iteration.
 const REFINED: f64 = 1e-12;
 
-/// Residual over the one before below which it falls. Where it does not, with the same pairs closed, a factor that went through
-/// changes is worn out.
+/// Ratio of successive residuals below which the residual counts as falling. Where it does not fall with the same pairs closed, an
+/// updated factor has lost its accuracy.
 const FALLS: f64 = 0.1;
 
-/// Residual up to which the last iterate, or else the nearest on the way, is an equilibrium all the same: a part that only touches another
-/// one carries nothing, and forces that are judged by a small share of the largest so far do not fall below the rounding of those.
+/// Residual up to which the last iterate, or else the nearest one, is accepted: a part that only touches another one carries no
+/// force, and residuals relative to a small share of the largest force so far do not fall below the rounding of that force.
 const LARGEST_RESIDUAL: f64 = 1e-8;
 
-/// Halvings of a step in the search for the lowest energy: as many as a double has bits.
+/// Halvings of a step in the search for the lowest energy, the number of bits of a double.
 const HALVINGS: usize = 53;
 
 /// Brings a state into equilibrium at its load factor.
@@ -49,7 +49,7 @@ pub(super) fn balance(
     let mut iterate = equations.measure(state);
     let mut before = f64::INFINITY;
     let largest = sought.max(LARGEST_RESIDUAL);
-    // Faces of a part that only touches another one close and open by rounding, and iterates farther off can follow a solution.
+    // Pairs of parts that only touch each other close and open by rounding, so that a worse iterate can follow a solution.
     let mut nearest: Option<(f64, Vec<f64>)> = None;
     loop {
         let residual = iterate.residual;
@@ -57,7 +57,7 @@ pub(super) fn balance(
             observer.iteration(iterations, residual.relative, iterate.stored_energy)?;
         }
         let is_over = iterations == ITERATION_LIMIT;
-        // One more iteration takes off what the soft holds of loose parts leave.
+        // One more iteration removes the residual due to the soft supports of detached parts.
         let falls = is_exact && residual.relative < FALLS * before;
         let tolerance = match is_over {
             true => largest,
@@ -66,7 +66,7 @@ pub(super) fn balance(
         };
         before = residual.relative;
         let is_small = equations.is_small(&residual, tolerance);
-        // What a hold carries, faces that close may carry in the end.
+        // A force at an added support may in the end be carried by closed faces.
         if is_small && (residual.carried.is_none() || is_over) {
             equations.remember(iterate.extents);
             return Ok(equations.settled(iterate, iterations, mechanisms));
@@ -96,8 +96,8 @@ pub(super) fn balance(
     }
 }
 
-/// Keeps the residual and the displacements of an iterate that holds carry nothing of, if its residual is at most the largest that counts, and
-/// that of the nearest so far.
+/// Records the residual and displacements of an iterate without forces at added supports, if its residual is at most `largest` and
+/// that of the nearest iterate so far.
 fn keep_nearer(
     nearest: &mut Option<(f64, Vec<f64>)>,
     residual: &Residual,
@@ -110,7 +110,7 @@ fn keep_nearer(
     }
 }
 
-/// Goes along a correction to where the energy is lowest, or to its end, and measures the state there.
+/// Moves the state along a correction to the minimum of the energy, or to its end, and measures the state there.
 fn search(
     equations: &mut Equations,
     state: &mut State,
@@ -138,7 +138,7 @@ fn search(
     equations.measure(state)
 }
 
-/// A pair on the way along a step.
+/// A pair whose gap changes along a step.
 struct Moved {
     /// N/m.
     stiffness: f64,
@@ -148,7 +148,7 @@ struct Moved {
     change: f64,
 }
 
-/// Part of a step at which the slope of the energy is zero, from the slopes at its ends and what the pairs do.
+/// Part of a step at which the slope of the energy is zero, from the slopes at its ends and the gaps of the pairs.
 fn lowest(start: f64, end: f64, moved: &[Moved]) -> f64 {
     let force = |it: &Moved, part: f64| it.stiffness * (it.gap + part * it.change).min(0.0);
     let of_contact = |part: f64| -> f64 {

@@ -1,4 +1,4 @@
-//! Equilibrium of bonds that are whole or broken at a value of a motion, by Newton-Raphson with the load factor as an unknown
+//! Equilibrium at a value of a motion, for bonds that are intact or broken: Newton-Raphson with the load factor as an unknown
 //! ([`Target`]).
 
 use super::equations::Equations;
@@ -11,10 +11,10 @@ use crate::history::{Observer, ObserverError};
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
 
-/// Iterations after which a solve is given up.
+/// Largest number of iterations of a solve.
 const ITERATION_LIMIT: usize = 1000;
 
-/// A residual above this is no equilibrium whatever the energies say.
+/// Largest residual of an equilibrium accepted by the energy rule.
 const LARGEST_RESIDUAL: f64 = 1e-8;
 
 /// Brings a state into equilibrium at the value of a motion, and finds its load factor.

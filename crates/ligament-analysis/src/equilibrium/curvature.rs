@@ -1,13 +1,13 @@
-//! Limited-memory BFGS: what the last steps of an iteration tell about the stiffness (Nocedal 1980; Nocedal and Wright 2006,
+//! Limited-memory BFGS: approximates the stiffness along the last steps of an iteration (Nocedal 1980; Nocedal and Wright 2006,
 //! algorithm 7.4).
 
 use crate::serial;
 use crate::unbalanced::Unbalanced;
 
-/// Steps that are kept.
+/// Largest number of recorded steps.
 const DEPTH: usize = 20;
 
-/// A step du of an iteration and the change K du of the force that was out of balance, shape (n_unknowns).
+/// A step du of an iteration and the change K du of the residual force, both of shape (n_unknowns).
 struct Pair {
     step: Vec<f64>,
     change: Vec<f64>,
@@ -15,7 +15,7 @@ struct Pair {
     work: f64,
 }
 
-/// The last steps of an iteration, the newest first.
+/// Recorded steps of an iteration, the newest first.
 #[derive(Default)]
 pub(super) struct Curvature {
     pairs: Vec<Pair>,
@@ -25,10 +25,11 @@ serial!(Pair { step, change, work });
 serial!(Curvature { pairs });
 
 impl Curvature {
-    /// The correction H r of a force r out of balance (n_unknowns), shape (n_unknowns).
+    /// Correction H r for a residual force r, both of shape (n_unknowns).
     ///
-    /// `dot` is the scalar product over all unknowns, and `solve` multiplies by the inverse of a stiffness that is near the tangent; H is that inverse after the updates by all steps
-    /// that are kept. It is positive definite if the stiffness is, and gives the newest step for its change.
+    /// `dot` is the scalar product over all unknowns, and `solve` multiplies by the inverse of a stiffness near the tangent. H is
+    /// that inverse after the BFGS updates by all recorded steps; it is positive definite if the stiffness is, and maps the change
+    /// of the newest step to that step.
     pub(super) fn correction(
         &self,
         force: &[f64],
@@ -50,8 +51,8 @@ impl Curvature {
         Ok(correction)
     }
 
-    /// Takes in a step, what it changed of the force out of balance (n_unknowns), and their scalar product. A step along which the body gave way is left
-    /// out: no positive definite stiffness has it.
+    /// Records a step, the change of the residual force (n_unknowns) and their scalar product. Steps of negative curvature are left
+    /// out, because no positive definite stiffness has them.
     pub(super) fn learn(&mut self, step: Vec<f64>, change: Vec<f64>, work: f64) {
         if work > 0.0 {
             self.pairs.truncate(DEPTH - 1);
@@ -59,13 +60,13 @@ impl Curvature {
         }
     }
 
-    /// Whether all steps are those of a body with so many unknowns.
+    /// Whether all recorded steps have this number of unknowns.
     pub(super) fn fits(&self, n_unknowns: usize) -> bool {
         let mut pairs = self.pairs.iter();
         pairs.all(|it| [it.step.len(), it.change.len()] == [n_unknowns; 2])
     }
 
-    /// The steps with other arrays of unknowns in the place of theirs.
+    /// Maps the arrays of all recorded steps to another numbering of unknowns.
     pub(super) fn mapped(&self, map: impl Fn(&[f64]) -> Vec<f64>) -> Self {
         let pair = |it: &Pair| Pair {
             step: map(&it.step),
@@ -77,7 +78,7 @@ impl Curvature {
         }
     }
 
-    /// Forgets all steps.
+    /// Removes all recorded steps.
     pub(super) fn discard(&mut self) {
         self.pairs.clear();
     }

@@ -1,17 +1,17 @@
-//! Equilibrium at a given energy that the bonds have dissipated, with the load factor as an unknown: it falls where the body does, past
-//! peaks and where the load snaps back (Gutierrez 2004; Verhoosel 2009).
+//! Equilibrium at a given energy dissipated by the bonds, with the load factor as an unknown, which may fall past peaks and in
+//! snap-back (Gutierrez 2004; Verhoosel 2009).
 //!
-//! The dissipated energy D of bonds that soften is a function of their largest deformations, and grows as long as cracks do. It is no
-//! linear function of the displacements, and where nothing softens it is none at all, so that it is not held itself. What is held is a
-//! motion ([`Target`]) that grows with it, and D follows from how far the motion goes:
+//! The dissipated energy D of softening bonds is a function of their largest deformations, and grows as long as cracks do. It is
+//! not linear in the displacements, and constant where nothing softens, so that it is not prescribed directly. Instead, a motion
+//! ([`Target`]) that grows with D is prescribed, and D follows from its value:
 //!
-//! 1. Along the line u + w u_B of the present bonds there is a w > 0 at which D would be as it should; the bonds that soften farther there
-//!    are where the crack opens.
-//! 2. With the forces c = sum (1 - omega) K_b u of these bonds, which softening has taken from them, c . u is the motion: the opening of the
-//!    crack, each bond by what it no longer carries. The rate of dissipation is in proportion to it in a bond that falls along a straight line.
+//! 1. Along the line u + w u_B of the present bonds there is a w > 0 at which D has its value; the crack opens at the bonds that
+//!    soften further there.
+//! 2. The motion is c . u with the forces c = sum (1 - omega) K_b u that these bonds have lost by softening: the opening of the
+//!    crack, weighted by the lost force of each bond. In a bond with linear softening the rate of dissipation is proportional to it.
 //! 3. Equilibria at values of c . u give D; the value is found by false position between one below and one above.
 //!
-//! After a breakage c . u is held where it is, with the bonds that are at their largest deformations then.
+//! After a breakage c . u keeps its value, with the bonds that are then at their largest deformations.
 
 use std::sync::Arc;
 
@@ -36,33 +36,33 @@ use crate::softening::Softening;
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
 
-/// What the dissipated energy may miss its value by, relative to a step of it.
+/// Largest deviation of the dissipated energy from its value, relative to its step.
 const MISSED: f64 = 1e-2;
 
-/// Equilibria after which the last one is taken: where bonds fail at once, the energy jumps over its value.
+/// Number of equilibria after which the last one is accepted: where bonds fail at once, the energy jumps over its value.
 const EQUILIBRIUM_LIMIT: usize = 12;
 
-/// How much farther than before the motion goes at most while the energy is still below its value.
+/// Largest factor by which the change of the motion grows while the energy is below its value.
 const FARTHEST: f64 = 4.0;
 
-/// Part of a step that the energy along the line of the present bonds is known to: more would say nothing about the equilibrium.
+/// Accuracy of the energy along the line of the present bonds, relative to its step; the equilibrium differs by more.
 const NEAR: f64 = 0.01;
 
-/// Doublings and halvings in the search along that line.
+/// Largest number of doublings, and of halvings, in the search along that line.
 const HALVINGS: usize = 60;
 
-/// An energy that bonds have dissipated, which a load is to bring about.
+/// A prescribed dissipated energy.
 #[derive(Debug, Clone)]
 pub(crate) struct Dissipation {
-    /// What grows with the load factor, for a load factor of one.
+    /// Loads that grow with the load factor, at load factor 1.
     pub(crate) rate: Arc<dyn LoadProgram>,
-    /// The energy, J.
+    /// Dissipated energy, J.
     pub(crate) energy: f64,
-    /// What a load step adds to it, J.
+    /// Change of the dissipated energy in a load step, J.
     pub(crate) step: f64,
 }
 
-/// Brings a state into equilibrium with a dissipated energy, and finds its load factor; after a breakage with what opens held.
+/// Brings a state into equilibrium with a dissipated energy and finds its load factor; after a breakage, at fixed crack opening.
 pub(super) fn balance(
     equations: &mut Equations,
     state: &mut State,
@@ -126,17 +126,17 @@ fn dissipated(problem: &Problem, state: &State, deformations: &[BondDeformation]
     sum_over_bonds(system, of_bonds.into_iter())
 }
 
-/// Where the line of the present bonds would dissipate enough.
+/// Point on the line of the present bonds at which the energy has its value.
 struct Ahead {
     /// Change of the load factor.
     load_factor: f64,
-    /// Growth of the displacements with the load factor, shape (n_degrees_of_freedom).
+    /// Rate of the displacements with the load factor, shape (n_degrees_of_freedom).
     growth: Vec<f64>,
-    /// Deformations there, shape (n_bonds).
+    /// Deformations at this point, shape (n_bonds).
     deformations: Deformations,
 }
 
-/// The first place ahead on the line of the present bonds, from deformations (n_bonds), with the dissipated energy that is sought.
+/// First point ahead on the line of the present bonds, from deformations (n_bonds), with the prescribed dissipated energy.
 fn ahead(
     equations: &mut Equations,
     state: &mut State,
@@ -184,7 +184,7 @@ fn ahead(
     })
 }
 
-/// The opening of the bonds that soften farther at deformations (n_bonds), at its value in a state; None where none does.
+/// Opening of the bonds that soften further at deformations (n_bonds), with its value in a state; None where no bond does.
 fn opening(
     problem: &Problem,
     state: &State,
@@ -224,25 +224,25 @@ fn opening(
     opens.then_some(target)
 }
 
-/// A way of the motion that was tried.
+/// A change of the motion that was tried.
 #[derive(Clone, Copy)]
 struct Tried {
     way: f64,
-    /// What the energy is beyond its value there, J.
+    /// Dissipated energy minus its prescribed value, J.
     excess: f64,
 }
 
-/// How far a motion goes until the dissipated energy is right: less than it should be on one side, and more on the other.
+/// Bracket of the change of the motion at which the dissipated energy has its value.
 struct Bracket {
     low: Tried,
     high: Option<Tried>,
-    /// The way to try.
+    /// Change to try next.
     next: f64,
     was_below: bool,
 }
 
 impl Bracket {
-    /// From what the energy is beyond its value at first, negative, and a way to try.
+    /// Bracket from the first energy minus its value, negative, and the change to try first.
     fn new(excess: f64, next: f64) -> Self {
         Self {
             low: Tried { way: 0.0, excess },
@@ -252,8 +252,8 @@ impl Bracket {
         }
     }
 
-    /// Takes in what the energy at the tried way is beyond its value: false position, where a side that stays counts half (the Illinois
-    /// rule). Where nothing is beyond yet, the way goes on as far as the last two say.
+    /// Records the energy minus its value at the tried change and chooses the next one: false position, where a side that stays
+    /// counts half (the Illinois rule), or linear extrapolation while no change above is known.
     fn learn(&mut self, excess: f64) {
         let tried = Tried {
             way: self.next,
@@ -284,7 +284,7 @@ impl Bracket {
         }
     }
 
-    /// Tries the nearest way beyond.
+    /// Tries the nearest change above.
     fn end_above(&mut self) {
         if let Some(high) = self.high {
             self.next = high.way;

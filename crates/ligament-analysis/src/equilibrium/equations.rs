@@ -1,4 +1,4 @@
-//! The equations of a problem: what all ways to its equilibrium share.
+//! Equations of a problem, as all iterations to equilibrium use them.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -34,11 +34,11 @@ use crate::unbalanced::{Place, Unbalanced};
 use crate::unknowns::{Layout, Unknowns};
 use crate::vectors::dot_of_all;
 
-/// Part of the energy of the expansions that counts as nothing in the energy of motion of a heated body: that of a body that
-/// is held everywhere is the difference of sums over all bonds, of up to 10^7 terms.
+/// Share of the energy of the thermal expansions below which the energy of motion of a heated body counts as zero: in a fully fixed
+/// body it is a difference of sums over all bonds, of up to 10^7 terms.
 const CANCELLED: f64 = 1e-10;
 
-/// The equations of a problem and their solver.
+/// Equations of a problem and their solver.
 pub(super) struct Equations {
     pub(super) problem: Problem,
     pub(super) unknowns: Arc<Unknowns>,
@@ -58,7 +58,7 @@ pub(super) struct Equations {
 }
 
 impl Equations {
-    /// Numbers the unknowns, analyses the pattern and chooses the solver; nothing is factorised yet.
+    /// Numbers the unknowns, analyses the sparsity pattern and chooses the solver, without factorising.
     pub(super) fn new(
         problem: &Problem,
         numbers: &Arc<BondNumbers>,
@@ -76,7 +76,7 @@ impl Equations {
         let analysis = stiffness.as_ref().map(|it| it.analysis_time());
         let accuracy = Accuracy::new(&**system, &**loads, solver.tolerance());
         Ok(Self {
-            // Where strains are not those of the displacements, or forces not those of an energy, the residual alone decides.
+            // The residual alone decides where strains are not linear in the displacements or forces have no energy.
             energy_tolerance: if system.is_linear() && system.has_energy() {
                 energy_tolerance
             } else {
@@ -98,13 +98,13 @@ impl Equations {
         })
     }
 
-    /// Takes other loads in the place of those of the problem; they must prescribe the same degrees of freedom.
+    /// Replaces the loads by loads that prescribe the same degrees of freedom.
     pub(super) fn load_with(&mut self, loads: Arc<dyn LoadProgram>) {
         self.accuracy.load_with(&*loads);
         self.problem.loads = loads;
     }
 
-    /// Appends what is not made of the problem.
+    /// Appends the data that do not follow from the problem.
     pub(super) fn write(&self, out: &mut Vec<u8>) {
         let Self {
             accuracy,
@@ -127,7 +127,7 @@ impl Equations {
         }
     }
 
-    /// Makes fresh equations as they were when the bytes were written, and measures the state, which was in equilibrium.
+    /// Restores newly built equations from the bytes of [`Equations::write`], and measures the state, which was in equilibrium.
     pub(super) fn restore(
         &mut self,
         state: &State,
@@ -138,7 +138,7 @@ impl Equations {
         let costs = Serial::read(from)?;
         let is_shared = matches!(self.choice, SolverChoice::Distributed(_));
         if !is_shared && distributed::was_written(from) {
-            // One process goes on with the state alone.
+            // A run on one process continues from the state alone.
             distributed::skip_checkpoint(numbers, from)?;
         } else {
             self.solver.restore(from)?;
@@ -161,13 +161,13 @@ impl Equations {
         self.unknowns.layout()
     }
 
-    /// Gives a state the prescribed motions of its load factor.
+    /// Sets the prescribed motions of a state at its load factor.
     pub(super) fn prescribe(&self, state: &mut State) {
         let loads = &self.problem.loads;
         loads.prescribe(state.load_factor, &mut state.displacement);
     }
 
-    /// The end of an iteration that came to rest: an equilibrium, unless holds carry what no bond does.
+    /// Result of a converged iteration: an equilibrium, unless added supports carry a load that no bond does.
     pub(super) fn settled(
         &self,
         iterate: Iterate,
@@ -185,12 +185,12 @@ impl Equations {
         Attempt::Balanced(iterate.balanced(iterations, mechanisms))
     }
 
-    /// The end of an iteration that does not come to rest.
+    /// Result of an iteration that does not converge.
     pub(super) fn not_settled(&self, residual: &Residual, iterations: usize) -> Attempt {
         Attempt::Unbalanced(self.unsettled(residual, iterations))
     }
 
-    /// Why an iteration does not come to rest.
+    /// Reason why an iteration does not converge.
     pub(super) fn unsettled(&self, residual: &Residual, iterations: usize) -> Unbalanced {
         let place = self.place(residual.degree_of_freedom as usize);
         if residual.relative.is_finite() {
@@ -211,7 +211,7 @@ impl Equations {
         }
     }
 
-    /// Adds a part of a correction (n_unknowns) to the displacements of a state.
+    /// Adds a part of a correction (n_unknowns) to the displacements of a state, at ghosts as well.
     pub(super) fn add_correction(&self, state: &mut State, part: f64, correction: &[f64]) {
         for (&dof, value) in self.degrees_of_freedom().iter().zip(correction) {
             state.displacement[dof as usize] += part * value;
@@ -219,7 +219,7 @@ impl Equations {
         self.halo.update_motions(&mut state.displacement);
     }
 
-    /// What motions are judged by.
+    /// Data by which motions are judged.
     pub(super) fn motions(&self) -> Measure<'_> {
         Measure {
             accuracy: &self.accuracy,
@@ -229,17 +229,17 @@ impl Equations {
         }
     }
 
-    /// The points and bonds of the body on this process.
+    /// Points and bonds of the body on this process.
     pub(super) fn subdomain(&self) -> &Subdomain {
         self.halo.subdomain()
     }
 
-    /// The scalar product of two arrays over the unknowns of all processes.
+    /// Scalar product of two arrays over the unknowns of all processes.
     pub(super) fn dot(&self, one: &[f64], other: &[f64]) -> f64 {
         dot_of_all(self.subdomain(), one, other)
     }
 
-    /// Takes a breakage to the solver, and its correction to the state; tells whether there was one.
+    /// Updates the solver for a breakage and adds its correction to the state; returns whether there was a correction.
     pub(super) fn follow(&mut self, state: &mut State, breakage: &Breakage) -> bool {
         let expansion = self.problem.loads.thermal_strain(state.load_factor);
         let solver = &mut self.solver;
@@ -250,8 +250,8 @@ impl Equations {
         correction.is_some()
     }
 
-    /// Whether the energy of an iterate is that of the one before (NHPD eq. 21), and its residual not above the largest with which that
-    /// counts.
+    /// Whether the energy of an iterate equals that of the previous one to the tolerance (NHPD eq. 21), and its residual is at most
+    /// `largest_residual`.
     pub(super) fn energy_settled(
         &self,
         previous_energy: f64,
@@ -263,14 +263,14 @@ impl Equations {
         change < self.energy_tolerance && iterate.residual.relative <= largest_residual
     }
 
-    /// Whether a residual is small enough, once something was solved: where nothing is loaded yet there is none at all.
+    /// Whether a residual is within the tolerance; before the first solution it must be zero, as it is without loads.
     pub(super) fn is_small(&self, residual: &Residual, tolerance: f64) -> bool {
         let is_guess = self.costs.solves == 0 && self.costs.changes == 0;
         residual.relative <= if is_guess { 0.0 } else { tolerance }
     }
 
-    /// The correction K du = F - K u of an iterate (NHPD eqs 19 and 20) on the way to a relative residual that is sought, shape
-    /// (n_unknowns); adds mechanisms that the solver met.
+    /// Correction K du = F - K u of an iterate (NHPD eqs 19 and 20) for the relative residual `sought`, shape (n_unknowns); appends
+    /// the points of mechanisms that the solver found.
     pub(super) fn correction(
         &mut self,
         state: &mut State,
@@ -286,20 +286,20 @@ impl Equations {
         self.solve(state, force, left)
     }
 
-    /// F - K u of an iterate at the unknowns (NHPD eq. 20), shape (n_unknowns).
+    /// Residual forces F - K u of an iterate at the unknowns (NHPD eq. 20), shape (n_unknowns), N and N m.
     pub(super) fn out_of_balance(&self, state: &State, iterate: &Iterate) -> Vec<f64> {
         self.external_less(state, &iterate.internal)
     }
 
-    /// The displacements K^-1 f for forces f (n_unknowns), shape (n_unknowns), with the stiffness K that the solver was
-    /// [made ready](Self::make_ready) with.
+    /// Displacements K^-1 f for forces f, both of shape (n_unknowns), with the stiffness K for which the solver was [made
+    /// ready](Self::make_ready).
     pub(super) fn solve(
         &mut self,
         state: &State,
         force: Vec<f64>,
         left: AllowedResidual,
     ) -> Result<Vec<f64>, Unbalanced> {
-        // An exact solver finds by its pivots what nothing resists.
+        // A direct solver finds motions without stiffness by its pivots.
         let given = self.solver.tolerance().map(|_| force.clone());
         let solution = self.solver.solve(state, force, left, &mut self.costs);
         match (solution, given) {
@@ -319,7 +319,7 @@ impl Equations {
         }
     }
 
-    /// Deformations, forces, residual and energy of a state.
+    /// Measures the deformations, forces, residual and energy of a state.
     pub(super) fn measure(&mut self, state: &State) -> Iterate {
         let start = Instant::now();
         let deformations = self.deformations(state);
@@ -336,7 +336,7 @@ impl Equations {
         )
     }
 
-    /// Forces, residual and energy of a state with deformations (n_bonds).
+    /// Measures the forces, residual and energy of a state with deformations (n_bonds).
     pub(super) fn measure_deformed(
         &mut self,
         state: &State,
@@ -381,7 +381,7 @@ impl Equations {
         }
     }
 
-    /// Forces of the bonds of a state without its closed faces, at a strain of the temperature.
+    /// Forces of the bonds of a state at a thermal strain, without those of its closed faces.
     pub(super) fn swept(&self, state: &State, expansion: ThermalStrain<'_>) -> BondSweep {
         let system = &self.problem.system;
         let deformations = system.deformations(&state.intact, &state.displacement, expansion);
@@ -390,13 +390,13 @@ impl Equations {
         swept
     }
 
-    /// A state that is known to be in equilibrium, as the bonds see it.
+    /// Sets the prescribed motions of a state known to be in equilibrium, and measures it.
     pub(super) fn measured(&mut self, state: &mut State) -> Balanced {
         self.prescribe(state);
         self.measure(state).balanced(0, Vec::new())
     }
 
-    /// Displacements at the unknowns (n_unknowns) among all others, which are zero, shape (n_degrees_of_freedom).
+    /// Expands values at the unknowns (n_unknowns) to shape (n_degrees_of_freedom), with zeros elsewhere.
     pub(super) fn at_degrees_of_freedom(&self, values: &[f64]) -> Vec<f64> {
         let mut all = vec![0.0; self.layout().n_degrees_of_freedom()];
         for (&dof, value) in self.degrees_of_freedom().iter().zip(values) {
@@ -413,14 +413,14 @@ impl Equations {
         -products.map(|(force, step)| force * step).sum::<f64>()
     }
 
-    /// External less internal forces at the unknowns, shape (n_unknowns).
+    /// External minus internal forces at the unknowns, shape (n_unknowns), N and N m.
     fn external_less(&self, state: &State, internal: &InternalForces) -> Vec<f64> {
         let (dofs, displacement) = (self.degrees_of_freedom(), &state.displacement);
         let loads = &self.problem.loads;
         loads.external_less(state.load_factor, displacement, internal, dofs)
     }
 
-    /// A state with the loads and the unknowns.
+    /// The state together with the loads and unknowns.
     pub(super) fn loaded<'a>(&'a self, state: &'a State) -> Loaded<'a> {
         Loaded {
             loads: &*self.problem.loads,
@@ -429,18 +429,18 @@ impl Equations {
         }
     }
 
-    /// The larger of the largest force at a point in a state, N, and what counts of the one before.
+    /// The larger of the largest force at a point in a state and the rounding of the largest force so far, N.
     pub(super) fn largest_force(&self, now: f64) -> f64 {
         now.max(self.accuracy.largest_extents.unloaded_force())
     }
 
-    /// Keeps the size of the forces of an equilibrium.
+    /// Updates the largest forces so far by those of an equilibrium.
     pub(super) fn remember(&mut self, extents: Extents) {
         let largest = &mut self.accuracy.largest_extents;
         *largest = largest.or(extents);
     }
 
-    /// Makes the solver ready for an iterate of a state. Gives the points of mechanisms that are held from now on.
+    /// Makes the solver ready for an iterate of a state. Returns the points of mechanisms that are fixed from now on.
     pub(super) fn make_ready(
         &mut self,
         state: &mut State,
@@ -450,7 +450,7 @@ impl Equations {
         self.prepare_solver(state)
     }
 
-    /// Makes the solver ready; mechanisms that turn up are held, and the solver made ready again. Gives their points.
+    /// Makes the solver ready, fixing mechanisms until no pivot vanishes. Returns the points that were fixed.
     pub(super) fn prepare_solver(&mut self, state: &mut State) -> Result<Vec<u32>, Unbalanced> {
         let mut held_now = Vec::new();
         loop {

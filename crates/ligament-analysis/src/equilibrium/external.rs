@@ -1,4 +1,4 @@
-//! Balance of the external forces: what supports, loads and holds exert on a part of a body has no resultant.
+//! Balance of the external forces: supports, loads and added supports have no resultant on any part of a body.
 
 use super::equations::Equations;
 use crate::balanced::Balanced;
@@ -7,19 +7,19 @@ use crate::contact;
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
 
-/// Resultant, relative to the sizes of the external forces on a part and the largest force at a point of the body, above which
-/// they do not balance: loads count as in equilibrium with themselves to the same measure, and solutions are nearer by far.
+/// Resultant, relative to the sum of the sizes of the external forces on a part and the largest force at a point of the body, above
+/// which the forces do not balance: self-balanced loads are accepted to the same tolerance, and solutions are far more accurate.
 const BALANCED: f64 = 1e-6;
 
-/// Numbers that are added up along one axis.
+/// Number of sums along one axis.
 const SUMS: usize = 3;
 
-/// Resultant along one axis, sum of the sizes, and what rounding may leave of the forces, N.
+/// Resultant along one axis, sum of the sizes of the forces, and sum of their rounding errors, N.
 type Sum = [f64; SUMS];
 
-/// The first part of the body on which the external forces of a state do not balance along some axis.
+/// First part of the body on which the external forces of a state do not balance along some axis.
 ///
-/// Moments are left to the residual: bonds that resist shear between points that do not turn exert couples.
+/// Moments are not checked, except by the residual: bonds that resist shear between points without rotations exert couples.
 pub(super) fn imbalance(
     equations: &Equations,
     state: &State,
@@ -29,7 +29,7 @@ pub(super) fn imbalance(
     let problem = &equations.problem;
     let layout = problem.system.layout();
     let n_components = layout.components.len();
-    // At points that are free external forces are the given ones, elsewhere what balances the bonds.
+    // External forces at free points are the given loads, at other points the internal forces.
     let mut external = balanced.internal.values.clone();
     let dofs = equations.degrees_of_freedom();
     let given = problem.loads.forces(state.load_factor, dofs);
@@ -38,7 +38,7 @@ pub(super) fn imbalance(
             external[dof as usize] = given;
         }
     }
-    // What other parts exert through closed faces is external to a part.
+    // Forces that other parts exert through closed faces are external to a part.
     for (dof, force) in balanced.closed.iter().flat_map(contact::end_forces) {
         external[dof] -= force;
     }
@@ -64,7 +64,7 @@ pub(super) fn imbalance(
     let bound = equations.accuracy.bound(equations.loaded(state));
     let is_off = |(place, [resultant, size, rounding]): &(usize, &Sum)| {
         let is_force = !layout.components[place % n_components].is_rotation();
-        // A resultant that is not a number is no balance either.
+        // A resultant that is not a number is out of balance.
         let is_balanced = resultant.abs() <= BALANCED * (size + of_body).min(bound) + rounding;
         is_force && !is_balanced
     };

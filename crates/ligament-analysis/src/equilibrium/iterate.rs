@@ -1,4 +1,4 @@
-//! A state on its way to equilibrium.
+//! A state during the iteration, with its measured quantities.
 
 use ligament_model::contact::ClosedPair;
 use ligament_model::deformation::Deformations;
@@ -7,7 +7,7 @@ use super::residual::{Extents, Residual};
 use crate::balanced::Balanced;
 use crate::internal::InternalForces;
 
-/// A state on its way to equilibrium, as the bonds see it.
+/// Deformations, forces, energy and residual of a state during the iteration.
 pub(super) struct Iterate {
     pub(super) deformations: Deformations,
     pub(super) internal: InternalForces,
@@ -22,7 +22,7 @@ pub(super) struct Iterate {
 }
 
 impl Iterate {
-    /// The iterate as an equilibrium that took some iterations and met some mechanisms.
+    /// The iterate as an equilibrium, with its number of iterations and the mechanisms found on the way.
     pub(super) fn balanced(self, iterations: usize, mechanisms: Vec<u32>) -> Balanced {
         Balanced {
             deformations: self.deformations,

@@ -1,4 +1,4 @@
-//! Lines along which a run goes on: what the displacements grow by with the load factor, for the bonds as they are.
+//! Equilibrium lines: rates of the displacements with the load factor, for the present bonds.
 
 use super::accuracy::Loaded;
 use super::equations::Equations;
@@ -7,28 +7,29 @@ use crate::load_program::LoadProgram;
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
 
-/// Share of the tolerance of a solver that iterates that a line may be off by: all states on it are.
+/// Error of a rate, as a share of the tolerance of an iterative solver; all states on the line have that error.
 const LINE: f64 = 0.1;
 
-/// Solutions after which a solver that iterates is not asked again: each gains all that it is asked for, or rounding is reached.
+/// Number of solutions after which an iterative solver is given up: each reaches its tolerance, unless it reaches rounding.
 const MOST_SOLUTIONS: usize = 8;
 
-/// Forces of a line under its loads at their load factor 1.
+/// Forces of a line under its loads at load factor 1.
 struct Forces {
     extents: Extents,
-    /// Given less internal forces at the unknowns, shape (n_unknowns), N and N m.
+    /// External minus internal forces at the unknowns, shape (n_unknowns), N and N m.
     out_of_balance: Vec<f64>,
     residual: Residual,
 }
 
-/// What the displacements (n_degrees_of_freedom) grow by with the bonds of a state, under loads at their load factor 1.
+/// Rate of the displacements with the load factor, shape (n_degrees_of_freedom), for the bonds of a state under loads at load
+/// factor 1.
 ///
-/// A solver that iterates is judged as in a state, by what acts at each point. The norm of the force says nothing where a stiff platen moves
-/// the body: the force of the platen on a body that does not move is many times what deforms it.
+/// The solution of an iterative solver is judged as that of a state, by the forces at each point. The norm of the force is no
+/// measure where a stiff platen moves the body: the force of the platen on a fixed body is many times the force that deforms it.
 ///
 /// # Errors
 ///
-/// If the stiffness has no factor, or a solver that iterates does not come near enough.
+/// If the stiffness has no factor, or an iterative solver does not converge.
 pub(super) fn growth(
     equations: &mut Equations,
     state: &mut State,
@@ -40,7 +41,7 @@ pub(super) fn growth(
     let left = equations.accuracy.left_of_line(LINE);
     let solution = equations.solve(state, force, left)?;
     equations.add_correction(&mut line, 1.0, &solution);
-    // What closed faces exert is in the stiffness alone, not among the forces that would judge the solution.
+    // Forces of closed faces are in the stiffness only, not among the forces that judge the solution.
     let faces_close = equations.problem.system.faces_close();
     let tolerance = equations.solver.tolerance().filter(|_| !faces_close);
     let Some(tolerance) = tolerance else {
@@ -63,7 +64,7 @@ pub(super) fn growth(
     Ok(line.displacement)
 }
 
-/// Why loads cannot grow along a line (n_degrees_of_freedom) of a state: a hold would have to carry some of them.
+/// Reason why loads cannot grow along a line (n_degrees_of_freedom) of a state: an added support would carry a load.
 pub(super) fn load_on_added_support(
     equations: &Equations,
     state: &State,
@@ -79,8 +80,8 @@ pub(super) fn load_on_added_support(
     Some(Unbalanced::LoadOnAddedSupport { place, force })
 }
 
-/// The motions that loads at their load factor 1 prescribe (n_degrees_of_freedom), and what they put out of balance with the bonds of
-/// a state (n_unknowns).
+/// Prescribed motions at load factor 1 (n_degrees_of_freedom), and the residual forces (n_unknowns) that they and the loads cause
+/// with the bonds of a state.
 pub(super) fn rate(
     equations: &Equations,
     state: &State,
@@ -97,7 +98,7 @@ pub(super) fn rate(
     (prescribed, force)
 }
 
-/// Displacements (n_degrees_of_freedom) at load factor 1, with the bonds and holds of a state.
+/// State with displacements (n_degrees_of_freedom) at load factor 1, with the bonds and added supports of another state.
 fn at_one(state: &State, displacement: Vec<f64>) -> State {
     State {
         displacement,

@@ -1,30 +1,30 @@
-//! Part of a correction that is taken: as far as the force out of balance goes on doing work along it.
+//! Line search for the part of a correction along which the residual force does positive work.
 
-/// Work along a correction, relative to that at its beginning, at which a search is near enough.
+/// Work along a correction, relative to that at its beginning, at which the search ends.
 const NEAR: f64 = 0.5;
 
-/// Parts that are tried at most.
+/// Largest number of trials.
 const TRIES: usize = 5;
 
 /// Largest ratio of a part to the one tried before.
 const GROWTH: f64 = 4.0;
 
-/// Least distance of a new part from the ends of the interval in which it is sought, over its length.
+/// Least distance of a new part from the ends of its interval, over the length of the interval.
 const INSIDE: f64 = 0.1;
 
-/// The part of a correction du at which r . du, the work of the force out of balance along the correction, is near zero: there the
-/// potential energy is least, for the first time on the way (Nocedal and Wright 2006, section 3.5).
+/// Part of a correction du at which the work r . du of the residual force is near zero, the first minimum of the potential energy
+/// along the correction (Nocedal and Wright 2006, section 3.5).
 ///
-/// `work` is that at part zero, `now` that of the whole correction, and `at` gives it for other parts, of which the last one tried is the
-/// one that is taken; they follow by the secant method. Without work at the beginning (of equations that are not definite) the
-/// whole correction is taken.
+/// `work` is the work at part zero, `now` that at part one, and `at` computes it at other parts, found by the secant method; the
+/// last part tried is returned. Without positive work at the beginning (equations that are not definite) the whole correction is
+/// taken.
 pub(super) fn part(work: f64, mut now: f64, mut at: impl FnMut(f64) -> f64) -> f64 {
     let mut part = 1.0;
     let mut before = (0.0, work);
     let mut beyond = None;
     for _ in 1..TRIES {
         let is_near = now.abs() <= NEAR * work;
-        // A work that is no number leads nowhere.
+        // Work that is not finite ends the search.
         if is_near || work <= 0.0 || !now.is_finite() {
             return part;
         }
@@ -42,14 +42,14 @@ pub(super) fn part(work: f64, mut now: f64, mut at: impl FnMut(f64) -> f64) -> f
     part
 }
 
-/// The next part where work is left, a share of that at the beginning.
+/// Next part where the work is still positive, `share` of that at the beginning.
 fn further(part: f64, share: f64) -> f64 {
     let falls = share < 1.0;
     let zero = if falls { 1.0 / (1.0 - share) } else { GROWTH };
     part * zero.min(GROWTH)
 }
 
-/// The part between two, of which work is left at the first and none at the second.
+/// Part between two parts, with positive work at the first and none or negative work at the second.
 fn between((start, some): (f64, f64), (end, none): (f64, f64)) -> f64 {
     let zero = some / (some - none);
     start + (end - start) * zero.clamp(INSIDE, 1.0 - INSIDE)

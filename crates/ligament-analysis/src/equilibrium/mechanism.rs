@@ -1,7 +1,7 @@
-//! Motions that nothing resists: what a solver that iterates meets in a body that has become a mechanism, or in a part of it.
+//! Motions without stiffness, as an iterative solver finds them in a body that has become a mechanism, or in a part of it.
 //!
-//! An exact solver finds such a motion by a vanishing pivot, holds one degree of freedom of it and reads the force on that hold. Here
-//! the motion itself is known, and that force is the work of the forces on it, over how far the degree of freedom moves in it.
+//! A direct solver detects such a motion by a vanishing pivot, fixes one of its degrees of freedom and reads the reaction there.
+//! Here the motion itself is known, and the reaction is the work of the forces on it over the motion of the degree of freedom.
 
 use ligament_model::subdomain::Subdomain;
 
@@ -13,7 +13,7 @@ use crate::unbalanced::{Place, Unbalanced};
 use crate::unknowns::Unknowns;
 use crate::vectors::dot_of_all;
 
-/// What motions of a body are judged by.
+/// Data by which motions of a body are judged.
 #[derive(Clone, Copy)]
 pub(super) struct Measure<'a> {
     pub(super) accuracy: &'a Accuracy,
@@ -28,8 +28,8 @@ impl Measure<'_> {
         dot_of_all(self.subdomain, one, other)
     }
 
-    /// Whether the stiffness K resists a solution u of K u = f, both of shape (n_unknowns), by more than the rounding of the stiffnesses of
-    /// the points: u . f above 1e-14 sum k_i u_i^2.
+    /// Whether the stiffness K resists a solution u of K u = f, both of shape (n_unknowns), by more than the rounding of the
+    /// stiffnesses k_i of the points: u . f > 1e-14 sum k_i u_i^2.
     pub(super) fn is_resisted(self, solution: &[f64], force: &[f64]) -> bool {
         let stiffness = &self.accuracy.local_stiffness;
         let dofs = self.unknowns.degrees_of_freedom().iter();
@@ -40,8 +40,8 @@ impl Measure<'_> {
         of_points == 0.0 || self.dot(solution, force) > UNRESISTED * of_points
     }
 
-    /// Why there is no equilibrium under forces f (n_unknowns) where a motion (n_unknowns) is not resisted. Where the motion is not known
-    /// (all zero), the forces tell the way.
+    /// Reason why there is no equilibrium under forces f (n_unknowns) where a motion (n_unknowns) has no stiffness. Where the
+    /// motion is unknown (all zero), the forces give its direction.
     pub(super) fn unresisted(self, motion: &[f64], force: &[f64]) -> Unbalanced {
         if self.some_negative {
             return Unbalanced::NegativeCurvature;
@@ -73,14 +73,14 @@ impl Measure<'_> {
         }
     }
 
-    /// The largest motion of a body of which something broke or softened, where it is larger than the body itself and what is prescribed to
-    /// it: what is left resists the loads by next to nothing, as a hinge that rounding alone keeps stiff. The force is that of the loads and
-    /// reactions along the motion, as if it were held.
+    /// Mechanism of a body with broken or softened bonds whose largest displacement exceeds both its size and the prescribed
+    /// displacements: the remaining stiffness is next to nothing, as in a hinge that is stiff by rounding alone. The reported force
+    /// is the work of the loads on the motion over that motion, as at a support.
     pub(super) fn beyond_size(self, loads: &dyn LoadProgram, state: &State) -> Option<Unbalanced> {
         let accuracy = self.accuracy;
         let largest = accuracy.largest_displacement(self.unknowns.layout(), state);
         let limit = accuracy.size.max(accuracy.largest_prescribed(state));
-        // Where bonds have a negative stiffness the signs of the pivots tell.
+        // Where bonds have a negative stiffness, the signs of the pivots decide.
         if largest <= limit || self.some_negative {
             return None;
         }

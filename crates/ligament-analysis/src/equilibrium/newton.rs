@@ -1,4 +1,4 @@
-//! Equilibrium of bonds that are whole or broken: Newton-Raphson (NHPD eqs 19 to 21).
+//! Equilibrium of bonds that are intact or broken, by Newton-Raphson (NHPD eqs 19 to 21).
 
 use super::equations::Equations;
 use crate::balanced::Attempt;
@@ -6,21 +6,21 @@ use crate::breakage::Breakage;
 use crate::history::{Observer, ObserverError};
 use crate::state::State;
 
-/// Residual above which a solution with a factor that was changed in place is refined once; usually it is some 1e-14, but
-/// bodies that barely hang together, and indefinite ones, magnify what rounding adds from breakage to breakage.
+/// Residual above which a solution with an updated factor is refined once; it is usually some 1e-14, but weakly connected and
+/// indefinite bodies magnify the rounding that accumulates from breakage to breakage.
 const REFINEMENT_TOLERANCE: f64 = 1e-12;
 
-/// A residual above this is no equilibrium whatever the energies say.
+/// Largest residual of an equilibrium accepted by the energy rule.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
-/// Newton-Raphson iterations after which a solve is given up; more than a few mean that the factor is worthless.
+/// Largest number of Newton-Raphson iterations; more than a few mean that the factor is useless.
 const ITERATION_LIMIT: usize = 25;
 
 /// Brings a state into equilibrium at its load factor.
 ///
-/// The bonds are linear: one solution gets there, and the residual tells. A breakage that the solver can follow brings its own.
-/// NHPD's energy rule (eq. 21) ends the iteration as well, with a residual below 1e-6; not where the solver iterates itself, and the
-/// residual tells how far it went.
+/// The bonds are linear, so that one solution suffices, which the residual verifies; the update of the factor for a breakage
+/// includes that solution. NHPD's energy rule (eq. 21) also ends the iteration with a residual below 1e-6, except with an iterative
+/// solver, whose residual measures its convergence.
 pub(super) fn balance(
     equations: &mut Equations,
     state: &mut State,
@@ -55,7 +55,7 @@ pub(super) fn balance(
         if iterations == ITERATION_LIMIT || !residual.relative.is_finite() {
             return Ok(equations.not_settled(&residual, iterations));
         }
-        // One refinement may be needed after many changes; if it is not enough, the factor is worn out.
+        // One refinement may be needed after many updates; if it is not enough, the factor has lost its accuracy.
         if is_changed && iterations >= 2 {
             equations.solver.discard();
         }

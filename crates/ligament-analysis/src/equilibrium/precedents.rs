@@ -1,4 +1,4 @@
-//! Earlier equilibria of softening bonds, and what they tell about the next one.
+//! Earlier equilibria of softening bonds, from which the next one is extrapolated.
 
 use super::curvature::Curvature;
 use super::target::Target;
@@ -9,19 +9,19 @@ use crate::state::State;
 use crate::unknowns::Unknowns;
 use ligament_model::subdomain::Subdomain;
 
-/// Largest growth of a load step over the one before with which the body is taken to go on as it did.
+/// Largest ratio of a load step to the one before for which the last step is extrapolated.
 const GROWTH: f64 = 2.0;
 
-/// What iterations have shown so far.
+/// Curvature and equilibria from earlier iterations.
 #[derive(Default)]
 pub(super) struct EarlierEquilibria {
-    /// The stiffness along the last corrections.
+    /// Stiffness along the last corrections.
     pub(super) curvature: Curvature,
-    /// The equilibria of the last two load steps, the older one first.
+    /// Equilibria of the last two load steps, the older one first.
     equilibria: Vec<Precedent>,
 }
 
-/// An equilibrium that was found.
+/// Load factor and displacements of an earlier equilibrium.
 struct Precedent {
     load_factor: f64,
     /// Shape (n_degrees_of_freedom).
@@ -38,11 +38,11 @@ serial!(Precedent {
 });
 
 impl EarlierEquilibria {
-    /// The precedents as they were when the bytes were written.
+    /// Restores precedents from bytes of [`EarlierEquilibria::write_all`].
     ///
     /// # Errors
     ///
-    /// If the bytes are damaged or of another model.
+    /// If the bytes are damaged or belong to another model.
     pub(super) fn restored(from: &mut &[u8], unknowns: &Unknowns) -> Result<Self, CheckpointError> {
         let mut precedents: Self = Serial::read(from)?;
         if unknowns.len() < unknowns.of_all().count() {
@@ -65,7 +65,7 @@ impl EarlierEquilibria {
         }
     }
 
-    /// The precedents at the unknowns and points of all processes, from those at owned points.
+    /// Gathers the precedents at the unknowns and points of all processes from those at owned points.
     fn of_all(&self, subdomain: &Subdomain, unknowns: &Unknowns) -> Self {
         let curvature = self.curvature.mapped(|own| {
             let mut all = vec![0.0; unknowns.layout().n_degrees_of_freedom()];
@@ -85,7 +85,7 @@ impl EarlierEquilibria {
         }
     }
 
-    /// Takes in an equilibrium; one after a breakage takes the place of that before it.
+    /// Records an equilibrium; an equilibrium after a breakage replaces the one before it.
     pub(super) fn learn(&mut self, state: &State, is_after_breakage: bool) {
         if is_after_breakage {
             self.equilibria.pop();
@@ -98,8 +98,8 @@ impl EarlierEquilibria {
         });
     }
 
-    /// A state that goes on as the body did in the last load step, to its load factor or to the value of a motion; None where it does
-    /// something else now.
+    /// Extrapolates the last load step to the load factor of the state or to the target value of a motion; None where the direction
+    /// reverses or the step grows too much.
     pub(super) fn ahead(&self, state: &State, target: Option<&Target>) -> Option<State> {
         let [before, last] = self.equilibria.as_slice() else {
             return None;

@@ -1,8 +1,8 @@
-//! What of the forces of an iterate is not in balance.
+//! Relative residual forces of an iterate.
 //!
-//! Each degree of freedom is judged by what can act there: by the largest force that meets at a point of the body, but no more than
-//! its own stiffness would give at the largest deformation. Judged by the stiffest point alone, two points that nearly coincide
-//! would hide what is missing everywhere else.
+//! The residual at each degree of freedom is relative to the largest force at a point of the body, but at most to its own stiffness
+//! times the largest deformation. Relative to the stiffest point alone, two nearly coincident points would hide the residuals of
+//! all others.
 
 use ligament_model::Bonds;
 use ligament_model::interface::PointStiffness;
@@ -15,29 +15,30 @@ use crate::unknowns::Layout;
 
 /// Residual, relative to the forces that may act at a point, below which a state is in equilibrium.
 ///
-/// With linear bonds one solve gets there; the paper's second iterate, which would only confirm it, is skipped.
+/// With linear bonds one solution reaches it; the paper's second iterate, which would only confirm it, is skipped.
 pub(super) const RESIDUAL_TOLERANCE: f64 = 1e-10;
 
-/// What rounding makes of the internal forces of a body that moves freely, relative to the stiffness of a point times the
-/// largest displacement. A body that fell apart has no other forces to measure a residual or an energy against.
+/// Rounding of the internal forces of a body that moves freely, relative to the stiffness of a point times the largest
+/// displacement; the only scale of the residual and the energy in a body that fell apart.
 pub(crate) const ROUNDING: f64 = 1e-14;
 
-/// Forces below this share of the largest so far are rounding of those, to within [`RESIDUAL_TOLERANCE`].
+/// Share of the largest force so far below which forces are its rounding, to within [`RESIDUAL_TOLERANCE`].
 const UNLOADED: f64 = 1e-5;
 
-/// Force at a held degree of freedom, relative to the forces that may act at a point, above which the hold carries a load.
+/// Force at an added support, relative to the forces that may act at a point, above which the support carries a load.
 ///
-/// Loads count as in equilibrium with themselves to the same measure, and the rounding of a solution is far below it.
+/// Self-balanced loads are accepted to the same tolerance, and the rounding of a solution is far below it.
 const CARRIED: f64 = 1e-6;
 
-/// Stiffnesses that forces are judged by, shape (n_degrees_of_freedom), N/m, and N for moments; 0 where no bond ends.
+/// Stiffnesses that scale the forces at the degrees of freedom, shape (n_degrees_of_freedom), N/m, and N for moments; 0 where no
+/// bond ends.
 #[derive(Debug, Clone)]
 pub(super) struct LocalStiffness {
     layout: Layout,
     values: Vec<f64>,
 }
 
-/// The largest of some forces, and of what they are over the stiffness of their points: the size of what goes on in a body.
+/// Largest of some forces, and largest ratio of these forces to the stiffness of their points.
 #[derive(Debug, Clone, Copy, Default)]
 struct Extent {
     /// N, of moments N m.
@@ -62,28 +63,28 @@ impl Serial for Extents {
     }
 }
 
-/// Sizes that a residual is compared with.
+/// Forces to which a residual is relative.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scales<'a> {
     stiffness: &'a LocalStiffness,
     extents: Extents,
-    /// Displacement whose forces are all rounding, m.
+    /// Displacement whose forces are due to rounding, m.
     rounding: f64,
 }
 
 /// The largest relative residual of an iterate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Residual {
-    /// |external - internal force| over what may act there; infinite for what is not a number.
+    /// |external - internal force| over the force that may act there; infinite where the force is not finite.
     pub(super) relative: f64,
-    /// Place of the largest residual.
+    /// Degree of freedom of the largest residual.
     pub(super) degree_of_freedom: u32,
-    /// Degree of freedom with the largest force on a hold that carries one, and the force, N or N m.
+    /// Degree of freedom of the added support with the largest force above the tolerance, and that force, N or N m.
     pub(super) carried: Option<(u32, f64)>,
 }
 
 impl LocalStiffness {
-    /// The stiffnesses of the points of a bond system.
+    /// Stiffnesses of the points of a bond system.
     pub(super) fn new(system: &dyn Bonds) -> Self {
         let layout = system.layout();
         let of_point = |PointStiffness { force, moment }: PointStiffness| {
@@ -97,18 +98,18 @@ impl LocalStiffness {
         }
     }
 
-    /// The stiffnesses with those of restraints.
+    /// Adds the stiffnesses of restraints.
     pub(super) fn restrained_by(mut self, restraints: &Restraints) -> Self {
         restraints.add_diagonal(&mut self.values);
         self
     }
 
-    /// Where the degrees of freedom are.
+    /// Layout of the degrees of freedom.
     pub(super) fn layout(&self) -> Layout {
         self.layout
     }
 
-    /// The largest stiffness against displacements.
+    /// Largest stiffness against displacements, N/m.
     pub(super) fn largest(&self) -> f64 {
         let of_displacements = self.layout.displacements(&self.values);
         of_displacements.fold(0.0, f64::max)
@@ -119,7 +120,7 @@ impl LocalStiffness {
         self.values[dof]
     }
 
-    /// Forces that are rounding of a displacement, m, shape (n_degrees_of_freedom).
+    /// Forces due to the rounding of a displacement (m), shape (n_degrees_of_freedom).
     pub(super) fn rounding(&self, displacement: f64) -> Vec<f64> {
         let stiffnesses = self.values.iter();
         stiffnesses.map(|it| ROUNDING * displacement * it).collect()
@@ -139,8 +140,8 @@ impl LocalStiffness {
         extents
     }
 
-    /// The scales of a state with some extents and a largest displacement, m, for loads (by degree of freedom, N and N m) and
-    /// bonds whose extents were once `largest`.
+    /// Scales of a state with the given extents and largest displacement (m), under loads (by degree of freedom, N and N m), where
+    /// `largest` are the extents so far.
     pub(super) fn scales(
         &self,
         extents: Extents,
@@ -149,7 +150,7 @@ impl LocalStiffness {
         displacement: f64,
     ) -> Scales<'_> {
         let mut extents = extents.or(largest.times(UNLOADED));
-        // A load that no bond carries yet would be measured against nothing.
+        // A load that no bond carries yet would otherwise have a scale of zero.
         for (dof, load) in loads {
             let dof = dof as usize;
             let kind = usize::from(self.layout.component(dof).is_rotation());
@@ -173,7 +174,7 @@ impl Extent {
 }
 
 impl Extents {
-    /// The larger of both.
+    /// Component-wise maximum of both.
     pub(super) fn or(self, other: Self) -> Self {
         Self([0, 1].map(|kind| {
             let (one, other) = (self.0[kind], other.0[kind]);
@@ -184,7 +185,7 @@ impl Extents {
         }))
     }
 
-    /// The extents with forces of a size at most, N, and moments of that times a length, m.
+    /// The extents with forces limited to `force`, N, and moments limited to `force` times `length`, m.
     pub(super) fn at_most(self, force: f64, length: f64) -> Self {
         let [mut forces, mut moments] = self.0;
         forces.force = forces.force.min(force);
@@ -192,7 +193,7 @@ impl Extents {
         Self([forces, moments])
     }
 
-    /// The largest over all processes.
+    /// Maximum over all processes.
     pub(super) fn of_all(self, subdomain: &Subdomain) -> Self {
         let mut all = [0.0; 4];
         for (both, it) in all.as_chunks_mut().0.iter_mut().zip(self.0) {
@@ -209,7 +210,7 @@ impl Extents {
         self.0[0].force
     }
 
-    /// Largest force that is rounding of these in a body that is unloaded, N.
+    /// Largest force due to the rounding of these extents in an unloaded body, N.
     pub(super) fn unloaded_force(self) -> f64 {
         UNLOADED * self.0[0].force
     }
@@ -223,7 +224,7 @@ impl Extents {
 }
 
 impl Scales<'_> {
-    /// Size of what may act at a degree of freedom, N or N m.
+    /// Largest force that may act at a degree of freedom, N or N m.
     #[inline]
     pub(super) fn at(self, dof: usize) -> f64 {
         let stiffness = self.stiffness.values[dof];
@@ -238,7 +239,7 @@ impl Scales<'_> {
         }
     }
 
-    /// The largest residual over all processes, from that at owned points; of equal ones the first.
+    /// Largest residual over all processes, from that at owned points; the first of equal ones.
     pub(super) fn residual_of_all(self, here: Residual, subdomain: &Subdomain) -> Residual {
         if subdomain.is_whole() {
             return here;
@@ -258,7 +259,8 @@ impl Scales<'_> {
         }
     }
 
-    /// The residual of external less internal forces (by degree of freedom, N and N m), and what of them rests on holds.
+    /// Largest relative residual, and largest relative force at added supports, of external minus internal forces (by degree of
+    /// freedom, N and N m).
     pub(super) fn residual(
         self,
         out_of_balance: impl Iterator<Item = (u32, f64)>,
@@ -273,12 +275,12 @@ impl Scales<'_> {
         for (dof, force) in out_of_balance {
             let size = force.abs();
             let scale = self.at(dof as usize);
-            // A division takes as long as all else here. It is left out where rounding could not make it the largest.
+            // A division takes as long as all other operations here; it is skipped where the result cannot be the largest.
             let in_question = residual.relative.min(most_carried);
             if size == 0.0 || size < 0.999 * in_question * scale {
                 continue;
             }
-            // `f64::max` would pass over a NaN, and with it over a failed solve.
+            // `f64::max` would ignore a NaN, and with it a failed solution.
             let relative = if size.is_finite() {
                 size / scale
             } else {

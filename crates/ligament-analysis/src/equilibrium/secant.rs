@@ -1,4 +1,4 @@
-//! Equilibrium of bonds that soften: a quasi-Newton iteration from their secant stiffness.
+//! Equilibrium of bonds that soften, by a quasi-Newton iteration from their secant stiffness.
 
 use super::curvature::Curvature;
 use super::equations::Equations;
@@ -16,45 +16,45 @@ use crate::tangent::AllowedResidual;
 use crate::unbalanced::Unbalanced;
 use crate::vectors::dot_of_all;
 
-/// A residual above this is no equilibrium whatever the energies say: what is left at thousands of points adds up in the balance of
-/// the external forces, and the falling stiffness of softening bonds magnifies it.
+/// Largest residual of an equilibrium accepted by the energy rule: residuals of thousands of points add up in the balance of the
+/// external forces, and the falling stiffness of softening bonds magnifies them.
 const LARGEST_RESIDUAL: f64 = 1e-8;
 
-/// The largest residual where a load follows from a motion, or faces close: there the energies of a run balance to 2e-8 with 1e-8, and to
-/// 1e-8 with this.
+/// Largest residual of an equilibrium accepted by the energy rule where a motion is prescribed or faces close: energies of a run
+/// then balance to 1e-8, against 2e-8 with a residual of 1e-8.
 const LARGEST_FOLLOWING: f64 = 2e-9;
 
-/// Residual up to which a state that goes on as before begins the iteration at the value of a motion, where no residual without it tells
-/// what it is worth.
+/// Residual up to which an extrapolated state begins the iteration where a motion is prescribed; a residual without extrapolation
+/// is then no measure.
 const LARGEST_AHEAD: f64 = 0.2;
 
-/// Share of a force that a solver which iterates may leave: what the steps have shown of the stiffness counts on one stiffness.
+/// Relative residual that an iterative solver may leave, so that the recorded curvature refers to one stiffness.
 const SOLVED: f64 = 1e-6;
 
-/// Iterations after which a solve is given up.
+/// Largest number of iterations of a solve.
 const ITERATION_LIMIT: usize = 1000;
 
-/// Iterations after which a hold that carries a force carries it, where faces close.
+/// Number of iterations after which a force at an added support is accepted where faces close.
 const CARRIED_AFTER: usize = 60;
 
-/// Iterations after which bonds keep the damage of the iterates: what has not settled by then is a sudden fall, in which bonds
-/// take turns. Damage that only grows comes to an end.
+/// Number of iterations after which damage of the iterates no longer heals: a solution that has not converged by then is a sudden
+/// drop in which bonds alternate, and damage that only grows terminates.
 const ONE_WAY_AFTER: usize = 150;
 
 /// Brings a state with softening bonds into equilibrium at its load factor.
 ///
-/// Every iterate decides what is left of the bonds. Their secants are positive, so that the stiffness K_s of what is left is definite
-/// where the elastic one is; and since the energy of a bond bends down over the square of its deformation, the energy with the secants
-/// lies above the true one. A correction by K_s therefore lowers the potential energy, if too timidly. Two things make it go as far as it
-/// should: the stiffness that the last steps have shown ([`Curvature`]), those of earlier equilibria among them, and a search along it
-/// ([`line_search`]). Both go down in energy, and end in an equilibrium that is stable. The factor may be off the secants, because
-/// neither asks for more than a stiffness that is near.
+/// Every iterate determines the remaining stiffness of the bonds. The secants are positive, so that the secant stiffness K_s is
+/// positive definite where the elastic one is; and since the energy of a bond is concave in the square of its deformation, the
+/// energy with the secants lies above the true one. A correction by K_s therefore lowers the potential energy, but is too short.
+/// Two measures lengthen it: the curvature along the last steps ([`Curvature`]), including steps of earlier equilibria, and a line
+/// search ([`line_search`]). Both lower the energy and end in a stable equilibrium. The factor may differ from the secants, because
+/// both need only an approximate stiffness.
 ///
-/// A load step begins where the body would be if it went on as in the last one, if that leaves less out of balance. Where faces close,
-/// and of the stiffness after a breakage, nothing is taken from earlier equilibria. Otherwise the
-/// first correction takes the bonds as they were in the last equilibrium: what prescribed motions do to bonds before their
-/// surroundings follow says nothing about them. The iteration ends by NHPD's energy rule (eq. 21) with a residual below 1e-8, or with one below 1e-10.
-/// Extremes of iterates do not count unless equilibrium holds ([`Softening::follow`](crate::softening::Softening::follow)).
+/// A load step begins at the extrapolation of the last one if that has the smaller residual. Where faces close, nothing is taken
+/// from earlier equilibria, and after a breakage no curvature. Otherwise the first correction takes the bonds of the last
+/// equilibrium, because bonds next to prescribed motions deform too much until their surroundings follow. The iteration ends by
+/// NHPD's energy rule (eq. 21) with a residual below 1e-8, or with a residual below 1e-10. Extremes of iterates do not count unless
+/// equilibrium is reached ([`Softening::follow`](crate::softening::Softening::follow)).
 pub(super) fn balance(
     equations: &mut Equations,
     state: &mut State,
@@ -64,8 +64,8 @@ pub(super) fn balance(
     sought(equations, state, breakage, None, observer)
 }
 
-/// Brings a state with softening bonds into equilibrium at the value of a motion, and finds its load factor: the same iteration in the
-/// plane of the displacements with that motion, where the body is stable if it is under such a control.
+/// Brings a state with softening bonds into equilibrium at the value of a motion, and finds its load factor: the iteration of
+/// [`balance`] in the plane of displacements with that motion, for a body that is stable under such control.
 pub(super) fn balance_at(
     equations: &mut Equations,
     state: &mut State,
@@ -101,7 +101,7 @@ fn sought(
         let energy_settled = equations.energy_settled(previous_energy, &iterate, largest_residual);
         let is_small = equations.is_small(&residual, RESIDUAL_TOLERANCE);
         let is_met = target.is_none_or(|it| it.is_met(&state.displacement));
-        // What a hold carries, faces that close may carry in the end.
+        // A force at an added support may in the end be carried by closed faces.
         let may_close = faces_close && iterations < CARRIED_AFTER;
         let is_carried = may_close && residual.carried.is_some();
         if (is_small || energy_settled) && is_met && !is_carried {
@@ -135,10 +135,10 @@ fn sought(
     }
 }
 
-/// The earlier equilibria that tell something about the one that is sought.
+/// Precedents that apply to the equilibrium to be found.
 ///
-/// Pairs that close and open change the stiffness at once; and where one breakage brings on another, what was shown before it would decide
-/// on where the fall ends.
+/// Pairs that close and open change the stiffness at once; and where one breakage causes another, curvature from before it would
+/// affect where the drop ends.
 fn applicable_precedents(equations: &mut Equations, breakage: &Breakage) -> EarlierEquilibria {
     let mut precedents = std::mem::take(&mut equations.precedents);
     if equations.problem.system.faces_close() {
@@ -150,7 +150,7 @@ fn applicable_precedents(equations: &mut Equations, breakage: &Breakage) -> Earl
     precedents
 }
 
-/// The iterate from which equilibrium is sought, and the number of corrections that it took.
+/// First iterate, and the number of corrections made to reach it.
 fn begun(
     equations: &mut Equations,
     state: &mut State,
@@ -180,16 +180,16 @@ fn begun(
     (iterate, 0)
 }
 
-/// A correction of a state, with the force that it takes out of balance.
+/// Correction of a state, with the residual force that it removes.
 struct Correction {
-    /// Force out of balance at the load factor that the correction leads to, shape (n_unknowns).
+    /// Residual force at the corrected load factor, shape (n_unknowns), N.
     force: Vec<f64>,
-    /// Shape (n_unknowns).
+    /// Change of the unknowns, shape (n_unknowns).
     step: Vec<f64>,
     load_change: f64,
 }
 
-/// The correction by the stiffness that the last steps have shown.
+/// Correction by the stiffness with the recorded curvature.
 fn correction(
     equations: &mut Equations,
     state: &State,
@@ -222,7 +222,7 @@ fn correction(
     })
 }
 
-/// The next iterate: the load goes where a correction says, and the state goes along it as far as that lowers the energy.
+/// Computes the next iterate: corrects the load factor and moves the state along the correction as far as that lowers the energy.
 fn next(
     equations: &mut Equations,
     state: &mut State,
@@ -232,7 +232,7 @@ fn next(
     is_one_way: bool,
 ) -> Result<Iterate, Unbalanced> {
     let force = equations.out_of_balance(state, iterate);
-    // A motion comes to its value by the whole of a correction, which what was shown elsewhere may lead astray.
+    // A motion reaches its value by a whole correction, for which curvature recorded elsewhere may be wrong.
     let is_searched = target.is_none_or(|it| it.is_met(&state.displacement));
     if !is_searched {
         curvature.discard();

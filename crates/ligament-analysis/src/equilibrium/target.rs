@@ -1,7 +1,7 @@
-//! A motion that is held at a value, with the load factor as an unknown: what a test does that is controlled by the opening of a crack.
+//! A motion with a prescribed value and the load factor as an unknown, as in a test controlled by the opening of a crack.
 //!
-//! With a correction du_r of the forces that are not in balance and the growth u_B of the displacements with the load factor, the motion
-//! c . u that is to be c* changes the load factor by
+//! With a correction du_r by the residual forces and the rate u_B of the displacements with the load factor, a motion c . u with
+//! the prescribed value c* changes the load factor by
 //!
 //! d_lambda = (c* - c . u - c . du_r)/(c . u_B),
 //!
@@ -15,29 +15,29 @@ use ligament_model::subdomain::Subdomain;
 use crate::load_program::LoadProgram;
 use crate::unbalanced::Unbalanced;
 
-/// What a motion may miss its value by, relative to the way that it goes in its stage.
+/// Largest deviation of a motion from its value, relative to its change in its stage.
 const MISSED: f64 = 1e-9;
 
-/// Growth of the controlled motion with the load factor, relative to the largest growth of a displacement, below which the load does not
-/// move it.
+/// Rate of the controlled motion with the load factor, relative to the largest rate of a displacement, below which the load does
+/// not move it.
 const UNMOVED: f64 = 1e-12;
 
-/// A motion with its value, which a load is to bring about.
+/// A motion and its prescribed value.
 #[derive(Debug, Clone)]
 pub(crate) struct Target {
-    /// What grows with the load factor, for a load factor of one.
+    /// Loads that grow with the load factor, at load factor 1.
     pub(crate) rate: Arc<dyn LoadProgram>,
     pub(crate) subdomain: Subdomain,
-    /// Degrees of freedom of owned points with their weights in the motion, which is the sum over all processes.
+    /// Degrees of freedom of owned points and their weights in the motion, which is a sum over all processes.
     pub(crate) weights: Vec<(u32, f64)>,
     /// The value of the motion, m or rad.
     pub(crate) value: f64,
-    /// The way that the motion goes in its stage, m or rad.
+    /// Change of the motion in its stage, m or rad.
     pub(crate) way: f64,
 }
 
 impl Target {
-    /// The weights at owned points.
+    /// Selects the weights at owned points.
     pub(crate) fn owned_weights(
         subdomain: &Subdomain,
         layout: Layout,
@@ -47,25 +47,25 @@ impl Target {
         weights.filter(|&(dof, _)| is_owned(dof)).collect()
     }
 
-    /// The motion in displacements (n_degrees_of_freedom).
+    /// The motion, m or rad, of displacements of shape (n_degrees_of_freedom).
     pub(super) fn motion(&self, displacement: &[f64]) -> f64 {
         let terms = self.weights.iter();
         let terms = terms.map(|&(dof, weight)| weight * displacement[dof as usize]);
         self.subdomain.sum(terms.sum())
     }
 
-    /// Whether the motion has its value in displacements (n_degrees_of_freedom).
+    /// Whether displacements (n_degrees_of_freedom) have the prescribed value of the motion.
     pub(super) fn is_met(&self, displacement: &[f64]) -> bool {
         let missing = self.value - self.motion(displacement);
         missing.abs() <= MISSED * self.way.abs()
     }
 
-    /// The change of the load factor that brings the motion of displacements to its value, with what a correction adds to them and what
-    /// they grow by with the load factor, all of shape (n_degrees_of_freedom).
+    /// Change of the load factor that brings the motion to its value, from the displacements, their correction and their rate with
+    /// the load factor, all of shape (n_degrees_of_freedom).
     ///
     /// # Errors
     ///
-    /// If the load does not move what is to move.
+    /// If the load does not move the controlled motion.
     pub(super) fn load_change(
         &self,
         displacement: &[f64],

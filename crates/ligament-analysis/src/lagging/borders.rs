@@ -1,4 +1,4 @@
-//! The borders of parts: what bonds from inside a part resist the motions of the points around it with.
+//! Borders of parts, and the stiffness of bonds from inside a part at the points around it.
 
 use ligament_model::Bonds;
 use ligament_model::element::{BondDeformation, StiffnessFactors};
@@ -10,17 +10,17 @@ use super::bound::{Bound, Modes, NOT_THERE};
 use super::division::Division;
 use crate::problem::Problem;
 
-/// A bond from a part to a point of its border.
+/// Part, border point and bond between them.
 type Across = (u32, u32, u32);
 
-/// The bounds of all parts of a body.
+/// Bounds of all parts of a body.
 pub(super) struct Bounds {
     of_parts: Vec<Bound>,
     modes: Modes,
 }
 
 impl Bounds {
-    /// The bounds for a division; None where bonds lead to points whose rows are no border of the factor.
+    /// Bounds for a division; None where bonds reach points whose rows are not in the border of the factor.
     pub(super) fn new(problem: &Problem, division: &Division) -> Option<Self> {
         let system = &*problem.system;
         let modes = Modes::of_body(system);
@@ -65,20 +65,20 @@ impl Bounds {
         })
     }
 
-    /// What ratios in a part may have grown by since its border had the motions `then`; displacements are by degree of freedom.
+    /// Bound of the growth of ratios in a part since its border had the motions `then`; displacements are by degree of freedom.
     pub(super) fn growth(&self, part: usize, displacement: &[f64], then: &[f64]) -> f64 {
         self.of_parts[part].growth(&self.modes, displacement, then)
     }
 }
 
-/// The points of a border with the stiffness of the bonds into the part.
+/// Points of a border, with the stiffness of the bonds into the part.
 struct Border {
     dofs: Vec<u32>,
     blocks: Vec<f64>,
 }
 
 impl Border {
-    /// The border with these bonds across, in the order of the points.
+    /// Border from the bonds across it, in the order of the points.
     fn new(system: &dyn Bonds, whole: &[bool], across: &[Across]) -> Self {
         let layout = system.layout();
         let n = layout.components.len();
@@ -107,7 +107,7 @@ impl Border {
         Self { dofs, blocks }
     }
 
-    /// Places of the degrees of freedom among the rows of a part's border; None where a row is missing there.
+    /// Indices of the degrees of freedom among the rows of a part's border; None where a row is missing there.
     fn places(&self, rows: &[usize], row_of: &[usize]) -> Option<Vec<u32>> {
         let place = |&dof: &u32| match row_of[dof as usize] {
             usize::MAX => Some(NOT_THERE),
@@ -137,7 +137,7 @@ fn across(system: &dyn Bonds, division: &Division) -> Vec<Across> {
     across
 }
 
-/// Double energy of the modes of strain in the bonds of each part alone, shape (n_parts)(n_strains, n_strains), J.
+/// Twice the energy of the strain modes in the bonds of each part alone, shape (n_parts)(n_strains, n_strains), J.
 fn strain_stiffness(system: &dyn Bonds, division: &Division, modes: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let whole = vec![true; division.part_of_bond.len()];
     let of_mode = |mode: &Vec<f64>| system.deformations(&whole, mode, ThermalStrain::NONE);
@@ -162,10 +162,10 @@ fn strain_stiffness(system: &dyn Bonds, division: &Division, modes: &[Vec<f64>])
         .collect()
 }
 
-/// The largest ratio of measure to limit of a bond with an energy of 1/2 J, J^(-1/2).
+/// Largest ratio of measure to limit of a bond with an energy of 1/2 J, J^(-1/2).
 ///
-/// A measure of stretch, shear and rotation is at most the sum of those of each alone, |s| m_s + ..., and that at most the root of
-/// (m_s^2/k_s + ...) for k_s s^2 + ... = 1 (Cauchy and Schwarz).
+/// A measure of stretch, shear and rotation is at most the sum of the measures of each alone, |s| m_s + ..., and that sum at most
+/// the root of (m_s^2/k_s + ...) for k_s s^2 + ... = 1 (Cauchy and Schwarz).
 fn ratio_per_norm(problem: &Problem, whole: &[bool], bond: usize) -> f64 {
     let unit = |place: usize, size: f64| {
         let mut strains = BondDeformation::default().strains();

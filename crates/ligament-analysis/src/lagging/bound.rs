@@ -1,32 +1,33 @@
-//! What the ratios of measure to limit of the bonds of a part can have grown by, from the motions of the part's border.
+//! Bound of the growth of the ratios of measure to limit in a part, from the motions of the part's border.
 //!
-//! Nothing loads a part that waits, so that of all motions with those of its border the one of the least energy is its own. The bonds
-//! share that energy, and no bond has more than all: with |d|^2 the double energy of a motion d,
+//! A delayed part has no loads, so that of all motions with those of its border its own has the least energy. The bonds share that
+//! energy, and no bond has more than the sum: with |d|^2 twice the energy of a motion d,
 //!
 //! |d| <= |a| + |r|,  ratio(s + s_d) <= ratio(s) + kappa |d|,
 //!
-//! for any motion a of uniform strain, and the rest r = d - a of the border's motion with none inside. The strain a is that which leaves
-//! the least of the border's motion; r costs what bonds from inside the part resist it with, point by point; and kappa is the largest ratio of a
-//! bond of the part that has an energy of 1/2 J. All measures are sublinear, so that ratios of sums are no larger than sums of ratios.
+//! for any motion a of uniform strain, and the rest r = d - a of the border's motion with none inside. The strain a is the
+//! least-squares fit of the border's motion; the energy of r is that of the bonds from inside the part, point by point; and kappa
+//! is the largest ratio of a bond of the part that has an energy of 1/2 J. All measures are sublinear, so that ratios of sums are
+//! no larger than sums of ratios.
 
 use ligament_model::Bonds;
 use nalgebra::{DMatrix, DVector};
 
-/// A motion that is not an unknown of the border.
+/// Marker of a motion that is not an unknown of the border.
 pub(super) const NOT_THERE: u32 = u32::MAX;
 
-/// Share of the size of a mode that is added to it, so that modes that the border does not tell apart stay solvable. The bound holds for
-/// whatever strain is taken.
+/// Share of the size of a mode that is added to it, so that modes that are equal on the border stay solvable. The bound holds for
+/// any strain.
 const RIDGE: f64 = 1e-10;
 
-/// Motions of a body as a whole, each of shape (n_degrees_of_freedom): rigid ones, which cost nothing, and those of uniform strain.
+/// Motions of a body as a whole, each of shape (n_degrees_of_freedom): rigid ones, without energy, and those of uniform strain.
 pub(super) struct Modes {
     pub(super) rigid: Vec<Vec<f64>>,
     pub(super) strain: Vec<Vec<f64>>,
 }
 
 impl Modes {
-    /// The modes of a body.
+    /// Rigid and strain modes of a body.
     pub(super) fn of_body(system: &dyn Bonds) -> Self {
         let masses = vec![1.0; system.n_points()];
         Self {
@@ -40,25 +41,25 @@ impl Modes {
     }
 }
 
-/// The bound of one part with those below it.
+/// Data of the bound of one part with its descendants.
 #[derive(Default)]
 pub(super) struct Bound {
     /// Degrees of freedom of the points of the border, shape (n_points, n_components).
     dofs: Vec<u32>,
-    /// Place of each among the rows of the border, or [`NOT_THERE`], as `dofs`.
+    /// Index of each of `dofs` among the rows of the border, or [`NOT_THERE`].
     places: Vec<u32>,
     /// Stiffness of each point of the border with the bonds into the part, shape (n_points, n_components, n_components).
     blocks: Vec<f64>,
-    /// The modes in the motions of the border, shape (n_modes, n_points n_components).
+    /// Least-squares fit of the modes to motions of the border, shape (n_modes, n_points n_components).
     fit: Vec<f64>,
-    /// Double energy of the modes of strain in the bonds of the part, shape (n_strains, n_strains), J.
+    /// Twice the energy of the strain modes in the bonds of the part, shape (n_strains, n_strains), J.
     stiffness: Vec<f64>,
-    /// The largest ratio of a bond over the norm of its motion, kappa, J^(-1/2).
+    /// Largest ratio of a bond over the norm of its motion, kappa, J^(-1/2).
     per_norm: f64,
 }
 
 impl Bound {
-    /// The bound with the points of the border, by their degrees of freedom, `places` and `blocks`.
+    /// Bound from the points of the border, by their degrees of freedom, `places` and `blocks`.
     pub(super) fn new(
         modes: &Modes,
         (dofs, places): (Vec<u32>, Vec<u32>),
@@ -85,7 +86,7 @@ impl Bound {
         }
     }
 
-    /// The least squares of what modes leave of the border, weighted by its stiffness.
+    /// Least-squares fit of the modes to motions of the border, weighted by its stiffness.
     fn fitted(&self, modes: &Modes) -> Vec<f64> {
         let n = self.n_components();
         let weights = (0..self.dofs.len()).map(|k| self.blocks[k * n + k % n]);
@@ -122,7 +123,7 @@ impl Bound {
             .collect()
     }
 
-    /// What ratios may have grown by since the border had the motions `then`; displacements are by degree of freedom.
+    /// Bound of the growth of ratios since the border had the motions `then`; displacements are by degree of freedom.
     pub(super) fn growth(&self, modes: &Modes, displacement: &[f64], then: &[f64]) -> f64 {
         let change = |(&dof, &place): (&u32, &u32)| match place {
             NOT_THERE => 0.0,
@@ -152,7 +153,7 @@ fn dot(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(a, b)| a * b).sum()
 }
 
-/// x^T A x.
+/// Quadratic form x^T A x.
 fn quadratic(matrix: &[f64], x: &[f64]) -> f64 {
     let rows = matrix.chunks_exact(x.len());
     rows.zip(x).map(|(row, x_i)| x_i * dot(row, x)).sum()

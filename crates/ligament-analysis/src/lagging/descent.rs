@@ -1,6 +1,6 @@
-//! Parts substituted from the first one downwards; those that are below the same one, side by side.
+//! Backward substitution of parts from the root of the elimination tree downwards, with siblings in parallel.
 //!
-//! A part needs the motions of the parts above it alone, so that each gives what it would give in turn.
+//! A part needs the motions of its ancestors alone, so that the results equal those of a sequential substitution.
 
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -10,15 +10,15 @@ use rayon::prelude::*;
 
 use super::division::Division;
 
-/// Values of the factor that make a task worth while: a substitution takes some 50 microseconds for them.
+/// Least number of values of the factor for a parallel task; their substitution takes some 50 microseconds.
 const TASK: usize = 150_000;
 
-/// Vectors by row of the factor to work in, one for each thread that does.
+/// Work vectors by row of the factor, one for each thread in use.
 #[derive(Default)]
 pub(super) struct WorkVectors(Mutex<Vec<Vec<f64>>>);
 
 impl WorkVectors {
-    /// Does work with a vector (n_rows) of any values.
+    /// Runs a function with a work vector (n_rows) of arbitrary values.
     fn with<T>(&self, n_rows: usize, work: impl FnOnce(&mut [f64]) -> T) -> T {
         let rooms = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let free = rooms().pop();
@@ -34,27 +34,27 @@ impl WorkVectors {
 pub(crate) struct ForwardSubstituted<'a> {
     pub(crate) factor: &'a dyn Factorisation,
     pub(crate) by_row: &'a [f64],
-    /// Factor from the load factor of the correction to that of the displacements.
+    /// Ratio of the load factor of the displacements to that of the correction.
     pub(crate) scale: f64,
 }
 
-/// What a breakage asks of parts.
+/// Data for the substitution of parts after a breakage.
 #[derive(Clone, Copy)]
 pub(super) struct Descent<'a> {
     pub(super) division: &'a Division,
-    /// Displacements and rotations before, shape (n_degrees_of_freedom), m and rad.
+    /// Displacements and rotations before the substitution, shape (n_degrees_of_freedom), m and rad.
     pub(super) displacement: &'a [f64],
-    /// Motions of the border of each part when it was last substituted.
+    /// Motions of the border of each part at its last substitution.
     pub(super) references: &'a [Vec<f64>],
     pub(super) rooms: &'a WorkVectors,
     pub(super) correction: ForwardSubstituted<'a>,
-    /// Whether the breakage was in each part or below it.
+    /// Whether the breakage was in each part or in its descendants.
     pub(super) broken_in: &'a [bool],
-    /// Degrees of freedom that are held.
+    /// Whether each degree of freedom is fixed, shape (n_degrees_of_freedom).
     pub(super) held: &'a [bool],
 }
 
-/// Changes of the motions of a part, by its rows, and of those above it.
+/// Changes of the motions of a part, by its rows, and of its ancestors.
 struct Above<'a> {
     rows: Range<usize>,
     changes: &'a [f64],
@@ -65,12 +65,12 @@ struct Above<'a> {
 type Changed = (usize, Vec<f64>);
 
 impl Descent<'_> {
-    /// The changes of all parts that are asked for; with one, the part above it is.
+    /// Changes of all required parts; the parent of a required part is required too.
     pub(super) fn all(self, is_asked_for: &[bool]) -> Vec<Changed> {
         self.downwards(0, is_asked_for, None)
     }
 
-    /// The changes of one part, above which all displacements are up to date.
+    /// Changes of one part whose ancestors are up to date.
     pub(super) fn one(self, part: usize) -> Vec<f64> {
         self.part(part, None)
     }
@@ -102,7 +102,7 @@ impl Descent<'_> {
         all
     }
 
-    /// The changes of one part from those of the parts above it, which the displacements do not have yet.
+    /// Changes of one part from those of its ancestors, which the displacements do not include yet.
     fn part(self, part: usize, above: Option<&Above<'_>>) -> Vec<f64> {
         let Self {
             division,

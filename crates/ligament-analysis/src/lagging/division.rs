@@ -1,4 +1,4 @@
-//! A body divided into parts that can wait, as its factor is.
+//! Division of a body into parts that may be delayed, as in its factor.
 
 use ligament_linalg::Part;
 use ligament_model::Bonds;
@@ -9,35 +9,35 @@ use crate::solver::{DirectChoice, Ordering, Update};
 use crate::stiffness::Stiffness;
 use crate::unknowns::Layout;
 
-/// Share of the values of a factor that a part has which is not divided any further.
+/// Inverse of the share of the factor's values below which a part is not divided any further.
 const SMALLEST: usize = 256;
 
-/// A body divided into parts.
+/// Division of a body into parts.
 pub(super) struct Division {
-    /// Parts of the factor, each after the one above it.
+    /// Parts of the factor, each after its parent.
     pub(super) parts: Vec<Part>,
-    /// Parts right below each part.
+    /// Children of each part.
     pub(super) below: Vec<Vec<usize>>,
     /// Degree of freedom of each row of the factor.
     pub(super) degree_of_freedom: Vec<u32>,
-    /// Whether each part, or one below it, has points whose motions and forces are asked for after each breakage.
+    /// Whether each part or a descendant of it contains observed points.
     pub(super) is_wanted: Vec<bool>,
     /// Part of each point; the first one for points without unknowns.
     part_of_point: Vec<u32>,
-    /// Bonds by the lowest part that one of their ends is in, ascending in each.
+    /// Bonds sorted by the lowest part that contains one of their ends, ascending in each.
     bonds: Vec<u32>,
-    /// Where the bonds of each part begin.
+    /// Index of the first bond of each part.
     starts: Vec<usize>,
-    /// Points whose motions and forces are asked for after each breakage, ascending.
+    /// Observed points, whose motions and forces are needed after each breakage, ascending.
     pub(super) wanted: Vec<u32>,
     /// Part of each bond.
     pub(super) part_of_bond: Vec<u32>,
 }
 
 impl Division {
-    /// The division of a body. None where parts of it cannot wait: where equations are not linear, a stiffness is negative, something
-    /// beside bonds resists motions, limits change with the state of the body, probes ask for more than motions, or the factor
-    /// follows no dissection.
+    /// Divides a body. None where parts of it cannot be delayed: where equations are nonlinear, a stiffness is negative, other
+    /// elements than bonds resist motions, limits change with the state of the body, probes read more than motions, or the factor
+    /// has no nested dissection.
     pub(super) fn new(problem: &Problem, stiffness: &Stiffness) -> Option<Self> {
         if !may_wait(problem, stiffness.choice()) {
             return None;
@@ -78,7 +78,7 @@ impl Division {
         Some(division)
     }
 
-    /// The bonds of a part.
+    /// Bonds of a part.
     pub(super) fn bonds(&self, part: usize) -> &[u32] {
         &self.bonds[self.starts[part]..self.starts[part + 1]]
     }
@@ -88,7 +88,7 @@ impl Division {
         self.part_of_point[point as usize] as usize
     }
 
-    /// For each part, whether it or one below it has one of the points.
+    /// Whether each part or a descendant of it contains one of the points.
     pub(super) fn parts_above(&self, points: impl Iterator<Item = u32>) -> Vec<bool> {
         let mut is_above = vec![false; self.parts.len()];
         for point in points {
@@ -102,7 +102,7 @@ impl Division {
     }
 }
 
-/// Whether parts of a body may wait at all.
+/// Whether the problem and solver allow delayed parts at all.
 fn may_wait(problem: &Problem, choice: &DirectChoice) -> bool {
     let (system, loads) = (&problem.system, &problem.loads);
     let is_judged = |it: &ligament_model::failure::Criterion| {
@@ -121,7 +121,7 @@ fn may_wait(problem: &Problem, choice: &DirectChoice) -> bool {
         && choice.update == Update::Incremental
 }
 
-/// Points whose motions and forces records ask for, ascending; None where probes ask for more.
+/// Points whose motions and forces records need, ascending; None where probes read more.
 fn wanted(problem: &Problem) -> Option<Vec<u32>> {
     let (system, loads) = (&problem.system, &problem.loads);
     let layout = system.layout();
@@ -141,7 +141,7 @@ fn wanted(problem: &Problem) -> Option<Vec<u32>> {
     Some(points)
 }
 
-/// Points and those that bonds connect with them: the forces at the points need the motions of all.
+/// Points and their neighbours, whose motions determine the forces at the points.
 fn with_neighbours(system: &dyn Bonds, points: &[u32]) -> Vec<u32> {
     let topology = system.topology();
     let neighbours = points.iter().flat_map(|&point| {
@@ -151,7 +151,7 @@ fn with_neighbours(system: &dyn Bonds, points: &[u32]) -> Vec<u32> {
     points.iter().copied().chain(neighbours).collect()
 }
 
-/// Part of each point; None where the unknowns of a point are in several.
+/// Part of each point; None where the unknowns of a point are in several parts.
 fn parts_of_points(layout: Layout, parts: &[Part], degree_of_freedom: &[u32]) -> Option<Vec<u32>> {
     const NOWHERE: u32 = u32::MAX;
     let mut part_of_point = vec![NOWHERE; layout.n_points];
@@ -164,15 +164,15 @@ fn parts_of_points(layout: Layout, parts: &[Part], degree_of_freedom: &[u32]) ->
             *of_point = number;
         }
     }
-    // What is prescribed altogether is known at any time, as are the motions of the first part.
+    // Fully prescribed motions are always known, like the motions of the first part.
     let known = part_of_point.iter_mut().filter(|part| **part == NOWHERE);
     known.for_each(|part| *part = 0);
     Some(part_of_point)
 }
 
-/// The lower one of two parts of which one is above the other, or is it.
+/// The lower of two parts that are equal or of which one is an ancestor of the other; None for other parts.
 fn lower(parts: &[Part], one: u32, other: u32) -> Option<u32> {
-    // A part above has a smaller number.
+    // An ancestor has a smaller number.
     let (higher, lower) = (one.min(other), one.max(other));
     let mut next = Some(lower as usize);
     while let Some(part) = next.filter(|&part| part > higher as usize) {
@@ -181,7 +181,7 @@ fn lower(parts: &[Part], one: u32, other: u32) -> Option<u32> {
     (next == Some(higher as usize)).then_some(lower)
 }
 
-/// Numbers sorted by the part that each belongs to, and where those of each part begin.
+/// Numbers sorted by their parts, and the index of the first number of each part.
 fn sorted(part_of: &[u32], n_parts: usize) -> (Vec<u32>, Vec<usize>) {
     let mut starts = vec![0; n_parts + 1];
     for &part in part_of {

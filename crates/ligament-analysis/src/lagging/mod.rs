@@ -1,12 +1,13 @@
-//! A solution whose parts are left behind while bonds break elsewhere, for as long as none of their bonds can be the next to break.
+//! A solution whose parts are updated later, as long as none of their bonds can be the next to break.
 //!
-//! After a breakage the displacements change by du, and most of a body hardly moves. What the backward substitution gives a part of the
-//! factor follows from du at the border of the part alone, unless the breakage was in the part itself. So a part may wait: when it is
-//! needed, the change of its border since the last time gives in one substitution what all breakages in between would have given.
+//! After a breakage the displacements change by du, and most of a body hardly moves. The backward substitution of a part of the
+//! factor depends on du at the border of the part alone, unless the breakage was in the part itself. The update of a part may
+//! therefore be delayed: later, the total change of its border gives in one substitution the sum of the changes by all breakages in
+//! between.
 //!
-//! A part may wait as long as a rigorous [bound] keeps the ratios of measure to limit of all its bonds below the
-//! largest one of the body. Parts are taken in the order of their bounds, so that no more of them are substituted than the bound asks for,
-//! and those that a breakage is in, or whose motions and forces are asked for, always are.
+//! A part may be delayed as long as a rigorous [bound] keeps the ratios of measure to limit of all its bonds below the largest one
+//! of the body. Parts are updated in the order of their bounds, so that no more of them are substituted than necessary; parts that
+//! contain the breakage or observed points are always updated.
 
 mod borders;
 mod bound;
@@ -31,32 +32,32 @@ use division::Division;
 
 pub(crate) use descent::ForwardSubstituted;
 
-/// Relative distance below the bonds that lead at which a bound counts as below them: rounding of a bound is less.
+/// Relative margin by which a bound must be below the leading bonds; the rounding of a bound is smaller.
 const SURELY: f64 = 1e-6;
 
-/// A body whose parts can wait, and their bounds.
+/// A body divided into parts that may be delayed, with their bounds.
 pub(crate) struct Body {
     division: Division,
     bounds: Bounds,
 }
 
 impl Body {
-    /// A body with the stiffness of its factor; None where parts of it cannot wait: where equations are not linear, a stiffness is negative,
-    /// something beside bonds resists motions, limits change with the state of the body, probes ask for more than motions, or the factor
-    /// follows no dissection.
+    /// Divides a body as the factor of its stiffness; None where parts of it cannot be delayed: where equations are nonlinear, a
+    /// stiffness is negative, other elements than bonds resist motions, limits change with the state of the body, probes read more
+    /// than motions, or the factor has no nested dissection.
     pub(crate) fn new(problem: &Problem, stiffness: &Stiffness) -> Option<Self> {
         let division = Division::new(problem, stiffness)?;
         let bounds = Bounds::new(problem, &division)?;
         Some(Self { division, bounds })
     }
 
-    /// Points whose motions and forces are known after each breakage, ascending.
+    /// Observed points, whose motions and forces are known after each breakage, ascending.
     pub(crate) fn wanted(&self) -> &[u32] {
         &self.division.wanted
     }
 }
 
-/// The displacements of a body at a fixed load factor; those of some parts may be earlier ones.
+/// Displacements of a body at a fixed load factor, with those of some parts delayed.
 pub(crate) struct Lagging<'a> {
     division: &'a Division,
     bounds: &'a Bounds,
@@ -64,17 +65,17 @@ pub(crate) struct Lagging<'a> {
     tie_tolerance: f64,
     /// Displacements and rotations, shape (n_degrees_of_freedom), m and rad.
     pub(crate) displacement: Vec<f64>,
-    /// Motions of the border of each part when it was last substituted.
+    /// Motions of the border of each part at its last substitution.
     references: Vec<Vec<f64>>,
-    /// What no ratio of measure to limit in a part, and in those below it, exceeded then.
+    /// Bound of the ratios of measure to limit in a part and its descendants at its last substitution.
     at_most: Vec<f64>,
-    /// What no such ratio exceeds now.
+    /// Present bound of these ratios.
     now: Vec<f64>,
     rooms: WorkVectors,
 }
 
 impl<'a> Lagging<'a> {
-    /// Starts from a state in equilibrium and its deformations (n_bonds).
+    /// Starts from an equilibrium state and its deformations (n_bonds).
     pub(crate) fn new(
         Body { division, bounds }: &'a Body,
         problem: &'a Problem,
@@ -104,7 +105,7 @@ impl<'a> Lagging<'a> {
         lagging
     }
 
-    /// Takes in a correction after a breakage at some points; gives the bonds that are the first to break now.
+    /// Applies a correction after a breakage at some points; returns the bonds that break first now.
     pub(crate) fn follow(
         &mut self,
         correction: ForwardSubstituted<'_>,
@@ -137,7 +138,7 @@ impl<'a> Lagging<'a> {
         leaders.first_to_break()
     }
 
-    /// Substitutes all parts, so that all displacements are those of now.
+    /// Substitutes all parts, so that all displacements are up to date.
     pub(crate) fn catch_up(&mut self, factor: &dyn Factorisation, state: &State) {
         let nothing = ForwardSubstituted {
             factor,
@@ -165,7 +166,7 @@ impl<'a> Lagging<'a> {
         }
     }
 
-    /// Brings the displacements of parts that are asked for up to date; gives them, each after the one above it.
+    /// Updates the displacements of required parts; returns these parts, each after its parent.
     fn substitute_all(
         &mut self,
         correction: ForwardSubstituted<'_>,
@@ -181,7 +182,7 @@ impl<'a> Lagging<'a> {
         changed.into_iter().map(|(part, _)| part).collect()
     }
 
-    /// Takes in the changes of the motions of a part, by its rows; all above it are up to date.
+    /// Adds the changes of the motions of a part, by its rows; its ancestors must be up to date.
     fn take_in(&mut self, part: usize, changes: &[f64], held: &[bool]) {
         let Division {
             parts,
@@ -197,7 +198,7 @@ impl<'a> Lagging<'a> {
         self.store_border_motions(part);
     }
 
-    /// Puts the parts below some, which were substituted, in line, but for those that are asked for.
+    /// Queues the children of substituted parts, except those that are required.
     fn wait(&mut self, above: &[usize], is_asked_for: &[bool], waiting: &mut BinaryHeap<Waiting>) {
         let below = above.iter().flat_map(|&part| &self.division.below[part]);
         let below: Vec<usize> = below.copied().filter(|&it| !is_asked_for[it]).collect();
@@ -209,13 +210,13 @@ impl<'a> Lagging<'a> {
         }
     }
 
-    /// What the ratios in a part may have grown by since it was last substituted.
+    /// Bound of the growth of the ratios in a part since its last substitution.
     fn growth(&self, part: usize) -> f64 {
         let then = &self.references[part];
         self.bounds.growth(part, &self.displacement, then)
     }
 
-    /// Takes the motions of the border of a part as those that it was last substituted with.
+    /// Stores the present motions of the border of a part as those at its last substitution.
     fn store_border_motions(&mut self, part: usize) {
         let Division {
             parts,
@@ -228,7 +229,7 @@ impl<'a> Lagging<'a> {
         reference.extend(parts[part].border.iter().map(motion));
     }
 
-    /// Judges the bonds of parts, which are up to date.
+    /// Computes the ratios of the bonds of parts, which must be up to date.
     fn judge_all(&mut self, parts: &[usize], state: &State, leaders: &mut Leaders) {
         let judged = parts.par_iter().map(|&part| self.judged(part, state));
         let judged: Vec<(f64, Leaders)> = judged.collect();
@@ -238,7 +239,7 @@ impl<'a> Lagging<'a> {
         }
     }
 
-    /// The largest ratio in a part, and the bonds that lead there.
+    /// Largest ratio in a part, and its leading bonds.
     fn judged(&self, part: usize, state: &State) -> (f64, Leaders) {
         let bonds = self.division.bonds(part);
         let system = &self.problem.system;
@@ -262,7 +263,7 @@ impl<'a> Lagging<'a> {
         verdict.map_or(0.0, |it| it.ratio())
     }
 
-    /// Takes what is known of the bonds of a part that was substituted, and of those of parts below it, as what none exceeds.
+    /// Sets the bound of a part that was substituted to the largest bound of its own bonds and of its children.
     fn combine_child_bounds(&mut self, part: usize) {
         let below = self.division.below[part].iter().map(|&it| self.now[it]);
         let at_most = below.fold(self.now[part], f64::max);
@@ -278,7 +279,7 @@ struct Waiting {
 
 impl Ord for Waiting {
     fn cmp(&self, other: &Self) -> Ordering {
-        // Of equal ones the first part.
+        // Ties of the bound are resolved in favour of the first part.
         let by_bound = self.at_most.total_cmp(&other.at_most);
         by_bound.then(other.part.cmp(&self.part))
     }

@@ -1,45 +1,45 @@
-//! A programme of loading: stages one after the other, in which every load follows its own factor.
+//! Load program of consecutive stages, in which every load has its own factor.
 
 use std::sync::Arc;
 
-/// Stages one after the other: every load, displacement and temperature is its value at factor 1 times a factor of its own.
+/// Consecutive stages: every load, displacement and temperature is its value at factor 1 times a factor of its own.
 ///
-/// The factors go along straight lines from one part to the next, so that in each part everything that acts is A + w B.
+/// The factors are piecewise linear from part to part, so that all loads of a part are A + w B.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Programme {
-    /// Names of the loads, the temperature among them, shape (n_loads).
+    /// Names of the loads, including the temperature, shape (n_loads).
     pub names: Vec<String>,
-    /// The load that is the temperature.
+    /// Index of the temperature among the loads; None without a temperature.
     pub temperature: Option<usize>,
-    /// The load whose displacement and force are the axes of the force-displacement curve.
+    /// Index of the load whose displacement and force are the axes of the force-displacement curve.
     pub control: usize,
     /// Names of the stages.
     pub stages: Vec<String>,
-    /// The parts of all stages, one after the other.
+    /// Consecutive parts of all stages.
     pub parts: Vec<Part>,
 }
 
-/// A part of a stage, in which all factors go along straight lines.
+/// Part of a stage, in which all factors are linear.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
     /// Index of the stage.
     pub stage: usize,
-    /// Load factor at the start and at the end: the shares of the stage that are over, 0 to 1.
+    /// Load factor at the start and at the end: the completed shares of the stage, 0 to 1.
     pub span: (f64, f64),
-    /// Factor of each load at the end of the part; a load without one keeps what it has, shape (n_loads).
+    /// Factor of each load at the end of the part, None for a load that stays constant, shape (n_loads).
     pub ends: Vec<Option<f64>>,
-    /// Equal load steps of the part.
+    /// Number of equal load steps of the part.
     pub steps: usize,
-    /// What grows steadily in the part, while the load factor follows from it; the load factor grows where there is nothing.
+    /// Quantity that grows steadily in the part and determines the load factor; None where the load factor itself grows steadily.
     pub control: Option<PartControl>,
 }
 
-/// What grows steadily in a part of a programme in the place of the load factor.
+/// Quantity that grows steadily in a part of a programme in place of the load factor.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PartControl {
     /// A motion.
     Motion(MotionControl),
-    /// The energy that bonds have taken for good, from the start of the loading on.
+    /// Energy dissipated by the bonds since the start of the loading.
     DissipatedEnergy {
         /// Value at the end of the stage, J.
         end: f64,
@@ -47,7 +47,7 @@ pub enum PartControl {
 }
 
 impl PartControl {
-    /// The value at the end of the stage, m, rad or J.
+    /// Value at the end of the stage, m, rad or J.
     pub fn end(&self) -> f64 {
         match self {
             Self::Motion(motion) => motion.end,
@@ -56,17 +56,17 @@ impl PartControl {
     }
 }
 
-/// A linear function of the displacements that grows steadily in a stage.
+/// Linear function of the displacements that grows steadily in a stage.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionControl {
-    /// Degrees of freedom with their weights.
+    /// Degrees of freedom and their weights.
     pub weights: Vec<(u32, f64)>,
     /// Value at the end of the stage, m or rad.
     pub end: f64,
 }
 
 impl MotionControl {
-    /// The value in displacements (n_degrees_of_freedom), m or rad.
+    /// Value for displacements (n_degrees_of_freedom), m or rad.
     pub fn value(&self, displacement: &[f64]) -> f64 {
         let terms = self.weights.iter();
         let terms = terms.map(|&(dof, weight)| weight * displacement[dof as usize]);
@@ -74,10 +74,10 @@ impl MotionControl {
     }
 }
 
-/// The factors of the loads in a part of a programme.
+/// Factors of the loads in a part of a programme.
 #[derive(Debug, Clone)]
 pub struct LoadCourse {
-    /// The programme.
+    /// Programme to which the part belongs.
     pub programme: Arc<Programme>,
     /// Index of the part.
     pub part: usize,
@@ -86,7 +86,7 @@ pub struct LoadCourse {
     pub(super) factors: Vec<Pair>,
 }
 
-/// What a quantity is at the start of a part, and what it grows by in it.
+/// Value of a quantity at the start of a part, and its growth over the part.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Pair {
     start: f64,
@@ -122,7 +122,7 @@ impl Programme {
 }
 
 impl LoadCourse {
-    /// The part of a programme that begins with these factors of the loads (n_loads).
+    /// Part of a programme that begins with these factors of the loads (n_loads).
     pub fn new(programme: Arc<Programme>, part: usize, start: &[f64]) -> Self {
         let given = &programme.parts[part];
         let pair = |(&start, end): (&f64, &Option<f64>)| Pair {
@@ -137,8 +137,8 @@ impl LoadCourse {
         }
     }
 
-    /// The load of the force-displacement curve alone, which grows to its factor 1 at the load factor 1 while the others are absent:
-    /// what they prescribe is held at zero.
+    /// Course of the control load alone, which grows to its factor 1 at load factor 1, with all other loads and prescribed motions
+    /// zero.
     pub fn control_alone(&self) -> Self {
         let control = self.programme.control;
         let pair = |load: usize| Pair {
@@ -152,7 +152,7 @@ impl LoadCourse {
         }
     }
 
-    /// What grows in this part alone, for a growth of the load factor by one: in proportion to the load factor.
+    /// Rate of the factors in this part with the load factor, as a course in proportion to the load factor.
     pub fn rate(&self) -> Self {
         let (begins, ends) = self.span;
         let alone = |it: &Pair| Pair {
@@ -166,17 +166,17 @@ impl LoadCourse {
         }
     }
 
-    /// What controls the part in the place of the load factor, if something does.
+    /// Motion or energy that controls the part in place of the load factor; None for the load factor.
     pub fn control(&self) -> Option<&PartControl> {
         self.programme.parts[self.part].control.as_ref()
     }
 
-    /// Load steps of the part.
+    /// Number of load steps of the part.
     pub fn n_steps(&self) -> usize {
         self.programme.parts[self.part].steps
     }
 
-    /// The share w of the part that is over at a load factor.
+    /// Completed share w of the part at a load factor.
     pub fn share(&self, load_factor: f64) -> f64 {
         let (begins, ends) = self.span;
         (load_factor - begins) / (ends - begins)

@@ -1,4 +1,4 @@
-//! Proportional loading: everything grows with one load factor.
+//! Proportional loading with one load factor.
 
 use std::sync::Arc;
 
@@ -10,11 +10,11 @@ use crate::restraints::Restraints;
 use crate::unknowns::{Component, Layout};
 use ligament_model::thermal::{StressFreeStrains, ThermalStrain};
 
-/// Loads that are all proportional to the load factor, which is the pseudo-time: prescribed motions and forces at load factor
-/// one, and what the history reports of them.
+/// Loads proportional to the load factor, which is the pseudo-time: prescribed motions and forces at load factor one, and the
+/// groups and control load of the history.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProportionalLoading {
-    /// Where the arrays below hold the components of the points.
+    /// Layout of the components of the points in the arrays below.
     pub layout: Layout,
     /// Prescribed value of each degree of freedom at load factor 1, shape (n_degrees_of_freedom), m or rad.
     pub prescribed: Vec<Option<f64>>,
@@ -22,20 +22,20 @@ pub struct ProportionalLoading {
     pub force: Vec<f64>,
     /// Change of the temperature of each point at load factor 1, shape (n_points), K; empty where there is none.
     pub temperature_change: Vec<f64>,
-    /// Strain that the temperature would give each point without stress, at load factor 1; empty where no temperature changes.
+    /// Stress-free strain of each point due to the temperature at load factor 1; empty where no temperature changes.
     pub thermal_strain: StressFreeStrains,
-    /// What resists motions that are not prescribed, beside the bonds.
+    /// Restraints that resist motions that are not prescribed, in addition to the bonds.
     pub restraints: Arc<Restraints>,
-    /// Forces of the restraints whose far ends move on a body that does not, at load factor 1, shape (n_degrees_of_freedom); empty where
-    /// none does, N or N m.
+    /// Forces of restraints with moved far ends on a fixed body at load factor 1, shape (n_degrees_of_freedom), N or N m; empty
+    /// without such restraints.
     pub driving: Vec<f64>,
-    /// Groups whose resultant the history reports.
+    /// Groups whose resultants the history reports.
     pub groups: Vec<BoundaryGroup>,
-    /// What `displacement` and `reaction` of the history mean.
+    /// Load that defines `displacement` and `reaction` of the history.
     pub control: Control,
 }
 
-/// Why supports and loads do not go together.
+/// Inconsistency of supports and loads.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum BoundaryError {
     /// Two entries prescribe different values of one degree of freedom.
@@ -53,7 +53,7 @@ pub enum BoundaryError {
 }
 
 impl ProportionalLoading {
-    /// A body that nothing holds or loads but the motion or force of `control`, which is still to be added by
+    /// Loading without supports and loads, except the motion or force of `control`, which is to be added by
     /// [`ProportionalLoading::prescribe`] or [`ProportionalLoading::add_force`].
     pub fn new(layout: Layout, control: Control) -> Self {
         Self {
@@ -69,7 +69,7 @@ impl ProportionalLoading {
         }
     }
 
-    /// The loading of points with the components of another layout alone: what it does to others does nothing.
+    /// Loading restricted to the components of another layout; loads on other components are dropped.
     pub fn reduced(self, layout: Layout) -> Self {
         let kept = |values: Vec<f64>| self.layout.reduced(layout, values);
         let group = |it: BoundaryGroup| BoundaryGroup {
@@ -89,8 +89,7 @@ impl ProportionalLoading {
         }
     }
 
-    /// Prescribes a component of some points, where points have it: `value` at load factor 1. The same value twice is no
-    /// conflict.
+    /// Prescribes a component of some points as `value` at load factor 1, at points that have it. Equal values are no conflict.
     pub fn prescribe(
         &mut self,
         points: &[u32],
@@ -117,7 +116,7 @@ impl ProportionalLoading {
         Ok(())
     }
 
-    /// Adds a force or couple on a component of one point, where points have it, N or N m at load factor 1.
+    /// Adds a force or couple on a component of a point, if the point has it, N or N m at load factor 1.
     pub fn add_force(&mut self, point: u32, component: Component, force: f64) {
         if let Some(dof) = self.layout.degree_of_freedom(point, component) {
             self.force[dof] += force;
@@ -126,8 +125,8 @@ impl ProportionalLoading {
 
     /// Adds a group to the history, with the resultant (n_components) of its own given forces at load factor 1.
     ///
-    /// Equal points under one name are one group however many supports and loads act on them; other points
-    /// under the same name get a number.
+    /// Equal points under one name form one group for any number of supports and loads; other points under the same name get a
+    /// numbered name.
     pub fn report_group(&mut self, name: &str, points: Vec<u32>, force: Vec<f64>) {
         let mut same_name = self.groups.iter_mut().filter(|group| group.name == name);
         if let Some(group) = same_name.find(|group| group.points == points) {
@@ -154,7 +153,7 @@ impl ProportionalLoading {
 }
 
 impl ProportionalLoading {
-    /// Reaction at a degree of freedom to internal forces (n_degrees_of_freedom).
+    /// Reaction at a degree of freedom to internal forces (n_degrees_of_freedom), N or N m.
     fn reaction(&self, time: f64, internal_forces: &[f64], dof: usize) -> f64 {
         match self.reacts_at(dof) {
             true => internal_forces[dof] - time * self.force[dof],

@@ -1,4 +1,4 @@
-//! One part of a programme: everything is A + w B, with w from 0 at its start to 1 at its end.
+//! One part of a programme, with loads A + w B for w from 0 at its start to 1 at its end.
 
 use std::sync::Arc;
 
@@ -8,25 +8,27 @@ use crate::internal::InternalForces;
 use crate::restraints::Restraints;
 use ligament_model::thermal::ThermalStrain;
 
-/// What acts in one part of a programme: A, what acts at its start, and B, what grows in it.
+/// Loads of one part of a programme: A at its start, and their growth B.
 ///
-/// At the load factor lambda, which runs from lambda_a to lambda_b in the part, all is A + w B with
-/// w = (lambda - lambda_a)/(lambda_b - lambda_a); beyond the ends of the part as well.
+/// At the load factor lambda, which runs from lambda_a to lambda_b in the part, all loads are A + w B with w = (lambda -
+/// lambda_a)/(lambda_b - lambda_a), also beyond the ends of the part.
 #[derive(Debug, Clone)]
 pub struct StagedLoading {
-    /// Each load by itself at factor 1, with all supports, and all groups of the history; shape (n_loads).
+    /// Each load by itself at factor 1, with all supports and all groups of the history, shape (n_loads).
     loads: Arc<[ProportionalLoading]>,
     course: LoadCourse,
     /// Prescribed value of each degree of freedom, shape (n_degrees_of_freedom), m or rad; zero where none is prescribed.
     prescribed: Vec<Pair>,
     /// External force or moment on each degree of freedom, shape (n_degrees_of_freedom), N or N m.
     force: Vec<Pair>,
-    /// Forces of the restraints whose far ends move on a body that does not, shape (n_degrees_of_freedom); empty where none does.
+    /// Forces of restraints with moved far ends on a fixed body, shape (n_degrees_of_freedom), N or N m; empty without such
+    /// restraints.
     driving: Vec<Pair>,
 }
 
 impl StagedLoading {
-    /// Loads (n_loads), each by itself at factor 1 with all supports and all groups of the history, in a course of their factors.
+    /// Combines loads (n_loads), each by itself at factor 1 with all supports and all groups of the history, with a course of their
+    /// factors.
     pub fn new(loads: Arc<[ProportionalLoading]>, course: LoadCourse) -> Self {
         let n = loads[0].layout.n_degrees_of_freedom();
         let mut prescribed = vec![Pair::default(); n];
@@ -52,7 +54,7 @@ impl StagedLoading {
         }
     }
 
-    /// Reaction at a degree of freedom to internal forces (n_degrees_of_freedom).
+    /// Reaction at a degree of freedom to internal forces (n_degrees_of_freedom), N or N m.
     fn reaction(&self, time: f64, internal_forces: &[f64], dof: usize) -> f64 {
         match self.reacts_at(dof) {
             true => internal_forces[dof] - self.force_at(time, dof),

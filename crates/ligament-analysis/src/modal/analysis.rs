@@ -1,4 +1,4 @@
-//! The search for the lowest modes.
+//! Search for the lowest modes.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -19,38 +19,38 @@ use crate::state::State;
 use crate::stiffness::Stiffness;
 use crate::unknowns::Unknowns;
 
-/// The shift over the largest K_ii/M_ii, which is near the largest omega^2.
+/// Shift over the largest K_ii/M_ii, which is near the largest omega^2.
 ///
-/// The shift sigma makes K + sigma M regular whatever moves rigidly. It only shapes the search: omega^2 is taken from the
-/// bonds. Far below the lowest elastic omega^2 (at least (size of the points/size of the body)^2 of the largest, less for
-/// slender bodies), it leaves the spectrum of the inverse as it is; far above rounding (1e-15), the factor exists, and what
-/// the solutions have too much lies along the rigid motions, from where it is removed.
+/// The shift sigma makes K + sigma M regular for any rigid motions. It does not affect the result: omega^2 is computed from the
+/// bonds. Being far below the lowest elastic omega^2 (at least (size of the points/size of the body)^2 of the largest, less for
+/// slender bodies), it hardly changes the spectrum of the inverse; being far above rounding (1e-15), it ensures that the factor
+/// exists, and that errors of the solutions lie along the rigid motions, which are removed.
 const SHIFT: f64 = 1e-11;
 
-/// omega^2 over the largest K_ii/M_ii up to which a mode is rigid: above the square of the error of a shape (1e-8), below the
-/// first bending mode of a beam a thousand points long.
+/// omega^2 over the largest K_ii/M_ii up to which a mode is rigid: above the square of the error of a shape (1e-8), below the first
+/// bending mode of a beam a thousand points long.
 const RIGID: f64 = 1e-14;
 
 /// Relative distance of eigenvalues below which a count cannot separate them.
 const CLUSTER: f64 = 1e-5;
 
-/// Searches for modes that a count says are missing.
+/// Largest number of searches for modes that a count shows as missing.
 const ATTEMPTS: u64 = 4;
 
-/// Solutions for each mode, and on top, after which a search is given up. Some tens a mode are usual.
+/// Largest number of solutions per mode, and in addition. Some tens per mode are usual.
 const SOLUTIONS: [usize; 2] = [200, 1000];
 
-/// What was found so far.
+/// Modes found so far.
 struct Found {
     /// Rigid motions, then elastic modes, orthonormal with the masses, each of shape (n_degrees_of_freedom).
     shapes: Vec<Vec<f64>>,
     /// Inertia of the stiffness, where it may be indefinite.
     stability: Option<Stability>,
-    /// Whether the last count found no mode missing.
+    /// Whether the last count found no missing mode.
     complete: Option<bool>,
 }
 
-/// The equations of a body whose modes are wanted.
+/// Equations of a body whose modes are computed.
 pub struct ModalAnalysis {
     problem: ModalProblem,
     settings: ModalSettings,
@@ -60,12 +60,12 @@ pub struct ModalAnalysis {
     masses: Masses,
     /// Mass of each unknown, shape (n_unknowns).
     of_unknown: Vec<f64>,
-    /// Unknowns that have a mass, and its root.
+    /// Unknowns with mass, and the square roots of their masses.
     massive: Vec<(usize, f64)>,
 }
 
 impl ModalAnalysis {
-    /// Numbers the unknowns and analyses the pattern; nothing is factorised yet.
+    /// Numbers the unknowns and analyses the sparsity pattern, without factorising.
     pub fn new(problem: &ModalProblem, settings: ModalSettings) -> Result<Self, ModalError> {
         let (system, supports) = (&*problem.system, &problem.supports);
         let unknowns = Unknowns::all_but(system, |dof| supports.held[dof]);
@@ -108,22 +108,22 @@ impl ModalAnalysis {
         })
     }
 
-    /// The stiffness of the bonds.
+    /// Stiffness of the bonds.
     pub fn stiffness(&self) -> &Stiffness {
         &self.stiffness
     }
 
-    /// What becomes of the rotations.
+    /// Inertia of the rotations.
     pub fn rotations(&self) -> Rotations {
         self.rotations
     }
 
-    /// Finds the modes.
+    /// Computes the modes.
     ///
-    /// Rigid motions are known. The others are those of the largest eigenvalues 1/(omega^2 + sigma) of
-    /// M^(1/2) (K + sigma M)^-1 M^(1/2) at right angles to them; rotations without inertia follow from the same solution. In
-    /// the end the eigenvalues below the highest mode are counted by the signs of the pivots of K - tau M (Sylvester's law of
-    /// inertia), and if there are more than were found, those are sought.
+    /// Rigid motions are known. The other modes belong to the largest eigenvalues 1/(omega^2 + sigma) of M^(1/2) (K + sigma M)^-1
+    /// M^(1/2) on the orthogonal complement of the rigid motions; rotations without inertia follow from the same solution. Finally
+    /// the eigenvalues below the highest mode are counted by the signs of the pivots of K - tau M (Sylvester's law of inertia), and
+    /// missing ones are searched.
     pub fn find(mut self) -> Result<ModalOutcome, ModalError> {
         let start = Instant::now();
         let fresh = State::fresh(&*self.problem.system);
@@ -167,8 +167,7 @@ impl ModalAnalysis {
         })
     }
 
-    /// Adds the elastic modes to the rigid ones that were found, up to `wanted` in all: searches and counts by turns until none
-    /// is missing.
+    /// Adds elastic modes to the rigid ones, up to `wanted` in all: alternates searches and counts until none is missing.
     fn find_elastic(
         &mut self,
         found: &mut Found,
@@ -206,7 +205,7 @@ impl ModalAnalysis {
             };
             at = -bound;
             matrix.add_diagonal(at - shift, &self.of_unknown);
-            // Without a factor there is no count, and the modes stay as they are.
+            // Without a factor there is no count, and the modes are accepted as found.
             let Ok(counting) = self.factor(&matrix, FactorKind::Ldlt) else {
                 return Ok(());
             };
@@ -241,7 +240,7 @@ impl ModalAnalysis {
         factor.map_err(|reason| ModalError::NoFactor { reason })
     }
 
-    /// The lowest modes at right angles to known shapes.
+    /// Lowest modes orthogonal to known shapes.
     fn search(
         &mut self,
         factor: &mut dyn Factorisation,
@@ -277,14 +276,14 @@ impl ModalAnalysis {
         pairs
     }
 
-    /// M^(1/2) phi at the unknowns with mass.
+    /// Product M^(1/2) phi at the unknowns with mass.
     fn weighted(&self, shape: &[f64]) -> Vec<f64> {
         let dofs = self.stiffness.unknowns().degrees_of_freedom();
         let value = |&(unknown, root): &(usize, f64)| root * shape[dofs[unknown] as usize];
         self.massive.iter().map(value).collect()
     }
 
-    /// The shape of an eigenvector: (K + sigma M)^-1 M^(1/2) y, with all rotations, normalised.
+    /// Shape of an eigenvector y: (K + sigma M)^-1 M^(1/2) y with all rotations, normalised.
     fn shape(
         &mut self,
         factor: &mut dyn Factorisation,
@@ -320,7 +319,7 @@ impl ModalAnalysis {
         values
     }
 
-    /// The lowest modes, sorted.
+    /// Lowest modes, sorted.
     fn modes(
         &mut self,
         shapes: Vec<Vec<f64>>,
@@ -331,7 +330,7 @@ impl ModalAnalysis {
         let values = self.eigenvalues(&shapes);
         let start = Instant::now();
         let mut numbered: Vec<(f64, Vec<f64>)> = values.into_iter().zip(shapes).collect();
-        // Rigid motions keep their order, whatever rounding makes of their zeros.
+        // Rigid motions keep their order in spite of the rounding of their zero eigenvalues.
         let rank = |value: f64| {
             if value.abs() <= rigid_below {
                 0.0
@@ -375,7 +374,7 @@ impl ModalAnalysis {
     }
 }
 
-/// What the modes themselves tell.
+/// Notices that follow from the modes.
 fn notices_after(
     modes: &[Mode],
     rigid_motions: usize,
@@ -409,7 +408,7 @@ fn notices_after(
     notices
 }
 
-/// A bound just below the highest of sorted eigenvalues and those that are as good as equal to it; none where that is rigid.
+/// Bound just below the highest of sorted eigenvalues and those within rounding of it; none where that is rigid.
 fn below_last_cluster(values: &[f64], rigid_below: f64) -> Option<f64> {
     let mut lowest = *values.last().filter(|value| **value > rigid_below)?;
     for &value in values.iter().rev() {
@@ -421,7 +420,7 @@ fn below_last_cluster(values: &[f64], rigid_below: f64) -> Option<f64> {
     Some((1.0 - 0.5 * CLUSTER) * lowest)
 }
 
-/// Takes from a vector what lies along orthonormal others.
+/// Removes the components of a vector along other orthonormal vectors.
 fn remove(others: &[Vec<f64>], vector: &mut [f64]) {
     for other in others {
         let along: f64 = other.iter().zip(&*vector).map(|(a, b)| a * b).sum();

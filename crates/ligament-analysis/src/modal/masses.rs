@@ -5,15 +5,15 @@ use ligament_model::LumpedMass;
 use super::mode::Rotations;
 use crate::unknowns::{Layout, Unknowns};
 
-/// Displacements closer than this (relative) to the largest one count as largest.
+/// Relative difference from the largest displacement below which a displacement counts as largest.
 const TIE: f64 = 1e-6;
 
 /// Masses of the degrees of freedom.
 pub(super) struct Masses {
     layout: Layout,
-    /// Mass of each degree of freedom, zero where it is known or has none, shape (n_degrees_of_freedom).
+    /// Mass of each degree of freedom, zero where it is fixed or massless, shape (n_degrees_of_freedom).
     of_dof: Vec<f64>,
-    /// Degrees of freedom that are no unknowns.
+    /// Degrees of freedom that are not unknowns.
     known: Vec<usize>,
 }
 
@@ -41,19 +41,19 @@ impl Masses {
         }
     }
 
-    /// Mass of each degree of freedom, zero where it is known or has none, shape (n_degrees_of_freedom).
+    /// Mass of each degree of freedom, zero where it is fixed or massless, shape (n_degrees_of_freedom).
     pub(super) fn of_dof(&self) -> &[f64] {
         &self.of_dof
     }
 
-    /// Sets what cannot move to zero.
+    /// Sets the values at fixed degrees of freedom to zero.
     pub(super) fn clear_known(&self, shape: &mut [f64]) {
         for &dof in &self.known {
             shape[dof] = 0.0;
         }
     }
 
-    /// Takes from a shape what lies along orthonormal others.
+    /// Removes the components of a shape along other orthonormal shapes.
     pub(super) fn remove(&self, others: &[Vec<f64>], shape: &mut [f64]) {
         for other in others {
             let along = inner(&self.of_dof, other, shape);
@@ -63,7 +63,7 @@ impl Masses {
         }
     }
 
-    /// Scales a shape to phi^T M phi = 1; the first of the largest displacements becomes positive.
+    /// Scales a shape to phi^T M phi = 1, with the first of the largest displacements positive.
     pub(super) fn normalise(&self, shape: &mut [f64]) {
         let norm = inner(&self.of_dof, shape, shape).sqrt();
         let displacements = || self.layout.displacements(shape);
@@ -75,7 +75,7 @@ impl Masses {
     }
 }
 
-/// Sum of weight a b.
+/// Weighted sum of products, sum w_i a_i b_i.
 pub(super) fn inner(weight: &[f64], a: &[f64], b: &[f64]) -> f64 {
     let products = weight.iter().zip(a).zip(b);
     products.map(|((weight, a), b)| weight * a * b).sum()

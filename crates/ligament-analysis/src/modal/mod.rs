@@ -1,11 +1,11 @@
 //! Natural modes: K phi = omega^2 M phi with lumped masses.
 //!
-//! [`ModalAnalysis`] finds the lowest modes of a body on its [`Supports`], the rigid motions of a free body among them. M is
+//! [`ModalAnalysis`] finds the lowest modes of a body on its [`Supports`], including the rigid motions of a free body. M is
 //! diagonal: M_i along x and y, J_i = M_i r_i for the rotation of a point (MPPD eq. 66).
 //!
-//! Bonds with a negative shear stiffness (Poisson's ratio above 1/3 in plane stress, 1/4 in plane strain) make the energy a
-//! maximum in the rotations, and rotational inertia would give each of them a negative omega^2. There the rotations follow
-//! the displacements without inertia: their equations are those of equilibrium, as if they were condensed.
+//! Bonds with a negative shear stiffness (Poisson's ratio above 1/3 in plane stress, 1/4 in plane strain) make the energy a maximum
+//! in the rotations, and rotational inertia would give each of them a negative omega^2. With such bonds the rotations follow the
+//! displacements without inertia: their equations are those of equilibrium, as in static condensation.
 
 mod analysis;
 mod masses;
@@ -30,54 +30,54 @@ pub use analysis::ModalAnalysis;
 pub use mode::{Mode, ModeKind, RESIDUAL_TOLERANCE, Rotations};
 pub use participation::Moving;
 
-/// A body whose modes are wanted. A copy shares the parts.
+/// Body whose modes are computed. A copy shares its data.
 #[derive(Clone)]
 pub struct ModalProblem {
-    /// The bond system.
+    /// Bonds between the points of the body.
     pub system: Arc<dyn Bonds>,
     /// Masses of the points.
     pub mass: Arc<LumpedMass>,
     /// Supports of the body.
     pub supports: Arc<Supports>,
-    /// How the equations are solved.
+    /// Settings of the solver of the equations.
     pub solver: SolverSettings,
 }
 
-/// Settings of a search for modes.
+/// Settings of the search for modes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ModalSettings {
-    /// Number of modes, rigid ones included, lowest first.
+    /// Number of modes, including rigid ones, lowest first.
     pub modes: usize,
-    /// Inertia of the rotations; open: with it where no bond has a negative shear stiffness.
+    /// Inertia of the rotations; open: with inertia where no bond has a negative shear stiffness.
     pub rotations: Option<Rotations>,
-    /// Residual of the iteration, relative to 1/omega^2, below which a mode is found.
+    /// Largest residual of the iteration, relative to 1/omega^2, of a converged mode.
     pub tolerance: f64,
 }
 
-/// The modes of a body.
+/// Modes of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModalOutcome {
-    /// The modes, lowest first.
+    /// Modes, lowest first.
     pub modes: Vec<Mode>,
     /// Inertia of the rotations that was chosen.
     pub rotations: Rotations,
-    /// Rigid motions that supports and connectivity leave.
+    /// Number of rigid motions permitted by supports and connectivity.
     pub rigid_motions: usize,
-    /// Mass of the body, kg, and what of it moves.
+    /// Mass of the body and its movable mass, kg.
     pub moving: Moving,
-    /// Whether a count of the eigenvalues confirmed that no mode is missing; none where it could not be made.
+    /// Whether a count of the eigenvalues confirmed that no mode is missing; none where the count was impossible.
     pub complete: Option<bool>,
     /// Inertia of the stiffness, where it may be indefinite.
     pub stability: Option<Stability>,
-    /// What a user should know.
+    /// Notices to the user.
     pub notices: Vec<ModalNotice>,
-    /// What the equations cost.
+    /// Costs of the equations.
     pub costs: Costs,
     /// Solver that was chosen for the equations.
     pub solver: DirectChoice,
 }
 
-/// Something that a user should know of the modes.
+/// Notice to the user about the modes.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ModalNotice {
     /// The rotations have no inertia because bonds have a negative shear stiffness.
@@ -92,48 +92,48 @@ pub enum ModalNotice {
          with a negative omega^2 are left out"
     )]
     Unstable {
-        /// Negative eigenvalues of the stiffness.
+        /// Number of negative eigenvalues of the stiffness.
         negative: usize,
-        /// Negative eigenvalues of the rotation block.
+        /// Number of negative eigenvalues of the rotation block.
         expected: usize,
     },
-    /// There are more or fewer modes without energy than rigid motions.
+    /// The numbers of energy-free modes and of rigid motions differ.
     #[error(
         "{found} modes cost no energy, {expected} rigid motions were expected: {}",
         if found > expected { "the body has mechanisms" } else { "some rigid motions cost energy in this model" }
     )]
     RigidCount {
-        /// Modes without energy.
+        /// Number of energy-free modes.
         found: usize,
-        /// Rigid motions that supports and connectivity leave.
+        /// Number of rigid motions permitted by supports and connectivity.
         expected: usize,
     },
-    /// All modes asked for cost no energy.
+    /// All requested modes are energy-free.
     #[error(
         "all {modes} modes cost no energy, and the body has {expected} rigid motions: {}",
         if modes > expected { "it has mechanisms" } else { "ask for more modes" }
     )]
     OnlyRigid {
-        /// Modes asked for.
+        /// Number of requested modes.
         modes: usize,
-        /// Rigid motions that supports and connectivity leave.
+        /// Number of rigid motions permitted by supports and connectivity.
         expected: usize,
     },
-    /// There are not so many modes.
+    /// The body has fewer modes than requested.
     #[error("the body has {found} modes with mass, {wanted} were asked for")]
     FewerModes {
-        /// Modes there are.
+        /// Number of modes with mass.
         found: usize,
-        /// Modes asked for.
+        /// Number of requested modes.
         wanted: usize,
     },
-    /// The iteration ended before all modes were found.
+    /// The iteration ended before all modes converged.
     #[error("the iteration ended after {products} solutions before all modes were exact")]
     NotConverged {
-        /// Solutions with the factor.
+        /// Number of solutions with the factor.
         products: usize,
     },
-    /// A mode does not fulfil its equations well enough.
+    /// A mode has too large a residual.
     #[error("mode {mode} has a residual of {residual:.1e}, more than {RESIDUAL_TOLERANCE:.0e}")]
     Residual {
         /// Number of the mode, from 1.
@@ -141,18 +141,18 @@ pub enum ModalNotice {
         /// Residual of the mode.
         residual: f64,
     },
-    /// The count of the eigenvalues tells of modes that were not found.
+    /// The count of the eigenvalues shows missing modes.
     #[error("{missing} modes below the highest were not found")]
     Missing {
-        /// Number of the missing modes.
+        /// Number of missing modes.
         missing: usize,
     },
 }
 
-/// Why there are no modes.
+/// Reason why modes cannot be computed.
 #[derive(Debug, Error)]
 pub enum ModalError {
-    /// Nothing that has a mass can move.
+    /// No degree of freedom with mass is free.
     #[error("supports hold every degree of freedom that has a mass: there are no modes")]
     NothingMoves,
     /// The equations could not be set up.
@@ -168,7 +168,7 @@ pub enum ModalError {
         }
     )]
     NoFactor {
-        /// What went wrong.
+        /// Error of the factorisation.
         reason: FactorError,
     },
 }

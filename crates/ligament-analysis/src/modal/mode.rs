@@ -1,6 +1,6 @@
 //! A natural mode.
 
-/// Residual of a mode above which the user gets a notice.
+/// Residual of a mode above which the user receives a notice.
 pub const RESIDUAL_TOLERANCE: f64 = 1e-8;
 
 /// Inertia of the rotations of the points.
@@ -17,26 +17,26 @@ pub enum Rotations {
 pub struct Mode {
     /// Kind of the mode: a rigid motion or not.
     pub kind: ModeKind,
-    /// omega^2, 1/s^2.
+    /// Eigenvalue omega^2, 1/s^2.
     pub eigenvalue: f64,
-    /// Largest |K phi - omega^2 M phi| over the forces that meet at a point.
+    /// Largest |K phi - omega^2 M phi| over the forces at a point.
     pub residual: f64,
-    /// phi^T M r for the rigid motions r of size one along x, along y and about the centre of mass, kg^(1/2), kg^(1/2) and
-    /// kg^(1/2) m: their squares are the effective masses and inertia.
+    /// Participation factors phi^T M r for the rigid motions r of size one along x, along y and about the centre of mass, kg^(1/2),
+    /// kg^(1/2) and kg^(1/2) m; their squares are the effective masses and inertia.
     pub participation: Vec<f64>,
-    /// Displacements and rotations, shape (n_degrees_of_freedom): phi^T M phi = 1 kg, and the first of the largest displacements is
-    /// positive.
+    /// Displacements and rotations, shape (n_degrees_of_freedom), with phi^T M phi = 1 kg and the first of the largest
+    /// displacements positive.
     pub shape: Vec<f64>,
-    /// Strain energy density of this motion, shape (n_points), J/m^3.
+    /// Strain energy density of the mode, shape (n_points), J/m^3.
     pub strain_energy_density: Vec<f64>,
 }
 
-/// Kinds of modes.
+/// Kind of a mode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ModeKind {
-    /// A motion that costs no energy.
+    /// Motion without energy.
     Rigid,
-    /// Any other.
+    /// Any other mode.
     Elastic,
 }
 
@@ -51,7 +51,7 @@ impl ModeKind {
 }
 
 impl Mode {
-    /// omega, rad/s: 0 for a rigid motion, NaN where omega^2 is negative.
+    /// Angular frequency omega, rad/s: 0 for a rigid motion, NaN where omega^2 is negative.
     pub fn angular_frequency(&self) -> f64 {
         match self.kind {
             ModeKind::Rigid => 0.0,
@@ -59,7 +59,7 @@ impl Mode {
         }
     }
 
-    /// omega/(2 pi), Hz.
+    /// Frequency omega/(2 pi), Hz.
     pub fn frequency(&self) -> f64 {
         self.angular_frequency() / std::f64::consts::TAU
     }

@@ -1,4 +1,4 @@
-//! Rigid motions of the fragments of a body, as far as supports leave them.
+//! Rigid motions of the fragments of a body that supports permit.
 
 use ligament_model::Bonds;
 
@@ -6,18 +6,19 @@ use super::masses::{Masses, inner};
 use crate::connectivity::Fragments;
 use crate::supports::Supports;
 
-/// A part of a motion that is smaller than this lies in those before it, but for rounding.
+/// Relative size of a motion, after removal of its components along others, below which it depends on them.
 const DEPENDENT: f64 = 1e-8;
 
-/// Rigid motions that are possible.
+/// Rigid motions permitted by supports.
 pub(super) struct RigidMotions {
-    /// How many there are.
+    /// Number of rigid motions.
     pub(super) count: usize,
-    /// The first of them, as far as they are wanted: orthonormal with the masses, each of shape (n_degrees_of_freedom).
+    /// Shapes of the first rigid motions up to the wanted number, orthonormal with the masses, each of shape
+    /// (n_degrees_of_freedom).
     pub(super) shapes: Vec<Vec<f64>>,
 }
 
-/// The rigid motions of all fragments in their order, and the shapes of the first `wanted`.
+/// Rigid motions of all fragments in order, with the shapes of the first `wanted`.
 pub(super) fn motions(
     system: &dyn Bonds,
     supports: &Supports,

@@ -1,4 +1,4 @@
-//! Modes from the motions of their points.
+//! Modes from their shapes.
 
 use ligament_model::Bonds;
 
@@ -13,7 +13,8 @@ use crate::unknowns::Unknowns;
 use ligament_model::interface::PointStiffness;
 use ligament_model::thermal::ThermalStrain;
 
-/// omega^2 = phi^T K phi of a normalised shape, from the deformations of the bonds: exact to the square of the shape's error.
+/// Eigenvalue omega^2 = phi^T K phi of a normalised shape, from the deformations of the bonds; exact to the square of the shape's
+/// error.
 pub(super) fn eigenvalue(system: &dyn Bonds, shape: &[f64]) -> f64 {
     2.0 * internal::sweep(
         system,
@@ -24,7 +25,7 @@ pub(super) fn eigenvalue(system: &dyn Bonds, shape: &[f64]) -> f64 {
     .stored_energy
 }
 
-/// The mode of a normalised shape, rigid if its omega^2 is not above `rigid_below`.
+/// Mode of a normalised shape, rigid if its omega^2 is not above `rigid_below`.
 pub(super) fn mode(
     system: &dyn Bonds,
     unknowns: &Unknowns,
@@ -65,8 +66,8 @@ pub(super) fn mode(
     }
 }
 
-/// Largest |K phi - omega^2 M phi|, forces relative to the forces and moments to the moments that meet at a point. A rigid
-/// motion has no forces but rounding: there what rounding may be is the scale.
+/// Largest |K phi - omega^2 M phi|, forces relative to the forces and moments relative to the moments at a point. Forces of a rigid
+/// motion are rounding, so that the bound of rounding is their scale.
 fn residual(
     system: &dyn Bonds,
     unknowns: &Unknowns,

@@ -1,17 +1,18 @@
-//! What restraints leave free of the rigid motions of a part.
+//! Rigid motions of a part that restraints leave free, and the supports added for them.
 
 use ligament_model::Bonds;
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::Restraints;
 
-/// Stiffness of a rigid motion, relative to the largest that the restraints of a part could give it, below which it is free: well above
-/// the rounding of the sums, below the square of 1e-3 of the size of the part.
+/// Stiffness of a rigid motion, relative to the largest that the restraints of a part could have, below which it is free: well
+/// above the rounding of the sums, and below the square of 1e-3 of the size of the part.
 const FREE: f64 = 1e-9;
 
-/// Degrees of freedom to hold so that a connected part cannot move rigidly, where its restraints may hold some of its motions.
+/// Degrees of freedom to fix so that a connected part cannot move rigidly, where its restraints may resist some of its motions.
 ///
-/// `is_fixed` tells what supports, loads and earlier holds prescribe; `can_hold` what has a stiffness.
+/// `is_fixed` returns whether a degree of freedom is prescribed by supports, loads or earlier added supports; `can_hold` whether it
+/// has a stiffness.
 pub fn missing_supports(
     system: &dyn Bonds,
     restraints: &Restraints,
@@ -46,7 +47,7 @@ pub fn missing_supports(
     holds
 }
 
-/// The motions (by degree of freedom of the part) that cost a restraint nothing.
+/// Combinations of motions (by degree of freedom of the part) that no restraint resists.
 fn unrestrained(
     restraints: &Restraints,
     points: &[u32],
@@ -93,7 +94,7 @@ fn unrestrained(
     (0..count).filter(is_free).map(combined).collect()
 }
 
-/// The motions that are left when one degree of freedom of the part is held.
+/// Motions that remain when one degree of freedom of the part is fixed.
 fn motions_after_fixing(mut motions: Vec<Vec<f64>>, place: usize) -> Vec<Vec<f64>> {
     let most = (0..motions.len()).max_by(|&one, &other| {
         motions[one][place]

@@ -1,8 +1,8 @@
-//! Restraints: what resists the motion of a body without holding it still, as springs, inclined rollers and rigid platens do.
+//! Restraints, which resist the motion of a body without fixing it, such as springs, inclined rollers and rigid platens.
 //!
-//! A restraint is a symmetric stiffness S between some degrees of freedom and the ground. It exerts -S u on the body, which is an
-//! external force as that of a support is: the energies of the bonds know nothing of it, and what it gives and takes is work of the
-//! supports. Where the far end of a spring is moved, a loading adds S g to its given forces.
+//! A restraint is a symmetric stiffness S between some degrees of freedom and the ground. It exerts -S u on the body, an external
+//! force like that of a support: its energy is not part of the bond energies, and its work is work of the supports. Where the far
+//! end of a spring is moved, a loading adds S g to its given forces.
 
 mod holds;
 
@@ -17,24 +17,24 @@ pub use holds::missing_supports;
 /// A stiffness between some degrees of freedom and the ground.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Restraint {
-    /// The degrees of freedom (n).
+    /// Degrees of freedom of the restraint, shape (n).
     pub degrees_of_freedom: Vec<u32>,
-    /// Stiffness S, symmetric and not negative, shape (n, n), N/m; N m/rad between rotations.
+    /// Stiffness S, symmetric and positive semidefinite, shape (n, n), N/m; N m/rad between rotations.
     pub stiffness: Vec<f64>,
 }
 
-/// The restraints of a body.
+/// Restraints of a body.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Restraints {
     list: Vec<Restraint>,
-    /// The restraints of each restrained point, ascending.
+    /// Indices of the restraints of each restrained point, ascending.
     at_points: BTreeMap<u32, Vec<usize>>,
-    /// The degrees of freedom of all restraints, ascending.
+    /// Degrees of freedom of all restraints, ascending.
     degrees_of_freedom: Vec<u32>,
 }
 
 impl Restraint {
-    /// A spring of stiffness k along a direction c of one or more degrees of freedom: S = k c c^T.
+    /// Spring of stiffness k along a direction c of one or more degrees of freedom: S = k c c^T.
     pub fn spring(along: &[(u32, f64)], stiffness: f64) -> Self {
         let product = |(_, one): &(u32, f64)| {
             let one = *one;
@@ -46,7 +46,7 @@ impl Restraint {
         }
     }
 
-    /// Forces S u for displacements at its degrees of freedom (n), by degree of freedom.
+    /// Forces S u for displacements at the degrees of freedom of the restraint (n), by degree of freedom.
     pub fn forces(&self, displacement: &[f64]) -> impl Iterator<Item = (u32, f64)> {
         let rows = self.stiffness.chunks(self.degrees_of_freedom.len());
         let force = move |row: &[f64]| row.iter().zip(displacement).map(|(s, u)| s * u).sum();
@@ -55,7 +55,7 @@ impl Restraint {
 }
 
 impl Restraints {
-    /// Restraints of points with these components.
+    /// Restraints on points with the components of a layout.
     pub fn new(layout: Layout, list: Vec<Restraint>) -> Self {
         let mut at_points: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
         let mut degrees_of_freedom: Vec<u32> = Vec::new();
@@ -77,12 +77,12 @@ impl Restraints {
         }
     }
 
-    /// Whether there is none.
+    /// Whether there are no restraints.
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
 
-    /// The degrees of freedom that some restraint acts on, ascending.
+    /// Degrees of freedom on which restraints act, ascending.
     pub fn degrees_of_freedom(&self) -> &[u32] {
         &self.degrees_of_freedom
     }
@@ -93,7 +93,7 @@ impl Restraints {
         self.degrees_of_freedom.binary_search(&dof).is_ok()
     }
 
-    /// Whether a restraint holds a degree of freedom against the ground by itself.
+    /// Whether a restraint supports a degree of freedom by itself.
     pub fn holds(&self, layout: Layout, degree_of_freedom: usize) -> bool {
         let of_point = self.at_points.get(&layout.point(degree_of_freedom));
         let mut restraints = of_point.into_iter().flatten().map(|&it| &self.list[it]);
@@ -101,7 +101,8 @@ impl Restraints {
             .any(|it| it.degrees_of_freedom == [degree_of_freedom as u32] && it.stiffness[0] > 0.0)
     }
 
-    /// Adds what the restraints take of displacements (n_degrees_of_freedom), S u, to internal forces (n_degrees_of_freedom), N and N m.
+    /// Adds the restraining forces S u at displacements (n_degrees_of_freedom) to internal forces (n_degrees_of_freedom), N and N
+    /// m.
     pub fn add_forces(&self, displacement: &[f64], forces: &mut [f64]) {
         for restraint in &self.list {
             let dofs = restraint.degrees_of_freedom.iter();
@@ -112,7 +113,7 @@ impl Restraints {
         }
     }
 
-    /// Adds the stiffness of each degree of freedom by itself (n_degrees_of_freedom), N/m and N m/rad.
+    /// Adds the diagonal of the stiffness (n_degrees_of_freedom), N/m and N m/rad.
     pub(crate) fn add_diagonal(&self, diagonal: &mut [f64]) {
         for restraint in &self.list {
             let n = restraint.degrees_of_freedom.len();
@@ -122,7 +123,7 @@ impl Restraints {
         }
     }
 
-    /// Points that a restraint couples at most.
+    /// Largest number of points coupled by a restraint.
     pub(crate) fn most_coupled(&self, layout: Layout) -> usize {
         let of_restraint = |it: &Restraint| {
             let dofs = it.degrees_of_freedom.iter();
@@ -132,7 +133,7 @@ impl Restraints {
         self.list.iter().map(of_restraint).max().unwrap_or(0)
     }
 
-    /// Points of smaller number that bonds or restraints couple with a point, ascending.
+    /// Points of smaller number that are coupled with a point by bonds or restraints, ascending.
     pub(crate) fn lower_points(
         &self,
         layout: Layout,
@@ -154,7 +155,7 @@ impl Restraints {
     }
 
     /// Adds the stiffness between the columns of a point and the rows of its `lower` points (ascending) and of itself, shape
-    /// (n_lower + 1, components, components).
+    /// (n_lower + 1, n_components, n_components).
     pub(crate) fn add_blocks(&self, layout: Layout, point: u32, lower: &[u32], blocks: &mut [f64]) {
         let components = layout.components.len();
         let place_of = |other: u32| match other == point {
@@ -184,7 +185,7 @@ impl Restraints {
         }
     }
 
-    /// The restraints that act on some points (ascending).
+    /// Restraints that act on some points (ascending).
     fn of_points(&self, points: &[u32]) -> Vec<&Restraint> {
         let own = self.at_points.iter();
         let own = own.filter(|(point, _)| points.binary_search(point).is_ok());

@@ -1,4 +1,4 @@
-//! Direct solution with a symmetric factor, L L^T or L D L^T, that is changed in place or made anew.
+//! Direct solution with a symmetric factor, L L^T or L D L^T, that is updated in place or computed anew.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -27,20 +27,20 @@ use ligament_model::thermal::ThermalStrain;
 pub(crate) struct DirectSolver {
     stiffness: Arc<Stiffness>,
     factor: Option<Box<dyn Factorisation>>,
-    /// A factor that is out of date: its memory is used again.
+    /// Outdated factor, whose memory is reused.
     stale: Option<Box<dyn Factorisation>>,
-    /// How the factor came about.
+    /// Bonds, supports and updates from which the factor resulted.
     making: FactorRecord,
-    /// What the factor has of softening bonds, shape (n_bonds); empty where none softens.
+    /// Remaining stiffness of softening bonds in the factor, shape (n_bonds); empty where none softens.
     remaining: Vec<StiffnessFactors>,
-    /// Pairs across cracks that are closed, in the factor if there is one.
+    /// Closed pairs across cracks, which are in the factor if there is one.
     closed: Vec<ClosedPair>,
-    /// Elements that were lost or changed so far.
+    /// Number of elements lost or changed so far.
     n_changed: usize,
 }
 
 impl DirectSolver {
-    /// A solver without a factor yet.
+    /// Builds a solver without a factor.
     pub(crate) fn new(stiffness: Arc<Stiffness>) -> Self {
         Self {
             stiffness,
@@ -62,7 +62,7 @@ impl DirectSolver {
         }
     }
 
-    /// What a hold adds to the diagonal, as a share of it.
+    /// Stiffness that an added support adds to a diagonal entry, as a share of that entry.
     fn hold_share(&self) -> f64 {
         if self.supports_are_soft() {
             SOFT_HOLD
@@ -71,12 +71,12 @@ impl DirectSolver {
         }
     }
 
-    /// Whether holds only keep the tangent definite, because faces that close may carry what they hold.
+    /// Whether added supports only make the tangent definite, because closing faces may carry their loads.
     fn supports_are_soft(&self) -> bool {
         self.stiffness.system().faces_close()
     }
 
-    /// How a factor of a state begins.
+    /// Bonds and supports of a state for a new factor.
     fn begun(&self, state: &State) -> FactorRecord {
         if !self.supports_are_soft() {
             return FactorRecord::begun(state, state.held.clone(), Vec::new());
@@ -94,7 +94,7 @@ impl DirectSolver {
         FactorRecord::begun(state, cut_off, beside)
     }
 
-    /// Changes the factor in place by some terms; it is made anew where that fails.
+    /// Updates the factor in place by rank-one terms; discards it where the update fails.
     fn change(
         &mut self,
         mut factor: Box<dyn Factorisation>,
@@ -114,7 +114,7 @@ impl DirectSolver {
         }
     }
 
-    /// Forgets the factor where `n_elements` changes are too many for a change in place, or it is time to make it anew.
+    /// Discards the factor where `n_elements` changes are too many for an update in place, or a recomputation is due.
     fn forget_unless_in_place(&mut self, n_elements: usize) {
         let in_place = self.is_in_place(n_elements);
         self.n_changed += n_elements;
@@ -135,7 +135,7 @@ impl DirectSolver {
             && n_elements <= most_bonds_in_place
     }
 
-    /// Takes the rounding off a correction where the state is held.
+    /// Sets the correction at fixed degrees of freedom of the state to zero, removing its rounding.
     fn keep_held(&self, state: &State, correction: &mut [f64]) {
         if self.supports_are_soft() {
             return;
@@ -189,8 +189,8 @@ impl TangentSolver for DirectSolver {
         let start = Instant::now();
         let coupled = self.coupled();
         let terms = coupled.of_breakage(breakage);
-        // A hold carries no force in equilibrium, so the size of its term does not matter and du is zero there: up to rounding,
-        // which is taken away. For this the forces at the holds must be in the right-hand side.
+        // An added support carries no force in equilibrium, so that the size of its term does not matter and du is zero there up to
+        // rounding, which is removed later. For this the right-hand side must contain the forces at the added supports.
         let force = breakage.unbalanced_force(&state.displacement, expansion);
         let force: Vec<(usize, f64)> = (force.into_iter())
             .filter_map(|(dof, value)| Some((coupled.number(dof)?, value)))
@@ -198,7 +198,7 @@ impl TangentSolver for DirectSolver {
         let half_solved = factor.change(&terms, &force);
         costs.change += start.elapsed();
         costs.changes += 1;
-        // After a change that failed the factor is made anew, and that tells what is wrong if anything is.
+        // After a failed update the factor is computed anew, which detects a singular matrix.
         let Ok(correction) = half_solved else {
             self.stale = Some(factor);
             return None;
@@ -212,7 +212,7 @@ impl TangentSolver for DirectSolver {
         if self.factor.is_none() {
             return;
         }
-        // A factor of the elastic body has all of every bond.
+        // A factor of the elastic body has the whole stiffness of every bond.
         let n_bonds = state.softening.remaining.len();
         self.remaining.resize(n_bonds, StiffnessFactors::WHOLE);
         let due = due_bonds(&self.remaining, state);
@@ -242,7 +242,7 @@ impl TangentSolver for DirectSolver {
         let Some(factor) = self.factor.take() else {
             return;
         };
-        // What adds stiffness goes first, so that every matrix on the way is definite if the last one is.
+        // Terms that add stiffness come first, so that every intermediate matrix is definite if the last one is.
         let mut terms = self.coupled().of_contact(&newly_closed, 1.0);
         terms.extend(self.coupled().of_contact(&opened, -1.0));
         self.change(factor, terms, costs);

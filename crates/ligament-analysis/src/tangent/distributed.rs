@@ -1,7 +1,9 @@
-//! Solution by several ranks: a matrix whose rows are shared out, conjugate gradients with multigrid, or a factor.
+//! Solution by several ranks with distributed rows: conjugate gradients with a multigrid preconditioner, or a factor.
 //!
-//! A rank has the rows of its own points and the correction there; where each rank holds all bonds of the body it takes the whole correction. The matrix is always that of the bonds as they are. The preconditioner is kept while it serves: it is made anew where a part came loose, and where
-//! the iterations beyond what it took when it was new have cost as much as that. A factor is made anew after every breakage.
+//! A rank has the rows of its owned points and the correction there; where each rank has all bonds of the body it receives the
+//! whole correction. The matrix is always that of the present bonds. The preconditioner is rebuilt where a part became detached,
+//! and where the iterations in excess of its initial rate have cost as much as a rebuild. A factor is computed anew after every
+//! breakage.
 
 mod kept;
 mod rows;
@@ -33,25 +35,25 @@ use crate::state::State;
 use crate::unknowns::Unknowns;
 use crate::vectors::dot_of_chunks;
 
-/// Iterations that cost as much as a new preconditioner.
+/// Number of iterations that cost as much as a new preconditioner.
 const RENEWAL: f64 = 40.0;
 
-/// Begins what this solver writes into a checkpoint: no other solver begins so.
+/// First bytes of the checkpoint of this solver, unlike those of any other solver.
 const MARK: u64 = 0x736b_6e61_7220_669c;
 
-/// A solver that works on several ranks, for symmetric stiffnesses.
+/// A solver for symmetric stiffnesses that runs on several ranks.
 pub(crate) struct DistributedSolver {
     system: Arc<dyn Bonds>,
     unknowns: Arc<Unknowns>,
     communicator: Arc<dyn MatrixCommunicator>,
-    /// Force left out of balance by an iteration, relative to what may act; none: a factor.
+    /// Relative residual of the iteration; None for a factor.
     tolerance: Option<f64>,
     partition: Arc<Partition>,
-    /// Numbers of the bonds, which are distributed as well unless each process needs the whole body.
+    /// Global numbers of the local bonds; bonds are distributed too, unless each process needs the whole body.
     numbers: Arc<BondNumbers>,
-    /// Bonds between own points and others.
+    /// Bonds between owned points and others.
     between: Vec<u32>,
-    /// Points whose columns have entries in own rows.
+    /// Points whose columns have entries in owned rows.
     columns: Vec<u32>,
     matrix: Option<Box<dyn DistributedMatrix>>,
     kept: PreconditionerState,
@@ -60,7 +62,7 @@ pub(crate) struct DistributedSolver {
 }
 
 impl DistributedSolver {
-    /// Shares the points out; without a tolerance a factor is made.
+    /// Distributes the points over the ranks; without a tolerance the solver factorises.
     pub(crate) fn new(
         system: Arc<dyn Bonds>,
         unknowns: Arc<Unknowns>,
@@ -115,7 +117,7 @@ impl DistributedSolver {
         }
     }
 
-    /// Marks of the degrees of freedom that take part, shape (n_degrees_of_freedom).
+    /// Whether each degree of freedom is free, shape (n_degrees_of_freedom).
     fn free(&self, held: &[bool]) -> Vec<bool> {
         let mut free = vec![false; held.len()];
         for dof in self.unknowns.of_all() {
@@ -124,8 +126,8 @@ impl DistributedSolver {
         free
     }
 
-    /// Makes the matrix one of the bonds as they are, in some columns or all; gives the degrees of freedom of all ranks that nothing
-    /// resists.
+    /// Assembles the matrix of the present bonds, in all columns or some; returns the degrees of freedom of all ranks without
+    /// stiffness.
     fn assemble(&mut self, making: &FactorRecord, columns: Option<&[u32]>) -> Vec<usize> {
         let matrix = self.matrix.take();
         let rows = self.rows();
@@ -143,13 +145,13 @@ impl DistributedSolver {
         matrix.assemble();
         self.matrix = Some(matrix);
         if self.tolerance.is_none() {
-            // Of an indefinite matrix the factor tells.
+            // The factor detects singular and indefinite matrices.
             return Vec::new();
         }
         self.of_all(&loose)
     }
 
-    /// Degrees of freedom that some rank has found.
+    /// Sorted union over all ranks of degrees of freedom.
     fn of_all(&self, found: &[usize]) -> Vec<usize> {
         let found: Vec<f64> = found.iter().map(|&dof| dof as f64).collect();
         let communicator: &dyn Communicator = &*self.communicator;
@@ -159,7 +161,7 @@ impl DistributedSolver {
         all
     }
 
-    /// The preconditioner anew, with the rigid motions of the body as far as nothing holds them.
+    /// Builds the preconditioner, with the rigid motions of the body at free degrees of freedom.
     fn precondition(&mut self, making: &FactorRecord) {
         let layout = self.unknowns.layout();
         let free = self.free(&making.held);
@@ -172,14 +174,14 @@ impl DistributedSolver {
         };
         let shapes = self.system.rigid_shapes(&all).into_iter();
         let motions: Vec<Vec<f64>> = shapes.map(of_own).collect();
-        // Bonds couple two points, and elements that couple more are known whole to each process.
+        // Bonds couple two points; each process has all points of elements that couple more.
         let n_coupled = self.rows().most_coupled();
         if let Some(matrix) = &mut self.matrix {
             matrix.precondition(&motions, n_coupled);
         }
     }
 
-    /// The factor anew.
+    /// Computes the factor.
     fn factorise(&mut self) -> Result<(), FactorError> {
         let pivots = self.matrix.as_mut().map(|it| it.factorise());
         self.pivots = pivots;
@@ -191,7 +193,7 @@ impl DistributedSolver {
         }
     }
 
-    /// The columns that are out of date, those beside newly held degrees of freedom included.
+    /// Outdated columns, including those coupled with newly fixed degrees of freedom.
     fn stale_columns(&mut self, making: &FactorRecord) -> Vec<u32> {
         let layout = self.unknowns.layout();
         let held = making.held.iter().zip(&self.kept.matrix_of.held);
@@ -205,8 +207,8 @@ impl DistributedSolver {
         stale.into_iter().collect()
     }
 
-    /// Whether all ranks are to solve for the same forces, to the bit: they go the same way if they compute the same. Where the forces are
-    /// shared out, the load factor and what is left of the bonds between two ranks must be the same.
+    /// Whether all ranks solve for the same forces, bit for bit, so that they take the same branches. With distributed forces,
+    /// compares the load factor and the remaining stiffness of the bonds between ranks.
     fn agree(&self, state: &State, force: &[f64]) -> bool {
         let numbers = &self.numbers;
         if numbers.subdomain().is_whole() {
@@ -222,7 +224,7 @@ impl DistributedSolver {
             let bits = [left.axial, left.shear, left.rotational].map(f64::to_bits);
             let is_left = u64::from(state.intact[bond]);
             let mixed = mixed([u64::from(number), is_left].into_iter().chain(bits));
-            // Sums of as many as there are bonds are exact.
+            // Sums of this many integers are exact.
             let part = (mixed >> 44) as f64;
             if numbers.owns(bond) { part } else { -part }
         };
@@ -231,17 +233,18 @@ impl DistributedSolver {
         self.are_equal([state.load_factor.to_bits()].into_iter()) && of_both == [0.0]
     }
 
-    /// Whether numbers are the same on all ranks.
+    /// Whether numbers are equal on all ranks, bit for bit.
     fn are_equal(&self, values: impl Iterator<Item = u64>) -> bool {
         let mixed = mixed(values);
-        // Halves are numbers that doubles hold.
+        // Halves of 32 bits are exact in doubles.
         let halves = [(mixed >> 32) as f64, (mixed & 0xffff_ffff) as f64];
         let mut both = [halves[0], halves[1], -halves[0], -halves[1]];
         self.communicator.all_reduce_max(&mut both);
         both[0] == -both[2] && both[1] == -both[3]
     }
 
-    /// Values at the unknowns as those at the own degrees of freedom, with another one where nothing is unknown or free.
+    /// Values at the degrees of freedom of owned points, from values at the unknowns; `other` where a degree of freedom is not a
+    /// free unknown.
     fn at_own(&self, values: &[f64], free: &[bool], other: f64) -> Vec<f64> {
         let layout = self.unknowns.layout();
         let own = self.partition.points(self.communicator.rank());
@@ -251,7 +254,7 @@ impl DistributedSolver {
             .collect()
     }
 
-    /// Learns from a solution whether the preconditioner is worn out.
+    /// Updates the excess of iterations by a solution, which decides whether the preconditioner is rebuilt.
     fn judge(&mut self, found: &Solved) {
         if found.iterations == 0 || !found.decades.is_finite() || found.decades <= 0.0 {
             return;
@@ -264,7 +267,7 @@ impl DistributedSolver {
         kept.is_due |= kept.excess > RENEWAL;
     }
 
-    /// The solution at the unknowns, from the motions at the own degrees of freedom.
+    /// Solution at the unknowns, from the motions at the degrees of freedom of owned points.
     fn at_unknowns(&self, motions: Vec<f64>) -> Vec<f64> {
         let layout = self.unknowns.layout();
         let n = layout.components.len();
@@ -297,7 +300,7 @@ impl TangentSolver for DistributedSolver {
         let entries = terms.flat_map(|(_, entries)| entries);
         let points = entries.map(|(dof, _)| layout.point(dof));
         self.kept.stale.extend(points);
-        // The rigid motions of a part that came loose are among the softest of all.
+        // The rigid motions of a detached part are among the softest motions.
         self.kept.is_due |= !breakage.holds.is_empty();
         None
     }
@@ -324,7 +327,7 @@ impl TangentSolver for DistributedSolver {
         if !is_new && some_stale == [0.0] {
             return Ok(Vec::new());
         }
-        // Of softening bonds the two ends must have been met at the same moment.
+        // Both ends of a softening bond must have entries from the same state.
         let columns = (!is_new && making.remaining.is_empty()).then_some(stale.as_slice());
         let loose = self.assemble(&making, columns);
         self.kept.matrix_of = making.clone();
@@ -458,7 +461,7 @@ impl TangentSolver for DistributedSolver {
     }
 }
 
-/// Some numbers as one, by FNV-1a.
+/// Hash of a sequence of numbers, by FNV-1a.
 fn mixed(values: impl Iterator<Item = u64>) -> u64 {
     values.fold(0xcbf2_9ce4_8422_2325_u64, |hash, value| {
         (hash ^ value)
@@ -467,12 +470,12 @@ fn mixed(values: impl Iterator<Item = u64>) -> u64 {
     })
 }
 
-/// Whether the bytes go on with what this solver has written.
+/// Whether the bytes begin with a checkpoint of this solver.
 pub(crate) fn was_written(from: &[u8]) -> bool {
     from.starts_with(&MARK.to_le_bytes())
 }
 
-/// Passes over what this solver has written: another one begins anew with the state as it is.
+/// Skips the checkpoint of this solver, for another solver that begins with the present state.
 ///
 /// # Errors
 ///

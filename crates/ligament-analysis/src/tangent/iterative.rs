@@ -1,8 +1,8 @@
 //! Iterative solution without a matrix: conjugate gradients with block Jacobi and the rigid motions of aggregates.
 //!
-//! The stiffness is always that of the bonds as they are; what is made and kept is the preconditioner. The blocks of points are
-//! made anew where bonds broke, and what the bonds gave to the stiffness of the coarse space is taken away from it. The coarse space is
-//! made anew where a part came loose, and where the iterations beyond what it took when it was new have cost as much as that.
+//! The stiffness is always that of the present bonds; only the preconditioner is stored. The blocks of points are recomputed where
+//! bonds broke, and the share of these bonds is subtracted from the coarse stiffness. The coarse space is rebuilt where a part
+//! became detached, and where the iterations in excess of its initial rate have cost as much as a rebuild.
 
 mod aggregates;
 mod coarse;
@@ -43,47 +43,47 @@ use crate::vectors::dot_of_chunks;
 
 pub(super) use point_blocks::vanishing_of_block;
 
-/// Elements that change at once at most for a change of the coarse stiffness in place: more cost as much as making it anew.
+/// Largest number of elements changed at once for an update of the coarse stiffness; more cost as much as a rebuild.
 const MOST_IN_PLACE: usize = 100;
 
-/// Iterations that cost as much as a new coarse space.
+/// Number of iterations that cost as much as a new coarse space.
 const RENEWAL: f64 = 40.0;
 
-/// Begins what this solver writes into a checkpoint: no other solver begins so.
+/// First bytes of the checkpoint of this solver, unlike those of any other solver.
 const MARK: u64 = 0x6576_6974_6172_6574;
 
-/// A solver that iterates, for symmetric and definite stiffnesses of linear bonds.
+/// An iterative solver for symmetric, definite stiffnesses of linear bonds.
 pub(crate) struct IterativeSolver {
     system: Arc<dyn Bonds>,
     unknowns: Arc<Unknowns>,
     choice: IterativeChoice,
     levels: Option<TwoLevels>,
-    /// What the coarse space was made of, and how its stiffness was changed since.
+    /// Bonds and supports from which the coarse space was built, and later updates of its stiffness.
     coarse_of: FactorRecord,
-    /// What the coarse stiffness has of softening bonds, shape (n_bonds); empty where none softens.
+    /// Remaining stiffness of softening bonds in the coarse stiffness, shape (n_bonds); empty where none softens.
     in_coarse: Vec<StiffnessFactors>,
-    /// What the blocks of the points were made of.
+    /// Bonds and supports from which the blocks of the points were computed.
     blocks_of: FactorRecord,
-    /// Points whose blocks are out of date.
+    /// Points whose blocks are outdated.
     stale: BTreeSet<u32>,
-    /// Whether the coarse space is to be made anew.
+    /// Whether the coarse space must be rebuilt.
     is_due: bool,
-    /// Iterations a decade with the coarse space as it was new.
+    /// Iterations per decade of residual reduction with the new coarse space.
     pace: Option<f64>,
-    /// Iterations beyond that since.
+    /// Iterations in excess of that rate since then.
     excess: f64,
-    /// Pairs across cracks that are closed.
+    /// Closed pairs across cracks.
     closed: Vec<ClosedPair>,
 }
 
-/// Everything of a body that the equations are made of, at one moment.
+/// Free degrees of freedom and additional terms of the equations of one state.
 struct Moment {
     free: Vec<bool>,
     beside: Vec<Term>,
 }
 
 impl IterativeSolver {
-    /// A solver without a preconditioner yet.
+    /// Builds a solver without a preconditioner.
     pub(crate) fn new(
         system: Arc<dyn Bonds>,
         unknowns: Arc<Unknowns>,
@@ -105,7 +105,7 @@ impl IterativeSolver {
         }
     }
 
-    /// What a state is made of.
+    /// Bonds and supports of a state.
     fn made_of(&self, state: &State) -> FactorRecord {
         if !self.system.faces_close() {
             return FactorRecord::begun(state, state.held.clone(), Vec::new());
@@ -148,7 +148,7 @@ impl IterativeSolver {
         }
     }
 
-    /// Both levels anew; or the degrees of freedom that nothing resists.
+    /// Builds both levels; or returns the degrees of freedom without stiffness.
     fn levels_of(
         &self,
         making: &FactorRecord,
@@ -163,7 +163,7 @@ impl IterativeSolver {
         Ok(Ok(TwoLevels { blocks, coarse }))
     }
 
-    /// Brings the blocks up to date; gives the degrees of freedom that nothing resists.
+    /// Recomputes outdated blocks; returns the degrees of freedom without stiffness.
     ///
     /// # Errors
     ///
@@ -184,7 +184,7 @@ impl IterativeSolver {
         };
         let moment = self.moment(&making);
         let operator = self.operator(&moment, making.bonds());
-        // Of softening bonds the two ends must have been met at the same moment.
+        // Both ends of a softening bond must have entries from the same state.
         let loose = if making.remaining.is_empty() {
             levels.blocks.renew(&operator, stale.iter().copied())?
         } else {
@@ -200,7 +200,7 @@ impl IterativeSolver {
         Ok(loose)
     }
 
-    /// Learns from a solution whether the coarse space is worn out.
+    /// Updates the excess of iterations by a solution, which decides whether the coarse space is rebuilt.
     fn judge(&mut self, found: &Found) {
         if found.iterations == 0 || !found.decades.is_finite() || found.decades <= 0.0 {
             return;
@@ -213,7 +213,7 @@ impl IterativeSolver {
         self.is_due |= self.excess > RENEWAL;
     }
 
-    /// Takes terms at unknowns into the coarse stiffness; it is to be made anew where that fails.
+    /// Updates the coarse stiffness by terms at unknowns; marks it for a rebuild where that fails.
     fn change_coarse(&mut self, terms: Vec<RankOne>) {
         let Some(levels) = &mut self.levels else {
             return;
@@ -228,13 +228,13 @@ impl IterativeSolver {
         }
     }
 
-    /// Terms of elements that change may be taken into the coarse stiffness; where they are too many it is to be made anew.
+    /// Whether the coarse stiffness is updated for `n_elements` changes; too many mark it for a rebuild.
     fn is_changed_in_place(&mut self, n_elements: usize) -> bool {
         self.is_due |= n_elements > MOST_IN_PLACE;
         n_elements > 0 && !self.is_due && self.levels.is_some()
     }
 
-    /// Couples of the unknowns that the coarse space knows.
+    /// Couplings of the unknowns of the coarse space.
     fn coupled(&self) -> Coupled<'_> {
         Coupled {
             system: &*self.system,
@@ -244,7 +244,7 @@ impl IterativeSolver {
         }
     }
 
-    /// Numbers of the unknowns at degrees of freedom.
+    /// Unknowns among some degrees of freedom.
     fn unknown_of(&self, mut dofs: Vec<usize>) -> Vec<usize> {
         dofs.retain(|&dof| self.unknowns.is_unknown(dof));
         dofs
@@ -269,7 +269,7 @@ impl TangentSolver for IterativeSolver {
         let entries = terms.flat_map(|(_, entries)| entries);
         let dofs: BTreeSet<usize> = entries.map(|(dof, _)| dof).collect();
         self.stale_at(dofs.into_iter());
-        // The rigid motions of a part that came loose are among the softest of all.
+        // The rigid motions of a detached part are among the softest motions.
         self.is_due |= !breakage.holds.is_empty();
         if self.is_changed_in_place(breakage.n_elements()) {
             self.change_coarse(self.coupled().of_breakage(breakage));
@@ -454,12 +454,12 @@ impl TangentSolver for IterativeSolver {
     }
 }
 
-/// Whether the bytes go on with what this solver has written.
+/// Whether the bytes begin with a checkpoint of this solver.
 pub(super) fn was_written(from: &[u8]) -> bool {
     from.starts_with(&MARK.to_le_bytes())
 }
 
-/// Terms at unknowns, at their degrees of freedom.
+/// Renumbers terms from unknowns to degrees of freedom.
 fn at_degrees_of_freedom(unknowns: &Unknowns, terms: &[RankOne]) -> Vec<RankOne> {
     let dofs = unknowns.degrees_of_freedom();
     let of_terms = terms.iter().map(|it| {

@@ -1,8 +1,8 @@
-//! How a factor came about: what it was made of, and how it was changed since.
+//! Record of the bonds, supports and updates from which a factor resulted.
 //!
-//! Changes in place carry rounding from one to the next, so that a factor made from the bonds as they are now has other bits. To go
-//! on with a run bit by bit its factor is made as it was made, and changed as it was changed. That takes a few kilobytes, where the
-//! values of the factor would take most of the memory of the run.
+//! Updates in place accumulate rounding, so that a factor of the present bonds differs in its bits. To continue a run bit for bit,
+//! its factor is computed from the recorded bonds and updated by the recorded terms. The record takes a few kilobytes, the values
+//! of the factor most of the memory of the run.
 
 use std::sync::Arc;
 
@@ -18,18 +18,18 @@ use crate::state::State;
 use crate::stiffness::Stiffness;
 use crate::unknowns::Unknowns;
 
-/// Bonds and holds that a factor was made of, and all changes since.
+/// Bonds and supports from which a factor was computed, and all updates since.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct FactorRecord {
-    /// Whether each bond was unbroken, shape (n_bonds).
+    /// Whether each bond was intact, shape (n_bonds).
     pub(super) intact: Vec<bool>,
-    /// What was left of softening bonds, shape (n_bonds); empty where none softened.
+    /// Remaining stiffness of softening bonds, shape (n_bonds); empty where none softened.
     pub(super) remaining: Vec<StiffnessFactors>,
-    /// Degrees of freedom that were held, and so are cut off from the others, shape (n_degrees_of_freedom).
+    /// Fixed degrees of freedom, decoupled from the others, shape (n_degrees_of_freedom).
     pub(super) held: Vec<bool>,
-    /// Terms beside those of the bonds: of pairs that were closed, and of what was held without being cut off.
+    /// Terms other than bonds: closed pairs, and added supports that are not decoupled.
     pub(super) beside: Vec<RankOne>,
-    /// Changes in place, in their order.
+    /// Updates in place, in order.
     pub(super) changes: Vec<Vec<RankOne>>,
 }
 
@@ -42,7 +42,7 @@ serial!(FactorRecord {
 });
 
 impl FactorRecord {
-    /// The beginning of a factor of a state with the degrees of freedom that are cut off, and terms beside those of the bonds.
+    /// Record of a new factor of a state, with its decoupled degrees of freedom and additional terms.
     pub(super) fn begun(state: &State, held: Vec<bool>, beside: Vec<RankOne>) -> Self {
         Self {
             intact: state.intact.clone(),
@@ -53,7 +53,7 @@ impl FactorRecord {
         }
     }
 
-    /// The bonds that the factor was made of.
+    /// Bonds from which the factor was computed.
     pub(super) fn bonds(&self) -> UnbrokenBonds<'_> {
         UnbrokenBonds {
             intact: &self.intact,
@@ -61,7 +61,7 @@ impl FactorRecord {
         }
     }
 
-    /// Appends the making with all bonds of the body, see [`BondNumbers::write`].
+    /// Appends the record with all bonds of the body, see [`BondNumbers::write`].
     pub(super) fn write_all(&self, numbers: &BondNumbers, out: &mut Vec<u8>) {
         numbers.write(&self.intact, true, out);
         numbers.write(&self.remaining, StiffnessFactors::WHOLE, out);
@@ -70,11 +70,11 @@ impl FactorRecord {
         self.changes.write(out);
     }
 
-    /// Reads a making with the local bonds alone, from that of all bonds.
+    /// Reads a record of all bonds, and keeps the local bonds.
     ///
     /// # Errors
     ///
-    /// If the bytes are damaged or of another body.
+    /// If the bytes are damaged or belong to another body.
     pub(super) fn read_local(
         numbers: &BondNumbers,
         from: &mut &[u8],
@@ -88,7 +88,7 @@ impl FactorRecord {
         })
     }
 
-    /// Whether all is of a body with these unknowns.
+    /// Whether the record has the bonds and unknowns of this body.
     pub(super) fn fits(&self, system: &dyn Bonds, unknowns: &Unknowns) -> bool {
         let n_bonds = system.ends().len();
         let n_unknowns = unknowns.len();
@@ -102,7 +102,7 @@ impl FactorRecord {
                 .all(|(unknown, _)| *unknown < n_unknowns)
     }
 
-    /// The matrix that the factor was made of.
+    /// Matrix from which the factor was computed.
     pub(super) fn matrix(&self, stiffness: &Stiffness) -> SymmetricMatrix {
         let mut matrix = stiffness.assemble(self.bonds(), &self.held);
         for term in &self.beside {
@@ -111,7 +111,7 @@ impl FactorRecord {
         matrix
     }
 
-    /// The factor that comes about so, with the same bits; none where there was none.
+    /// Computes and updates the factor as recorded, with the same bits; none where the factorisation fails.
     pub(super) fn factor(&self, stiffness: &Arc<Stiffness>) -> Option<Box<dyn Factorisation>> {
         let matrix = self.matrix(stiffness);
         let kind = stiffness.choice().factorisation;

@@ -1,4 +1,4 @@
-//! The solver that is chosen for the equations of a body.
+//! Choice of the solver for the equations of a body.
 
 use std::sync::Arc;
 
@@ -15,16 +15,16 @@ use crate::solver::{Method, Reason, SolverChoice, SolverSettings};
 use crate::stiffness::{self, Stiffness};
 use crate::unknowns::Unknowns;
 
-/// A solver with what was chosen for it.
+/// A solver and the choice that led to it.
 pub(crate) struct Solving {
-    /// Pattern and symbolic factor; none where the solver has no matrix.
+    /// Sparsity pattern and symbolic factor; none where the solver has no matrix.
     pub(crate) stiffness: Option<Arc<Stiffness>>,
     pub(crate) choice: SolverChoice,
     pub(crate) solver: Box<dyn TangentSolver>,
 }
 
 impl Solving {
-    /// Chooses a solver for some unknowns, with the numbers of the bonds among all of the body; nothing is factorised yet.
+    /// Chooses a solver for unknowns, with the global numbers of the local bonds, without factorising.
     ///
     /// # Errors
     ///
@@ -66,7 +66,7 @@ impl Solving {
             let reason = Reason::Memory { needed, available };
             Self::iterating(system, unknowns, settings, reason)
         };
-        // The analysis of a factor that is far too large takes much memory itself.
+        // The analysis of a factor that is far too large needs much memory itself.
         let least = stiffness::least_bytes(&**system);
         if least > available {
             return Ok(too_large(least));
@@ -82,7 +82,7 @@ impl Solving {
         Ok(Self::factorising(stiffness))
     }
 
-    /// Conjugate gradients, for a reason.
+    /// Conjugate gradients, with the reason of the choice.
     fn iterating(
         system: &Arc<dyn Bonds>,
         unknowns: &Arc<Unknowns>,
@@ -101,7 +101,7 @@ impl Solving {
         }
     }
 
-    /// A factor.
+    /// Direct solver with a symmetric or unsymmetric factor.
     fn factorising(stiffness: Stiffness) -> Self {
         let stiffness = Arc::new(stiffness);
         let choice = *stiffness.choice();

@@ -1,4 +1,4 @@
-//! Terms of rank one by which breakages, holds and softening change a factor.
+//! Rank-one terms by which breakages, added supports and softening update a factor.
 
 use ligament_linalg::RankOne;
 use ligament_model::Bonds;
@@ -11,32 +11,32 @@ use crate::contact;
 use crate::state::State;
 use crate::unknowns::Unknowns;
 
-/// Bonds that make a task worth while.
+/// Least number of bonds of a parallel task.
 const TASK: usize = 4096;
 
-/// Relative change of a bond's secant stiffness from which the factor is changed. An L-panel of 2,300 points took 3 and 8 % more solutions
-/// with 0.6 and 0.8 than with 0.3, and 19 and 10 instead of 45 factorisations, on the same curve.
+/// Relative change of a bond's secant stiffness above which the factor is updated. An L-panel of 2,300 points took 3 and 8 % more
+/// solutions with 0.6 and 0.8 than with 0.3, and 19 and 10 instead of 45 factorisations, on the same curve.
 const SECANT_TOLERANCE: f64 = 0.6;
 
-/// The unknowns that a factor couples with others.
+/// Unknowns that are coupled in a factor.
 #[derive(Clone, Copy)]
 pub(super) struct Coupled<'a> {
     pub(super) system: &'a dyn Bonds,
     pub(super) unknowns: &'a Unknowns,
-    /// Degrees of freedom that are cut off from the others, shape (n_degrees_of_freedom).
+    /// Degrees of freedom decoupled from the others, shape (n_degrees_of_freedom).
     pub(super) cut_off: &'a [bool],
-    /// What a hold adds to the diagonal, as a share of it.
+    /// Stiffness that an added support adds to a diagonal entry, as a share of that entry.
     pub(super) hold_share: f64,
 }
 
 impl Coupled<'_> {
-    /// Number of the unknown at a degree of freedom.
+    /// Number of the unknown at a degree of freedom; None where it is no unknown or decoupled.
     pub(super) fn number(self, dof: usize) -> Option<usize> {
         let number = self.unknowns.number(dof);
         number.filter(|_| !self.cut_off[dof])
     }
 
-    /// Terms of a breakage. What adds stiffness goes first, so that every matrix on the way is definite if the last one is.
+    /// Terms of a breakage. Terms that add stiffness come first, so that every intermediate matrix is definite if the last one is.
     pub(super) fn of_breakage(self, breakage: &Breakage) -> Vec<RankOne> {
         let holds = breakage.holds.iter();
         let mut terms = self.of_holds(holds.map(|hold| hold.degree_of_freedom));
@@ -47,7 +47,7 @@ impl Coupled<'_> {
         terms
     }
 
-    /// Terms of bonds whose secants are due, with what the factor has of all bonds (n_bonds), which is brought up to date.
+    /// Terms of the bonds in `due`; sets their remaining stiffness in the factor (n_bonds) to that of the state.
     pub(super) fn of_softening(
         self,
         due: &[usize],
@@ -63,12 +63,12 @@ impl Coupled<'_> {
             terms.extend(of_element.filter_map(|term| self.at_unknowns(term, -1.0)));
             in_factor[bond] = remaining;
         }
-        // As above, what adds stiffness goes first.
+        // Terms that add stiffness come first, as in a breakage.
         terms.sort_by_key(|term| term.weight < 0.0);
         terms
     }
 
-    /// What holds add to the matrix. They go in before bonds leave: no pivot vanishes in between.
+    /// Terms of added supports. They precede the terms of broken bonds, so that no pivot vanishes in between.
     pub(super) fn of_holds(self, held: impl Iterator<Item = usize>) -> Vec<RankOne> {
         let holds = held.filter_map(|dof| {
             let entries = vec![(self.number(dof)?, 1.0)];
@@ -79,7 +79,7 @@ impl Coupled<'_> {
         holds.collect()
     }
 
-    /// Terms of pairs across cracks, `sign` times.
+    /// Terms of closed pairs across cracks, multiplied by `sign`.
     pub(super) fn of_contact(self, pairs: &[ClosedPair], sign: f64) -> Vec<RankOne> {
         let terms = pairs.iter().map(|it| contact::term(&it.pair));
         terms
@@ -87,7 +87,7 @@ impl Coupled<'_> {
             .collect()
     }
 
-    /// A term of an element times a factor, at the unknowns; none where it changes nothing.
+    /// Term of an element, multiplied by a factor, at the unknowns; None where it changes nothing.
     fn at_unknowns(self, (rigidity, entries): Term, factor: f64) -> Option<RankOne> {
         let entries: Vec<(usize, f64)> = (entries.into_iter())
             .filter_map(|(dof, value)| Some((self.number(dof)?, value)))
@@ -99,7 +99,7 @@ impl Coupled<'_> {
         })
     }
 
-    /// Diagonal entry of the matrix with all bonds.
+    /// Diagonal entry of the matrix with all bonds whole.
     fn whole_diagonal(self, dof: usize) -> f64 {
         let system = self.system;
         let whole = vec![true; system.ends().len()];
@@ -115,10 +115,10 @@ impl Coupled<'_> {
     }
 }
 
-/// Intact bonds whose secants are too far from what a factor has of them (n_bonds), ascending.
+/// Intact bonds whose secants differ too much from those in a factor (n_bonds), ascending.
 ///
-/// Bonds that are near enough wait: the iteration finds the residual with the bonds as they are, and gets as near with a factor
-/// that is a little off.
+/// Other bonds are not updated: the residual is computed from the present bonds, and the iteration converges with a slightly
+/// outdated factor.
 pub(super) fn due_bonds(in_factor: &[StiffnessFactors], state: &State) -> Vec<usize> {
     let remaining = &state.softening.remaining;
     let is_due = |bond: &usize| {

@@ -1,4 +1,4 @@
-//! Direct solution without symmetry, L U, for forces that are not those of an energy.
+//! Direct solution with an unsymmetric factor, L U, for forces without an energy.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -16,16 +16,16 @@ use crate::stiffness::Stiffness;
 use ligament_model::contact::ClosedPair;
 use ligament_model::thermal::ThermalStrain;
 
-/// A direct solver for stiffnesses without symmetry, of bonds that do not break.
+/// A direct solver for unsymmetric stiffnesses, of bonds that do not break.
 pub(crate) struct UnsymmetricSolver {
     stiffness: Arc<Stiffness>,
     factor: Option<Lu>,
-    /// What the factor was made of.
+    /// Bonds and supports from which the factor was computed.
     making: FactorRecord,
 }
 
 impl UnsymmetricSolver {
-    /// A solver without a factor yet.
+    /// Builds a solver without a factor.
     pub(crate) fn new(stiffness: Arc<Stiffness>) -> Self {
         Self {
             stiffness,
@@ -34,7 +34,7 @@ impl UnsymmetricSolver {
         }
     }
 
-    /// Derivatives of the internal forces by the unknowns; a held one stands alone.
+    /// Derivatives of the internal forces by the unknowns; fixed unknowns are decoupled, with a unit diagonal.
     fn matrix(&self, FactorRecord { intact, held, .. }: &FactorRecord) -> GeneralMatrix {
         let (system, unknowns) = (self.stiffness.system(), self.stiffness.unknowns());
         let free = |dof: usize| unknowns.number(dof).filter(|_| !held[dof]);

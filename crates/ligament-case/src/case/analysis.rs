@@ -1,4 +1,4 @@
-//! `analysis` and `[modal]`: what is computed.
+//! `analysis` and `[modal]`: the kind of analysis.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -7,7 +7,7 @@ use super::word::Word;
 use ligament::setup;
 use ligament_analysis::modal::{ModalSettings, Rotations};
 
-/// Modes at most: each keeps three vectors of the search in memory.
+/// Largest number of modes: each needs three vectors of the search in memory.
 pub const MOST_MODES: u32 = 1000;
 
 /// What is computed.
@@ -62,7 +62,7 @@ impl Modal {
 }
 
 impl Analysis {
-    /// The word of the analysis.
+    /// Word for the analysis.
     pub(super) fn word(self) -> &'static str {
         match self {
             Self::Static => "static",

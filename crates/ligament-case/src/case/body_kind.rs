@@ -3,8 +3,8 @@
 /// A body in the plane, or a solid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BodyKind {
-    /// In the plane of x and y.
+    /// Body in the plane of x and y.
     Plane,
-    /// In space.
+    /// Solid in space.
     Solid,
 }

@@ -1,4 +1,4 @@
-//! `[[support]]`: what holds the body; and the vectors of supports and loads.
+//! `[[support]]`: supports of the body; and the vectors of supports and loads.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

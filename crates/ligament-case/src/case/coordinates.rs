@@ -23,7 +23,7 @@ impl Coordinates {
         &self.along[..self.count]
     }
 
-    /// The coordinates of a body in some dimensions, zero beyond them; the key is where they stand.
+    /// The coordinates for a body in some dimensions, padded with zeros; `key` is their key.
     pub(super) fn for_body(&self, key: &KeyPath, dimensions: usize) -> Result<Position, KeyFault> {
         if self.count == dimensions {
             return Ok(self.along);
@@ -38,7 +38,7 @@ impl Coordinates {
 }
 
 impl<const D: usize> From<[f64; D]> for Coordinates {
-    /// Two coordinates or three.
+    /// Converts two or three coordinates.
     fn from(coordinates: [f64; D]) -> Self {
         let along = |axis: usize| coordinates.get(axis).copied().unwrap_or(0.0);
         Self {

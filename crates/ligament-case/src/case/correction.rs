@@ -47,7 +47,7 @@ pub struct Correction {
 }
 
 impl Correction {
-    /// Fills in what the section leaves open and what follows from the law.
+    /// Fills in missing keys, partly from the law.
     pub(super) fn complete(&mut self, key: &KeyPath, law: &Law) -> Result<(), KeyFault> {
         let of_paper = setup::Correction::of_paper(law);
         self.alpha.get_or_insert(Word(of_paper.alpha));
@@ -96,7 +96,7 @@ impl Correction {
     }
 
     fn iteration(&mut self, key: &KeyPath) -> Result<Iteration, KeyFault> {
-        // A tolerance alone is the paper's, which is one for the sum.
+        // A tolerance without a rule is that of the paper's rule, the sum.
         let with_tolerance = self.tolerance.map(|_| Iteration::SUM);
         let rule = self.rule.get_or_insert(Word(with_tolerance)).0;
         let stop = match (rule, self.tolerance) {

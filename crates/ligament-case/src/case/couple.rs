@@ -16,9 +16,9 @@ use ligament::setup;
 /// A couple.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Couple {
-    /// In the plane, counter-clockwise.
+    /// A couple in the plane, counter-clockwise.
     InPlane(f64),
-    /// About the axes of space, right-handed.
+    /// A couple about the axes of space, right-handed.
     About(Vector),
 }
 

@@ -1,4 +1,4 @@
-//! `[[fracture.criterion]]`: when a bond fails, and what it does after.
+//! `[[fracture.criterion]]`: failure criteria of bonds, and their laws after the limit.
 
 use ligament_model::failure::softening::Law;
 use ligament_model::failure::{After, Calibration, Choice, Kind, frictional};
@@ -63,7 +63,7 @@ impl From<Kind> for Criterion {
 }
 
 impl Criterion {
-    /// Fills in what is not given.
+    /// Fills in missing keys.
     pub(super) fn complete(&mut self) {
         if self.kind.0 == frictional::FRICTIONAL && self.limit.is_none() {
             self.calibration.get_or_insert_default();

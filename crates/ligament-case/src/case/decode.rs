@@ -1,4 +1,4 @@
-//! Reads the document tree into typed sections, with faults in the words of a case file.
+//! Decoder of the document tree into typed sections, with faults in the terms of a case file.
 
 use std::fmt;
 
@@ -13,7 +13,7 @@ use super::document::{Node, Value};
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 
-/// Longer strings are cut in error messages.
+/// Length above which strings are truncated in error messages.
 const LONGEST_QUOTE: usize = 40;
 
 /// Reads a typed section from the node at a key path.
@@ -29,7 +29,7 @@ pub fn decode<T: DeserializeOwned>(node: &Node, key: &KeyPath) -> Result<T, KeyF
     })
 }
 
-/// Completes a fault at a key by what only the whole path tells: the title of the table.
+/// Completes a fault by the title of its table, from the whole key path.
 fn complete(mut key: KeyPath, mut fault: Fault) -> KeyFault {
     match &mut fault {
         Fault::UnknownKey { table, .. } => *table = key.parent().table_title(),
@@ -96,7 +96,7 @@ fn wrong_type(expected: String, found: String) -> Fault {
     }
 }
 
-/// What serde's visitors expect, in the words of a case file.
+/// Description of the type that serde's visitors expect, in the terms of a case file.
 fn expected_words(expected: &dyn Expected) -> String {
     let text = expected.to_string();
     match text.as_str() {
@@ -134,7 +134,7 @@ fn string_words(text: &str) -> String {
     format!("the string {text:?}")
 }
 
-/// What a value is, for "found ...".
+/// Type of a value for "found ...".
 fn unexpected(value: &Value) -> Unexpected<'_> {
     match value {
         Value::String(text) => Unexpected::Str(text),
@@ -187,7 +187,7 @@ impl<'de> Deserializer<'de> for &'de Node {
         visitor.visit_some(self)
     }
 
-    // Without this, serde would also take a section written as a list of its values.
+    // Accepts tables only; serde would also accept a section as a list of its values.
     fn deserialize_struct<V: Visitor<'de>>(
         self,
         _name: &'static str,

@@ -1,4 +1,4 @@
-//! The parsed text of a case file: a tree of TOML values that know where they were written.
+//! The parsed text of a case file: a tree of TOML values with their origins.
 
 use serde::de::Error as _;
 use toml::Spanned;
@@ -6,21 +6,21 @@ use toml::de::{DeTable, DeValue};
 
 use super::key_path::KeyPath;
 
-/// Where a value was written.
+/// Origin of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Origin {
-    /// In the file, at a byte offset.
+    /// A byte offset in the file.
     File(usize),
-    /// In the override with this index.
+    /// The override with this index.
     Override(usize),
-    /// In memory: a program handed the value over.
+    /// A program that created the value in memory.
     Memory,
 }
 
-/// A value and where it was written.
+/// A value with its origin.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Node {
-    /// Where the value starts; of a table, where its header or brace starts.
+    /// Start of the value; of a table the start of its header or brace.
     pub origin: Origin,
     /// The value.
     pub value: Value,
@@ -50,7 +50,7 @@ pub enum Value {
 pub struct Entry {
     /// The key.
     pub key: String,
-    /// Where the key was written (first, if a table has several headers).
+    /// Origin of the key (the first one, if a table has several headers).
     pub key_origin: Origin,
     /// Value of the key.
     pub node: Node,
@@ -88,7 +88,7 @@ impl Node {
             .map(|entry| &entry.node)
     }
 
-    /// The value one path segment below: of a key in a table, of an index in a list.
+    /// The value for one path segment: a key of a table or an index of a list.
     pub fn step(&self, segment: &str) -> Option<&Node> {
         match &self.value {
             Value::List(nodes) => nodes.get(segment.parse::<usize>().ok()?),
@@ -111,7 +111,7 @@ impl Node {
         }
     }
 
-    /// Where the value at a path was written or, failing that, the innermost table above it.
+    /// Origin of the value at a path or, if it does not exist, of the innermost existing table above it.
     ///
     /// `None` where not even the path's first key exists.
     pub fn origin_of(&self, path: &KeyPath) -> Option<Origin> {
@@ -127,7 +127,7 @@ impl Node {
         origin
     }
 
-    /// Where the key at a path (rather than its value) was written.
+    /// Origin of the key at a path, not of its value.
     pub fn key_origin_of(&self, path: &KeyPath) -> Option<Origin> {
         let parent = self.at(&path.parent())?;
         parent
@@ -138,7 +138,7 @@ impl Node {
     }
 }
 
-/// Converts a parsed value; `origin` gives where a byte offset belongs.
+/// Converts a parsed value; `origin` returns the origin for a byte offset.
 fn node(
     value: Spanned<DeValue<'_>>,
     origin: &dyn Fn(usize) -> Origin,
@@ -164,7 +164,7 @@ fn node(
     })
 }
 
-/// Entries in the order of the text, so that the first of several faults is reported.
+/// Converts a table, with entries in the order of the text, so that the first of several faults is reported.
 fn table_value(
     table: DeTable<'_>,
     origin: &dyn Fn(usize) -> Origin,
@@ -187,7 +187,7 @@ fn table_value(
     ))
 }
 
-/// Integers beyond 64 bits are still fine as numbers.
+/// Converts an integer; beyond 64 bits to a float.
 fn integer_value(text: &str, radix: u32) -> Result<Value, toml::de::Error> {
     match i64::from_str_radix(text, radix) {
         Ok(integer) => Ok(Value::Integer(integer)),

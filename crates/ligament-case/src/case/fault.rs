@@ -1,4 +1,4 @@
-//! What can be wrong with a case file, and where.
+//! Errors of a case file and their locations.
 
 use std::borrow::Cow;
 use std::path::PathBuf;
@@ -8,7 +8,7 @@ use super::overrides::as_option;
 use ligament::error::Fault as SetupFault;
 use ligament::suggestion::hint;
 
-/// What is wrong with a key or its value.
+/// Fault of a key or its value.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Fault {
     /// The table has no such key.
@@ -19,58 +19,58 @@ pub enum Fault {
     UnknownKey {
         /// The key as given.
         key: String,
-        /// The table, as it is written in a case file.
+        /// Title of the table, as written in a case file.
         table: String,
         /// The keys that the table may have.
         valid: Vec<String>,
     },
-    /// A key that has no default is not there.
+    /// A key without a default is missing.
     #[error("missing key `{key}` in {table}{}", unit.map(|unit| format!(" (in {unit})")).unwrap_or_default())]
     MissingKey {
-        /// The key that is needed.
+        /// The missing key.
         key: String,
-        /// The table, as it is written in a case file.
+        /// Title of the table, as written in a case file.
         table: String,
-        /// Unit of its value.
+        /// Unit of the key's value.
         unit: Option<&'static str>,
     },
-    /// A section that every case needs is not there.
+    /// A required section is missing.
     #[error("the case has no {section} section; it needs {purpose}")]
     MissingSection {
         /// The section, with its brackets.
         section: String,
-        /// What it is needed for.
+        /// Purpose of the section.
         purpose: &'static str,
     },
-    /// A key that is needed only because of another setting is not there.
+    /// A key that another setting requires is missing.
     #[error("missing key `{key}`: it is required {reason}")]
     Required {
-        /// The key that is needed.
+        /// The missing key.
         key: &'static str,
-        /// What makes it necessary.
+        /// Reason why the key is required.
         reason: String,
     },
-    /// A key means nothing with another setting.
+    /// A key does not apply with another setting.
     #[error("`{key}` does not apply with {setting}: {reason}; remove it")]
     NotWith {
         /// The key.
         key: &'static str,
-        /// The setting that it does not go with.
+        /// The other setting.
         setting: String,
-        /// Why not.
+        /// Reason why the key does not apply.
         reason: &'static str,
     },
-    /// The value is of another type.
+    /// The value has the wrong type.
     #[error("expected {expected}, found {found}{}", unit_advice(found, *unit))]
     WrongType {
-        /// What the key takes.
+        /// Description of the expected type.
         expected: String,
-        /// What was given.
+        /// Description of the given value.
         found: String,
-        /// Unit of the value, for numbers.
+        /// Unit of the value, for a number.
         unit: Option<&'static str>,
     },
-    /// A single table stands where a list of tables belongs.
+    /// A single table is given for a list of tables.
     #[error(
         "this section may be repeated, so its name stands in double brackets: write [[{section}]] instead of [{section}]"
     )]
@@ -78,47 +78,47 @@ pub enum Fault {
         /// Name of the section.
         section: String,
     },
-    /// The value is none of the words the key takes.
+    /// The value is not one of the key's words.
     #[error("unknown value \"{found}\"{}", hint(found, valid, "valid values", '"'))]
     UnknownValue {
         /// The word as given.
         found: String,
-        /// The words that the key takes.
+        /// Valid words.
         valid: Vec<String>,
     },
-    /// A fault of the setup that the case makes: a name that does not exist, or a value out of range.
+    /// A fault of the case's setup: a name that does not exist, or a value out of range.
     #[error(transparent)]
     Setup(#[from] SetupFault),
-    /// Keys of which exactly one is to be given.
+    /// Keys of which exactly one must be given.
     #[error(
         "needs exactly one of {}; found {}",
         quoted(valid, "none"),
         quoted(found, "none")
     )]
     NotExactlyOne {
-        /// The keys to choose from.
+        /// The alternative keys.
         valid: Vec<String>,
-        /// The keys that were given.
+        /// The given keys.
         found: Vec<String>,
     },
-    /// Two things of the same kind have the same name.
+    /// Two elements of the same kind have the same name.
     #[error("`{name}` is already used by {first}{advice}")]
     NotUnique {
         /// The name.
         name: String,
-        /// Key path of what has it already.
+        /// Key path of the element that has the name first.
         first: String,
-        /// What to do about it, with its own punctuation.
+        /// Advice, with its punctuation.
         advice: &'static str,
     },
-    /// Any other reason.
+    /// Any other fault, as a message.
     #[error("{0}")]
     Other(String),
 }
 
 impl Fault {
-    /// A name that does not exist where it should: `what` says of what and where
-    /// ("physical group in the mesh"), `candidates` are the names that do exist.
+    /// The fault of a name that does not exist: `what` is the kind and place of the name ("physical group in the mesh"), `candidates` are
+    /// the existing names.
     pub fn unknown_name<N: Into<String>>(
         what: &'static str,
         found: impl Into<String>,
@@ -131,7 +131,7 @@ impl Fault {
         })
     }
 
-    /// A value that is not as `expected` in words.
+    /// The fault of a value out of range; `expected` describes the range.
     pub fn out_of_range(expected: impl Into<Cow<'static, str>>, found: String) -> Self {
         let expected = expected.into();
         Self::Setup(SetupFault::OutOfRange { expected, found })
@@ -158,7 +158,7 @@ fn quoted(names: &[String], none: &str) -> String {
     names.join(", ")
 }
 
-/// A quantity written with its unit is the likeliest cause of a string in place of a number.
+/// Advice about units where a string is given for a number, probably a quantity with its unit.
 fn unit_advice(found: &str, unit: Option<&'static str>) -> String {
     match unit {
         Some(unit) if found.contains("the string") => {
@@ -168,10 +168,10 @@ fn unit_advice(found: &str, unit: Option<&'static str>) -> String {
     }
 }
 
-/// Where a faulty key was written.
+/// Location of a faulty key.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Location {
-    /// At a place in the case file, line and column counted from 1.
+    /// A position in the case file, line and column from 1.
     #[error("{}:{line}:{column}", path.display())]
     Position {
         /// The case file.
@@ -181,21 +181,21 @@ pub enum Location {
         /// Column in characters, from 1.
         column: usize,
     },
-    /// Nowhere in particular in the case file: something is missing from it.
+    /// The case file as a whole, where a part is missing.
     #[error("{}", path.display())]
     Document {
         /// The case file.
         path: PathBuf,
     },
-    /// On the command line.
+    /// An override on the command line.
     #[error("{}", as_option(given))]
     Override {
-        /// The setting as it was given, `key=value` or `-key`.
+        /// The override as given, `key=value` or `-key`.
         given: String,
     },
 }
 
-/// Why a case could not be read.
+/// Error of reading a case.
 #[derive(Debug, thiserror::Error)]
 pub enum CaseError {
     /// The file could not be read.
@@ -209,7 +209,7 @@ pub enum CaseError {
     /// The file is not TOML.
     #[error("{location}: not valid TOML: {message}")]
     Syntax {
-        /// Where the text stops making sense.
+        /// Location of the syntax error.
         location: Location,
         /// The TOML parser's reason.
         message: String,
@@ -217,29 +217,29 @@ pub enum CaseError {
     /// A `--set` or `--unset` could not be applied.
     #[error("{}: {reason}", as_option(given))]
     Override {
-        /// The setting as it was given.
+        /// The override as given.
         given: String,
-        /// Why it could not be applied.
+        /// Reason why it could not be applied.
         reason: String,
     },
     /// A key or its value is wrong.
     #[error("{location}: {key}: {fault}")]
     Key {
-        /// Where it was written.
+        /// Location of the key.
         location: Location,
         /// Path of the key, `load.0.group`.
         key: String,
-        /// What is wrong.
+        /// Fault of the key.
         fault: Box<Fault>,
     },
 }
 
-/// A fault at a key that is not yet located in the text.
+/// A fault at a key without a location in the text.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KeyFault {
     /// Path of the key.
     pub key: KeyPath,
-    /// What is wrong with it.
+    /// Fault of the key.
     pub fault: Fault,
 }
 

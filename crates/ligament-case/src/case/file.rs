@@ -1,4 +1,4 @@
-//! A case file on disk: loading it, and locating its keys.
+//! Loading of case files, and locations of their keys.
 
 use std::path::Path;
 
@@ -15,21 +15,21 @@ use super::source::Source;
 
 use crate::input_file;
 
-/// A case with the text it was read from, so that faults found later can still be located.
+/// A case with its text, so that faults found later can be located.
 #[derive(Debug, Clone)]
 pub struct CaseFile {
-    /// The file with the settings on top of it.
+    /// The file with its overrides.
     pub source: Source,
     /// The checked case.
     pub case: Case,
 }
 
 impl CaseFile {
-    /// Reads a case file, applies the overrides (`key=value`, or `-key` to take a key away; the later wins) and checks the whole.
+    /// Reads a case file, applies the overrides (`key=value`, or `-key` to remove a key; later ones take precedence) and checks the result.
     ///
     /// # Errors
     ///
-    /// If the file cannot be read, is not TOML, or a key or value of it or of an override is wrong.
+    /// If the file cannot be read, is not TOML, or a key or value of the file or an override is wrong.
     pub fn load(path: &Path, overrides: &[String]) -> Result<Self, CaseError> {
         let read = input_file::read_text(path);
         let text = read.map_err(|source| CaseError::Read {
@@ -39,20 +39,20 @@ impl CaseFile {
         Self::parse(path, text, overrides)
     }
 
-    /// Like [`load`](Self::load), from text that is already there; `path` says where it would be.
+    /// Parses a text as [`load`](Self::load) does a file; `path` is the path that its file would have.
     ///
     /// # Errors
     ///
-    /// If the text is not TOML, or a key or value of it or of an override is wrong.
+    /// If the text is not TOML, or a key or value of the text or an override is wrong.
     pub fn parse(path: &Path, text: String, overrides: &[String]) -> Result<Self, CaseError> {
         Self::read(Source::parse(path, text, overrides)?)
     }
 
-    /// Like [`parse`](Self::parse), from a document that a program has made; `path` says where a file of it would be.
+    /// Reads a document in memory as [`parse`](Self::parse) does a text; `path` is the path that its file would have.
     ///
     /// # Errors
     ///
-    /// If a key or value of it or of an override is wrong.
+    /// If a key or value of the document or an override is wrong.
     pub fn of_document(
         path: &Path,
         document: Node,
@@ -61,11 +61,11 @@ impl CaseFile {
         Self::read(Source::of_document(path, document, overrides)?)
     }
 
-    /// Like [`of_document`](Self::of_document), for a body in memory of a kind, whatever file the document names.
+    /// Reads a document as [`of_document`](Self::of_document) does, for a body in memory of a kind in place of the document's body.
     ///
     /// # Errors
     ///
-    /// If a key or value of it or of an override is wrong.
+    /// If a key or value of the document or an override is wrong.
     pub fn on_body(
         path: &Path,
         document: Node,
@@ -77,11 +77,11 @@ impl CaseFile {
         Self::read(Source { body, ..source })
     }
 
-    /// The case with further overrides on top of those that it has.
+    /// The case with further overrides after its present ones.
     ///
     /// # Errors
     ///
-    /// If an override cannot be applied, or a key or value is wrong then.
+    /// If an override cannot be applied, or a key or value becomes wrong.
     pub fn with_overrides(&self, more: &[String]) -> Result<Self, CaseError> {
         Self::read(self.source.with_overrides(more)?)
     }
@@ -98,8 +98,8 @@ impl CaseFile {
 
     /// Line and column (both from 1) of the value at a key path such as `load.0.group`.
     ///
-    /// A key that is not there is at the table that would have it. `None` if that is not there
-    /// either, or if the value is from an override.
+    /// For a missing key, the position of the table that would have it. `None` if the table is missing too, or if the value is from an
+    /// override.
     pub fn locate(&self, key: &str) -> Option<(usize, usize)> {
         match self.source.document.origin_of(&KeyPath::parse(key)?)? {
             Origin::File(offset) => Some(line_and_column(&self.source.text, offset)),
@@ -107,20 +107,20 @@ impl CaseFile {
         }
     }
 
-    /// The error of a faulty field of the setup at the key that it comes from.
+    /// The error of a faulty field of the setup, at the responsible key.
     pub fn located(&self, error: SetupError) -> CaseError {
         self.case.located(&self.source, error)
     }
 
     /// The error for a fault found after loading, located at its key.
     ///
-    /// For a name that the mesh does not have, [`Fault::unknown_name`] adds the nearest one.
+    /// For a name that the mesh does not have, [`Fault::unknown_name`] adds the most similar one.
     pub fn error(&self, key: &str, fault: impl Into<Fault>) -> CaseError {
         let key = KeyPath::parse(key).unwrap_or_else(|| KeyPath(vec![key.to_owned()]));
         self.source.error(KeyFault::new(key, fault))
     }
 
-    /// The number at a key path such as `material.young`: as given, or else its default; `None` where neither is a number.
+    /// The number at a key path such as `material.young`, as given or by default; `None` where neither is a number.
     ///
     /// # Errors
     ///
@@ -136,17 +136,17 @@ impl CaseFile {
         Ok(resolved.ok().and_then(|it| it.at(&path)?.number()))
     }
 
-    /// The case as TOML with every default filled in and the mesh given by its absolute path.
+    /// The case as TOML with all defaults and the absolute path of the mesh.
     ///
     /// # Errors
     ///
-    /// If the path of the mesh is not UTF-8, which TOML cannot hold.
+    /// If the path of the mesh is not UTF-8, which TOML requires.
     pub fn resolved_toml(&self) -> Result<String, toml_edit::ser::Error> {
         resolved::to_toml(&self.case)
     }
 
-    /// The case's own name: that of its folder if the file is called `case.toml` (or
-    /// `case.resolved.toml`), else the file's own without its extension.
+    /// Name of the case: that of its folder if the file is `case.toml` or `case.resolved.toml`, otherwise that of the file without its
+    /// extension.
     pub fn name(&self) -> String {
         self.source.name(&["case", "case.resolved"])
     }

@@ -1,4 +1,4 @@
-//! `[fracture]`: how bonds break, and when to stop.
+//! `[fracture]`: breakage of bonds, and stop rules.
 
 use std::borrow::Cow;
 
@@ -19,7 +19,7 @@ use super::scatter::Scatter;
 use super::values::{Numbers, missing, numbers, refuse, require};
 use super::word::Word;
 
-/// Equal load steps at most, and parts of one: each has a row in the history.
+/// Largest number of equal load steps, and of parts of one: each has a row in the history.
 const MOST_STEPS: u32 = 1_000_000;
 
 /// How bonds break while the load rises.
@@ -128,7 +128,7 @@ impl Default for Stop {
 }
 
 impl Fracture {
-    /// Fills in what is not given; `law` is the law of the bonds, and the load steps are those of stages where there are any.
+    /// Fills in missing keys; `law` is the law of the bonds; with stages, load steps are those of the stages.
     pub(super) fn complete(
         &mut self,
         key: &KeyPath,
@@ -154,7 +154,7 @@ impl Fracture {
         require(!criteria.is_empty(), key, &expected, [(); 0])
     }
 
-    /// Keys of the load steps mean nothing where there are none: a user who gives one expects what will not happen.
+    /// Refuses keys of load steps in an analysis without load steps, where they would have no effect.
     fn refuse_stepping(&self, key: &KeyPath) -> Result<(), KeyFault> {
         let given = [
             ("steps", self.steps.is_some()),

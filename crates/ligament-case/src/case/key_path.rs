@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Sections that may be repeated, those of a study last.
+/// Paths of repeatable sections, those of a study last.
 const REPEATED: [&[&str]; 11] = [
     &["precrack"],
     &["support"],
@@ -22,14 +22,14 @@ const REPEATED: [&[&str]; 11] = [
 pub struct KeyPath(pub Vec<String>);
 
 impl KeyPath {
-    /// The path of a key or index below this one.
+    /// The path extended by a key or index.
     pub fn child(&self, segment: impl fmt::Display) -> Self {
         let mut segments = self.0.clone();
         segments.push(segment.to_string());
         Self(segments)
     }
 
-    /// Reads a dotted path; parts with dots or spaces are quoted as in TOML.
+    /// Parses a dotted path; parts with dots or spaces are quoted as in TOML.
     pub fn parse(text: &str) -> Option<Self> {
         let keys = toml_edit::Key::parse(text).ok()?;
         Some(Self(keys.iter().map(|key| key.get().to_owned()).collect()))
@@ -40,20 +40,20 @@ impl KeyPath {
         self.0.last().map_or("", String::as_str)
     }
 
-    /// The path of the table or list that holds this key.
+    /// The path of the table or list that contains this key.
     pub fn parent(&self) -> Self {
         let mut segments = self.0.clone();
         segments.pop();
         Self(segments)
     }
 
-    /// Whether the section at this path may be repeated, hence is a list.
+    /// Whether the section at this path is repeatable, and therefore a list.
     pub fn is_repeated(&self) -> bool {
         let repeated = |list: &&[&str]| self.0.iter().map(String::as_str).eq(list.iter().copied());
         REPEATED.iter().any(repeated)
     }
 
-    /// How the table at this path is written in a case file: `[mesh]`, `[[load]]`, `load.0.displacement`.
+    /// Title of the table at this path in a case file: `[mesh]`, `[[load]]`, `load.0.displacement`.
     pub fn table_title(&self) -> String {
         let is_index =
             |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());

@@ -1,5 +1,5 @@
-//! What is known of the keys of a case file: all of it stands in the documentation and attributes of the structures that read
-//! them, and is taken from the schema that is made of these.
+//! Properties of the keys of a case file, from the schema, which is generated from the documentation and attributes of the structures that
+//! read them.
 
 use std::sync::LazyLock;
 
@@ -13,7 +13,7 @@ use super::values::{RANGE, UNIT};
 
 static SCHEMA: LazyLock<Json> = LazyLock::new(schema);
 
-/// Unit of the number at a key path, where it has one: its own, or that of the table or list which it is in.
+/// Unit of the number at a key path, if any: its own, or that of the enclosing table or list.
 pub fn unit_of(key: &KeyPath) -> Option<&'static str> {
     let (mut schema, mut unit) = (&*SCHEMA, None);
     for part in &key.0 {
@@ -23,7 +23,7 @@ pub fn unit_of(key: &KeyPath) -> Option<&'static str> {
     unit.filter(|_| schema["type"] != "object")
 }
 
-/// The schema of the table that a key takes, if it may take something else as well.
+/// The schema of the table among a key's alternatives, or the schema itself.
 fn table_of(schema: &Json) -> &Json {
     let alternatives = schema["anyOf"]
         .as_array()
@@ -32,7 +32,7 @@ fn table_of(schema: &Json) -> &Json {
     table.unwrap_or(schema)
 }
 
-/// The schema of a key or an element of what a schema describes; elements of lists that have none are as the list.
+/// The schema of a key or an element within a schema; elements without a schema have that of their list.
 fn below<'a>(schema: &'a Json, part: &str) -> Option<&'a Json> {
     if part.parse::<usize>().is_ok() {
         return Some(schema.get("items").unwrap_or(schema));
@@ -46,7 +46,7 @@ fn below<'a>(schema: &'a Json, part: &str) -> Option<&'a Json> {
     table["properties"].get(part).or_else(names)
 }
 
-/// The fault of a number of a document that is out of the range of its key.
+/// Refuses a document with a number out of the range of its key.
 pub(super) fn check_ranges(document: &Node) -> Result<(), KeyFault> {
     check_below(document, &SCHEMA, &KeyPath::default())
 }
@@ -62,7 +62,7 @@ fn check_below(node: &Node, schema: &Json, key: &KeyPath) -> Result<(), KeyFault
             return entries.try_for_each(|entry| child(&entry.node, &entry.key));
         }
         Value::List(nodes) => {
-            // A list of numbers is checked as a whole, by the section that has it.
+            // A list of numbers is checked by its section.
             let tables = nodes.iter().enumerate();
             let mut tables = tables.filter(|(_, node)| matches!(node.value, Value::Table(_)));
             return tables.try_for_each(|(place, node)| child(node, &place.to_string()));
@@ -88,8 +88,7 @@ fn check_below(node: &Node, schema: &Json, key: &KeyPath) -> Result<(), KeyFault
     }
 }
 
-/// The range of a key in words, "greater than 0"; none where any number will do. That of counts from 0 on is their type, which
-/// the reader knows.
+/// Description of a key's range, "greater than 0"; `None` for an arbitrary number or a count from 0, which is implied by its type.
 fn range_in_words(schema: &Json) -> Option<String> {
     let bounds = |keyword: &str| {
         schema
@@ -115,8 +114,7 @@ fn range_in_words(schema: &Json) -> Option<String> {
     (!words.is_empty()).then(|| words.join(" and "))
 }
 
-/// The rows of a table of Markdown on the keys at a path, those of tables below it included: what each is, the range of its
-/// number and its default.
+/// The rows of a Markdown table of the keys at a path and in tables below it: description, range and default.
 pub fn rows(path: &str) -> Vec<String> {
     let key = KeyPath::parse(path).unwrap_or_default();
     let schema = (key.0.iter()).try_fold(&*SCHEMA, |schema, part| below(schema, part));
@@ -140,7 +138,7 @@ fn add_rows(schema: &Json, path: &str, found: &mut Vec<String>) {
         found.push(row(schema, &path));
         add_rows(schema, &path, found);
     }
-    // Of tables that have the keys of the one above, only what they have besides.
+    // Tables with the keys of the enclosing one contribute only their further keys.
     let mut named = table["additionalProperties"].clone();
     if let Some(Json::Object(keys)) = named.get_mut("properties") {
         keys.retain(|key, _| table["properties"].get(key).is_none());

@@ -1,4 +1,4 @@
-//! Whether a case fits its body, one in the plane or a solid, before the body is made.
+//! Check of a case against the kind of its body, in the plane or a solid, before the body is built.
 
 use super::fault::{CaseError, Fault, KeyFault};
 use super::key_path::KeyPath;
@@ -8,8 +8,8 @@ use super::source::Source;
 use crate::mesh_file::{MeshFileError, read_any_mesh};
 
 impl Case {
-    /// Checks the case on a stand-in for its body. Of a case that would fit a body of the other kind the error tells what the mesh is, or
-    /// that it cannot be read.
+    /// Checks the case on a substitute for its body. For a case that would fit a body of the other kind, the error states the kind of the
+    /// mesh, or that it cannot be read.
     pub(super) fn check_kind(&self, source: &Source) -> Result<(), CaseError> {
         let is_solid = self.is_solid();
         let Err(error) = self.check_as(source, is_solid) else {
@@ -33,7 +33,7 @@ impl Case {
         })
     }
 
-    /// Checks the case as one of a solid, or as one in the plane.
+    /// Checks the case for a solid or for a body in the plane.
     fn check_as(&self, source: &Source, is_solid: bool) -> Result<(), CaseError> {
         let setup = self.stand_in(is_solid).and_then(|body| self.setup_on(body));
         let checked = setup.map(|setup| setup.check());
@@ -42,7 +42,7 @@ impl Case {
     }
 }
 
-/// The error of a mesh that is none, and without which nobody knows what the case is of.
+/// The error of an unreadable mesh that would determine the kind of the case.
 fn of_mesh(source: &Source, what: &str, mesh: &MeshSection, reason: &str) -> CaseError {
     let file = mesh.file.display();
     let reason = format!("cannot {what} the mesh {file}: {reason}");
@@ -50,7 +50,7 @@ fn of_mesh(source: &Source, what: &str, mesh: &MeshSection, reason: &str) -> Cas
     source.error(KeyFault::new(key, reason))
 }
 
-/// The error of a case that fits the other kind of body, with what its mesh is.
+/// The error of a case that fits the other kind of body, with the kind of its mesh.
 fn of_other_kind(error: CaseError, mesh: &MeshSection) -> CaseError {
     let CaseError::Key {
         location,

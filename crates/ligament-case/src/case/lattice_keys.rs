@@ -1,4 +1,4 @@
-//! Lattices of a case in the plane and in space: from the keys of a section to a body.
+//! Construction of a body from the keys of a lattice section, in the plane and in space.
 
 use std::collections::BTreeMap;
 
@@ -8,10 +8,10 @@ use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{one_of, require, require_column_name};
 
-/// Cells of a lattice at most.
+/// Largest number of cells of a lattice.
 pub const MOST_CELLS: u64 = 50_000_000;
 
-/// Distance from the origin at most, in cells: farther out coordinates of neighbours would share too many digits.
+/// Largest distance from the origin, in cells: beyond it coordinates of neighbours would share too many digits.
 const FARTHEST: f64 = 1e9;
 
 /// Keys of a section that describes a lattice in D dimensions.
@@ -19,16 +19,16 @@ pub(crate) trait LatticeKeys<const D: usize> {
     /// Key of the section.
     const SECTION: &'static str;
 
-    /// Axes in words: "x and y".
+    /// Text for the axes: "x and y".
     const AXES: &'static str;
 
-    /// Shapes of holes and sets.
+    /// Type of the shapes of holes and sets.
     type Shape: LatticeShape<D>;
 
-    /// Keys of a hole.
+    /// Type of the keys of a hole.
     type Hole: HoleKeys<Self::Shape>;
 
-    /// Keys of a set of cells.
+    /// Type of the keys of a set of cells.
     type Set: SetKeys<D, Self::Shape>;
 
     /// Number of cells along the axes.
@@ -40,41 +40,41 @@ pub(crate) trait LatticeKeys<const D: usize> {
     /// Corner with the lowest coordinates, m.
     fn corner(&self) -> [f64; D];
 
-    /// Thickness of a body in the plane, m; 1 of a solid.
+    /// Thickness of a body in the plane, m; 1 for a solid.
     fn thickness(&self) -> f64 {
         1.0
     }
 
-    /// Holes.
+    /// Keys of the holes.
     fn holes(&self) -> &[Self::Hole];
 
-    /// Sets of cells by their names.
+    /// Keys of the sets of cells, by their names.
     fn sets(&self) -> &BTreeMap<String, Self::Set>;
 }
 
-/// Keys of a hole.
+/// Type of the keys of a hole.
 pub(crate) trait HoleKeys<S> {
-    /// Name of the group of the cells at its rim.
+    /// Name of the group of the cells at the hole's rim.
     fn name(&self) -> Option<&String>;
 
-    /// The shapes that it may have, by their keys, of which one is given.
+    /// The possible shapes by their keys, exactly one of which is given.
     fn shapes(&self) -> Vec<(&'static str, Option<S>)>;
 }
 
 /// Keys of a set of cells of a lattice in D dimensions.
 pub(crate) trait SetKeys<const D: usize, S> {
-    /// Layers at the sides of the lattice, by their keys, with the outward normals of the sides.
+    /// Numbers of layers at the sides of the lattice, by their keys, with the outward normals of the sides.
     fn sides(&self) -> Vec<(&'static str, Option<u32>, [i8; D])>;
 
-    /// The shapes that it may have, by their keys.
+    /// The possible shapes by their keys.
     fn shapes(&self) -> Vec<(&'static str, Option<S>)>;
 }
 
-/// The body that a section describes.
+/// The body of a section.
 ///
 /// # Errors
 ///
-/// If a key is out of its range, or nothing is left of the lattice, of a set or of the rim of a hole.
+/// If a key is out of range, or no cell remains of the lattice, of a set or of the rim of a hole.
 pub(crate) fn body<const D: usize, K: LatticeKeys<D>>(
     keys: &K,
 ) -> Result<BodyOnLattice<D, K::Shape>, KeyFault> {
@@ -91,11 +91,11 @@ pub(crate) fn body<const D: usize, K: LatticeKeys<D>>(
     })
 }
 
-/// A stand-in for the body that a section describes: one of its cells.
+/// A substitute for the body of a section: one of its cells.
 ///
 /// # Errors
 ///
-/// If a key is out of its range.
+/// If a key is out of range.
 pub(crate) fn stand_in<const D: usize, K: LatticeKeys<D>>(
     keys: &K,
 ) -> Result<BodyOnLattice<D, K::Shape>, KeyFault> {
@@ -170,7 +170,7 @@ fn check_size<const D: usize, K: LatticeKeys<D>>(
     )
 }
 
-/// The cells of a set in a lattice of so many along the axes.
+/// The rule for the cells of a set in a lattice of `size` cells along the axes.
 fn cells_of<const D: usize, S: LatticeShape<D>>(
     set: &impl SetKeys<D, S>,
     key: &KeyPath,

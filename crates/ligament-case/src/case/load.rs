@@ -1,4 +1,4 @@
-//! `[[load]]`: what acts on the body.
+//! `[[load]]`: loads on the body.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -83,10 +83,10 @@ pub struct Profile {
 }
 
 impl Load {
-    /// Names the load; `number` counts from 1 and names one that has neither name nor group.
+    /// Sets the load's name; `number`, from 1, names a load without a name and a group.
     pub(super) fn complete(&mut self, key: &KeyPath, number: usize) -> Result<(), KeyFault> {
         let named_by = if self.name.is_some() { "name" } else { "group" };
-        // Groups of a mesh may be called `-x`, which is no head of a column.
+        // A group of a mesh may have a name such as `-x`, which is not a valid column name.
         let of_group = || self.group.clone().filter(|it| !begins_as_formula(it));
         let name = self.name.take().or_else(of_group);
         let name = name.unwrap_or_else(|| format!("load-{number}"));

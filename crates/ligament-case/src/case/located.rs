@@ -1,4 +1,4 @@
-//! The key of a case that a faulty field of its setup comes from.
+//! Conversion of faulty fields of a setup to the responsible keys of the case.
 
 use ligament::error::Fault as SetupFault;
 use ligament::{Field, SetupError};
@@ -11,7 +11,7 @@ use super::source::Source;
 use crate::temperature_table;
 
 impl Case {
-    /// The error of a faulty field of the setup at the key that it comes from.
+    /// The error of a faulty field of the setup, at the responsible key.
     pub(super) fn located(&self, source: &Source, error: SetupError) -> CaseError {
         let SetupError { field, fault } = error;
         let mut key = self.key_of_field(field);
@@ -52,7 +52,7 @@ impl Case {
         source.error(KeyFault::new(path, fault))
     }
 
-    /// Key path of what a field of the setup comes from.
+    /// Key path responsible for a field of the setup.
     fn key_of_field(&self, field: Field) -> String {
         let list = match field.name {
             "body" if self.mesh.is_some() => "mesh",
@@ -103,7 +103,7 @@ impl Case {
         format!("{element}.{part}")
     }
 
-    /// The key of the points of a pre-crack, or of the one that repeats the point before it.
+    /// The key of the points of a pre-crack, or of a point that equals its predecessor.
     fn points_key(&self, index: usize) -> String {
         let points = self.precracks[index].points.iter();
         let mut pairs = points.flat_map(|points| points.windows(2));
@@ -113,7 +113,7 @@ impl Case {
         })
     }
 
-    /// The key by which an element of a list says where it is.
+    /// The key for the place of an element of a list.
     fn place_key(&self, list: &str, index: usize) -> &'static str {
         let (corners, at) = match list {
             "supports" => (self.supports[index].r#box, self.supports[index].at),
@@ -128,13 +128,13 @@ impl Case {
         }
     }
 
-    /// The fault of two rows of a table of temperatures for a point.
+    /// The fault of two rows of a table of temperatures for one point.
     fn row_twice(&self, field: Field, place: &str, samples: [usize; 2]) -> Fault {
         let section = field.index.map(|index| &self.temperatures[index]);
         let Some(file) = section.and_then(|it| it.file.as_ref()) else {
             return format!("{place} has two temperatures").into();
         };
-        // The rows were read before: only their lines are asked for.
+        // The rows were read before: only their line numbers are needed.
         let dimensions = if self.is_solid() { 3 } else { 2 };
         let rows = temperature_table::rows_of(file, dimensions).unwrap_or_default();
         let lines: Vec<usize> = rows.into_iter().map(|(line, _)| line).collect();
@@ -144,7 +144,7 @@ impl Case {
     }
 }
 
-/// The key of a material that a part of the setup's comes from.
+/// The key of a material that is responsible for a part of the setup's material.
 fn missing_key(field: Field) -> &'static str {
     match field.part {
         Some("elasticity.poisson") => "poisson_12",

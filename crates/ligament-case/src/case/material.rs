@@ -104,14 +104,14 @@ pub struct Material {
     pub thermal_expansion_3: Option<f64>,
 }
 
-/// The fault of a key that is needed for a reason.
+/// The fault of a missing key that is required for a reason.
 fn required(table: &KeyPath, key: &'static str, reason: &str) -> KeyFault {
     let reason = reason.to_owned();
     KeyFault::new(table.child(key), Fault::Required { key, reason })
 }
 
 impl Material {
-    /// Key path of its table in the case file.
+    /// Key path of the material's table in the case file.
     pub fn key(&self) -> String {
         self.key_path().to_string()
     }
@@ -151,7 +151,7 @@ impl Material {
                 needed("c66", self.c66)?,
             ])));
         }
-        // An orthotropic material has an angle, if only that of zero which it was read with.
+        // An orthotropic material always has an angle, zero by default.
         if self.angle.is_none() {
             return Ok(Elasticity::Isotropic(Isotropic {
                 young: needed("young", self.young)?,
@@ -278,12 +278,12 @@ fn keys(table: &Schema) -> Map<String, serde_json::Value> {
     found.cloned().unwrap_or_default()
 }
 
-/// Leaves the section for [`read`], which knows its two forms.
+/// Skips the section, which [`read`] decodes in its two forms.
 pub(super) fn later<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Material>, D::Error> {
     IgnoredAny::deserialize(deserializer).map(|_| Vec::new())
 }
 
-/// Writes the materials as they stand in a case file.
+/// Writes the materials in the form of a case file.
 pub(super) fn serialize<S: Serializer>(
     materials: &[Material],
     serializer: S,

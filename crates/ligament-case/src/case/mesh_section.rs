@@ -37,7 +37,7 @@ pub struct MeshSection {
 }
 
 impl MeshSection {
-    /// Fills in what is not given; `folder` is that of the case file, `body` the kind of a body in memory.
+    /// Fills in missing keys; `folder` is that of the case file, `body` the kind of a body in memory.
     pub(super) fn complete(
         &mut self,
         key: &KeyPath,
@@ -63,7 +63,7 @@ impl MeshSection {
     }
 }
 
-/// Makes the path at a key an absolute one; without `..` where the file exists. Whether it does is for its reader to say.
+/// Makes the path at a key absolute, and without `..` if the file exists, which is not checked here.
 pub(super) fn complete_path(
     key: &KeyPath,
     file: &mut PathBuf,

@@ -51,7 +51,7 @@ pub struct ModelSection {
 }
 
 impl ModelSection {
-    /// Puts what the case says into the law, and what the law says else into the case.
+    /// Sets the options of the law from the case, and missing keys of the case from the law.
     pub(super) fn complete(&mut self, key: &KeyPath) -> Result<(), KeyFault> {
         let law = self.law.0.with(Options {
             calibration: self.calibration.map(|it| it.0),
@@ -83,7 +83,7 @@ impl ModelSection {
         self.check_rotational_scale(key, &law)
     }
 
-    /// Keys for the size of the rotational stiffness mean nothing where there is none, and each other's place.
+    /// Refuses keys for the size of the rotational stiffness where there is none, and both keys together.
     fn check_rotational_scale(&self, key: &KeyPath, law: &Law) -> Result<(), KeyFault> {
         let given = [
             ("rotational_factor", self.rotational_factor.is_some()),
@@ -119,7 +119,7 @@ impl ModelSection {
     }
 }
 
-/// What a key is, and the laws that take it.
+/// Description of a key with the laws to which it applies.
 fn of_laws(what: &str, takes: fn(&BondLaw) -> bool) -> String {
     let laws = LAWS.into_iter().filter(|it| takes(it));
     let words: Vec<String> = laws.map(|it| format!("`{}`", it.word)).collect();

@@ -1,4 +1,4 @@
-//! `[output]`: what a run writes.
+//! `[output]`: the output of a run.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -55,13 +55,13 @@ impl Default for Output {
 }
 
 impl Output {
-    /// Fills in what is not given.
+    /// Fills in missing keys.
     pub(super) fn complete(
         &mut self,
         key: &KeyPath,
         is_on_exact_path: bool,
     ) -> Result<(), KeyFault> {
-        // An event breaks a bond or two, a load step at the peak hundreds.
+        // An event breaks one or two bonds, a load step at the peak hundreds.
         let default = if is_on_exact_path { 100 } else { 10 };
         self.fields_every.get_or_insert(default);
         let is_repeated =

@@ -1,19 +1,19 @@
-//! `--set key=value` and `--unset key`: settings of the command line on top of a case file.
+//! `--set key=value` and `--unset key`: overrides of a case file on the command line.
 
 use ligament::suggestion::hint;
 
 use super::document::{Entry, Node, Origin, Value};
 use super::key_path::KeyPath;
 
-/// Mark before the key of an override that takes the key away.
+/// Mark before the key of an override that removes it.
 const UNSET: char = '-';
 
-/// The override that takes a key of the case file away.
+/// The override that removes a key of the case file.
 pub fn unset(key: &str) -> String {
     format!("{UNSET}{key}")
 }
 
-/// An override as the command line has it: `--set key=value` or `--unset key`.
+/// An override in the form of the command line: `--set key=value` or `--unset key`.
 pub(super) fn as_option(given: &str) -> String {
     match given.strip_prefix(UNSET) {
         Some(key) => format!("--unset {key}"),
@@ -21,7 +21,7 @@ pub(super) fn as_option(given: &str) -> String {
     }
 }
 
-/// Puts the override `given` (`key=value` or `-key`, the one with this index) into the document.
+/// Applies the override `given` (`key=value` or `-key`, with an index) to the document.
 pub(super) fn apply(document: &mut Node, given: &str, index: usize) -> Result<(), String> {
     if let Some(key) = given.strip_prefix(UNSET) {
         return take_away(document, &key_path(key)?);
@@ -40,7 +40,7 @@ fn key_path(key: &str) -> Result<KeyPath, String> {
         .ok_or_else(|| format!("`{key}` is not a key path such as load.0.displacement.y"))
 }
 
-/// Takes a key, or an entry of a list, out of the document.
+/// Removes a key, or an entry of a list, from the document.
 fn take_away(document: &mut Node, path: &KeyPath) -> Result<(), String> {
     let mut node = document;
     let mut above = KeyPath::default();
@@ -66,7 +66,7 @@ fn take_away(document: &mut Node, path: &KeyPath) -> Result<(), String> {
     Ok(())
 }
 
-/// Place of a key in its table, or of an entry in its list.
+/// Index of a key in its table, or of an entry in its list.
 fn place_of(node: &Node, above: &KeyPath, segment: &str) -> Result<usize, String> {
     match &node.value {
         Value::Table(entries) => {
@@ -99,7 +99,7 @@ fn no_table(above: &KeyPath, segment: &str) -> String {
     format!("`{above}` is a value, not a table: it has no `{segment}` below it")
 }
 
-/// A TOML value, or a bare word for a string without its quotes.
+/// Parses a TOML value; a bare word is a string without quotes.
 fn parse_value(text: &str, origin: Origin) -> Result<Node, String> {
     if text.is_empty() {
         return Err("there is no value after `=`".to_owned());
@@ -127,7 +127,7 @@ fn set(document: &mut Node, path: &KeyPath, value: Node, origin: Origin) -> Resu
     Ok(())
 }
 
-/// The value one segment down; tables that are not there yet are made.
+/// The value for one path segment; missing tables are created.
 fn descend<'a>(
     node: &'a mut Node,
     above: &KeyPath,
@@ -139,7 +139,7 @@ fn descend<'a>(
         Value::List(nodes) => {
             let count = nodes.len();
             let index = list_index(above, segment)?;
-            // A case without criteria has one all the same, and several are put together on the command line.
+            // Criteria may be added on the command line, also to a case without any.
             if index == count && above.to_string() == "fracture.criterion" {
                 let value = Value::Table(Vec::new());
                 nodes.push(Node { origin, value });
@@ -162,7 +162,7 @@ fn entry<'a>(
         .iter()
         .position(|entry| entry.key == segment)
         .unwrap_or_else(|| {
-            // A list section that is not there is an empty list: an index into it is out of range.
+            // A missing list section is an empty list, in which any index is out of range.
             let value = if above.child(segment).is_repeated() {
                 Value::List(Vec::new())
             } else {

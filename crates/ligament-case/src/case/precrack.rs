@@ -1,4 +1,4 @@
-//! `[[precrack]]`: cracks and slots that are there from the start.
+//! `[[precrack]]`: initial cracks and slots.
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4};
 
@@ -14,8 +14,8 @@ use super::word::Word;
 use ligament::setup::{CrackShape, PreCrack};
 use ligament_model::bonds::precrack::Ends;
 
-/// Angles closer than this to a multiple of 45 degrees are one, rad: pi written with ten digits means pi, and points on an
-/// axis lie on a crack along it.
+/// Distance within which an angle counts as a multiple of 45 degrees, rad: pi with ten digits means pi, and points on an axis lie on a
+/// crack along it.
 const SAME_ANGLE: f64 = 1e-9;
 
 /// A crack that is there from the start.
@@ -160,7 +160,7 @@ fn straight([x, y]: Point, length: f64, angle: f64) -> [Point; 2] {
     [[x - along_x, y - along_y], [x + along_x, y + along_y]]
 }
 
-/// The unit vector at an angle from the x axis; along an axis or halfway between two it is exact.
+/// The unit vector at an angle from the x axis, exact at multiples of 45 degrees.
 fn direction(angle: f64) -> [f64; 2] {
     const HALF: f64 = FRAC_1_SQRT_2;
     const EIGHTHS: [[f64; 2]; 8] = [

@@ -1,4 +1,4 @@
-//! Where on the body something acts: groups, boxes, points.
+//! Places on the body: groups, boxes, points.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -101,7 +101,7 @@ impl Region {
     }
 }
 
-/// The place of a table that must have one.
+/// The place of a table, which must have exactly one.
 pub(super) fn place(
     key: &KeyPath,
     dimensions: usize,

@@ -1,14 +1,14 @@
-//! Writes a checked case back as TOML.
+//! Writer of a checked case as TOML.
 
 use toml_edit::visit_mut::{VisitMut, visit_value_mut};
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, Value};
 
 use super::sections::Case;
 
-/// The case as TOML: a header for each section, what is nested in it on one line.
+/// The case as TOML, with a header for each section and nested tables inline.
 pub(super) fn to_toml(case: &Case) -> Result<String, toml_edit::ser::Error> {
     let mut document: DocumentMut = toml_edit::ser::to_document(case)?;
-    // Without meaning in a modal case, and refused there.
+    // The section is refused in a modal case.
     if case.modal.is_some() {
         document.remove("output");
     }
@@ -25,7 +25,7 @@ pub(super) fn to_toml(case: &Case) -> Result<String, toml_edit::ser::Error> {
     Ok(document.to_string())
 }
 
-/// Gives inline tables, and lists of them, a header of their own; `nested` does so one level down too.
+/// Converts inline tables, and lists of them, to tables with headers; with `nested` also one level below.
 fn with_header(item: Item, nested: bool) -> Item {
     match item {
         Item::Value(Value::InlineTable(section)) => {

@@ -1,4 +1,4 @@
-//! The JSON schema of a case file, for editors: made of the same structures that read it.
+//! The JSON schema of a case file, for editors, generated from the structures that read it.
 
 use schemars::Schema;
 use schemars::generate::SchemaSettings;
@@ -9,8 +9,8 @@ use super::sections::Case;
 
 /// The JSON schema of a case file.
 ///
-/// It is of draft 7, the newest that the language server taplo (Even Better TOML) checks, and without references, at which
-/// taplo loses the descriptions beside them.
+/// The schema is of draft 7, the newest that the language server taplo (Even Better TOML) checks, and without references, at which taplo
+/// loses adjacent descriptions.
 pub fn schema() -> Value {
     let settings = SchemaSettings::draft07().with(|it| it.inline_subschemas = true);
     let mut schema = settings
@@ -21,9 +21,9 @@ pub fn schema() -> Value {
     schema.to_value()
 }
 
-/// What JSON and TOML do not share: TOML has no null, and formats of numbers are of no use to editors. Words become one
-/// `enum`, because editors offer a key once for each alternative of a `oneOf`; what they mean goes to the description, and to
-/// where taplo shows it beside the word.
+/// Adaptation of the schema to TOML: TOML has no null, and formats of numbers are of no use to editors. Words become one `enum`, because
+/// editors offer a key once for each alternative of a `oneOf`; their meanings go to the description, and to the key that taplo shows beside
+/// the word.
 #[derive(Debug, Clone)]
 struct ForToml;
 
@@ -38,7 +38,7 @@ impl Transform for ForToml {
 
 fn without_null(schema: &mut Schema) {
     let is_null = |value: &Value| value == &json!({ "type": "null" });
-    // The default of a table is that of its keys.
+    // The default of a table follows from its keys.
     if (schema.get("default")).is_some_and(|it| it.is_null() || it.is_object()) {
         schema.remove("default");
     }
@@ -63,17 +63,17 @@ fn without_null(schema: &mut Schema) {
         let only = only.clone();
         schema.remove("anyOf");
         for (key, value) in only {
-            // The description of the key says more than that of its type.
+            // The description of the key takes precedence over that of its type.
             if key != "description" || schema.get(&key).is_none() {
                 schema.insert(key, value);
             }
         }
-        // The words of an alternative were put together before it got here, with a description of the type.
+        // The words of an alternative were combined before, with a description of the type.
         describe_words(schema);
     }
 }
 
-/// Turns the alternatives of an enumeration, a word each, into a list of words.
+/// Converts the alternatives of an enumeration, one word each, to a list of words.
 fn words(schema: &mut Schema) {
     let Some(Value::Array(alternatives)) = schema.get("oneOf") else {
         return;
@@ -93,7 +93,7 @@ fn words(schema: &mut Schema) {
     describe_words(schema);
 }
 
-/// Puts what the words mean below the description, once.
+/// Appends the meanings of the words to the description, once.
 fn describe_words(schema: &mut Schema) {
     let Some(docs) = schema
         .get("x-taplo")

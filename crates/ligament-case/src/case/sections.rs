@@ -103,7 +103,7 @@ pub struct Case {
 }
 
 impl Case {
-    /// Reads a parsed document and fills in what it leaves open; `folder` is that of the case file, `body` the kind of a body in memory.
+    /// Reads a parsed document and fills in missing keys; `folder` is that of the case file, `body` the kind of a body in memory.
     pub(super) fn read(
         document: &Node,
         folder: &Path,
@@ -144,7 +144,7 @@ impl Case {
         Ok(case)
     }
 
-    /// Names the analysis: the one that the case says, or that its sections mean; all sections must go with it.
+    /// Sets the analysis, as given by the case or implied by its sections; refuses sections that do not belong to it.
     fn complete_analysis(&mut self, has_output: bool) -> Result<(), KeyFault> {
         let (is_breaking, is_modal) = (self.fracture.is_some(), self.modal.is_some());
         let meant = match is_breaking {
@@ -244,7 +244,7 @@ impl Case {
         }
     }
 
-    /// What is hardly meant in the sections of a body in the plane.
+    /// Remarks on implausible values in the sections of a body in the plane.
     fn remarks(&self) -> Vec<Implausible> {
         if self.is_solid() {
             return Vec::new();
@@ -259,7 +259,7 @@ impl Case {
         missing.into_iter().chain(angles).collect()
     }
 
-    /// The setup of the case on a body, whatever body the case names. Tables of temperatures have no rows yet.
+    /// The setup of the case on a given body, in place of that of the case. Tables of temperatures have no rows yet.
     pub(crate) fn setup_on(&self, body: AnyBody) -> Result<Setup, KeyFault> {
         let dimensions = body.dimensions();
         let law = self.model.law.0;
@@ -316,7 +316,7 @@ impl Case {
         })
     }
 
-    /// A stand-in for the body before it is made: of its kind, a solid or not, with a point at most.
+    /// A substitute for the body before it is built, of the same kind, with at most one point.
     pub(super) fn stand_in(&self, is_solid: bool) -> Result<AnyBody, KeyFault> {
         Ok(match (is_solid, &self.lattice, &self.solid_lattice) {
             (true, _, Some(lattice)) => AnyBody::new(lattice_keys::stand_in(lattice)?),
@@ -326,7 +326,7 @@ impl Case {
         })
     }
 
-    /// Checks what sections ask of each other that the setup does not know.
+    /// Checks conditions between sections that the setup does not check.
     fn check_across_sections(&self) -> Result<(), KeyFault> {
         let law = self.model.law.0.row;
         let has_traction = self.output.stress.contains(&StressField::Traction);
@@ -358,7 +358,7 @@ fn root() -> KeyPath {
     KeyPath::default()
 }
 
-/// Takes every element of a list of sections under its own key path.
+/// Converts every element of a list of sections, with its key path.
 fn each<'a, Keys: 'a, Made>(
     list: &str,
     sections: impl IntoIterator<Item = &'a Keys>,
@@ -371,7 +371,7 @@ fn each<'a, Keys: 'a, Made>(
         .collect()
 }
 
-/// A missing section is more than a missing key: the error says what it is for.
+/// Converts the fault of a missing section, to include its purpose.
 fn name_missing_section(fault: KeyFault) -> KeyFault {
     match &fault.fault {
         F::MissingKey { key, .. } if fault.key.0.len() == 1 => missing_section(key),

@@ -1,4 +1,4 @@
-//! Settings that messages name, in the words of a case.
+//! Settings in messages, in the terms of a case.
 
 use ligament::setup::setting::Setting;
 use ligament_model::failure;
@@ -8,7 +8,7 @@ use ligament_model::law::{BondLaw, listed};
 use super::fault::Fault;
 use super::word::Worded;
 
-/// A setting of a setup as a case has it.
+/// A setting of a setup in the form of a case.
 pub(super) fn of_setup(setting: &Setting) -> String {
     match setting {
         Setting::Law(laws) => format!("model.law = {}", listed(laws, BondLaw::quoted)),
@@ -29,7 +29,7 @@ fn quoted(value: &impl Worded) -> String {
     format!("\"{}\"", value.word()[0])
 }
 
-/// A setting of a criterion as a case has it.
+/// A setting of a criterion in the form of a case.
 fn of_criterion(setting: &failure::Setting) -> String {
     use failure::Setting as S;
     match setting {

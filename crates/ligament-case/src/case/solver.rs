@@ -1,4 +1,4 @@
-//! `[solver]`: how the equations are solved. Nothing needs to be said: `solver = "auto"` is the default.
+//! `[solver]`: solution of the equations, by default `solver = "auto"`.
 
 use std::fmt;
 
@@ -10,7 +10,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use super::word::Word;
 use ligament_analysis::solver::{FactorKind, Method, Ordering, SolverSettings, Update};
 
-/// Threads at most: with thousands of them waking up takes the time of the work, and the program seems to hang.
+/// Largest number of threads: with thousands, waking them takes longer than the work.
 pub const MOST_THREADS: u32 = 1024;
 
 /// How the equations are solved. The results are the same up to rounding.

@@ -1,4 +1,4 @@
-//! A file of keys with the settings on top of it, and where each of its keys stands.
+//! A file of keys with its overrides, and the locations of its keys.
 
 use std::path::{Path, PathBuf};
 
@@ -9,23 +9,24 @@ use super::key_path::KeyPath;
 use super::keys::unit_of;
 use super::overrides;
 
-/// The text of a case or a study, parsed, with what it was read from.
+/// The parsed text of a case or a study, with its file and overrides.
 #[derive(Debug, Clone)]
 pub struct Source {
     /// The file, as it was given.
     pub path: PathBuf,
-    /// The text of the file; empty where a program handed the document over.
+    /// Text of the file; empty for a document in memory.
     pub text: String,
-    /// The overrides, `key=value` or `-key` each, in their order.
+    /// Overrides, `key=value` or `-key` each, in their order.
     pub overrides: Vec<String>,
-    /// All of it, parsed.
+    /// Parsed text with the overrides applied.
     pub document: Node,
-    /// The kind of a body in memory, which stands in the place of the one in the file that the document names.
+    /// Kind of a body in memory, which replaces the body in the document's file.
     pub body: Option<BodyKind>,
 }
 
 impl Source {
-    /// Parses a text and applies the overrides (`key=value`, or `-key` to take a key away; the later wins); `path` says where it is.
+    /// Parses a text with the path of its file and applies the overrides (`key=value`, or `-key` to remove a key; later ones take
+    /// precedence).
     ///
     /// # Errors
     ///
@@ -37,7 +38,7 @@ impl Source {
         Ok(Self { text, ..source })
     }
 
-    /// Takes a document from memory and applies the overrides; `path` says where a file of it would be.
+    /// Applies the overrides to a document in memory; `path` is the path that its file would have.
     ///
     /// # Errors
     ///
@@ -57,7 +58,7 @@ impl Source {
         source.with_overrides(overrides)
     }
 
-    /// The source with further overrides on top of those that it has.
+    /// The source with further overrides after its present ones.
     ///
     /// # Errors
     ///
@@ -77,8 +78,7 @@ impl Source {
         Ok(source)
     }
 
-    /// The file's own name: that of its folder if the file has one of the `usual` names, else the file's own without its
-    /// extension.
+    /// Name of the source: that of its folder if the file has one of the `usual` names, otherwise that of the file without its extension.
     pub fn name(&self, usual: &[&str]) -> String {
         let stem = self.path.file_stem().unwrap_or_default();
         let stem = stem.to_string_lossy().into_owned();
@@ -90,15 +90,15 @@ impl Source {
         folder.map_or(stem, |name| name.to_string_lossy().into_owned())
     }
 
-    /// The error of a fault, with its place.
+    /// The error of a fault, with its location.
     pub fn error(&self, KeyFault { key, mut fault }: KeyFault) -> CaseError {
         if let Fault::MissingKey { unit, .. } | Fault::WrongType { unit, .. } = &mut fault {
             *unit = unit_of(&key);
         }
         let origin = match &fault {
-            // An unknown key is wrong itself; anything else is wrong about the value.
+            // An unknown key is located at the key, any other fault at the value.
             Fault::UnknownKey { .. } => self.document.key_origin_of(&key),
-            // Of keys that exclude each other, one that was set on top is to blame.
+            // The error of keys that exclude each other is located at an override, if there is one.
             Fault::NotExactlyOne { found, .. } => found
                 .iter()
                 .filter_map(|name| self.document.origin_of(&key.child(name)))
@@ -113,7 +113,7 @@ impl Source {
         }
     }
 
-    /// The place of a key, or of the table that would have it.
+    /// Location of a key, or of the table that would have it.
     pub fn location_of(&self, key: &KeyPath) -> Location {
         self.location(self.document.origin_of(key))
     }
@@ -143,7 +143,7 @@ fn syntax_error(path: &Path, text: &str, error: &toml::de::Error) -> CaseError {
             message,
         };
     };
-    // `young = 15 GPa` is taken for a string without its quotes, which is not what was meant.
+    // The parser reports `young = 15 GPa` as a string without quotes.
     let is_number = |text: &str| {
         text.starts_with(|first: char| first.is_ascii_digit() || "+-.".contains(first))
     };

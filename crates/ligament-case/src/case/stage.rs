@@ -1,4 +1,4 @@
-//! `[[stage]]`: what happens one after the other.
+//! `[[stage]]`: successive stages of the loading.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -13,7 +13,7 @@ use super::key_path::KeyPath;
 use super::values::{exactly_one, one_of, require_column_name};
 use ligament::setup;
 
-/// Load steps of a stage at most: each has a row in the history.
+/// Largest number of load steps of a stage: each has a row in the history.
 const MOST_STEPS: u32 = 1_000_000;
 
 /// A stage of the loading: loads that go to other factors, each times the load as it is at factor 1.
@@ -73,7 +73,7 @@ pub enum Factors {
 }
 
 impl Stage {
-    /// Names the stage; `number` counts from 1 and names one without a name.
+    /// Sets the stage's name; `number`, from 1, names a stage without a name.
     pub(super) fn complete(&mut self, key: &KeyPath, number: usize) -> Result<(), KeyFault> {
         let name = self.name.get_or_insert_with(|| format!("stage-{number}"));
         require_column_name(|| key.child("name"), name)

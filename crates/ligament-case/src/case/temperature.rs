@@ -39,7 +39,7 @@ pub struct Temperature {
 }
 
 impl Temperature {
-    /// Fills in what is not given; `folder` is that of the case file.
+    /// Fills in missing keys; `folder` is that of the case file.
     pub(super) fn complete(&mut self, key: &KeyPath, folder: &Path) -> Result<(), KeyFault> {
         if let Some(file) = &mut self.file {
             complete_path(&key.child("file"), file, folder)?;
@@ -56,7 +56,7 @@ impl Temperature {
         refuse(key, given, "`change` or `file`", reason)
     }
 
-    /// The change; of a file without its rows, which are there once it is read.
+    /// The change of temperature; for a file still without its rows.
     pub(super) fn setup(
         &self,
         key: &KeyPath,

@@ -1,4 +1,4 @@
-//! Checks on single values that several sections share.
+//! Checks of single values for several sections.
 
 use std::fmt;
 
@@ -12,20 +12,20 @@ use ligament::setup::begins_as_formula;
 /// A point in the plane, m.
 pub type Point = [f64; 2];
 
-/// Keyword of the schema for a range in words, where these say more than its bounds.
+/// Keyword of the schema for the description of a range, where the bounds are not sufficient.
 pub(super) const RANGE: &str = "x-range";
 
 /// Keyword of the schema for the unit of a number, or of the numbers of a table or list.
 pub(super) const UNIT: &str = "x-unit";
 
-/// The rule that exactly one of the keys is there, as a value of `oneOf`.
+/// Schema rule, a value of `oneOf`, that exactly one of the keys is given.
 pub(super) fn exactly_one(keys: &[&str]) -> serde_json::Value {
     keys.iter()
         .map(|key| serde_json::json!({ "required": [key] }))
         .collect()
 }
 
-/// Fails at `table.key` unless the condition holds; `expected` is the condition in words.
+/// Fails at a key unless a condition is true; `expected` describes the condition.
 pub fn require(
     holds: bool,
     key: impl FnOnce() -> KeyPath,
@@ -39,7 +39,7 @@ pub fn require(
     Err(KeyFault::new(key(), fault))
 }
 
-/// The one value that is given of keys of which a table has exactly one.
+/// The given value among keys of which a table must have exactly one.
 pub(super) fn one_of<T>(
     table: &KeyPath,
     given: impl IntoIterator<Item = (&'static str, Option<T>)>,
@@ -55,12 +55,12 @@ pub(super) fn one_of<T>(
     }
 }
 
-/// The first of the keys that are given.
+/// The first given key.
 pub(super) fn first_given<const N: usize>(keys: [(&'static str, bool); N]) -> Option<&'static str> {
     keys.into_iter().find(|(_, given)| *given).map(|it| it.0)
 }
 
-/// The fault of giving none or several of keys that exclude each other.
+/// The fault of none or several given keys among alternatives.
 pub fn not_exactly_one(table: &KeyPath, keys: &[(&str, bool)]) -> KeyFault {
     let names = |wanted: &dyn Fn(bool) -> bool| {
         keys.iter()
@@ -75,7 +75,7 @@ pub fn not_exactly_one(table: &KeyPath, keys: &[(&str, bool)]) -> KeyFault {
     KeyFault::new(table.clone(), fault)
 }
 
-/// Fails at the first of some keys that is given, because none of them goes with a setting.
+/// Fails at the first given key among keys that do not apply with a setting.
 pub(super) fn refuse<const N: usize>(
     table: &KeyPath,
     keys: [(&'static str, bool); N],
@@ -94,7 +94,7 @@ pub(super) fn refuse<const N: usize>(
     Err(KeyFault::new(table.child(key), fault))
 }
 
-/// The fault of a key that a table must have.
+/// The fault of a missing key that a table must have.
 pub(super) fn missing(table: &KeyPath, key: &str) -> KeyFault {
     let fault = Fault::MissingKey {
         key: key.to_owned(),
@@ -104,12 +104,12 @@ pub(super) fn missing(table: &KeyPath, key: &str) -> KeyFault {
     KeyFault::new(table.child(key), fault)
 }
 
-/// The thickness of a body that says none, m.
+/// Default thickness of a body in the plane, m.
 pub(super) fn metre() -> f64 {
     1.0
 }
 
-/// Names head the columns of a table of comma-separated values.
+/// Refuses names that cannot be columns of a table of comma-separated values.
 pub fn require_column_name(key: impl Fn() -> KeyPath, name: &str) -> Result<(), KeyFault> {
     require_no_formula(&key, "name", name)?;
     let is_seen = !name.contains(is_unseen);
@@ -120,7 +120,7 @@ pub fn require_column_name(key: impl Fn() -> KeyPath, name: &str) -> Result<(), 
     require(fits, key, expected, name)
 }
 
-/// No name, label or other text of a table begins as a formula does, which a spreadsheet would compute.
+/// Refuses a name, label or other text of a table that begins as a formula, which a spreadsheet would compute.
 pub fn require_no_formula(
     key: impl FnOnce() -> KeyPath,
     what: &str,
@@ -132,14 +132,14 @@ pub fn require_no_formula(
     require(!begins_as_formula(text), key, &expected, text)
 }
 
-/// Whether a character is not seen: a control character, a line or paragraph separator, one that turns the direction of a text
-/// round, or one without width.
+/// Whether a character is invisible: a control character, a line or paragraph separator, a mark of text direction, or a character without
+/// width.
 pub(crate) fn is_unseen(character: char) -> bool {
     character.is_control()
         || matches!(character, '\u{200b}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
 }
 
-/// Fails where a name repeats an earlier one; `advice` goes at the end of the error.
+/// Fails where a name repeats an earlier one; `advice` is appended to the error.
 pub fn require_unique<'a>(
     names: impl IntoIterator<Item = (KeyPath, &'a str)>,
     advice: &'static str,
@@ -162,14 +162,14 @@ pub fn require_unique<'a>(
     Ok(())
 }
 
-/// What a key takes that is a number or a list of numbers.
+/// Value of a key with a number or a list of numbers.
 pub(super) enum Numbers {
     Integer(i64),
     Float(f64),
     List(Vec<f64>),
 }
 
-/// Reads a number or a list of numbers; `expected` is what the key takes, in words.
+/// Reads a number or a list of numbers; `expected` describes the expected value.
 pub(super) fn numbers<'de, D: Deserializer<'de>>(
     deserializer: D,
     expected: &'static str,

@@ -1,4 +1,4 @@
-//! Values of the libraries that stand as a word in a case file.
+//! Values of the libraries that are words in a case file.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -24,7 +24,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{EnumAccess, VariantAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A value that stands as a word.
+/// A value that is written as a word.
 pub trait Worded: Copy + 'static {
     /// All words.
     const WORDS: &'static [&'static str];
@@ -32,11 +32,11 @@ pub trait Worded: Copy + 'static {
     /// All values, in the order of their words.
     fn all() -> impl Iterator<Item = Self>;
 
-    /// The word of the value, and what it means.
+    /// The word of the value, and its meaning.
     fn word(&self) -> [&'static str; 2];
 }
 
-/// The words of a type that has a table of its values.
+/// Implements [`Worded`] for a type that has a table of its values.
 macro_rules! worded_by_table {
     ($value:ty: $all:expr, $values:expr, $it:ident => $words:expr) => {
         impl Worded for $value {
@@ -68,8 +68,7 @@ worded_by_table! { Law: LAWS, LAWS.into_iter().copied(), it => [it.word, it.word
 worded_by_table! { PointField: PointField::ALL, PointField::ALL.into_iter(), it => [it.word, it.meaning] }
 worded_by_table! { setup::Law: setup::Law::ALL, setup::Law::ALL.into_iter(), it => [it.row.word, it.row.sentence] }
 
-/// Values of a type with their words and what these mean; where a word stands for many values, one of them with the pattern of
-/// all.
+/// Implements [`Worded`] for values of a type with words and meanings; for a word with many values, one value and the pattern of all.
 macro_rules! worded {
     (@pattern [$($value:tt)+]) => { $($value)+ };
     (@pattern [$($value:tt)+] [$($pattern:tt)+]) => { $($pattern)+ };

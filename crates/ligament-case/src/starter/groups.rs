@@ -1,38 +1,38 @@
-//! Which groups of a mesh hold the body and which load it.
+//! Choice of the groups of a mesh for supports and loads.
 
 use ligament_mesh::Group;
 
-/// Where something acts.
+/// Place of a support or a load.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum LoadPlace<const D: usize> {
-    /// On a group, by its name.
+    /// A group, by its name.
     Group(String),
-    /// In a rectangle or, in space, a box, m.
+    /// A rectangle or, in space, a box, m.
     Box([[f64; D]; 2]),
 }
 
 /// A support and a load opposite to it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Ends<const D: usize> {
-    /// What is held.
+    /// Place of the support.
     pub(super) support: LoadPlace<D>,
-    /// What is held along the axis alone, as the second support of a beam is.
+    /// Places fixed along the axis only, such as the second support of a beam.
     pub(super) rollers: Vec<LoadPlace<D>>,
-    /// What is moved.
+    /// Place that is moved.
     pub(super) load: LoadPlace<D>,
-    /// The axis along which it is moved, below D.
+    /// Axis of the motion, below D.
     pub(super) axis: usize,
-    /// From the support to the load along the axis: 1 or -1.
+    /// Direction from the support to the load along the axis: 1 or -1.
     pub(super) away: f64,
-    /// Whether the load is moved towards the support, as a platen is.
+    /// Whether the load is moved towards the support, such as a platen.
     pub(super) presses: bool,
-    /// Distance of the outermost supports of a beam, m; 0 of other bodies.
+    /// Distance of the outermost supports of a beam, m; 0 for other bodies.
     pub(super) span: f64,
-    /// How they were found, for a comment.
+    /// Description of the choice, for a comment.
     pub(super) found: &'static str,
 }
 
-/// Words for what is held and what is loaded, in the order in which they are looked for.
+/// Words in names of supports and of loads, in the order of the search.
 const PAIRS: [[&[&str]; 2]; 3] = [
     [
         &[
@@ -49,16 +49,16 @@ const PAIRS: [[&[&str]; 2]; 3] = [
     [&["left", "west"], &["right", "east"]],
 ];
 
-/// Words for what pushes on the body.
+/// Words in names of loads that press on the body.
 const PRESSING: [&str; 6] = ["platen", "press", "push", "punch", "anvil", "compression"];
 
-/// Half the width of what presses on a beam, in spacings.
+/// Half of the width of a load on a beam, in spacings.
 const HALF_A_PLATEN: f64 = 1.5;
 
 /// Share of the body's extent within which a group counts as lying at its end.
 const AT_THE_END: f64 = 0.1;
 
-/// A mesh in D dimensions, as far as its ends are found by it.
+/// Data of a mesh in D dimensions for the choice of ends.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Named<'a, const D: usize> {
     /// Physical groups.
@@ -70,7 +70,8 @@ pub(super) struct Named<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Named<'a, D> {
-    /// The ends of the mesh between the corners of its bounding box: by the names of groups, else by where they lie, else by place.
+    /// The ends of a mesh within its bounding box `extent` (m): by the names of groups, otherwise by the positions of groups, otherwise by
+    /// boxes.
     pub(super) fn ends(&self, extent: [[f64; D]; 2], spacing: f64) -> Ends<D> {
         self.beam(extent, spacing)
             .or_else(|| self.by_name())
@@ -78,13 +79,14 @@ impl<'a, const D: usize> Named<'a, D> {
             .unwrap_or_else(|| at_the_rim(extent, spacing))
     }
 
-    /// A body on two supports or more, pressed onto them: by what is named as the load, else in the middle of the far side.
+    /// The ends of a beam on two or more supports, loaded by a group with a name of loads, otherwise in the middle of the far side; `None`
+    /// for other bodies.
     fn beam(&self, extent: [[f64; D]; 2], spacing: f64) -> Option<Ends<D>> {
         let [[held, loaded], _, ends] = PAIRS;
         let mut supports = self.sides(held);
         let is_loaded = |group: &Group| has_word(&group.name, loaded);
         if supports.is_empty() && self.groups.iter().any(is_loaded) {
-            // Beside a load the ends of a beam are what carries it.
+            // The ends of a beam with a load are its supports.
             supports = ends.iter().flat_map(|words| self.sides(words)).collect();
             supports.retain(|group| !is_loaded(group));
         }
@@ -95,7 +97,7 @@ impl<'a, const D: usize> Named<'a, D> {
         let apart: [f64; D] =
             std::array::from_fn(|axis| self.middle(last, axis) - self.middle(first, axis));
         let along = farthest(apart);
-        // The supports lie at a side of the body across the load.
+        // The supports are at a side of the body across the load.
         let to_a_side = |axis: usize| {
             let ([low, high], level) = (extent.map(|it| it[axis]), self.middle(first, axis));
             (level - low).min(high - level) / (high - low)
@@ -137,7 +139,7 @@ impl<'a, const D: usize> Named<'a, D> {
         })
     }
 
-    /// Groups of less than cells with one of the words in their names.
+    /// Groups of lower dimension than cells with one of the words in their names.
     fn sides(&self, words: &[&str]) -> Vec<&'a Group> {
         let groups = self.groups.iter();
         let sides = groups.filter(|group| usize::from(group.dimension) < D);
@@ -146,7 +148,7 @@ impl<'a, const D: usize> Named<'a, D> {
 
     fn by_name(&self) -> Option<Ends<D>> {
         let [[held, loaded], [below, _], [left, right]] = PAIRS;
-        // What is named as a load acts against what is named as a support, or as a side.
+        // A group with a name of loads acts against one with a name of supports, or of a side.
         let against_load = [held, below, left, right].map(|it| [it, loaded]);
         against_load
             .iter()
@@ -158,8 +160,8 @@ impl<'a, const D: usize> Named<'a, D> {
             })
     }
 
-    /// Of the groups with one of the words in their names, one of sides of cells before one of cells, of edges or of points, and the
-    /// one with most nodes.
+    /// The best group with one of the words in its name: groups of sides of cells precede those of cells, of edges or of points, and groups
+    /// with more nodes precede others.
     fn best(&self, words: &[&str]) -> Option<&'a Group> {
         let is_part = |group: &&Group| 4 * group.cells.len() < self.n_cells;
         let named = self
@@ -177,7 +179,7 @@ impl<'a, const D: usize> Named<'a, D> {
         })
     }
 
-    /// The sides along the highest and the lowest part of the body, or along those of another axis.
+    /// Ends by groups at the highest and the lowest part of the body, or along another axis.
     fn by_place(&self, extent: [[f64; D]; 2]) -> Option<Ends<D>> {
         (0..D).rev().find_map(|axis| {
             let [low, high] = extent.map(|corner| corner[axis]);
@@ -204,7 +206,7 @@ impl<'a, const D: usize> Named<'a, D> {
         coordinates.sum::<f64>() / group.nodes.len() as f64
     }
 
-    /// None where they lie at the same place.
+    /// Ends with a support and a load; `None` where both have the same position.
     fn between(&self, support: &Group, load: &Group, found: &'static str) -> Option<Ends<D>> {
         let apart: [f64; D] =
             std::array::from_fn(|axis| self.middle(load, axis) - self.middle(support, axis));
@@ -222,7 +224,7 @@ impl<'a, const D: usize> Named<'a, D> {
         })
     }
 
-    /// The groups of cells that share the cells out among them, each cell in one, two or more; else none.
+    /// The groups of cells if they are two or more and each cell is in exactly one of them; otherwise empty.
     pub(super) fn parts(&self) -> Vec<&'a Group> {
         let of_cells = |it: &&Group| usize::from(it.dimension) == D;
         let parts: Vec<&Group> = self.groups.iter().filter(of_cells).collect();
@@ -248,7 +250,7 @@ fn has_word(name: &str, words: &[&str]) -> bool {
     parts.any(|part| words.contains(&part))
 }
 
-/// The axis of the largest component; of equal ones the last.
+/// The axis of the largest component, the last one if several are equal.
 fn farthest<const D: usize>(components: [f64; D]) -> usize {
     let start = D - 1;
     (0..D).rev().fold(start, |best, axis| {

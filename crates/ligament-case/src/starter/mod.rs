@@ -1,4 +1,4 @@
-//! `ligament new`: a commented case to start from, for a mesh or a lattice, that runs as it is.
+//! `ligament new`: a commented starter case for a mesh or a lattice, which runs unchanged.
 
 mod groups;
 mod text;
@@ -18,15 +18,15 @@ use text::{Body, Section};
 /// A starter case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Starter {
-    /// The case, TOML with comments.
+    /// Text of the case, TOML with comments.
     pub text: String,
-    /// What it holds and what it loads, in a line.
+    /// One-line description of supports and loads.
     pub choice: String,
-    /// What the user should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
 }
 
-/// Why there is no starter case.
+/// Error of making a starter case.
 #[derive(Debug, thiserror::Error)]
 pub enum StarterError {
     /// The file is a geometry, not a mesh.
@@ -46,10 +46,10 @@ pub enum StarterError {
     /// The mesh cannot be read.
     #[error(transparent)]
     Mesh(#[from] MeshFileError),
-    /// The law is for lattices alone.
+    /// The law is for lattices only.
     #[error("\"{}\" is a law for lattices: take --lattice NX,NY,SPACING in the place of the mesh, or another --law", .0.name())]
     NeedsLattice(Law),
-    /// The law is for bodies in the plane alone.
+    /// The law is for bodies in the plane only.
     #[error("\"{}\" is a law of the plane, and the body is a solid: take {} as --law", .0.name(), of_solids())]
     NeedsPlane(Law),
 }
@@ -58,7 +58,7 @@ pub enum StarterError {
 ///
 /// # Errors
 ///
-/// If the file is no mesh, or the law does not take one.
+/// If the file is not a mesh, or the law is not for meshes.
 pub fn of_mesh(path: &Path, folder: &Path, law: Law) -> Result<Starter, StarterError> {
     let extension = path
         .extension()
@@ -114,14 +114,14 @@ fn check_solid(law: Law) -> Result<(), StarterError> {
     }
 }
 
-/// The laws of solids.
+/// List of the laws for solids.
 fn of_solids() -> String {
     listed(&suited(|it| it.exists_in(Space::Solid)), |it| {
         it.word.to_owned()
     })
 }
 
-/// The starter case of a mesh with points at a distance; `file` is its path in the case, `name` that of the body.
+/// The starter case of a mesh with a spacing of its points (m); `file` is its path in the case, `name` the name of the body.
 fn of_parsed<const D: usize>(
     mesh: Named<'_, D>,
     spacing: f64,
@@ -155,7 +155,7 @@ fn of_parsed<const D: usize>(
     starter(&body, &ends, law, warnings)
 }
 
-/// A place or, where the body has a hole there, the node nearest to it.
+/// A position or, where the body has a hole there, the nearest node.
 fn on_body<const D: usize>(positions: &[[f64; D]], place: [f64; D], spacing: f64) -> [f64; D] {
     let distance = |node: &[f64; D]| {
         let squares = node.iter().zip(&place).map(|(a, b)| (a - b).powi(2));
@@ -166,7 +166,7 @@ fn on_body<const D: usize>(positions: &[[f64; D]], place: [f64; D], spacing: f64
     in_hole.copied().unwrap_or(place)
 }
 
-/// Places on either side of the middle, apart along an axis by a fifth of the body's size.
+/// Positions on either side of the middle, a fifth of the body's size apart along an axis.
 fn opening<const D: usize>(middle: [f64; D], size: f64, axis: usize) -> [[f64; D]; 2] {
     [-0.1, 0.1].map(|share| {
         let mut place = middle;
@@ -184,7 +184,7 @@ pub fn of_lattice(cells: [u32; 2], spacing: f64, law: Law) -> Starter {
 ///
 /// # Errors
 ///
-/// If the law is one of the plane alone.
+/// If the law is for bodies in the plane only.
 pub fn of_solid_lattice(cells: [u32; 3], spacing: f64, law: Law) -> Result<Starter, StarterError> {
     check_solid(law)?;
     Ok(of_cells(cells, spacing, law))
@@ -197,7 +197,7 @@ fn of_cells<const D: usize>(cells: [u32; D], spacing: f64, law: Law) -> Starter 
         name: "lattice".to_owned(),
         section: Section::Lattice {
             cells,
-            // A horizon of three cells: bonds of the points that are moved do not fail.
+            // Three rows, about a horizon: bonds of the moved points do not fail.
             rows: 3.min(cells[axis] / 3).max(1),
         },
         parts: Vec::new(),
@@ -244,7 +244,7 @@ fn starter<const D: usize>(
     }
 }
 
-/// The path of a file as seen from a folder, with slashes; absolute where there is none.
+/// The path of a file relative to a folder, with slashes; absolute if there is no relative path.
 fn relative(path: &Path, folder: &Path) -> String {
     let here = Path::new(".");
     let folder = if folder.as_os_str().is_empty() {
@@ -259,7 +259,7 @@ fn relative(path: &Path, folder: &Path) -> String {
     let (to, from): (Vec<Component>, Vec<Component>) =
         (path.components().collect(), folder.components().collect());
     let shared = to.iter().zip(&from).take_while(|(a, b)| a == b).count();
-    // Another drive: there is no way from one to the other.
+    // There is no relative path to another drive.
     if shared == 0 {
         return path.to_string_lossy().into_owned();
     }

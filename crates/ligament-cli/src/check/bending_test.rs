@@ -1,4 +1,4 @@
-//! What `ligament check` tells of how stiff the body is in bending and, in space, in torsion.
+//! Report of `ligament check` on the stiffness of the body in bending and, in space, in torsion.
 
 use std::io::{self, Write};
 
@@ -13,7 +13,7 @@ use ligament_run::stages::Stages;
 use super::Extent;
 use super::entry::entry;
 
-/// Writes how stiff the body is at its thinnest section; a warning where that is too much.
+/// Writes the stiffness of the body at its thinnest section over that of the continuum; returns a warning where it is too large.
 pub(super) fn write(
     out: &mut dyn Write,
     extent: Extent,
@@ -73,7 +73,7 @@ fn write_test(out: &mut dyn Write, test: &BendingTest) -> io::Result<()> {
     }
 }
 
-/// A ratio of stiffnesses; one in the hundreds has no digits that mean anything.
+/// Text of a ratio of stiffnesses, without digits above one hundred.
 fn times(stiffness: f64) -> String {
     match stiffness > 100.0 {
         true => "more than 100 times".to_owned(),

@@ -1,4 +1,4 @@
-//! What `ligament check` tells of a body.
+//! Report of `ligament check` on the body.
 
 use std::io::{self, Write};
 
@@ -11,7 +11,7 @@ use ligament_output::quantity::{between, quantity};
 
 use super::entry::entry;
 
-/// Writes what a body is made of, with the volume of its points.
+/// Writes the composition of a body and the volume of its points.
 pub(super) fn write(out: &mut dyn Write, body: &dyn Body, volume: f64) -> io::Result<()> {
     match body.origin() {
         Origin::Mesh(mesh) => write_mesh(out, mesh, volume),
@@ -106,7 +106,7 @@ fn write_lattice(
     Ok(())
 }
 
-/// Writes a group of points that are held or loaded.
+/// Writes a group of points that are supported or loaded.
 pub(super) fn write_group(
     out: &mut dyn Write,
     body: &dyn Body,

@@ -1,4 +1,4 @@
-//! What `ligament check` tells of the failure criteria: their limits, and what the fracture energy makes of them.
+//! Report of `ligament check` on the failure criteria: limits, and their relation to the fracture energy.
 
 use std::io::{self, Write};
 
@@ -10,8 +10,9 @@ use ligament_model::failure::{Choice, Criterion};
 use ligament_model::material::Space;
 use ligament_model::scatter::{Distribution, Scattered};
 use ligament_output::quantity::{between, four_digits, quantity};
+use ligament_output::summary::Spread;
 use ligament_run::model::Model;
-use ligament_run::summary::{ScatterSummary, Spread};
+use ligament_run::summary::scatter;
 
 use super::entry::entry;
 
@@ -33,7 +34,7 @@ pub(super) fn write(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     write_scatter(out, model)
 }
 
-/// Writes what cracks spend in each material.
+/// Writes the energy that cracks dissipate in each material.
 fn write_cracks(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     for (index, material) in model.setup.materials().into_iter().enumerate() {
         if let Some(energies) = crack_energies(model, index) {
@@ -43,7 +44,7 @@ fn write_cracks(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     Ok(())
 }
 
-/// Writes what cracks that open along x and along y spend in a material.
+/// Writes the energies that cracks opening along x and along y dissipate in a material.
 fn write_crack(
     out: &mut dyn Write,
     model: &Model,
@@ -75,7 +76,7 @@ fn write_crack(
         .map(|it| it.unbroken)
         .into_iter()
         .fold(0.0, f64::max);
-    // Sums of shares leave rounding.
+    // Sums of shares have rounding errors.
     if unbroken > 1e-9 {
         let percent = four_digits(100.0 * unbroken);
         words += &format!("; {percent} % of the bonds across it never break");
@@ -83,8 +84,8 @@ fn write_crack(
     entry(out, "a crack spends", words)
 }
 
-/// Energies per area of cracks that open along x and along y, J/m^2, beside a fracture energy: "97.09 to 97.63 J/m^2 (0.97 to 0.98 of the
-/// fracture_energy)"; by their directions where they differ by more than 5 %.
+/// Text of the energies per area of cracks opening along x and along y, J/m^2, compared with a fracture energy: "97.09 to 97.63 J/m^2 (0.97
+/// to 0.98 of the fracture_energy)"; for each direction where they differ by more than 5 %.
 fn spent_words([x, y]: [f64; 2], given: Option<f64>) -> String {
     let words = |range: [f64; 2]| {
         let spent = between(range, "J/m^2");
@@ -107,9 +108,9 @@ fn spent_words([x, y]: [f64; 2], given: Option<f64>) -> String {
     }
 }
 
-/// Writes what varies at random: limits of bonds above have its factors.
+/// Writes the random property, whose factors are included in the limits above.
 fn write_scatter(out: &mut dyn Write, model: &Model) -> io::Result<()> {
-    let (Some(scatter), Some(summary)) = (model.setup.scatter, ScatterSummary::new(model)) else {
+    let (Some(scatter), Some(summary)) = (model.setup.scatter, scatter(model)) else {
         return Ok(());
     };
     let distribution = match scatter.distribution {
@@ -165,16 +166,17 @@ fn write_limits(out: &mut dyn Write, criterion: &Criterion) -> io::Result<()> {
     }
 }
 
-/// The limit falls with the root of the horizon, so that a body without a crack has another strength on every mesh.
+/// Writes the strengths that correspond to limits from the fracture energy: these decrease with the root of the horizon, so that the
+/// strength of a body without a crack depends on the mesh.
 fn write_energy(out: &mut dyn Write, model: &Model, criterion: &Criterion) -> io::Result<()> {
-    // Bonds across the bar may come to their limit before those along it.
+    // Bonds across the bar may reach their limit before those along it.
     let at_most = if criterion.measure.needs_shear_stiffness() {
         "at most "
     } else {
         ""
     };
     let setup = &model.setup;
-    // The weaker material decides at interfaces, so that limits belong to a material only where there is one.
+    // At interfaces the weaker material determines the limit, so that limits belong to a material only in a body of one material.
     if let [region] = setup.materials.as_slice()
         && let Some(young) = young(setup, &region.material)
         && let Some(limits) =
@@ -190,7 +192,7 @@ fn write_energy(out: &mut dyn Write, model: &Model, criterion: &Criterion) -> io
     Ok(())
 }
 
-/// Young's modulus of a bar of a material with the constants that the law makes of it, Pa; none for one with axes.
+/// Young's modulus of a bar with the effective constants of the law, Pa; `None` for a material with axes.
 fn young(setup: &Setup, material: &Material) -> Option<f64> {
     let constants = setup.law.constants(material, setup.space())?;
     Some(match setup.space() {
@@ -214,7 +216,7 @@ impl Range {
         Self(self.0.map(|value| factor * value))
     }
 
-    /// The numbers in an SI unit: "190.1 to 212.1 (median 192.2)".
+    /// Text of the range in an SI unit: "190.1 to 212.1 (median 192.2)".
     fn text(&self, unit: &str) -> String {
         let [min, median, max] = self.0;
         let range = between([min, max], unit);

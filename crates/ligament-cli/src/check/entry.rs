@@ -1,10 +1,10 @@
-//! Lines of a check.
+//! Lines of the report of a check.
 
 use std::fmt::Display;
 use std::io::{self, Write};
 
 use ligament_output::quantity::{between, quantity};
-use ligament_run::summary::Spread;
+use ligament_output::summary::Spread;
 
 use crate::lines;
 
@@ -29,7 +29,7 @@ pub(super) fn spread(
     }
 }
 
-/// Bytes in words, to a tenth of a megabyte.
+/// Text of a size in bytes, to a tenth of a megabyte.
 pub(super) fn megabytes(bytes: f64) -> String {
     format!("{:.1} MB", bytes / 1e6)
 }

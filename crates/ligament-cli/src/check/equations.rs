@@ -1,4 +1,4 @@
-//! What `ligament check` tells of the equations: their size, and what was chosen to solve them and why.
+//! Report of `ligament check` on the equations: size, and choice of the solver with its reason.
 
 use std::io::{self, Write};
 use std::time::Instant;
@@ -32,7 +32,7 @@ pub(super) fn write(
     }
 }
 
-/// Writes the size of equations with a matrix and what was chosen for its factor.
+/// Writes the size of equations with a matrix and the choices for its factor.
 pub(super) fn write_with_matrix(
     out: &mut dyn Write,
     case: &CaseFile,
@@ -57,7 +57,7 @@ pub(super) fn write_with_matrix(
     Ok(())
 }
 
-/// Writes the number of unknowns without a matrix and what was chosen for the iteration.
+/// Writes the number of unknowns without a matrix and the choices for the iteration.
 fn write_iteration(
     out: &mut dyn Write,
     case: &CaseFile,

@@ -1,12 +1,12 @@
-//! How far `ligament check` goes.
+//! Extent of `ligament check`.
 
-/// How far a check goes.
+/// Extent of a check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
-    /// Points, bonds and their correction; no matrix.
+    /// Points, bonds and their correction, without a matrix.
     Model,
-    /// The symbolic analysis of the matrix as well, and the patch test of a body that is not too large.
+    /// The model, the symbolic analysis of the matrix, and the patch test of a body that is not too large.
     Matrix,
-    /// The patch test as well, however large the body is.
+    /// The model, the matrix, and the patch test of a body of any size.
     PatchTest,
 }

@@ -1,4 +1,4 @@
-//! What `ligament check` foretells of a run: where its first bond reaches its limit, by the first solutions of the run itself.
+//! Prediction of `ligament check` for the first bond at its limit, by the first solutions of a run.
 
 use std::io::{self, Write};
 
@@ -16,21 +16,20 @@ use ligament_run::stages::Stages;
 use super::Extent;
 use super::entry::entry;
 
-/// Multiplications of a factor up to which the solution is done unasked, some seconds on one processor.
+/// Largest number of a factor's multiplications for which the prediction is made by default, some seconds on one processor.
 const MOST_MULTIPLICATIONS: f64 = 5e10;
 
-/// Utilisation of a bond that is rounding.
+/// Utilisation of a bond below which it counts as rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Unknowns up to which a solution without a factor is done unasked, some seconds on one processor.
+/// Largest number of unknowns for which the prediction without a factor is made by default, some seconds on one processor.
 const MOST_UNKNOWNS: usize = 300_000;
 
-/// Writes what the loading comes to first, and gives what a run would notice before its first load step; the equations have been set up as far
-/// as the extent of the check goes.
+/// Writes the first bond at its limit, and returns the notices of a run before its first load step.
 ///
 /// # Errors
 ///
-/// If the run would be refused.
+/// If a run would be refused.
 pub(super) fn write(
     out: &mut dyn Write,
     case: &CaseFile,
@@ -53,7 +52,7 @@ pub(super) fn write(
     if let Some(foretold) = foretold.map_err(|it| case.explained(it))? {
         write_foretold(out, model, problem, &foretold)?;
     }
-    // What nothing holds stands among the supports.
+    // Free rigid motions are reported with the supports.
     let told = heard
         .0
         .iter()
@@ -62,7 +61,7 @@ pub(super) fn write(
     Ok(told.map(|it| words(it, model.body(), closing)).collect())
 }
 
-/// Reason why the solution is not done unasked.
+/// Reason why the prediction is not made by default, if it is too costly.
 pub(super) fn too_costly(
     case: &CaseFile,
     extent: Extent,
@@ -136,7 +135,7 @@ fn write_foretold(
     }
 }
 
-/// Writes where the first bond reaches its limit: at which load, in which load step, and which bond it is.
+/// Writes load, load step and bond of the first limit.
 fn write_first(
     out: &mut dyn Write,
     model: &Model,
@@ -179,7 +178,7 @@ fn write_first(
     entry(out, "", bond)
 }
 
-/// Keeps what a run notices.
+/// Observer that collects the notices of a run.
 #[derive(Default)]
 struct Heard(Vec<Notice>);
 

@@ -1,4 +1,4 @@
-//! What `ligament check` tells of a case with loads.
+//! Report of `ligament check` on a case with loads.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -23,7 +23,7 @@ use super::body::write_group;
 use super::entry::{entry, megabytes, spread};
 use super::{Extent, equations, foresight, model, restraints};
 
-/// Checks supports, loads and equations, and gives what a run would notice before its first load step.
+/// Checks supports, loads and equations, and returns the notices of a run before its first load step.
 pub(super) fn check(
     case: &CaseFile,
     extent: Extent,
@@ -65,7 +65,7 @@ pub(super) fn check(
     foresight::write(out, case, model, &problem, too_costly, stages)
 }
 
-/// Writes the room that fields take on a disk, and a warning where the disk of the current folder has less.
+/// Writes the disk space of the fields, and a warning where the disk of the current folder has less.
 fn write_room(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
     let fields = FieldsOnDisk::new(case, model);
     let of_one = megabytes(fields.of_one);
@@ -130,7 +130,7 @@ fn write_boundary(out: &mut dyn Write, model: &Model, loading: &Loading) -> io::
     Ok(())
 }
 
-/// The points that a probe reads: those of a cell around its position, or the nearest one and how far it is.
+/// Description of the points of a probe: those of the cell around its position, or the nearest point with its distance.
 fn place_words(model: &Model, place: &Shares, position: Position) -> String {
     let body = model.body();
     let [(point, _)] = place[..] else {

@@ -1,4 +1,4 @@
-//! `ligament check`: everything up to the first solve with the stiffness of the body, or the model alone, and what it takes.
+//! `ligament check`: everything up to the first solution with the stiffness of the body, or the model alone, with time and memory.
 
 mod bending_test;
 mod body;
@@ -25,15 +25,16 @@ use ligament::plausibility::notes;
 use ligament::run::on_threads;
 use ligament::setup::Analysis;
 use ligament_case::case::CaseFile;
+use ligament_output::summary::Stage;
 use ligament_run::disk;
 use ligament_run::model::build_model;
 use ligament_run::progress::{Progress, ProgressMode};
-use ligament_run::stages::{Stage, Stages};
+use ligament_run::stages::Stages;
 
 use entry::{entry, megabytes};
 pub use extent::Extent;
 
-/// The file with the fields of the points.
+/// Name of the file with the fields of the points.
 pub const FIELDS: &str = "points.vtu";
 
 /// Builds the model of a case and reports it; with a folder, writes `points.vtu` with all fixed fields into it.
@@ -46,7 +47,7 @@ pub fn check(
     on_threads(case.threads(), || check_here(case, extent, fields, out))?
 }
 
-/// Checks a case on the threads of the caller.
+/// Checks a case on the caller's threads.
 fn check_here(
     case: &CaseFile,
     extent: Extent,
@@ -59,7 +60,7 @@ fn check_here(
     tell(case, extent, fields, (&model, stages), out)
 }
 
-/// Tells of a model.
+/// Reports a model.
 fn tell(
     case: &CaseFile,
     extent: Extent,
@@ -110,7 +111,7 @@ fn tell(
     Ok(())
 }
 
-/// Writes what the check took, and what this machine has for the results: the part of a check that is another each time.
+/// Writes time and memory of the check and the available disk space, the part of the report that varies.
 fn write_stages(out: &mut dyn Write, stages: &[Stage]) -> io::Result<()> {
     writeln!(out, "time, memory and disk")?;
     for stage in stages {

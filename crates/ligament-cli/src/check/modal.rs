@@ -1,4 +1,4 @@
-//! What `ligament check` tells of a modal case.
+//! Report of `ligament check` on a modal case.
 
 use std::io::Write;
 

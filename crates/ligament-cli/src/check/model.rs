@@ -1,4 +1,4 @@
-//! What `ligament check` tells of a model before supports and loads.
+//! Report of `ligament check` on the model, before supports and loads.
 
 use std::io::{self, Write};
 
@@ -7,13 +7,14 @@ use ligament::setup::Section;
 use ligament_case::case::CaseFile;
 use ligament_model::{Elasticity, Plane};
 use ligament_output::quantity::quantity;
+use ligament_output::summary::Spread;
 use ligament_run::model::Model;
-use ligament_run::summary::{Spread, correction_line, family, formulation_line, heading};
+use ligament_run::summary::{correction_line, family, formulation_line, heading};
 
 use super::entry::{entry, spread};
 use super::{body, criteria};
 
-/// Writes what is known before supports and loads.
+/// Writes the report on the model.
 pub(super) fn write(out: &mut dyn Write, case: &CaseFile, model: &Model) -> anyhow::Result<()> {
     writeln!(out, "{}", heading(&case.case.title))?;
     let volume = model.system.volumes().iter().sum();
@@ -77,7 +78,7 @@ fn write_materials(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     Ok(())
 }
 
-/// Elastic constants in words.
+/// Text of elastic constants.
 fn constants(elasticity: &Elasticity) -> String {
     match *elasticity {
         Elasticity::Isotropic(it) => {

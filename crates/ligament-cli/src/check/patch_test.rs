@@ -1,4 +1,4 @@
-//! What `ligament check` tells of the stiffness of the body as it is discretised.
+//! Report of `ligament check` on the stiffness of the discrete body.
 
 use std::io::{self, Write};
 
@@ -11,17 +11,17 @@ use ligament_run::stages::Stages;
 use super::Extent;
 use super::entry::entry;
 
-/// Points of a body up to which the test is done unasked, in the plane and in space: at 10,000 points of thirty bonds it takes a second or
-/// two, several times what all else of a check does, at 100,000 half a minute and 3 GB.
+/// Largest number of points for which the test is done by default, in the plane and in space: at 10,000 points of thirty bonds it takes a
+/// second or two, several times the rest of a check, at 100,000 half a minute and 3 GB.
 const MOST_POINTS: [usize; 2] = [20_000, 2_000];
 
-/// What it takes, in the plane and in space.
+/// Cost of the test, in the plane and in space.
 const COST: [&str; 2] = ["a factor of the matrix", "six solutions"];
 
 /// Names of the axes.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Writes the elastic constants of the free body, and how far its bonds are from uniform strains.
+/// Writes the elastic constants of the free body, and the deviation of its bonds from uniform strains.
 pub(super) fn write(
     out: &mut dyn Write,
     extent: Extent,
@@ -59,7 +59,7 @@ fn write_test(out: &mut dyn Write, test: &PatchTest) -> io::Result<()> {
             "none: several materials do not strain uniformly under a uniform stress",
         )?,
     }
-    // Along the axes, then in shear.
+    // Order: along the axes, then in shear.
     let places = SymTensor::<3>::COMPONENTS.iter().zip(&test.scatter);
     let (along, in_shear): (Vec<_>, Vec<_>) = places.partition(|([i, j], _)| i == j);
     let all = along.iter().chain(&in_shear);

@@ -1,4 +1,4 @@
-//! What `ligament check` tells of supports, and of what loads go through.
+//! Report of `ligament check` on supports, and on springs and platens of loads.
 
 use std::io::{self, Write};
 
@@ -8,7 +8,7 @@ use ligament_output::quantity::quantity;
 
 use super::entry::entry;
 
-/// Writes what each support holds or resists, and which loads go through springs or a platen.
+/// Writes the fixed components and springs of each support, and the loads through springs or a platen.
 pub(super) fn write(out: &mut dyn Write, setup: &Setup) -> io::Result<()> {
     for (index, support) in setup.supports.iter().enumerate() {
         let name = format!("{} holds", support.name(index));

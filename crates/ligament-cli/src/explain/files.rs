@@ -10,7 +10,7 @@ use serde_json::json;
 use super::life::{BondHistories, BondHistory};
 use super::report::angle;
 
-/// A table with a row a bond and step with fields.
+/// A table with one row per bond and step with fields.
 pub(super) fn csv(run: &StoredRun, lives: &BondHistories) -> String {
     let tagged = run.model.tagged;
     let mut columns: Vec<String> = ["a", "b"].map(|end| format!("{tagged}_{end}")).to_vec();
@@ -62,7 +62,7 @@ pub(super) fn csv(run: &StoredRun, lives: &BondHistories) -> String {
     table
 }
 
-/// Bonds with their limits, breakages and paths; what is infinite is `null`.
+/// Bonds with their limits, breakages and paths; infinite values are `null`.
 pub(super) fn json(run: &StoredRun, lives: &BondHistories) -> anyhow::Result<String> {
     let tags = |ends: [u32; 2]| ends.map(|end| run.model.tags[end as usize]);
     let absent = lives.absent.iter().map(|pair| {
@@ -152,7 +152,7 @@ fn limits(life: &BondHistory) -> Vec<serde_json::Value> {
     limits.collect()
 }
 
-/// An object with the components of a deformation under their names.
+/// Adds the components of a deformation to an object, by their names.
 fn with_components(
     mut object: serde_json::Value,
     lives: &BondHistories,

@@ -1,4 +1,4 @@
-//! What bonds went through.
+//! Deformation and breakage of bonds over a run.
 
 use ligament_model::element::BondDeformation;
 use ligament_model::element::beam::BeamBond;
@@ -13,16 +13,16 @@ use super::strains::Strains;
 use ligament::units::Units;
 use ligament_plot::stored_loading::StoredLoading;
 
-/// The lives of some bonds, over the same moments.
+/// Deformation and breakage of some bonds over the steps with fields.
 #[derive(Debug)]
 pub(super) struct BondHistories {
     /// Steps with fields, ascending.
     pub(super) moments: Vec<StoredStep>,
-    /// The bonds, by the number of the pair in the stored model; pairs that are no bonds have no life.
+    /// The bonds, in the order of the pairs in the stored model, without absent bonds.
     pub(super) of_bonds: Vec<BondHistory>,
-    /// Pairs among them that are no bonds.
+    /// Indices of the requested pairs that are absent bonds.
     pub(super) absent: Vec<usize>,
-    /// Whether a moment is just before the breakages of its step.
+    /// Whether a moment precedes the breakages of its step.
     pub(super) before_breakages: bool,
     /// Whether bonds have strains of their own.
     pub(super) has_own_strains: bool,
@@ -32,10 +32,10 @@ pub(super) struct BondHistories {
     pub(super) units: Units,
 }
 
-/// The life of a bond.
+/// Limits, deformation and breakage of a bond over a run.
 #[derive(Debug)]
 pub(super) struct BondHistory {
-    /// Number of the pair.
+    /// Index of the pair in the stored model.
     pub(super) pair: usize,
     /// Ends of the bond.
     pub(super) ends: [u32; 2],
@@ -43,13 +43,13 @@ pub(super) struct BondHistory {
     pub(super) length: f64,
     /// Direction cosines from the first to the second end.
     pub(super) direction: [f64; 3],
-    /// Limits of the bond, one a criterion.
+    /// Limits of the bond, one per criterion.
     pub(super) limits: Vec<Limit>,
-    /// Deformation of the bond in each moment, also after it broke.
+    /// Deformation of the bond at each moment, also after its breakage.
     pub(super) deformation: Vec<BondDeformation>,
-    /// Number of moments in which it was intact.
+    /// Number of moments at which the bond was intact.
     pub(super) n_intact: usize,
-    /// Breakage of the bond, and the number of the criterion by which it failed.
+    /// Breakage of the bond, and the index of the criterion by which it failed.
     pub(super) breakage: Option<(StoredBreak, Option<usize>)>,
     /// Largest utilisation of the bond.
     pub(super) nearest: Option<Nearest>,
@@ -65,7 +65,7 @@ pub(super) struct Limit {
     pub(super) after: AfterLimit,
 }
 
-/// The largest utilisation of a bond: when, and by which criterion.
+/// The largest utilisation of a bond, with its step and criterion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Nearest {
     pub(super) utilisation: f64,
@@ -73,20 +73,20 @@ pub(super) struct Nearest {
     pub(super) criterion: usize,
 }
 
-/// The pairs of a point in the stored model, ascending.
+/// Indices of the pairs of a point in the stored model, ascending.
 pub(super) fn bonds_of(run: &StoredRun, point: u32) -> Vec<usize> {
     let ends = run.model.bonds.ends.iter().enumerate();
     let of_point = ends.filter(|(_, ends)| ends.contains(&point));
     of_point.map(|(pair, _)| pair).collect()
 }
 
-/// The pair of two points (in the order of their numbers) in the stored model, if one is in the horizon of the other.
+/// Index of the pair of two points (in ascending order) in the stored model, if one is in the horizon of the other.
 pub(super) fn pair_of(run: &StoredRun, ends: [u32; 2]) -> Option<usize> {
     run.model.bonds.ends.iter().position(|it| *it == ends)
 }
 
 impl BondHistories {
-    /// Reads the lives of some bonds; each file of fields is read once.
+    /// Reads the histories of some bonds; each file of fields is read once.
     pub(super) fn read(
         run: &StoredRun,
         pairs: Vec<usize>,
@@ -108,7 +108,7 @@ impl BondHistories {
         }
         let mut strains = Strains::from_run(run, loading.follows_path);
         for step in run.field_steps() {
-            // A run that is under way may have fields of a step before its row.
+            // During a run, fields of a step may be written before the step's row.
             let (Some(row), Some(motions)) = (run.step(step), run.motions(step)?) else {
                 continue;
             };
@@ -145,7 +145,7 @@ impl Limit {
         })
     }
 
-    /// The measure of a deformation.
+    /// The criterion's measure of a deformation.
     pub(super) fn measure(&self, deformation: &BondDeformation) -> f64 {
         self.measure.value(deformation, &self.coefficients)
     }
@@ -185,7 +185,7 @@ impl BondHistory {
         })
     }
 
-    /// What criteria measure of the bond for the motions of all points, without what the temperature gives it.
+    /// Deformation of the bond for criteria, from the motions of all points, without thermal strain.
     fn deformed(&self, run: &StoredRun, motions: &Motions) -> BondDeformation {
         let moved = self.ends.map(|end| {
             let end = end as usize;
@@ -205,7 +205,7 @@ impl BondHistory {
         }
     }
 
-    /// What follows from all moments.
+    /// Sets breakage and largest utilisation after all moments are read.
     fn complete(&mut self, run: &StoredRun, moments: &[StoredStep], before_breakages: bool) {
         let tags = self.ends.map(|end| run.model.tags[end as usize]);
         let is_own = |it: &&StoredBreak| it.tags == tags || it.tags == [tags[1], tags[0]];
@@ -235,7 +235,7 @@ impl BondHistory {
         })
     }
 
-    /// From all steps of the run, if it got to its end.
+    /// Largest utilisation over all steps of the run; `None` where the run did not end.
     fn nearest_of_run(&self, run: &StoredRun) -> Option<Nearest> {
         let largest = run.model.largest.as_ref()?;
         Some(Nearest {
@@ -247,7 +247,7 @@ impl BondHistory {
         })
     }
 
-    /// From the steps with fields alone.
+    /// Largest utilisation over the steps with fields.
     fn nearest_of_moments(&self, moments: &[StoredStep]) -> Option<Nearest> {
         let mut nearest: Option<Nearest> = None;
         for (moment, deformation) in moments.iter().zip(&self.deformation).take(self.n_intact) {
@@ -265,7 +265,7 @@ impl BondHistory {
         nearest
     }
 
-    /// The rest of the bond by a criterion in a moment: nothing once it is broken.
+    /// Softened state of the bond under a criterion at a moment, zero after its breakage.
     pub(super) fn left(&self, criterion: usize, moments: &[StoredStep], moment: usize) -> Softened {
         let softened = self.softened(criterion, moments, moment);
         if moment < self.n_intact {
@@ -278,7 +278,7 @@ impl BondHistory {
         }
     }
 
-    /// State of the bond by a criterion in a moment, from the largest utilisation that is known up to it.
+    /// Softened state of the bond under a criterion at a moment, from the largest known utilisation up to it.
     pub(super) fn softened(
         &self,
         criterion: usize,
@@ -288,7 +288,7 @@ impl BondHistory {
         let limit = &self.limits[criterion];
         let so_far = self.deformation[..=moment].iter();
         let kappa = so_far.map(|it| limit.utilisation(it)).fold(0.0, f64::max);
-        // It may have been larger between the moments.
+        // The utilisation may have been larger between moments.
         let is_past = |it: &Nearest| it.criterion == criterion && it.step <= moments[moment].step;
         let nearest = self.nearest.filter(is_past);
         limit

@@ -1,7 +1,7 @@
-//! `ligament explain`: the life of a bond, or of all bonds of a point, from the results of a run alone.
+//! `ligament explain`: the history of a bond, or of all bonds of a point, from the results of a run.
 //!
-//! Limits, factors and horizons come from `model.vtu`, breakages from `breaks.csv`, loads from `history.csv`, and what a bond went
-//! through from the displacements and rotations of the fields, by the kinematics of the bonds.
+//! Limits, factors and horizons come from `model.vtu`, breakages from `breaks.csv`, loads from `history.csv`, and the deformation of a bond
+//! from the displacements and rotations of the fields, by the kinematics of the bonds.
 
 mod files;
 mod life;
@@ -19,7 +19,7 @@ use thiserror::Error;
 use self::life::{BondHistories, bonds_of, pair_of};
 use ligament_plot::stored_loading::stored_loading;
 
-/// What to explain.
+/// Bond or family to be explained.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Subject {
     /// The family of the point with this tag.
@@ -39,37 +39,37 @@ pub enum Position {
     InSpace([f64; 3]),
 }
 
-/// What to explain, and where to.
+/// Request to `ligament explain`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
     /// Folder with the results of a run.
     pub folder: PathBuf,
-    /// What to explain.
+    /// Bond or family to be explained.
     pub subject: Subject,
-    /// Table to write: a row a bond and step.
+    /// Path of a table with one row per bond and step.
     pub csv: Option<PathBuf>,
-    /// File to write everything to.
+    /// Path of a JSON file with all data.
     pub json: Option<PathBuf>,
-    /// Whether the two may replace files that are there.
+    /// Whether existing files may be replaced.
     pub force: bool,
 }
 
-/// Why nothing can be explained.
+/// Error of a request to `ligament explain`.
 #[derive(Debug, Error)]
 pub enum ExplainError {
     /// No point has the tag.
     #[error("there is no {tagged} {tag}: the tags go from {} to {}, the nearest {}", .range[0], .range[1], nearest_words(.nearest))]
     UnknownTag {
-        /// `node` or `cell`.
+        /// Kind of the tags, `node` or `cell`.
         tagged: &'static str,
         /// The tag.
         tag: i64,
         /// First and last tag.
         range: [i64; 2],
-        /// The tags before and after it.
+        /// Existing tags before and after the given one.
         nearest: Vec<i64>,
     },
-    /// A position in the plane for a body in space.
+    /// A position in the plane for a solid.
     #[error("the body is a solid: --at needs X,Y,Z")]
     InSpace,
     /// A position in space for a body in the plane.
@@ -80,7 +80,7 @@ pub enum ExplainError {
         "a bond has two ends, and both are {tagged} {tag}; --point {tag} explains all bonds of it"
     )]
     OneEnd {
-        /// `node` or `cell`.
+        /// Kind of the tags, `node` or `cell`.
         tagged: &'static str,
         /// The tag.
         tag: i64,
@@ -93,11 +93,11 @@ fn nearest_words(nearest: &[i64]) -> String {
     format!("{verb} {}", tags.join(" and "))
 }
 
-/// Explains a bond or a family: prints its life, and writes the files that were asked for.
+/// Explains a bond or a family: prints its history, and writes the requested files.
 ///
 /// # Errors
 ///
-/// If the folder has no results that tell, there is no such point, or a file cannot be written.
+/// If the folder has no suitable results, there is no such point, or a file cannot be written.
 pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
     for path in request.csv.iter().chain(&request.json) {
         check_file(path, request.force)?;
@@ -155,7 +155,7 @@ fn point_of(run: &StoredRun, tag: i64) -> Result<u32, ExplainError> {
     })
 }
 
-/// A position with as many coordinates as the body has, and z = 0 in the plane.
+/// A position with z = 0 in the plane; refuses one in another dimension than the body's.
 fn position_of(run: &StoredRun, position: Position) -> Result<[f64; 3], ExplainError> {
     match (run.model.in_space, position) {
         (true, Position::InSpace(position)) => Ok(position),

@@ -13,7 +13,7 @@ use super::words::{self, label, metres, number, place};
 use crate::lines::{self, Columns};
 use ligament::units::Units;
 
-/// Writes the life of the bond between two points, or why there is none.
+/// Writes the history of the bond between two points, or the reason why there is no bond.
 pub(super) fn bond(
     out: &mut dyn Write,
     run: &StoredRun,
@@ -50,7 +50,7 @@ pub(super) fn bond(
     write_path(out, lives, &bond_path(lives, life))
 }
 
-/// Writes the family of a point, which may be the one nearest to a position.
+/// Writes the family of a point; `sought` is the position, if any, to which the point is nearest.
 pub(super) fn family(
     out: &mut dyn Write,
     run: &StoredRun,
@@ -92,7 +92,7 @@ fn sentences(out: &mut dyn Write, sentences: Vec<String>) -> io::Result<()> {
     (sentences.iter()).try_for_each(|sentence| writeln!(out, "  {sentence}"))
 }
 
-/// Direction of a bond in space, as the cosines from its first to its second end.
+/// Direction of a bond in space, as cosines from its first to its second end.
 fn direction(life: &BondHistory) -> String {
     let [x, y, z] = life.direction.map(|it| format!("{it:.3}"));
     format!("({x}, {y}, {z})")
@@ -111,7 +111,7 @@ pub(super) fn angle(life: &BondHistory) -> f64 {
     }
 }
 
-/// How many bonds broke, and what else became of pairs.
+/// Text of the numbers of broken bonds and of absent bonds.
 fn counts(run: &StoredRun, lives: &BondHistories) -> String {
     let n_bonds = lives.of_bonds.len();
     let broken = lives.of_bonds.iter().filter_map(|it| it.breakage.as_ref());
@@ -137,7 +137,7 @@ fn counts(run: &StoredRun, lives: &BondHistories) -> String {
     words
 }
 
-/// Writes what the results leave out, and how to get it.
+/// Writes a note about missing results, and settings that provide them.
 fn missing(out: &mut dyn Write, run: &StoredRun, lives: &BondHistories) -> io::Result<()> {
     let may_fail = !run.model.criteria.is_empty();
     if may_fail && run.model.largest.is_none() {
@@ -219,7 +219,7 @@ fn bond_path(lives: &BondHistories, life: &BondHistory) -> Columns {
     table
 }
 
-/// All bonds of a point: those that broke in their order, then the nearest to breakage first.
+/// Table of all bonds of a point: broken bonds in the order of breaking, then intact bonds, those nearest to breakage first.
 fn family_table(run: &StoredRun, point: u32, lives: &BondHistories) -> Columns {
     let bonds = &run.model.bonds;
     let mut header = vec![run.model.tagged.to_owned()];
@@ -228,7 +228,7 @@ fn family_table(run: &StoredRun, point: u32, lives: &BondHistories) -> Columns {
     header.extend(["length", along, "H", "alpha", "Omega"].map(str::to_owned));
     let criteria = run.model.criteria.iter();
     header.extend(criteria.map(|it| format!("limit {}", it.name)));
-    header.extend(["largest", "in step", "by", "bond_description"].map(str::to_owned));
+    header.extend(["largest", "in step", "by", "fate"].map(str::to_owned));
     let mut table = Columns::new(header);
     let mut order: Vec<&BondHistory> = lives.of_bonds.iter().collect();
     let number_of_breakage = |life: &BondHistory| {
@@ -271,7 +271,7 @@ fn other_end([a, b]: [u32; 2], point: u32) -> usize {
     (if a == point { b } else { a }) as usize
 }
 
-/// Intact bonds, damage and the bond nearest to breakage over the moments.
+/// Table of the number of intact bonds, damage and the bond nearest to breakage over the moments.
 fn family_path(run: &StoredRun, point: u32, lives: &BondHistories) -> Columns {
     let tagged = run.model.tagged;
     let mut header: Vec<String> = LOAD_HEADER.map(str::to_owned).to_vec();
@@ -306,12 +306,12 @@ fn family_path(run: &StoredRun, point: u32, lives: &BondHistories) -> Columns {
     table
 }
 
-/// Share of the broken bonds in the sum of alpha Omega over all (NHPD eq. 17).
+/// Share of the broken bonds in the sum of alpha Omega over all bonds (NHPD eq. 17).
 fn damage(run: &StoredRun, lives: &BondHistories, place: usize) -> f64 {
     let bonds = &run.model.bonds;
     let weight =
         |life: &BondHistory| bonds.length_factor[life.pair] * bonds.domain_factor[life.pair];
-    // The sum of no floats is -0.
+    // The sum of an empty iterator would be -0.0.
     let sum = |lives: &mut dyn Iterator<Item = &BondHistory>| lives.map(weight).fold(0.0, f64::add);
     let all = sum(&mut lives.of_bonds.iter());
     let is_broken = |life: &&BondHistory| place >= life.n_intact;

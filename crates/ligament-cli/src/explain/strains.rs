@@ -1,21 +1,21 @@
-//! Strains of bonds that have some of their own, from the stored motions of the points of a lattice.
+//! Strains of bonds with strains of their own (`mbb-pd`), from the stored motions of the points of a lattice.
 
 use ligament_model::element::BondDeformation;
 use ligament_model::element::imaginary::LatticeStrains;
 use ligament_output::results::stored::{Motions, StoredRun};
 
-/// The bonds of a stored lattice, and which of them are unbroken.
+/// The bonds of a stored lattice, and whether each is intact.
 pub(super) struct Strains {
     lattice: LatticeStrains,
     /// Step in which each bond broke, shape (n_bonds).
     broke_in: Vec<Option<usize>>,
     intact: Vec<bool>,
-    /// Whether a moment is just before the breakages of its step.
+    /// Whether a moment precedes the breakages of its step.
     before_breakages: bool,
 }
 
 impl Strains {
-    /// The strains of a run; None where its bonds have no strains of their own.
+    /// The strains of a run; `None` where its bonds have no strains of their own.
     pub(super) fn from_run(run: &StoredRun, before_breakages: bool) -> Option<Self> {
         if !run.has_own_strains() {
             return None;
@@ -23,7 +23,7 @@ impl Strains {
         let model = &run.model;
         let positions = model.positions.iter().map(|p| [p[0], p[1]]).collect();
         let pairs = model.bonds.ends.iter().zip(&model.bonds.absence);
-        // Bonds stand before pairs that are none, so that both have the same numbers.
+        // Bonds precede absent bonds, so that bonds and pairs have the same indices.
         let bonds = pairs.take_while(|(_, absence)| absence.is_none());
         let ends: Vec<[u32; 2]> = bonds.map(|(ends, _)| *ends).collect();
         let horizon = model.bonds.horizon[..ends.len()].to_vec();
@@ -36,7 +36,7 @@ impl Strains {
         })
     }
 
-    /// Goes to the moment of a step.
+    /// Sets the state to the moment of a step.
     pub(super) fn go_to(&mut self, step: usize) {
         for (intact, broke_in) in self.intact.iter_mut().zip(&self.broke_in) {
             *intact = broke_in.is_none_or(|broke| {
@@ -49,7 +49,7 @@ impl Strains {
         }
     }
 
-    /// The deformation of a bond, without what the temperature gives it.
+    /// The deformation of a bond, without thermal strain.
     pub(super) fn deformation(&self, bond: usize, motions: &Motions) -> BondDeformation {
         let in_plane: Vec<[f64; 2]> = motions.displacement.iter().map(|u| [u[0], u[1]]).collect();
         let free = match motions.thermal_strain.is_empty() {

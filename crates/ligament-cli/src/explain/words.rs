@@ -1,4 +1,4 @@
-//! What happened to bonds, in words.
+//! Descriptions of bonds and their breakage.
 
 use ligament_model::Absence;
 use ligament_model::element::BondDeformation;
@@ -8,22 +8,22 @@ use ligament_output::results::stored::StoredRun;
 
 use super::life::{BondHistories, BondHistory, Limit, Nearest};
 
-/// A number without a unit.
+/// Text of a number without a unit.
 pub(super) fn number(value: f64) -> String {
     quantity(value, "-")
 }
 
-/// A length.
+/// Text of a length (m).
 pub(super) fn metres(value: f64) -> String {
     quantity(value, "m")
 }
 
-/// A point in words: "node 12".
+/// Description of a point: "node 12".
 pub(super) fn label(run: &StoredRun, point: u32) -> String {
     format!("{} {}", run.model.tagged, run.model.tags[point as usize])
 }
 
-/// A position in words, without z in the plane.
+/// Text of a position, without z in the plane.
 pub(super) fn coordinates(run: &StoredRun, [x, y, z]: [f64; 3]) -> String {
     match run.model.in_space {
         true => format!("({x:.6}, {y:.6}, {z:.6})"),
@@ -31,12 +31,12 @@ pub(super) fn coordinates(run: &StoredRun, [x, y, z]: [f64; 3]) -> String {
     }
 }
 
-/// Distance between two places; one in the plane has z = 0.
+/// Distance between two positions, m; z = 0 in the plane.
 pub(super) fn distance(p: [f64; 3], q: [f64; 3]) -> f64 {
     (q[0] - p[0]).hypot(q[1] - p[1]).hypot(q[2] - p[2])
 }
 
-/// A point in words, and where it is.
+/// Description of a point, with its position.
 pub(super) fn place(run: &StoredRun, point: u32) -> String {
     let position = coordinates(run, run.model.positions[point as usize]);
     format!("{} at {position} m", label(run, point))
@@ -54,7 +54,7 @@ fn deformed(lives: &BondHistories, deformation: &BondDeformation) -> String {
     words.join(", ")
 }
 
-/// Whether a bond is shortened, or some strain of its own is.
+/// Whether a bond is shortened, or a normal strain of its own is negative.
 fn is_pressed(lives: &BondHistories, deformation: &BondDeformation) -> bool {
     match lives.has_own_strains {
         true => deformation.strain()[..2].iter().any(|strain| *strain < 0.0),
@@ -62,7 +62,7 @@ fn is_pressed(lives: &BondHistories, deformation: &BondDeformation) -> bool {
     }
 }
 
-/// The limits of a bond, a line each; its name and what it says.
+/// The limits of a bond, each with the criterion's name and a description.
 pub(super) fn limits(life: &BondHistory) -> Vec<(String, String)> {
     let in_words = |limit: &Limit| {
         let what = limit.measure.words();
@@ -89,7 +89,7 @@ pub(super) fn limits(life: &BondHistory) -> Vec<(String, String)> {
         .collect()
 }
 
-/// What happened to a bond, a sentence a line.
+/// Description of the breakage or the state of a bond, one sentence per line.
 pub(super) fn bond_description(
     run: &StoredRun,
     lives: &BondHistories,
@@ -169,7 +169,7 @@ fn nearest_words(lives: &BondHistories, life: &BondHistory, nearest: Nearest) ->
     )
 }
 
-/// The state of an intact bond in the last moment, if that is not the one nearest to its limit.
+/// Description of an intact bond at the last moment, if that is not the moment nearest to its limit.
 fn end_words(lives: &BondHistories, life: &BondHistory) -> Option<String> {
     let (moment, deformation) = (lives.moments.last()?, life.deformation.last()?);
     let is_told = |it: Nearest| it.step == moment.step && it.utilisation > 0.0;
@@ -189,7 +189,7 @@ fn end_words(lives: &BondHistories, life: &BondHistory) -> Option<String> {
     ))
 }
 
-/// The rest of a bond that passed limits, in the last moment, with the names of the criteria.
+/// Softened state of a bond beyond limits, at the last moment, with the names of the criteria.
 fn softened<'a>(lives: &BondHistories, life: &'a BondHistory) -> Vec<(&'a str, Softened)> {
     let Some(last) = lives.moments.len().checked_sub(1) else {
         return Vec::new();
@@ -203,7 +203,7 @@ fn softened<'a>(lives: &BondHistories, life: &'a BondHistory) -> Vec<(&'a str, S
     .collect()
 }
 
-/// The rest of a bond that passed limits, a sentence for each criterion.
+/// Description of a softened bond, one sentence per criterion.
 fn softened_words(lives: &BondHistories, life: &BondHistory) -> Vec<String> {
     let words = |(name, softened): (&str, Softened)| {
         format!(
@@ -214,7 +214,7 @@ fn softened_words(lives: &BondHistories, life: &BondHistory) -> Vec<String> {
     softened(lives, life).into_iter().map(words).collect()
 }
 
-/// What happened to a bond, in a few words.
+/// Short description of the breakage or the state of a bond.
 pub(super) fn short_bond_description(
     run: &StoredRun,
     lives: &BondHistories,
@@ -238,7 +238,7 @@ pub(super) fn short_bond_description(
     }
 }
 
-/// Why two points share no bond, a sentence a line.
+/// Reasons why two points have no bond, one sentence per line.
 pub(super) fn no_bond(run: &StoredRun, [a, b]: [u32; 2], pair: Option<usize>) -> Vec<String> {
     let model = &run.model;
     let [p, q] = [a, b].map(|end| model.positions[end as usize]);

@@ -8,7 +8,7 @@ use ligament_output::columns::WIDEST;
 use super::words::NAMES;
 use crate::lines::entry;
 
-/// Writes a line a group, with what `kind_and_size` tells of it.
+/// Writes one line per group, with its kind and size by `kind_and_size`.
 pub(super) fn write(
     out: &mut dyn Write,
     groups: &[Group],

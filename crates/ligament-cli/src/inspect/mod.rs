@@ -1,4 +1,4 @@
-//! `ligament inspect`: what is in a mesh.
+//! `ligament inspect`: summary of a mesh.
 
 mod groups;
 mod plane;
@@ -10,7 +10,7 @@ use std::path::Path;
 
 use ligament_mesh::AnyMesh;
 
-/// Writes a summary of a mesh; `path` heads it.
+/// Writes a summary of a mesh under the heading `path`.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! What is in a mesh of the plane.
+//! Summary of a mesh in the plane.
 
 use std::io::{self, Write};
 
@@ -12,7 +12,7 @@ use super::words::{
 };
 use crate::lines::entry;
 
-/// Writes the summary.
+/// Writes the summary of a mesh in the plane.
 pub(super) fn write(out: &mut dyn Write, mesh: &Mesh) -> io::Result<()> {
     let is_triangle = |cell: &&Cell| matches!(cell, Cell::Triangle(_));
     let triangles = mesh.cells.iter().filter(is_triangle).count();

@@ -1,4 +1,4 @@
-//! What is in a mesh of solid cells.
+//! Summary of a mesh of solid cells.
 
 use std::io::{self, Write};
 
@@ -12,10 +12,10 @@ use super::words::{
 };
 use crate::lines::entry;
 
-/// A tetrahedron of a smaller radius ratio is a sliver.
+/// Radius ratio below which a tetrahedron is a sliver.
 const SLIVER: f64 = 0.1;
 
-/// Writes the summary.
+/// Writes the summary of a mesh of solid cells.
 pub(super) fn write(out: &mut dyn Write, mesh: &SolidMesh) -> io::Result<()> {
     let faces = Faces::new(&mesh.cells, mesh.positions.len());
     let outline: f64 = (faces.outer().iter())
@@ -50,7 +50,7 @@ pub(super) fn write(out: &mut dyn Write, mesh: &SolidMesh) -> io::Result<()> {
     write_size_note(out, corners)
 }
 
-/// Numbers of cells, all and of each shape that there is.
+/// Text of the numbers of cells, in total and of each shape.
 fn cells_in_words(cells: &[SolidCell]) -> String {
     let shapes = [
         ("tetrahedron", "tetrahedra"),
@@ -66,7 +66,7 @@ fn cells_in_words(cells: &[SolidCell]) -> String {
     format!("{} ({})", cells.len(), of_shape.join(", "))
 }
 
-/// The shortest edge at each node, which a horizon factor multiplies where no nearer node is without an edge to it.
+/// Text of the shortest edges at the nodes, which are the distances to nearest nodes unless a nearer node has no edge to them.
 fn spacing_in_words(mesh: &SolidMesh, edges: &[[u32; 2]]) -> String {
     let mut shortest = vec![f64::INFINITY; mesh.positions.len()];
     for &edge in edges {
@@ -90,13 +90,13 @@ fn spacing_in_words(mesh: &SolidMesh, edges: &[[u32; 2]]) -> String {
 struct Quality {
     tetrahedra: usize,
     mean: f64,
-    /// The worst, and the middle of its cell, m.
+    /// Smallest ratio, and the centre of its cell, m.
     worst: (f64, [f64; 3]),
     slivers: usize,
 }
 
 impl Quality {
-    /// None where there are no tetrahedra.
+    /// The quality of the tetrahedra of a mesh; `None` without tetrahedra.
     fn of_tetrahedra(mesh: &SolidMesh) -> Option<Self> {
         let ratio = |cell: &SolidCell| Some((cell.radius_ratio(&mesh.positions)?, *cell));
         let ratios: Vec<(f64, SolidCell)> = mesh.cells.iter().filter_map(ratio).collect();
@@ -132,7 +132,7 @@ impl Quality {
     }
 }
 
-/// A radius ratio in words.
+/// Text of a radius ratio.
 fn of_quality(ratio: f64) -> String {
     if ratio < 0.01 {
         format!("{ratio:.1e}")
@@ -141,7 +141,7 @@ fn of_quality(ratio: f64) -> String {
     }
 }
 
-/// What to know of the volume groups: cells in none of them.
+/// Note about volume groups that do not contain all cells.
 fn volumes_note(mesh: &SolidMesh) -> Option<String> {
     let volumes: Vec<&Group> = mesh.groups.iter().filter(|it| it.dimension == 3).collect();
     if volumes.is_empty() {

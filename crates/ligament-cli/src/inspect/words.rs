@@ -1,4 +1,4 @@
-//! What is said of meshes of both kinds.
+//! Common texts for meshes in the plane and in space.
 
 use std::io::{self, Write};
 
@@ -6,10 +6,10 @@ use ligament::warning::{SUSPICIOUSLY_LARGE, Warning};
 use ligament_mesh::{NodeField, Remark};
 use ligament_output::quantity::{between, quantity};
 
-/// Letters of the longest name of an entry.
+/// Length of the longest name of an entry.
 pub(super) const NAMES: usize = 13;
 
-/// The shortest and the longest edge in words.
+/// Text of the shortest and the longest edge.
 pub(super) fn edges_in_words(lengths: impl Iterator<Item = f64>) -> String {
     let start = (f64::INFINITY, 0.0);
     let (shortest, longest) = lengths.fold(start, |(shortest, longest), length| {
@@ -35,7 +35,7 @@ pub(super) fn edge_length<const D: usize>(positions: &[[f64; D]], [from, to]: [u
     }
 }
 
-/// The ends of a box along each axis in words.
+/// Text of a box's range along each axis.
 pub(super) fn box_in_words<const D: usize>([low, high]: [[f64; D]; 2]) -> String {
     let along = |axis: usize| {
         let name = ["x", "y", "z"][axis];
@@ -44,7 +44,7 @@ pub(super) fn box_in_words<const D: usize>([low, high]: [[f64; D]; 2]) -> String
     (0..D).map(along).collect::<Vec<_>>().join(", ")
 }
 
-/// Writes a line a field.
+/// Writes one line per field.
 pub(super) fn write_fields(out: &mut dyn Write, fields: &[NodeField]) -> io::Result<()> {
     for field in fields {
         let values = field.components;
@@ -58,7 +58,7 @@ pub(super) fn write_fields(out: &mut dyn Write, fields: &[NodeField]) -> io::Res
     Ok(())
 }
 
-/// Writes what the reader remarked.
+/// Writes the remarks of the mesh reader.
 pub(super) fn write_remarks(out: &mut dyn Write, remarks: &[Remark]) -> io::Result<()> {
     for remark in remarks {
         writeln!(out, "  note: {remark}")?;
@@ -66,7 +66,7 @@ pub(super) fn write_remarks(out: &mut dyn Write, remarks: &[Remark]) -> io::Resu
     Ok(())
 }
 
-/// Writes a note where a body is as large as those are whose millimetres are taken for metres.
+/// Writes a note where the coordinates of a body are probably in millimetres.
 pub(super) fn write_size_note<const D: usize>(
     out: &mut dyn Write,
     [low, high]: [[f64; D]; 2],

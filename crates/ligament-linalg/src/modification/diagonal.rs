@@ -1,14 +1,14 @@
-//! Diagonal entries of a matrix that changes, and what counts as a pivot that vanished.
+//! Diagonal entries of a matrix under updates, and the rule for a vanishing pivot.
 
-/// A pivot below this share of its own diagonal entry of the matrix, at its largest since the matrix was factorised, counts
-/// as zero: what downdates leave of a zero is rounding, some 1e-14 of that entry.
+/// Ratio below which a pivot counts as zero, relative to the largest value of its diagonal entry of the matrix since the factorisation:
+/// downdates leave rounding of some 1e-14 of that entry in place of a zero.
 pub const VANISHING_PIVOT: f64 = 1e-10;
 
 /// A diagonal entry of the matrix.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct DiagonalEntry {
     value: f64,
-    /// Largest size of the entry since the matrix was factorised: the measure of what rounding left in the factor.
+    /// Largest absolute value of the entry since the matrix was factorised, which scales the rounding errors of the factor.
     pub(super) largest: f64,
 }
 

@@ -1,10 +1,8 @@
-//! Changes of a factor in place: A + sum of c_i w_i w_i^T for w_i with few entries, and the solve that follows.
+//! Updates of a factor in place: A + sum of c_i w_i w_i^T for sparse w_i, and the forward substitution that follows.
 //!
-//! A vector changes only the supernodes on the way from its first row to the root of the elimination tree, and the pattern
-//! of the factor never grows as long as the entries of a vector are pairwise in the pattern of the matrix (Davis and Hager
-//! 2001).
-//! A right-hand side that is zero outside the same rows takes the same way, so the
-//! forward substitution goes along while a panel is in the cache.
+//! A vector changes only the supernodes on the path from its first row to the root of the elimination tree, and the pattern of the factor
+//! never grows as long as the entries of a vector are pairwise in the pattern of the matrix (Davis and Hager 2001). A right-hand side that
+//! is zero outside the same rows follows the same path, so the forward substitution is done while a panel is in the cache.
 
 mod diagonal;
 mod panel;
@@ -29,23 +27,23 @@ pub use diagonal::VANISHING_PIVOT;
 /// Working memory for changing a factor in place. Rows are in the order of elimination.
 pub(crate) struct Modification {
     supernode_of_row: Vec<u32>,
-    /// Terms on their way, row by row, shape (n, TERMS_AT_ONCE); zero between two changes.
+    /// Terms in progress, row by row, shape (n, TERMS_AT_ONCE); zero between two updates.
     on_the_way: Vec<f64>,
-    /// Supernodes still to be visited.
+    /// Supernodes still to be visited, smallest first.
     touched: BinaryHeap<Reverse<u32>>,
     is_touched: Vec<bool>,
     terms: Terms,
     column: Vec<f64>,
 }
 
-/// The factor that is changed.
+/// The factor to be updated.
 pub(crate) struct Target<'a> {
     pub(crate) kind: FactorKind,
     pub(crate) supernodes: Supernodes<'a>,
     pub(crate) values: &'a mut [f64],
-    /// Diagonal of the matrix in the order of elimination, shape (n); changed along.
+    /// Diagonal of the matrix in the order of elimination, shape (n); updated with the factor.
     pub(crate) diagonal: &'a mut [DiagonalEntry],
-    /// Number of negative pivots; changed along.
+    /// Number of negative pivots; updated with the factor.
     pub(crate) negative_pivots: &'a mut usize,
 }
 
@@ -59,7 +57,7 @@ impl Target<'_> {
     }
 }
 
-/// The row whose pivot vanished; the factor is then half changed and worthless.
+/// Row of a vanishing pivot; the factor is then partly updated and unusable.
 pub(crate) struct VanishingPivot(pub(crate) usize);
 
 impl Modification {
@@ -75,8 +73,7 @@ impl Modification {
         }
     }
 
-    /// Changes the factor by the terms, and replaces b by L'^-1 b with the new L', for a b (n) that is zero outside
-    /// `rows_of_b`.
+    /// Updates the factor by the terms, and replaces b by L'^-1 b with the new L', for a b (n) that is zero outside `rows_of_b`.
     pub(crate) fn apply(
         &mut self,
         target: &mut Target<'_>,
@@ -113,7 +110,7 @@ impl Modification {
         }
     }
 
-    /// Puts terms at the start of their way.
+    /// Writes terms into the working memory at their first rows.
     fn scatter(
         &mut self,
         terms: &[RankOne],
@@ -140,7 +137,7 @@ impl Modification {
     }
 }
 
-/// One pass of terms through the factor, from the leaves to the root.
+/// One pass of terms up the elimination tree, from the leaves to the root.
 struct Walk<'a, 'b> {
     modification: &'a mut Modification,
     target: &'a mut Target<'b>,
@@ -161,7 +158,7 @@ impl Walk<'_, '_> {
         Ok(())
     }
 
-    /// Changes the panel of a supernode, and takes the right-hand side through it.
+    /// Updates the panel of a supernode and applies it to the right-hand side.
     fn visit(&mut self, supernode: usize) -> Result<(), VanishingPivot> {
         let Modification {
             on_the_way,
@@ -195,7 +192,7 @@ impl Walk<'_, '_> {
     }
 }
 
-/// Takes terms through the panel of a supernode, with a right-hand side at its rows.
+/// Applies terms to the panel of a supernode, and the panel to a right-hand side at its rows.
 fn change_panel(
     target: &mut Target<'_>,
     supernode: usize,

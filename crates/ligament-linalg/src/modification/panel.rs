@@ -1,9 +1,8 @@
-//! Terms through the panel of one supernode.
+//! Update of the panel of one supernode by terms.
 //!
-//! Large panels are taken in tiles of columns. The rows below the square of a tile do not wait for each other: once the square is changed
-//! and its rotations are known, they are tasks, and the first of these goes on to the next square. Tiles and tasks begin at
-//! multiples of what vectors and blocks of columns hold, so that a row takes the instructions that it takes in a panel that
-//! is not divided: the bits are the same.
+//! Large panels are divided into tiles of columns. Rows below the square of a tile are independent: once the square is updated and its
+//! rotations are known, they are tasks, the first of which goes on to the next square. Tiles and tasks begin at multiples of the widths of
+//! vectors and of blocks of columns, so that a row undergoes the same instructions as in an undivided panel: the bits are the same.
 
 use std::ops::Range;
 
@@ -15,36 +14,36 @@ use super::square::{AppliedRotations, Below, Rows, Square};
 use crate::panels::FactorKind;
 use crate::substitution::BLOCK;
 
-/// Columns of a tile.
+/// Columns in a tile.
 const TILE: usize = 192;
 
-/// Values to change, times the terms and two more, that make a task worth while: some 50 microseconds.
+/// Number of values to change, times the number of terms plus two, that makes a task worth while: some 50 microseconds.
 const TASK: usize = 400_000;
 
-/// A panel with terms that go through it.
+/// A panel and the terms that update it.
 pub(super) struct Panel<'a> {
     pub(super) kind: FactorKind,
     /// Diagonal entries of the matrix, shape (n_columns).
     pub(super) diagonal: &'a [DiagonalEntry],
-    /// What is left of the weights of the terms, shape (n_terms).
+    /// Remaining weights of the terms, shape (n_terms).
     pub(super) weights: &'a mut [f64],
-    /// All of its rows.
+    /// All rows of the panel.
     pub(super) rows: Rows<'a>,
 }
 
-/// Columns that are changed before others.
+/// Columns that are updated together.
 struct Tile {
     columns: Range<usize>,
-    /// Rows of each task below the square of the columns; None where all rows are changed along with the pivots.
+    /// Number of rows of each task below the square of the columns; `None` where all rows are updated with the pivots.
     rows_of_task: Option<usize>,
 }
 
 impl Panel<'_> {
-    /// Changes the panel; gives the change of the number of negative pivots, or the column whose pivot vanished.
+    /// Updates the panel; returns the change of the number of negative pivots, or the column of a vanishing pivot as an error.
     pub(super) fn change(mut self) -> Result<isize, usize> {
         let n_columns = self.rows.columns.len();
         let mut tile = self.tile(0);
-        // One thread has the same bits without tiles, and sooner.
+        // On one thread an undivided panel gives the same bits in less time.
         if tile.rows_of_task.is_none() || rayon::current_num_threads() == 1 {
             return self.whole().map(|turned| turned.more_negative);
         }
@@ -69,7 +68,7 @@ impl Panel<'_> {
         Ok(more_negative)
     }
 
-    /// The tile from a column on: all columns that are left where the rows below are not worth several tasks.
+    /// The tile that begins at a column: all remaining columns where the rows below are not worth several tasks.
     fn tile(&self, first: usize) -> Tile {
         let n_columns = self.rows.columns.len();
         let height = self.rows.columns.first().map_or(0, |column| column.len());
@@ -88,7 +87,7 @@ impl Panel<'_> {
         }
     }
 
-    /// Changes all rows of a panel that is not divided.
+    /// Updates all rows of an undivided panel.
     fn whole(self) -> Result<AppliedRotations, usize> {
         Arch::new().dispatch(Square {
             kind: self.kind,
@@ -98,7 +97,7 @@ impl Panel<'_> {
         })
     }
 
-    /// Changes the square of a tile, or all of its rows where they are not divided.
+    /// Updates the square of a tile, or all of its rows where they are not divided.
     fn turn(&mut self, tile: &Tile) -> Result<AppliedRotations, usize> {
         let Range { start, end } = tile.columns;
         let n_rows = match tile.rows_of_task {
@@ -119,7 +118,7 @@ impl Panel<'_> {
         })
     }
 
-    /// Changes the rows below the square of a tile.
+    /// Updates the rows below the square of a tile.
     fn update_rows_below(&mut self, (tile, turned): &(Tile, AppliedRotations)) {
         let Some(n_each) = tile.rows_of_task else {
             return;
@@ -133,7 +132,7 @@ impl Panel<'_> {
         update_in_parallel(pieces.into_iter().skip(1).collect(), turned);
     }
 
-    /// Changes the rows below the square of a tile, and along with them the square of the next one.
+    /// Updates the rows below the square of a tile, and with them the square of the next tile.
     fn update_below_and_next_square(
         &mut self,
         (before, turned): &(Tile, AppliedRotations),
@@ -167,7 +166,7 @@ impl Panel<'_> {
     }
 }
 
-/// Changes rows below the pivots of columns, which are tasks.
+/// Updates rows below the pivots of columns, as parallel tasks.
 fn update_in_parallel(pieces: Vec<Rows<'_>>, turned: &AppliedRotations) {
     let tasks = pieces.into_par_iter().with_max_len(1);
     tasks.for_each(|mut rows| {
@@ -176,7 +175,7 @@ fn update_in_parallel(pieces: Vec<Rows<'_>>, turned: &AppliedRotations) {
     });
 }
 
-/// Where the rows of a panel are cut: so many from one on, and then each so many.
+/// Division of the rows of a panel: a first piece, then pieces of equal size.
 #[derive(Clone, Copy)]
 struct Cut {
     from: usize,

@@ -2,7 +2,7 @@
 
 use pulp::Simd;
 
-/// Columns of a panel that are changed together.
+/// Columns of a panel that are updated together.
 pub(super) const BLOCK: usize = 4;
 
 /// The action of a term on a column l of the factor, below the diagonal: w <- w - c l, then l <- p l + q w.
@@ -13,8 +13,8 @@ pub(super) struct Rotation {
     pub(super) q: f64,
 }
 
-/// Applies the rotations of terms (n_terms), one after the other, to the rows of a block of columns from one on, for two terms at a
-/// time: the columns are then read and written half as often.
+/// Applies the rotations of terms (n_terms), one after the other, to the rows `from` and below of a block of columns, in pairs of terms: the
+/// columns are then read and written half as often.
 #[inline(always)]
 pub(super) fn rotate_rows<S: Simd>(
     simd: S,
@@ -52,7 +52,7 @@ fn in_pairs<S: Simd, const WIDTH: usize>(
     }
 }
 
-/// Applies the rotations of some terms, one after the other, to the rows of a block of columns from one on.
+/// Applies the rotations of some terms, one after the other, to the rows `from` and below of a block of columns.
 #[inline(always)]
 fn apply<S: Simd, const WIDTH: usize, const TERMS: usize>(
     simd: S,
@@ -104,8 +104,8 @@ fn apply<S: Simd, const WIDTH: usize, const TERMS: usize>(
     }
 }
 
-/// One step of L D L^T + c w w^T at a pivot d: d' = d + c w^2, c' = c d/d' (Gill 1974, method C1). Gives the action on the
-/// column, and d'; the result is worthless where d' vanishes.
+/// One step of L D L^T + c w w^T at a pivot d: d' = d + c w^2, c' = c d/d' (Gill 1974, method C1). Returns the rotation of the column, and
+/// d'; the result is unusable where d' vanishes.
 #[inline(always)]
 pub(super) fn rotate(pivot: &mut f64, weight: &mut f64, w: f64) -> (Rotation, f64) {
     let old = *pivot;
@@ -116,8 +116,8 @@ pub(super) fn rotate(pivot: &mut f64, weight: &mut f64, w: f64) -> (Rotation, f6
     (Rotation { c: w, p: 1.0, q }, new)
 }
 
-/// One step as [`rotate`] does it where the diagonal holds the square root of the pivot, and each column is that root times
-/// the column of a unit L. The result is worthless where the new pivot is not positive.
+/// The step of [`rotate`] for a factor with the square root of the pivot on the diagonal, each column being that root times the column of a
+/// unit L. The result is unusable where the new pivot is not positive.
 #[inline(always)]
 pub(super) fn rotate_root(root: &mut f64, weight: &mut f64, w: f64) -> (Rotation, f64) {
     let old = *root;

@@ -1,5 +1,4 @@
-//! The dense kernels of a change: terms through some columns of a panel, and a right-hand side after them while what they changed is in
-//! the cache.
+//! Dense kernels of an update: terms are applied to some columns of a panel, and these to a right-hand side while they are in the cache.
 
 use pulp::{Simd, WithSimd};
 
@@ -15,31 +14,31 @@ pub(super) struct Rows<'a> {
     pub(super) columns: Vec<&'a mut [f64]>,
     /// Terms, shape (n_terms, n_rows).
     pub(super) terms: Vec<&'a mut [f64]>,
-    /// A right-hand side that the forward substitution takes along, shape (n_rows).
+    /// A right-hand side of the forward substitution, shape (n_rows).
     pub(super) right_hand_side: Option<&'a mut [f64]>,
 }
 
-/// Columns from the row of their first pivot on, down to that of their last one or further.
+/// Columns from the row of their first pivot down to that of their last one or further.
 pub(super) struct Square<'a, 'b> {
     pub(super) kind: FactorKind,
     /// Diagonal entries of the matrix by row.
     pub(super) diagonal: &'a [DiagonalEntry],
-    /// What is left of the weights of the terms, shape (n_terms).
+    /// Remaining weights of the terms, shape (n_terms).
     pub(super) weights: &'a mut [f64],
     pub(super) rows: Rows<'b>,
 }
 
-/// What terms do with columns.
+/// The action of terms on columns.
 pub(super) struct AppliedRotations {
-    /// For each block of columns and each term, its action on the columns, shape (n_blocks, n_terms).
+    /// Rotations of the columns by each term, for each block of columns, shape (n_blocks, n_terms).
     pub(super) rotations: Vec<[Rotation; BLOCK]>,
-    /// What the right-hand side becomes at the pivots; empty without one.
+    /// Right-hand side at the pivots after the forward substitution; empty without one.
     pub(super) solved: Vec<f64>,
     /// Change of the number of negative pivots.
     pub(super) more_negative: isize,
 }
 
-/// The change, or the column whose pivot vanished.
+/// Returns the action of the terms, or the column of a vanishing pivot.
 impl WithSimd for Square<'_, '_> {
     type Output = Result<AppliedRotations, usize>;
 
@@ -116,7 +115,7 @@ impl WithSimd for Below<'_, '_> {
     }
 }
 
-/// The pivots of a block of columns, from the row of the first of them on.
+/// Pivots of a block of columns, from the row of the first one.
 struct Pivots<'a> {
     kind: FactorKind,
     /// Diagonal entries by row.
@@ -125,7 +124,7 @@ struct Pivots<'a> {
 }
 
 impl Pivots<'_> {
-    /// Changes the pivots and the triangle between them, and notes the rotations.
+    /// Updates the pivots and the triangle between them, and stores the rotations.
     #[inline(always)]
     fn change(
         self,
@@ -154,7 +153,7 @@ impl Pivots<'_> {
                     FactorKind::Llt => pivot,
                     FactorKind::Ldlt => pivot.abs(),
                 };
-                // After each term: what is lost with one does not come back with the next.
+                // Checked after each term: digits lost with one term do not come back with the next.
                 if size.is_nan() || size <= vanishing {
                     return Err(row);
                 }

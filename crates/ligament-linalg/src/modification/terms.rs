@@ -1,20 +1,20 @@
-//! Terms on their way through a factor, and what of them lies in the panel at hand.
+//! Terms on their way up the elimination tree, and their rows in the current panel.
 
 use std::ops::Range;
 
-/// Terms that go through the factor at once: their part of a panel stays in the cache.
+/// Number of terms applied together, small enough for their part of a panel to stay in the cache.
 pub(super) const TERMS_AT_ONCE: usize = 32;
 
-/// The terms c w w^T on their way, with what of w lies in the panel at hand.
+/// Terms c w w^T on their way up the elimination tree, with the rows of w in the current panel.
 #[derive(Default)]
 pub(super) struct Terms {
-    /// What is left of the weight c of each term.
+    /// Remaining weight c of each term.
     weights: Vec<f64>,
-    /// The terms that are not zero in the columns of the panel.
+    /// Terms that are not zero in the columns of the panel.
     active: Vec<usize>,
     /// Weights of the active terms.
     active_weights: Vec<f64>,
-    /// Rows of the panel of the active terms, one term after another, shape (active, height).
+    /// Rows of the panel for the active terms, one term after another, shape (active, height).
     rows: Vec<f64>,
     height: usize,
 }
@@ -26,7 +26,7 @@ impl Terms {
         self.weights.extend(weights);
     }
 
-    /// Takes over what terms have in a panel; false if they are all zero in its columns.
+    /// Reads the rows of the terms in a panel; returns false if all terms are zero in its columns.
     pub(super) fn gather(
         &mut self,
         columns: Range<usize>,
@@ -58,13 +58,13 @@ impl Terms {
         !self.active.is_empty()
     }
 
-    /// Weights of the terms that are not zero in the panel, and the rows of each of them.
+    /// Weights of the active terms, and the rows of each of them in the panel.
     pub(super) fn in_panel(&mut self) -> (&mut [f64], Vec<&mut [f64]>) {
         let rows = self.rows.chunks_exact_mut(self.height).collect();
         (&mut self.active_weights, rows)
     }
 
-    /// Hands the terms on to the rows below the panel.
+    /// Writes the updated weights, and the terms at the rows below the panel.
     pub(super) fn scatter(
         &mut self,
         columns: Range<usize>,

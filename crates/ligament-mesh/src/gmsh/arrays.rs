@@ -1,4 +1,4 @@
-//! A mesh from arrays of nodes and elements, as libraries for meshes hold them in memory.
+//! Meshes from arrays of nodes and elements, as mesh libraries store them in memory.
 
 use std::collections::HashMap;
 
@@ -9,22 +9,23 @@ use super::records::{self, Node, Records};
 use super::{plane, solid};
 use crate::any_mesh::AnyMesh;
 
-/// An element by its corners, and the group that it is part of; an element in several groups stands once for each.
+/// An element, given by its corners, and its group; an element in several groups occurs once for each.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Element<'a> {
     /// Dimension: 0 a point, 1 an edge, 2 a planar cell or the face of a solid one, 3 a solid cell.
     pub dimension: u8,
-    /// Tags of the corners: one of a point, two of an edge, three or four of a planar cell; four, five, six or eight of a solid one.
+    /// Tags of the corners: one for a point, two for an edge, three or four for a planar cell; four, five, six or eight for a solid one.
     pub corners: Vec<u64>,
     /// Name of the group.
     pub group: Option<&'a str>,
 }
 
-/// The mesh of nodes, by their tags and positions (m), and elements: a solid one where an element is solid. What no file of a mesh may
-/// have is refused here, too.
+/// The mesh of nodes, given by their tags and positions (m), and elements: a solid mesh if an element is solid. The checks are those of a
+/// mesh file.
 ///
 /// # Errors
-/// Where an element has other numbers of corners, or the elements are no mesh; places count elements as lines.
+/// Returns an error if an element has another number of corners, or the elements form no mesh; positions in it are element numbers, as
+/// lines.
 pub fn assemble(nodes: &[(u64, [f64; 3])], elements: &[Element<'_>]) -> Result<AnyMesh, GmshError> {
     // An element is found by its line, as in a file.
     let lines = "\n".repeat(elements.len());

@@ -1,4 +1,4 @@
-//! From the records of a file to the nodes that its cells use.
+//! Selection of the nodes that the cells use, from the records of a file.
 
 use super::cursor::Cursor;
 use super::error::GmshError;
@@ -9,7 +9,7 @@ use crate::remark::Remark;
 /// Number of a corner whose node was dropped.
 pub(super) const DROPPED: u32 = u32::MAX;
 
-/// What the cells use a node for.
+/// Use of a node by the cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Use {
     None,
@@ -17,21 +17,21 @@ enum Use {
     Corner,
 }
 
-/// The nodes that stay, those that are corners of cells, and what refers to them.
+/// Nodes that are corners of cells, and the references to them.
 pub(super) struct Assembly {
-    /// The nodes that stay, in the order of the file.
+    /// Nodes that are kept, in the order of the file.
     pub(super) nodes: Vec<Node>,
     /// Indices of node records by their tags.
     pub(super) by_tag: NodeIndices,
-    /// The new number of every node record: none if it is dropped.
+    /// New number of every node record; `None` for a dropped node.
     pub(super) numbers: Vec<Option<u32>>,
-    /// The new numbers of the corners of all elements, one after the other; [`DROPPED`] where there is none.
+    /// New numbers of the corners of all elements, one after the other; [`DROPPED`] for a dropped node.
     pub(super) corners: Vec<u32>,
     uses: Vec<Use>,
 }
 
 impl Assembly {
-    /// Keeps the nodes that cells of this dimension have as corners.
+    /// Keeps the nodes that are corners of cells of a given dimension.
     pub(super) fn new(
         cursor: &Cursor<'_>,
         records: &Records,
@@ -54,7 +54,7 @@ impl Assembly {
         })
     }
 
-    /// What to say of nodes that were dropped, with so many cells of higher order.
+    /// Remarks on dropped nodes, for a number of cells of higher order.
     pub(super) fn remarks(&self, higher_order_cells: usize) -> Vec<Remark> {
         let count = |kind| {
             let uses = self.uses.iter();
@@ -83,7 +83,7 @@ fn missing_node(cursor: &Cursor<'_>, element: &Element, node: u64) -> GmshError 
     }
 }
 
-/// The corners of every element as indices of node records.
+/// Corners of every element as indices of node records.
 fn resolve_corners(
     cursor: &Cursor<'_>,
     records: &Records,
@@ -125,7 +125,7 @@ fn node_uses(
     Ok(uses)
 }
 
-/// The nodes that stay, and the new number of every node record: none if it is dropped.
+/// Nodes that are kept, and the new number of every node record; `None` for a dropped node.
 fn number_nodes(nodes: &[Node], uses: &[Use]) -> (Vec<Node>, Vec<Option<u32>>) {
     let mut kept = Vec::with_capacity(nodes.len());
     let number = |(node, node_use): (&Node, &Use)| {

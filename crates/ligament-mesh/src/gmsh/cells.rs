@@ -1,4 +1,4 @@
-//! The cells of a mesh among the elements of a file: those that stand there twice, and those that lie over each other.
+//! Cells of a mesh from the elements of a file, with checks for repeated and overlapping cells.
 
 use super::cursor::Cursor;
 use super::element_type::Shape;
@@ -7,7 +7,7 @@ use super::records::{Element, Records};
 use crate::cell::MeshCell;
 use crate::overlap::first_covering;
 
-/// Cells and the indices of the elements that they were.
+/// Cells and the indices of their elements.
 pub(super) struct Cells<C> {
     pub(super) cells: Vec<C>,
     pub(super) elements: Vec<usize>,
@@ -21,7 +21,7 @@ impl<C> Cells<C> {
         }
     }
 
-    /// The cells that `cell` makes of the shapes of elements and their corners (numbers of nodes), once `oriented` has turned them round.
+    /// Cells made by `cell` from the shapes of elements and their corners (numbers of nodes), and oriented by `oriented`.
     pub(super) fn of_elements(
         cursor: &Cursor<'_>,
         records: &Records,
@@ -40,14 +40,14 @@ impl<C> Cells<C> {
         Ok(found)
     }
 
-    /// Number of the cells that were elements of higher order.
+    /// Number of cells made from elements of higher order.
     pub(super) fn of_higher_order(&self, records: &Records) -> usize {
         let elements = self.elements.iter();
         let higher = elements.filter(|element| records.elements[**element].higher_order);
         higher.count()
     }
 
-    /// The elements of two cells.
+    /// Elements of two cells.
     pub(super) fn elements_of<'a>(
         &self,
         records: &'a Records,
@@ -74,10 +74,9 @@ fn check_corners(
     }
 }
 
-/// The cells each once, and the number of the cell of each element that is one.
+/// Merges repeated cells; returns the cells, each once, and the number of the cell of each element, if any.
 ///
-/// In format 2.2 a cell stands in the file once for each of its groups: those become one. Any other cell that stands there twice
-/// is refused.
+/// In format 2.2 a cell occurs in the file once for each of its groups: these are merged. Any other repeated cell is refused.
 pub(super) fn merge_repeated<const D: usize, C: MeshCell<D>>(
     cursor: &Cursor<'_>,
     records: &Records,
@@ -102,7 +101,7 @@ pub(super) fn merge_repeated<const D: usize, C: MeshCell<D>>(
     Ok((once, cell_of_element))
 }
 
-/// Refuses cells that lie over each other without an edge or a face in common, by the triangles or tetrahedra of each cell.
+/// Refuses cells that overlap without a common edge or face, by the triangles or tetrahedra of each cell.
 pub(super) fn check_covering<const D: usize, const N: usize, C, S>(
     cursor: &Cursor<'_>,
     records: &Records,
@@ -129,14 +128,14 @@ where
     })
 }
 
-/// For each cell the first one of the same corners.
+/// First cell with the same corners, for each cell.
 fn first_alike<const D: usize, C: MeshCell<D>>(
     cursor: &Cursor<'_>,
     records: &Records,
     all: &Cells<C>,
     n_nodes: usize,
 ) -> Result<Vec<usize>, GmshError> {
-    // Where cells are repeated, only those of one owner are alike.
+    // Where cells are repeated, duplicates are only those of one owner.
     let owner = |cell: usize| match records.repeats_cells {
         true => records.elements[all.elements[cell]].owner,
         false => 0,
@@ -168,7 +167,7 @@ fn first_alike<const D: usize, C: MeshCell<D>>(
     Ok(first)
 }
 
-/// The cells in the order of their lowest corners, and where those of each node begin (n_nodes + 1).
+/// Cells in the order of their lowest corners, and the first cell of each node in this order (n_nodes + 1).
 fn by_lowest_corner<const D: usize, C: MeshCell<D>>(
     cells: &[C],
     n_nodes: usize,
@@ -191,7 +190,7 @@ fn by_lowest_corner<const D: usize, C: MeshCell<D>>(
     (offsets, ordered)
 }
 
-/// The corners of a cell in ascending order: the same for every cell of the same corners.
+/// Corners of a cell in ascending order: equal for all cells with the same corners.
 fn key<const D: usize, C: MeshCell<D>>(cell: &C) -> [u32; 8] {
     let mut key = [u32::MAX; 8];
     key[..cell.corners().len()].copy_from_slice(cell.corners());

@@ -1,8 +1,8 @@
-//! Reading values one after the other from the bytes of a file.
+//! Sequential reading of values from the bytes of a file.
 
 use super::error::{GmshError, Place};
 
-/// How the numbers of the sections are written.
+/// Encoding of the numbers in the sections.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Encoding {
     /// Numbers as text, one row of the format per line.
@@ -23,7 +23,7 @@ pub(super) struct Cursor<'a> {
 }
 
 impl<'a> Cursor<'a> {
-    /// A cursor at the beginning; the format section is text in every file.
+    /// A cursor at the beginning of the file, whose format section is always text.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         Self {
             bytes,
@@ -33,9 +33,9 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Goes from the text of the format line to binary values, the first of which is the integer 1.
+    /// Switches from the text of the format line to binary values, the first of which is the integer 1.
     pub(super) fn begin_binary(&mut self) -> Result<(), GmshError> {
-        // Behind the end of the line, on which the cursor stands.
+        // Skips the end of the line, which the cursor has reached.
         self.offset += 1;
         self.encoding = Encoding::LittleEndian;
         let begin = self.offset;
@@ -63,7 +63,7 @@ impl<'a> Cursor<'a> {
         self.bytes.len() - self.offset
     }
 
-    /// The place of a byte, in the terms of this kind of file.
+    /// Position of a byte, as a line or an offset by the kind of file.
     pub(super) fn place(&self, offset: usize) -> Place {
         if self.is_ascii() {
             let before = &self.bytes[..offset.min(self.bytes.len())];
@@ -89,7 +89,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// The error that at `offset` stands `found` instead of what the format wants.
+    /// The error for the text `found` at `offset` instead of the expected value.
     pub(super) fn unexpected(
         &self,
         offset: usize,
@@ -111,14 +111,14 @@ impl<'a> Cursor<'a> {
             .unwrap_or(rest.len());
     }
 
-    /// Goes to the next row of an ASCII section; in a binary one there are no rows.
+    /// Moves to the next row of an ASCII section; a binary section has no rows.
     pub(super) fn begin_row(&mut self) {
         if self.is_ascii() {
             self.skip_while(|byte| byte.is_ascii_whitespace());
         }
     }
 
-    /// Makes sure that an ASCII row ends here.
+    /// Checks that an ASCII row ends here.
     pub(super) fn end_row(&mut self) -> Result<(), GmshError> {
         if !self.is_ascii() {
             return Ok(());
@@ -135,16 +135,16 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// The rest of the line, without blanks around it; the cursor stands on its end then.
+    /// Rest of the line, without blanks around it; the cursor moves to the end of the line.
     fn rest_of_line(&mut self) -> &'a [u8] {
         let begin = self.offset;
         self.skip_while(|byte| byte != b'\n');
         self.bytes[begin..self.offset].trim_ascii()
     }
 
-    /// The next line that is not blank and where it begins: text, also in a binary file.
+    /// Next line that is not blank, and its offset: text, also in a binary file.
     ///
-    /// The cursor stands behind the end of the line then: there binary values begin.
+    /// The cursor moves behind the end of the line, where binary values begin.
     pub(super) fn text_line(&mut self) -> Result<(usize, &'a [u8]), GmshError> {
         self.skip_while(|byte| byte.is_ascii_whitespace());
         let begin = self.offset;
@@ -156,7 +156,7 @@ impl<'a> Cursor<'a> {
         Ok((begin, line))
     }
 
-    /// The count on the next line, and where it begins.
+    /// Count on the next line, and its offset.
     pub(super) fn count_line(&mut self, expected: &'static str) -> Result<(usize, u64), GmshError> {
         let (begin, line) = self.text_line()?;
         std::str::from_utf8(line)
@@ -166,7 +166,7 @@ impl<'a> Cursor<'a> {
             .ok_or_else(|| self.unexpected(begin, expected, shown(line)))
     }
 
-    /// The next word of an ASCII row.
+    /// Next word of an ASCII row.
     fn token(&mut self, expected: &'static str) -> Result<&'a [u8], GmshError> {
         self.skip_while(is_blank);
         let begin = self.offset;
@@ -196,7 +196,7 @@ impl<'a> Cursor<'a> {
         Ok(*chunk)
     }
 
-    /// The next `int`.
+    /// Next `int`.
     pub(super) fn int(&mut self, expected: &'static str) -> Result<i32, GmshError> {
         match self.encoding {
             Encoding::Ascii => self.parsed(expected),
@@ -205,14 +205,14 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// The next `int`, which must not be negative.
+    /// Next `int`, which must not be negative.
     pub(super) fn unsigned_int(&mut self, expected: &'static str) -> Result<u64, GmshError> {
         let begin = self.offset;
         let value = self.int(expected)?;
         u64::try_from(value).map_err(|_| self.unexpected(begin, expected, value.to_string()))
     }
 
-    /// The next `size_t`.
+    /// Next `size_t`.
     pub(super) fn size(&mut self, expected: &'static str) -> Result<u64, GmshError> {
         match self.encoding {
             Encoding::Ascii => self.parsed(expected),
@@ -221,7 +221,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// The next `double`.
+    /// Next `double`.
     pub(super) fn real(&mut self, expected: &'static str) -> Result<f64, GmshError> {
         match self.encoding {
             Encoding::Ascii => self.parsed(expected),
@@ -230,7 +230,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Refuses a count, read at `offset`, of items of at least `bytes_each` that cannot all follow.
+    /// Refuses a count, read at `offset`, of items of at least `bytes_each` bytes for which the file is too short.
     pub(super) fn check_count(
         &self,
         offset: usize,
@@ -248,7 +248,7 @@ impl<'a> Cursor<'a> {
             })
     }
 
-    /// The name of the section that begins here; none at the end of the file.
+    /// Name of the section that begins here; `None` at the end of the file.
     pub(super) fn begin_section(&mut self) -> Result<Option<&'a str>, GmshError> {
         self.skip_while(|byte| byte.is_ascii_whitespace());
         let begin = self.offset;
@@ -261,19 +261,19 @@ impl<'a> Cursor<'a> {
             .and_then(|name| std::str::from_utf8(name).ok());
         let name = name.ok_or_else(|| self.unexpected(begin, "the $ of a section", shown(line)))?;
         self.section = (name, begin);
-        // Binary values begin right behind the end of the line.
+        // Binary values begin directly behind the end of the line.
         self.offset = self.bytes.len().min(self.offset + 1);
         Ok(Some(name))
     }
 
-    /// Makes sure that the current section ends here.
+    /// Checks that the current section ends here.
     pub(super) fn end_section(&mut self) -> Result<(), GmshError> {
         self.skip_while(|byte| byte.is_ascii_whitespace());
         let begin = self.offset;
         let line = self.rest_of_line();
         match line.strip_prefix(b"$End") {
             Some(name) if name == self.section.0.as_bytes() => Ok(()),
-            // A cut within the word is a cut, not a wrong word.
+            // A file that ends within the word is truncated; the word is not wrong.
             _ if self.remaining() == 0 && self.end_mark().starts_with(line) => {
                 Err(self.truncated())
             }
@@ -285,13 +285,13 @@ impl<'a> Cursor<'a> {
         [b"$End", self.section.0.as_bytes()].concat()
     }
 
-    /// Skips what is left of the current section, and its end.
+    /// Skips the rest of the current section, and its end.
     pub(super) fn skip_section(&mut self) -> Result<(), GmshError> {
         let mark = self.end_mark();
         let mut rest = &self.bytes[self.offset..];
         while let Some(dollar) = rest.iter().position(|byte| *byte == b'$') {
             rest = &rest[dollar..];
-            // Only a whole word ends the section: $EndElementData is no end of $EndElement.
+            // Only a whole word ends the section: $EndElementData does not end $EndElement.
             let behind = rest.get(mark.len()).copied().unwrap_or(b'\n');
             if rest.starts_with(&mark) && behind.is_ascii_whitespace() {
                 self.offset = self.bytes.len() - rest.len() + mark.len();
@@ -308,7 +308,7 @@ fn is_blank(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t' | b'\r')
 }
 
-/// What stands in the file, shortened for a message.
+/// Text from the file, shortened for a message.
 pub(super) fn shown(found: &[u8]) -> String {
     const LENGTH: usize = 40;
     if found.is_empty() {

@@ -1,4 +1,4 @@
-//! The element types of Gmsh.
+//! Element types of Gmsh.
 
 /// Shape of an element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,8 +35,8 @@ impl Shape {
         }
     }
 
-    /// The shape of a type number (`elm-type` in the manual, `MSH_*` in its sources) and its number of nodes, of which the
-    /// corners come first; none if unknown, or if its nodes are no corners.
+    /// Shape and number of nodes of a type number (`elm-type` in the manual, `MSH_*` in its sources), of which the corners come first;
+    /// `None` for unknown types, or if the nodes do not include the corners.
     pub(super) fn from_code(code: i32) -> Option<(Self, usize)> {
         Some(match code {
             15 => (Shape::Point, 1),

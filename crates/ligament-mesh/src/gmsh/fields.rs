@@ -1,4 +1,4 @@
-//! `$NodeData`: values at the nodes, the same in both formats.
+//! `$NodeData`: values at the nodes, equal in both formats.
 
 use std::collections::BTreeMap;
 
@@ -8,8 +8,8 @@ use super::records::{FieldRecord, Records, reserve};
 use super::tags::NodeIndices;
 use crate::field::NodeField;
 
-/// Reads `$NodeData` behind its first line: texts, real numbers and integers a line each, also in a binary file, and a row
-/// (node, values) for each node. The integers are the time step, the number of components and the number of rows.
+/// Reads `$NodeData` after its first line: texts, real numbers and integers on a line each, also in a binary file, and a row (node, values)
+/// for each node. The integers are the time step, the number of components and the number of rows.
 pub(super) fn read_node_data(
     cursor: &mut Cursor<'_>,
     records: &mut Records,
@@ -60,7 +60,7 @@ pub(super) fn read_node_data(
     cursor.end_section()
 }
 
-/// A count, and as many lines with where each begins.
+/// A count, and as many lines, each with its offset.
 fn tag_lines<'a>(
     cursor: &mut Cursor<'a>,
     expected: &'static str,
@@ -79,8 +79,8 @@ fn number<T: std::str::FromStr>(
         .ok_or_else(|| cursor.unexpected(offset, expected, shown(line)))
 }
 
-/// The fields on the nodes that stay (`numbers`: new number of every node record); what a section says of others is left
-/// out, for a file may hold a part of the mesh that a view was made on.
+/// Fields on the nodes that are kept (`numbers`: new number of every node record); values at other nodes are left out, since a file may
+/// contain only a part of the mesh of a view.
 pub(super) fn on_nodes(
     records: &Records,
     by_tag: &NodeIndices,
@@ -92,7 +92,7 @@ pub(super) fn on_nodes(
             Some((node, value))
         };
         let mut values: BTreeMap<u32, f64> = BTreeMap::new();
-        // Of several rows of a node the last one counts.
+        // The last row of a node counts.
         values.extend(record.values.iter().filter_map(on_node));
         NodeField {
             name: record.name.clone(),

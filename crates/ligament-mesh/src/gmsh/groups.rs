@@ -1,4 +1,4 @@
-//! The physical groups.
+//! Physical groups.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use crate::cell::Cell;
 use crate::group::Group;
 use crate::remark::Remark;
 
-/// The groups of all elements, in the order of dimension and number; remarks on those left out.
+/// Groups of all elements, in the order of dimension and number; adds remarks on groups left out.
 pub(super) fn collect(
     records: &Records,
     assembly: &Assembly,
@@ -49,7 +49,7 @@ pub(super) fn collect(
     finished(groups, assembly.nodes.len(), remarks)
 }
 
-/// The face of a solid cell with these corners.
+/// The face of a solid cell with given corners.
 pub(super) fn face(corners: &[u32]) -> Option<Cell> {
     match *corners {
         [a, b, c] => Some(Cell::Triangle([a, b, c])),
@@ -58,7 +58,7 @@ pub(super) fn face(corners: &[u32]) -> Option<Cell> {
     }
 }
 
-/// All groups that the file names or uses, empty.
+/// All groups that the file names or uses, still empty.
 fn announced(records: &Records) -> BTreeMap<(u8, i32), Group> {
     let used = records
         .physicals
@@ -77,7 +77,7 @@ fn announced(records: &Records) -> BTreeMap<(u8, i32), Group> {
             },
         )
     };
-    // Number 0 stands for no group.
+    // Number 0 means no group.
     records
         .names
         .keys()
@@ -88,7 +88,7 @@ fn announced(records: &Records) -> BTreeMap<(u8, i32), Group> {
         .collect()
 }
 
-/// The groups with their lists in order; the empty ones become remarks.
+/// Groups with sorted lists; empty groups become remarks.
 fn finished(
     groups: BTreeMap<(u8, i32), Group>,
     n_nodes: usize,
@@ -115,14 +115,14 @@ fn finished(
     full
 }
 
-/// The nodes in ascending order, each once.
+/// Nodes in ascending order, each once.
 fn ascending(mut nodes: Vec<u32>, n_nodes: usize) -> Vec<u32> {
     if nodes.len() < n_nodes {
         nodes.sort_unstable();
         nodes.dedup();
         return nodes;
     }
-    // Most nodes stand there several times: a mark a node is quicker than an order.
+    // Most nodes are repeated: a flag per node is faster than sorting.
     let mut is_in = vec![false; n_nodes];
     for node in nodes {
         is_in[node as usize] = true;

@@ -1,4 +1,4 @@
-//! What kind of mesh a file holds, told without reading all of it.
+//! Kind of mesh in a file, without reading the whole file.
 
 use super::cursor::Cursor;
 use super::error::GmshError;
@@ -6,7 +6,8 @@ use super::records::Records;
 use super::sections::{Version, read_format};
 use super::{v2, v4};
 
-/// Whether a Gmsh mesh file is one of solids: whether it has volumes, in files of 4.1 by their entities. Not if it cannot be read.
+/// Whether a Gmsh mesh file has a solid mesh: whether it has volumes, in files of 4.1 by their entities. False for a file that cannot be
+/// read.
 pub fn holds_solid(bytes: &[u8]) -> bool {
     of_sections(&mut Cursor::new(bytes)).unwrap_or(false)
 }

@@ -1,20 +1,18 @@
 //! Gmsh mesh files, formats 2.2 and 4.1, ASCII and binary (of either byte order).
 //!
-//! - Tetrahedra, hexahedra, prisms and pyramids make a solid mesh, where there are any; triangles and quadrangles else a planar
-//!   one. Of cells of higher order only the corners are taken. Elements of lower dimension serve the groups.
-//! - A physical group takes the nodes of its elements. In 4.1 an element finds its groups by its
-//!   entity in `$Entities`; elements without a group (`Mesh.SaveAll`) are part of the mesh all the same.
-//!   With `Mesh.SaveAll`, Gmsh drops the groups from files of 2.2: save 4.1 then.
-//! - Nodes that no cell uses are dropped, from the groups too.
-//! - `$NodeData` makes the fields of the mesh, of which scalars are kept.
+//! - A file with tetrahedra, hexahedra, prisms or pyramids gives a solid mesh; triangles and quadrangles alone give a planar one. Only the
+//!   corners of cells of higher order are read. Elements of lower dimension serve the groups.
+//! - A physical group has the nodes of its elements. In 4.1 the groups of an element are those of its entity in `$Entities`; elements
+//!   without a group (`Mesh.SaveAll`) are part of the mesh as well. With `Mesh.SaveAll`, Gmsh drops the groups from files of 2.2: save 4.1
+//!   then.
+//! - Nodes that no cell uses are dropped, also from the groups.
+//! - `$NodeData` gives the fields of the mesh, of which scalars are stored.
 //! - In a planar mesh the z coordinate must be constant and is dropped.
-//! - Cells that are clockwise, or turned inside out, are turned round. In a solid mesh a surface element in a group must be a face
-//!   of a cell.
+//! - Clockwise or inverted cells are reoriented. In a solid mesh a surface element in a group must be a face of a cell.
 //!
-//! Files by the Python package meshio are read as well. Its writer of 4.1 (`gmsh`) keeps at most one
-//! physical group per entity, and drops all of them where the mesh has no `gmsh:dim_tags`: such
-//! elements are in no group here, which [`Remark::UndescribedEntities`](crate::Remark) tells. Its
-//! writer of 2.2 (`gmsh22`) keeps the groups.
+//! Files written by the Python package meshio are read as well. Its writer of 4.1 (`gmsh`) keeps at most one physical group per entity, and
+//! drops all of them where the mesh has no `gmsh:dim_tags`: such elements are in no group here, as
+//! [`Remark::UndescribedEntities`](crate::Remark) reports. Its writer of 2.2 (`gmsh22`) keeps the groups.
 
 mod arrays;
 mod assembly;
@@ -46,17 +44,17 @@ use crate::mesh::Mesh;
 /// Reads the bytes of a Gmsh mesh file of a planar mesh.
 ///
 /// # Errors
-/// Where the file is damaged or not planar, with the place and what to do.
+/// Returns an error if the file is damaged or not planar, with the position in the file and a remedy.
 pub fn parse(bytes: &[u8]) -> Result<Mesh, GmshError> {
     let mut cursor = cursor::Cursor::new(bytes);
     let records = sections::read(&mut cursor)?;
     plane::assemble(&cursor, &records)
 }
 
-/// Reads the bytes of a Gmsh mesh file: a solid mesh where it has a solid cell, a planar one else.
+/// Reads the bytes of a Gmsh mesh file: a solid mesh if it has a solid cell, else a planar one.
 ///
 /// # Errors
-/// Where the file is damaged, or has no solid cell and is not planar, with the place and what to do.
+/// Returns an error if the file is damaged, or has no solid cell and is not planar, with the position in the file and a remedy.
 pub fn parse_any(bytes: &[u8]) -> Result<AnyMesh, GmshError> {
     let mut cursor = cursor::Cursor::new(bytes);
     let records = sections::read(&mut cursor)?;

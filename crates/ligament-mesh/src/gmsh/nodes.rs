@@ -1,15 +1,15 @@
-//! Whether nodes can be those of a mesh.
+//! Checks of the nodes of a mesh.
 
 use super::cursor::Cursor;
 use super::error::GmshError;
 use super::records::Node;
 
-/// Heights may differ by this part of the mesh size.
+/// Largest difference of heights, relative to the mesh size.
 const FLATNESS: f64 = 1e-9;
-/// Nodes this near along every axis, as a part of the mesh size, are at one place.
+/// Distance along every axis, relative to the mesh size, below which nodes coincide.
 const COINCIDENCE: f64 = 1e-12;
 
-/// The longest side of the box around the nodes, m.
+/// Longest side of the box around the nodes, m.
 pub(super) fn size(nodes: &[Node]) -> f64 {
     let extent = |axis: usize| {
         let values = nodes.iter().map(|node| node.position[axis]);
@@ -18,7 +18,7 @@ pub(super) fn size(nodes: &[Node]) -> f64 {
     (0..3).map(extent).fold(0.0, f64::max)
 }
 
-/// Refuses nodes out of one plane.
+/// Refuses nodes off a common plane.
 pub(super) fn check_plane(cursor: &Cursor<'_>, nodes: &[Node], size: f64) -> Result<(), GmshError> {
     let plane = nodes[0].position[2];
     match nodes
@@ -35,8 +35,8 @@ pub(super) fn check_plane(cursor: &Cursor<'_>, nodes: &[Node], size: f64) -> Res
     }
 }
 
-/// Two nodes nearer than half the tolerance along each axis of a mesh of this dimension, if there are any, and no two farther apart than
-/// all of it: the first in the file first.
+/// Two coincident nodes, if any, in the order of the file: finds all nearer than half the tolerance along each axis of a mesh of a given
+/// dimension, and none farther apart than the whole tolerance.
 pub(super) fn coincident(nodes: &[Node], size: f64, dimension: usize) -> Option<[&Node; 2]> {
     let width = COINCIDENCE * size;
     let lowest = |axis: usize| {
@@ -46,7 +46,7 @@ pub(super) fn coincident(nodes: &[Node], size: f64, dimension: usize) -> Option<
     let lowest = [lowest(0), lowest(1)];
     let across = dimension - 1;
     // Near nodes fall into one strip of one of two sets of strips, shifted by half a width, in space into one column of one of four sets;
-    // along the last axis they are neighbours there.
+    // there they are adjacent along the last axis.
     (0..1 << across).find_map(|shifted: usize| {
         let place = |node: &Node, axis: usize| {
             let shift = if (shifted >> axis) & 1 == 1 { 0.5 } else { 0.0 };

@@ -1,4 +1,4 @@
-//! The records of a file as they stand there, before they make a mesh.
+//! Records of a file, before they form a mesh.
 
 use std::collections::HashMap;
 use std::num::NonZero;
@@ -11,7 +11,7 @@ use super::error::GmshError;
 /// Bytes of the stack of a thread.
 const STACK: usize = 1 << 21;
 
-/// Coordinates beyond this would overflow in products.
+/// Largest coordinate whose products do not overflow.
 const LARGEST_COORDINATE: f64 = 1e100;
 
 /// A node record.
@@ -28,24 +28,24 @@ pub(super) struct Node {
 pub(super) struct Element {
     pub(super) tag: u64,
     pub(super) shape: Shape,
-    /// Whether the element has nodes beside its corners.
+    /// Whether the element has nodes in addition to its corners.
     pub(super) higher_order: bool,
-    /// Number of the physical group (2.2) or of the entity (4.1), which decides the groups of the element.
+    /// Number of the physical group (2.2) or of the entity (4.1), which determines the groups of the element.
     pub(super) owner: i32,
-    /// Place of its first corner among those of all elements.
+    /// Index of the first corner among the corners of all elements.
     pub(super) first_corner: usize,
     /// Offset of the element in the file, bytes.
     pub(super) offset: usize,
 }
 
 impl Element {
-    /// The places of its corners among those of all elements.
+    /// Indices of its corners among the corners of all elements.
     pub(super) fn corners(&self) -> std::ops::Range<usize> {
         self.first_corner..self.first_corner + self.shape.corners()
     }
 }
 
-/// Where the type of an element stands in the file, and its number.
+/// Offset of an element type in the file, and its number.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct TypeRecord {
     pub(super) offset: usize,
@@ -62,34 +62,34 @@ pub(super) struct FieldRecord {
     pub(super) values: Vec<(u64, f64)>,
 }
 
-/// All records of a file that a mesh is made of.
+/// All records of a file that form a mesh.
 #[derive(Debug, Default)]
 pub(super) struct Records {
     pub(super) nodes: Vec<Node>,
     pub(super) elements: Vec<Element>,
     /// Tags of the corners of all elements, one after the other.
     pub(super) corners: Vec<u64>,
-    /// Nodes of planar and solid cells that are no corners, each with the index of its element.
+    /// Nodes of planar and solid cells that are not corners, each with the index of its element.
     pub(super) inner_nodes: Vec<(u64, u32)>,
     /// Type of the first solid element.
     pub(super) first_solid: Option<TypeRecord>,
     /// Names of physical groups by dimension and number.
     pub(super) names: HashMap<(u8, i32), String>,
-    /// Numbers of the physical groups by dimension and owner of their elements.
+    /// Numbers of the physical groups, by the dimension and the owner of their elements.
     pub(super) physicals: HashMap<(u8, i32), Vec<i32>>,
     /// Values at the nodes.
     pub(super) fields: Vec<FieldRecord>,
-    /// Whether a cell in several groups stands once per group (2.2) rather than once (4.1).
+    /// Whether a cell in several groups occurs once per group (2.2) rather than once (4.1).
     pub(super) repeats_cells: bool,
 }
 
-/// Element of a file before its nodes.
+/// Properties of an element before its nodes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ElementHeader {
     pub(super) tag: u64,
-    /// Physical group, or entity, that owns it.
+    /// Physical group, or entity, of the element.
     pub(super) owner: i32,
-    /// Place in the file, bytes.
+    /// Offset in the file, bytes.
     pub(super) offset: usize,
     /// Shape and number of nodes.
     pub(super) element_type: (Shape, usize),
@@ -115,13 +115,13 @@ impl Records {
         }
     }
 
-    /// The shape and number of nodes of a type.
+    /// Shape and number of nodes of an element type.
     pub(super) fn element_type(
         &mut self,
         cursor: &Cursor<'_>,
         record: TypeRecord,
     ) -> Result<(Shape, usize), GmshError> {
-        // The place costs a pass over the file: only errors may ask for it.
+        // The position costs a pass over the file: only errors compute it.
         let (shape, nodes) =
             Shape::from_code(record.code).ok_or_else(|| GmshError::UnknownElementType {
                 place: cursor.place(record.offset),
@@ -133,7 +133,7 @@ impl Records {
         Ok((shape, nodes))
     }
 
-    /// Reads the node tags of an element, by `tag`, and keeps it.
+    /// Reads the node tags of an element with `tag`, and stores the element.
     pub(super) fn push_element<'a>(
         &mut self,
         cursor: &mut Cursor<'a>,
@@ -172,13 +172,13 @@ impl Records {
         Ok(())
     }
 
-    /// Fails where the system would not have the memory that it takes to make a mesh of these records.
+    /// Fails if the system does not have the memory to make a mesh of these records.
     ///
-    /// What follows asks for it in many parts, each of which would end the program where there is none. Bytes beside the records were
-    /// 370 a node with its quadrangle (a million of them), 280 a triangle with its half of a node, and 270 a tetrahedron with its sixth.
+    /// The mesh is allocated in many parts, each of which would abort the program if it failed. Measured bytes beside the records were 370 a
+    /// node with its quadrangle (a million of them), 280 a triangle with its half of a node, and 270 a tetrahedron with its sixth.
     pub(super) fn require_memory(&self) -> Result<(), GmshError> {
         let of_element = if self.first_solid.is_some() { 260 } else { 210 };
-        // The threads that look for cells over others begin later, where they have not yet.
+        // Threads that search for overlapping cells may start later.
         let threads = available_parallelism().map_or(1, NonZero::get);
         let parts = [
             self.nodes.len().saturating_mul(200),
@@ -190,11 +190,11 @@ impl Records {
     }
 }
 
-/// Makes room for more elements of a list, whose number a file tells.
+/// Reserves memory for more elements of a list, whose number is read from a file.
 ///
 /// # Errors
 ///
-/// If the system has no memory for them.
+/// Returns an error if the memory does not suffice.
 pub(super) fn reserve<T>(list: &mut Vec<T>, more: usize) -> Result<(), GmshError> {
     list.try_reserve(more).map_err(|_| GmshError::NoMemory {
         megabytes: (list.len().saturating_add(more)).saturating_mul(size_of::<T>()) / 1_000_000,

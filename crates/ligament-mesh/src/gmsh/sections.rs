@@ -1,4 +1,4 @@
-//! The sections of a file, one after the other.
+//! Reading the sections of a file in order.
 
 use super::cursor::{Cursor, shown};
 use super::error::GmshError;
@@ -12,7 +12,7 @@ pub(super) enum Version {
     V4,
 }
 
-/// Sections that say nothing on nodes, cells, groups and values at nodes.
+/// Sections without nodes, cells, groups or values at nodes.
 const SKIPPED: [&str; 7] = [
     "Comments",
     "ElementData",
@@ -54,13 +54,13 @@ pub(super) fn read(cursor: &mut Cursor<'_>) -> Result<Records, GmshError> {
     }
 }
 
-/// Reads `$MeshFormat`: the version, and how numbers are written.
+/// Reads `$MeshFormat`: the version, and the encoding of numbers.
 pub(super) fn read_format(cursor: &mut Cursor<'_>) -> Result<Version, GmshError> {
     loop {
         match cursor.begin_section() {
             Ok(Some("MeshFormat")) => break,
             Ok(Some("Comments")) => cursor.skip_section()?,
-            // Format 1 had no section for the format.
+            // Format 1 has no section for the format.
             Ok(Some("NOD")) => {
                 let place = cursor.place(0);
                 return Err(GmshError::UnsupportedVersion {
@@ -91,7 +91,7 @@ pub(super) fn read_format(cursor: &mut Cursor<'_>) -> Result<Version, GmshError>
     Ok(version)
 }
 
-/// Reads whether the file is binary, and in which byte order.
+/// Reads whether the file is binary, and its byte order.
 fn read_encoding(cursor: &mut Cursor<'_>) -> Result<(), GmshError> {
     const FILE_TYPE: &str = "the file type 0 (ASCII) or 1 (binary)";
     let begin = cursor.offset();
@@ -114,7 +114,7 @@ fn read_encoding(cursor: &mut Cursor<'_>) -> Result<(), GmshError> {
     cursor.begin_binary()
 }
 
-/// Reads `$PhysicalNames` behind its first line: text in every file.
+/// Reads `$PhysicalNames` after its first line: text in every file.
 fn read_physical_names(cursor: &mut Cursor<'_>, records: &mut Records) -> Result<(), GmshError> {
     let (begin, count) = cursor.count_line("the number of physical names")?;
     cursor.check_count(begin, count, "0 1 \"\"\n".len(), "physical names")?;
@@ -134,7 +134,7 @@ fn read_physical_names(cursor: &mut Cursor<'_>, records: &mut Records) -> Result
     cursor.end_section()
 }
 
-/// Dimension, number and name of a line of `$PhysicalNames`.
+/// Dimension, number and name from a line of `$PhysicalNames`.
 fn physical_name(line: &[u8]) -> Option<((u8, i32), String)> {
     let text = String::from_utf8_lossy(line);
     let (numbers, quoted) = text.split_once('"')?;

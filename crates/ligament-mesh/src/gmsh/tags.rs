@@ -1,4 +1,4 @@
-//! From the tags of nodes to their records.
+//! Indices of node records by the tags of the nodes.
 
 use std::collections::HashMap;
 
@@ -6,23 +6,22 @@ use super::cursor::Cursor;
 use super::error::GmshError;
 use super::records::Node;
 
-/// A table may have so many places a node; Gmsh numbers nodes without large gaps.
+/// Largest number of table entries per node; Gmsh numbers nodes without large gaps.
 const PLACES: usize = 4;
 
-/// No node has this index.
+/// Index of a missing node.
 const NONE: u32 = u32::MAX;
 
 /// Indices of node records by their tags.
 pub(super) enum NodeIndices {
-    /// Indices at the places of the tags, where these leave no large gaps: 0.1 s instead of 0.7 s for a
-    /// million nodes.
+    /// Table by tag, for tags without large gaps: 0.1 s instead of 0.7 s for a million nodes.
     Table(Vec<u32>),
-    /// For any tags.
+    /// Map for arbitrary tags.
     Map(HashMap<u64, u32>),
 }
 
 impl NodeIndices {
-    /// Refuses a tag that stands there twice.
+    /// Builds the index; refuses a repeated tag.
     pub(super) fn new(cursor: &Cursor<'_>, nodes: &[Node]) -> Result<Self, GmshError> {
         let largest = nodes.iter().map(|node| node.tag).max().unwrap_or(0);
         let mut indices = match usize::try_from(largest) {
@@ -43,7 +42,7 @@ impl NodeIndices {
         Ok(indices)
     }
 
-    /// Index of the node of a tag.
+    /// Index of the node with a tag.
     pub(super) fn get(&self, tag: u64) -> Option<u32> {
         match self {
             Self::Table(table) => {
@@ -54,7 +53,7 @@ impl NodeIndices {
         }
     }
 
-    /// Puts an index under a tag and gives the one that was there.
+    /// Sets the index of a tag and returns the previous one.
     fn insert(&mut self, tag: u64, index: u32) -> Option<u32> {
         match self {
             Self::Table(table) => {

@@ -5,7 +5,7 @@ use super::element_type::Shape;
 use super::error::GmshError;
 use super::records::{ElementHeader, Node, Records, TypeRecord, reserve};
 
-/// Reads `$Nodes` behind its first line.
+/// Reads `$Nodes` after its first line.
 pub(super) fn read_nodes(cursor: &mut Cursor<'_>, records: &mut Records) -> Result<(), GmshError> {
     let (begin, count) = cursor.count_line("the number of nodes")?;
     let smallest = if cursor.is_ascii() {
@@ -36,7 +36,7 @@ pub(super) fn read_nodes(cursor: &mut Cursor<'_>, records: &mut Records) -> Resu
     cursor.end_section()
 }
 
-/// Reads `$Elements` behind its first line.
+/// Reads `$Elements` after its first line.
 pub(super) fn read_elements(
     cursor: &mut Cursor<'_>,
     records: &mut Records,
@@ -85,7 +85,7 @@ fn read_row(cursor: &mut Cursor<'_>, records: &mut Records) -> Result<(), GmshEr
     cursor.end_row()
 }
 
-/// Reads elements of one type from a binary file and gives their number.
+/// Reads elements of one type from a binary file and returns their number.
 fn read_block(cursor: &mut Cursor<'_>, records: &mut Records) -> Result<u64, GmshError> {
     let record = TypeRecord {
         offset: cursor.offset(),

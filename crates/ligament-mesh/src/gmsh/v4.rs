@@ -4,7 +4,7 @@ use super::cursor::Cursor;
 use super::error::GmshError;
 use super::records::{ElementHeader, Node, Records, TypeRecord, reserve};
 
-/// Reads `$Entities`, or `$PartitionedEntities`, behind its first line: which groups an entity is in.
+/// Reads the groups of the entities from `$Entities`, or `$PartitionedEntities`, after its first line.
 pub(super) fn read_entities(
     cursor: &mut Cursor<'_>,
     records: &mut Records,
@@ -52,7 +52,7 @@ fn read_entity(
         let partitions = cursor.size("a number of partitions")?;
         skip_ints(cursor, partitions, "a partition")?;
     }
-    // A point gives its position, other entities their bounding box.
+    // A point has its position, other entities have their bounding box.
     for _ in 0..if dimension == 0 { 3 } else { 6 } {
         cursor.real("a coordinate of an entity")?;
     }
@@ -79,7 +79,7 @@ fn skip_ints(cursor: &mut Cursor<'_>, count: u64, expected: &'static str) -> Res
     Ok(())
 }
 
-/// The head of `$Nodes` or `$Elements`.
+/// Head of `$Nodes` or `$Elements`.
 struct Head {
     offset: usize,
     blocks: u64,
@@ -102,7 +102,7 @@ impl Head {
         })
     }
 
-    /// Ends the section, which must hold as many items as its head announces.
+    /// Ends the section, which must contain as many items as its head announces.
     fn end(
         &self,
         cursor: &mut Cursor<'_>,
@@ -121,7 +121,7 @@ impl Head {
     }
 }
 
-/// The dimension of an entity, 0 to 3.
+/// Dimension of an entity, 0 to 3.
 fn dimension(cursor: &mut Cursor<'_>) -> Result<u8, GmshError> {
     const EXPECTED: &str = "an entity dimension from 0 to 3";
     let offset = cursor.offset();
@@ -132,7 +132,7 @@ fn dimension(cursor: &mut Cursor<'_>) -> Result<u8, GmshError> {
     }
 }
 
-/// Reads `$Nodes` behind its first line.
+/// Reads `$Nodes` after its first line.
 pub(super) fn read_nodes(cursor: &mut Cursor<'_>, records: &mut Records) -> Result<(), GmshError> {
     let before = records.nodes.len();
     let head = Head::read(cursor)?;
@@ -185,7 +185,7 @@ fn read_node_block(
     Ok(())
 }
 
-/// Reads a row of coordinates and skips the parametric ones behind them.
+/// Reads a row of coordinates and skips the parametric ones after them.
 fn read_position(cursor: &mut Cursor<'_>, parameters: u8) -> Result<[f64; 3], GmshError> {
     cursor.begin_row();
     let mut position = [0.0; 3];
@@ -199,7 +199,7 @@ fn read_position(cursor: &mut Cursor<'_>, parameters: u8) -> Result<[f64; 3], Gm
     Ok(position)
 }
 
-/// Reads `$Elements` behind its first line.
+/// Reads `$Elements` after its first line.
 pub(super) fn read_elements(
     cursor: &mut Cursor<'_>,
     records: &mut Records,

@@ -1,4 +1,4 @@
-//! Files of format 4.1, ASCII.
+//! Writing of files of format 4.1, ASCII.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write};
@@ -7,15 +7,15 @@ use crate::cell::MeshCell;
 use crate::group::Group;
 use crate::mesh::Mesh;
 
-/// The text of a Gmsh file (4.1, ASCII) of a planar or solid mesh, from which [`parse_any`](super::parse_any) makes an equal mesh: nodes
-/// with their tags and all digits, cells in their order, and groups with their names, numbers and dimensions, also where an element is
-/// in several.
+/// Text of a Gmsh file (4.1, ASCII) of a planar or solid mesh, from which [`parse_any`](super::parse_any) makes an equal mesh: nodes with
+/// their tags and all digits, cells in their order, and groups with their names, numbers and dimensions, also for elements in several
+/// groups.
 ///
-/// Elements that are in the same groups make an entity, as the format asks for. Fields and remarks are not written.
+/// Elements in the same groups form an entity, as the format requires. Fields and remarks are not written.
 ///
 /// # Panics
 ///
-/// If a cell, a face or a group has a node, or a group a cell, that the mesh does not have.
+/// Panics if a cell, a face or a group has a node, or a group a cell, that the mesh does not have.
 pub fn write<const D: usize, C: MeshCell<D>>(mesh: &Mesh<D, C>) -> String {
     let raised = |position: &[f64; D]| [0, 1, 2].map(|axis| *position.get(axis).unwrap_or(&0.0));
     let positions: Vec<[f64; 3]> = mesh.positions.iter().map(raised).collect();
@@ -51,10 +51,10 @@ fn text_of(source: &Source<'_>) -> String {
     text
 }
 
-/// Numbers of the groups that an element is in.
+/// Numbers of the groups of an element.
 type Memberships = BTreeSet<i32>;
 
-/// An element by its nodes, and the place of its entity among those of its dimension.
+/// An element, given by its nodes, and the index of its entity among those of its dimension.
 struct Element {
     nodes: Vec<u32>,
     entity: usize,
@@ -94,7 +94,7 @@ impl Entities {
             elements: Default::default(),
         };
         let [points, edges, faces] = parts;
-        // An entity of dimension 0 is one point.
+        // An entity of dimension 0 has one point.
         for (nodes, groups) in points {
             let entity = entities.groups[0].len();
             entities.groups[0].push(groups);
@@ -107,7 +107,7 @@ impl Entities {
         entities
     }
 
-    /// Gives elements of the same groups the same entity.
+    /// Assigns elements in the same groups to the same entity.
     fn gather(
         &mut self,
         dimension: usize,
@@ -146,7 +146,7 @@ impl Entities {
                 for group in groups {
                     write!(text, " {group}")?;
                 }
-                // What bounds curves, surfaces and volumes is not known.
+                // Boundaries of curves, surfaces and volumes are not known.
                 writeln!(text, "{}", if dimension > 0 { " 0" } else { "" })?;
             }
         }
@@ -189,7 +189,7 @@ impl Entities {
     }
 }
 
-/// A position with all digits; a height of zero is written short.
+/// A position with all digits; a height of zero is shortened.
 struct Position([f64; 3]);
 
 impl fmt::Display for Position {
@@ -214,7 +214,7 @@ fn write_head(text: &mut String, groups: &[Group]) -> fmt::Result {
     writeln!(text, "$EndPhysicalNames")
 }
 
-/// One block, on the first entity of the dimension of the cells: what the nodes of a mesh lie on is not known.
+/// Writes the nodes as one block, on the first entity of the dimension of the cells: the entities of the nodes are not known.
 fn write_nodes(text: &mut String, source: &Source<'_>) -> fmt::Result {
     let (count, dimension) = (source.node_tags.len(), source.dimension);
     let least = source.node_tags.iter().min().unwrap_or(&0);

@@ -1,24 +1,23 @@
-//! Cells of a solid.
+//! Solid cells.
 
 use crate::cell::{Cell, MeshCell};
 
 /// A solid cell given by its corner nodes (indices into the mesh's nodes), in the order of Gmsh.
 ///
-/// Seen from the top (or the apex), the corners of the base stand counter-clockwise: the volume is positive.
+/// The volume is positive: seen from the top (or the apex), the corners of the base are counter-clockwise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SolidCell {
     /// A triangle and the apex over it.
     Tetrahedron([u32; 4]),
-    /// A quadrangle, and the one over it, corner over corner.
+    /// A quadrangle and an opposite quadrangle, corner over corner.
     Hexahedron([u32; 8]),
-    /// A triangle, and the one over it, corner over corner.
+    /// A triangle and an opposite triangle, corner over corner.
     Prism([u32; 6]),
     /// A quadrangle and the apex over it.
     Pyramid([u32; 5]),
 }
 
-/// Places of the corners of each face among those of its cell, counter-clockwise seen from outside: first those of triangles, then
-/// those of quadrangles.
+/// Corners of each face as indices of the corners of the cell, counter-clockwise seen from outside: first triangles, then quadrangles.
 type Faces = (&'static [[usize; 3]], &'static [[usize; 4]]);
 
 const FACES_OF_TETRAHEDRON: Faces = (&[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], &[]);
@@ -42,7 +41,7 @@ const FACES_OF_PYRAMID: Faces = (
     &[[0, 3, 2, 1]],
 );
 
-/// Places of the ends of each edge among the corners of its cell.
+/// Ends of each edge as indices of the corners of the cell.
 type Edges = &'static [[usize; 2]];
 
 const EDGES_OF_TETRAHEDRON: Edges = &[[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
@@ -83,7 +82,7 @@ const EDGES_OF_PYRAMID: Edges = &[
 ];
 
 impl SolidCell {
-    /// The corner nodes of the cell.
+    /// Corner nodes of the cell.
     #[inline]
     pub fn corners(&self) -> &[u32] {
         match self {
@@ -104,14 +103,14 @@ impl SolidCell {
         }
     }
 
-    /// The faces of the cell, their corners counter-clockwise seen from outside.
+    /// Faces of the cell, their corners counter-clockwise seen from outside.
     #[inline]
     pub fn faces(&self) -> impl Iterator<Item = Cell> + use<> {
         let cell = *self;
         (0..).map_while(move |place| cell.face(place))
     }
 
-    /// The face at a place among those of the cell.
+    /// Face with a given index in the cell.
     #[inline]
     pub(crate) fn face(&self, place: usize) -> Option<Cell> {
         let (triangles, quadrangles) = match self {
@@ -130,13 +129,13 @@ impl SolidCell {
         }
     }
 
-    /// The volume of the cell with the nodes at `positions`, m³; negative where it is turned inside out.
+    /// Volume of the cell with the nodes at `positions`, m³; negative for an inverted cell.
     ///
-    /// A quadrangular face out of one plane is the bilinear surface through its corners: the volume is that of the trilinear
-    /// cell, the mean of the volumes of the two polyhedra in which each face is split along one diagonal and along the other.
+    /// A quadrangular face that is not plane is the bilinear surface through its corners: the volume is that of the trilinear cell, the mean
+    /// of the volumes of the two polyhedra in which each face is split along one diagonal and along the other.
     ///
     /// # Panics
-    /// If a corner is no index into `positions`.
+    /// Panics if a corner is no index into `positions`.
     pub fn volume(&self, positions: &[[f64; 3]]) -> f64 {
         // Differences keep the digits of a cell far from the origin.
         if let SolidCell::Tetrahedron(corners) = self {
@@ -155,7 +154,7 @@ impl SolidCell {
         sixfold.sum::<f64>() / 6.0
     }
 
-    /// The tetrahedra that the cell consists of, of positive volume where the cell is convex.
+    /// Tetrahedra of the cell, of positive volume where the cell is convex.
     ///
     /// A quadrangular face is split along the diagonal from its lowest node, so that neighbours split it alike (J. Dompierre et
     /// al., How to subdivide pyramids, prisms and hexahedra into tetrahedra, 1999).
@@ -201,8 +200,8 @@ impl MeshCell<3> for SolidCell {
         self.volume(positions)
     }
 
-    /// Equal parts of the volume but for pyramids, whose apex takes a quarter and whose other corners take 3/16 each. No share depends on
-    /// how nodes are numbered, as those of the tetrahedra that the cell may be split into do.
+    /// Equal parts of the volume, except for pyramids, whose apex has a quarter and whose other corners have 3/16 each. The parts do not
+    /// depend on the numbers of the nodes, unlike those of the tetrahedra of a split.
     fn shares(&self, positions: &[[f64; 3]]) -> impl Iterator<Item = (u32, f64)> {
         let parts: &[f64] = match self {
             SolidCell::Tetrahedron(_) => &[0.25; 4],

@@ -1,15 +1,15 @@
-//! Which cells have which faces.
+//! Faces of solid cells and the cells on either side.
 
 use super::cell::SolidCell;
 use crate::cell::Cell;
 
-/// The faces of solid cells, found by their lowest node.
+/// Faces of solid cells, indexed by their lowest node.
 #[derive(Debug)]
 pub struct Faces<'a> {
     cells: &'a [SolidCell],
-    /// Where the faces of each lowest node begin, shape (n_nodes + 1).
+    /// First entry of each lowest node, shape (n_nodes + 1).
     offsets: Vec<usize>,
-    /// Cells and places of faces among those of the cell.
+    /// Cells, and indices of faces in the cell.
     entries: Vec<(u32, u8)>,
 }
 
@@ -23,11 +23,11 @@ pub struct Side {
 }
 
 impl<'a> Faces<'a> {
-    /// The faces of cells on `n_nodes` nodes.
+    /// Faces of cells on `n_nodes` nodes.
     ///
     /// # Panics
     ///
-    /// If a corner is no index below `n_nodes`, or there are more than 2^32 cells.
+    /// Panics if a corner is no index below `n_nodes`, or there are more than 2^32 cells.
     pub fn new(cells: &'a [SolidCell], n_nodes: usize) -> Self {
         let mut offsets = vec![0; n_nodes + 1];
         for cell in cells {
@@ -54,8 +54,8 @@ impl<'a> Faces<'a> {
         }
     }
 
-    /// The sides of cells that are this face, whatever the order of its corners around it, by the number of their cells: none, one
-    /// on the outline, two inside.
+    /// Sides of cells at a face, with any order of its corners around it, by the number of their cells: none, one on the outline, two
+    /// inside.
     pub fn sides_at(&self, face: &Cell) -> Vec<Side> {
         let wanted = around(face) >> ORIENTATION;
         let sides = self.sides_of(lowest(face));
@@ -64,7 +64,7 @@ impl<'a> Faces<'a> {
             .collect()
     }
 
-    /// The faces that one cell has alone, by their lowest node.
+    /// Faces that belong to one cell only, by their lowest node.
     pub fn outer(&self) -> Vec<Side> {
         let mut outer = Vec::new();
         self.for_each(|keys, sides| {
@@ -75,11 +75,11 @@ impl<'a> Faces<'a> {
         outer
     }
 
-    /// The first two cells found on the same side of a common face: one of them covers some of the other.
+    /// First two cells on the same side of a common face, which overlap.
     pub(crate) fn first_overlap(&self) -> Option<[u32; 2]> {
         let mut found = None;
         self.for_each(|keys, sides| {
-            // Neighbours go around their common face in opposite directions.
+            // Neighbours run around their common face in opposite directions.
             let mut pairs = keys.windows(2);
             let alike = pairs.find(|pair| pair[0] >> PLACE == pair[1] >> PLACE);
             if let (Some(pair), None) = (alike, found) {
@@ -99,7 +99,7 @@ impl<'a> Faces<'a> {
         })
     }
 
-    /// Calls a function with the sides at each lowest node, in order, and the keys of those of one face.
+    /// Calls a function with the sides at each lowest node, in order, and the keys of the sides of one face.
     fn for_each(&self, mut call: impl FnMut(&[u128], &[Side])) {
         let (mut sides, mut keys) = (Vec::new(), Vec::new());
         for lowest in 0..self.offsets.len() as u32 - 1 {
@@ -120,10 +120,10 @@ impl<'a> Faces<'a> {
     }
 }
 
-/// Bits of a key for the orientation of a face.
+/// Number of bits of a key for the orientation of a face.
 const ORIENTATION: u32 = 1;
 
-/// Bits of a key for the place of a side among those at a node: nodes with more cells than this make no mesh.
+/// Number of bits of a key for the index of a side among those at a node: no mesh has nodes with more cells.
 const PLACE: u32 = 31;
 
 fn place(key: u128) -> usize {
@@ -137,9 +137,8 @@ fn lowest(face: &Cell) -> u32 {
     }
 }
 
-/// What tells faces of one lowest node apart: the other corners from the one beside it that has the lower number to that which has
-/// the higher, zero for the one between them of a triangle, 32 bits each; and a bit for whether the face goes through them in this
-/// order.
+/// Key of a face among those of one lowest node: its other corners, beginning with the neighbour of the lowest one that has the smaller
+/// number, 32 bits each, with zero for the middle one of a triangle; and a bit for the direction of this order around the face.
 fn around(face: &Cell) -> u128 {
     let ordered = |first: u32, middle: u32, last: u32| {
         let (low, high) = (first.min(last), first.max(last));

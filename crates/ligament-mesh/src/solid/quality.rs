@@ -1,16 +1,16 @@
-//! How far a tetrahedron is from a regular one.
+//! Shape quality of tetrahedra.
 
 use super::cell::SolidCell;
 
 impl SolidCell {
-    /// The radius ratio of a tetrahedron, 3 r/R with the radii of the spheres in and around it: 1 where it is regular, towards 0
-    /// for slivers, needles and caps. It is what Gmsh calls gamma. None for other shapes.
+    /// Radius ratio of a tetrahedron, 3 r/R with the radii of its inscribed and circumscribed spheres: 1 for a regular one, towards 0 for
+    /// slivers, needles and caps; Gmsh's gamma. `None` for other shapes.
     ///
     /// With V the volume, A the area of the surface and a, b, c the products of the lengths of opposite edges, r = 3 V/A and
     /// R = sqrt((a + b + c)(a + b - c)(a - b + c)(b + c - a))/(24 V).
     ///
     /// # Panics
-    /// If a corner is no index into `positions`.
+    /// Panics if a corner is no index into `positions`.
     pub fn radius_ratio(&self, positions: &[[f64; 3]]) -> Option<f64> {
         let SolidCell::Tetrahedron(corners) = self else {
             return None;
@@ -28,7 +28,7 @@ impl SolidCell {
         let area = |[x, y, z]: [f64; 3]| (x * x + y * y + z * z).sqrt();
         let surface: f64 = self.faces().map(|it| area(it.area_vector(positions))).sum();
         let volume = self.volume(positions).abs();
-        // Rounding may make the product of a flat cell a little negative.
+        // Rounding may make the product of a flat cell slightly negative.
         let product = ((a + b + c) * (a + b - c) * (a - b + c) * (b + c - a)).max(0.0);
         let denominator = surface * product.sqrt();
         let ratio = 216.0 * volume * volume / denominator;

@@ -1,4 +1,4 @@
-//! What acts on surfaces and curves of a solid mesh, at its nodes.
+//! Areas of surfaces of a solid mesh at its nodes.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use super::faces::Faces;
 use crate::cell::Cell;
 use crate::mesh::SolidMesh;
 
-/// A face that is none of the outline of the body, on which a pressure could act.
+/// A face not on the outline of the body, on which a pressure cannot act.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
     "a pressure acts on the outline of the body, but the face of this group with the nodes {}, around ({:.6}, {:.6}, {:.6}), {}",
@@ -20,20 +20,19 @@ pub struct NotOnOutline {
     pub nodes: Vec<u64>,
     /// Middle of the face, m.
     pub middle: [f64; 3],
-    /// Number of cells that have the face.
+    /// Number of cells with the face.
     pub cells: usize,
 }
 
 impl SolidMesh {
-    /// Outward normals of the outline on some faces times their areas, m², added up at their nodes, ascending. A face that stands
-    /// there twice counts once.
+    /// Sums at the nodes of the outward normals of some outline faces times their areas, m², ascending by node. A repeated face counts once.
     ///
-    /// A triangle gives a third to each corner, a quadrangle the mean of what the triangles of its two splits give: force and moment of a
-    /// uniform pressure on a flat face are right.
+    /// A triangle gives a third to each corner, a quadrangle the mean of the triangles of its two splits: force and moment of a uniform
+    /// pressure on a flat face are exact.
     ///
     /// # Errors
     ///
-    /// If a face is none of the outline.
+    /// Returns an error if a face is not on the outline.
     pub fn outward_areas(&self, faces: &[Cell]) -> Result<Vec<(u32, [f64; 3])>, NotOnOutline> {
         let of_cells = Faces::new(&self.cells, self.positions.len());
         let mut areas: BTreeMap<u32, [f64; 3]> = BTreeMap::new();
@@ -53,8 +52,8 @@ impl SolidMesh {
         Ok(areas.into_iter().collect())
     }
 
-    /// Area that each node of some faces stands for, m², ascending by the nodes; shared as by [`SolidMesh::outward_areas`], but the
-    /// faces may lie inside of the body.
+    /// Area of some faces assigned to each of their nodes, m², ascending by node; divided as by [`SolidMesh::outward_areas`], but the faces
+    /// may lie inside the body.
     pub fn areas_at_nodes(&self, faces: &[Cell]) -> Vec<(u32, f64)> {
         let mut areas: BTreeMap<u32, f64> = BTreeMap::new();
         for face in once(faces) {
@@ -88,7 +87,7 @@ impl SolidMesh {
     }
 }
 
-/// The faces, each once.
+/// Faces, each once.
 fn once(faces: &[Cell]) -> Vec<Cell> {
     let mut faces = faces.to_vec();
     faces.sort_by_key(Cell::sorted_corners);
@@ -96,7 +95,7 @@ fn once(faces: &[Cell]) -> Vec<Cell> {
     faces
 }
 
-/// The triangles of a face, of a quadrangle those of both splits, and the part of each that one of its corners takes.
+/// Triangles of a face, for a quadrangle those of both splits, and the fraction of each that belongs to one of its corners.
 fn thirds(face: &Cell) -> Vec<([u32; 3], f64)> {
     match *face {
         Cell::Triangle(corners) => vec![(corners, 1.0 / 3.0)],

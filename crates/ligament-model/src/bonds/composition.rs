@@ -1,8 +1,8 @@
-//! What bonds are made of, where their ends do not tell it: lengths in the materials that they cross.
+//! Composition of bonds whose materials their ends do not determine: lengths in the materials that they cross.
 //!
-//! The straight line of a bond from one half of a body to the other passes through a layer between them, whatever its ends are made of.
-//! A bond is followed through the cells of the body. Pieces along a face or an edge between two materials have both at their sides, and count
-//! only where there is nothing else: what lies along an interface all the way is told by its ends.
+//! The straight line of a bond from one half of a body to the other passes through a layer between them, whatever the materials of its ends.
+//! A bond is traced through the cells of the body. Pieces along a face or an edge between two materials have both at their sides, and count
+//! only where no other piece exists: the ends determine the materials of a bond along an interface.
 
 use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
@@ -15,25 +15,25 @@ use crate::cloud::PointCloud;
 use crate::geometry::{bounding_box, boxes_meet};
 use crate::horizon::INCLUSION_TOLERANCE;
 
-/// Points along the curve that are asked for together whether there is more than one material near them.
+/// Number of points along the curve that are checked together for more than one material near them.
 const BLOCK: usize = 64;
 
-/// Shortest piece of a bond that counts, over its length: well above what the slack of the sides of cells makes of a corner, well below
-/// any part of a cell.
+/// Shortest piece of a bond that counts, over its length: well above the pieces that the slack of the sides of cells makes at a corner, well
+/// below any part of a cell.
 const SHORTEST_PIECE: f64 = 1e-6;
 
-/// Shares of the lengths of bonds in materials, of those bonds whose ends do not tell what they are made of.
+/// Fractions of the lengths of bonds in materials, for the bonds whose ends do not determine their materials.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Composition {
-    /// The bonds, ascending.
+    /// Numbers of the bonds, ascending.
     bonds: Vec<u32>,
     n_materials: usize,
-    /// Shares of their lengths in the materials, shape (n, n_materials); rows sum to one.
+    /// Fractions of their lengths in the materials, shape (n, n_materials); rows sum to one.
     shares: Vec<f64>,
 }
 
 impl Composition {
-    /// Follows the bonds through the parts of the body between whose points they are. Bodies of one material have nothing to follow.
+    /// Traces the bonds between the points of a body through its parts. Bodies of one material have an empty composition.
     pub fn new<const D: usize>(
         parts: &impl Parts<D>,
         ends: &[[u32; 2]],
@@ -59,24 +59,24 @@ impl Composition {
         }
     }
 
-    /// Whether the ends of all bonds tell what they are made of.
+    /// Whether the ends of all bonds determine their materials.
     pub fn is_empty(&self) -> bool {
         self.bonds.is_empty()
     }
 
-    /// Shares of the length of a bond in the materials (n_materials); none where its ends tell what it is made of.
+    /// Fractions of the length of a bond in the materials (n_materials); `None` where its ends determine its materials.
     pub fn of_bond(&self, bond: usize) -> Option<&[f64]> {
         let place = self.bonds.binary_search(&(bond as u32)).ok()?;
         Some(&self.shares[place * self.n_materials..][..self.n_materials])
     }
 
-    /// The bonds with the shares of their lengths in the materials (n_materials), ascending.
+    /// Bonds with the fractions of their lengths in the materials (n_materials), ascending.
     pub fn numbered(&self) -> impl Iterator<Item = (usize, &[f64])> {
         let rows = self.shares.chunks(self.n_materials.max(1));
         self.bonds.iter().map(|&bond| bond as usize).zip(rows)
     }
 
-    /// The bonds that cross a material of which neither end has a share, ascending.
+    /// Bonds that cross a material which neither end contains, ascending.
     pub fn across_layers<'a, const D: usize>(
         &'a self,
         ends: &'a [[u32; 2]],
@@ -93,7 +93,7 @@ impl Composition {
             .map(|(bond, _)| bond)
     }
 
-    /// What is left for the bonds for which `keep` (n_bonds) is true.
+    /// The composition of the bonds for which `keep` (n_bonds) is true, renumbered.
     pub(super) fn retained(self, keep: &[bool]) -> Self {
         if self.is_empty() {
             return self;
@@ -118,20 +118,20 @@ impl Composition {
     }
 }
 
-/// A part of the body near a point.
+/// A convex part of the body near a point.
 struct Near<const D: usize> {
     bounds: [[f64; D]; 2],
     sides: Vec<Side<D>>,
     material: u32,
 }
 
-/// The bonds on their ways through the parts of a body.
+/// Bonds as straight lines through the parts of a body.
 struct BondTracer<'a, const D: usize, P> {
     parts: &'a P,
     ends: &'a [[u32; 2]],
     cloud: &'a PointCloud<D>,
     tree: RTree<GeomWithData<Rectangle<[f64; D]>, u32>>,
-    /// First bond of each point, and behind the last point the number of all.
+    /// First bond of each point, and the number of all bonds at the end, shape (n_points + 1).
     first_bond: Vec<usize>,
 }
 
@@ -150,12 +150,12 @@ impl<'a, const D: usize, P: Parts<D>> BondTracer<'a, D, P> {
         }
     }
 
-    /// The bonds of which a point is the first end.
+    /// Bonds whose first end is a point.
     fn own(&self, point: u32) -> std::ops::Range<usize> {
         self.first_bond[point as usize]..self.first_bond[point as usize + 1]
     }
 
-    /// The box around some points and the bonds of which they are the first ends.
+    /// The box around some points and the bonds whose first ends they are.
     fn around(&self, points: &[u32]) -> AABB<[f64; D]> {
         let others = points.iter().flat_map(|&point| self.own(point));
         let others = others.map(|bond| self.ends[bond][1]);
@@ -164,7 +164,7 @@ impl<'a, const D: usize, P: Parts<D>> BondTracer<'a, D, P> {
         AABB::from_corners(lower, upper)
     }
 
-    /// Whether parts of several materials meet a box.
+    /// Whether parts of several materials intersect a box.
     fn may_differ(&self, around: AABB<[f64; D]>) -> bool {
         let mut parts = self.tree.locate_in_envelope_intersecting(around);
         let material = |part: &GeomWithData<_, u32>| self.parts.material(part.data as usize);
@@ -172,7 +172,7 @@ impl<'a, const D: usize, P: Parts<D>> BondTracer<'a, D, P> {
         parts.any(|part| Some(material(part)) != first)
     }
 
-    /// The bonds of which a point is the first end and whose ends do not tell what they are made of, with their shares (n_materials).
+    /// Bonds whose first end is a point and whose ends do not determine their materials, with their fractions (n_materials).
     fn of_point(&self, point: u32) -> Vec<(u32, Vec<f64>)> {
         let around = self.around(&[point]);
         if !self.may_differ(around) {
@@ -195,8 +195,8 @@ impl<'a, const D: usize, P: Parts<D>> BondTracer<'a, D, P> {
         self.own(point).filter_map(of_bond).collect()
     }
 
-    /// Shares of the length of a bond in the materials (n_materials), from all parts that it may pass; none where it runs along
-    /// interfaces all the way.
+    /// Fractions of the length of a bond in the materials (n_materials), from all parts that it may cross; `None` where it runs along
+    /// interfaces over its whole length.
     fn shares(&self, bond: usize, near: &[Near<D>]) -> Option<Vec<f64>> {
         let [a, b] = self.ends[bond].map(|end| end as usize);
         let slack = INCLUSION_TOLERANCE * self.cloud.spacing[a].min(self.cloud.spacing[b]);
@@ -223,7 +223,7 @@ impl<'a, const D: usize, P: Parts<D>> BondTracer<'a, D, P> {
         (total > 0.0).then(|| lengths.into_iter().map(|it| it / total).collect())
     }
 
-    /// Whether a bond is all in one material, and that is the only one that both of its ends have.
+    /// Whether a bond lies in one material only, which is the only one that both ends contain.
     fn is_told(&self, bond: usize, shares: &[f64]) -> bool {
         let [first, second] = self.ends[bond].map(|end| self.cloud.shares(end as usize));
         let common = first.iter().zip(second).map(|(a, b)| *a > 0.0 && *b > 0.0);
@@ -235,7 +235,7 @@ impl<'a, const D: usize, P: Parts<D>> BondTracer<'a, D, P> {
 }
 
 impl<const D: usize> Near<D> {
-    /// Where a line is within the part, from 0 at its first end to 1 at its second; none where it passes it by.
+    /// Interval of a line within the part, from 0 at its first end to 1 at its second; `None` where the line misses the part.
     fn passed(&self, [start, end]: [[f64; D]; 2], slack: f64) -> Option<[f64; 2]> {
         let [lower, upper] = bounding_box([start, end]);
         let around = [lower.map(|x| x - slack), upper.map(|x| x + slack)];

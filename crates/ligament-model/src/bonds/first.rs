@@ -1,6 +1,6 @@
-//! The bonds of which a point is the first end.
+//! Bonds by their first end.
 
-/// First of the bonds of which each point is the first end, and behind the last point the number of all, from the ends in the order of
+/// First bond whose first end is each point, and the number of all bonds at the end, shape (n_points + 1), from the ends in the order of
 /// [`BondSet`](super::BondSet).
 pub(super) fn first_bonds(ends: &[[u32; 2]], n_points: usize) -> Vec<usize> {
     let mut first = vec![0; n_points + 1];

@@ -1,4 +1,4 @@
-//! Holes of a lattice: pairs of points that see each other only across a hole are no bonds.
+//! Holes of a lattice: no bond crosses a hole.
 
 use rayon::prelude::*;
 
@@ -6,8 +6,8 @@ use super::BondSet;
 use crate::cloud::PointCloud;
 use crate::shape::Region;
 
-/// For each bond, whether it meets the inside of a hole (coordinates of the case) by more than 1e-5 of the nearest distance
-/// of its ends, shape (n_bonds). Without this slack rounding would decide about bonds along a rim.
+/// Whether each bond enters a hole (coordinates of the case) by more than 1e-5 of the nearest distance of its ends, shape (n_bonds). Without
+/// this slack rounding would decide about bonds along a rim.
 pub fn bonds_across<const D: usize, S: Region<D>>(
     holes: &[S],
     bonds: &BondSet<D>,

@@ -1,4 +1,4 @@
-//! Dual-horizon bonds: one record for each pair of points of which one lies in the horizon of the other.
+//! Dual-horizon bonds: one record for each pair of points, at least one of which lies in the horizon of the other.
 
 pub mod composition;
 mod first;
@@ -17,7 +17,7 @@ use retained::retained;
 
 /// All bonds of a body, as arrays over the bonds.
 ///
-/// Bonds are in the order of their ends: by the first end, then by the second. They lie in the plane, or for D = 3 in space.
+/// Bonds are ordered by their first end, then by their second. They lie in the plane, or for D = 3 in space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BondSet<const D: usize = 2> {
     /// Points A < B of each bond, shape (n_bonds).
@@ -28,13 +28,13 @@ pub struct BondSet<const D: usize = 2> {
     pub direction: Vec<[f64; D]>,
     /// Bond horizons H, shape (n_bonds), m.
     pub horizon: Vec<f64>,
-    /// The bonds of each point.
+    /// Bonds of each point.
     pub incidence: Incidence,
-    /// What bonds are made of that cross an interface; empty until they are followed through the body.
+    /// Composition of the bonds that cross an interface; empty until they are traced through the body.
     pub composition: Composition,
 }
 
-/// The bonds of each point, ascending; with the order of [`BondSet`] the neighbours ascend as well.
+/// Lists of the bonds of each point, ascending; in the order of [`BondSet`] the neighbours ascend as well.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Incidence {
     offsets: Vec<usize>,
@@ -47,14 +47,14 @@ impl<const D: usize> BondSet<D> {
         self.ends.len()
     }
 
-    /// Number of the bonds of the whole body between the points of a cloud, of which a process holds some.
+    /// Number of bonds of the whole body between the points of a cloud, part of which are on this process.
     pub fn count(&self, cloud: &PointCloud<D>) -> usize {
         let owned = self.ends.iter();
         let owned = owned.filter(|it| cloud.subdomain.owns_bond(**it));
         cloud.subdomain.count(owned.count())
     }
 
-    /// Whether there is no bond.
+    /// Whether the set has no bond.
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }
@@ -75,7 +75,7 @@ impl<const D: usize> BondSet<D> {
             .collect()
     }
 
-    /// The bonds for which `keep` (n_bonds) is true.
+    /// The set of the bonds for which `keep` (n_bonds) is true.
     pub fn retained(self, keep: &[bool]) -> Self {
         let ends = retained(self.ends, keep);
         let incidence = Incidence::new(&ends, self.incidence.n_points());
@@ -89,7 +89,7 @@ impl<const D: usize> BondSet<D> {
         }
     }
 
-    /// The bonds, followed through the parts of the body between whose points they are.
+    /// The bonds with their composition, traced through the parts of the body.
     pub fn through(self, parts: &impl Parts<D>, cloud: &PointCloud<D>) -> Self {
         Self {
             composition: Composition::new(parts, &self.ends, cloud),

@@ -6,7 +6,7 @@ use crate::cloud::PointCloud;
 use crate::geometry::bounding_box;
 use crate::tensor::{cross, dot, minus, norm};
 
-/// A side of a convex part: a point on it and its outward normal, of length one.
+/// A side of a convex part: a point on it and its outward unit normal.
 #[derive(Debug, Clone, Copy)]
 pub struct Side<const D: usize> {
     point: [f64; D],
@@ -33,7 +33,7 @@ pub trait Parts<const D: usize>: Sync {
     /// Number of parts.
     fn len(&self) -> usize;
 
-    /// Whether there is none.
+    /// Whether the body has no part.
     fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -83,7 +83,7 @@ impl Parts<2> for PlaneCells<'_> {
     }
 }
 
-/// The tetrahedra that solid cells consist of, with their materials.
+/// Tetrahedra of solid cells, with their materials.
 #[derive(Debug, Clone)]
 pub struct Tetrahedra<'a> {
     cloud: &'a PointCloud<3>,
@@ -92,7 +92,7 @@ pub struct Tetrahedra<'a> {
 }
 
 impl<'a> Tetrahedra<'a> {
-    /// The tetrahedra of cells with the index of the material of each (n_cells), between the points of a cloud at their nodes.
+    /// The tetrahedra of cells between the points of a cloud at their nodes, with the index of the material of each cell (n_cells).
     pub fn new(cells: &[SolidCell], cloud: &'a PointCloud<3>, material_of_cell: &[u32]) -> Self {
         let of_cells = cells.iter().zip(material_of_cell);
         let (corners, materials) = of_cells

@@ -1,4 +1,4 @@
-//! Some entries of an array, in their order.
+//! Selected entries of an array, in order.
 
 /// The entries of `values` for which `keep` is true, in order.
 pub(crate) fn retained<T>(mut values: Vec<T>, keep: &[bool]) -> Vec<T> {

@@ -1,4 +1,4 @@
-//! Search of the pairs of points that are bonded.
+//! Search for the pairs of points that are bonded.
 
 use std::borrow::Cow;
 
@@ -10,14 +10,14 @@ use crate::geometry::bounding_box;
 use crate::horizon::Horizons;
 use crate::tensor::minus;
 
-/// Points whose pairs are found by one thread in one go.
+/// Number of points whose pairs one thread finds at a time.
 const BLOCK: usize = 1024;
 
 impl<const D: usize> BondSet<D> {
-    /// Bonds every pair with l <= max(h_A, h_B), found with an R*-tree: one query a point, O(N log N) in all.
+    /// Bonds between all pairs with l <= max(h_A, h_B), found with an R*-tree: one query a point, O(N log N) in all.
     ///
-    /// The bond horizon (NHPD eq. 1) is the mean of the two where each point holds the other, and the larger one where
-    /// only that one holds the other point.
+    /// The bond horizon (NHPD eq. 1) is the mean of both horizons where each contains the other point, and the larger one where only that
+    /// contains the other point.
     pub fn search(cloud: &PointCloud<D>, horizons: &Horizons) -> Self {
         let tree = search_tree(&cloud.positions);
         let subdomain = &cloud.subdomain;
@@ -28,7 +28,7 @@ impl<const D: usize> BondSet<D> {
                 let mut pairs = Vec::new();
                 for &point in points {
                     let position = cloud.positions[point as usize];
-                    // The tree compares squared distances: ask for a little more and let `contains` decide.
+                    // The tree compares squared distances: its radius is slightly larger, and `contains` decides.
                     let tolerance = cloud.tolerance(point);
                     let reach = horizons.radius[point as usize] * (1.0 + 2.0 * tolerance);
                     pairs.extend(
@@ -72,7 +72,7 @@ impl<const D: usize> BondSet<D> {
     }
 }
 
-/// Points along the curve whose horizons may reach owned points, and these.
+/// Points along the curve whose horizons may reach owned points, including these.
 fn reaching<'a, const D: usize>(cloud: &'a PointCloud<D>, horizons: &Horizons) -> Cow<'a, [u32]> {
     let subdomain = &cloud.subdomain;
     if subdomain.is_whole() {
@@ -91,7 +91,7 @@ fn reaching<'a, const D: usize>(cloud: &'a PointCloud<D>, horizons: &Horizons) -
         .collect()
 }
 
-/// The pairs in ascending order of their first, then of their second point.
+/// Pairs in ascending order of their first, then of their second point.
 fn in_order(found: Vec<Vec<[u32; 2]>>, n_points: usize) -> Vec<[u32; 2]> {
     let mut next = vec![0; n_points + 1];
     for [first, _] in found.iter().flatten() {
@@ -111,8 +111,8 @@ fn in_order(found: Vec<Vec<[u32; 2]>>, n_points: usize) -> Vec<[u32; 2]> {
     ends
 }
 
-/// Whether the query around `point` is the one that records the pair: the lower point does where its horizon holds the
-/// other, else the upper one.
+/// Whether the query around `point` records the pair: that of the lower point does where its horizon contains the other, else that of the
+/// upper point.
 fn is_recorded_by<const D: usize>(
     point: u32,
     neighbour: u32,
@@ -128,7 +128,7 @@ fn is_recorded_by<const D: usize>(
         && (point < neighbour || !contains(neighbour, l, cloud, horizons))
 }
 
-/// Whether the horizon of a point reaches to a given distance (m) from the point, as far as the coordinates tell.
+/// Whether the horizon of a point reaches to a given distance (m) from it, within the precision of the coordinates.
 fn contains<const D: usize>(
     point: u32,
     distance: f64,

@@ -1,9 +1,9 @@
-//! Bonds from one point into many directions, all of one length: what a law makes of the direction alone.
+//! Bonds of one length from one point in many directions, for the dependence of a law on the direction alone.
 
 use super::{BondSet, Composition, Incidence};
 use crate::cloud::PointCloud;
 
-/// A point with bonds of one length (m) and one horizon (m) at these angles (n_bonds, rad), and the points at their other ends, each of
+/// A point with bonds of one length (m) and one horizon (m) at given angles (n_bonds, rad), and the points at their other ends, each of
 /// volume 1 and of one of `n_materials` materials.
 pub fn star(
     angles: &[f64],

@@ -8,32 +8,32 @@ use crate::horizon::INCLUSION_TOLERANCE;
 use crate::shape::{Region, Shape, SolidShape};
 use crate::subdomain::Subdomain;
 
-/// No cell is left at a place.
+/// Number of a missing cell.
 const NONE: u32 = u32::MAX;
 
-/// A rectangle of equal cells, or for D = 3 a box, without those that holes take away.
+/// A rectangle of equal cells, or for D = 3 a box, without the cells removed by holes.
 ///
-/// The cells that are left are numbered from the lowest corner, x fastest, then y.
+/// The remaining cells are numbered from the lowest corner, x fastest, then y.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lattice<const D: usize = 2, S = Shape> {
-    /// Cells along each axis of the whole box.
+    /// Number of cells along each axis of the whole box.
     pub size: [u32; D],
     /// Sides of a cell, m.
     pub spacing: [f64; D],
     /// Corner of the lowest coordinates, m.
     pub corner: [f64; D],
-    /// Holes: cells whose centre lies in one are removed, and bonds across one are no bonds.
+    /// Holes: cells whose centre lies in one are removed, and no bond crosses one.
     pub holes: Vec<S>,
-    /// Place along each axis (from 0) of each cell that is left, shape (n_points).
+    /// Index along each axis (from 0) of each remaining cell, shape (n_points).
     pub cells: Vec<[u32; D]>,
-    /// Number of the cell at each place of the whole box, x fastest.
+    /// Number of the cell at each index of the whole box, x fastest.
     numbers: Vec<u32>,
 }
 
-/// A box of equal cells without those that holes take away.
+/// A box of equal cells without the cells removed by holes.
 pub type SolidLattice = Lattice<3, SolidShape>;
 
-/// A side of a cell behind which there is no cell.
+/// A side of a cell without a cell behind it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Face<const D: usize = 2> {
     /// The point at the centre of the cell.
@@ -42,13 +42,13 @@ pub struct Face<const D: usize = 2> {
     pub normal: [i8; D],
     /// Whether the face lies on the outline of the box.
     pub is_on_box: bool,
-    /// Number of the first hole in which the centre of the missing cell lies; the cells go on beyond the box.
+    /// Number of the first hole in which the centre of the missing cell lies; cells are continued beyond the box.
     pub hole: Option<usize>,
 }
 
 impl<const D: usize, S: Region<D>> Lattice<D, S> {
-    /// The box of so many cells with its lowest corner at `corner`, without the cells whose centre lies in one of the holes (rim
-    /// included, to 1e-5 of the spacing).
+    /// The box of `size` cells with its lowest corner at `corner`, without the cells whose centre lies in one of the holes (rim included, to
+    /// 1e-5 of the spacing).
     pub fn new(size: [u32; D], spacing: [f64; D], corner: [f64; D], holes: Vec<S>) -> Self {
         let mut lattice = Self {
             size,
@@ -91,8 +91,8 @@ impl<const D: usize, S: Region<D>> Lattice<D, S> {
         })
     }
 
-    /// Centre of a cell relative to the middle of the box, m: a whole number of half cells, so that opposite cells have opposite
-    /// positions to the last bit and distances are rounded but once.
+    /// Centre of a cell relative to the middle of the box, m: a whole number of half cells, so that opposite cells have opposite positions
+    /// to the last bit and distances are rounded only once.
     pub fn offset(&self, cell: [u32; D]) -> [f64; D] {
         self.centre(cell.map(i64::from))
     }
@@ -105,7 +105,7 @@ impl<const D: usize, S: Region<D>> Lattice<D, S> {
         })
     }
 
-    /// The number of the point in a cell that may lie beyond the box; None where there is none.
+    /// Number of the point in a cell that may lie beyond the box; `None` for a missing cell.
     pub fn point_in(&self, cell: [i64; D]) -> Option<u32> {
         let mut place = 0;
         for (along, count) in cell.into_iter().zip(self.size).rev() {
@@ -116,13 +116,13 @@ impl<const D: usize, S: Region<D>> Lattice<D, S> {
         (number != NONE).then_some(number)
     }
 
-    /// Points and their shares, which add up to one, in a value at a position (m): linear along each axis between the centres of cells,
-    /// that of the outermost centre beyond it. None where one of the cells is missing.
+    /// Points and weights (sum one) that interpolate a value at a position (m): linear along each axis between the centres of cells,
+    /// constant beyond the outermost centres. `None` where one of the cells is missing.
     pub fn interpolation_weights(&self, position: [f64; D]) -> Option<Vec<(u32, f64)>> {
         let cells_along: [f64; D] = std::array::from_fn(|axis| {
             let along = (position[axis] - self.corner[axis]) / self.spacing[axis] - 0.5;
             let along = along.clamp(0.0, f64::from(self.size[axis] - 1));
-            // At a centre its neighbours have no part in it, whatever rounding did.
+            // At a centre its neighbours have no weight, regardless of rounding.
             let whole = along.round();
             if (along - whole).abs() < INCLUSION_TOLERANCE {
                 whole
@@ -147,7 +147,7 @@ impl<const D: usize, S: Region<D>> Lattice<D, S> {
         Some(shares)
     }
 
-    /// The faces between two cells: the point with the lower coordinate, the normal towards the other and the other point.
+    /// Faces between two cells: the point with the lower coordinate, the normal towards the other, and the other point.
     pub fn inner_faces(&self) -> Vec<(u32, [i8; D], u32)> {
         let of_cell = |(point, cell): (u32, &[u32; D])| {
             let cell = *cell;
@@ -159,7 +159,7 @@ impl<const D: usize, S: Region<D>> Lattice<D, S> {
         (0..).zip(&self.cells).flat_map(of_cell).collect()
     }
 
-    /// The faces of cells behind which there is no cell, by the numbers of the points, then below and above along x, y and z.
+    /// Faces of cells without a cell behind them, by the numbers of the points, then below and above along x, y and z.
     pub fn outline(&self) -> Vec<Face<D>> {
         let (slack, size) = (self.slack(), self.size.map(i64::from));
         let holes: Vec<S> = self.holes.iter().map(|hole| self.local(hole)).collect();
@@ -194,7 +194,7 @@ impl<const D: usize, S: Region<D>> Lattice<D, S> {
         self.points_where(|cell| shape.contains(self.offset(cell), slack))
     }
 
-    /// Numbers of the points in so many layers at the side of the box with this outward normal, ascending.
+    /// Numbers of the points in `layers` layers of cells at the side of the box with a given outward normal, ascending.
     pub fn points_at_side(&self, normal: [i8; D], layers: u32) -> Vec<u32> {
         self.points_where(|cell| {
             (0..D).any(|axis| match normal[axis] {
@@ -228,7 +228,7 @@ impl<const D: usize, S: Region<D>> Lattice<D, S> {
 }
 
 impl Lattice {
-    /// The squares between the centres of four cells around a corner, anticlockwise.
+    /// Squares between the centres of four cells around a corner, anticlockwise.
     pub fn squares(&self) -> Vec<[u32; 4]> {
         let around = |cell: &[u32; 2]| {
             let [column, row] = cell.map(i64::from);
@@ -253,8 +253,8 @@ fn beside<const D: usize>(cell: [u32; D], normal: [i8; D]) -> [i64; D] {
 impl<const D: usize> PointCloud<D> {
     /// A point at the centre of each cell of a lattice, with the volume of the cell times the thickness (1 in space).
     ///
-    /// The nearest distance is the shortest side for every point, also where a hole took its neighbours: horizons that go by it
-    /// are unified. `material_of_cell` (n_points) holds the index of each cell's material.
+    /// The nearest distance is the shortest side for every point, also where a hole removed its neighbours: horizons based on it are
+    /// unified. `material_of_cell` (n_points) has the index of each cell's material.
     pub fn from_lattice<S: Region<D>>(
         lattice: &Lattice<D, S>,
         thickness: f64,

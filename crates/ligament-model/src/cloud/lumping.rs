@@ -1,4 +1,4 @@
-//! Lumping: the nodes of a mesh become material points that carry the volume of its cells.
+//! Lumping: the nodes of a mesh become material points with the volume of its cells.
 
 use ligament_mesh::{Mesh, MeshCell};
 
@@ -6,11 +6,11 @@ use super::{PointCloud, distance, search_tree};
 use crate::horizon::INCLUSION_TOLERANCE;
 
 impl<const D: usize> PointCloud<D> {
-    /// Lumps the cells of a mesh: a cell's area times the thickness, or in space (thickness 1) its volume, is shared among its corners
+    /// Lumps the cells of a mesh: a cell's area times the thickness, or in space (thickness 1) its volume, is divided among its corners
     /// (NHPD section 2.1; [`MeshCell::shares`]).
     ///
-    /// `material_of_cell` (n_cells) holds the index of each cell's material. A point at an interface takes its share
-    /// of volume from the cells of either side.
+    /// `material_of_cell` (n_cells) has the index of each cell's material. A point at an interface receives volume from the cells of either
+    /// side.
     pub fn from_mesh<C: MeshCell<D>>(
         mesh: &Mesh<D, C>,
         thickness: f64,
@@ -50,7 +50,7 @@ pub(crate) fn shortest_edges<const D: usize, C: MeshCell<D>>(
     shortest
 }
 
-/// Distance of each point to the nearest other one, m: sought no farther than the end of its shortest edge.
+/// Distance of each point to the nearest other one, m: searched no farther than the end of its shortest edge.
 fn nearest_neighbour_distances<const D: usize, C: MeshCell<D>>(
     cloud: &PointCloud<D>,
     cells: &[C],

@@ -20,14 +20,13 @@ use crate::tensor::{dot, minus, norm};
 
 /// Material points with their volumes, nearest-neighbour distances and materials.
 ///
-/// Positions are kept relative to the middle of the bounding box: differences of coordinates of a body that lies far
-/// from the origin would lose digits. [`PointCloud::local`] takes a position of the case to these coordinates. Points lie in the
-/// plane, or for D = 3 in space.
+/// Positions are stored relative to the middle of the bounding box: differences of coordinates of a body far from the origin would lose
+/// digits. [`PointCloud::local`] converts a position of the case to these coordinates. Points lie in the plane, or for D = 3 in space.
 #[derive(Debug, Clone)]
 pub struct PointCloud<const D: usize = 2> {
     /// Positions X_i relative to [`PointCloud::origin`], shape (n_points), m.
     pub positions: Vec<[f64; D]>,
-    /// Error that the coordinates of the case may have, m.
+    /// Uncertainty of the coordinates of the case, m.
     pub precision: f64,
     /// Middle of the bounding box, which is subtracted from the positions of the mesh file or the lattice, m.
     pub origin: [f64; D],
@@ -37,17 +36,17 @@ pub struct PointCloud<const D: usize = 2> {
     pub volumes: Vec<f64>,
     /// Distance to the nearest point dmin_i, shape (n_points), m.
     pub spacing: Vec<f64>,
-    /// Sides of the points' cells on a lattice, where all have the same; none on a mesh, m.
+    /// Sides of the points' cells on a lattice, where they are equal, m; `None` on a mesh.
     pub lattice_cell: Option<[f64; D]>,
     /// Number of materials.
     pub n_materials: usize,
-    /// Share of each material in the volume of each point, shape (n_points, n_materials) row-major; rows sum to one.
+    /// Fraction of each material in the volume of each point, shape (n_points, n_materials) row-major; rows sum to one.
     pub material_shares: Vec<f64>,
-    /// All points in the order of a Hilbert curve, shape (n_points): for loops that visit the neighbours of points.
+    /// All points in the order of a Hilbert curve, shape (n_points), for loops over the neighbours of points.
     pub curve: Vec<u32>,
-    /// How the points are numbered: in what follows, and in the file.
+    /// Numbering of the points, internal and in the file.
     pub numbering: Numbering,
-    /// The points that this process owns.
+    /// Points owned by this process.
     pub subdomain: Subdomain,
 }
 
@@ -55,8 +54,8 @@ pub struct PointCloud<const D: usize = 2> {
 pub(crate) type NumberedPoint<const D: usize = 2> = GeomWithData<[f64; D], u32>;
 
 impl<const D: usize> PointCloud<D> {
-    /// Sides of the cell that a point stands for, m: those of the cells of a lattice; on a mesh those of the square with the point's area
-    /// V/t, or of the cube with its volume.
+    /// Sides of the cell of a point, m: those of the cells of a lattice; on a mesh those of the square with the point's area V/t, or of the
+    /// cube with its volume.
     pub fn cell_size(&self, point: u32) -> [f64; D] {
         self.lattice_cell.unwrap_or_else(|| {
             let size = self.volumes[point as usize] / self.thickness;
@@ -64,8 +63,8 @@ impl<const D: usize> PointCloud<D> {
         })
     }
 
-    /// Squared radius of gyration of a point's cell about its centre, m^2: (dx^2 + dy^2)/12, and in space in the mean over the axes
-    /// (dx^2 + dy^2 + dz^2)/18.
+    /// Squared radius of gyration of a point's cell about its centre, m^2: (dx^2 + dy^2)/12, in space the mean over the axes (dx^2 + dy^2 +
+    /// dz^2)/18.
     pub fn squared_gyration(&self, point: u32) -> f64 {
         let sides = self.cell_size(point);
         dot(sides, sides) / (6 * D) as f64
@@ -76,7 +75,7 @@ impl<const D: usize> PointCloud<D> {
         self.positions.len()
     }
 
-    /// Whether there is no point.
+    /// Whether the cloud has no point.
     pub fn is_empty(&self) -> bool {
         self.positions.is_empty()
     }
@@ -89,8 +88,8 @@ impl<const D: usize> PointCloud<D> {
         self.over_some(&self.curve, T::default(), value)
     }
 
-    /// Values that each point has from its bonds, shape (n_points, N): computed at owned points, in parallel along the curve, and gathered
-    /// from all processes.
+    /// Values of each point from its bonds, shape (n_points, N): computed at owned points, in parallel along the curve, and gathered from
+    /// all processes.
     pub fn over_families<const N: usize>(
         &self,
         values: impl Fn(u32) -> [f64; N] + Sync,
@@ -100,7 +99,7 @@ impl<const D: usize> PointCloud<D> {
         all
     }
 
-    /// A value for each of some points and another one for the others, shape (n_points).
+    /// A value for each of some points, and `of_others` for the other points, shape (n_points).
     fn over_some<T: Copy + Send>(
         &self,
         points: &[u32],
@@ -115,7 +114,7 @@ impl<const D: usize> PointCloud<D> {
         values
     }
 
-    /// The owned points in the order of the curve.
+    /// Owned points in the order of the curve.
     pub(crate) fn owned_along_curve(&self) -> Cow<'_, [u32]> {
         if self.subdomain.is_whole() {
             return Cow::Borrowed(&self.curve);
@@ -124,12 +123,12 @@ impl<const D: usize> PointCloud<D> {
         points.filter(|&it| self.subdomain.owns(it)).collect()
     }
 
-    /// Takes a position of the case to the coordinates of [`PointCloud::positions`].
+    /// Converts a position of the case to the coordinates of [`PointCloud::positions`].
     pub fn local(&self, position: [f64; D]) -> [f64; D] {
         minus(position, self.origin)
     }
 
-    /// Shares of the materials in the volume of a point, shape (n_materials).
+    /// Fractions of the materials in the volume of a point, shape (n_materials).
     pub fn shares(&self, point: usize) -> &[f64] {
         &self.material_shares[point * self.n_materials..(point + 1) * self.n_materials]
     }
@@ -147,7 +146,7 @@ impl<const D: usize> PointCloud<D> {
     ///
     /// # Panics
     ///
-    /// Panics if there is no point at all, which no mesh or lattice with a cell gives.
+    /// Panics if the cloud has no point, which no mesh or lattice with a cell gives.
     pub fn nearest_point(&self, position: [f64; D]) -> u32 {
         let target = self.local(position);
         let nearest = (self.positions.iter())
@@ -162,11 +161,11 @@ impl<const D: usize> PointCloud<D> {
             .expect("a cloud has points")
     }
 
-    /// The points nearest to many positions of the case, by a search tree; of several at one distance it may be any.
+    /// Points nearest to many positions of the case, by a search tree; any of several at one distance.
     ///
     /// # Panics
     ///
-    /// Panics if there is no point at all, which no mesh or lattice with a cell gives.
+    /// Panics if the cloud has no point, which no mesh or lattice with a cell gives.
     pub fn nearest_points(&self, positions: &[[f64; D]]) -> Vec<u32> {
         let tree = search_tree(&self.positions);
         let nearest = |&position: &[f64; D]| {
@@ -176,7 +175,7 @@ impl<const D: usize> PointCloud<D> {
         positions.iter().map(nearest).collect()
     }
 
-    /// Points inside the box (coordinates of the case, rim included), ascending.
+    /// Points inside a box (coordinates of the case, rim included), ascending.
     pub fn points_in_box(&self, lower: [f64; D], upper: [f64; D]) -> Vec<u32> {
         let (lower, upper) = (self.local(lower), self.local(upper));
         (0..self.len())
@@ -194,8 +193,8 @@ impl<const D: usize> PointCloud<D> {
         norm(minus(upper, lower))
     }
 
-    /// Orders some points so that the first half of them lies on one side of the second along the axis in which they reach farthest (the
-    /// first of several), with ties to the smaller number.
+    /// Orders some points so that the first half of them lies on one side of the second half along the axis of their largest extent (the
+    /// first of several), with ties broken by number.
     pub(crate) fn halve(&self, points: &mut [u32]) {
         let positions = points.iter().map(|&it| self.positions[it as usize]);
         let [lower, upper] = bounding_box(positions);
@@ -210,14 +209,14 @@ impl<const D: usize> PointCloud<D> {
         });
     }
 
-    /// The points that this process owns where the body is divided between processes.
+    /// The owned points of this process where the body is divided between processes.
     pub fn divided(&self, communicator: Arc<dyn Communicator>) -> Subdomain {
         let halve = |points: &mut [u32]| self.halve(points);
         let partition = Partition::new(self.len(), communicator.size(), &halve);
         Subdomain::new(partition, communicator)
     }
 
-    /// Displacements u_i = x_j, u_j = x_i for each pair of axes i <= j, of points with so many components of motion, each of shape
+    /// Displacements u_i = x_j, u_j = x_i for each pair of axes i <= j, of points with `n_components` components of motion, each of shape
     /// (n_points, n_components).
     pub(crate) fn motions_of_strain(&self, n_components: usize) -> Vec<Vec<f64>> {
         let mode = |(i, j): (usize, usize)| {
@@ -238,13 +237,13 @@ impl<const D: usize> PointCloud<D> {
         precision::tolerance(self.precision, self.spacing[point as usize])
     }
 
-    /// Distance that counts as zero in comparisons at a point, m. On a lattice points lie exactly on the rims of boxes and
-    /// halfway between others, and rounding must not decide about them.
+    /// Distance that counts as zero in comparisons at a point, m. On a lattice points lie exactly on the rims of boxes and halfway between
+    /// others, where rounding must not decide.
     pub fn slack(&self, point: u32) -> f64 {
         self.tolerance(point) * self.spacing[point as usize]
     }
 
-    /// Distance that counts as zero along a bond between two points, m: that of the end where it is smaller.
+    /// Distance that counts as zero along a bond between two points, m: the smaller of both ends.
     pub(crate) fn slack_between(&self, [a, b]: [u32; 2]) -> f64 {
         self.slack(a).min(self.slack(b))
     }
@@ -261,7 +260,7 @@ pub(crate) fn search_tree<const D: usize>(positions: &[[f64; D]]) -> RTree<Numbe
     )
 }
 
-/// Distance of two points, m; the same bits whichever comes first.
+/// Distance between two points, m, with the same bits in either order.
 #[inline]
 pub(crate) fn distance<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
     norm(minus(b, a))

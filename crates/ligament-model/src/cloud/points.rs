@@ -1,4 +1,4 @@
-//! Points that are given one by one, with their volumes.
+//! Clouds of points that are given one by one, with their volumes.
 
 use ligament_mesh::{Numbering, along_hilbert_curve};
 
@@ -35,7 +35,7 @@ impl<const D: usize> PointCloud<D> {
         cloud
     }
 
-    /// Points at `positions` (n_points, m) of the case, still without volumes, materials and spacing.
+    /// Points at `positions` (n_points, m) of the case, not yet with volumes, materials and spacing.
     pub(super) fn at(positions: &[[f64; D]], thickness: f64, n_materials: usize) -> Self {
         let [lower, upper] = bounding_box(positions.iter().copied());
         let origin = std::array::from_fn(|axis| match lower[axis] <= upper[axis] {
@@ -61,7 +61,7 @@ impl<const D: usize> PointCloud<D> {
     }
 }
 
-/// Shares of the materials in the volumes of points (n_points, n_materials) that are all of one, by its index (n_points).
+/// Fractions of the materials in the volumes of points (n_points, n_materials) of one material each, given by its index (n_points).
 pub(super) fn whole_shares(material_of_point: &[u32], n_materials: usize) -> Vec<f64> {
     let mut shares = vec![0.0; material_of_point.len() * n_materials];
     for (point, &material) in material_of_point.iter().enumerate() {

@@ -1,27 +1,28 @@
-//! What coordinates are worth: the lengths that count as equal.
+//! Precision of coordinates: lengths that count as equal.
 
 use crate::horizon::INCLUSION_TOLERANCE;
 
-/// Half of the last bit of the significand in single precision, over the number.
+/// Half of the last bit of the significand in single precision, relative to the number.
 const SINGLE_PRECISION: f64 = 1.0 / (1 << 24) as f64;
 
-/// Errors of two coordinates in the length of a bond, and of two in the nearest distance that its horizon follows, along each of two
-/// axes.
+/// Number of coordinate errors in a comparison of a bond length with its horizon: two in the length and two in the nearest distance that the
+/// horizon follows, along each of two axes.
 const ERRORS_OF_A_LENGTH: f64 = 8.0;
 
-/// Share of the nearest distance beyond which uncertain coordinates do not make more lengths equal: such points are no regular grid.
+/// Fraction of the nearest distance beyond which uncertain coordinates do not make more lengths equal: such points are no regular grid.
 const LARGEST_UNCERTAINTY: f64 = 1e-3;
 
-/// Error that coordinates of the case may have, m.
+/// Uncertainty of the coordinates of the case, m.
 ///
-/// Coordinates have often been numbers of single precision on their way, and then were moved, turned or written in other units, so that their
-/// digits no longer tell it: none are taken to be known better than 2^-24 of the size of the body, wherever it lies. They may be known less by
+/// Coordinates have often been stored in single precision, and then moved, turned or written in other units, so that their digits no longer
+/// show it: none are taken to be known better than 2^-24 of the size of the body, wherever it lies. Their digits may show a larger
+/// uncertainty.
 /// their digits.
 pub(crate) fn precision_of_coordinates<const D: usize>(positions: &[[f64; D]]) -> f64 {
     (SINGLE_PRECISION * size(positions)).max(precision_of_digits(positions))
 }
 
-/// Twice the largest distance of a position from their mean, m: a turned or mirrored body has the same size.
+/// Twice the largest distance of a position from their mean, m: the same for a turned or mirrored body.
 fn size<const D: usize>(positions: &[[f64; D]]) -> f64 {
     let sum = |axis: usize| positions.iter().map(|position| position[axis]).sum::<f64>();
     let mean: [f64; D] = std::array::from_fn(|axis| sum(axis) / positions.len() as f64);
@@ -32,11 +33,11 @@ fn size<const D: usize>(positions: &[[f64; D]]) -> f64 {
     2.0 * squares.fold(0.0, f64::max).sqrt()
 }
 
-/// Error that coordinates may have, m, as far as they tell it themselves.
+/// Uncertainty of coordinates as shown by their digits, m.
 ///
-/// Numbers of at most nine digits, with which single precision is written, are known to half of their last digit, or to single
-/// precision (2^-24) if that is less; and so are numbers that all are ones of single precision. The largest coordinate counts: files
-/// hold as many digits of it as of the others. Zero for numbers with more digits.
+/// Numbers of at most nine digits, as single precision is written, are known to half of their last digit, or to single precision (2^-24) if
+/// that is less; and so are numbers that are all exact in single precision. The largest coordinate counts: files have as many digits of it
+/// as of the others. Zero for numbers with more digits.
 fn precision_of_digits<const D: usize>(positions: &[[f64; D]]) -> f64 {
     let all = |condition: &dyn Fn(f64) -> bool| positions.iter().flatten().all(|&x| condition(x));
     let largest = (positions.iter().flatten()).fold(0.0, |largest: f64, x| largest.max(x.abs()));
@@ -52,14 +53,14 @@ fn precision_of_digits<const D: usize>(positions: &[[f64; D]]) -> f64 {
     of_single.max(0.5 * 10.0_f64.powi(last))
 }
 
-/// Whether a number is written with so many significant digits, up to the rounding of a change of units.
+/// Whether a number has at most `digits` significant digits, up to the rounding of a change of units.
 fn has_digits(x: f64, digits: usize) -> bool {
     let written: f64 = format!("{x:.*e}", digits - 1).parse().unwrap_or(f64::NAN);
     (written - x).abs() <= 4.0 * f64::EPSILON * x.abs()
 }
 
-/// Relative difference up to which lengths count as equal at a point with this distance to the nearest one (m), where coordinates may have
-/// this error (m).
+/// Relative difference up to which lengths count as equal at a point, from the uncertainty of the coordinates (m) and the distance to the
+/// nearest point (m).
 pub(super) fn tolerance(precision: f64, spacing: f64) -> f64 {
     INCLUSION_TOLERANCE + (ERRORS_OF_A_LENGTH * precision / spacing).min(LARGEST_UNCERTAINTY)
 }

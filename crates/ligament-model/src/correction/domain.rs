@@ -1,7 +1,7 @@
 //! The iterative domain correction: factors Omega that make the strain energies of uniaxial strains along the axes right at every point
 //! (NHPD section 2.3, eqs 11 to 13). The third axis of bodies in space is our own, see `docs/space.md`.
 //!
-//! The correction is tied to the axes: quarter turns of the mesh leave the answer as it is, other turns do not.
+//! The correction is tied to the axes: quarter turns of the mesh leave the result unchanged, other turns do not.
 
 use nalgebra::Vector3;
 
@@ -16,7 +16,7 @@ use crate::fixed::EnergyRatio;
 use crate::law::BondStiffness;
 use crate::material::Stiffness;
 
-/// Strains in which energies are compared at most.
+/// Largest number of strains in which energies are compared.
 const MOST_MODES: usize = 7;
 
 /// Iterates Omega from 1 (NHPD eq. 13; the numerator printed as the strain is the energy density e):
@@ -44,7 +44,7 @@ pub fn iterate<const D: usize>(
     sweeps.correct(families, length_factor)
 }
 
-/// Strain energy density of every point over the continuum's, for each of [`StrainMode::all`].
+/// Ratio of the strain energy density of every point to that of the continuum, for each of [`StrainMode::all`].
 pub fn energy_ratios<const D: usize>(
     bonds: &BondSet<D>,
     cloud: &PointCloud<D>,
@@ -75,7 +75,7 @@ pub fn energy_ratios<const D: usize>(
     ratios.collect()
 }
 
-/// Share of the energy of a bond that belongs to one of its ends.
+/// Fraction of the energy of a bond that belongs to one of its ends.
 fn share<const D: usize>(
     stiffness: &BondStiffness,
     bonds: &BondSet<D>,
@@ -91,7 +91,7 @@ fn share<const D: usize>(
     }
 }
 
-/// alpha (k_n s^2 + k_t |gamma|^2) l of a bond under a strain of size one.
+/// Product alpha (k_n s^2 + k_t |gamma|^2) l of a bond under a strain of size one.
 fn energy_density<const D: usize>(
     mode: &StrainMode<D>,
     bond: usize,

@@ -7,33 +7,33 @@ use super::sweeps::SweptFamilies;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 
-/// Members of a family whose factors are computed at once: square roots and divisions go in pairs through the processor.
+/// Number of members of a family whose factors are computed together: the processor does square roots and divisions in pairs.
 const LANES: usize = 4;
 
-/// The families of own points along the curve; `index` is the place of a point in the order of the sweeps.
+/// Families of the owned points along the curve; `index` is the position of a point in the order of the sweeps.
 pub(super) struct Families<'a, const D: usize> {
     coefficients: Coefficients<'a, D>,
-    /// Omega of each member.
+    /// Factor Omega of each member.
     domain_factor: Vec<f64>,
-    /// e_A of the continuum along the axes of own points, by index, J/m^3.
+    /// Energy density e_A of the continuum along the axes at the owned points, by index, J/m^3.
     target: Vec<[f64; D]>,
-    /// e_A/etil_A along the axes of the points, by index.
+    /// Ratios e_A/etil_A along the axes at the points, by index.
     ratios: Vec<[f64; D]>,
-    /// The ratios before the last sweep, by index.
+    /// Ratios before the last sweep, by index.
     before: Vec<[f64; D]>,
 }
 
-/// What a sweep multiplies the factors with: the members of the families, and arrays over them.
+/// Coefficients of a sweep: the members of the families, and arrays over them.
 struct Coefficients<'a, const D: usize> {
     members: Members<'a, D>,
     /// Squares of the direction cosines along each axis.
     squares: [Vec<f64>; D],
-    /// 1/4 V_B times the bond's density under a strain of size one along each axis, J/m^3.
+    /// Product of 1/4 V_B and the density of the bond under a strain of size one along each axis, J/m^3.
     energy: Vec<[f64; D]>,
 }
 
 impl<'a, const D: usize> Families<'a, D> {
-    /// The families with all factors 1.
+    /// Families with all factors 1.
     ///
     /// `density(axis, bond)` is alpha (k_n s^2 + k_t |gamma|^2) l under a strain of size one along an axis, `targets` (D, n_points) the
     /// energy densities e_A of the continuum.
@@ -88,7 +88,7 @@ impl<const D: usize> SweptFamilies for Families<'_, D> {
             .collect();
         let order = &coefficients.members.order;
         order.update_ghosts(&mut self.ratios);
-        // Every bond was met at either end.
+        // Every bond occurs once at either end.
         0.5 * order.subdomain.sum(changes.iter().sum::<f64>())
     }
 
@@ -130,7 +130,7 @@ impl<'a, const D: usize> Coefficients<'a, D> {
         }
     }
 
-    /// NHPD eq. 13 for the `factors` Omega of a family, from the ratios of all points; adds |change of Omega|.
+    /// NHPD eq. 13 for the `factors` Omega of a family, from the ratios of all points; adds |change of Omega| to `change`.
     fn update(
         &self,
         index: usize,
@@ -158,7 +158,7 @@ impl<'a, const D: usize> Coefficients<'a, D> {
         }
     }
 
-    /// e_A/etil_A along the axes of a point, with the trial energy density of NHPD eq. 12.
+    /// Ratios e_A/etil_A along the axes at a point, with the trial energy density of NHPD eq. 12.
     fn energy_ratios(&self, index: usize, factors: &[f64], target: [f64; D]) -> [f64; D] {
         let members = self.energy[self.members.family(index)].iter().zip(factors);
         let mut trial = [0.0; D];
@@ -169,7 +169,7 @@ impl<'a, const D: usize> Coefficients<'a, D> {
     }
 }
 
-/// NHPD eq. 13 for some members of a family, from the ratios of the point itself and of all.
+/// NHPD eq. 13 for some members of a family, from the ratios of the point itself and of all points.
 ///
 /// With q = 2 p, the sum of the ratios of both ends, Omega/sqrt((a/p_x)^2 + (b/p_y)^2) is
 /// Omega q_x q_y / (2 sqrt(a^2 q_y^2 + b^2 q_x^2)), and with a third axis Omega q_x q_y q_z over
@@ -189,7 +189,7 @@ fn update_members<const D: usize, const N: usize>(
         (0..D).for_each(|axis| q[axis][k] = own[axis] + other[axis]);
     }
     for k in 0..N {
-        // The product of q along the other axes.
+        // Product of q along the other axes.
         let others = |axis: usize| match D {
             2 => q[1 - axis][k],
             _ => q[usize::from(axis == 0)][k] * q[2 - usize::from(axis == 2)][k],

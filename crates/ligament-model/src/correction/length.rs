@@ -1,4 +1,4 @@
-//! The length factor: short bonds count more than long ones.
+//! Length factor alpha: short bonds count more than long ones.
 
 use rayon::prelude::*;
 

@@ -1,8 +1,8 @@
-//! The bonds seen from their points: what sweeps over families read, in the order in which they read it.
+//! Bonds listed by family, in the order in which sweeps over families read them.
 //!
-//! A bond stands here twice, once in the family of either end. That takes more memory than bonds and their incidence, for the time
-//! of a correction, but a sweep is then one pass over memory in its order, without a search for the bonds of a point, and all sums of
-//! a point are the work of one thread.
+//! A bond occurs twice here, once in the family of either end. That takes more memory than bonds and their incidence, during a correction,
+//! but a sweep is then one sequential pass over memory, without a search for the bonds of a point, and one thread computes all sums of a
+//! point.
 
 use rayon::prelude::*;
 
@@ -10,23 +10,23 @@ use super::sweep_order::SweepOrder;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 
-/// Points whose sums one thread makes; fixed, so that sums are the same for any number of threads.
+/// Number of points whose sums one thread computes; fixed, so that sums are the same for any number of threads.
 pub(crate) const BLOCK: usize = 1024;
 
-/// The bonds seen from their points: each stands in the family of either end that is an own point. `index` is the place of a point in the
-/// order of the sweeps.
+/// Bonds listed by family: each occurs in the family of either end that is an owned point. `index` is the position of a point in the order
+/// of the sweeps.
 pub(crate) struct Members<'a, const D: usize> {
     bonds: &'a BondSet<D>,
     cloud: &'a PointCloud<D>,
     pub(crate) order: SweepOrder<'a>,
-    /// First member of the family of each point, and behind the last family the number of all members.
+    /// First member of the family of each point, and the number of all members at the end, shape (n_own + 1).
     starts: Vec<usize>,
-    /// Rank of the other end of each member.
+    /// Index of the other end of each member.
     pub(crate) neighbour: Vec<u32>,
 }
 
 impl<'a, const D: usize> Members<'a, D> {
-    /// The members of the families of own points.
+    /// Members of the families of owned points.
     pub(crate) fn new(bonds: &'a BondSet<D>, cloud: &'a PointCloud<D>) -> Self {
         let order = SweepOrder::new(bonds, cloud);
         let indices = order.indices();
@@ -54,12 +54,12 @@ impl<'a, const D: usize> Members<'a, D> {
         self.bonds.count(self.cloud)
     }
 
-    /// The largest of a value over all processes.
+    /// Largest of a value over all processes.
     pub(crate) fn largest(&self, value: f64) -> f64 {
         self.cloud.subdomain.max(value)
     }
 
-    /// Number of own points.
+    /// Number of owned points.
     pub(crate) fn n_points(&self) -> usize {
         self.starts.len() - 1
     }
@@ -70,7 +70,7 @@ impl<'a, const D: usize> Members<'a, D> {
         self.starts[index]..self.starts[index + 1]
     }
 
-    /// A value of each member, from its point and its bond, in the place of a first one.
+    /// A value of each member, computed from its point and its bond; `first` only fills the array.
     pub(crate) fn values<T: Clone + Send>(
         &self,
         first: T,
@@ -86,7 +86,7 @@ impl<'a, const D: usize> Members<'a, D> {
         values
     }
 
-    /// Does something with the values of each family, in parallel.
+    /// Applies a function to the values of each family, in parallel.
     pub(crate) fn over_blocks<T: Send>(
         &self,
         values: &mut [T],
@@ -105,7 +105,7 @@ impl<'a, const D: usize> Members<'a, D> {
             });
     }
 
-    /// An array over the members, cut into those of the points of each block.
+    /// An array over the members, divided into those of the points of each block.
     pub(crate) fn blocks<'b, T>(&self, mut values: &'b mut [T]) -> Vec<&'b mut [T]> {
         let mut blocks = Vec::new();
         for first in (0..self.n_points()).step_by(BLOCK) {
@@ -117,12 +117,12 @@ impl<'a, const D: usize> Members<'a, D> {
         blocks
     }
 
-    /// The value of each bond from those of the members, which are the same at either end, shape (n_bonds).
+    /// Value of each bond from the values of its members, which are equal at both ends, shape (n_bonds).
     pub(crate) fn of_bonds<T: Copy + Default + Send + Sync>(&self, values: &[T]) -> Vec<T> {
         if !self.cloud.subdomain.is_whole() {
             return self.of_known_bonds(values);
         }
-        // The bonds whose first end is a point follow one another, at the end of its family.
+        // Bonds with the same first end are consecutive, at the end of its family.
         let of_others = self.cloud.over_points(|point| {
             let is_second = |&bond: &u32| self.bonds.ends[bond as usize][0] != point;
             self.bonds.incidence.at(point).partition_point(is_second)
@@ -147,7 +147,7 @@ impl<'a, const D: usize> Members<'a, D> {
         of_bonds
     }
 
-    /// The value of each known bond, of which the first end may be a point of another process.
+    /// Value of each bond of this process, whose first end may be a point of another process.
     fn of_known_bonds<T: Copy + Default>(&self, values: &[T]) -> Vec<T> {
         let mut of_bonds = vec![T::default(); self.bonds.len()];
         let families = self.order.owned().iter();

@@ -1,5 +1,5 @@
-//! Corrections of the bonds: a factor alpha for what of its ends a bond connects, and a factor Omega for what surfaces and
-//! irregular meshes take from the families.
+//! Corrections of the bonds: a factor alpha from the length of a bond, and a factor Omega for families that surfaces or irregular meshes
+//! make incomplete or uneven.
 //!
 //! | alpha | Omega |
 //! |---|---|
@@ -25,30 +25,30 @@ pub use sweeps::{StopRule, Sweeps};
 
 use crate::bonds::retained::retained;
 
-/// Factors of the bonds and how they were found.
+/// Factors of the bonds, with the report of their computation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Correction {
     /// Length or partial-volume factors alpha, shape (n_bonds).
     pub length_factor: Vec<f64>,
-    /// Domain-correction factors Omega, or the surface factors in their place, shape (n_bonds).
+    /// Domain-correction factors Omega, or surface factors instead, shape (n_bonds).
     pub domain_factor: Vec<f64>,
-    /// Factors of the shear and rotational stiffness over Omega, shape (n_bonds); empty where all are 1.
+    /// Ratio of the factors of the shear and rotational stiffness to Omega, shape (n_bonds); empty where all are 1.
     pub shear_ratio: Vec<f64>,
-    /// Report on the iteration for the factors, where there was one.
+    /// Report of the iteration for the factors; none for factors without iteration.
     pub report: Option<CorrectionReport>,
 }
 
-/// Report on how a correction was found.
+/// Report of the computation of a correction.
 #[derive(Debug, Clone, PartialEq)]
 pub enum CorrectionReport {
-    /// The sweeps of the domain correction.
+    /// Report of the sweeps of the domain correction.
     Domain(DomainReport),
-    /// The Newton steps of the patch correction.
+    /// Report of the Newton steps of the patch correction.
     Patch(patch::Report),
 }
 
 impl CorrectionReport {
-    /// The sweeps of the domain correction, if it was the one.
+    /// Report of the sweeps, if the correction is the domain correction.
     pub fn domain(&self) -> Option<&DomainReport> {
         match self {
             Self::Domain(report) => Some(report),
@@ -56,7 +56,7 @@ impl CorrectionReport {
         }
     }
 
-    /// The Newton steps of the patch correction, if it was the one.
+    /// Report of the Newton steps, if the correction is the patch correction.
     pub fn patch(&self) -> Option<&patch::Report> {
         match self {
             Self::Domain(_) => None,
@@ -65,12 +65,12 @@ impl CorrectionReport {
     }
 }
 
-/// Report on the sweeps of the domain correction.
+/// Report of the sweeps of the domain correction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DomainReport {
-    /// Sweeps done.
+    /// Number of sweeps.
     pub sweeps: usize,
-    /// Whether the stop rule was met within the limit.
+    /// Whether the stop rule was satisfied within the limit.
     pub converged: bool,
     /// Sum over the bonds of |change of Omega| in the last sweep.
     pub last_change: f64,
@@ -79,7 +79,7 @@ pub struct DomainReport {
 }
 
 impl Correction {
-    /// Factors that are not iterated.
+    /// The correction of factors without iteration.
     pub fn fixed(length_factor: Vec<f64>, domain_factor: Vec<f64>) -> Self {
         Self {
             length_factor,
@@ -89,7 +89,7 @@ impl Correction {
         }
     }
 
-    /// The bonds for which `keep` (n_bonds) is true.
+    /// The correction of the bonds for which `keep` (n_bonds) is true.
     pub fn retained(self, keep: &[bool]) -> Self {
         Self {
             length_factor: retained(self.length_factor, keep),
@@ -103,13 +103,13 @@ impl Correction {
         }
     }
 
-    /// What the patch correction leaves of the equations of each point, shape (n_points); empty without it.
+    /// Residual of the equations of the patch correction at each point, shape (n_points); empty without it.
     pub fn patch_residual(&self) -> &[f64] {
         let report = self.report.as_ref().and_then(CorrectionReport::patch);
         report.map_or(&[], |report| &report.residual)
     }
 
-    /// Smallest and largest Omega.
+    /// Smallest and largest factor Omega.
     pub fn domain_factor_range(&self) -> (f64, f64) {
         self.domain_factor.iter().fold(
             (f64::INFINITY, f64::NEG_INFINITY),

@@ -1,4 +1,4 @@
-//! The partial-volume factor: of a cell that the horizon cuts only a part belongs to the family.
+//! Partial-volume factor alpha: only part of a cell that the horizon cuts belongs to the family.
 
 use rayon::prelude::*;
 
@@ -9,8 +9,8 @@ use crate::cloud::PointCloud;
 ///
 /// alpha = 1 for l <= H - dx/2, (H + dx/2 - l)/dx for H - dx/2 < l <= H, with the bond horizon H;
 ///
-/// 1/2 where the centre of the cell lies on the horizon. On a mesh dx is the mean over both ends of the side of a square with
-/// the point's area, in space of a cube with its volume; on a lattice it is the mean side of a cell.
+/// Alpha is 1/2 where the centre of the cell lies on the horizon. On a mesh dx is the mean over both ends of the side of a square with the
+/// point's area, in space of a cube with its volume; on a lattice it is the mean side of a cell.
 pub fn partial_volume_factors<const D: usize>(
     bonds: &BondSet<D>,
     cloud: &PointCloud<D>,

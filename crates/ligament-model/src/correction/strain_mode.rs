@@ -1,43 +1,43 @@
-//! Strains by which energies are compared.
+//! Strains in which energies are compared.
 
 use crate::fixed::EnergyRatio;
 use crate::material::Stiffness;
 use crate::tensor::{SymTensor, dot};
 
-/// Names that results give to ratios of energies in the uniaxial strains.
+/// Names of the energy ratios in the uniaxial strains, in results and in text.
 const UNIAXIAL: [[&str; 2]; 3] = [
     ["energy_ratio_x", "uniaxial x"],
     ["energy_ratio_y", "uniaxial y"],
     ["energy_ratio_z", "uniaxial z"],
 ];
 
-/// Names and words of the energy ratio in the isotropic strain, in the plane and in space.
+/// Names of the energy ratio in the isotropic strain, in the plane and in space.
 const ISOTROPIC: [[&str; 2]; 2] = [
     ["energy_ratio_biaxial", "biaxial"],
     ["energy_ratio_hydrostatic", "hydrostatic"],
 ];
 
-/// Name and words of the energy ratio in the shear strain of the plane.
+/// Name of the energy ratio in the shear strain of the plane.
 const SHEAR: [[&str; 2]; 1] = [["energy_ratio_shear", "shear"]];
 
-/// Names and words of the energy ratios in the shear strains of space.
+/// Names of the energy ratios in the shear strains of space.
 const SHEARS: [[&str; 2]; 3] = [
     ["energy_ratio_shear_xy", "shear xy"],
     ["energy_ratio_shear_xz", "shear xz"],
     ["energy_ratio_shear_yz", "shear yz"],
 ];
 
-/// A homogeneous strain of size one, for which the energy at a point is compared with the continuum's.
+/// A homogeneous strain of size one, for which the energy at a point is compared with that of the continuum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StrainMode<const D: usize> {
-    /// Names of the ratios of energies in results.
+    /// Names of the energy ratio in results and in text.
     names: [&'static str; 2],
-    /// The strain.
+    /// Strain tensor.
     pub strain: SymTensor<D>,
 }
 
 impl<const D: usize> StrainMode<D> {
-    /// eps_ii = 1 along each axis.
+    /// Uniaxial strains: eps_ii = 1 along each axis.
     pub fn uniaxial() -> [Self; D] {
         std::array::from_fn(|axis| Self {
             names: UNIAXIAL[axis],
@@ -66,7 +66,7 @@ impl<const D: usize> StrainMode<D> {
         normal.chain(shears).collect()
     }
 
-    /// Ratios of energies in the strain (n_points) with the names that results give them.
+    /// Energy ratios in the strain (n_points) with their names in results.
     pub fn named(&self, at_points: Vec<f64>) -> EnergyRatio {
         let [field, strain] = self.names;
         EnergyRatio {
@@ -76,7 +76,7 @@ impl<const D: usize> StrainMode<D> {
         }
     }
 
-    /// k_n s^2 + k_t |gamma|^2 of a bond of direction n under the strain, all rotations zero (NHPD eq. 3): s = n . eps n, and
+    /// Energy factor k_n s^2 + k_t |gamma|^2 of a bond of direction n under the strain, all rotations zero (NHPD eq. 3): s = n . eps n, and
     /// gamma = eps n - s n with the length of n x eps n.
     pub fn density(&self, n: [f64; D], axial: f64, shear: f64) -> f64 {
         if self.strain == SymTensor::isotropic(1.0) {
@@ -94,7 +94,7 @@ impl<const D: usize> StrainMode<D> {
         density
     }
 
-    /// Strain energy density 1/2 eps C eps of a continuum with a stiffness, J/m^3 (NHPD eq. 11 for the uniaxial ones).
+    /// Strain energy density 1/2 eps C eps of a continuum with a given stiffness, J/m^3 (NHPD eq. 11 for the uniaxial strains).
     pub fn energy(&self, stiffness: &Stiffness) -> f64 {
         let strain: Vec<f64> = self.strain.engineering().collect();
         let rows = strain.iter().enumerate().map(|(row, one)| {

@@ -1,4 +1,4 @@
-//! The surface correction by volumes: bonds of points whose families a surface cuts are made stiffer.
+//! Surface correction by volumes: bonds of points whose families a surface cuts are stiffened.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! The order in which sweeps of corrections go through the points: owned ones along the curve, then ghosts.
+//! Order of the points in sweeps of corrections: owned ones along the curve, then ghosts.
 
 use std::borrow::Cow;
 
@@ -10,18 +10,18 @@ use crate::subdomain::Subdomain;
 /// Index of a point that is neither owned nor a ghost.
 const NONE: u32 = u32::MAX;
 
-/// The points in the order of the sweeps, in which each has its index.
+/// Points in the order of the sweeps, which defines their indices.
 pub(crate) struct SweepOrder<'a> {
-    /// The points, owned ones first.
+    /// Points by index, owned ones first.
     points: Cow<'a, [u32]>,
-    /// The points that this process owns.
+    /// Points owned by this process.
     pub(crate) subdomain: &'a Subdomain,
     /// Ghosts, by index.
     pub(crate) ghosts: Ghosts,
 }
 
 impl<'a> SweepOrder<'a> {
-    /// The order of the points of a cloud with some bonds.
+    /// Order of the points of a cloud with some bonds.
     pub(crate) fn new<const D: usize>(bonds: &BondSet<D>, cloud: &'a PointCloud<D>) -> Self {
         let subdomain = &cloud.subdomain;
         let mut order = Self {
@@ -40,12 +40,12 @@ impl<'a> SweepOrder<'a> {
         order
     }
 
-    /// The points by index, owned ones first.
+    /// Points by index, owned ones first.
     pub(crate) fn all(&self) -> &[u32] {
         &self.points
     }
 
-    /// The owned points.
+    /// Owned points.
     pub(crate) fn owned(&self) -> &[u32] {
         &self.points[..self.subdomain.owned().len()]
     }
@@ -64,7 +64,7 @@ impl<'a> SweepOrder<'a> {
         self.ghosts.update(values.as_flattened_mut(), N);
     }
 
-    /// The value of each point of the cloud from those of owned points, by index.
+    /// Value of each point of the cloud from those of owned points, by index.
     pub(crate) fn of_points(&self, values: &[f64]) -> Vec<f64> {
         let mut of_points = vec![0.0; self.subdomain.partition().len()];
         for (&point, &value) in self.owned().iter().zip(values) {

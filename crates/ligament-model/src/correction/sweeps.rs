@@ -1,13 +1,13 @@
-//! Sweeps of a correction over the families of all points, until the factors Omega stand.
+//! Sweeps of a correction over the families of all points, until the factors Omega converge.
 
 use super::{Correction, CorrectionReport, DomainReport};
 
 /// Condition at which the sweeps end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StopRule {
-    /// The sum over the bonds of |change of Omega| falls below this (the paper's rule; asks more of larger meshes).
+    /// Sum over the bonds of |change of Omega| below a limit (the paper's rule, stricter for larger meshes).
     Sum(f64),
-    /// The mean over the bonds of |change of Omega| falls below this (independent of the size).
+    /// Mean over the bonds of |change of Omega| below a limit (independent of the size).
     Mean(f64),
 }
 
@@ -16,13 +16,13 @@ pub enum StopRule {
 pub struct Sweeps {
     /// Condition at which the sweeps end.
     pub stop: StopRule,
-    /// Sweeps after which the iteration is given up, with the factors reached.
+    /// Largest number of sweeps, after which the iteration ends with the factors reached.
     pub limit: usize,
 }
 
-/// The families of all points with factors Omega that sweeps improve.
+/// Families of all points with factors Omega that sweeps improve.
 pub(crate) trait SweptFamilies {
-    /// One sweep; the sum over the bonds of |change of Omega|.
+    /// Does one sweep and returns the sum over the bonds of |change of Omega|.
     fn sweep(&mut self) -> f64;
 
     /// Number of the bonds of the whole body.
@@ -31,12 +31,12 @@ pub(crate) trait SweptFamilies {
     /// Largest |etil/e - 1| of a point along an axis.
     fn largest_residual(&self) -> f64;
 
-    /// Omega of every bond, shape (n_bonds).
+    /// Factor Omega of every bond, shape (n_bonds).
     fn into_domain_factors(self) -> Vec<f64>;
 }
 
 impl Sweeps {
-    /// The correction with length factors alpha (n_bonds) and the factors Omega that sweeps over the families reach.
+    /// The correction with length factors alpha (n_bonds) and the factors Omega from sweeps over the families.
     pub(crate) fn correct(
         self,
         mut families: impl SweptFamilies,

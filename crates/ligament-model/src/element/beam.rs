@@ -1,7 +1,7 @@
-//! The beam-like bond: displacements and rotations at each end (in the plane NHPD eqs 2, 3 and 9).
+//! Beam bonds: displacements and rotations at each end (in the plane NHPD eqs 2, 3 and 9).
 //!
-//! In space it is a beam of Euler and Bernoulli with EA = k_n, EI = k_theta l = d and a torsional stiffness GJ = d where k_t = 12 d/l^2, as in
-//! textbooks, without a frame of its own: bending and torsion have one rotational stiffness (derived in `docs/space.md`).
+//! In space the bond is a beam of Euler and Bernoulli with EA = k_n, EI = k_theta l = d and a torsional stiffness GJ = d where k_t = 12
+//! d/l^2, as in textbooks, without a frame of its own: bending and torsion have one rotational stiffness (derived in `docs/space.md`).
 //!
 //! Rotations are counter-clockwise. With them the shear row of B reads [0, -1, -l/2, 0, 1, -l/2]/l; the signs +l/2 of
 //! the printed eq. 3 belong to clockwise rotations.
@@ -14,7 +14,7 @@ use crate::deformation::SpaceDeformation;
 use crate::layout::Component;
 use crate::tensor::{SymTensor, cross, dot, tangents};
 
-/// A pair of springs between points that turn, and a spring against their relative rotation.
+/// An axial and a shear spring between points with rotations, and a spring against their relative rotation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BeamBond<const D: usize = 2> {
     /// Geometry, axial and shear rigidity.
@@ -24,8 +24,8 @@ pub struct BeamBond<const D: usize = 2> {
 }
 
 impl<const D: usize> BeamBond<D> {
-    /// A bond of a length (m) and a direction that deforms and resists nothing. The points of springs do not turn, so that its
-    /// deformations are theirs as well.
+    /// A bond of a length (m) and a direction without stiffness. Its deformations are also those of spring bonds, whose points have no
+    /// rotations.
     pub fn without_stiffness(length: f64, direction: [f64; D]) -> Self {
         Self {
             springs: SpringBond {
@@ -117,7 +117,7 @@ impl PairKinematics<2, 3> for BeamBond {
 }
 
 impl BeamBond<3> {
-    /// Block of K with the rows of one end and the columns of the other, or of the same; signs are -1 for A and 1 for B.
+    /// Block of K with the rows of one end and the columns of the other, or of the same; `rows` and `columns` are -1 for A and 1 for B.
     ///
     /// gamma = sum over the ends of sign P u/l + 1/2 n x phi, so that with N v = n x v, N^T N = P and P N = N the blocks are
     ///

@@ -1,14 +1,14 @@
 //! Strains of a bond that criteria measure.
 
-/// Deformation of a bond: the strains that its element has, in the order of [`ElementKind::strain_names`](super::ElementKind::strain_names).
+/// Deformation of a bond: the strains of its element, in the order of [`ElementKind::strain_names`](super::ElementKind::strain_names).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BondDeformation {
     strains: [f64; 3],
 }
 
 impl BondDeformation {
-    /// The deformation with strains in the order of their names: of a bond of two points stretch s, shear deformation gamma, rad,
-    /// and relative rotation theta_B - theta_A of the ends, rad; zero what it has not.
+    /// The deformation with strains in the order of their names: for a bond of two points stretch s, shear deformation gamma, rad, and
+    /// relative rotation theta_B - theta_A of the ends, rad; zero where the element does not have one.
     #[inline]
     pub const fn new(strains: [f64; 3]) -> Self {
         Self { strains }
@@ -53,7 +53,7 @@ impl BondDeformation {
         self.strains
     }
 
-    /// A multiple of it.
+    /// The deformation times a factor.
     #[inline]
     pub fn scaled(&self, factor: f64) -> Self {
         Self {
@@ -61,7 +61,7 @@ impl BondDeformation {
         }
     }
 
-    /// What is left of it without another one.
+    /// The deformation less another one.
     #[inline]
     pub fn less(&self, other: &Self) -> Self {
         Self {

@@ -15,8 +15,9 @@
 //!
 //! # After breakage
 //!
-//! A neighbour counts while the bond of one spacing to it is unbroken; where one of the two is missing, the difference is taken to the
-//! end itself. A corner of the rectangle of an S bond counts while one of its two edges is unbroken. A bond without any support for one of its
+//! A neighbour counts while the bond of one spacing to it is unbroken; where one of the two is missing, the difference is taken to the end
+//! itself. A corner of the rectangle of an S bond counts while one of its two edges is unbroken. A bond without support for one of its
+//! derivatives drops out: it has no stiffness and no strain.
 //! derivatives drops out: it has no stiffness and no strain.
 
 mod class;
@@ -36,24 +37,24 @@ pub(super) use quotients::{Axis, Quotient, Quotients};
 pub use stored::LatticeStrains;
 pub use surroundings::Surroundings;
 
-/// Most points that an element couples.
+/// Largest number of points that an element couples.
 const POINTS: usize = 6;
 
-/// The elements of a lattice; the stiffness D of each bond stands among the rigidities.
+/// Imaginary elements of a lattice; the stiffness D of each bond is in [`Rigidities::strain`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImaginaryElements {
-    /// Positions whose differences the strains have in their denominators, shape (n_points), m.
+    /// Positions whose differences are the denominators of the strains, shape (n_points), m.
     pub positions: Vec<[f64; 2]>,
     /// The bonds that support the element of each bond.
     pub surroundings: Surroundings,
-    /// The bonds whose elements couple each point, ascending.
+    /// Bonds whose elements couple each point, ascending.
     pub couplings: Incidence,
-    /// The other points that some element couples with each point, ascending.
+    /// Other points that some element couples with each point, ascending.
     pub neighbours: Incidence,
 }
 
 impl ImaginaryElements {
-    /// The elements of bonds on a lattice with positions (n_points).
+    /// The elements of bonds on a lattice with positions (n_points), m.
     pub fn new(bonds: &BondSet, positions: Vec<[f64; 2]>) -> Self {
         let surroundings = Surroundings::from_bonds(bonds);
         let whole = vec![true; bonds.len()];
@@ -135,7 +136,7 @@ impl Elements<2, 2> for ImaginaryElements {
     }
 }
 
-/// The matrix of its entries.
+/// The symmetric matrix of given entries.
 pub fn matrix([d11, d12, d16, d22, d26, d66]: SymmetricEntries) -> Matrix3<f64> {
     Matrix3::new(d11, d12, d16, d12, d22, d26, d16, d26, d66)
 }
@@ -145,14 +146,14 @@ pub fn entries(matrix: &Matrix3<f64>) -> SymmetricEntries {
     [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)].map(|place| matrix[place])
 }
 
-/// One bond with its surroundings as they are left.
+/// The imaginary element of one bond with its remaining surroundings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImaginaryElement {
     gradient: Gradient,
     stiffness: SymmetricEntries,
 }
 
-/// A discrete gradient.
+/// A discrete gradient over up to [`POINTS`] points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Gradient {
     count: usize,
@@ -188,7 +189,7 @@ impl Gradient {
         gradient
     }
 
-    /// Adds a difference quotient.
+    /// Adds a difference quotient to the gradient.
     #[inline]
     fn add(&mut self, quotient: &Quotient, positions: &[[f64; 2]]) {
         let &Quotient {
@@ -221,7 +222,7 @@ impl Gradient {
         &self.points[..self.count]
     }
 
-    /// The points with their weights.
+    /// Points of the gradient with their weights X_i and Y_i.
     #[inline]
     fn weights(&self) -> impl Iterator<Item = (u32, f64, f64)> + '_ {
         let weights = self.by_x.iter().zip(&self.by_y);
@@ -231,19 +232,19 @@ impl Gradient {
 }
 
 impl ImaginaryElement {
-    /// Strains (S_xx, S_yy, S_xy) for displacements of size one along x and y of each point that it couples, with the point.
+    /// Strains (S_xx, S_yy, S_xy) for unit displacements along x and y of each coupled point, with the point.
     pub(super) fn strains_of_points(&self) -> impl Iterator<Item = (u32, [[f64; 3]; 2])> + '_ {
         let weights = self.gradient.weights();
         weights.map(|(point, x, y)| (point, [[x, 0.0, y], [0.0, y, x]]))
     }
 
-    /// Block of the stiffness between two of its points, given by their places among them: rows of the first, columns of
-    /// the second, shape (2, 2), N/m.
+    /// Block of the stiffness between two coupled points, given by their indices in the gradient: rows of the first, columns of the second,
+    /// shape (2, 2), N/m.
     fn block(&self, first: usize, second: usize) -> Block<2> {
         let [d11, d12, d16, d22, d26, d66] = self.stiffness;
         let Gradient { by_x, by_y, .. } = &self.gradient;
         let ([x, y], [x_2, y_2]) = ([by_x[first], by_y[first]], [by_x[second], by_y[second]]);
-        // Columns of D B of the second point.
+        // Columns of D B for the second point.
         let of_u = [
             d11 * x_2 + d16 * y_2,
             d12 * x_2 + d26 * y_2,
@@ -278,7 +279,7 @@ impl Element<2, 2> for ImaginaryElement {
 
     #[inline]
     fn weakened(self, remaining: &StiffnessFactors) -> Self {
-        // D has no parts of its own for stretch and shear.
+        // The axial factor scales the whole matrix D, which has no separate entries for stretch and shear.
         Self {
             stiffness: self.stiffness.map(|entry| remaining.axial * entry),
             ..self
@@ -323,12 +324,12 @@ impl Element<2, 2> for ImaginaryElement {
         }
     }
 
-    /// D S: the gradient is exact for linear fields.
+    /// Dyad D S, since the gradient is exact for linear fields.
     fn dyad(&self, deformation: &BondDeformation) -> SymTensor<2> {
         SymTensor::from_components(&self.stress(deformation))
     }
 
-    /// One term for each eigenvalue of D.
+    /// Terms of the stiffness, one for each eigenvalue of D.
     fn terms(&self) -> Vec<Term> {
         let SymmetricEigen {
             eigenvalues,

@@ -8,10 +8,10 @@
 //! | [`true_strain`] | the same | the same | the same, over distances after the deformation | `mbb-pd` |
 //! | [`pairwise`] | the same | the same, with forces on two ends | the same as the first | `mbb-pd` as printed |
 //!
-//! The first two are there in the plane and in space, where shear and relative rotation are vectors, the others in the plane.
+//! The beam and spring elements exist in the plane and in space, where shear and relative rotation are vectors, the others in the plane.
 //!
-//! A law chooses the rigidities and knows no kinematics; an element knows nothing of laws. Elements know as a type how many
-//! components M the motion of a point has, and arrays over degrees of freedom have as many a point.
+//! A law gives the rigidities, independently of the kinematics; an element gives the kinematics, independently of the law. Elements have the
+//! number M of components of the motion of a point as a type parameter; arrays over degrees of freedom have M entries a point.
 
 pub mod beam;
 pub mod bond_deformation;
@@ -47,7 +47,7 @@ pub enum ElementKind {
 }
 
 impl ElementKind {
-    /// Whether it has strains of its own, of a rectangle around the bond.
+    /// Whether the element has strains of its own, of a rectangle around the bond.
     pub fn has_strains(self) -> bool {
         match self {
             Self::Beam | Self::Spring => false,
@@ -66,7 +66,7 @@ impl ElementKind {
     }
 }
 
-/// Rigidities of all bonds: stiffness densities times what the bonds stand for.
+/// Rigidities of all bonds: stiffness densities times the volumes and lengths that the bonds represent.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Rigidities {
     /// Omega alpha V_A V_B k_n l, shape (n_bonds), J.
@@ -75,22 +75,22 @@ pub struct Rigidities {
     pub shear: Vec<f64>,
     /// Omega alpha V_A V_B k_theta, shape (n_bonds), J.
     pub rotational: Vec<f64>,
-    /// Stiffness over the strains of imaginary elements, shape (n_bonds), J; empty for others.
+    /// Stiffness over the strains of imaginary elements, shape (n_bonds), J; empty for other elements.
     pub strain: Vec<StrainStiffness>,
 }
 
 impl Rigidities {
-    /// Rigidities against stretch and shear, which bonds of springs have.
+    /// Axial and shear rigidities of all bonds, J.
     pub fn of_springs(&self) -> impl Iterator<Item = &f64> {
         self.axial.iter().chain(&self.shear)
     }
 
-    /// Whether a bond resists rotations of its ends, if these can turn.
+    /// Whether a bond resists rotations of its ends, if these have rotations.
     pub(crate) fn resist_rotations(&self, bond: usize) -> bool {
         self.shear[bond] != 0.0 || self.rotational[bond] != 0.0
     }
 
-    /// Degrees of freedom that bonds may resist: all displacements, and rotations where a bond does, shape (n_degrees_of_freedom).
+    /// Degrees of freedom that bonds may resist: all displacements, and rotations where a bond resists them, shape (n_degrees_of_freedom).
     pub(crate) fn resisted(
         &self,
         ends: &[[u32; 2]],
@@ -116,14 +116,14 @@ impl Rigidities {
     }
 }
 
-/// What is left of the stiffness of a bond: factors of its rigidities.
+/// Remaining stiffness of a bond: factors of its rigidities.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StiffnessFactors {
-    /// Of the axial one.
+    /// Factor of the axial rigidity.
     pub axial: f64,
-    /// Of the one against shear.
+    /// Factor of the shear rigidity.
     pub shear: f64,
-    /// Of the one against relative rotation.
+    /// Factor of the rotational rigidity.
     pub rotational: f64,
 }
 
@@ -142,21 +142,21 @@ impl Wire<3> for StiffnessFactors {
 }
 
 impl StiffnessFactors {
-    /// All of it.
+    /// Whole stiffness: factors 1.
     pub const WHOLE: Self = Self {
         axial: 1.0,
         shear: 1.0,
         rotational: 1.0,
     };
 
-    /// Nothing of it.
+    /// No stiffness: factors 0.
     pub const NOTHING: Self = Self {
         axial: 0.0,
         shear: 0.0,
         rotational: 0.0,
     };
 
-    /// Whether some factor differs from the other's by more than a relative tolerance.
+    /// Whether some factor differs from that of `other` by more than a relative tolerance.
     #[inline]
     pub fn is_off(&self, other: &Self, tolerance: f64) -> bool {
         let is_off = |one: f64, other: f64| (one - other).abs() > tolerance * one.max(other);
@@ -165,7 +165,7 @@ impl StiffnessFactors {
             || is_off(self.rotational, other.rotational)
     }
 
-    /// What was lost from here to `later`.
+    /// Decrease of the factors from this state to `later`.
     pub fn lost(&self, later: &Self) -> Self {
         Self {
             axial: self.axial - later.axial,
@@ -175,7 +175,7 @@ impl StiffnessFactors {
     }
 }
 
-/// The elements of all bonds in D dimensions, between points with M components: what makes the element of a bond from the bonds that are left.
+/// Elements of all bonds in D dimensions, between points with M components: gives the element of a bond while some bonds are unbroken.
 pub trait Elements<const D: usize, const M: usize>:
     std::fmt::Debug + Send + Sync + 'static
 {
@@ -194,7 +194,7 @@ pub trait Elements<const D: usize, const M: usize>:
         bond: usize,
     ) -> Self::Element;
 
-    /// Whether a rotation of the whole body costs nothing, although bonds resist shear.
+    /// Whether a rotation of the whole body costs no energy, although bonds resist shear.
     fn rotates_freely(&self) -> bool;
 
     /// Whether forces are linear in the displacements.
@@ -202,28 +202,27 @@ pub trait Elements<const D: usize, const M: usize>:
         true
     }
 
-    /// Whether forces are those of an energy, so that the stiffness is symmetric.
+    /// Whether forces derive from an energy, so that the stiffness is symmetric.
     fn has_energy(&self) -> bool {
         true
     }
 
-    /// Whether some bond has a negative stiffness, so that that of the body may be indefinite.
+    /// Whether some bond has a negative stiffness, so that the stiffness of the body may be indefinite.
     fn some_negative(&self, rigidities: &Rigidities) -> bool {
         rigidities.of_springs().any(|&rigidity| rigidity < 0.0)
     }
 
-    /// Share of the energy of a bond that belongs to one of its ends.
+    /// Fraction of the energy of a bond that belongs to one of its ends.
     fn share(&self, _bonds: &BondSet<D>, _rigidities: &Rigidities, _bond: u32, _point: u32) -> f64 {
         0.5
     }
 
-    /// Bonds whose elements may change when some bonds break, themselves left out, ascending.
+    /// Bonds whose elements may change when some bonds break, these left out, ascending.
     fn dependent_bonds(&self, _bonds: &[u32]) -> Vec<u32> {
         Vec::new()
     }
 
-    /// The bonds whose elements couple each point, and the other points that they couple it with; None where bonds couple
-    /// their ends alone.
+    /// Bonds whose elements couple each point, and the other points that these elements couple; `None` where bonds couple their ends alone.
     fn couplings(&self) -> Option<[&Incidence; 2]> {
         None
     }
@@ -233,14 +232,14 @@ pub trait Elements<const D: usize, const M: usize>:
 pub type DeformationOf<const D: usize, const M: usize, E> =
     <<E as Elements<D, M>>::Element as Element<D, M>>::Deformation;
 
-/// What every element does. Loops over all bonds take the element as a type and ask for it once, not bond by bond.
+/// Interface of all elements. Loops over all bonds have the element as a type parameter, so that it is resolved once, not bond by bond.
 pub trait Element<const D: usize, const M: usize>:
     Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static
 {
     /// Deformation of the bond.
     type Deformation: Deformation;
 
-    /// The element with its rigidities times what is left of them.
+    /// The element with its rigidities times the remaining factors.
     fn weakened(self, remaining: &StiffnessFactors) -> Self;
 
     /// Deformation for the motions of all points, shape (M n_points), m and rad.
@@ -252,10 +251,10 @@ pub trait Element<const D: usize, const M: usize>:
     /// 1/2 u^T K u', J, for two deformations of the same bond.
     fn mutual_energy(&self, one: &Self::Deformation, other: &Self::Deformation) -> f64;
 
-    /// Adds the internal forces and moments K u on the points that the element couples, N and N m.
+    /// Adds the internal forces and moments K u on the coupled points, N and N m.
     fn forces(&self, deformation: &Self::Deformation, add: impl FnMut(u32, [f64; M]));
 
-    /// Internal forces at the ends A and B of a bond of two points, N and N m; None for one that couples others as well.
+    /// Internal forces at the ends A and B of a bond of two points, N and N m; `None` for an element that couples other points.
     fn end_forces(&self, _deformation: &Self::Deformation) -> Option<[[f64; M]; 2]> {
         None
     }
@@ -263,10 +262,10 @@ pub trait Element<const D: usize, const M: usize>:
     /// Sum over the points of internal force (x) position, its symmetric part, J.
     fn dyad(&self, deformation: &Self::Deformation) -> SymTensor<D>;
 
-    /// K as a sum of rigidity g g^T; the rows g are given by degree of freedom.
+    /// Terms of K as a sum of rigidity g g^T; the rows g are given by degree of freedom.
     fn terms(&self) -> Vec<Term>;
 
-    /// Adds the blocks of K in the columns of one of its points, at the rows of points up to this one.
+    /// Adds the blocks of K in the columns of a coupled point, at the rows of the coupled points up to this one.
     fn upper_blocks(&self, point: u32, add: impl FnMut(u32, Block<M>));
 
     /// Adds the derivatives of the forces by the unknowns: row, column, value.
@@ -281,7 +280,7 @@ pub trait Element<const D: usize, const M: usize>:
     }
 }
 
-/// A block of a stiffness between two points: rows of the first, columns of the second.
+/// Block of a stiffness between two points: rows of the first, columns of the second.
 pub type Block<const M: usize> = [[f64; M]; M];
 
 /// A term rigidity g g^T of an element stiffness: the rigidity, J, and the entries of g by degree of freedom.

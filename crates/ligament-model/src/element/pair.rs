@@ -1,4 +1,4 @@
-//! Bonds that couple their two ends and nothing else.
+//! Bonds that couple their two ends alone.
 
 use std::marker::PhantomData;
 
@@ -12,17 +12,17 @@ use crate::tensor::SymTensor;
 pub trait PairBond<const D: usize>:
     Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static
 {
-    /// The bond of a number.
+    /// The bond with a given number.
     fn new(bonds: &BondSet<D>, rigidities: &Rigidities, bond: usize) -> Self;
 
-    /// The bond with its rigidities times what is left of them.
+    /// The bond with its rigidities times the remaining factors.
     fn weakened(self, remaining: &StiffnessFactors) -> Self;
 
     /// Length l, m, and unit vector n from A to B.
     fn geometry(&self) -> (f64, [f64; D]);
 }
 
-/// The kinematics of a bond in D dimensions between two points with M components.
+/// Kinematics of a bond in D dimensions between two points with M components.
 pub trait PairKinematics<const D: usize, const M: usize>: PairBond<D> {
     /// Components of the motion of a point.
     const COMPONENTS: [Component; M];
@@ -33,7 +33,7 @@ pub trait PairKinematics<const D: usize, const M: usize>: PairBond<D> {
     /// Deformation for the motions of the ends A and B, shape (M) each.
     fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> Self::Deformation;
 
-    /// Deformation in a uniform strain eps without rotations: s = n . eps n, and the shear deformation is the rest of eps n.
+    /// Deformation in a uniform strain eps without rotations: s = n . eps n; the shear deformation is the rest of eps n.
     fn deformation_in(&self, strain: &SymTensor<D>) -> Self::Deformation;
 
     /// 1/2 u^T K u', J, for two deformations of the same bond.
@@ -42,7 +42,8 @@ pub trait PairKinematics<const D: usize, const M: usize>: PairBond<D> {
     /// Internal forces and moments K u at the ends A and B, N and N m.
     fn end_forces(&self, deformation: &Self::Deformation) -> [[f64; M]; 2];
 
-    /// K as a sum of rigidity g g^T over the ways in which the bond deforms; the rows g take the motions of A and B to the size of each.
+    /// Modes of the bond: K as a sum of rigidity g g^T over stretch, shear and relative rotation; the rows g take the motions of A and B to
+    /// the size of the mode.
     fn modes(&self) -> impl Iterator<Item = (f64, [[f64; M]; 2])>;
 
     /// Block of K with the rows of one end (0 for A, 1 for B) and the columns of another.
@@ -59,7 +60,7 @@ pub trait PairKinematics<const D: usize, const M: usize>: PairBond<D> {
     }
 }
 
-/// What criteria measure of a bond for the motions of its ends A and B, without what a strain that the temperature gives makes of it.
+/// Deformation that criteria measure, for the motions of the ends A and B of a bond, less that of a thermal strain.
 pub fn measured<const D: usize, const M: usize>(
     bond: &impl PairKinematics<D, M>,
     ends: [[f64; M]; 2],
@@ -71,7 +72,7 @@ pub fn measured<const D: usize, const M: usize>(
     free.map_or(whole, |free| whole.less(&free)).measured()
 }
 
-/// The elements of bonds that couple their ends.
+/// Elements of bonds that couple their ends alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Pairs<B>(PhantomData<B>);
 
@@ -101,12 +102,12 @@ impl<const D: usize, const M: usize, B: PairKinematics<D, M>> Elements<D, M> for
     }
 
     fn rotates_freely(&self) -> bool {
-        // Without rotations of the points a bond takes that of the body for a shear.
+        // Without rotations of the points a rotation of the body is a shear of its bonds.
         B::COMPONENTS.iter().any(|it| it.is_rotation())
     }
 }
 
-/// A bond of two points: its ends and what happens between them.
+/// A bond of two points: its ends and its kinematics.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair<B> {
     /// Points A and B.
@@ -115,7 +116,7 @@ pub struct Pair<B> {
     pub bond: B,
 }
 
-// The sweeps over all bonds are these functions: the compiler left some as calls, which cost them a fifth more time.
+// These functions are the sweeps over all bonds: the compiler left some as calls, which cost the sweeps a fifth more time.
 impl<const D: usize, const M: usize, B: PairKinematics<D, M>> Element<D, M> for Pair<B> {
     type Deformation = B::Deformation;
 

@@ -1,6 +1,6 @@
-//! The element of MBB-PD with the printed forces: on the two ends of the bond alone (eqs 16 and 17).
+//! Element of MBB-PD with the printed forces, on the two ends of the bond alone (eqs 16 and 17).
 //!
-//! With the force densities f = psi c S (eqs 16 and 18), the class of the bond decides what its ends feel:
+//! The force densities are f = psi c S (eqs 16 and 18); the class of the bond decides which of them act on its ends:
 //!
 //! | class | force along x | force along y |
 //! |---|---|---|
@@ -9,8 +9,8 @@
 //! | S | f_xx + 1/2 f_xy abs(tan theta) xi/xi_0 | f_yy + 1/2 f_xy abs(cot theta) xi/xi_0 |
 //!
 //! each in the direction in which a positive strain pulls, times both volumes; xi_0 is the length of the shortest bond of the same
-//! direction. Eq. 17 has no meaning for H and V bonds. These forces are not those of an energy: the stiffness is not symmetric. The
-//! form is here to show what the printed equations give.
+//! direction. Eq. 17 has no meaning for H and V bonds. These forces do not derive from an energy: the stiffness is not symmetric. The
+//! element exists to show the results of the printed equations.
 
 use super::imaginary::{BondClass, ImaginaryElement, ImaginaryElements};
 use super::{Block, BondDeformation, Element, Elements, Rigidities, StiffnessFactors, Term};
@@ -18,14 +18,14 @@ use crate::bonds::{BondSet, Incidence};
 use crate::layout::Component;
 use crate::tensor::SymTensor;
 
-/// The elements of a lattice with the printed forces.
+/// Elements of a lattice with the printed forces.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairwiseElements {
     /// The elements with the forces of the energy.
     pub lattice: ImaginaryElements,
     /// Factors of the rows (xx, yy, xy) of D in the printed forces of each bond, shape (n_bonds).
     pub row_factors: Vec<[f64; 3]>,
-    /// Distances of the columns and of the rows of the lattice, m.
+    /// Distances between the columns and between the rows of the lattice, m.
     pub spacing: [f64; 2],
 }
 
@@ -80,17 +80,17 @@ impl Elements<2, 2> for PairwiseElements {
     }
 }
 
-/// One bond with its surroundings.
+/// The element of one bond with its surroundings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairwiseElement {
-    /// The strains, and D with the factor psi of the energy.
+    /// Imaginary element: the strains, and D with the factor psi of the energy.
     strains: ImaginaryElement,
     ends: [u32; 2],
-    /// From A to B, m.
+    /// Vector from A to B, m.
     offset: [f64; 2],
-    /// Printed psi over that of the energy, of the rows (xx, yy, xy).
+    /// Ratio of the printed psi to that of the energy, for the rows (xx, yy, xy).
     row_factors: [f64; 3],
-    /// Takes psi c S V_A V_B |xi| of the rows to the force on the second end, 1/m.
+    /// Coefficients from psi c S V_A V_B |xi| of the rows to the force on the second end, 1/m.
     of_rows: [[f64; 3]; 2],
 }
 
@@ -108,7 +108,7 @@ impl PairwiseElement {
         })
     }
 
-    /// V_A V_B |xi| f, J.
+    /// Products V_A V_B |xi| f of the rows (xx, yy, xy), J.
     #[inline]
     fn rows(&self, deformation: &BondDeformation) -> [f64; 3] {
         let stress = self.strains.stress(deformation);
@@ -116,7 +116,7 @@ impl PairwiseElement {
     }
 }
 
-/// What the rows (xx, yy, xy) give along x and y, without volumes and densities, 1/m.
+/// Coefficients of the rows (xx, yy, xy) in the force along x and y, without volumes and densities, 1/m.
 fn of_rows(offset: [f64; 2], spacing: [f64; 2], class: BondClass) -> [[f64; 3]; 2] {
     let length = offset[0].hypot(offset[1]);
     let [to_x, to_y] = offset.map(|it| it.signum() / length);
@@ -163,7 +163,7 @@ impl Element<2, 2> for PairwiseElement {
         self.strains.deformation_in(strain)
     }
 
-    /// 1/2 f S V_A V_B |xi| (A.7) of the rows that the ends feel. It is not the work of the forces.
+    /// Energy 1/2 f S V_A V_B |xi| (A.7) of the rows that act on the ends. It is not the work of the forces.
     #[inline]
     fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64 {
         let [to_x, to_y] = self.of_rows;
@@ -184,7 +184,7 @@ impl Element<2, 2> for PairwiseElement {
         SymTensor::dyad(self.force(deformation), self.offset)
     }
 
-    /// Terms of the energy form: the forces have none.
+    /// Terms of the energy form; the printed forces have none.
     fn terms(&self) -> Vec<Term> {
         self.strains.terms()
     }

@@ -1,7 +1,7 @@
-//! The bond of a pair of springs, along it and across it, between points without rotation (PDS; MPPD section 2.1).
+//! Spring bonds: an axial and a shear spring between points without rotation (PDS; MPPD section 2.1).
 //!
-//! Its shear deformation does not know a rotation of the whole body from a shear: where its shear rigidity is not zero, a
-//! rigid rotation costs energy.
+//! The shear deformation does not distinguish a rotation of the whole body from a shear: where the shear rigidity is not zero, a rigid
+//! rotation costs energy.
 
 use super::pair::{PairBond, PairKinematics};
 use super::{Block, BondDeformation, Rigidities, StiffnessFactors};
@@ -10,7 +10,7 @@ use crate::deformation::SpaceDeformation;
 use crate::layout::Component;
 use crate::tensor::{SymTensor, dot, tangents};
 
-/// Geometry and rigidity of one bond.
+/// Geometry and rigidities of one bond.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpringBond<const D: usize = 2> {
     /// Length l, m.
@@ -67,7 +67,7 @@ impl PairKinematics<2, 2> for SpringBond {
         BondDeformation::new([stretch, shear, 0.0])
     }
 
-    /// s = a^2 eps_xx + b^2 eps_yy + a b gamma_xy, gamma = a b (eps_yy - eps_xx) + (a^2 - b^2) gamma_xy/2.
+    /// Deformation s = a^2 eps_xx + b^2 eps_yy + a b gamma_xy, gamma = a b (eps_yy - eps_xx) + (a^2 - b^2) gamma_xy/2.
     #[inline(always)]
     fn deformation_in(&self, strain: &SymTensor<2>) -> BondDeformation {
         let [a, b] = self.direction;
@@ -77,7 +77,7 @@ impl PairKinematics<2, 2> for SpringBond {
         BondDeformation::new([stretch, shear, 0.0])
     }
 
-    /// 1/2 u^T K u', J, for two deformations of the same bond.
+    /// Energy 1/2 u^T K u', J, for two deformations of the same bond.
     #[inline]
     fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64 {
         0.5 * (self.axial_rigidity * one.stretch() * other.stretch()
@@ -95,7 +95,7 @@ impl PairKinematics<2, 2> for SpringBond {
         [[-force_x, -force_y], [force_x, force_y]]
     }
 
-    /// K as a sum over stretch and shear of rigidity g g^T.
+    /// Modes of the bond: K as a sum over stretch and shear of rigidity g g^T.
     fn modes(&self) -> impl Iterator<Item = (f64, [[f64; 2]; 2])> {
         let [a, b] = [
             self.direction[0] / self.length,
@@ -110,7 +110,7 @@ impl PairKinematics<2, 2> for SpringBond {
 }
 
 impl SpringBond<3> {
-    /// The stretch n . v of a slope v along the bond, and its shear P v.
+    /// Deformation for the slope v of the displacement along the bond: stretch n . v and shear P v.
     #[inline(always)]
     fn deformed(&self, slope: [f64; 3]) -> SpaceDeformation {
         let stretch = dot(self.direction, slope);
@@ -121,7 +121,7 @@ impl SpringBond<3> {
         }
     }
 
-    /// (A n n^T + S P)/l^2, with the axial and shear rigidity.
+    /// Stiffness (A n n^T + S P)/l^2, with the axial rigidity A and the shear rigidity S, N/m.
     pub(super) fn stiffness(&self) -> [[f64; 3]; 3] {
         let per_square = 1.0 / (self.length * self.length);
         let axial = (self.axial_rigidity - self.shear_rigidity) * per_square;
@@ -174,7 +174,7 @@ impl PairKinematics<3, 3> for SpringBond<3> {
         [force.map(|value| -value), force]
     }
 
-    /// The shear spring acts along both directions across the bond; what has no stiffness is left out.
+    /// Modes of the bond, with the shear spring along both directions across the bond; modes without stiffness are left out.
     fn modes(&self) -> impl Iterator<Item = (f64, [[f64; 3]; 2])> {
         let [one, other] = tangents(self.direction);
         let modes = [

@@ -6,14 +6,14 @@ pub type SymmetricEntries = [f64; 6];
 /// Stiffness of a bond over its strains (S_xx, S_yy, S_xy): a density, N/m^6, or with the volumes of its ends the matrix D, J.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StrainStiffness {
-    /// Entries of the matrix.
+    /// Entries of the stiffness matrix.
     pub entries: SymmetricEntries,
-    /// Share of the energy of the bond that belongs to its first end; the rest belongs to the second.
+    /// Fraction of the energy of the bond that belongs to its first end; the rest belongs to the second.
     pub first_share: f64,
 }
 
 impl StrainStiffness {
-    /// Share of the energy of the bond that belongs to its first or its second end.
+    /// Fraction of the energy of the bond that belongs to its first or its second end.
     pub(crate) fn share(&self, is_first: bool) -> f64 {
         if is_first {
             self.first_share

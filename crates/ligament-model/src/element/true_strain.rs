@@ -1,13 +1,13 @@
-//! The element of MBB-PD with true strains: differences of displacements over differences of the positions that the points have
-//! moved to (eqs 12 to 15 with Y; eq. 6).
+//! Element of MBB-PD with true strains: differences of displacements over differences of the deformed positions (eqs 12 to 15 with Y; eq.
+//! 6).
 //!
-//! The true strain of a quotient is eps/(1 + eps) of the small one eps. Forces are those of the small strains' element for the
-//! stresses of the true strains, so that they do work on differences over the distances before the deformation, as the printed force
-//! densities do with the volumes before it. A row under the stress sigma then has eps/(1 + eps) = sigma/E: it is longer by 1/(1 -
-//! sigma/E) than with small strains.
+//! The true strain of a quotient is eps/(1 + eps) of the small one eps. Forces are those of the small-strain element for the stresses of the
+//! true strains, so that they do work on differences over the distances before the deformation, as the printed force densities do with the
+//! volumes before it. A row under the stress sigma then has eps/(1 + eps) = sigma/E: it is longer by 1/(1 - sigma/E) than with small
+//! strains.
 //!
-//! The forces are not linear in the displacements. The stiffness of small strains serves all iterations: each takes the error to about
-//! a strain's share of itself.
+//! The forces are not linear in the displacements. The stiffness of small strains is used in all iterations: each reduces the error by about
+//! a factor of the strain.
 
 use super::imaginary::{Axis, ImaginaryElement, ImaginaryElements, Quotients};
 use super::{Block, BondDeformation, Element, Elements, Rigidities, StiffnessFactors, Term};
@@ -15,7 +15,7 @@ use crate::bonds::{BondSet, Incidence};
 use crate::layout::Component;
 use crate::tensor::SymTensor;
 
-/// One bond with its surroundings as they are left.
+/// The true-strain element of one bond with its remaining surroundings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrueStrainElement {
     small: ImaginaryElement,
@@ -24,10 +24,10 @@ pub struct TrueStrainElement {
     distances: [f64; 4],
 }
 
-/// The elements of a lattice with true strains.
+/// Elements of a lattice with true strains.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrueStrainElements {
-    /// The elements with small strains.
+    /// Elements with small strains.
     pub lattice: ImaginaryElements,
 }
 
@@ -132,12 +132,12 @@ impl Element<2, 2> for TrueStrainElement {
         self.small.dyad(deformation)
     }
 
-    /// Terms of small strains.
+    /// Terms of the small-strain stiffness.
     fn terms(&self) -> Vec<Term> {
         self.small.terms()
     }
 
-    /// Blocks of small strains.
+    /// Blocks of the small-strain stiffness.
     fn upper_blocks(&self, point: u32, add: impl FnMut(u32, Block<2>)) {
         self.small.upper_blocks(point, add);
     }

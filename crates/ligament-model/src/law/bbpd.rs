@@ -2,7 +2,7 @@
 
 use super::{BondLaw, BondStiffness, Calibration, Densities, Law, LawInput, Options, constants};
 
-/// The law.
+/// Bond-based law with a constant micromodulus.
 pub const LAW: BondLaw = BondLaw {
     options: Options {
         calibration: Some(Calibration::Integral),
@@ -27,7 +27,7 @@ impl Law {
 ///
 /// k_n = 9 E / (pi t H^3) in plane stress, 48 E / (5 pi t H^3) in plane strain, 12 E / (pi H^4) in space (N/m^6).
 ///
-/// Poisson's ratio is what central forces give, 1/3 or 1/4, whatever that of the materials ([`Isotropic::with_central_forces`]).
+/// Poisson's ratio is that of central forces, 1/3 or 1/4, whatever that of the materials ([`Isotropic::with_central_forces`]).
 fn densities<const D: usize>(input: &LawInput<'_, D>) -> BondStiffness {
     input.of_isotropic([constants::central_axial], |[c], bond| Densities {
         axial: c / bond.horizon.powi(D as i32 + 1),

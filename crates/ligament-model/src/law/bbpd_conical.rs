@@ -4,7 +4,7 @@
 use super::{BondLaw, BondStiffness, Calibration, Densities, Law, LawInput, Options, constants};
 use crate::material::Isotropic;
 
-/// The law.
+/// Bond-based law with a conical micromodulus.
 pub const LAW: BondLaw = BondLaw {
     options: Options {
         calibration: Some(Calibration::Integral),
@@ -29,8 +29,8 @@ impl Law {
 ///
 /// k_n = c (1 - l/H) with c = 36 E / (pi t H^3) in plane stress, 192 E / (5 pi t H^3) in plane strain, 60 E / (pi H^4) in space (N/m^6),
 ///
-/// D + 2 times the constant micromodulus of [`super::bbpd`]: the integral of (1 - l/H) l^D over the horizon is that part of the integral of
-/// l^D. Bonds as long as the horizon carry nothing. Poisson's ratio is 1/3 or 1/4, as for [`super::bbpd`].
+/// where c is D + 2 times the constant micromodulus of [`super::bbpd`]: the integral of (1 - l/H) l^D over the horizon is that part of the
+/// integral of l^D. Bonds as long as the horizon carry nothing. Poisson's ratio is 1/3 or 1/4, as for [`super::bbpd`].
 fn densities<const D: usize>(input: &LawInput<'_, D>) -> BondStiffness {
     let constant = |material: &Isotropic, space, thickness| {
         (D + 2) as f64 * constants::central_axial(material, space, thickness)

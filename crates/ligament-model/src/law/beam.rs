@@ -1,4 +1,4 @@
-//! The beam-like bond (Gerstle 2007, in the form of MPPD), which is also the law of NHPD eq. 6.
+//! Beam-like bond (Gerstle 2007, in the form of MPPD), which is also the law of NHPD eq. 6.
 
 use super::row::ShearForm;
 use super::{
@@ -8,7 +8,7 @@ use super::{
 use crate::element::ElementKind;
 use crate::material::Space;
 
-/// NHPD's law.
+/// Law of NHPD.
 pub const NHPD: BondLaw = BondLaw {
     shear_form: Some(nhpd_form),
     correction: PaperCorrection::LengthAndDomain,
@@ -22,7 +22,7 @@ pub const NHPD: BondLaw = BondLaw {
     )
 };
 
-/// MPPD's beam form, whose integrals leave the constants 7.5 % off at nu = 0 with a horizon factor of 3.
+/// Beam form of MPPD, whose integrals leave the constants 7.5 % off at nu = 0 with a horizon factor of 3.
 pub const MPPD_BEAM: BondLaw = BondLaw {
     options: Options {
         calibration: Some(Calibration::Discrete),
@@ -47,7 +47,7 @@ impl Law {
     pub const MPPD_BEAM: Self = Self::usual(&MPPD_BEAM);
 }
 
-/// The form of NHPD's law.
+/// Shear form of the law of NHPD.
 fn nhpd_form(space: Space) -> ShearForm {
     match space {
         Space::Plane(_) => ShearForm::Falling,
@@ -60,9 +60,9 @@ fn nhpd_form(space: Space) -> ShearForm {
 /// k_n = c, k_t = 12 d / l^2 or constant by its form, k_theta = d / l, with the constants c (N/m^6) and d (N/m^4) of the
 /// [table](super::constants).
 ///
-/// d is negative above the Poisson's ratio of central forces. A uniform strain does not see k_theta, which in space bending and torsion share:
-/// with k_phi = g/l for torsion the energy of a uniform curvature chi is (pi H^4/60) ((g - d)(tr^2 chi + chi : chi^T) + (g + 4 d) chi : chi),
-/// and g = d leaves chi : chi alone.
+/// The constant d is negative above the Poisson's ratio of central forces. Uniform strains are independent of k_theta, which in space
+/// bending and torsion share: with k_phi = g/l for torsion the energy of a uniform curvature chi is (pi H^4/60) ((g - d)(tr^2 chi + chi :
+/// chi^T) + (g + 4 d) chi : chi), and g = d leaves chi : chi alone.
 fn densities<const D: usize>(input: &LawInput<'_, D>, form: ShearForm) -> BondStiffness {
     let constants = [constants::axial, constants::bending, constants::shear];
     input.of_isotropic(constants, |[c, d, shear], bond| {

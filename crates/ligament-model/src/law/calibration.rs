@@ -1,11 +1,10 @@
 //! Discrete calibration: sums over the families of the points in place of the integrals over a full circle.
 //!
-//! The integrals (in space over a full ball) know neither the lattice nor the surface. Here the energies of uniform strains decide, as the bonds of a point
-//! give them: that of equal strains along x and y, and that of a shear in the mean over its directions.
+//! The integrals over a full circle, in space a full ball, do not include the lattice or the surface. Here the discrete energies of uniform
+//! strains at a point are matched: of equal strains along x and y, and of a shear averaged over its directions.
 //!
-//! A lattice is not isotropic, and stays so: the beam form with m = 3 and nu = 0 has E, nu and G/G_0 of 0.964, 0.036
-//! and 1.07 along the axes and 1.034, -0.034 and 0.93 between them (by integrals with the surface correction 0.925, 0.071
-//! and 0.98, and 0.989, 0.006 and 0.86).
+//! The lattice itself remains anisotropic: the beam form with m = 3 and nu = 0 has E, nu and G/G_0 of 0.964, 0.036 and 1.07 along the axes
+//! and 1.034, -0.034 and 0.93 between them (by integrals with the surface correction 0.925, 0.071 and 0.98, and 0.989, 0.006 and 0.86).
 
 use rayon::prelude::*;
 
@@ -28,7 +27,7 @@ use crate::material::{Isotropic, Space};
 ///
 /// q_n = 18 K/sum(alpha V_B l k_n), q_t = (20 G - 12 K)/sum(alpha V_B l k_t).
 ///
-/// `materials` are those that the law makes of the given ones.
+/// `materials` are the effective ones of the law.
 pub fn calibrated<const D: usize>(
     stiffness: BondStiffness,
     length_factor: &[f64],
@@ -58,11 +57,11 @@ pub fn calibrated<const D: usize>(
     )
 }
 
-/// Scales the densities of a law so that the sums of alpha V_B l k_n and of alpha V_B l k_t over the bonds of a point are the targets
-/// of its materials, shape (n_materials), J/m^3.
+/// Scales the densities of a law so that the sums of alpha V_B l k_n and of alpha V_B l k_t over the bonds of a point are the targets of its
+/// materials, shape (n_materials), J/m^3.
 ///
-/// A bond takes the mean of the factors of its ends. Points near a surface have smaller sums and larger factors: there is nothing
-/// left for a surface correction.
+/// A bond has the mean of the factors of its ends. Points near a surface have smaller sums and larger factors: a surface correction is not
+/// needed.
 fn scaled_to<const D: usize>(
     targets: impl Iterator<Item = [f64; 2]>,
     stiffness: BondStiffness,
@@ -89,7 +88,7 @@ fn scaled_to<const D: usize>(
         }
         [0, 1].map(|k| {
             let target = cloud.mean_property(point as usize, &targets[k]);
-            // Without a density there is nothing to scale: k_t = 0, or a point without bonds.
+            // A zero density cannot be scaled: k_t = 0, or a point without bonds.
             if sums[k] == 0.0 {
                 1.0
             } else {

@@ -1,4 +1,4 @@
-//! Constants of isotropic materials that the laws share, from integrals over a full circle, in space over a full ball.
+//! Constants of isotropic materials common to the laws, from integrals over a full circle, in space over a full ball.
 //!
 //! | | c H^(D + 1) | d H^(D - 1) |
 //! |---|---|---|
@@ -6,15 +6,15 @@
 //! | plane strain | 6 E / (pi t (1 - 2 nu)(1 + nu)) | E (1 - 4 nu) / (6 pi t (1 - 2 nu)(1 + nu)) |
 //! | space | 6 E / (pi (1 - 2 nu)) | E (1 - 4 nu) / (4 pi (1 + nu)(1 - 2 nu)) |
 //!
-//! c (N/m^6) is the axial stiffness density and d (N/m^4) the bending stiffness of the beam form (NHPD eq. 6, OMPPD eq. 22; in space our own,
-//! derived in `docs/space.md`), with the bond horizon H and the thickness t.
+//! Here c (N/m^6) is the axial stiffness density and d (N/m^4) the bending stiffness of the beam form (NHPD eq. 6, OMPPD eq. 22; in space
+//! our own, derived in `docs/space.md`), with the bond horizon H and the thickness t.
 
 use std::f64::consts::PI;
 
 use super::CENTRAL_FORCE_TOLERANCE;
 use crate::material::{Isotropic, Plane, Space};
 
-/// c H^(D + 1), N/m^3, in space Pa.
+/// Constant c H^(D + 1), N/m^3, in space Pa.
 pub(crate) fn axial(material: &Isotropic, space: Space, thickness: f64) -> f64 {
     let Isotropic { young, poisson } = *material;
     match space {
@@ -27,12 +27,12 @@ pub(crate) fn axial(material: &Isotropic, space: Space, thickness: f64) -> f64 {
     }
 }
 
-/// c H^(D + 1) of central forces, which have a Poisson's ratio of their own.
+/// Constant c H^(D + 1) of central forces, which have a fixed Poisson's ratio.
 pub(crate) fn central_axial(material: &Isotropic, space: Space, thickness: f64) -> f64 {
     axial(&material.with_central_forces(space), space, thickness)
 }
 
-/// d H^(D - 1), N/m^3, in space Pa; exactly zero where central forces have the Poisson's ratio of the material but for rounding.
+/// Constant d H^(D - 1), N/m^3, in space Pa; exactly zero where the Poisson's ratio is that of central forces up to rounding.
 pub(crate) fn bending(material: &Isotropic, space: Space, thickness: f64) -> f64 {
     let Isotropic { young, poisson } = *material;
     let (distance_to_central, reduction) = match space {
@@ -55,8 +55,8 @@ pub(crate) fn bending(material: &Isotropic, space: Space, thickness: f64) -> f64
     young * distance_to_central / reduction
 }
 
-/// k_t H^(D + 1) of a shear stiffness that is the same for all lengths: 36 d H^(D - 1), in space 24 times. Its integral of k_t l^2 over the
-/// horizon is that of the beam form, k_t = 12 d/l^2.
+/// Constant k_t H^(D + 1) of a shear stiffness that is the same for all lengths: 36 d H^(D - 1), in space 24 times. Its integral of k_t l^2
+/// over the horizon is that of the beam form, k_t = 12 d/l^2.
 pub(crate) fn shear(material: &Isotropic, space: Space, thickness: f64) -> f64 {
     let over_bending = match space {
         Space::Plane(_) => 36.0,

@@ -1,4 +1,4 @@
-//! Stiffness densities of the bonds of a body, and what corrections and interfaces make of them.
+//! Stiffness densities of the bonds of a body, and their changes by corrections and interfaces.
 
 use nalgebra::Matrix3;
 use rayon::prelude::*;
@@ -10,24 +10,24 @@ use crate::cloud::PointCloud;
 use crate::element::StiffnessFactors;
 use crate::element::imaginary::StrainStiffness;
 
-/// Below this |1 - 3 nu| (or |1 - 4 nu| in plane strain) the shear stiffness counts as exactly zero, and with it the
-/// rotational one: what rounding leaves of it would only make the system nearly singular.
+/// Value of |1 - 3 nu| (or |1 - 4 nu| in plane strain) below which the shear and rotational stiffnesses count as exactly zero: a stiffness
+/// left by rounding would only make the system nearly singular.
 pub(crate) const CENTRAL_FORCE_TOLERANCE: f64 = 1e-9;
 
 /// Stiffness densities of the bonds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BondStiffness {
-    /// Axial k_n, shape (n_bonds), N/m^6.
+    /// Axial density k_n, shape (n_bonds), N/m^6.
     pub axial: Vec<f64>,
-    /// Shear k_t, shape (n_bonds), N/m^6; negative above the central-force Poisson's ratio.
+    /// Shear density k_t, shape (n_bonds), N/m^6; negative above the central-force Poisson's ratio.
     pub shear: Vec<f64>,
-    /// Rotational k_theta, shape (n_bonds), N/m^5; of the sign of k_t.
+    /// Rotational density k_theta, shape (n_bonds), N/m^5; of the sign of k_t.
     pub rotational: Vec<f64>,
-    /// The micro-modulus matrix over (xx, yy, xy) of imaginary elements, shape (n_bonds), N/m^6; empty for the others.
+    /// Micro-modulus matrix over (xx, yy, xy) of imaginary elements, shape (n_bonds), N/m^6; empty for other elements.
     pub strain: Vec<StrainStiffness>,
     /// Factors of bonds across an interface ([`BondStiffness::in_series`]), shape (n_bonds); empty where there is none.
     pub series: Vec<f64>,
-    /// beta, how far the ends of bonds are held by a stiffer material, shape (n_bonds); empty where none is.
+    /// Restraint beta of the rotations of the ends by a stiffer material, shape (n_bonds); empty where all are 0.
     pub held: Vec<f64>,
 }
 
@@ -38,7 +38,7 @@ pub(crate) struct Densities {
     pub(crate) rotational: f64,
 }
 
-/// Geometry of a bond as a law needs it.
+/// Geometry of a bond in a law.
 pub(crate) struct BondGeometry<const D: usize = 2> {
     /// Length l, m.
     pub(crate) length: f64,
@@ -49,7 +49,7 @@ pub(crate) struct BondGeometry<const D: usize = 2> {
 }
 
 impl BondStiffness {
-    /// Densities from `constants` of the materials (n_materials), the first of which tells how stiff they are: a bond has those of
+    /// Densities from `constants` of the materials (n_materials), the first of which is a measure of stiffness: a bond has the densities of
     /// its materials ([`materials::of_bond`]).
     pub(crate) fn from_constants<const D: usize, const N: usize>(
         bonds: &BondSet<D>,
@@ -113,9 +113,9 @@ impl BondStiffness {
 
     /// The densities with those of bonds across an interface as two halves in series.
     ///
-    /// Corrections take such bonds for bonds of the softer material. A uniform strain then leaves that material as it is without the
-    /// stiffer one, as in a body whose parts pull each other along; and where both are strained as their stiffnesses say, so that the
-    /// tractions agree, a bond that is half in each has the force of one that is all in the softer.
+    /// Corrections treat such bonds as bonds of the softer material. A uniform strain then leaves that material as it is without the stiffer
+    /// one, as in a body whose parts pull each other along; and where the strains of both agree with equal tractions, a bond that is half in
+    /// each has the force of one that is all in the softer.
     pub fn in_series(mut self) -> Self {
         for densities in [&mut self.axial, &mut self.shear, &mut self.rotational] {
             for (density, factor) in densities.iter_mut().zip(&self.series) {
@@ -125,21 +125,22 @@ impl BondStiffness {
         self
     }
 
-    /// The densities after the correction: of bonds [in series](Self::in_series) and, between points that turn, of bonds whose ends are held
-    /// by a stiffer material; and beside them the part of each that the correction knows nothing of, shape (n_bonds), empty in a body of one
+    /// The densities after the correction: of bonds [in series](Self::in_series) and, between points with rotations, of bonds whose ends a
+    /// stiffer material restrains; and the part of each to which the correction does not apply, shape (n_bonds), empty in a body of one
     /// material.
     ///
-    /// A point turns with the stiffest of its materials. In a layer sheared by gamma between stiff parts the ends of bonds do not turn with
-    /// the layer, which turns by gamma/2, and a bond straight across has the shear gamma in place of gamma/2. In D dimensions a layer of
-    /// bonds evenly spread over the directions, none of whose ends turns with it, stores the energy of its material when it is pulled and
+    /// A point rotates with the stiffest of its materials. In a layer sheared by gamma between stiff parts the ends of bonds do not rotate
+    /// with the layer, which rotates by gamma/2, and a bond straight across has the shear gamma instead of gamma/2. In D dimensions a layer
+    /// of bonds evenly spread over the directions, none of whose ends rotates with it, stores the energy of its material in tension and in
+    /// shear with
     /// when it is sheared with
     ///
     /// k_t' = k_t/4, k_n' = k_n + (D - 1)/3 (k_t - k_t').
     ///
-    /// Where the ends of a bond are held in part, by beta in the mean, k_t' = k_t/(1 + 3 beta), and k_theta alike. (If all other ends turned
-    /// with the layer it would be 1 + 3 beta^2, but the bonds to held ends hold them too.) Where k_t is negative, k_n' is at least k_n/2. What
-    /// strains along the layer do to its faces is then that of bonds without k_t; stiff parts beside it keep such strains small. The
-    /// equations are this project's own.
+    /// Where the ends of a bond are partly restrained, by beta in the mean, k_t' = k_t/(1 + 3 beta), and k_theta alike. (If all other ends
+    /// rotated with the layer it would be 1 + 3 beta^2, but the bonds to restrained ends restrain them too.) Where k_t is negative, k_n' is
+    /// at least k_n/2. The effect of strains along the layer on its faces is then that of bonds without k_t; stiff parts beside it keep such
+    /// strains small. The equations are this project's own.
     pub(crate) fn joined<const D: usize>(
         mut self,
         do_points_turn: bool,
@@ -182,7 +183,7 @@ impl BondStiffness {
         (joined, beyond)
     }
 
-    /// The densities with shear and rotation times some factors (n_bonds); as they are without any.
+    /// The densities with shear and rotation times some factors (n_bonds); unchanged for empty factors.
     pub fn with_shear(mut self, factors: &[f64]) -> Self {
         let of_bonds = self.shear.iter_mut().zip(&mut self.rotational);
         for ((shear, rotational), factor) in of_bonds.zip(factors) {
@@ -191,7 +192,7 @@ impl BondStiffness {
         self
     }
 
-    /// The bonds for which `keep` (n_bonds) is true.
+    /// The densities of the bonds for which `keep` (n_bonds) is true.
     pub fn retained(self, keep: &[bool]) -> Self {
         Self {
             axial: retained(self.axial, keep),
@@ -204,7 +205,7 @@ impl BondStiffness {
     }
 }
 
-/// Values; none where all are a common one.
+/// The values, or an empty array if all have a common value.
 fn some_other_than(common: f64, values: Vec<f64>) -> Vec<f64> {
     match values.iter().all(|&value| value == common) {
         true => Vec::new(),
@@ -212,7 +213,7 @@ fn some_other_than(common: f64, values: Vec<f64>) -> Vec<f64> {
     }
 }
 
-/// The values of the bonds for which `keep` (n_bonds) is true; none where there are none.
+/// The values of the bonds for which `keep` (n_bonds) is true; empty for empty values.
 fn some_retained<T>(values: Vec<T>, keep: &[bool]) -> Vec<T> {
     if values.is_empty() {
         values
@@ -221,8 +222,8 @@ fn some_retained<T>(values: Vec<T>, keep: &[bool]) -> Vec<T> {
     }
 }
 
-/// C_11 + C_22 + 2 C_12 of a plane, Pa, which does not depend on the axes and is what the laws' axial constants are in proportion to: the
-/// softer of two materials has the smaller one.
+/// Sum C_11 + C_22 + 2 C_12 of a plane, Pa, which is independent of the axes and proportional to the axial constants of the laws: the softer
+/// of two materials has the smaller one.
 pub(crate) fn bulk_stiffness(plane: &Matrix3<f64>) -> f64 {
     plane[(0, 0)] + plane[(1, 1)] + 2.0 * plane[(0, 1)]
 }

@@ -1,20 +1,20 @@
 //! Materials of a bond where several meet.
 //!
-//! Points on an interface have shares in both of its materials, and bonds may run within one material, along the interface or across
-//! it. Two halves in series show whether the rule is right: with the mean of both ends' materials, as homogeneous laws suggest, a soft half
-//! beside a stiff one is held by bonds that are half as stiff as the stiff ones, whatever its own stiffness.
+//! Points on an interface contain both of its materials, and bonds may run within one material, along the interface or across it. Two halves
+//! in series test the rule: with the mean of both ends' materials, as homogeneous laws suggest, a soft half beside a stiff one would be
+//! restrained by bonds half as stiff as the stiff ones, whatever its own stiffness.
 
 use rayon::prelude::*;
 
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 
-/// The materials that a bond is made of, by number, with shares that sum to one.
+/// Materials of a bond, by number, with fractions that sum to one.
 ///
-/// A bond is made of the materials that both ends have, in the mean of their shares: one from inside a half to its interface lies
-/// within that half, one along the interface has both halves at its sides. A bond whose ends have no material in common crosses
-/// an interface, and is made of what its softer end is made of: with springs in series the softer one decides. `stiffness` (n_materials)
-/// tells which is softer; of equals it is the first end.
+/// A bond consists of the materials common to both ends, with the mean of their fractions: one from inside a half to its interface lies
+/// within that half, one along the interface has both halves at its sides. A bond whose ends have no material in common crosses an
+/// interface, and has the materials of its softer end: with springs in series the softer one decides. `stiffness` (n_materials) gives the
+/// softer one; of equal ends it is the first.
 pub(super) fn of_bond<'a, const D: usize>(
     cloud: &'a PointCloud<D>,
     ends: [u32; 2],
@@ -42,10 +42,11 @@ pub(super) fn of_bond<'a, const D: usize>(
     (0..first.len()).map(move |material| (material, share(material)))
 }
 
-/// 2/(1 + k_soft/k_stiff) of the bonds whose ends have no material in common, 1 of the others, from the `stiffness` (n_materials) of the
-/// materials; shape (n_bonds), empty in a body of one material.
+/// Factors 2/(1 + k_soft/k_stiff) of the bonds whose ends have no material in common, 1 of the others, from the `stiffness` (n_materials) of
+/// the materials; shape (n_bonds), empty in a body of one material.
 ///
-/// Half of such a bond in either material, as springs in series, is so much stiffer than all of it in the softer.
+/// This is the ratio of the stiffness of a bond with half its length in either material, as springs in series, to that of a bond in the
+/// softer one.
 pub(super) fn series_factors<const D: usize>(
     bonds: &BondSet<D>,
     cloud: &PointCloud<D>,
@@ -66,10 +67,10 @@ pub(super) fn series_factors<const D: usize>(
     bonds.ends.iter().map(of_bond).collect()
 }
 
-/// The softest of the materials in which a bond has shares of its length (n_materials), and how much stiffer the bond is than all of it
-/// in that one, as springs in series:
+/// The softest of the materials in which a bond has fractions of its length (n_materials), and the ratio of the stiffness of the bond, as
+/// springs in series, to that of a bond in the softest material only:
 ///
-/// 1/sum of phi_i k_s/k_i, with the shares phi_i, the stiffnesses k_i and the smallest of them k_s.
+/// 1/sum of phi_i k_s/k_i, with the fractions phi_i, the stiffnesses k_i and the smallest of them k_s.
 ///
 /// Of two sets of stiffnesses (n_materials) the first decides, or the second where one of the first is not positive.
 pub(super) fn softest(shares: &[f64], [first, second]: [&[f64]; 2]) -> (usize, f64) {
@@ -93,15 +94,15 @@ pub(super) fn softest(shares: &[f64], [first, second]: [&[f64]; 2]) -> (usize, f
     (softest, 1.0 / compliance)
 }
 
-/// How far the ends of bonds are held by stiffer materials, beta, the mean of both ends of
+/// Restraint beta of the rotations of the ends of bonds by stiffer materials, the mean over both ends of
 ///
 /// 1 - k_t/(sum of phi_i k_ti), at least 0,
 ///
-/// with the shares phi_i of the materials of the end, from the shear densities of the bonds (n_bonds) and those `of_material` that a bond
-/// would have in one; shape (n_bonds), empty in a body of one material.
+/// with the fractions phi_i of the materials of the end, from the shear densities of the bonds (n_bonds) and the density of a bond in one
+/// material, `of_material`; shape (n_bonds), empty in a body of one material.
 ///
-/// Where materials are sheared in series, each turns in proportion to 1/k_ti, and the point between them by their mean with the weights
-/// phi_i k_ti: beta is what it turns less than the material of the bond, over how much that turns.
+/// Where materials are sheared in series, each rotates in proportion to 1/k_ti, and the point between them by their mean with the weights
+/// phi_i k_ti: beta is the relative deficit of the rotation of the point against that of the material of the bond.
 pub(super) fn held<const D: usize>(
     bonds: &BondSet<D>,
     cloud: &PointCloud<D>,

@@ -7,7 +7,7 @@
 //!
 //! psi_j = 2/(V_j sum_k |xi_jk|)
 //!
-//! of its ends, so that the energy of a uniform strain is that of the continuum at every point, whatever c and whatever is missing of its family; the
+//! of its ends, so that the energy of a uniform strain is that of the continuum at every point, for any c and any incomplete family; the
 //! forces follow from the energy, and K is symmetric.
 
 mod matrices;
@@ -26,7 +26,7 @@ use crate::element::ElementKind;
 use crate::failure::mixed_mode;
 use matrices::{of_matrices, plane_stiffnesses};
 
-/// The law.
+/// Law of MBB-PD.
 pub const LAW: BondLaw = BondLaw {
     options: Options {
         form: Some(Form::Full),
@@ -74,8 +74,8 @@ pub fn factors(bonds: &BondSet, cloud: &PointCloud) -> Vec<f64> {
         .collect()
 }
 
-/// Micro-modulus matrices K = psi c (eq. 16) with the mean psi of the ends of each bond and the c of its materials; `axial` and
-/// `shear` have those for a stretch along the bond and for S_xy.
+/// Micro-modulus matrices K = psi c (eq. 16) with the mean psi of the ends of each bond and the c of its materials; `axial` and `shear` have
+/// those for a stretch along the bond and for S_xy.
 fn densities(input: &LawInput<'_, 2>) -> BondStiffness {
     let (stiffnesses, bonds) = (plane_stiffnesses(input), input.bonds);
     let psi = factors(bonds, input.cloud);

@@ -5,12 +5,12 @@
 //! | [`bbpd`] | k_n | spring |
 //! | [`bbpd_conical`] | k_n that falls with the length | spring |
 //! | [`pds`] | k_n, constant k_t | spring |
-//! | [`mppd`] | those of [`pds`] and k_theta | beam |
+//! | [`mppd`] | k_n and k_t of [`pds`], and k_theta | beam |
 //! | [`beam`] | k_n, k_t = 12 d/l^2 or constant, k_theta = d/l: MPPD's beam form, and NHPD's law | beam |
 //! | [`orthotropic`] | k_n and k_t that depend on the direction, k_theta | beam |
 //! | [`mbb_pd`] | a matrix over the strains of a small rectangle | imaginary |
 //!
-//! They come from integrals over a full circle, in space over a full ball; [`calibration`] puts sums over the families of the points in their place.
+//! The densities come from integrals over a full circle, in space over a full ball; [`calibration`] replaces them by sums over the families.
 
 pub mod bbpd;
 pub mod bbpd_conical;
@@ -33,7 +33,7 @@ pub(crate) use densities::{CENTRAL_FORCE_TOLERANCE, Densities, bulk_stiffness};
 pub use options::{Calibration, Form, Options, Strains};
 pub use row::{BondLaw, Law, LawInput, MakeDensities, Materials, PaperCorrection, ShearForm};
 
-/// All laws. A law is one row: its own file and its place here.
+/// All laws. A law is one row: its own file and its entry here.
 pub const LAWS: [&BondLaw; 8] = [
     &beam::NHPD,
     &bbpd::LAW,
@@ -46,7 +46,7 @@ pub const LAWS: [&BondLaw; 8] = [
 ];
 
 impl Law {
-    /// All laws, each with the usual choice of what it leaves open.
+    /// All laws, each with the usual options.
     pub const ALL: [Self; LAWS.len()] = {
         let mut all = [Self::usual(LAWS[0]); LAWS.len()];
         let mut place = 1;
@@ -58,12 +58,12 @@ impl Law {
     };
 }
 
-/// The laws of which something is true.
+/// Laws that satisfy a condition.
 pub fn suited(suits: impl Fn(&BondLaw) -> bool) -> Vec<&'static BondLaw> {
     LAWS.into_iter().filter(|it| suits(it)).collect()
 }
 
-/// Names of laws, as in `a, b or c`.
+/// Names of laws, in the form `a, b or c`.
 pub fn listed(laws: &[&BondLaw], name: impl Fn(&BondLaw) -> String) -> String {
     let names: Vec<String> = laws.iter().map(|it| name(it)).collect();
     match names.as_slice() {

@@ -6,7 +6,7 @@ use super::rotational::RotationalStiffness;
 use super::{BondLaw, BondStiffness, Calibration, Law, LawInput, Options, ShearForm, pds};
 use crate::element::ElementKind;
 
-/// The law.
+/// Micropolar law with a constant shear stiffness.
 pub const LAW: BondLaw = BondLaw {
     options: Options {
         calibration: Some(Calibration::Integral),

@@ -1,4 +1,4 @@
-//! What bond laws leave open.
+//! Options of bond laws.
 
 use super::rotational::RotationalStiffness;
 
@@ -24,17 +24,17 @@ pub enum Form {
     Pairwise,
 }
 
-/// Distances that the strains of MBB-PD are taken over.
+/// Distances in the denominators of the strains of MBB-PD.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Strains {
-    /// The distances before the deformation.
+    /// Distances before the deformation.
     #[default]
     Small,
-    /// The distances after the deformation.
+    /// Distances after the deformation.
     True,
 }
 
-/// Choices of what a law leaves open; None for what the law settles itself.
+/// Options of a law; `None` where the law leaves no choice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Options {
     /// Origin of the constants.
@@ -43,12 +43,12 @@ pub struct Options {
     pub rotational_stiffness: Option<RotationalStiffness>,
     /// Strains that the bonds resist.
     pub form: Option<Form>,
-    /// Distances that the strains are taken over.
+    /// Distances in the denominators of the strains.
     pub strains: Option<Strains>,
 }
 
 impl Options {
-    /// No choice at all.
+    /// No options.
     pub const NONE: Self = Self {
         calibration: None,
         rotational_stiffness: None,
@@ -56,7 +56,7 @@ impl Options {
         strains: None,
     };
 
-    /// The choices, or where there is none those of others.
+    /// The options, completed by those of `others`.
     pub fn or(self, others: Self) -> Self {
         Self {
             calibration: self.calibration.or(others.calibration),
@@ -66,7 +66,7 @@ impl Options {
         }
     }
 
-    /// Name of the first option that is chosen here and not among others, or the other way round.
+    /// Name of the first option that is set in only one of both.
     pub fn apart_from(&self, others: &Self) -> Option<&'static str> {
         [
             (
@@ -88,7 +88,7 @@ impl Options {
     }
 }
 
-/// The choice of one option alone.
+/// Options with one option set.
 macro_rules! alone {
     ($($name:ident: $option:ty),+) => {
         $(impl From<$option> for Options {

@@ -1,8 +1,8 @@
-//! Bonds that resist stretch and shear, without rotations of the points (PDS; MPPD section 2.1).
+//! Law with stretch and shear stiffness, without rotations of the points (PDS; MPPD section 2.1).
 
 use super::{BondLaw, BondStiffness, Calibration, Densities, Law, LawInput, Options, constants};
 
-/// The law.
+/// Law with stretch and constant shear stiffness, without rotations.
 pub const LAW: BondLaw = BondLaw {
     options: Options {
         calibration: Some(Calibration::Integral),

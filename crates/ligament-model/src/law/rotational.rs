@@ -1,8 +1,8 @@
-//! The rotational stiffness of a bond beside a shear stiffness. Uniform strains do not see it, so the continuum does not say
-//! what it is: the papers choose, and leave it free.
+//! Rotational stiffness of a bond with a shear stiffness. The energy of uniform strains is independent of it, so the continuum does not
+//! determine it: the papers choose, and leave it free.
 //!
-//! A third state of deformation settles it (MPPD note 5), the micro-rotations theta = chi . x of a uniform curvature chi. They cost a
-//! Cosserat continuum gamma chi^2/2, and the bonds of a point a fourth of the sum of k_theta (chi . xi)^2 V.
+//! A third state of deformation determines it (MPPD note 5), the micro-rotations theta = chi . x of a uniform curvature chi. Their energy is
+//! gamma chi^2/2 in a Cosserat continuum, and a fourth of the sum of k_theta (chi . xi)^2 V over the bonds of a point.
 
 use std::f64::consts::PI;
 
@@ -16,18 +16,18 @@ use crate::material::{Elasticity, Plane};
 /// A choice of k_theta for a given k_t.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum RotationalStiffness {
-    /// k_t l (1 - l/H)/2 (OMPPD after eq. 57): short bonds resist bending most, and one as long as the horizon not at all.
+    /// Decaying k_t l (1 - l/H)/2 (OMPPD after eq. 57): short bonds resist bending most, and one as long as the horizon not at all.
     #[default]
     Decaying,
-    /// k_t l/4: the moment at an end does not depend on the rotation of the other.
+    /// Quarter k_t l/4: the moment at an end does not depend on the rotation of the other.
     Quarter,
     /// Rotational stiffness k_t l/12 of a beam (Gerstle 2007; OMPPD eq. 22).
     Beam,
-    /// No rotational stiffness: relative rotations cost nothing.
+    /// No rotational stiffness: relative rotations cost no energy.
     Zero,
 }
 
-/// The size of k_theta, which every choice leaves free.
+/// Scale of k_theta, which every choice of the form leaves free.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RotationalScale {
     /// Factor of the k_theta of the law, at least 0.
@@ -36,7 +36,7 @@ pub enum RotationalScale {
     CosseratLength(f64),
 }
 
-/// k_theta over the lengths of bonds.
+/// Dependence of k_theta on the length of bonds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Profile {
     /// Choice of k_theta for a given k_t.
@@ -58,7 +58,7 @@ impl RotationalStiffness {
 }
 
 impl Profile {
-    /// q(l) (m), to which k_theta is in proportion: that for k_t = 1, or for k_t = H^2/l^2.
+    /// Profile q(l) (m), to which k_theta is proportional: its value for k_t = 1, or for k_t = H^2/l^2.
     fn value(self, length: f64, horizon: f64) -> f64 {
         let shear = if self.shear_falls {
             (horizon / length).powi(2)
@@ -68,7 +68,7 @@ impl Profile {
         self.rotational.density(shear, length, horizon)
     }
 
-    /// Integral of q(l) l^3 over the horizon, over H^5.
+    /// Integral of q(l) l^3 over the horizon, divided by H^5.
     fn moment(self) -> f64 {
         match (self.rotational, self.shear_falls) {
             (RotationalStiffness::Decaying, false) => 1.0 / 60.0,
@@ -99,8 +99,8 @@ pub fn curvature_moduli(materials: &[Elasticity], plane: Plane, length: f64) -> 
     materials.iter().map(modulus).collect()
 }
 
-/// Constants of each material for its k_theta by a characteristic length (m) in bending, shape (n_materials): the stiffness that tells the softer of two
-/// (Pa), and the modulus of curvature gamma (N).
+/// Constants of each material for its k_theta by a characteristic length (m) in bending, shape (n_materials): the stiffness that determines
+/// the softer of two (Pa), and the modulus of curvature gamma (N).
 pub fn curvature_constants(materials: &[Elasticity], plane: Plane, length: f64) -> Vec<[f64; 2]> {
     let moduli = curvature_moduli(materials, plane, length).into_iter();
     let of_material = |(material, modulus): (&Elasticity, f64)| {
@@ -115,13 +115,13 @@ pub fn scaled(mut stiffness: BondStiffness, factor: f64) -> BondStiffness {
     stiffness
 }
 
-/// Densities of bonds in the plane with the k_theta, in proportion to a profile q(l), of materials with some [constants](curvature_constants), the
-/// second of which is gamma:
+/// Densities of bonds in the plane with k_theta proportional to a profile q(l), for materials with given [constants](curvature_constants),
+/// the second of which is gamma:
 ///
 /// k_theta = 2 gamma q(l) / (pi t M), M = integral of q l^3 over the horizon,
 ///
-/// so that the micro-rotations of a uniform curvature chi cost gamma chi^2/2. Bonds without shear stiffness get none: nothing would
-/// hold the rotations of the points to their displacements.
+/// so that the micro-rotations of a uniform curvature chi cost the energy gamma chi^2/2. Bonds without shear stiffness get none: nothing
+/// would couple the rotations of the points to their displacements.
 pub fn with_cosserat_length<const D: usize>(
     stiffness: BondStiffness,
     bonds: &BondSet<D>,
@@ -145,10 +145,10 @@ pub fn with_cosserat_length<const D: usize>(
     }
 }
 
-/// Factors of the k_theta of bonds in the plane for which the sums over the families, in place of the integral, make the micro-rotations of a
-/// uniform curvature cost what the `moduli` of the materials (n_materials, N) say, in the mean over its directions:
+/// Scales k_theta of bonds in the plane so that the sums over the families, instead of the integral, give the micro-rotations of a uniform
+/// curvature the energy of the `moduli` of the materials (n_materials, N), averaged over its directions, by the factors
 ///
-/// q = 4 gamma / sum(alpha V_B k_theta l^2) at a point, the mean of its ends' for a bond.
+/// q = 4 gamma / sum(alpha V_B k_theta l^2) at a point, and for a bond the mean of its ends.
 pub fn calibrated<const D: usize>(
     mut stiffness: BondStiffness,
     length_factor: &[f64],

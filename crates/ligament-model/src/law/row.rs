@@ -1,4 +1,4 @@
-//! What a bond law is, and a law with what is chosen of it.
+//! Bond laws as rows of a table, and a law with its options.
 
 use super::densities::{BondGeometry, BondStiffness, Densities};
 use super::options::Options;
@@ -13,98 +13,98 @@ use crate::material::{Elasticity, Isotropic, Material, Plane, Space};
 /// A bond law.
 #[derive(Debug, Clone, Copy)]
 pub struct BondLaw {
-    /// Word of the law as papers and case files abbreviate it.
+    /// Keyword of the law in papers and case files.
     pub word: &'static str,
-    /// Sentence that says what the bonds resist.
+    /// Sentence on the deformations that the bonds resist.
     pub sentence: &'static str,
     /// Paper of the law, with its equations.
     pub source: &'static str,
-    /// Options that the law leaves open, with their usual values.
+    /// Options of the law, with their usual values.
     pub options: Options,
-    /// Kinematics of the bonds with some options.
+    /// Kinematics of the bonds for given options.
     pub element: fn(&Options) -> ElementKind,
-    /// Form of the shear stiffness over the length of bonds, by the space; None where points do not turn.
+    /// Form of the shear stiffness over the length of bonds, by the space; `None` where points have no rotations.
     pub shear_form: Option<fn(Space) -> ShearForm>,
-    /// Whether Poisson's ratio follows from the law, whatever the materials have.
+    /// Whether the law fixes Poisson's ratio, whatever that of the materials.
     pub fixes_poisson: bool,
-    /// Most general materials that the law takes.
+    /// Most general materials that the law admits.
     pub materials: Materials,
     /// Whether bonds are classed by the rows and columns of a lattice.
     pub needs_lattice: bool,
-    /// Whether bonds couple their two ends alone, so that their forces go through a line that cuts them.
+    /// Whether bonds couple their two ends alone, so that the force through a line is the sum over the bonds that cross it.
     pub couples_ends_alone: bool,
-    /// Corrections that the paper takes with the law.
+    /// Corrections that the paper uses with the law.
     pub correction: PaperCorrection,
-    /// Criterion by which bonds fail where none is given.
+    /// Default failure criterion of the bonds.
     pub criterion: &'static Kind,
-    /// What makes the stiffness densities in the plane.
+    /// Stiffness densities in the plane.
     pub plane: MakeDensities<2>,
-    /// What makes them in space; None for a law that exists in the plane alone.
+    /// Stiffness densities in space; `None` for a law that exists in the plane alone.
     pub solid: Option<MakeDensities<3>>,
 }
 
-/// What makes stiffness densities of bonds in D dimensions.
+/// Function for the stiffness densities of bonds in D dimensions.
 pub type MakeDensities<const D: usize> = fn(&LawInput<'_, D>) -> BondStiffness;
 
-/// What the stiffness densities of bonds in D dimensions are made of.
+/// Input of the stiffness densities of bonds in D dimensions.
 #[derive(Debug, Clone, Copy)]
 pub struct LawInput<'a, const D: usize> {
-    /// The bonds.
+    /// Bonds.
     pub bonds: &'a BondSet<D>,
-    /// The points.
+    /// Points.
     pub cloud: &'a PointCloud<D>,
-    /// The materials, shape (n_materials).
+    /// Elasticity of the materials, shape (n_materials).
     pub elasticity: &'a [Elasticity],
     /// Space in which the body deforms.
     pub space: Space,
-    /// What is chosen of the law.
+    /// Options of the law.
     pub options: Options,
 }
 
-/// Most general of the materials that a law takes.
+/// Most general of the materials that a law admits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Materials {
     /// Isotropic materials alone.
     Isotropic,
     /// Orthotropic materials and isotropic ones.
     Orthotropic,
-    /// All materials.
+    /// All materials, with any anisotropy.
     Anisotropic,
 }
 
-/// Corrections of the bonds that a paper takes with its law.
+/// Corrections of the bonds that a paper uses with its law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PaperCorrection {
-    /// No corrections: the law makes all energies right.
+    /// No corrections: the law gives the right energies by itself.
     None,
-    /// Share of the cells inside the horizon; and the volumes of the families, unless the constants are sums over them.
+    /// Partial volumes of the cells at the horizon; and volumes of the families, unless the constants are sums over the families.
     Volumes,
-    /// NHPD's factor by length and its iterative domain correction.
+    /// Length factor and iterative domain correction of NHPD.
     LengthAndDomain,
 }
 
 /// Shear stiffness k_t of a bond over its length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ShearForm {
-    /// One k_t for all lengths, that of [`super::pds`]. With a factor alpha that depends on the length, the ratio of shear to stretch
+    /// Constant k_t for all lengths, that of [`super::pds`]. With a factor alpha that depends on the length, the ratio of shear to stretch
     /// stays right: NHPD's form in space.
     Constant,
-    /// k_t = 12 d/l^2, as a beam of Euler and Bernoulli has: NHPD's form in the plane. In space NHPD's factor alpha, which falls with the
-    /// length, makes the shear of the body 1.16 times too strong: nu = .2 becomes .192.
+    /// Falling k_t = 12 d/l^2, as in a beam of Euler and Bernoulli: NHPD's form in the plane. In space NHPD's factor alpha, which falls with
+    /// the length, makes the shear of the body 1.16 times too strong: nu = .2 becomes .192.
     Falling,
 }
 
-/// A bond law with what is chosen of it.
+/// A bond law with its options.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Law {
-    /// The law.
+    /// Row of the law.
     pub row: &'static BondLaw,
-    /// Choices of what it leaves open, and of nothing else.
+    /// Values of the law's options, and of no others.
     pub options: Options,
 }
 
 impl Materials {
-    /// Least general ones that a material is among.
+    /// Least general class that contains a material.
     pub fn of_elasticity(elasticity: &Elasticity) -> Self {
         match elasticity {
             Elasticity::Isotropic(_) => Self::Isotropic,
@@ -113,7 +113,7 @@ impl Materials {
         }
     }
 
-    /// Word of the most general ones.
+    /// Keyword of the most general materials.
     pub fn word(self) -> &'static str {
         match self {
             Self::Isotropic => "isotropic",
@@ -132,7 +132,7 @@ impl PartialEq for BondLaw {
 impl Eq for BondLaw {}
 
 impl<const D: usize> LawInput<'_, D> {
-    /// Densities from constants of the materials, each made of an isotropic one in a space with the thickness of the body.
+    /// Densities from constants of the materials, each computed from an isotropic material, the space and the thickness of the body.
     pub(super) fn of_isotropic<const N: usize>(
         &self,
         constants: [fn(&Isotropic, Space, f64) -> f64; N],
@@ -145,14 +145,14 @@ impl<const D: usize> LawInput<'_, D> {
         BondStiffness::from_constants(self.bonds, self.cloud, &made, densities)
     }
 
-    /// The chosen stiffness against relative rotation.
+    /// Chosen rotational stiffness.
     pub(super) fn rotational(&self) -> RotationalStiffness {
         self.options.rotational_stiffness.unwrap_or_default()
     }
 }
 
 impl BondLaw {
-    /// A law of isotropic materials on any points, without rotations of these, that leaves nothing open.
+    /// A law of isotropic materials on any points, without rotations and without options.
     pub(super) const fn new(
         word: &'static str,
         sentence: &'static str,
@@ -186,22 +186,22 @@ impl BondLaw {
         }
     }
 
-    /// Whether bonds have strains of their own.
+    /// Whether bonds have strains of their own, of a rectangle around them.
     pub fn has_own_strains(&self) -> bool {
         (self.element)(&self.options).has_strains()
     }
 
-    /// Whether bonds resist shear between points that do not turn, and with it rotations of the body.
+    /// Whether bonds resist shear between points without rotations, and so rotations of the body.
     pub fn resists_rotations(&self) -> bool {
         self.shear_form.is_none() && !self.fixes_poisson && !self.has_own_strains()
     }
 
-    /// Word of the law in quotes.
+    /// Keyword of the law in quotes.
     pub fn quoted(&self) -> String {
         format!("\"{}\"", self.word)
     }
 
-    /// Name of the law's constant among those of [`Law`], as messages write it.
+    /// Name of the law's constant in [`Law`], as messages write it.
     pub fn constant(&self) -> String {
         let name = self.word.to_uppercase().replace('-', "_");
         format!("`Law::{name}`")
@@ -209,13 +209,13 @@ impl BondLaw {
 }
 
 impl Law {
-    /// A law with the usual choice of what it leaves open.
+    /// A law with its usual options.
     pub const fn usual(row: &'static BondLaw) -> Self {
         let options = row.options;
         Self { row, options }
     }
 
-    /// The law with other choices.
+    /// The law with other options.
     pub fn with(self, chosen: impl Into<Options>) -> Self {
         Self {
             options: chosen.into().or(self.options),
@@ -223,12 +223,12 @@ impl Law {
         }
     }
 
-    /// Name of the first option that is chosen although the law settles it, or left out although the law leaves it open.
+    /// Name of the first option that is set although the law does not have it, or missing although the law has it.
     pub fn misplaced_option(&self) -> Option<&'static str> {
         self.options.apart_from(&self.row.options)
     }
 
-    /// Word of the law as papers and case files abbreviate it.
+    /// Keyword of the law in papers and case files.
     pub fn name(&self) -> &'static str {
         self.row.word
     }
@@ -238,7 +238,7 @@ impl Law {
         (self.row.element)(&self.options)
     }
 
-    /// Rotational stiffness in the plane over the length of the bonds; None where points have no rotations.
+    /// Rotational stiffness in the plane over the length of the bonds; `None` where points have no rotations.
     pub fn rotational_profile(&self) -> Option<Profile> {
         let form = self.row.shear_form?(Plane::Stress.into());
         let chosen = self.options.rotational_stiffness;
@@ -248,8 +248,8 @@ impl Law {
         })
     }
 
-    /// Elastic constants that the law makes of a material: Young's modulus with the Poisson's ratio of central forces where the law knows no
-    /// other. None for a material with axes.
+    /// Effective elastic constants of a material under the law: Young's modulus with the Poisson's ratio of central forces where the law
+    /// fixes it. `None` for an anisotropic material.
     pub fn constants(&self, material: &Material, space: Space) -> Option<Isotropic> {
         let given = material.elasticity.isotropic()?;
         Some(match self.row.fixes_poisson {
@@ -258,7 +258,7 @@ impl Law {
         })
     }
 
-    /// Elasticity of a material with the constants that the law makes of its own.
+    /// Elasticity of a material with its effective constants under the law.
     pub fn effective_elasticity(&self, material: &Material, space: Space) -> Elasticity {
         let constants = self.constants(material, space);
         constants.map_or(material.elasticity, Elasticity::Isotropic)

@@ -1,7 +1,7 @@
-//! What Poisson's ratio means for the stability of bodies in space.
+//! Stability of bodies in space by Poisson's ratio.
 //!
-//! Above nu = 1/4 the bonds resist shear and rotation with negative stiffnesses: the energy is a maximum in the rotations of the points,
-//! and its minimum over them semidefinite as long as not too much is asked. In space that goes wrong much sooner than in the plane.
+//! Above nu = 1/4 the bonds resist shear and rotation with negative stiffnesses: the energy is a maximum in the rotations of the points, and
+//! its minimum over them stays semidefinite only up to some Poisson's ratio, which is much smaller in space than in the plane.
 
 use std::fmt;
 
@@ -17,12 +17,12 @@ const UNSTABLE: [(ShearForm, f64, f64); 4] = [
     (ShearForm::Constant, f64::INFINITY, 0.28),
 ];
 
-/// Hard warning that bonds resist shear with a negative stiffness.
+/// Warning that bonds resist shear with a negative stiffness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NegativeShear {
     /// Largest Poisson's ratio of a material.
     pub poisson: f64,
-    /// Poisson's ratio from which bodies of this kind were found to lose their stability; none for bonds without rotations, whose free
+    /// Poisson's ratio from which bodies of this kind were found to lose their stability; `None` for bonds without rotations, whose free
     /// bodies are ill-posed at any above 1/4.
     pub unstable_from: Option<f64>,
 }
@@ -30,8 +30,8 @@ pub struct NegativeShear {
 impl NegativeShear {
     /// The warning for a Poisson's ratio above 1/4.
     ///
-    /// `form` is that of the shear stiffness of bonds between points that turn, none of points that do not; `horizon_factor` the horizon
-    /// over the distance of the points.
+    /// `form` is that of the shear stiffness of bonds between points with rotations, `None` for points without; `horizon_factor` is the
+    /// horizon over the distance of the points.
     pub fn new(poisson: f64, form: Option<ShearForm>, horizon_factor: f64) -> Self {
         let suits =
             |(of, up_to, _): &&(ShearForm, f64, f64)| form == Some(*of) && horizon_factor <= *up_to;

@@ -1,14 +1,14 @@
-//! Materials with less of a contrast between their stiffnesses.
+//! Materials with a reduced contrast of their stiffnesses.
 
 use super::elasticity::{Elasticity, Isotropic, Orthotropic, OutOfPlane, Plane};
 use super::{Anisotropic, Material};
 use crate::law::bulk_stiffness;
 
-/// The materials of a body with their stiffnesses k taken to a power p, k' = k_s (k/k_s)^p, so that the stiffest is so many times as stiff as
-/// the softest, k_s; none where it is no more than that already.
+/// The materials of a body with their stiffnesses k changed to k' = k_s (k/k_s)^p, so that the stiffest is `largest` times as stiff as the
+/// softest, k_s; `None` where the contrast is not larger.
 ///
-/// Corrections look for factors between such materials. The forces of a soft part on a stiff one may be below what an iteration leaves of
-/// the forces of that one; then nothing tells what a soft layer between stiff parts should carry.
+/// Corrections compute factors between such materials. The forces of a soft part on a stiff one may be below the residual of an iteration in
+/// the stiff part; then the load of a soft layer between stiff parts would be undetermined.
 pub fn with_reduced_contrast(
     materials: &[Material],
     plane: Plane,
@@ -34,7 +34,7 @@ pub fn with_reduced_contrast(
     Some(of_materials.collect())
 }
 
-/// Constants of a material so many times as stiff in all directions.
+/// Constants of a material with a stiffness multiplied by a factor in all directions.
 fn times(elasticity: Elasticity, factor: f64) -> Elasticity {
     match elasticity {
         Elasticity::Isotropic(it) => Elasticity::Isotropic(Isotropic {

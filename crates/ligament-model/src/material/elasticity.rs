@@ -79,7 +79,7 @@ pub struct Orthotropic {
     pub poisson: f64,
     /// Shear modulus G_12, Pa.
     pub shear_modulus: f64,
-    /// Constants across the plane, which plane strain needs.
+    /// Constants across the plane, which plane strain requires.
     pub out_of_plane: Option<OutOfPlane>,
     /// Angle zeta from the x axis to the axis 1, rad.
     pub angle: f64,
@@ -95,7 +95,7 @@ pub struct OutOfPlane {
 }
 
 impl Elasticity {
-    /// The stiffness C of the plane in x and y: (sigma_xx, sigma_yy, sigma_xy) = C (eps_xx, eps_yy, gamma_xy), shape (3, 3), Pa.
+    /// Stiffness C of the plane in x and y: (sigma_xx, sigma_yy, sigma_xy) = C (eps_xx, eps_yy, gamma_xy), shape (3, 3), Pa.
     pub fn plane_stiffness(&self, plane: Plane) -> Matrix3<f64> {
         match self {
             Self::Isotropic(material) => material.plane_stiffness(plane),
@@ -104,7 +104,7 @@ impl Elasticity {
         }
     }
 
-    /// The stiffness in the plane in its state, or for D = 3 in space; none in space of a material that is known in the plane alone.
+    /// Stiffness in a state of the plane, or for D = 3 in space; `None` in space for a material that is given in the plane only.
     pub fn stiffness<const D: usize>(&self, plane: Plane) -> Option<Stiffness> {
         if D == 2 {
             let stiffness = self.plane_stiffness(plane);
@@ -124,7 +124,7 @@ impl Elasticity {
         Some(Stiffness::from_fn(places.len(), places.len(), of_places))
     }
 
-    /// The stiffness in a space; none in three dimensions of a material that is known in the plane alone.
+    /// Stiffness in a space; `None` in three dimensions for a material that is given in the plane only.
     pub fn stiffness_in(&self, space: Space) -> Option<Stiffness> {
         match space {
             Space::Plane(plane) => self.stiffness::<2>(plane),
@@ -132,7 +132,7 @@ impl Elasticity {
         }
     }
 
-    /// The isotropic constants, if the material is isotropic.
+    /// Isotropic constants; `None` for other materials.
     pub fn isotropic(&self) -> Option<Isotropic> {
         match *self {
             Self::Isotropic(constants) => Some(constants),
@@ -142,7 +142,7 @@ impl Elasticity {
 }
 
 impl Isotropic {
-    /// E/(1 - nu^2) [1, nu; nu, 1] and G in plane stress; in plane strain E/(1 - nu^2) and nu/(1 - nu) take the place of E
+    /// Plane stiffness: E/(1 - nu^2) [1, nu; nu, 1] and G in plane stress; in plane strain with E/(1 - nu^2) and nu/(1 - nu) instead of E
     /// and nu.
     pub fn plane_stiffness(&self, plane: Plane) -> Matrix3<f64> {
         let (young, poisson) = (self.young, self.poisson);
@@ -162,8 +162,7 @@ impl Isotropic {
         )
     }
 
-    /// The constants with which the equations of plane stress describe the given plane: E and nu, or E/(1 - nu^2) and nu/(1
-    /// - nu) for plane strain.
+    /// Effective constants for the equations of plane stress: E and nu, or E/(1 - nu^2) and nu/(1 - nu) in plane strain.
     pub fn in_plane(&self, plane: Plane) -> Self {
         match plane {
             Plane::Stress => *self,
@@ -182,7 +181,7 @@ impl Isotropic {
         }
     }
 
-    /// Poisson's ratio at which the bonds' shear stiffness vanishes: 1/3 in plane stress, 1/4 in plane strain and in space.
+    /// Poisson's ratio at which the shear stiffness of the bonds vanishes: 1/3 in plane stress, 1/4 in plane strain and in space.
     pub fn central_force_poisson(space: impl Into<Space>) -> f64 {
         match space.into() {
             Space::Plane(Plane::Stress) => 1.0 / 3.0,
@@ -190,7 +189,7 @@ impl Isotropic {
         }
     }
 
-    /// The material that central forces make of a material: its Young's modulus with the Poisson's ratio 1/3 or 1/4.
+    /// The material with its Young's modulus and the Poisson's ratio of central forces, 1/3 or 1/4.
     pub fn with_central_forces(&self, space: impl Into<Space>) -> Self {
         Self {
             young: self.young,
@@ -205,12 +204,12 @@ impl Isotropic {
 }
 
 impl Orthotropic {
-    /// The stiffness of the plane in the axes 1 and 2 (OMPPD eq. 25): the inverse of the compliance S in plane stress, and of
-    /// S_ij - S_i3 S_j3/S_33 in plane strain.
+    /// Stiffness of the plane in the axes 1 and 2 (OMPPD eq. 25): the inverse of the compliance S in plane stress, and of S_ij - S_i3
+    /// S_j3/S_33 in plane strain.
     ///
     /// # Panics
     ///
-    /// Panics if the constants are not those of a stable material ([`Orthotropic::is_stable`]), or lack what plane strain needs.
+    /// Panics if the material is not stable ([`Orthotropic::is_stable`]), or lacks constants that plane strain requires.
     pub fn principal_stiffness(&self, plane: Plane) -> Matrix3<f64> {
         let mut compliance = self.principal_compliance();
         if plane == Plane::Strain {
@@ -225,7 +224,7 @@ impl Orthotropic {
             .expect("the compliance of a stable material has an inverse")
     }
 
-    /// [`Orthotropic::principal_stiffness`] turned by the angle zeta.
+    /// [`Orthotropic::principal_stiffness`] rotated by the angle zeta.
     pub fn plane_stiffness(&self, plane: Plane) -> Matrix3<f64> {
         let (s, c) = self.angle.sin_cos();
         // Strains in the axes 1 and 2 from those in x and y.
@@ -243,7 +242,7 @@ impl Orthotropic {
         turn.transpose() * self.principal_stiffness(plane) * turn
     }
 
-    /// Whether the stiffness of the plane can be computed: numbers may be too large for their products.
+    /// Whether the stiffness of the plane can be computed: products of the constants may overflow.
     pub fn has_stiffness(&self) -> bool {
         let mut compliance = self.principal_compliance();
         let is_fine = |it: &Matrix3<f64>| {
@@ -259,7 +258,7 @@ impl Orthotropic {
         in_plane && across
     }
 
-    /// Whether every strain costs energy, that is whether the compliance is positive definite.
+    /// Whether every strain costs energy, that is, whether the compliance is positive definite.
     pub fn is_stable(&self) -> bool {
         let mut compliance = self.principal_compliance();
         let in_plane = compliance.cholesky().is_some();
@@ -287,7 +286,7 @@ impl Orthotropic {
         )
     }
 
-    /// S_13, S_23 and zero.
+    /// Compliances S_13 and S_23, and zero.
     fn coupling_across(&self, across: &OutOfPlane) -> Vector3<f64> {
         let [one, two] = [0, 1].map(|axis| -across.poisson[axis] / self.young[axis]);
         Vector3::new(one, two, 0.0)

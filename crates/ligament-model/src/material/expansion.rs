@@ -6,9 +6,9 @@ use crate::tensor::SymTensor;
 /// Coefficients of linear thermal expansion, 1/K.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Expansion {
-    /// alpha_1 and alpha_2, along the axes of the material in the plane.
+    /// Coefficients alpha_1 and alpha_2, along the axes of the material in the plane.
     pub in_plane: [f64; 2],
-    /// alpha_3 across the plane, which plane strain needs.
+    /// Coefficient alpha_3 across the plane, which plane strain requires.
     pub across: Option<f64>,
 }
 
@@ -21,8 +21,8 @@ impl Expansion {
         }
     }
 
-    /// Strain of a body that a change of temperature by one kelvin makes without any stress, 1/K: [in the plane](Self::plane_strain), and in
-    /// space alpha along all axes.
+    /// Stress-free strain of a body for a temperature change of one kelvin, 1/K: [in the plane](Self::plane_strain), and in space alpha
+    /// along all axes.
     ///
     /// # Panics
     ///
@@ -41,14 +41,14 @@ impl Expansion {
         }
     }
 
-    /// Strain (eps_xx, eps_yy, gamma_xy) that a change of temperature by one kelvin makes without any stress in the plane,
-    /// 1/K. In the axes of the material it is
+    /// Stress-free strain (eps_xx, eps_yy, gamma_xy) in the plane for a temperature change of one kelvin, 1/K. In the axes of the material
+    /// it is
     ///
     /// - in plane stress (alpha_1, alpha_2, 0);
     /// - in plane strain (alpha_1 + nu_31 alpha_3, alpha_2 + nu_32 alpha_3, 0) with nu_3i = nu_i3 E_3/E_i: the stress
     ///   -E_3 alpha_3 across the plane keeps the strain there zero and widens the plane. If isotropic, (1 + nu) alpha.
     ///
-    /// A material given by the stiffness of its plane expands by (alpha_1, alpha_2, 0) along x and y in either.
+    /// A material given by the stiffness of its plane expands by (alpha_1, alpha_2, 0) along x and y in both states.
     ///
     /// # Panics
     ///
@@ -56,7 +56,7 @@ impl Expansion {
     pub fn plane_strain(&self, elasticity: &Elasticity, plane: Plane) -> [f64; 3] {
         const NEEDED: &str = "plane strain needs the constants across the plane";
         let (minor, angle) = match elasticity {
-            // The constants are those of the plane, whichever it is.
+            // The constants are those of the plane in either state.
             Elasticity::Anisotropic(_) => {
                 let [xx, yy] = self.in_plane;
                 return [xx, yy, 0.0];

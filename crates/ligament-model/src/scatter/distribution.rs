@@ -2,21 +2,21 @@
 
 use std::f64::consts::SQRT_2;
 
-/// Deviations of the normal distribution beyond which factors are cut off: one value in 16,000.
+/// Number of standard deviations beyond which factors of the normal distribution are cut off: one value in 16,000.
 const CUT: f64 = 4.0;
 
-/// Coefficient of variation that the normal distribution must stay below: all factors are positive then.
+/// Upper bound of the coefficient of variation of the normal distribution, for which all factors are positive.
 pub(super) const LARGEST_DEVIATION: f64 = 1.0 / CUT;
 
 /// Distribution of a factor with the mean 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Distribution {
-    /// Two parameters (Weibull 1951): the probability of less than f is 1 - exp(-(f Gamma(1 + 1/m))^m).
+    /// Two-parameter Weibull distribution (Weibull 1951): the probability of less than f is 1 - exp(-(f Gamma(1 + 1/m))^m).
     Weibull {
         /// Weibull modulus m: 5 scatters by 23 %, 12 by 10 %, 25 by 5 %.
         modulus: f64,
     },
-    /// Normal, cut off at four deviations.
+    /// Normal distribution, cut off at four standard deviations.
     Normal {
         /// Standard deviation over the mean, less than 0.25.
         deviation: f64,
@@ -24,14 +24,14 @@ pub enum Distribution {
 }
 
 impl Distribution {
-    /// Coefficient of variation that a normal distribution must stay below, so that no factor is negative.
+    /// Upper bound of the coefficient of variation of a normal distribution, for which no factor is negative.
     pub const LARGEST_DEVIATION: f64 = LARGEST_DEVIATION;
 
-    /// The factor that is exceeded with the same probability as a number of the normal distribution of mean 0 and variance 1.
+    /// Factor with the same exceedance probability as a standard normal number.
     pub fn factor(&self, normal: f64) -> f64 {
         match *self {
             Self::Weibull { modulus } => {
-                // -ln of the probability of more, from the smaller of both tails.
+                // Negative logarithm of the exceedance probability, from the smaller of both tails.
                 let tail = 0.5 * libm::erfc(normal.abs() / SQRT_2);
                 let exponent = if normal < 0.0 {
                     -libm::log1p(-tail)

@@ -1,9 +1,9 @@
-//! Strength or fracture energy that varies over the body at random.
+//! Random variation of strength or fracture energy over the body.
 //!
-//! A [`Scatter`] gives each point a factor with the mean 1. With a correlation length it is a function of the position alone, so that a
-//! finer mesh of the same body has the same weak places; without one each point has a number of its own, by its number in the file. The factor
-//! of a bond is the mean of those at its ends. Nothing depends on threads or on the machine: random numbers are those of SplitMix64
-//! (`random.rs`), and all functions but the four operations and the square root are those of the crate `libm`.
+//! A [`Scatter`] gives each point a factor with the mean 1. With a correlation length the factor is a function of the position alone, so
+//! that a finer mesh of the same body has the same weak places; without one each point has an independent number, given by its number in the
+//! file. The factor of a bond is the mean of those at its ends. Factors do not depend on threads or on the machine: random numbers are those
+//! of SplitMix64 (`random.rs`), and all functions but the four operations and the square root are those of the crate `libm`.
 
 mod distribution;
 mod random;
@@ -16,25 +16,25 @@ pub use distribution::Distribution;
 
 use waves::RandomWaves;
 
-/// A property of the material that varies at random.
+/// Random variation of a property of the material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scatter {
-    /// The property.
+    /// Property that varies.
     pub of: Scattered,
     /// Distribution of the factors.
     pub distribution: Distribution,
-    /// Seed of the random numbers: another one is another specimen.
+    /// Seed of the random numbers; another seed gives another specimen.
     pub seed: u64,
-    /// Distance over which the correlation exp(-(r/L)^2) of two places falls to 1/e, m; 0: each point for itself.
+    /// Distance over which the correlation exp(-(r/L)^2) of two positions falls to 1/e, m; 0 for independent points.
     pub correlation_length: f64,
 }
 
-/// What varies.
+/// Property that varies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scattered {
-    /// All strengths of the materials, and limits that are given in their place: limits of bonds are multiplied by the factor f.
+    /// All strengths of the materials, and limits given in their place: limits of bonds are multiplied by the factor f.
     Strength,
-    /// Fracture energies: limits that come from them are multiplied by sqrt(f), and what a bond takes after its limit follows.
+    /// Fracture energies: limits derived from them are multiplied by sqrt(f), and the energy of a bond beyond its limit follows.
     FractureEnergy,
 }
 
@@ -51,14 +51,14 @@ impl Scattered {
 /// Factors of a property over the points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Factors {
-    /// The property.
+    /// Property that varies.
     pub of: Scattered,
-    /// The factors, shape (n_points).
+    /// Factors at the points, shape (n_points).
     pub at_points: Vec<f64>,
 }
 
 impl Scatter {
-    /// Factors at positions (n_points), m, of points that are numbered so.
+    /// Factors at the positions (n_points), m, of points with a given numbering.
     pub fn factors<const D: usize>(
         &self,
         positions: &[[f64; D]],
@@ -83,7 +83,7 @@ impl Scatter {
 }
 
 impl Factors {
-    /// Factor of a bond with these ends: the mean of theirs.
+    /// Factor of a bond: the mean of the factors of its ends.
     pub fn of_bond(&self, [a, b]: [u32; 2]) -> f64 {
         0.5 * (self.at_points[a as usize] + self.at_points[b as usize])
     }

@@ -1,9 +1,9 @@
-//! Random numbers by their place in a sequence.
+//! Random numbers by their index in a sequence.
 //!
-//! SplitMix64 (Steele 2014, with the constants of variant 13 by Stafford): number k of the sequence of a seed is
-//! the mixed bits of seed + (k + 1) times the odd integer nearest to 2^64 over the golden ratio. Each is found without the others.
+//! SplitMix64 (Steele 2014, with the constants of variant 13 by Stafford): number k of the sequence of a seed is the mixed bits of seed + (k
+//! + 1) times the odd integer nearest to 2^64 over the golden ratio. Each number is computed independently of the others.
 
-/// The increment of the states.
+/// Increment of the states.
 const GAMMA: u64 = 0x9E37_79B9_7F4A_7C15;
 
 /// Number `place` of the sequence of a seed.
@@ -14,13 +14,13 @@ pub(super) fn bits(seed: u64, place: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// Number `place` of a seed, uniform between 0 and 1: an odd multiple of 2^-54, so that neither end is met.
+/// Number `place` of a seed, uniform between 0 and 1: an odd multiple of 2^-54, which excludes both ends.
 pub(super) fn uniform(seed: u64, place: u64) -> f64 {
     const STEP: f64 = 1.0 / (1u64 << 53) as f64;
     ((bits(seed, place) >> 11) as f64 + 0.5) * STEP
 }
 
-/// Number `place` of a seed with the normal distribution of mean 0 and variance 1, by the transform of Box and Muller.
+/// Number `place` of a seed with the standard normal distribution, by the transform of Box and Muller.
 pub(super) fn normal(seed: u64, place: u64) -> f64 {
     let [u, v] = [2 * place, 2 * place + 1].map(|it| uniform(seed, it));
     (-2.0 * libm::log(u)).sqrt() * libm::cos(std::f64::consts::TAU * v)

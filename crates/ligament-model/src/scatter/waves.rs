@@ -1,32 +1,30 @@
-//! A field with normal values and a correlation length.
+//! Random fields with normal values and a correlation length.
 
 use std::f64::consts::{PI, SQRT_2, TAU};
 
 use super::random::uniform;
 use crate::tensor::dot;
 
-/// Waves of a field in the plane. The correlation misses its formula by less than 5e-3, the fourth moment of the values that of the normal
-/// distribution by 3/(2 n).
+/// Number of waves of a field in the plane. The error of the correlation is less than 5e-3, that of the fourth moment of the values 3/(2 n).
 const WAVES_IN_PLANE: usize = 512;
 
-/// Waves of a field in space. The correlation misses its formula by less than 1e-2.
+/// Number of waves of a field in space. The error of the correlation is less than 1e-2.
 const WAVES_IN_SPACE: usize = 1024;
 
-/// Share of a turn between the directions of two waves in the plane that follow each other: the golden section spreads them evenly.
+/// Fraction of a turn between the directions of successive waves in the plane: the golden section spreads them evenly.
 const GOLDEN_SECTION: f64 = 0.618_033_988_749_894_9;
 
-/// Steps of the two coordinates of the directions of waves in space that follow each other, as parts of a turn and of the height of the
-/// sphere: 1/g and 1/g^2 with g^3 = g + 1, which spread pairs of numbers evenly.
+/// Increments of the two coordinates of the directions of successive waves in space, as fractions of a turn and of the height of the sphere:
+/// 1/g and 1/g^2 with g^3 = g + 1, which spread pairs of numbers evenly.
 const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
 
-/// Halvings in the search for a length of a given probability.
+/// Number of bisections in the search for a length of a given probability.
 const HALVINGS: usize = 60;
 
-/// A sum of plane waves with random phases: values at places have the mean 0, the variance 1 and the correlation exp(-(r/L)^2) at the
-/// distance r.
+/// A sum of plane waves with random phases: its values have the mean 0, the variance 1 and the correlation exp(-(r/L)^2) at the distance r.
 ///
-/// z(x) = sqrt(2/n) sum_j cos(k_j . x + phi_j) (Shinozuka and Jan 1972), with phases phi_j that are uniform over a turn. That correlation
-/// is the Fourier transform of the density of wave vectors k whose components are normal with the deviation sqrt(2)/L. Their lengths have the
+/// z(x) = sqrt(2/n) sum_j cos(k_j . x + phi_j) (Shinozuka and Jan 1972), with phases phi_j that are uniform over a turn. The correlation is
+/// the Fourier transform of the density of wave vectors k with normal components of standard deviation sqrt(2)/L. Their lengths have the
 /// distribution of Rayleigh, in space that of Maxwell, and are taken at the middles of n equally probable classes; their directions are an
 /// even sequence with a random start.
 #[derive(Debug, Clone)]
@@ -50,7 +48,7 @@ impl<const D: usize> RandomWaves<D> {
         }
     }
 
-    /// The value at a place, m.
+    /// Value at a position, m.
     pub(super) fn at(&self, place: [f64; D]) -> f64 {
         let waves = self.waves.iter();
         let sum: f64 = waves
@@ -98,8 +96,8 @@ fn vectors_in_space(seed: u64, correlation_length: f64) -> Vec<[f64; 3]> {
     (0..WAVES_IN_SPACE).map(vector).collect()
 }
 
-/// The length that a vector of three normal components of deviation 1 falls below with some probability:
-/// P(x) = erf(x/sqrt(2)) - sqrt(2/pi) x exp(-x^2/2).
+/// Length below which a vector of three standard normal components falls with a given probability P(x) = erf(x/sqrt(2)) - sqrt(2/pi) x
+/// exp(-x^2/2).
 fn maxwell(probability: f64) -> f64 {
     let below = |x: f64| libm::erf(x / SQRT_2) - (2.0 / PI).sqrt() * x * libm::exp(-0.5 * x * x);
     let (mut low, mut high) = (0.0, 10.0);

@@ -15,14 +15,14 @@ pub enum Shape {
         /// Radius, m.
         radius: f64,
     },
-    /// Everything outside of a disk.
+    /// Exterior of a disk.
     Outside {
         /// Centre of the disk, m.
         centre: [f64; 2],
         /// Radius of the disk, m.
         radius: f64,
     },
-    /// The inside of a closed polygon that does not cross itself: three corners or more, m.
+    /// Interior of a closed polygon that does not cross itself, with three corners or more, m.
     Polygon(Vec<[f64; 2]>),
 }
 
@@ -49,7 +49,7 @@ impl Region<2> for Shape {
     fn is_crossed_by(&self, a: [f64; 2], b: [f64; 2], slack: f64) -> bool {
         match self {
             Self::Circle { centre, radius } => distance_to([a, b], *centre) < radius - slack,
-            // A disk is convex: a line leaves it nowhere if its ends do not.
+            // A disk is convex: a line between two points in it stays in it.
             Self::Outside { .. } => self.depth(a).max(self.depth(b)) > slack,
             Self::Polygon(corners) => {
                 let [lower, upper] = bounding_box(corners.iter().copied());
@@ -68,8 +68,8 @@ impl Shape {
         Self::Polygon(vec![a, [b[0], a[1]], b, [a[0], b[1]]])
     }
 
-    /// Between two places where the line crosses a side or passes a corner, the distance to each side changes in
-    /// proportion along the line: its middle is at least half as deep as any other place.
+    /// Between two parameters where the line crosses a side or passes a corner, the distance to each side changes linearly along the line:
+    /// its middle is at least half as deep as any other place.
     fn is_crossed_near(&self, corners: &[[f64; 2]], a: [f64; 2], b: [f64; 2], slack: f64) -> bool {
         let mut places = vec![0.0, 1.0];
         for [p, q] in sides(corners) {
@@ -103,7 +103,7 @@ impl Shape {
     }
 }
 
-/// Whether two sides of a closed polygon that are no neighbours meet, or neighbours lie on each other: decided exactly.
+/// Whether two non-adjacent sides of a closed polygon intersect, or adjacent ones overlap; an exact test.
 pub fn crosses_itself(corners: &[[f64; 2]]) -> bool {
     let sides: Vec<[[f64; 2]; 2]> = sides(corners).collect();
     let last = sides.len() - 1;
@@ -121,7 +121,7 @@ pub fn crosses_itself(corners: &[[f64; 2]]) -> bool {
     })
 }
 
-/// Whether the way from p by q to r goes back on itself.
+/// Whether the path from p via q to r turns back on itself.
 fn turns_back(p: [f64; 2], q: [f64; 2], r: [f64; 2]) -> bool {
     orientation(p, q, r) == 0.0 && dot(minus(q, p), minus(r, q)) <= 0.0
 }

@@ -14,7 +14,7 @@ pub enum SolidShape {
         /// Radius, m.
         radius: f64,
     },
-    /// Everything outside of a ball.
+    /// Exterior of a ball.
     OutsideSphere {
         /// Centre of the ball, m.
         centre: [f64; 3],
@@ -23,14 +23,14 @@ pub enum SolidShape {
     },
     /// A cylinder with flat ends.
     Cylinder {
-        /// Middles of its two ends, m.
+        /// Middles of the two ends, m.
         ends: [[f64; 3]; 2],
         /// Radius, m.
         radius: f64,
     },
-    /// Everything outside of a cylinder without ends.
+    /// Exterior of an infinite cylinder.
     OutsideCylinder {
-        /// Two points of its axis, m.
+        /// Two points of the axis, m.
         axis: [[f64; 3]; 2],
         /// Radius, m.
         radius: f64,
@@ -94,7 +94,7 @@ impl Region<3> for SolidShape {
         let way = minus(b, a);
         match self {
             Self::Sphere { centre, radius } => distance_to([a, b], *centre) < radius - slack,
-            // A ball is convex, and so is a cylinder: a line leaves them nowhere if its ends do not.
+            // Balls and cylinders are convex: a line between two points in them stays in them.
             Self::OutsideSphere { centre, radius } => {
                 let is_out = |p| norm(minus(p, *centre)) > radius + slack;
                 is_out(a) || is_out(b)
@@ -132,8 +132,8 @@ impl SolidShape {
     }
 }
 
-/// Places along a way from `start` (0) to `start + way` (1), both across the axis of a cylinder, nearer to the axis than a radius; none
-/// where the first is not below the second.
+/// Interval of a path from `start` (0) to `start + way` (1), both across the axis of a cylinder, that is nearer to the axis than a radius;
+/// empty where the first value is not below the second.
 fn within_radius(start: [f64; 3], way: [f64; 3], radius: f64) -> [f64; 2] {
     let square = dot(way, way);
     if square == 0.0 {
@@ -150,7 +150,7 @@ fn within_radius(start: [f64; 3], way: [f64; 3], radius: f64) -> [f64; 2] {
     [nearest - half, nearest + half]
 }
 
-/// Places along a way at which a coordinate lies between two bounds.
+/// Interval of a path in which a coordinate lies between two bounds.
 fn between([lower, upper]: [f64; 2], start: f64, way: f64) -> [f64; 2] {
     if way == 0.0 {
         let is_in = lower < start && start < upper;
@@ -163,12 +163,12 @@ fn between([lower, upper]: [f64; 2], start: f64, way: f64) -> [f64; 2] {
     ]
 }
 
-/// Whether two pieces of a line from 0 to 1 have more in common than a place.
+/// Whether two intervals within 0 to 1 have more in common than one value.
 fn is_open([a, b]: [f64; 2], [c, d]: [f64; 2]) -> bool {
     a.max(c).max(0.0) < b.min(d).min(1.0)
 }
 
-/// The parts of a vector along an axis, m, and across it.
+/// Component of a vector along an axis, m, and the part orthogonal to it.
 fn in_cylinder([start, end]: [[f64; 3]; 2], vector: [f64; 3]) -> (f64, [f64; 3]) {
     let axis = minus(end, start);
     let unit = axis.map(|it| it / norm(axis));

@@ -1,4 +1,4 @@
-//! What a bond system answers to the equations.
+//! Implementation of the interface to the equations for a bond system.
 
 use ligament_mesh::Numbering;
 
@@ -355,7 +355,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
         let pulls = crossing.iter().filter_map(|&(bond, first_is_near)| {
             let element = self.left(bonds, bond as usize)?;
             let forces = element.end_forces(&deformations[bond as usize])?;
-            // The end force is what holds the end in place against the bond: the bond pulls the other way.
+            // The end force keeps the end in place against the bond, whose pull is opposite.
             Some(-forces[usize::from(!first_is_near)][place])
         });
         pulls.sum()
@@ -405,13 +405,13 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondContact for ElementS
     }
 }
 
-/// Deformations of all bonds as their elements have them, shape (n_bonds).
+/// Deformations of all bonds in the type of their elements, shape (n_bonds).
 fn of_bonds<B: Deformation>(deformations: &Deformations) -> &[B] {
     B::of_bonds(deformations)
 }
 
 impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
-    /// The rigid motions of some points that their bonds let be free.
+    /// Rigid motions of some points that their bonds do not resist.
     fn rigid_motions(&self, points: &[u32]) -> RigidMotions<'_, D> {
         let BondSystem {
             bonds, rigidities, ..

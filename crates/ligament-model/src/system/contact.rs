@@ -1,4 +1,4 @@
-//! The pairs across the cracks of a bond system, and the stresses of those that are closed.
+//! Pairs across the cracks of a bond system, and the stresses of closed pairs.
 
 use std::borrow::Cow;
 
@@ -11,8 +11,8 @@ use crate::layout::{Component, Layout};
 use crate::tensor::{SymTensor, cross, dot, minus, norm};
 use crate::thermal::ThermalStrain;
 
-/// Cosine of the angle between a broken bond and the normal of the crack below which the bond is no pair: it lies along the
-/// crack, and on which side of it an end lies is chance. The bonds beyond hold less than 1 % of the traction across.
+/// Cosine of the angle between a broken bond and the crack normal below which the bond is no contact pair: it lies along the crack, and the
+/// sides of its ends are arbitrary. The bonds beyond carry less than 1 % of the traction across.
 const ALONG_THE_CRACK: f64 = 0.3;
 
 /// Motions of the points of a body.
@@ -22,17 +22,15 @@ pub(crate) struct Moved<'a> {
     pub(crate) layout: Layout,
     /// Motions, shape (n_degrees_of_freedom), m and rad.
     pub(crate) motions: &'a [f64],
-    /// Strains that the temperature gives.
+    /// Thermal strains.
     pub(crate) expansion: ThermalStrain<'a>,
 }
 
 impl<const D: usize> BondSystem<D> {
-    /// The pairs across cracks while the bonds marked in `intact` (n_bonds) are unbroken: broken bonds and then cut ones, in their
-    /// order.
+    /// Pairs across cracks while the bonds marked in `intact` (n_bonds) are unbroken: broken bonds, then cut ones, in their order.
     ///
-    /// The normal of a pre-crack is known. That of a crack that grew is the principal direction of sum e (x) e over the broken
-    /// bonds at both ends of a pair and at the points that these lead to, where a cut bond counts with its normal. It changes
-    /// only where bonds break.
+    /// The normal of a pre-crack is known. That of a grown crack is the principal direction of sum e (x) e over the broken bonds at both
+    /// ends of a pair and at the points that these connect to, where a cut bond counts with its normal. It changes only where bonds break.
     pub(crate) fn contact_pairs(&self, layout: Layout, intact: &[bool]) -> Vec<ContactPair> {
         let (bonds, cut) = (&self.bonds, self.faces.cut());
         let broken: Vec<usize> = (0..intact.len()).filter(|&bond| !intact[bond]).collect();
@@ -56,7 +54,7 @@ impl<const D: usize> BondSystem<D> {
         of_broken.chain(of_cut).collect()
     }
 
-    /// Sums over the parted pairs of each point and of the points that they lead to of their directions, shape (n_points).
+    /// Sums of the directions of the broken and cut bonds at each point and at the points that they connect to, shape (n_points).
     fn crack_directions(&self, broken: &[usize]) -> Vec<AxisSum<D>> {
         let (bonds, n_points) = (&self.bonds, self.cloud.len());
         let of_broken = broken.iter();
@@ -93,7 +91,7 @@ impl<const D: usize> BondSystem<D> {
         around
     }
 
-    /// The pair of a bond that is parted, with a number.
+    /// The contact pair of a broken or cut bond, with a number.
     fn contact_pair(&self, layout: Layout, number: u32, parted: &CutBond<D>) -> ContactPair {
         let &CutBond {
             ends,
@@ -122,7 +120,7 @@ impl<const D: usize> BondSystem<D> {
         }
     }
 
-    /// The pair whose faces have passed through each other farthest, beyond a depth (m), of the points that are asked for (n_points).
+    /// Pair with the largest overlap of the faces, beyond a depth (m), among the points marked in `asked` (n_points).
     pub(super) fn largest_overlap(
         &self,
         intact: &[bool],
@@ -144,14 +142,14 @@ impl<const D: usize> BondSystem<D> {
         };
         let has_cut = !self.faces.cut().is_empty();
         let broken = || (0..intact.len()).filter(|&bond| !intact[bond]);
-        // Normals of cracks that grew are not worth while where nothing comes nearer.
+        // Normals of grown cracks are not worth computing where no faces approach each other.
         if !subdomain.any(has_cut || broken().any(approaches)) {
             return None;
         }
         let pairs = self.contact_pairs(layout, intact);
         let mut motions = Cow::Borrowed(motions);
         if !subdomain.is_whole() {
-            // Cut bonds lead to points that intact ones need not lead to.
+            // Cut bonds connect to points that intact ones need not reach.
             let ghosts = Ghosts::new(subdomain, pairs.iter().flat_map(|it| it.ends));
             ghosts.update(motions.to_mut(), layout.components.len());
         }
@@ -169,7 +167,7 @@ impl<const D: usize> BondSystem<D> {
         subdomain.all_gather_list(here).into_iter().reduce(larger)
     }
 
-    /// Adds the stresses of the forces of closed pairs to those of the bonds in a reading, shape (n_points, n_components), Pa.
+    /// Adds the stresses of closed pairs to those of the bonds by a reading, shape (n_points, n_components), Pa.
     pub(crate) fn add_stresses_of_contact(
         &self,
         reading: StressReading,
@@ -195,12 +193,12 @@ impl<const D: usize> BondSystem<D> {
     }
 }
 
-/// A vector of the plane or of space as one of space.
+/// A vector of the plane or of space as a vector of space.
 fn in_space<const D: usize>(vector: [f64; D]) -> [f64; 3] {
     [0, 1, 2].map(|axis| if axis < D { vector[axis] } else { 0.0 })
 }
 
-/// Degrees of freedom of two points with their factors in the gap: the normal, and `of_rotations` where points turn.
+/// Degrees of freedom of two points with their coefficients in the gap: the normal, and `of_rotations` where points have rotations.
 fn row_of_gap(
     layout: Layout,
     ends: [u32; 2],

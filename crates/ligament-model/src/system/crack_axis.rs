@@ -4,7 +4,7 @@ use nalgebra::Matrix3;
 
 use crate::tensor::{ORDER, SymTensor, dot};
 
-/// The sum of e (x) e over directions e, which have no sign; in the plane as that of the doubled angles, e_x^2 - e_y^2 and 2 e_x e_y.
+/// Sum of e (x) e over directions e, which have no sign; in the plane as that of the doubled angles, e_x^2 - e_y^2 and 2 e_x e_y.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct AxisSum<const D: usize> {
     values: [f64; 6],
@@ -14,7 +14,7 @@ impl<const D: usize> AxisSum<D> {
     /// Number of values of a sum.
     pub(super) const N_VALUES: usize = if D == 2 { 2 } else { ORDER.len() };
 
-    /// Adds a direction.
+    /// Adds a direction to the sum.
     pub(super) fn add(&mut self, direction: [f64; D]) {
         if let [x, y] = direction.as_slice() {
             self.values[0] = self.values[0] + x * x - y * y;
@@ -34,7 +34,7 @@ impl<const D: usize> AxisSum<D> {
         }
     }
 
-    /// The values.
+    /// Values of the sum.
     pub(super) fn values(self) -> impl Iterator<Item = f64> {
         self.values.into_iter().take(Self::N_VALUES)
     }
@@ -48,7 +48,7 @@ impl<const D: usize> AxisSum<D> {
         sum
     }
 
-    /// The axis that most directions are near to, on the side of a direction; the direction itself where no axis leads.
+    /// Principal axis of the directions, oriented towards a given direction; that direction itself where no axis dominates.
     pub(super) fn axis_towards(self, direction: [f64; D]) -> [f64; D] {
         let axis = match D {
             2 => self.axis_in_plane(),
@@ -75,7 +75,7 @@ impl<const D: usize> AxisSum<D> {
         (size != 0.0).then_some([x, y.copysign(sine), 0.0])
     }
 
-    /// The eigenvector of the largest eigenvalue, if that is the only one of its size.
+    /// Eigenvector of the largest eigenvalue, if it is simple.
     fn axis_in_space(self) -> Option<[f64; 3]> {
         let tensor = SymTensor::<3>::from_components(&self.values);
         let matrix = Matrix3::from_fn(|row, column| tensor.at(row, column));
@@ -83,7 +83,7 @@ impl<const D: usize> AxisSum<D> {
         let mut order = [0, 1, 2];
         order.sort_by(|&one, &other| eigen.eigenvalues[other].total_cmp(&eigen.eigenvalues[one]));
         let [largest, next, _] = order.map(|place| eigen.eigenvalues[place]);
-        // Below it the axis is one of rounding.
+        // Relative gap of the eigenvalues below which the axis is one of rounding.
         const LEADS: f64 = 1e-9;
         let axis = eigen.eigenvectors.column(order[0]);
         (largest - next > LEADS * largest).then(|| [axis[0], axis[1], axis[2]])

@@ -1,4 +1,4 @@
-//! The elements of a bond system: from here on the equations know its bonds as a type.
+//! Elements of a bond system: the equations use its bonds with the element as a type parameter.
 
 use std::ops::Deref;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ use crate::interface::Bonds;
 use crate::law::mbb_pd;
 
 impl<const D: usize> BondSystem<D> {
-    /// The system with elements of a type.
+    /// The system with elements of a given type.
     pub fn typed<const M: usize, E: Elements<D, M>>(self, elements: E) -> Arc<dyn System<D>> {
         Arc::new(ElementSystem {
             system: self,
@@ -26,7 +26,7 @@ impl<const D: usize> BondSystem<D> {
 }
 
 impl<const D: usize> BondSystem<D> {
-    /// The system with the elements of its bonds.
+    /// The system with the elements of its kind.
     ///
     /// # Panics
     ///
@@ -64,7 +64,7 @@ fn in_plane(system: BondSystem) -> Option<Arc<dyn System<2>>> {
     })
 }
 
-/// Imaginary elements are rectangles in the plane.
+/// Returns `None` for imaginary elements, which exist in the plane only.
 fn in_space(system: BondSystem<3>) -> Option<Arc<dyn System<3>>> {
     match system.element {
         ElementKind::Beam => Some(system.typed(Pairs::<BeamBond<3>>::default())),
@@ -73,12 +73,12 @@ fn in_space(system: BondSystem<3>) -> Option<Arc<dyn System<3>>> {
     }
 }
 
-/// Points and bonds in D dimensions that equations can be made of.
+/// Points and bonds in D dimensions from which equations can be made.
 pub trait System<const D: usize>: Bonds {
-    /// The points, the bonds and their rigidities.
+    /// Points, bonds and their rigidities.
     fn parts(&self) -> &BondSystem<D>;
 
-    /// The points, the bonds and their rigidities, to be taken apart; none where others use them.
+    /// Points, bonds and their rigidities by value; `None` while other references exist.
     fn into_parts(self: Arc<Self>) -> Option<BondSystem<D>>;
 }
 

@@ -1,5 +1,5 @@
-//! What a folder of results holds. It may come from anybody: a link in the place of one of the program's own files is refused, so
-//! that nothing leads elsewhere.
+//! Files of a result folder. A folder may be of unknown origin: links in the place of result files are refused, so that no other file is
+//! touched.
 
 use std::ffi::OsString;
 use std::fs;
@@ -10,7 +10,7 @@ use super::kind::{Kind, REPORT, unfinished};
 use crate::Error;
 use crate::atomic::remove_file;
 
-/// Names of what a folder holds.
+/// Names of the entries of a folder.
 ///
 /// # Errors
 ///
@@ -21,27 +21,27 @@ pub(super) fn names(folder: &Path) -> Result<Vec<OsString>, Error> {
     names.map_err(Error::system("list", folder))
 }
 
-/// Removes the files of a folder whose names are so.
+/// Removes the files of a folder whose names satisfy a condition.
 ///
 /// # Errors
 ///
-/// If the folder cannot be listed, or a file not be removed.
+/// If the folder cannot be listed, or a file cannot be removed.
 pub(super) fn remove_files(folder: &Path, is_one: impl Fn(&str) -> bool) -> Result<(), Error> {
     let names = names(folder)?;
     let mut ones = names.iter().filter(|it| it.to_str().is_some_and(&is_one));
     ones.try_for_each(|name| remove_file(&folder.join(name)))
 }
 
-/// Removes the pages for a browser that killed processes had not finished in a folder of results.
+/// Removes unfinished report pages of killed processes from a result folder.
 ///
 /// # Errors
 ///
-/// If the folder cannot be listed, or one cannot be removed.
+/// If the folder cannot be listed, or a page cannot be removed.
 pub fn remove_unfinished_pages(folder: &Path) -> Result<(), Error> {
     remove_files(folder, |name| unfinished(name) == Some(REPORT))
 }
 
-/// The folder that a path means: what a link points to, and no separator at the end.
+/// The folder of a path, with links resolved and without a separator at the end.
 pub(super) fn resolved(path: &Path) -> PathBuf {
     let plain: PathBuf = path.components().collect();
     let is_link = fs::symlink_metadata(&plain).is_ok_and(|it| it.is_symlink());
@@ -51,15 +51,15 @@ pub(super) fn resolved(path: &Path) -> PathBuf {
     }
 }
 
-/// Fails where a link, or something that is neither file nor folder, is in the place of a file or folder.
+/// Refuses a path that is a link, or neither file nor folder.
 ///
 /// # Errors
 ///
-/// With its path.
+/// If the path is such, with the path.
 pub fn refuse_link(path: &Path) -> Result<(), Error> {
     match fs::symlink_metadata(path) {
         Ok(found) if found.is_symlink() => Err(Error::Link(path.to_path_buf())),
-        // A pipe would wait for somebody at its other end.
+        // A pipe would block until it is opened at its other end.
         Ok(found) if !found.is_file() && !found.is_dir() => {
             Err(Error::NoPlaceForFile(path.to_path_buf()))
         }
@@ -67,12 +67,11 @@ pub fn refuse_link(path: &Path) -> Result<(), Error> {
     }
 }
 
-/// Fails where a link is in the place of one of the program's own files in a folder of results; without such a folder there is
-/// none.
+/// Refuses a result folder with a link in the place of a result file; a folder that does not exist passes.
 ///
 /// # Errors
 ///
-/// With the path of the link, or if the folder cannot be listed.
+/// If there is such a link, with its path, or if the folder cannot be listed.
 pub fn refuse_links(folder: &Path, kind: Kind) -> Result<(), Error> {
     if !folder.is_dir() {
         return Ok(());

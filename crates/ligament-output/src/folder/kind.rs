@@ -1,20 +1,20 @@
-//! Kinds of result folders: the file that shows what a folder holds, and the files that are the program's own.
+//! Kinds of result folders: the marker file of each kind, and the files that are the program's.
 
 use crate::vtu;
 
-/// The file that every run writes first; it shows that a folder holds the results of a run.
+/// File that every run writes first; the marker of a folder with the results of a run.
 pub const RESOLVED_CASE: &str = "case.resolved.toml";
 
-/// The page for a browser in a folder of results, which a run leaves where it is.
+/// Report page for a browser in a result folder, which a run does not remove.
 pub const REPORT: &str = "report.html";
 
-/// The file that is locked while something writes to a folder.
+/// File that is locked while a process writes to a folder.
 pub(super) const LOCK: &str = ".lock";
 
-/// The file that shows that a folder was moved aside to be replaced, and may be removed.
+/// File that marks a renamed folder, which is being replaced and may be removed.
 pub(super) const REPLACED: &str = ".replaced";
 
-/// Files of a run whose names do not vary.
+/// Files of a run with fixed names.
 const OF_A_RUN: [&str; 12] = [
     RESOLVED_CASE,
     "breaks.csv",
@@ -30,13 +30,13 @@ const OF_A_RUN: [&str; 12] = [
     "modes.pvd",
 ];
 
-/// The grid of a run whose name does not vary, without its ending.
+/// Stem of the grid file of a run with a fixed name.
 const MODEL_STEM: &str = "model";
 
-/// Files of a run that have a number, by what stands before it.
+/// Prefixes of the numbered files of a run.
 const NUMBERED: [&str; 3] = ["fields_", "bonds_", "mode_"];
 
-/// Files of cracks and other surfaces, which are made of the results of a run afterwards, and those of them that have a number.
+/// Files of cracks and other surfaces, which are derived from the results of a run later, and prefixes of the numbered ones.
 const OF_SURFACES: [&str; 10] = [
     "crack.csv",
     "crack.pvd",
@@ -54,12 +54,12 @@ const NUMBERED_SURFACES: [&str; 3] = ["crack_", "opened_", "iso_"];
 /// A kind of result folder.
 #[derive(Debug, Clone, Copy)]
 pub struct Kind {
-    /// The file by which the folder is recognised; what writes a folder writes this file first.
+    /// Name of the file by which the folder is recognised; it is written first.
     pub marker: &'static str,
-    /// Whether a file of this name is the program's own, so that it goes when the folder is replaced. Files that the new
-    /// results have too need not be told.
+    /// Whether a file of this name is the program's, so that it is removed when the folder is replaced. Files that the new results also
+    /// have need not be included.
     pub owns: fn(&str) -> bool,
-    /// Whether a folder of this name in the folder holds a run of its own.
+    /// Whether a subfolder of this name has a run of its own.
     pub holds_run: fn(&str) -> bool,
 }
 
@@ -71,7 +71,7 @@ impl Kind {
         holds_run: |_| false,
     };
 
-    /// A kind without files that vary from one time to the next.
+    /// A kind whose results always have the same files.
     pub const fn marked(marker: &'static str) -> Self {
         Self {
             marker,
@@ -88,14 +88,14 @@ impl Kind {
         }
     }
 
-    /// Whether a file of this name was to become one of the program's own, and did not.
+    /// Whether a file of this name is an unfinished file of the program.
     pub(super) fn is_unfinished(self, name: &str) -> bool {
         let is_own = |whole| whole == self.marker || whole == REPORT || (self.owns)(whole);
         unfinished(name).is_some_and(is_own)
     }
 }
 
-/// The name of the file that a temporary file `.NAME.PROCESS.partial` was to become.
+/// Final name `NAME` of a temporary file `.NAME.PROCESS.partial`; `None` for other files.
 pub(super) fn unfinished(name: &str) -> Option<&str> {
     let inner = name.strip_prefix('.')?.strip_suffix(".partial")?;
     let (whole, process) = inner.rsplit_once('.')?;
@@ -111,12 +111,12 @@ fn is_of_a_run(name: &str) -> bool {
         || name.starts_with("checkpoint")
 }
 
-/// Whether a file of this name is made of the results of a run afterwards: of its cracks, or of another surface.
+/// Whether a file of this name is derived from the results of a run later: of its cracks, or of another surface.
 pub fn is_made_later(name: &str) -> bool {
     OF_SURFACES.contains(&name) || is_numbered(name, &NUMBERED_SURFACES)
 }
 
-/// Whether a grid has a number behind one of these beginnings.
+/// Whether the name of a grid file is one of these prefixes and a number.
 fn is_numbered(name: &str, beginnings: &[&str]) -> bool {
     let stem = vtu::stem(name).unwrap_or_default();
     let numbers = beginnings.iter().filter_map(|it| stem.strip_prefix(it));

@@ -1,4 +1,4 @@
-//! The right to write to a folder, which one process at a time has.
+//! Exclusive lock of a folder for writing.
 
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Write};
@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use super::kind::LOCK;
 use crate::Error;
 
-/// A lock on a folder, which ends with this value or this process, however that ends.
+/// A lock on a folder, which is released with this value or at the end of the process.
 ///
-/// The lock is the system's on an open file, so that none is left of a process that was killed; the file names the process.
-/// Where a file system knows no locks there is none.
+/// The lock is the system's on an open file, so that a killed process leaves none; the file has the number of the process. On file systems
+/// without locks there is no lock.
 #[derive(Debug)]
 pub(super) struct Lock {
     path: PathBuf,
@@ -18,11 +18,11 @@ pub(super) struct Lock {
 }
 
 impl Lock {
-    /// Takes the lock on a folder that is there.
+    /// Locks an existing folder.
     ///
     /// # Errors
     ///
-    /// If another process has it, or the folder cannot be written.
+    /// If another process has the lock, or the folder cannot be written.
     pub(super) fn take(folder: &Path) -> Result<Self, Error> {
         let path = folder.join(LOCK);
         loop {
@@ -38,7 +38,7 @@ impl Lock {
                 Err(TryLockError::Error(error)) if !is_unknown(&error) => {
                     return Err(Error::system("lock", &path)(error));
                 }
-                // One who had it before may have removed the file since it was opened.
+                // The previous process with the lock may have removed the file since it was opened.
                 _ if !is_in_place(&file, &path) => {}
                 _ => {
                     let process = format!("{}\n", std::process::id());
@@ -52,7 +52,7 @@ impl Lock {
         }
     }
 
-    /// Fails where another process has the lock on a folder, and changes nothing.
+    /// Fails if another process has the lock on a folder; changes nothing.
     pub(super) fn check(folder: &Path) -> Result<(), Error> {
         let Ok(mut file) = File::open(folder.join(LOCK)) else {
             return Ok(());
@@ -63,7 +63,7 @@ impl Lock {
         }
     }
 
-    /// Goes on with a lock whose folder was renamed.
+    /// Sets the path of the lock after its folder was renamed.
     pub(super) fn moved_to(&mut self, folder: &Path) {
         self.path = folder.join(LOCK);
     }
@@ -71,7 +71,7 @@ impl Lock {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // A file that stays does no harm: only its lock counts.
+        // A remaining file is harmless: only its lock counts.
         let _ = fs::remove_file(&self.path);
     }
 }
@@ -98,7 +98,7 @@ fn is_in_place(file: &File, path: &Path) -> bool {
     open == there
 }
 
-/// Systems without inodes do not remove a file that is open.
+/// Whether an open file is still at its path: always on systems that do not remove open files.
 #[cfg(not(unix))]
 fn is_in_place(_: &File, _: &Path) -> bool {
     true

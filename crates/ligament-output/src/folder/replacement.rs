@@ -1,8 +1,8 @@
-//! Results that take the place of earlier ones once they are complete.
+//! Replacement of earlier results by complete new ones.
 //!
-//! New results of a folder `NAME` are made in `NAME.new` beside it. When they are complete `NAME` is renamed to `NAME.replaced`
-//! and `NAME.new` to `NAME`; then files that are not the program's own move over, and the rest of the old folder goes. A kill
-//! between these steps leaves both whole, and [`recover`] goes on from there.
+//! New results of a folder `NAME` are written to `NAME.new` beside it. When they are complete, `NAME` is renamed to `NAME.replaced` and
+//! `NAME.new` to `NAME`; then files that are not the program's are moved, and the rest of the old folder is removed. A kill between these
+//! steps leaves both complete, and [`recover`] finishes the replacement.
 
 use std::ffi::OsString;
 use std::fs;
@@ -18,7 +18,7 @@ use crate::replace_file;
 ///
 /// # Errors
 ///
-/// If the path has no name, as `..`.
+/// If the path has no name, such as `..`.
 pub(super) fn sibling(folder: &Path, suffix: &str) -> Result<PathBuf, Error> {
     let name = folder.file_name();
     let name = name.ok_or_else(|| Error::UnnamedFolder(folder.to_path_buf()))?;
@@ -27,24 +27,24 @@ pub(super) fn sibling(folder: &Path, suffix: &str) -> Result<PathBuf, Error> {
     Ok(folder.with_file_name(longer))
 }
 
-/// The place where new results of a folder are made.
+/// Path to which new results of a folder are written.
 ///
 /// # Errors
 ///
-/// If the path has no name, or a link is there.
+/// If the path has no name, or is a link.
 pub(super) fn beside(folder: &Path) -> Result<PathBuf, Error> {
     let new = sibling(folder, ".new")?;
     refuse_link(&new)?;
     Ok(new)
 }
 
-/// The folder whose new results are made in this one.
+/// The folder whose new results are written to this folder; `None` for other names.
 pub(super) fn behind(new: &Path) -> Option<PathBuf> {
     let name = new.file_name()?.to_str()?.strip_suffix(".new")?;
     Some(new.with_file_name(name))
 }
 
-/// The place that the old results are moved to, which must be free.
+/// Path to which old results are moved; it must not exist.
 pub(super) fn free_place_aside(folder: &Path) -> Result<PathBuf, Error> {
     let aside = sibling(folder, ".replaced")?;
     // `exists` would follow a dangling link.
@@ -54,11 +54,11 @@ pub(super) fn free_place_aside(folder: &Path) -> Result<PathBuf, Error> {
     }
 }
 
-/// Puts a folder in the place of another one; in between, where no results are at that place, does `meanwhile`.
+/// Replaces a folder by another one; calls `meanwhile` between the two renames, while the path does not exist.
 ///
 /// # Errors
 ///
-/// If a link is in the place, or something cannot be renamed; the old results are then where they were. What cannot be removed stays in
+/// If the path is a link, or a folder cannot be renamed; the old results are then unchanged. Files that cannot be removed remain in
 /// `NAME.replaced`.
 pub fn put_in_place(
     new: &Path,
@@ -66,7 +66,7 @@ pub fn put_in_place(
     kind: Kind,
     meanwhile: impl FnOnce() -> Result<(), Error>,
 ) -> Result<(), Error> {
-    // The files that a link leads to are not those that are to be replaced.
+    // The target of a link must not be replaced.
     refuse_link(folder)?;
     let aside = free_place_aside(folder)?;
     let mark = folder.join(REPLACED);
@@ -74,18 +74,18 @@ pub fn put_in_place(
     fs::rename(folder, &aside).map_err(Error::system("move aside", folder))?;
     let put = meanwhile().and_then(|()| rename(new, folder));
     if let Err(error) = put {
-        // Back to where it was, if that still works; the failure to report is the first one.
+        // The old folder is restored if possible; the first failure is reported.
         let _ = fs::rename(&aside, folder);
         return Err(error);
     }
     move_foreign(&aside, folder, kind)
 }
 
-/// Ends a replacement that a kill has cut short.
+/// Completes a replacement that was interrupted by a kill.
 ///
 /// # Errors
 ///
-/// If something cannot be renamed or removed.
+/// If a file or folder cannot be renamed or removed.
 pub fn recover(folder: &Path, kind: Kind) -> Result<(), Error> {
     let Ok(aside) = sibling(folder, ".replaced") else {
         return Ok(());
@@ -96,7 +96,7 @@ pub fn recover(folder: &Path, kind: Kind) -> Result<(), Error> {
     }
     if fs::symlink_metadata(folder).is_err() {
         let new = beside(folder)?;
-        // Without new results the old ones go back.
+        // The old results are restored if there are no new ones.
         let whole = if new.join(kind.marker).is_file() {
             &new
         } else {
@@ -110,7 +110,7 @@ pub fn recover(folder: &Path, kind: Kind) -> Result<(), Error> {
     }
 }
 
-/// Removes the program's own files from a folder and moves all others to another one; the old folder goes with its last file.
+/// Removes the program's files from a folder, moves all others to another folder, and removes the old folder.
 fn move_foreign(old: &Path, new: &Path, kind: Kind) -> Result<(), Error> {
     let mut own = Vec::new();
     for name in names(old)? {
@@ -130,7 +130,7 @@ fn move_foreign(old: &Path, new: &Path, kind: Kind) -> Result<(), Error> {
             rename(&from, &to)?;
         }
     }
-    // The mark goes last, so that a kill on the way is noticed.
+    // The mark is removed last, so that an interruption is detected.
     own.sort_by_key(|path| path.ends_with(REPLACED));
     for path in own {
         fs::remove_file(&path).map_err(Error::system("remove", &path))?;
@@ -138,17 +138,17 @@ fn move_foreign(old: &Path, new: &Path, kind: Kind) -> Result<(), Error> {
     fs::remove_dir(old).map_err(Error::system("remove", old))
 }
 
-/// Removes the program's own files from a folder; all others stay.
+/// Removes the program's files from a folder; all others are kept.
 pub(super) fn clear(folder: &Path, kind: Kind) -> Result<(), Error> {
     let mut names = names(folder)?;
-    // Without its marker the folder would be nobody's: after a kill on the way it is cleared again.
+    // The marker is removed last, so that an interrupted removal can be repeated.
     names.sort_by_key(|name| name == kind.marker);
     for name in names {
         let (path, text) = (folder.join(&name), name.to_string_lossy());
         let is_folder = fs::symlink_metadata(&path).is_ok_and(|it| it.is_dir());
         if is_folder && (kind.holds_run)(&text) {
             clear(&path, Kind::RUN)?;
-            // Where a file of somebody else is left the folder stays.
+            // A folder with other files is kept.
             let _ = fs::remove_dir(&path);
         } else if !is_folder && text != super::kind::LOCK && kind.may_remove(&text) {
             fs::remove_file(&path).map_err(Error::system("remove", &path))?;

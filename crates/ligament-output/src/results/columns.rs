@@ -1,7 +1,7 @@
-//! The columns of the tables of a run: names, units, meanings, and how they are read from a record.
+//! The columns of the tables of a run: names, units, meanings, and their values from a record.
 //!
-//! Writers of tables, arrays in Python, units in pictures and in the page of results, and `docs/columns.md` follow from these rows. Words in
-//! capitals in a name stand for names that a run gives.
+//! Writers of tables, arrays in Python, units in pictures and in the report page, and `docs/columns.md` follow from these rows. Words in
+//! capitals in a name are replaced by names of a run.
 
 use std::time::Duration;
 
@@ -15,15 +15,15 @@ use crate::csv::Value;
 pub struct Column {
     /// Name in the header of the table.
     pub name: &'static str,
-    /// SI unit; `-` for a number without a unit, nothing for a count or a word.
+    /// SI unit; `-` for a number without a unit, empty for a count or a word.
     pub unit: &'static str,
     /// Whether the tables of a body in the plane, and those of a solid, have the column.
     spaces: [bool; 2],
-    /// Meaning, as the page of columns says it.
+    /// Meaning, as on the page of columns.
     pub meaning: &'static str,
 }
 
-/// A column with its value in the row of a record.
+/// A column with the function that returns its value from a record.
 pub type Reading<R, V = Value<'static>> = (Column, fn(&R) -> V);
 
 const ANY: [bool; 2] = [true, true];
@@ -276,7 +276,7 @@ pub fn tables() -> Vec<(&'static str, Vec<Column>)> {
     ]
 }
 
-/// Names of the columns of a table, as far as a body in the plane or a solid has them.
+/// Names of the columns of a table that a body in the plane or a solid has.
 pub fn names(columns: &[Column], in_space: bool) -> Vec<&'static str> {
     let here = columns.iter().filter(|it| it.spaces[usize::from(in_space)]);
     here.map(|it| it.name).collect()

@@ -1,4 +1,4 @@
-//! The growth of the cracks of a stored run, as lines or as surfaces, as a table.
+//! Table of the growth of the cracks of a stored run, lines or surfaces.
 
 use std::path::Path;
 
@@ -14,11 +14,11 @@ pub(super) struct CrackSize<'a> {
     pub(super) record: &'a CrackRecord,
     /// Area of all cracks, m^2.
     pub(super) area: f64,
-    /// Values of the columns between the force and the area: of lines in the plane, of surfaces in a solid.
+    /// Values of the columns between force and area, which differ between lines in the plane and surfaces in a solid.
     pub(super) counts: Vec<Value<'static>>,
 }
 
-/// Writes the sizes with energies over the new area, over growth by `least` area (m^2) or more.
+/// Writes the sizes of the cracks, with energies per new area, taken over growth of at least `least` (m^2).
 ///
 /// # Errors
 ///

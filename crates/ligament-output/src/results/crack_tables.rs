@@ -1,4 +1,4 @@
-//! The cracks of a stored run as files.
+//! Files of the cracks of a stored run in the plane.
 //!
 //! | file | holds |
 //! |---|---|
@@ -19,7 +19,7 @@ use crate::atomic::remove_file;
 use crate::csv::{Table, Value};
 use crate::vtu::{self, Cell, Field, UnstructuredGrid};
 
-/// Files that are written beside the results of a run.
+/// Names of the files of cracks beside the results of a run.
 pub const CRACK_FILES: [&str; 4] = [
     "crack.csv",
     "crack.vtu",
@@ -33,7 +33,7 @@ struct WithLines<'a> {
     lines: Vec<CrackLine>,
 }
 
-/// Writes the cracks of a step as lines, and how they grew over all steps; gives the lines of the step and the area of all, m^2.
+/// Writes the cracks of a step as lines, and their growth over all steps; returns the lines of the step.
 ///
 /// # Errors
 ///
@@ -86,7 +86,7 @@ fn write_lines(path: &Path, step: usize, lines: &[CrackLine]) -> Result<(), Erro
     Ok(())
 }
 
-/// Writes the lines as line cells between their places; no file without lines, which readers would refuse.
+/// Writes the lines as line cells between their vertices; without lines, which readers would refuse, no file.
 fn write_grid(path: &Path, lines: &[CrackLine]) -> Result<(), Error> {
     if lines.is_empty() {
         return remove_file(path);
@@ -129,10 +129,10 @@ fn write_tips(path: &Path, grown: &[WithLines<'_>]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Sizes of the cracks in the records.
+/// Sizes of the cracks at the records.
 fn sizes<'a>(cracks: &StoredCracks, records: &[WithLines<'a>]) -> Vec<CrackSize<'a>> {
     let size = |WithLines { record, lines }: &WithLines<'a>| {
-        // A sum of nothing would be -0.0.
+        // The sum of an empty iterator would be -0.0.
         let length = lines.iter().fold(0.0, |sum, line| sum + line.length());
         let tips = lines.iter().flat_map(CrackLine::tips).count();
         CrackSize {

@@ -1,4 +1,4 @@
-//! The cracks of a stored run, as lines.
+//! Crack lines of a stored run.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -16,14 +16,14 @@ use crate::csv::read::{Row, Sheet};
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation, vtu};
 
-/// Pairs of points that a run in memory parted.
+/// Pairs of points that a run in memory separated.
 #[derive(Debug, Clone, Copy)]
 pub struct SeparatedPairs<'a> {
-    /// Pairs that pre-cracks part.
+    /// Pairs that pre-cracks separate.
     pub cut: &'a [[u32; 2]],
-    /// Ends of the bonds that broke, in their order.
+    /// Ends of the broken bonds, in the order of breaking.
     pub broken: &'a [[u32; 2]],
-    /// Ends of the bonds that opened as they softened, each with its step.
+    /// Ends of the softening bonds that opened, each with its step.
     pub softened: &'a [([u32; 2], usize)],
 }
 
@@ -35,9 +35,9 @@ pub struct StoredCracks {
     faces: Faces,
     /// Horizons, shape (n_points), m.
     horizon: Vec<f64>,
-    /// Faces that a pre-crack parts.
+    /// Faces that a pre-crack separates.
     cut: Vec<usize>,
-    /// Faces that opened, with the moment.
+    /// Faces that opened, with the moment of opening.
     opened: Vec<(usize, Moment)>,
     records: Vec<CrackRecord>,
 }
@@ -45,13 +45,13 @@ pub struct StoredCracks {
 /// The moment from which a face is open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Moment {
-    /// A bond broke, at this place in the order of all breakages, from 1.
+    /// Breakage of a bond, by its number in the order of all breakages, from 1.
     Breakage(usize),
-    /// A bond that softens opened in this step.
+    /// Opening of a softening bond in this step.
     Step(usize),
 }
 
-/// What a row of the history says of a crack.
+/// Columns of a row of the history that concern cracks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrackRecord {
     /// Number of the step or event.
@@ -62,23 +62,23 @@ pub struct CrackRecord {
     pub displacement: f64,
     /// Force of the first load, N.
     pub reaction: f64,
-    /// Energy that breakages released so far, J.
+    /// Energy released by breakages so far, J.
     pub released_energy: f64,
-    /// Energy that bonds took for good so far, J.
+    /// Energy dissipated by bonds so far, J.
     pub dissipated_energy: f64,
     /// Number of broken bonds.
     pub broken_bonds: usize,
 }
 
-/// Records of the history of which cracks are followed at most.
+/// Largest number of records of the history at which cracks are computed.
 const MOST_RECORDS: usize = 500;
 
 impl StoredCracks {
-    /// Reads them from the folder of a run.
+    /// Reads the cracks from the folder of a run.
     ///
     /// # Errors
     ///
-    /// If the folder holds no results of a run under loads, or a file cannot be used.
+    /// If the folder has no results of a run under loads, or a file cannot be used.
     pub fn open(folder: &Path) -> Result<Self, Error> {
         let outputs = Outputs::list(folder)?;
         let first = outputs.files.first_key_value();
@@ -110,8 +110,8 @@ impl StoredCracks {
         })
     }
 
-    /// The cracks of a run that is in memory: its body with the horizons of the points (n_points, m) and its thickness (m), the pairs of
-    /// points that are parted, and the history.
+    /// The cracks of a run in memory: its body with the horizons of the points (n_points, m) and its thickness (m), the separated pairs of
+    /// points, and the history.
     pub fn in_memory(
         body: &BodyGrid,
         horizon: Vec<f64>,
@@ -142,8 +142,7 @@ impl StoredCracks {
         }
     }
 
-    /// The cracks in the state of a step: what pre-cracks parted is none, but cracks start there. Without such a step those of the
-    /// last before it.
+    /// The cracks in the state of a step, or of the last step before it. Pre-cracks are not included, but cracks start there.
     pub fn lines(&self, step: usize) -> Vec<CrackLine> {
         let until = self.records.iter().take_while(|it| it.step <= step);
         until.last().map_or_else(Vec::new, |it| self.lines_at(it))
@@ -163,7 +162,7 @@ impl StoredCracks {
         crack_lines(&self.faces, &parts, &self.horizon)
     }
 
-    /// The records in which a face is open that was not in the one before; of very many an even choice, with the last.
+    /// The records with newly opened faces; of very many an even selection with the last.
     pub fn grown_records(&self) -> Vec<&CrackRecord> {
         let open = |record: &CrackRecord| {
             let open = self.opened.iter().filter(|it| record.is_after(it.1));
@@ -177,13 +176,13 @@ impl StoredCracks {
         self.horizon.iter().sum::<f64>() / self.horizon.len().max(1) as f64
     }
 
-    /// The steps of the history.
+    /// Numbers of the steps of the history.
     pub fn steps(&self) -> Vec<usize> {
         self.records.iter().map(|it| it.step).collect()
     }
 }
 
-/// The records in which more is open than in the one before; of very many an even choice, with the last.
+/// The records with a larger number of open faces or pairs than before; of more than `most` an even selection with the last.
 pub(super) fn grown(
     records: &[CrackRecord],
     open: impl Fn(&CrackRecord) -> usize,
@@ -220,7 +219,7 @@ impl From<&StepRecord> for CrackRecord {
 }
 
 impl CrackRecord {
-    /// Whether something has happened in its state. On the exact path that is the one before the breakages of its event.
+    /// Whether the record's state is after a moment. On the exact path the state precedes the breakages of its event.
     pub(super) fn is_after(&self, moment: Moment) -> bool {
         match moment {
             Moment::Breakage(order) => order <= self.broken_bonds,
@@ -249,7 +248,7 @@ pub(super) fn broken_pairs(folder: &Path) -> Result<Vec<[i64; 2]>, Error> {
     sheet.rows(|row| ends(&sheet, row))
 }
 
-/// Tags of the ends of the bonds that opened as they softened, with the moment.
+/// Tags of the ends of the softening bonds that opened, with the moment of opening.
 pub(super) fn softened_pairs(folder: &Path) -> Result<Vec<([i64; 2], Moment)>, Error> {
     let Some(sheet) = table(&folder.join(softening_table::FILE))? else {
         return Ok(Vec::new());
@@ -276,14 +275,14 @@ fn ends(sheet: &Sheet, row: Row<'_>) -> Result<[i64; 2], Error> {
     Ok([row.value(a)?, row.value(b)?])
 }
 
-/// A body as its fields are drawn on it.
+/// A body in the plane, read from a file of fields.
 struct StoredBody {
     positions: Vec<[f64; 2]>,
     canvas: Canvas,
     /// Horizons, shape (n_points), m.
     horizon: Vec<f64>,
     thickness: f64,
-    /// Points by their tags.
+    /// Indices of the points by their tags.
     places: HashMap<i64, u32>,
 }
 
@@ -322,7 +321,7 @@ fn planar(cell: &vtu::Cell) -> Option<Cell> {
     }
 }
 
-/// Middles and corners of the quadrangles of a lattice.
+/// Midpoints and corners of the quadrangles of a lattice.
 fn squares(cells: &[Cell], corners: &[[f64; 2]]) -> (Vec<[f64; 2]>, Vec<[[f64; 2]; 4]>) {
     let squares: Vec<[[f64; 2]; 4]> = (cells.iter())
         .filter_map(|cell| match cell {

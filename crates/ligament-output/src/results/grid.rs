@@ -1,5 +1,4 @@
-//! The body on which fields are drawn, and the fields that do not change. Points and bonds are written in the order of the file that the
-//! body comes from.
+//! Grids of the body for fields, and the fields that do not change. Points and bonds are written in the order of the body's file.
 
 use std::iter::repeat_n;
 use std::path::Path;
@@ -12,18 +11,18 @@ use ligament_model::{BodyGrid, Canvas, box_corners, raised};
 use crate::Error;
 use crate::vtu::{self, Chosen, Field, Held, SharedCells, UnstructuredGrid};
 
-/// Fields of a model that a run does not change.
+/// Fields of a model that do not change in a run.
 pub(super) fn fixed_fields(model: ModelPoints<'_>) -> impl Iterator<Item = Field<'_>> {
     let fields = model.fields().into_iter();
     fields.map(|(name, values)| Field::scalar(name, values))
 }
 
-/// Writes the fields of a model alone: what `check` shows.
+/// Writes only the fields of a model, for `check`.
 pub fn point_grid(path: &Path, grid: &BodyGrid, model: ModelPoints<'_>) -> Result<(), Error> {
     write_points(path, grid, &fixed_fields(model).collect::<Vec<_>>())
 }
 
-/// Writes fields of the points (n_points) of a body at rest, with the tags of the points.
+/// Writes fields of the points (n_points) of an unloaded body, with the tags of the points.
 pub fn write_points(path: &Path, grid: &BodyGrid, fields: &[Field<'_>]) -> Result<(), Error> {
     let tags = Field::integer(grid.tagged, &grid.tags);
     let all: Vec<Field<'_>> = fields.iter().copied().chain([tags]).collect();
@@ -33,14 +32,14 @@ pub fn write_points(path: &Path, grid: &BodyGrid, fields: &[Field<'_>]) -> Resul
 /// Bonds as lines between the points of a body, in the order of the file.
 pub(super) struct Lines {
     cells: Vec<vtu::Cell>,
-    /// First end of each, by which its process is known.
+    /// First end of each bond, whose owner owns the bond.
     first_ends: Vec<u32>,
-    /// The bonds in the order of the file; none where they are in it.
+    /// Order of the bonds in the file; none where it is the present one.
     order: Option<Vec<u32>>,
 }
 
 impl Lines {
-    /// The lines of bonds by their ends (n_bonds), then those of pairs that are none.
+    /// The lines of bonds, given by their ends (n_bonds), then those of absent bonds.
     pub(super) fn new(body: &BodyGrid, bonds: &[[u32; 2]], absent: &[[u32; 2]]) -> Self {
         let numbering = &body.numbering;
         let n_bonds = bonds.len() as u32;
@@ -62,7 +61,7 @@ impl Lines {
         }
     }
 
-    /// Writes the lines with fields of the points and of the bonds; in pieces where processes share the body.
+    /// Writes the lines with fields of the points and of the bonds; in pieces where the body is divided between processes.
     pub(super) fn write(
         &self,
         path: &Path,
@@ -94,7 +93,8 @@ impl Lines {
     }
 }
 
-/// Writes fields of the points of a body; in pieces where processes share the body. Readers warp by the first vector, the displacement.
+/// Writes fields of the points of a body; in pieces where the body is divided between processes. Readers warp by the first vector, the
+/// displacement.
 pub(super) fn write_grid(
     path: &Path,
     body: &BodyGrid,
@@ -125,8 +125,8 @@ pub(super) fn write_grid(
     vtu::write_shared(path, &grid, shared)
 }
 
-/// Writes fields on cells around the points, in the order of the file; a process that shares the body those of its own points. Corners of
-/// cells move as their points do.
+/// Writes fields on cells around the points, in the order of the file; where the body is divided, each process writes the cells of its
+/// owned points. Corners of cells move with their points.
 fn write_around(
     path: &Path,
     body: &BodyGrid,
@@ -183,7 +183,7 @@ fn at<T: Copy>(values: &[T], points: &[u32]) -> Vec<T> {
     points.iter().map(|&point| values[point as usize]).collect()
 }
 
-/// The cells of a canvas; those of one point each have corners of their own, in the order of the points.
+/// The cells of a canvas; cells around points have corners of their own, in the order of the points.
 fn cells(canvas: &Canvas) -> Vec<vtu::Cell> {
     let planar = |cell: &Cell| match *cell {
         Cell::Triangle(corners) => vtu::Cell::Triangle(corners),

@@ -1,4 +1,4 @@
-//! How near bonds came to their limits.
+//! Largest utilisations of the bonds.
 
 use ligament_analysis::history::View;
 use ligament_analysis::serial;
@@ -6,10 +6,10 @@ use rayon::prelude::*;
 
 use crate::vtu::Field;
 
-/// Bonds that make a task worth while.
+/// Number of bonds of a parallel task.
 const TASK: usize = 4096;
 
-/// Factor up to which two utilisations count as equal: seven digits are kept, and the first of several counts.
+/// Factor up to which two utilisations count as equal: they have seven digits, and the first of several is kept.
 const SAME: f64 = 1.0 + 2e-7;
 
 /// The largest utilisation of each bond over all load steps, or events of the exact path, in which it was intact.
@@ -33,7 +33,7 @@ serial!(Seen {
 });
 serial!(Largest { of_bonds });
 
-/// The arrays of a file.
+/// Arrays for a file.
 pub(super) struct Columns {
     utilisation: Vec<f32>,
     step: Vec<i64>,
@@ -41,7 +41,7 @@ pub(super) struct Columns {
 }
 
 impl Largest {
-    /// Whether it is of so many bonds and criteria.
+    /// Whether the utilisations match a number of bonds and of criteria.
     pub(super) fn fits(&self, n_bonds: usize, n_criteria: usize) -> bool {
         let mut seen = self.of_bonds.iter();
         self.of_bonds.len() == n_bonds && seen.all(|it| (it.criterion as usize) < n_criteria)
@@ -53,7 +53,7 @@ impl Largest {
         }
     }
 
-    /// Looks at the bonds that are intact at the end of a step.
+    /// Updates the utilisations of the bonds that are intact at the end of a step.
     pub(super) fn see(&mut self, step: usize, view: &View<'_>) {
         let (criteria, intact) = (&view.criteria.list, &view.state.intact);
         let deformations = &view.balanced.deformations;
@@ -68,7 +68,7 @@ impl Largest {
                     bonds.clone().zip(seen.iter_mut().zip(arrays))
                 {
                     let measure = criterion.measure(bond, deformation);
-                    // Without a division; false for an infinite limit, which gives infinity or no number.
+                    // No division; false for an infinite limit, for which the product is infinite or not a number.
                     if is_intact && measure > SAME * f64::from(seen.utilisation) * limit {
                         *seen = Seen {
                             utilisation: (measure / limit) as f32,
@@ -81,7 +81,7 @@ impl Largest {
         });
     }
 
-    /// The largest utilisations as arrays, with `n_absent` entries at their end for pairs that are no bonds.
+    /// The largest utilisations as arrays, with `n_absent` entries at their end for absent bonds.
     pub(super) fn columns(&self, n_absent: usize) -> Columns {
         let nothing = Seen {
             utilisation: f32::NAN,

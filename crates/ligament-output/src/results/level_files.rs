@@ -1,4 +1,4 @@
-//! The surface in a solid on which a field has a value, as a file.
+//! File of the surface in a solid on which a field has a value.
 //!
 //! `iso.vtu` (`iso_NNNN.vtu` and `iso.pvd` of all stored steps) has its triangles, counter-clockwise seen from where the field is larger,
 //! in the body without load. Its places lie on edges of tetrahedra between the points, and all fields of the points that are no
@@ -15,7 +15,7 @@ use crate::atomic::remove_file;
 use crate::vtu::read::VtuFile;
 use crate::vtu::{self, Cell, Field, UnstructuredGrid};
 
-/// A field at the places of a surface.
+/// A field interpolated to the vertices of a surface.
 struct Interpolated {
     name: String,
     stride: usize,
@@ -23,7 +23,7 @@ struct Interpolated {
     values: Vec<f64>,
 }
 
-/// Writes where the values (n_points) of the points of a body are at a level, with the fields of a file of results; gives area (m^2) and
+/// Writes the surface on which values of the points (n_points) equal a level, with the fields of a result file; returns its area (m^2) and
 /// number of triangles. Without triangles, which readers would refuse, there is no file.
 ///
 /// # Errors
@@ -77,7 +77,7 @@ pub fn write_level_set(
     Ok((area(&places, &found.triangles), found.triangles.len()))
 }
 
-/// The fields of the points that are no integers, at the places of a surface.
+/// The fields of the points, except integers, at the vertices of a surface.
 fn interpolated(
     file: &VtuFile,
     body: &SolidBody,
@@ -116,7 +116,7 @@ fn interpolated(
     Ok(fields)
 }
 
-/// Area of triangles, m^2.
+/// Total area of triangles, m^2.
 fn area(places: &[[f64; 3]], triangles: &[[u32; 3]]) -> f64 {
     let of = |corners: &[u32; 3]| {
         let [a, b, c] = corners.map(|it| places[it as usize]);

@@ -1,20 +1,20 @@
-//! All result files of a run, written while it goes on.
+//! All result files of a run, written during the run.
 //!
 //! | file | holds |
 //! |---|---|
-//! | `history.csv` | a row a load step, or an event of the exact path |
-//! | `iterations.csv` | a row a Newton-Raphson iteration |
-//! | `breaks.csv` | a row a broken bond, in the order of breaking |
-//! | `softening.csv` | a row where a bond begins to soften, and where a crack is open at it; only where bonds soften |
-//! | `criteria.csv` | a row a failure criterion: what it looks at, what happens after its limit |
-//! | `model.vtu` | points and bonds as they were at the start, limits of the bonds; at the end how near each came to them |
-//! | `timings.csv` | the time of each load step, apart, so that histories can be compared bit by bit |
+//! | `history.csv` | one row per load step, or event of the exact path |
+//! | `iterations.csv` | one row per Newton-Raphson iteration |
+//! | `breaks.csv` | one row per broken bond, in the order of breaking |
+//! | `softening.csv` | one row when a bond begins to soften, and one when a crack is open at it; only where bonds soften |
+//! | `criteria.csv` | one row per failure criterion: its measure and its law after the limit |
+//! | `model.vtu` | points and bonds at the start, limits of the bonds; at the end their largest utilisations |
+//! | `timings.csv` | the time of each load step, in a file of its own, so that histories can be compared bitwise |
 //! | `fields_NNNN.vtu`, `fields.pvd` | fields on the cells of the mesh or the lattice |
-//! | `bonds_NNNN.vtu`, `bonds.pvd` | the bonds as lines, if wanted |
+//! | `bonds_NNNN.vtu`, `bonds.pvd` | the bonds as lines, if requested |
 //!
-//! The cracks of a stored run as lines, their tips and their growth are written afterwards ([`write_cracks`]).
-//! So is the surface in a solid on which a field has a value ([`write_level_set`]).
-//! A modal analysis writes `modes.csv`, `mode_NNNN.vtu` and `modes.pvd` instead ([`write_modes`]).
+//! The cracks of a stored run as lines, their tips and their growth are written later ([`write_cracks`]), as is the surface in a solid on
+//! which a field has a value ([`write_level_set`]). A modal analysis writes `modes.csv`, `mode_NNNN.vtu` and `modes.pvd` instead
+//! ([`write_modes`]).
 
 pub mod columns;
 mod crack_growth;
@@ -81,18 +81,18 @@ pub struct ResultWriter<'a> {
     fixed: &'a ConstantFields,
     rule: WriteRule,
     tables: Tables,
-    /// Where bonds soften.
+    /// Table of softening bonds, where bonds soften.
     softening: Option<SofteningTable>,
     first: FirstBonds,
     fields_collection: Collection,
     bonds_collection: Collection,
-    /// Ends of the bonds that broke, with the steps.
+    /// Ends of the broken bonds, with the steps.
     breaks: Vec<([u32; 2], u32)>,
     /// Step of breaking of each bond, -1 while it is intact, shape (n_bonds).
     step_of_breaking: Vec<i64>,
     /// Largest utilisation of each bond so far, where the model is written.
     largest: Option<Largest>,
-    /// Names of the files that were written as a whole and stay, as they were.
+    /// Names of the completed files, with their contents' lengths and digests.
     whole: Vec<(String, Written)>,
 }
 
@@ -108,7 +108,7 @@ impl<'a> ResultWriter<'a> {
         if rule.model {
             model_file::write(folder.path(), grid, fixed, problem, None)?;
         }
-        // Where processes share the body each would know the largest utilisations of its own bonds alone.
+        // Where the body is divided, each process would have the largest utilisations of its own bonds only.
         let can_fail = !problem.criteria.list.is_empty() && problem.system.subdomain().is_whole();
         let largest = (rule.model && can_fail).then(|| Largest::new(problem.system.ends().len()));
         let mut writer = Self {
@@ -131,7 +131,7 @@ impl<'a> ResultWriter<'a> {
         Ok(writer)
     }
 
-    /// Goes on with the results of a run: what was written after the moment goes. The model, which is computed again, is written anew.
+    /// Continues the results of a run from a moment: later rows and files are removed, and the model is rewritten.
     ///
     /// # Errors
     ///
@@ -154,7 +154,7 @@ impl<'a> ResultWriter<'a> {
             largest,
             whole,
         } = so_far;
-        // Where processes share the body out this one does not follow all bonds.
+        // Where the body is divided, this process does not have all bonds.
         let is_whole = problem.system.subdomain().is_whole();
         let (softening, largest) = (softening.filter(|_| is_whole), largest.filter(|_| is_whole));
         if rule.model {
@@ -184,11 +184,11 @@ impl<'a> ResultWriter<'a> {
         })
     }
 
-    /// What was written so far; all of it is safely on the disk when this returns.
+    /// State of the written results, which are synced to disk when this returns.
     ///
     /// # Errors
     ///
-    /// If the system cannot get it there.
+    /// If a file cannot be synced.
     pub fn so_far(&self) -> Result<OutputState, Error> {
         Ok(OutputState {
             tables: self.tables.progress()?,
@@ -211,7 +211,7 @@ impl<'a> ResultWriter<'a> {
         self.first
     }
 
-    /// Keeps what a file that was written as a whole has, which a run that goes on relies on.
+    /// Records length and digest of a completed file, on which a resumed run relies.
     fn keep(&mut self, name: &str) -> Result<(), Error> {
         let path = self.folder.file(name);
         let written = Written::now(&path).map_err(Error::system("read", &path))?;
@@ -337,7 +337,7 @@ impl Observer for ResultWriter<'_> {
     }
 }
 
-/// Marks bonds that broke, of those that are known here, with their steps.
+/// Sets the steps of breaking of the bonds on this process.
 fn mark(step_of_breaking: &mut [i64], problem: &Problem, breaks: &[([u32; 2], u32)]) {
     let ends = problem.system.ends();
     for (of_bond, step) in breaks {
@@ -347,7 +347,7 @@ fn mark(step_of_breaking: &mut [i64], problem: &Problem, breaks: &[([u32; 2], u3
     }
 }
 
-/// Name of the file of the fields in a state.
+/// Name of the field file of a state.
 fn fields_file(record: &StepRecord, view: &View<'_>) -> String {
     let stem = format!("fields_{:04}", record.step);
     vtu::file_name(&stem, view.system.subdomain())

@@ -1,18 +1,18 @@
-//! The model of a run as a file: points, bonds and their limits, from which a bond can be explained later.
+//! File of the model of a run: points, bonds and their limits, from which a bond can be explained later.
 //!
-//! `model.vtu`, in pieces `model.pvtu`, has the points with their tags, volumes and horizons, and the bonds as lines between them. Lengths and directions
-//! of bonds are those of the lines. Factors and horizons have seven digits: they are for people; the limits have all.
+//! `model.vtu`, in pieces `model.pvtu`, has the points with their tags, volumes and horizons, and the bonds as lines between them, which
+//! give lengths and directions. Factors and horizons have seven digits, limits all digits.
 //!
 //! | cell field | of a bond |
 //! |---|---|
-//! | `absent` | 0; 1 where a pre-crack cut it, 2 where a void of the body lies between its ends: such pairs are no bonds, and have no numbers |
+//! | `absent` | 0; 1 where a pre-crack cut the bond, 2 where a void of the body lies between its ends: absent bonds have no values |
 //! | `horizon` | H, m |
 //! | `length_factor`, `domain_factor` | alpha, Omega |
-//! | `limit.NAME` | limit of the criterion; infinite where it never fails by it |
-//! | `coefficient.NAME` | coefficient q of its measure, where that has one |
-//! | `toughness_ratio.NAME`, `mixed_mode_exponent.NAME` | G_IIc/G_Ic and eta of its measure, where they differ from 1 |
+//! | `limit.NAME` | limit of the criterion; infinite where the bond never fails by it |
+//! | `coefficient.NAME` | coefficient q of the criterion's measure, where it has one |
+//! | `toughness_ratio.NAME`, `mixed_mode_exponent.NAME` | G_IIc/G_Ic and eta of the criterion's measure, where they differ from 1 |
 //! | `after.NAME` | e_u/e_0 or e_f/e_0 of the law after the limit, where it has one |
-//! | `largest_utilisation`, `step_of_largest`, `criterion_of_largest` | over the run, from its end on |
+//! | `largest_utilisation`, `step_of_largest`, `criterion_of_largest` | largest utilisation over the run, written at its end |
 
 use std::path::{Path, PathBuf};
 
@@ -26,20 +26,20 @@ use super::tables::criterion_labels;
 use crate::Error;
 use crate::vtu::{self, Field};
 
-/// Name of the file with the model, without what tells whether it is in pieces.
+/// Stem of the model file's name.
 const MODEL: &str = "model";
 
-/// Path of the file with the model in a folder of results; None where there is none.
+/// Path of the model file in a result folder, if it exists.
 pub(super) fn model_file(folder: &Path) -> Option<PathBuf> {
     let names = [vtu::SINGLE, vtu::IN_PIECES].map(|it| folder.join(format!("{MODEL}.{it}")));
     names.into_iter().find(|path| path.is_file())
 }
 
-/// Names of the fields that hold the coefficients of a measure, in their order; most measures have none or one.
+/// Names of the fields of a measure's coefficients, in their order; most measures have none or one.
 pub(super) const COEFFICIENTS: [&str; 3] =
     ["coefficient", "toughness_ratio", "mixed_mode_exponent"];
 
-/// Writes the model, and how near its bonds came to their limits once that is known.
+/// Writes the model, at the end of a run with the largest utilisations of its bonds.
 pub(super) fn write(
     folder: &Path,
     grid: &BodyGrid,
@@ -93,7 +93,7 @@ pub(super) fn write(
     lines.write(&path, grid, &point_fields, &cell_fields, subdomain)
 }
 
-/// The limits and coefficients that each criterion has for each bond, with the names of their fields.
+/// Fields of the limits and coefficients of each criterion for each bond, by name.
 fn limits(problem: &Problem, n_absent: usize) -> Vec<(String, Vec<f64>)> {
     let criteria = &problem.criteria.list;
     let mut found = Vec::new();

@@ -1,8 +1,8 @@
-//! The modes of a body: a table, and a file of fields for each.
+//! Result files of natural modes: a table, and a file of fields for each mode.
 //!
 //! | file | holds |
 //! |---|---|
-//! | `modes.csv` | a row a mode |
+//! | `modes.csv` | one row per mode |
 //! | `mode_NNNN.vtu`, `modes.pvd` | shapes on the cells of the mesh or the lattice; the time is the number of the mode |
 
 use ligament_analysis::Bonds;

@@ -1,4 +1,4 @@
-//! The cells of a solid, opened along its cracks, as a file.
+//! File of the cells of a solid, opened along its cracks.
 
 use std::path::Path;
 
@@ -11,16 +11,15 @@ use crate::vtu::read::VtuFile;
 use crate::vtu::{self, Cell, Field, UnstructuredGrid};
 use crate::{Error, FieldLocation};
 
-/// Fields of the points that the file has, beside the displacement.
+/// Fields of the points in the file, beside the displacement.
 const FIELDS: [&ResultField; 2] = [&DAMAGE, &STRAIN_ENERGY_DENSITY];
 
-/// Whether points share cells, which can be opened; the boxes of a lattice move each with its point.
+/// Whether the body has cells between points, which can be opened; the box of a lattice moves with its point.
 pub(super) fn has_cells(cracks: &SolidCracks) -> bool {
     matches!(cracks.body.grid.canvas, Canvas::Solid(_))
 }
 
-/// Writes the cells as the crack of a step cuts them, with stored fields: corners on the crack have the mean of the points of their
-/// side.
+/// Writes the cells cut by the crack of a step, with stored fields: corners on the crack have the mean of the points on their side.
 pub(super) fn write_opened(
     path: &Path,
     cracks: &SolidCracks,

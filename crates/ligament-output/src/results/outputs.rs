@@ -1,4 +1,4 @@
-//! The outputs in a result folder, whether or not the run that wrote them got to its end.
+//! The outputs in a result folder, of a run that has ended or not.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -13,7 +13,7 @@ use crate::vtu;
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation};
 
-/// The kinds of outputs that a folder can hold.
+/// Kind of the outputs in a folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OutputKind {
     /// States of a body at load steps or events: `fields_NNNN.vtu`.
@@ -38,7 +38,7 @@ impl Outputs {
     ///
     /// # Errors
     ///
-    /// If the folder holds no results, or none with fields, or cannot be listed.
+    /// If the folder has no results, or no fields, or cannot be listed.
     pub fn list(folder: &Path) -> Result<Self, Error> {
         require_results(folder)?;
         let kind = kind_of(folder);
@@ -78,11 +78,11 @@ pub fn kind_of(folder: &Path) -> OutputKind {
     }
 }
 
-/// Makes sure that a run has written to a folder, and that its files are there themselves.
+/// Refuses a folder without results of a run, or with links in the place of result files.
 ///
 /// # Errors
 ///
-/// If not, or if a link is in the place of one.
+/// If the folder has no results, or a link in the place of a result file.
 pub fn require_results(folder: &Path) -> Result<(), Error> {
     let reason = if !folder.exists() {
         "there is no such folder".to_owned()
@@ -101,7 +101,7 @@ pub fn require_results(folder: &Path) -> Result<(), Error> {
     })
 }
 
-/// The pairs of points that a pre-crack parts, by the tags of their ends; None where the run wrote no model.
+/// The pairs of points that a pre-crack separates, by the tags of their ends; `None` where the run wrote no model.
 ///
 /// # Errors
 ///
@@ -123,7 +123,7 @@ pub fn cut_pairs(folder: &Path) -> Result<Option<Vec<[i64; 2]>>, Error> {
     Ok(Some(tagged.collect()))
 }
 
-/// The pairs of points with a bond before the first load, by the tags of their ends; None where the run wrote no model.
+/// The pairs of points with a bond before the first load, by the tags of their ends; `None` where the run wrote no model.
 ///
 /// # Errors
 ///
@@ -141,11 +141,11 @@ pub fn bonded_pairs(folder: &Path) -> Result<Option<Vec<[i64; 2]>>, Error> {
     Ok(Some(tagged.collect()))
 }
 
-/// Removes the fields of a run that starts anew in its folder.
+/// Removes the field files of a run that starts anew in its folder.
 ///
 /// # Errors
 ///
-/// If they cannot be removed.
+/// If the files cannot be removed.
 pub fn clear(folder: &ResultFolder) -> Result<(), Error> {
     for stem in ["fields", "bonds"] {
         remove_others(folder, stem, &[])?;
@@ -154,7 +154,7 @@ pub fn clear(folder: &ResultFolder) -> Result<(), Error> {
     Ok(())
 }
 
-/// Removes the files of grids `STEM_NNNN`, pieces included, that are none of the outputs.
+/// Removes the grid files `STEM_NNNN`, including pieces, that are not among the outputs.
 pub(super) fn remove_others(
     folder: &ResultFolder,
     stem: &str,
@@ -176,7 +176,7 @@ pub(super) fn remove_others(
     Ok(())
 }
 
-/// The files `STEM_NNNN.vtu`, in pieces `STEM_NNNN.pvtu`, by their numbers.
+/// The files `STEM_NNNN.vtu`, or in pieces `STEM_NNNN.pvtu`, by their numbers.
 pub(super) fn numbered_files(folder: &Path, stem: &str) -> Result<BTreeMap<usize, PathBuf>, Error> {
     let is_piece = |path: &Path| {
         path.file_stem()
@@ -186,7 +186,7 @@ pub(super) fn numbered_files(folder: &Path, stem: &str) -> Result<BTreeMap<usize
     Ok(files.filter(|(_, path)| !is_piece(path)).collect())
 }
 
-/// The files of grids `STEM_NNNN` with their numbers, pieces included.
+/// The grid files `STEM_NNNN`, including pieces, with their numbers.
 fn grids(folder: &Path, stem: &str) -> Result<Vec<(usize, PathBuf)>, Error> {
     let failed = Error::system("list", folder);
     let mut files = Vec::new();

@@ -1,4 +1,4 @@
-//! Pieces of the result files by the processes beside the first.
+//! Pieces of the result files by ranks other than 0.
 
 use std::path::PathBuf;
 
@@ -10,8 +10,8 @@ use super::rule::WriteRule;
 use super::{failed, fields_file, model_file, point_fields};
 use crate::Error;
 
-/// Observer that writes the pieces of a process beside the first, into the folder of the first, whenever [`super::ResultWriter`] of that
-/// process writes a grid: the model and the fields.
+/// Observer that writes the pieces of a rank other than 0 into the folder of rank 0, whenever the [`super::ResultWriter`] of rank 0 writes
+/// a grid: the model and the fields.
 pub struct PieceWriter<'a> {
     folder: PathBuf,
     grid: &'a BodyGrid,
@@ -20,7 +20,7 @@ pub struct PieceWriter<'a> {
 }
 
 impl<'a> PieceWriter<'a> {
-    /// Begins with a run, or goes on with one, of which the model is written anew.
+    /// Writes the piece of the model, and returns the writer for a new or a resumed run.
     ///
     /// # Errors
     ///

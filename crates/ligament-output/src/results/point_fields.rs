@@ -1,4 +1,4 @@
-//! Fields on the points, over the cells of the mesh or the lattice.
+//! Fields of the points, on the cells of the mesh or the lattice.
 
 use std::path::Path;
 
@@ -32,7 +32,7 @@ pub(super) fn write(
     let mut values = point_fields(rule, view);
     let ghosts = corners(grid, system.subdomain());
     for (field, values) in &mut values {
-        // Its owner alone knows all bonds of a point.
+        // Only the owner of a point has all of its bonds.
         if let FieldValues::Numbers(values) = values {
             ghosts.update(values, field.components(in_space).count());
         }
@@ -52,8 +52,8 @@ pub(super) fn write(
     write_grid(path, grid, &fields, system.subdomain())
 }
 
-/// The fields of a state in the order of the files, with the stresses that the rule asks for; where processes share the body the values are
-/// right at owned points alone.
+/// The fields of a state in the order of the files, with the stresses demanded by the rule; where the body is divided, values are right at
+/// owned points only.
 pub fn point_fields(rule: WriteRule, view: &View<'_>) -> PointFields {
     let is_wanted = |field: &&&ResultField| match field.reading {
         FieldReading::Stress(reading) => rule.has(reading),
@@ -65,7 +65,7 @@ pub fn point_fields(rule: WriteRule, view: &View<'_>) -> PointFields {
         .collect()
 }
 
-/// Where a file has the fields of the points: those of a lattice are on its cells.
+/// Location of the fields of the points in a file: for a lattice on its cells.
 pub fn location(file: &VtuFile) -> FieldLocation {
     let is_mesh = (file.components(FieldLocation::Point, HORIZON.name)).is_some();
     match is_mesh {
@@ -74,7 +74,7 @@ pub fn location(file: &VtuFile) -> FieldLocation {
     }
 }
 
-/// A field of a file.
+/// A result field as a field of a VTU file.
 pub(super) fn vtu_field<'a>(
     field: &ResultField,
     in_space: bool,
@@ -89,7 +89,7 @@ pub(super) fn vtu_field<'a>(
     }
 }
 
-/// Ghosts at the corners of the cells that a process writes: the cells whose first corner it owns.
+/// Ghosts at the corners of the cells that this process writes, the cells whose first corner it owns.
 fn corners(grid: &BodyGrid, subdomain: &Subdomain) -> Ghosts {
     if subdomain.is_whole() {
         return Ghosts::new(subdomain, std::iter::empty());

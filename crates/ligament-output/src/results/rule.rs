@@ -1,13 +1,13 @@
-//! Rules of what is written, and how often.
+//! Rule for the contents and the frequency of the output.
 
 use ligament_analysis::ControlKind;
 use ligament_analysis::history::{StepRecord, View};
 use ligament_analysis::interface::StressReading;
 
-/// Rules of what is written, and how often.
+/// Rule for the contents and the frequency of the output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct WriteRule {
-    /// Fields at every so many load steps, besides the first and the last; 0: only these two.
+    /// Number of load steps between outputs of fields, besides the first and the last; 0: only these two.
     pub fields_every: usize,
     /// Whether to write the bonds as well.
     pub bonds: bool,
@@ -17,11 +17,11 @@ pub struct WriteRule {
     pub virial: bool,
     /// Whether the fields have the traction on planes through the points.
     pub traction: bool,
-    /// The quantity that stands for time in the collections.
+    /// Quantity used as time in the collections.
     pub time: Time,
 }
 
-/// The quantity that stands for the time of an output.
+/// Quantity used as the time of an output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Time {
     /// The applied displacement, or the applied load where the load is given.
@@ -39,12 +39,12 @@ impl WriteRule {
         }
     }
 
-    /// Whether fields are written in the state of a record.
+    /// Whether fields are written at a record.
     pub fn writes_fields(&self, record: &StepRecord, view: &View<'_>) -> bool {
         view.is_last || self.is_due(record.step)
     }
 
-    /// Whether fields are written in a step wherever the run ends.
+    /// Whether fields are written in a step that is not the last one.
     pub fn is_due(&self, step: usize) -> bool {
         match self.fields_every {
             0 => step == 0,

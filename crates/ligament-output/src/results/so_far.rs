@@ -1,4 +1,4 @@
-//! What a run has written up to a moment, for it to go on there later.
+//! State of the written results at a checkpoint, for resuming the run.
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::first_bonds::FirstBonds;
@@ -10,7 +10,7 @@ use super::tables::{FILES, Progress};
 use crate::folder::{Kind, ResultFolder};
 use crate::written::Written;
 
-/// What a run has written up to a moment.
+/// State of the written results of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OutputState {
     pub(super) tables: Progress,
@@ -20,10 +20,10 @@ pub struct OutputState {
     pub(super) fields: Vec<(f64, String)>,
     /// Times and names of the files of bonds.
     pub(super) bonds: Vec<(f64, String)>,
-    /// Ends of the broken bonds, with the steps.
+    /// Ends of the broken bonds with the steps.
     pub(super) breaks: Vec<([u32; 2], u32)>,
     pub(super) largest: Option<Largest>,
-    /// Names of the files that were written as a whole and stay, as they were.
+    /// Names of the completed files, with their contents' lengths and digests.
     pub(super) whole: Vec<(String, Written)>,
 }
 
@@ -39,13 +39,13 @@ serial!(OutputState {
 });
 
 impl OutputState {
-    /// Whether it is of a run of this problem.
+    /// Whether the state matches a problem.
     pub fn fits(&self, problem: &Problem) -> bool {
         let (n_bonds, n_criteria) = (problem.system.ends().len(), problem.criteria.list.len());
         let n_points = problem.system.n_points() as u32;
         let is_bond = |ends: &[u32; 2]| ends.iter().all(|&end| end < n_points);
         let mut bonds = self.breaks.iter();
-        // One process goes on with what several have written of bonds, and several with what one has.
+        // The number of processes may change between checkpoint and resumption.
         let n_bonds = problem.system.subdomain().is_whole().then_some(n_bonds);
         let mut largest = self.largest.iter();
         let mut first = [self.first.broken, self.first.softened]
@@ -61,7 +61,7 @@ impl OutputState {
             })
     }
 
-    /// Why a run cannot go on from there with what its folder holds; `None` if it can.
+    /// Reason why a run cannot be resumed with the files of its folder; `None` if it can.
     pub fn obstacle(&self, folder: &ResultFolder) -> Option<String> {
         let series = self.fields.iter().chain(&self.bonds);
         let whole = self.whole.iter().map(|(name, _)| name);

@@ -1,4 +1,4 @@
-//! `softening.csv`: a row where a bond begins to soften, and one where so little of its force is left that a crack is open there.
+//! `softening.csv`: one row when a bond begins to soften, and one when its force has fallen so far that a crack is open.
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{StepRecord, View};
@@ -13,13 +13,13 @@ use crate::csv::{Table, Value};
 use crate::folder::ResultFolder;
 use crate::written::Written;
 
-/// The name of the table.
+/// Name of the file.
 pub(super) const FILE: &str = "softening.csv";
 
-/// Share of the force at the limit below which a bond that softens in opening counts as parted by a crack.
+/// Share of the force at the limit below which a crack is open at a bond that softens in opening.
 pub const OPEN: f64 = 0.1;
 
-/// Words for the two things that a row tells.
+/// Words for the two events of a row.
 pub(super) const EVENTS: [&str; 2] = ["begins", "opens"];
 
 /// The table of a run whose bonds soften.
@@ -29,27 +29,27 @@ pub(super) struct SofteningTable {
     softened: SoftenedBonds,
 }
 
-/// What was told of the bonds that soften: nothing, that they began to, or that a crack is open there.
+/// Events of the softening bonds that were reported: none, the beginning of softening, or an open crack.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SoftenedBonds {
-    /// Number of the things told of each bond, shape (n_bonds).
+    /// Number of reported events of each bond, shape (n_bonds).
     told: Vec<u8>,
 }
 
-/// A bond with more to tell: its number, the criterion, and how many things were told of it before and are to be told now.
+/// A bond with new events.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SoftenedBond {
     /// Number of the bond.
     pub bond: usize,
     /// Number of the criterion.
     pub criterion: usize,
-    /// Things told before, 0 or 1.
+    /// Number of events reported before, 0 or 1.
     pub before: u8,
-    /// Things to tell: 1 that it began to soften, 2 that a crack is open there, too.
+    /// Number of events now: 1 for the beginning of softening, 2 with an open crack.
     pub now: u8,
 }
 
-/// How far the table is.
+/// State of the table in a checkpoint.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct SofteningProgress {
     pub(super) written: Written,
@@ -59,7 +59,7 @@ pub(super) struct SofteningProgress {
 serial!(SofteningProgress { written, of_bonds });
 
 impl SofteningTable {
-    /// Creates the table; none where no bond softens, or processes share the body out.
+    /// Creates the table; `None` where no bond softens, or the body is divided between processes.
     pub(super) fn create(
         folder: &ResultFolder,
         problem: &Problem,
@@ -79,7 +79,7 @@ impl SofteningTable {
         }))
     }
 
-    /// The table of a run that goes on, cut back to where it was.
+    /// The table of a resumed run, truncated to its state in the checkpoint.
     pub(super) fn cut_back(
         folder: &ResultFolder,
         problem: &Problem,
@@ -95,7 +95,7 @@ impl SofteningTable {
         })
     }
 
-    /// How far the table is; what it has is safely on the disk when this returns.
+    /// Syncs the table to disk and returns its state.
     pub(super) fn told(&self) -> Result<SofteningProgress, Error> {
         Ok(SofteningProgress {
             written: self.table.synced()?,
@@ -103,7 +103,7 @@ impl SofteningTable {
         })
     }
 
-    /// Adds what happened since the last step, in it the bonds farthest beyond their limits first.
+    /// Adds the events since the last step, those of the bonds farthest beyond their limits first.
     pub(super) fn step(
         &mut self,
         record: &StepRecord,
@@ -130,14 +130,14 @@ impl SofteningTable {
 }
 
 impl SoftenedBonds {
-    /// Nothing told of so many bonds.
+    /// A record of `n_bonds` bonds without events.
     pub fn new(n_bonds: usize) -> Self {
         Self {
             told: vec![0; n_bonds],
         }
     }
 
-    /// Bonds with news in a state, those farthest beyond their limits first; the news counts as given from then on.
+    /// Bonds with new events in a state, those farthest beyond their limits first; the events then count as reported.
     pub fn step(&mut self, view: &View<'_>) -> Vec<SoftenedBond> {
         let changed = self.changed(view);
         let told = |(bond, criterion, now)| SoftenedBond {
@@ -149,7 +149,7 @@ impl SoftenedBonds {
         changed.into_iter().map(told).collect()
     }
 
-    /// Bonds with more to tell than was told, with the criterion and what there is to tell now.
+    /// Bonds with unreported events: index of the bond, index of the criterion, and number of events.
     fn changed(&self, view: &View<'_>) -> Vec<(usize, usize, u8)> {
         let softening = &view.state.softening;
         let mut changed = Vec::new();
@@ -172,7 +172,7 @@ impl SoftenedBonds {
             let tied = || in_file(one.1).cmp(&in_file(other.1));
             other.0.total_cmp(&one.0).then_with(tied)
         });
-        // Of a bond that two criteria weaken, what the first says.
+        // For a bond that two criteria weaken, only the first entry is kept.
         let mut said = vec![false; self.told.len()];
         changed.retain(|it| !std::mem::replace(&mut said[it.1], true));
         changed

@@ -1,4 +1,4 @@
-//! A solid as its fields are drawn on it, read back from a file of fields.
+//! A solid, read from a file of fields.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -10,14 +10,14 @@ use super::point_fields::location;
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation, vtu};
 
-/// A solid of a run, with where its fields are in a file.
+/// A solid of a run, with the location of its fields in a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SolidBody {
-    /// Points, their tags and what fields are drawn on.
+    /// Points, their tags, and the cells of the body.
     pub grid: BodyGrid,
-    /// Whether fields are on points, between which cells lie, or on cells, of which each point has one.
+    /// Location of fields: on points with cells between them, or on cells, one for each point.
     pub location: FieldLocation,
-    /// Points by their tags.
+    /// Indices of the points by their tags.
     places: HashMap<i64, u32>,
 }
 
@@ -32,11 +32,11 @@ pub fn is_solid(file: &VtuFile) -> Result<bool, Error> {
 }
 
 impl SolidBody {
-    /// Reads it from a file of fields.
+    /// Reads the body from a file of fields.
     ///
     /// # Errors
     ///
-    /// If the file cannot be used, or has other cells than those of a solid.
+    /// If the file cannot be used, or has cells that are not of a solid.
     pub fn read(file: &VtuFile) -> Result<Self, Error> {
         let corners = file.points()?;
         let solid = |cell: vtu::Cell| match cell {
@@ -71,26 +71,26 @@ impl SolidBody {
         })
     }
 
-    /// Reads it from a path.
+    /// Reads the body from the file of fields at a path.
     ///
     /// # Errors
     ///
-    /// As [`SolidBody::read`].
+    /// As for [`SolidBody::read`].
     pub fn open(path: &Path) -> Result<Self, Error> {
         Self::read(&VtuFile::open(path)?)
     }
 
-    /// The points with these tags; None where one is none.
+    /// Indices of the points with these tags; `None` where a tag has no point.
     pub fn points(&self, tags: [i64; 2]) -> Option<[u32; 2]> {
         let [a, b] = tags.map(|tag| self.places.get(&tag).copied());
         Some([a?, b?])
     }
 
-    /// Vectors of the points in a file, such as the displacement, shape (n_points).
+    /// Vectors at the points from a file, such as the displacement, shape (n_points).
     ///
     /// # Errors
     ///
-    /// If the file has no such field, or it is of another number of points.
+    /// If the file has no such field, or the number of points differs.
     pub fn vectors(&self, file: &VtuFile, name: &str) -> Result<Vec<[f64; 3]>, Error> {
         let values = file.finite_numbers(self.location, name)?;
         let (vectors, rest) = values.as_chunks::<3>();

@@ -1,4 +1,4 @@
-//! The cracks of a stored run of a solid, as surfaces.
+//! Crack surfaces of a stored run of a solid.
 
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
@@ -13,31 +13,31 @@ use crate::Error;
 use crate::csv::read::Sheet;
 use crate::vtu::read::VtuFile;
 
-/// A solid with the order in which a run parted its points.
+/// A solid with the order in which a run separated its points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SolidCracks {
     /// The body, with its cells or boxes.
     pub body: SolidBody,
-    /// The tetrahedra in which something is cut at some time.
+    /// Tetrahedra that are cut at some time.
     pub(super) tetrahedra: Tetrahedra,
-    /// What connects points before the first load, where it is no bond.
+    /// Links of points before the first load that are not bonds.
     at_first: Links,
-    /// Pairs that parted, with the moment and the step of it, in the order of parting.
+    /// Separated pairs, with the moment and the step of separation, in their order.
     opened: Vec<([u32; 2], Moment, usize)>,
-    /// The rows of the history.
+    /// Rows of the history.
     pub(super) records: Vec<CrackRecord>,
     /// Mean horizon of the points, m.
     mean_horizon: f64,
 }
 
-/// Records of the history of which the surface is followed at most.
+/// Largest number of records of the history at which the surface is computed.
 const MOST_RECORDS: usize = 200;
 
 /// Whether the body of a run is a solid.
 ///
 /// # Errors
 ///
-/// If the folder holds no results, or its first output cannot be read.
+/// If the folder has no results, or its first output cannot be read.
 pub fn has_solid(folder: &Path) -> Result<bool, Error> {
     let outputs = Outputs::list(folder)?;
     match outputs.files.first_key_value() {
@@ -47,11 +47,11 @@ pub fn has_solid(folder: &Path) -> Result<bool, Error> {
 }
 
 impl SolidCracks {
-    /// Reads them from the folder of a run.
+    /// Reads the cracks from the folder of a run.
     ///
     /// # Errors
     ///
-    /// If the folder holds no results of a solid under loads, or a file cannot be used.
+    /// If the folder has no results of a solid under loads, or a file cannot be used.
     pub fn open(folder: &Path) -> Result<Self, Error> {
         let outputs = Outputs::list(folder)?;
         let first = outputs.files.first_key_value();
@@ -87,7 +87,7 @@ impl SolidCracks {
         })
     }
 
-    /// What connects the points in the state of a step, or of the last one before it.
+    /// Links of the points in the state of a step, or of the last step before it.
     pub fn links(&self, step: usize) -> Links {
         let until = self.records.iter().take_while(|it| it.step <= step);
         let mut links = self.at_first.clone();
@@ -98,18 +98,18 @@ impl SolidCracks {
         links
     }
 
-    /// The crack in the state of a step, smoothed.
+    /// The smoothed crack surface in the state of a step.
     pub fn surface(&self, step: usize) -> CrackSurface {
         crack_surface(&self.tetrahedra, &self.links(step)).smoothed()
     }
 
-    /// The tetrahedra in which something is cut at some time.
+    /// Tetrahedra that are cut at some time.
     pub fn tetrahedra(&self) -> &Tetrahedra {
         &self.tetrahedra
     }
 
-    /// Opening and sliding at each place of a surface for displacements of the points (n_points, m), shape (n_places), m: the jump
-    /// along the normal of the surface and in it, the mean over the pairs that are parted there; positive openings part.
+    /// Opening and sliding at each vertex of a surface for displacements of the points (n_points, m), shape (n_places), m: jumps along the
+    /// normal of the surface and in it, averaged over the pairs separated there; positive openings separate.
     pub fn jumps(&self, surface: &CrackSurface, displacement: &[[f64; 3]]) -> Vec<[f64; 2]> {
         let positions = &self.body.grid.positions;
         let places = surface.parted.iter().zip(surface.normals());
@@ -131,13 +131,13 @@ impl SolidCracks {
         places.map(of_place).collect()
     }
 
-    /// Step in which each pair parted.
+    /// Step in which each pair separated.
     pub(super) fn steps_of_parting(&self) -> HashMap<[u32; 2], usize> {
         let opened = self.opened.iter().rev();
         opened.map(|(pair, _, step)| (*pair, *step)).collect()
     }
 
-    /// The records in which more pairs are parted than in the one before; of very many an even choice, with the last.
+    /// The records with newly separated pairs; of very many an even selection with the last.
     pub fn grown_records(&self) -> Vec<&CrackRecord> {
         let open = |record: &CrackRecord| {
             let open = self.opened.iter().filter(|it| record.is_after(it.1));
@@ -151,13 +151,13 @@ impl SolidCracks {
         self.mean_horizon
     }
 
-    /// The steps of the history.
+    /// Numbers of the steps of the history.
     pub fn steps(&self) -> Vec<usize> {
         self.records.iter().map(|it| it.step).collect()
     }
 }
 
-/// Pairs that parted, in their order, with the moment and the step of it.
+/// Separated pairs in their order, with the moment and the step of separation.
 fn opened(
     folder: &Path,
     body: &SolidBody,
@@ -169,7 +169,7 @@ fn opened(
     for (tags, moment) in breaks.chain(softened_pairs(folder)?) {
         let step = match moment {
             Moment::Step(step) => step,
-            // A run that is under way may have broken bonds of a step before its row.
+            // During a run, broken bonds of a step may be written before the step's row.
             Moment::Breakage(_) => records
                 .iter()
                 .find(|it| it.is_after(moment))
@@ -182,7 +182,7 @@ fn opened(
     Ok(opened)
 }
 
-/// The edges of tetrahedra that are bonds; None where the run wrote no model.
+/// The edges of tetrahedra that are bonds; `None` where the run wrote no model.
 fn bonds_among(
     folder: &Path,
     body: &SolidBody,
@@ -198,7 +198,7 @@ fn bonds_among(
     }))
 }
 
-/// The edges of tetrahedra that are no bonds.
+/// The edges of tetrahedra that are not bonds.
 fn unbonded(tetrahedra: &Tetrahedra, bonds: Option<HashSet<[u32; 2]>>) -> Links {
     let mut links = Links::default();
     let Some(bonds) = bonds else {

@@ -1,4 +1,4 @@
-//! Steps of a stored run by their names: numbers, or what happened in them.
+//! Steps of a stored run by number or event.
 
 use std::cmp::Ordering;
 use std::fmt;
@@ -8,12 +8,12 @@ use std::str::FromStr;
 use crate::Error;
 use crate::csv::read::Sheet;
 
-/// Name of a load step, or of an event of the exact path.
+/// Selection of a load step, or of an event of the exact path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StepName {
     /// The step in which the first bond broke or softened.
     First,
-    /// The step at rest with the largest reaction.
+    /// The step without pending breakages that has the largest reaction.
     Peak,
     /// The last step.
     Last,
@@ -21,42 +21,41 @@ pub enum StepName {
     Number(usize),
 }
 
-/// Steps as they are asked for by a word.
+/// Selection of stored steps by a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StepChoice {
-    /// All steps of which something is stored.
+    /// All stored steps.
     All,
     /// One step.
     One(StepName),
 }
 
-/// A stored step with what led to it.
+/// A stored step with the event that selected it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NamedStep {
     /// Number of the stored step.
     pub step: usize,
-    /// What happened, by which the step was asked for, and in which step. Where nothing is stored of that one, the stored step is
-    /// the next of which something is, or the last.
+    /// Event that selected the step, and its step. Where that step is not stored, the stored step is the next one, or the last.
     pub happened: Option<(&'static str, usize)>,
 }
 
-/// A step that is not there.
+/// Error of a step that does not exist.
 #[derive(Debug, thiserror::Error)]
 pub enum StepError {
     /// The history cannot be used.
     #[error(transparent)]
     Results(#[from] Error),
-    /// A table without rows, or none: what happened when is not known.
+    /// A missing or empty history, so that events are unknown.
     #[error(
         "{path} has no history.csv with steps, so that none is known as `{name}`; give a number"
     )]
     NoHistory {
         /// The folder.
         path: PathBuf,
-        /// The name that was asked for.
+        /// Requested name.
         name: StepName,
     },
-    /// The run came to its end before what the name stands for.
+    /// The run ended before the event.
     #[error(
         "{path} has no step `{name}`: {}",
         match name {
@@ -67,10 +66,10 @@ pub enum StepError {
     DidNotHappen {
         /// The folder.
         path: PathBuf,
-        /// The name that was asked for.
+        /// Requested name.
         name: StepName,
     },
-    /// Nothing is stored of the step with the number.
+    /// The step with the number is not stored.
     #[error(
         "{path} has no output of step {number}; there are {} (run it again with --set output.fields_every=1 for all)",
         listed(stored)
@@ -78,7 +77,7 @@ pub enum StepError {
     NotStored {
         /// The folder.
         path: PathBuf,
-        /// The number.
+        /// Requested number.
         number: usize,
         /// Numbers of the stored steps.
         stored: Vec<usize>,
@@ -99,7 +98,7 @@ impl fmt::Display for StepName {
 impl FromStr for StepChoice {
     type Err = String;
 
-    /// Reads `first`, `peak`, `last`, `all` or a number.
+    /// Parses `first`, `peak`, `last`, `all` or a number.
     fn from_str(text: &str) -> Result<Self, String> {
         Ok(Self::One(match text.trim() {
             "all" => return Ok(Self::All),
@@ -114,11 +113,11 @@ impl FromStr for StepChoice {
 }
 
 impl StepChoice {
-    /// The chosen ones of the steps stored in a folder, whose numbers ascend.
+    /// Selects from the steps `stored` in a folder, ascending.
     ///
     /// # Errors
     ///
-    /// If nothing happened that deserves the name, nothing is stored of a step given by its number, or there is no history.
+    /// If no such event happened, a step given by its number is not stored, or there is no history.
     pub fn steps(self, folder: &Path, stored: &[usize]) -> Result<Vec<NamedStep>, StepError> {
         let numbered = |step| NamedStep {
             step,
@@ -150,8 +149,8 @@ impl StepChoice {
 }
 
 impl NamedStep {
-    /// What a reader must know of the step, in full and in short: that it is the first breakage or the peak, or the next stored after
-    /// it.
+    /// Long and short description of the step's event: the first breakage or the peak, or the stored step nearest to it; `None` without an
+    /// event.
     pub fn words(&self) -> Option<[String; 2]> {
         let (what, step) = self.happened?;
         let [stored, short] = match self.step.cmp(&step) {
@@ -166,7 +165,7 @@ impl NamedStep {
     }
 }
 
-/// What happened by a name and in which step, from the history.
+/// Description and step of the event of a name, from the history.
 fn event(name: StepName, folder: &Path) -> Result<(&'static str, usize), StepError> {
     let path = folder.join("history.csv");
     if !path.is_file() {
@@ -199,7 +198,7 @@ fn event(name: StepName, folder: &Path) -> Result<(&'static str, usize), StepErr
     })
 }
 
-/// Numbers for a message: the first ones and the last.
+/// List of numbers for a message, abbreviated if long.
 pub fn listed(numbers: &[usize]) -> String {
     const MOST: usize = 24;
     let words: Vec<String> = numbers.iter().map(usize::to_string).collect();

@@ -1,4 +1,4 @@
-//! The results of a run, read back from their folder alone.
+//! The results of a run, read from their folder.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -31,7 +31,7 @@ pub struct StoredRun {
     pub breaks: Vec<StoredBreak>,
     /// Names of the stored components of a bond's deformation: two, or three for bonds with strains of their own.
     pub deformation_names: &'static [&'static str],
-    /// Steps of which there are fields, with their files.
+    /// Files of fields by their steps.
     fields: BTreeMap<usize, PathBuf>,
 }
 
@@ -44,7 +44,7 @@ pub struct StoredModel {
     pub tags: Vec<i64>,
     /// Positions, shape (n_points), m; z = 0 in the plane.
     pub positions: Vec<[f64; 3]>,
-    /// Whether the body is one in space.
+    /// Whether the body is a solid.
     pub in_space: bool,
     /// Volumes, shape (n_points), m^3.
     pub volumes: Vec<f64>,
@@ -52,26 +52,26 @@ pub struct StoredModel {
     pub horizon: Vec<f64>,
     /// Whether the bonds of a point never fail, shape (n_points).
     pub no_fail: Vec<bool>,
-    /// Bonds, and pairs that are none.
+    /// Bonds and absent bonds.
     pub bonds: StoredBonds,
     /// The failure criteria, in the order of the case.
     pub criteria: Vec<StoredCriterion>,
-    /// Largest utilisations of the bonds over the run; None where the run did not get to its end.
+    /// Largest utilisations of the bonds over the run; none where the run did not end.
     pub largest: Option<StoredLargest>,
 }
 
-/// The bonds of a model, and the pairs within a horizon that are none.
+/// The bonds of a model, and the pairs within a horizon without a bond.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredBonds {
     /// Ends, shape (n_bonds).
     pub ends: Vec<[u32; 2]>,
-    /// Why a pair is no bond, shape (n_bonds).
+    /// Reason why a pair has no bond, shape (n_bonds).
     pub absence: Vec<Option<Absence>>,
     /// Bond horizons H, shape (n_bonds), m.
     pub horizon: Vec<f64>,
-    /// alpha, shape (n_bonds).
+    /// Factor alpha, shape (n_bonds).
     pub length_factor: Vec<f64>,
-    /// Omega, shape (n_bonds).
+    /// Factor Omega, shape (n_bonds).
     pub domain_factor: Vec<f64>,
 }
 
@@ -80,26 +80,26 @@ pub struct StoredBonds {
 pub struct StoredCriterion {
     /// Name of the criterion, as in the table of broken bonds.
     pub name: String,
-    /// The word for its measure.
+    /// Name of the measure.
     pub measure: String,
-    /// The word for what a bond does after the limit.
+    /// Name of the law after the limit.
     pub after: String,
     /// Limits, shape (n_bonds).
     pub limit: Vec<f64>,
-    /// Coefficients of the measure, each with shape (n_bonds); none where it has none.
+    /// Coefficients of the measure, each with shape (n_bonds); may be empty.
     pub coefficients: Vec<Vec<f64>>,
-    /// Numbers of the law after the limit, shape (n_bonds) or empty.
+    /// Parameter of the law after the limit, shape (n_bonds) or empty.
     pub parameter: Vec<f64>,
 }
 
 /// The largest utilisation of each bond over the load steps, or events, in which it was intact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredLargest {
-    /// The utilisation, shape (n_bonds).
+    /// Largest utilisation, shape (n_bonds).
     pub utilisation: Vec<f64>,
-    /// The step, shape (n_bonds).
+    /// Step of the largest utilisation, shape (n_bonds).
     pub step: Vec<i64>,
-    /// The number of the criterion, shape (n_bonds).
+    /// Number of its criterion, shape (n_bonds).
     pub criterion: Vec<i64>,
 }
 
@@ -114,37 +114,37 @@ pub struct StoredStep {
     pub displacement: f64,
     /// Force of the first load, N.
     pub reaction: f64,
-    /// Whether no bond was left to break there.
+    /// Whether no bond was left to break in this state.
     pub at_rest: bool,
 }
 
 /// A broken bond.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredBreak {
-    /// Place in the order of all breakages, from 1.
+    /// Number in the order of all breakages, from 1.
     pub order: usize,
-    /// Round of breaking in the step, from 1.
+    /// Round of breakages in the step, from 1.
     pub round: usize,
     /// Step and load at the breakage.
     pub at: StoredStep,
     /// Tags of the two ends of the bond.
     pub tags: [i64; 2],
-    /// Name of the criterion that the bond failed by.
+    /// Name of the criterion by which the bond failed.
     pub criterion: String,
     /// Measure of the deformation over the limit, at the breakage.
     pub utilisation: f64,
-    /// Deformation of the bond at the breakage; the relative rotation of its ends decides nothing and is not stored.
+    /// Deformation of the bond at the breakage; the relative rotation of its ends, which enters no criterion, is not stored.
     pub deformation: BondDeformation,
 }
 
 /// The motions of the points in a step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motions {
-    /// Displacements of the points, shape (n_points), m; along z none in the plane.
+    /// Displacements of the points, shape (n_points), m; zero along z in the plane.
     pub displacement: Vec<[f64; 3]>,
-    /// Rotations of the points about the axes, shape (n_points), rad; about z alone in the plane.
+    /// Rotations of the points about the axes, shape (n_points), rad; only about z in the plane.
     pub rotation: Vec<[f64; 3]>,
-    /// Strains that the temperature would give the points without stress; empty where it does not change.
+    /// Free thermal strains of the points; empty where the temperature does not change.
     pub thermal_strain: StressFreeStrains,
 }
 
@@ -158,7 +158,7 @@ impl StoredRun {
     ///
     /// # Errors
     ///
-    /// If there are none, what a bond needs was not written, or a file cannot be used.
+    /// If there are no results, a required file was not written, or a file cannot be used.
     pub fn open(folder: &Path) -> Result<Self, Error> {
         require_run(folder)?;
         let model = StoredModel::read(folder)?;
@@ -177,7 +177,7 @@ impl StoredRun {
         })
     }
 
-    /// The steps of which there are fields, ascending.
+    /// The steps with fields, ascending.
     pub fn field_steps(&self) -> impl Iterator<Item = usize> {
         self.fields.keys().copied()
     }
@@ -187,7 +187,7 @@ impl StoredRun {
         self.history.iter().find(|row| row.step == step)
     }
 
-    /// The motions of the points in a step; None where it has no fields.
+    /// The motions of the points in a step; `None` where the step has no fields.
     ///
     /// # Errors
     ///
@@ -230,7 +230,7 @@ impl StoredRun {
     }
 }
 
-/// Strains of the points from the values of their components in a file.
+/// Free strains of the points from the values of their components in a file.
 fn free_strains(in_space: bool, values: &[f64]) -> StressFreeStrains {
     let of_point = |values: &[f64]| {
         let mut strains = [0.0; 6];
@@ -305,7 +305,7 @@ impl StoredBonds {
     }
 }
 
-/// The numbers of a field that all bonds must have; pairs that are no bonds have none.
+/// Values of a field that all bonds must have; absent bonds have none.
 fn of_bonds(file: &VtuFile, name: &str, absence: &[Option<Absence>]) -> Result<Vec<f64>, Error> {
     let values = file.required_numbers(FieldLocation::Cell, name)?;
     let mut bonds = values

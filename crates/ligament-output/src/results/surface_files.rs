@@ -1,15 +1,15 @@
-//! The cracks of a stored run of a solid as files.
+//! Files of the cracks of a stored run of a solid.
 //!
 //! | file | holds |
 //! |---|---|
 //! | `crack.vtu`, `crack.stl` | the surface of a step as triangles |
 //! | `opened.vtu` | the cells of a mesh, opened along the surface, with the displacement and the damage of the step |
 //! | `crack_growth.csv` | parts and area of the surface in every record of the history in which it grew, and energies over the new area |
-//! | `crack_NNNN.vtu`, `crack.pvd`, `opened_NNNN.vtu`, `opened.pvd` | the same of all stored steps |
+//! | `crack_NNNN.vtu`, `crack.pvd`, `opened_NNNN.vtu`, `opened.pvd` | surfaces and opened cells of all stored steps |
 //!
-//! Fields on the places of the surface: `opening` and `sliding`, the jump of the displacement along the normal of the surface and in
-//! it (m, the mean over the pairs that are parted there; positive openings part), the `step` in which the last of them parted (-1
-//! before the first load) and its `load_factor`. On the triangles: the connected `part`, from 1, the largest first, and `precrack`.
+//! Fields on the vertices of the surface: `opening` and `sliding`, jumps of the displacement along the normal of the surface and in it (m,
+//! averaged over the pairs separated there; positive openings separate), the `step` in which the last of these pairs separated (-1 before
+//! the first load) and its `load_factor`. On the triangles: the connected `part`, from 1, the largest first, and `precrack`.
 
 use std::path::Path;
 
@@ -27,10 +27,10 @@ use crate::replace_file;
 use crate::vtu::read::VtuFile;
 use crate::vtu::{self, Cell, Field, UnstructuredGrid};
 
-/// Files that are written beside the results of a run of a solid.
+/// Names of the files of cracks beside the results of a run of a solid.
 pub const SURFACE_FILES: [&str; 4] = ["crack.vtu", "crack.stl", "opened.vtu", "crack_growth.csv"];
 
-/// Writes the surface of a step, and how it grew over all steps; gives the surface.
+/// Writes the surface of a step, and its growth over all steps; returns the surface.
 ///
 /// # Errors
 ///
@@ -57,7 +57,7 @@ pub fn write_surface(
     Ok(surface)
 }
 
-/// Writes the surface and the opened cells of every stored step as series; gives the number of steps.
+/// Writes the surfaces and the opened cells of all stored steps as series; returns the number of steps.
 ///
 /// # Errors
 ///
@@ -83,14 +83,14 @@ pub fn write_series(folder: &Path, cracks: &SolidCracks) -> Result<usize, Error>
     Ok(outputs.files.len())
 }
 
-/// The stored fields of a step, or of the last one before it that has some.
+/// The stored fields of a step, or of the last step before it with fields.
 fn fields_until(folder: &Path, step: usize) -> Result<Option<VtuFile>, Error> {
     let outputs = Outputs::list(folder)?;
     let path = outputs.files.range(..=step).next_back();
     path.map(|(_, path)| VtuFile::open(path)).transpose()
 }
 
-/// Writes the surface with its fields; no file without triangles, which readers would refuse.
+/// Writes the surface with its fields; without triangles, which readers would refuse, no file.
 fn write_grid(
     path: &Path,
     cracks: &SolidCracks,
@@ -144,7 +144,7 @@ fn write_grid(
     vtu::write_vtu(path, &grid)
 }
 
-/// The surface as binary STL: 80 bytes of words, the number of triangles, and of each its normal and corners as single numbers.
+/// The surface as binary STL: 80 bytes of text, the number of triangles, and of each its normal and corners in single precision.
 fn stl_of(surface: &CrackSurface) -> Vec<u8> {
     let mut bytes = vec![0; 80];
     let words = b"crack surface, m";
@@ -176,7 +176,7 @@ fn unit_normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
     }
 }
 
-/// Sizes of the surface in the records of the history in which it grew.
+/// Sizes of the surface at the records of the history in which it grew.
 fn sizes(cracks: &SolidCracks) -> Vec<CrackSize<'_>> {
     let surfaces = cracks.grown_records().into_iter();
     let surfaces = surfaces.map(|record| (record, cracks.surface(record.step)));

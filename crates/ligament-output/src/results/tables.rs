@@ -14,10 +14,10 @@ use crate::csv::{Table, Value};
 use crate::folder::ResultFolder;
 use crate::written::Written;
 
-/// The tables that grow with a run.
+/// Names of the tables that grow during a run.
 pub(super) const FILES: [&str; 4] = ["history.csv", "iterations.csv", "breaks.csv", "timings.csv"];
 
-/// The table of the failure criteria.
+/// Name of the table of the failure criteria.
 pub(super) const CRITERIA_FILE: &str = "criteria.csv";
 
 /// Names of the failure criteria in results, each different: a second criterion of the same name ends in -2.
@@ -39,7 +39,7 @@ pub fn labels_of(problem: &Problem) -> Vec<String> {
     criterion_labels(problem.criteria.list.iter().map(|criterion| criterion.name))
 }
 
-/// Writes the table of what each criterion looks at and what happens after its limit.
+/// Writes the table of the criteria's measures and laws after the limit.
 fn write_criteria(
     folder: &ResultFolder,
     problem: &Problem,
@@ -56,7 +56,7 @@ fn write_criteria(
     Ok(())
 }
 
-/// Columns of the history that stages add: the stage, and the factor of each load.
+/// Columns of the history for stages: the stage, and the factor of each load.
 fn stage_columns(problem: &Problem) -> Vec<String> {
     let Some(loads) = problem.loads.course() else {
         return Vec::new();
@@ -67,15 +67,15 @@ fn stage_columns(problem: &Problem) -> Vec<String> {
     std::iter::once(stage.to_owned()).chain(factors).collect()
 }
 
-/// How a table is opened, by its place in [`FILES`] and its columns.
+/// Function that opens a table, given by its index in [`FILES`] and its columns.
 type Opening<'a> = &'a dyn Fn(usize, &[&str]) -> Result<Table, Error>;
 
-/// How far the tables of a run are.
+/// State of the tables of a run in a checkpoint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Progress {
-    /// What was written of each of [`FILES`].
+    /// Length and digest of each of [`FILES`].
     pub(super) of_files: [Written; 4],
-    /// Costs up to the last row of times.
+    /// Costs up to the last row of timings.
     costs: Costs,
 }
 
@@ -93,17 +93,16 @@ pub(super) struct Tables {
     load_factor: f64,
     broken: usize,
     costs_before: Costs,
-    /// Components of the deformation of a bond that a row has.
+    /// Number of components of a bond's deformation in a row.
     n_components: usize,
 }
 
-/// Names of the components of a bond's deformation in results. The relative rotation of the two ends is left out, because no
-/// criterion looks at it.
+/// Names of the components of a bond's deformation in results, without the relative rotation of the ends, which enters no criterion.
 pub fn deformation_names(system: &dyn Bonds) -> &'static [&'static str] {
     told(system.strain_names())
 }
 
-/// The strains that results have of those with these names.
+/// The names of the strains in results, from those of an element.
 pub(super) fn told(names: &'static [&'static str]) -> &'static [&'static str] {
     match names {
         [told @ .., "rotation"] => told,
@@ -140,7 +139,7 @@ pub fn history_row<'a>(record: &StepRecord, view: &View<'a>) -> Vec<Value<'a>> {
     row.extend(closing.map(|column| column.1(record)));
     let layout = view.system.layout();
     let of_groups = record.group_forces.iter().flat_map(|force| {
-        // The forces of a group stand as those of one point.
+        // The resultant of a group has the layout of one point.
         let of_body = layout.of_body().iter();
         of_body.map(move |component| layout.value(0, *component, force))
     });
@@ -149,7 +148,7 @@ pub fn history_row<'a>(record: &StepRecord, view: &View<'a>) -> Vec<Value<'a>> {
     row
 }
 
-/// Names of the columns of the table of breakages of a problem; `tagged` is what the tags of bonds' ends are of: nodes or cells.
+/// Names of the columns of the table of breakages of a problem; `tagged` is the kind of the tags of bonds' ends, nodes or cells.
 pub fn break_columns(problem: &Problem, tagged: &str) -> Vec<String> {
     let breaks = BREAKS.iter().map(|it| it.0.name);
     let strains = deformation_names(&*problem.system).iter().copied();
@@ -161,14 +160,14 @@ pub fn break_columns(problem: &Problem, tagged: &str) -> Vec<String> {
     .collect()
 }
 
-/// Names of the columns of the ends of a bond; `tagged` is what the tags of bonds' ends are of: nodes or cells.
+/// Names of the columns of the ends of a bond; `tagged` is the kind of their tags, nodes or cells.
 pub(super) fn ends(tagged: &str) -> impl Iterator<Item = &'static str> {
     let names = ENDS.iter().map(|it| it.name);
     names.filter(move |it| it.starts_with(tagged))
 }
 
-/// Values of a record in the [columns of the breakages](break_columns): tags of the ends, names of the criteria, and so many
-/// components of the deformation.
+/// Values of a record in the [columns of the breakages](break_columns), from the tags of the ends, the names of the criteria, and the
+/// number of components of the deformation.
 pub fn break_row<'a>(
     record: &BreakRecord,
     ends: [i64; 2],
@@ -185,7 +184,7 @@ pub fn break_row<'a>(
 }
 
 impl Tables {
-    /// Creates the tables; `tagged` is what the tags of bonds' ends are of: nodes or cells.
+    /// Creates the tables; `tagged` is the kind of the tags of bonds' ends, nodes or cells.
     pub(super) fn create(
         folder: &ResultFolder,
         problem: &Problem,
@@ -197,7 +196,7 @@ impl Tables {
         Self::with(problem, tagged, Costs::default(), &create)
     }
 
-    /// The tables of a run that goes on, cut back to where it was.
+    /// The tables of a resumed run, truncated to their state in the checkpoint.
     pub(super) fn cut_back(
         folder: &ResultFolder,
         problem: &Problem,
@@ -211,7 +210,7 @@ impl Tables {
         Self::with(problem, tagged, progress.costs, &cut_back)
     }
 
-    /// How far the tables are; what they have is safely on the disk when this returns.
+    /// Syncs the tables to disk and returns their state.
     pub(super) fn progress(&self) -> Result<Progress, Error> {
         let [history, iterations, breaks, timings] =
             [&self.history, &self.iterations, &self.breaks, &self.timings].map(Table::synced);
@@ -221,7 +220,7 @@ impl Tables {
         })
     }
 
-    /// The tables, each opened so.
+    /// The tables, each opened by `table`.
     fn with(
         problem: &Problem,
         tagged: &str,

@@ -1,7 +1,6 @@
-//! Fields, and their arrays in a VTU file: numbers in blocks compressed by zlib, as base64.
+//! Fields, and their arrays in a VTU file: values in blocks compressed by zlib, as base64.
 //!
-//! Blocks are compressed whole and by all threads. The writer of vtkio hands each number to the compressor by itself,
-//! which takes ten times as long.
+//! Blocks are compressed as a whole and by all threads. The writer of vtkio compresses number by number, which takes ten times as long.
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
@@ -10,27 +9,27 @@ use rayon::prelude::*;
 
 use crate::xml::escape_attribute;
 
-/// Bytes of a block before compression, VTK's default.
+/// Size of a block before compression, VTK's default, bytes.
 const BLOCK_SIZE: usize = 32_768;
 
-/// At 100,000 points level 6 takes 9 times the time of level 1 and saves 1 % of the size.
+/// Compression level of zlib: at 100,000 points level 6 takes 9 times the time of level 1 and saves 1 % of the size.
 const COMPRESSION_LEVEL: u8 = 1;
 
 /// A named field: the same number of values for each point or cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Field<'a> {
-    /// The name readers show, unique among the point fields and among the cell fields.
+    /// Name in readers, unique among the point fields and among the cell fields.
     pub(super) name: &'a str,
     numbers: Numbers<'a>,
-    /// The points or cells in the order of the file; none where they are in it.
+    /// Order of the points or cells in the file; none where it is the present one.
     order: Option<&'a [u32]>,
-    /// Numbers a point or cell.
+    /// Number of values per point or cell.
     n_components: usize,
     /// Names of the components: all of them or none.
     component_names: &'a [&'a str],
 }
 
-/// Numbers of some of the points or cells of a field.
+/// Values of some of the points or cells of a field.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Chosen {
     Double(Vec<f64>),
@@ -53,12 +52,12 @@ impl<'a> Field<'a> {
         Self::new(name, Numbers::Double(values), 1, &[])
     }
 
-    /// A field of numbers of seven digits, in half of the space.
+    /// A field of numbers in single precision (seven digits).
     pub fn single(name: &'a str, values: &'a [f32]) -> Self {
         Self::new(name, Numbers::Single(values), 1, &[])
     }
 
-    /// A field of vectors; planar ones have a third component of 0, which VTK requires.
+    /// A field of vectors; in the plane with a third component of 0, which VTK requires.
     pub fn vector(name: &'a str, values: &'a [[f64; 3]]) -> Self {
         Self::new(name, Numbers::Double(values.as_flattened()), 3, &[])
     }
@@ -68,12 +67,12 @@ impl<'a> Field<'a> {
         Self::new(name, Numbers::Integer(values), 1, &[])
     }
 
-    /// A field of named components, such as those of a stress, one point or cell after the other: shape (n, number of names).
+    /// A field with named components, such as a stress, shape (n, number of names).
     pub fn components(name: &'a str, names: &'a [&'a str], values: &'a [f64]) -> Self {
         Self::new(name, Numbers::Double(values), names.len(), names)
     }
 
-    /// A field of so many numbers a point or cell, shape (n, n_components), whose components have names or not.
+    /// A field with `n_components` components, with or without names, shape (n, n_components).
     pub fn numbers(
         name: &'a str,
         n_components: usize,
@@ -83,17 +82,17 @@ impl<'a> Field<'a> {
         Self::new(name, Numbers::Double(values), n_components, component_names)
     }
 
-    /// Whether the field has a name.
+    /// Whether the field has this name.
     pub(crate) fn is(&self, name: &str) -> bool {
         self.name == name
     }
 
-    /// The field with its points or cells written in an order, if there is one.
+    /// The field with its points or cells written in an order, if given.
     pub fn ordered(self, order: Option<&'a [u32]>) -> Self {
         Self { order, ..self }
     }
 
-    /// A field of small numbers, such as kinds of cells.
+    /// A field of bytes, such as types of cells.
     pub(super) fn bytes(name: &'a str, values: &'a [u8]) -> Self {
         Self::new(name, Numbers::Byte(values), 1, &[])
     }
@@ -113,7 +112,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// The numbers of some points or cells, by their places in the file.
+    /// Values of some points or cells, given by their indices in the file.
     pub(crate) fn at(&self, rows: &[u32]) -> Chosen {
         let taken: Vec<u32>;
         let rows = match self.order {
@@ -136,7 +135,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// The field with other numbers.
+    /// The field with other values.
     pub(crate) fn with<'b>(&self, chosen: &'b Chosen) -> Field<'b>
     where
         'a: 'b,
@@ -165,13 +164,13 @@ impl<'a> Field<'a> {
         count / self.n_components.max(1)
     }
 
-    /// Whether readers take it for a scalar; an index is none.
+    /// Whether readers treat the field as a scalar; integers are not.
     pub(super) fn is_scalar(&self) -> bool {
         let is_float = matches!(self.numbers, Numbers::Double(_) | Numbers::Single(_));
         is_float && self.n_components == 1 && self.component_names.is_empty()
     }
 
-    /// Whether readers take it for a vector.
+    /// Whether readers treat the field as a vector.
     pub(super) fn is_vector(&self) -> bool {
         self.n_components == 3 && self.component_names.is_empty()
     }
@@ -186,12 +185,12 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// The element `PDataArray`, which says what arrays of this field there are in the pieces of a grid.
+    /// The element `PDataArray`, which describes the arrays of this field in the pieces of a grid.
     pub(super) fn outline(&self) -> String {
         format!("<PDataArray{}/>\n", self.attributes())
     }
 
-    /// Type, name and components.
+    /// XML attributes for type, name and components.
     fn attributes(&self) -> String {
         let vtk_type = match self.numbers {
             Numbers::Double(_) => "Float64",
@@ -201,7 +200,7 @@ impl<'a> Field<'a> {
         };
         let name = escape_attribute(self.name);
         let mut attributes = format!(" type=\"{vtk_type}\" Name=\"{name}\"");
-        // meshio gives an array with a number of components, even of 1, a second dimension.
+        // meshio adds a second dimension to any array with a number of components, even 1.
         if self.n_components > 1 {
             attributes.push_str(&format!(" NumberOfComponents=\"{}\"", self.n_components));
         }
@@ -246,10 +245,10 @@ impl<'a> Field<'a> {
     }
 }
 
-/// The number of blocks, the sizes of the first blocks and of the last one before compression, and the size of each
-/// after it, all `UInt64`.
+/// Header of compressed blocks: the number of blocks, the sizes of the first blocks and of the last one before compression, and the size of
+/// each block after it, all `UInt64`.
 ///
-/// Where the last block is a whole one VTK also takes a zero for its size, but vtkio then loses the block.
+/// For a full last block VTK also accepts a size of zero, but vtkio then loses the block.
 fn header(blocks: &[Vec<u8>], n_bytes: usize) -> Vec<u8> {
     let first_blocks = blocks.len().saturating_sub(1) * BLOCK_SIZE;
     let sizes = [blocks.len(), BLOCK_SIZE, n_bytes - first_blocks];

@@ -1,12 +1,12 @@
-//! Grids in pieces, one for each of several processes: a PVTU file and the VTU files that it names.
+//! Grids in pieces, one for each of several processes: a PVTU file that names VTU files.
 //!
 //! | file | holds |
 //! |---|---|
 //! | `NAME.pvtu` | names and kinds of the fields, and the pieces |
 //! | `NAME.piece_R.vtu` | the cells of rank R with their points, and the fields there |
 //!
-//! Points that cells of several pieces have are in all of them. The fields [`POINT_NUMBER`] and [`CELL_NUMBER`] tell where points and
-//! cells stand in the whole grid, counted from 0, so that a reader gets it as one process would have written it.
+//! Points of cells of several pieces are in all of these. The fields [`POINT_NUMBER`] and [`CELL_NUMBER`] are the indices of points and
+//! cells in the whole grid, from 0, so that a reader restores the grid as written by one process.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -19,19 +19,19 @@ use crate::Error;
 use crate::replace_file;
 use crate::xml::escape_attribute;
 
-/// Field of the places of the points in the whole grid.
+/// Field of the indices of the points in the whole grid.
 pub(super) const POINT_NUMBER: &str = "point_number";
 
-/// Field of the places of the cells in the whole grid.
+/// Field of the indices of the cells in the whole grid.
 pub(super) const CELL_NUMBER: &str = "cell_number";
 
-/// Ending of the name of a grid in one file.
+/// File extension of a grid in one file.
 pub const SINGLE: &str = "vtu";
 
-/// Ending of the name of a grid in pieces.
+/// File extension of a grid in pieces.
 pub const IN_PIECES: &str = "pvtu";
 
-/// Name of the file of a grid: in pieces where the body is divided between processes.
+/// Name of the file of a grid, in pieces where the body is divided between processes.
 pub fn file_name(stem: &str, subdomain: &Subdomain) -> String {
     let ending = match subdomain.is_whole() {
         true => SINGLE,
@@ -40,7 +40,7 @@ pub fn file_name(stem: &str, subdomain: &Subdomain) -> String {
     format!("{stem}.{ending}")
 }
 
-/// The stem `NAME` of the name of a grid's file, `NAME.vtu`, `NAME.pvtu` or a piece `NAME.piece_R.vtu`; None for other files.
+/// The stem `NAME` of a grid file `NAME.vtu`, `NAME.pvtu` or a piece `NAME.piece_R.vtu`; `None` for other files.
 pub fn stem(name: &str) -> Option<&str> {
     let (rest, ending) = name.rsplit_once('.')?;
     let of_piece = || {
@@ -59,35 +59,35 @@ fn piece(path: &Path, rank: usize) -> PathBuf {
     path.with_extension(format!("piece_{rank}.vtu"))
 }
 
-/// Cells of a grid, with what tells whose process they are of.
+/// Cells of a grid with their owners.
 #[derive(Clone, Copy)]
 pub struct SharedCells<'a> {
-    /// The points and bonds of the body on this process.
+    /// Subdomain of this process.
     pub subdomain: &'a Subdomain,
-    /// For each cell, the point of the body by which its rank is known (n_cells).
+    /// For each cell, the point of the body whose owner owns the cell, shape (n_cells).
     pub points: &'a [u32],
-    /// What of the whole grid is here.
+    /// Part of the whole grid on this process.
     pub held: Held<'a>,
 }
 
-/// What a process has of a grid that several share.
+/// Part of a grid on one of several processes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Held<'a> {
     /// All points and cells.
     All,
-    /// All points, and cells of its own that have no numbers in the whole grid.
+    /// All points, and owned cells without indices in the whole grid.
     OwnCells,
-    /// Own cells with their points, with their numbers in the whole grid.
+    /// Owned cells with their points, and the indices of both in the whole grid.
     Own {
-        /// Shape (n_points).
+        /// Indices of the points, shape (n_points).
         points: &'a [u32],
-        /// Shape (n_cells).
+        /// Indices of the cells, shape (n_cells).
         cells: &'a [u32],
     },
 }
 
 impl Held<'_> {
-    /// Numbers in the whole grid of a point and of a cell.
+    /// Indices in the whole grid of points and of owned cells.
     fn numbers(self, points: &[u32], own: &[u32]) -> [Vec<i64>; 2] {
         let numbers = |all: Option<&[u32]>, some: &[u32]| {
             let number = |&it: &u32| all.map_or(it, |all| all[it as usize]);
@@ -102,12 +102,12 @@ impl Held<'_> {
     }
 }
 
-/// Writes a grid to `path`, in pieces where the body is divided: then all processes call this, the fields of each are right where its cells are,
-/// and it returns when all have written theirs.
+/// Writes a grid to `path`, in pieces where the body is divided. The call is then collective: each process has right values at its cells,
+/// and it returns when all pieces are written.
 ///
 /// # Errors
 ///
-/// If the grid is none, or a file cannot be written, by this process or another one.
+/// If the grid is invalid, or a file cannot be written, by this process or another one.
 pub fn write_shared(
     path: impl AsRef<Path>,
     grid: &UnstructuredGrid<'_>,

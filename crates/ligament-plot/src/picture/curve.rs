@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use ligament_output::csv::read::Sheet;
-use ligament_output::read_text;
 use ligament_output::results::columns::unit_of;
 use ligament_output::results::outputs::{OutputKind, kind_of, require_results};
 use ligament_output::results::steps::{StepChoice, StepName};
+use ligament_output::summary::{self, Summary};
 
 use super::units::Shown;
 use super::{PictureError, Target, labels_of};
@@ -209,10 +209,8 @@ fn first(folder: &Path, steps: &[usize], points: &[[f64; 2]]) -> Option<(&'stati
 
 /// The load before its first fall, from the summary; a run that was cut short has none.
 fn first_peak(folder: &Path) -> Option<[f64; 2]> {
-    let text = read_text(&folder.join("summary.json")).ok()?;
-    let summary: serde_json::Value = serde_json::from_str(&text).ok()?;
-    let peak = &summary["first_peak"];
-    Some([peak["displacement"].as_f64()?, peak["reaction"].as_f64()?])
+    let peak = summary::read::<Summary>(folder).ok()??.first_peak?;
+    Some([peak.displacement, peak.reaction])
 }
 
 fn known_columns(name: &str, columns: &[String]) -> String {

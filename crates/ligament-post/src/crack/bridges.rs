@@ -1,4 +1,4 @@
-//! Gaps between parts of a crack, closed.
+//! Bridges over the gaps between parts of a crack.
 
 use std::collections::BTreeMap;
 
@@ -9,8 +9,8 @@ use super::faces::distance;
 use super::paths::{Corner, Graph};
 
 impl Graph {
-    /// The graph with straight ways over the gaps between its parts that are no wider than a horizon, the narrowest first, as long as
-    /// they join what is not joined. Parts shorter than half a horizon that lie at no pre-crack are left alone.
+    /// The graph with straight edges over the gaps between its parts that are no wider than a horizon, the narrowest first, as long as they
+    /// connect separate parts. Parts shorter than half a horizon without a pre-crack are left alone.
     pub(super) fn bridged(mut self) -> Self {
         let mut part = vec![None; self.corners.len()];
         for (number, component) in self.components().iter().enumerate() {
@@ -31,14 +31,15 @@ impl Graph {
         self
     }
 
-    /// Whether a connected part lies at a pre-crack, or all its faces are together longer than so many horizons.
+    /// Whether a connected part touches a pre-crack, or its faces are together longer than a number of horizons.
     pub(super) fn is_long(&self, component: &[u32], horizons: f64) -> bool {
         let corners = || component.iter().map(|&it| &self.corners[it as usize]);
         let horizon = corners().map(|it| it.horizon).sum::<f64>() / component.len() as f64;
         corners().any(|it| it.is_cut) || self.extent(component) >= horizons * horizon
     }
 
-    /// Each corner with the nearest one of every other part within a horizon, unless a pre-crack lies at both, by their distance.
+    /// Pairs of a corner and the nearest corner of every other part within a horizon, unless a pre-crack ends at both, by increasing
+    /// distance.
     fn gaps(&self, part: &[Option<usize>]) -> Vec<[u32; 2]> {
         let kept = (0..).zip(&self.corners).zip(part);
         let kept: Vec<_> = kept

@@ -1,45 +1,44 @@
-//! The cells of the points and the faces between them.
+//! Cells of the points and the faces between them.
 
 use std::collections::HashMap;
 
 use ligament_mesh::Cell;
 use ligament_model::Canvas;
 
-/// The faces between the cells of neighbouring points, which cover a body.
+/// The faces between the cells of neighbouring points; the cells cover the body.
 ///
-/// Around a node of a mesh the cell is bounded by lines from the centroids of the mesh's cells to the middles of their edges (the
-/// share of the body that the node stands for); on a lattice it is the square of the point. Squares around points of arrays
-/// have faces only where they fit together.
+/// The cell of a node of a mesh is bounded by lines from the centroids of the mesh's cells to the middles of their edges; on a lattice it is
+/// the square of the point. Squares around points of arrays have faces only where they fit together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Faces {
-    /// Places where faces end, m.
+    /// End points of the faces, m.
     pub(super) corners: Vec<[f64; 2]>,
-    /// Whether a corner lies on the outline of the body, shape (n_corners).
+    /// Whether each corner lies on the outline of the body, shape (n_corners).
     pub(super) is_outside: Vec<bool>,
     /// The two corners of each face, shape (n_faces).
     pub(super) ends: Vec<[u32; 2]>,
-    /// A place on each face between its corners, where it may bend, shape (n_faces), m.
+    /// Middle of each face between its corners, where the face may bend, shape (n_faces), m.
     pub(super) middle: Vec<[f64; 2]>,
-    /// The two points A < B that each face parts, shape (n_faces), ascending.
+    /// The two points A < B separated by each face, shape (n_faces), ascending.
     points: Vec<[u32; 2]>,
 }
 
 /// State of the bond across a face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
-    /// The points hold together, or were never bonded.
+    /// Unbroken bond, or points that were never bonded.
     Whole,
-    /// A pre-crack parts them: no crack that grew, but cracks start there.
+    /// Bond cut by a pre-crack: not a grown crack, but cracks can start there.
     PreCrack,
-    /// The bond of the points has parted.
+    /// Broken bond.
     Open,
 }
 
-/// Distance within which corners of squares are one, over the side of a square.
+/// Distance over the side of a square within which corners of squares are one corner.
 const ONE_CORNER: f64 = 0.01;
 
 impl Faces {
-    /// The faces of a body in the plane with its points at `positions` (n_points), m; of a solid none, whose cracks are surfaces.
+    /// The faces of a body in the plane with its points at `positions` (n_points), m; none for a solid, whose cracks are surfaces.
     pub fn new(positions: &[[f64; 2]], canvas: &Canvas) -> Self {
         match canvas {
             Canvas::Between(cells) => Self::between_nodes(positions, cells),
@@ -55,17 +54,17 @@ impl Faces {
         self.ends.len()
     }
 
-    /// Whether there are none.
+    /// Whether there is no face.
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }
 
-    /// The face between the cells of two points; None where they do not meet.
+    /// The face between the cells of two points; `None` where the cells do not touch.
     pub fn between(&self, [a, b]: [u32; 2]) -> Option<usize> {
         self.points.binary_search(&[a.min(b), a.max(b)]).ok()
     }
 
-    /// Points A < B that each face parts, shape (n_faces).
+    /// Points A < B separated by each face, shape (n_faces).
     pub fn points(&self) -> &[[u32; 2]] {
         &self.points
     }
@@ -126,7 +125,7 @@ impl Faces {
     }
 }
 
-/// Faces as they are found: points, corners, middle.
+/// Unsorted faces: points, corners, middle.
 #[derive(Default)]
 struct Unsorted(Vec<([u32; 2], [u32; 2], [f64; 2])>);
 
@@ -151,12 +150,12 @@ impl Unsorted {
 #[derive(Default)]
 struct Corners {
     places: Vec<[f64; 2]>,
-    /// Numbers of the corners in squares of the plane of the size that decides what is one.
+    /// Numbers of the corners by cells of a grid of the merging distance.
     found: HashMap<[i64; 2], u32>,
 }
 
 impl Corners {
-    /// The number of a corner of a square with some side.
+    /// Number of a corner of a square with a given side.
     fn number(&mut self, corner: [f64; 2], side: f64) -> u32 {
         let width = ONE_CORNER * side;
         let [x, y] = corner.map(|it| (it / width).floor() as i64);

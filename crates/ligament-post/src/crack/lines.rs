@@ -1,4 +1,4 @@
-//! Lines along the open faces.
+//! Crack lines along the open faces.
 
 use std::collections::HashMap;
 
@@ -9,27 +9,27 @@ use super::smooth::smooth;
 /// A crack, or a branch of one, as a line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CrackLine {
-    /// Places along the line, two or more, m.
+    /// Positions along the line, two or more, m.
     pub places: Vec<[f64; 2]>,
-    /// Where the line begins and where it ends.
+    /// Kinds of the first and the last end of the line.
     pub ends: [CrackEnd; 2],
 }
 
-/// Where a line ends.
+/// Kind of the end of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CrackEnd {
-    /// In the body: from here the crack can grow.
+    /// Tip in the body, from which the crack can grow.
     Tip,
-    /// At the outline of the body or of a hole.
+    /// End at the outline of the body or of a hole.
     Outline,
-    /// At a pre-crack.
+    /// End at a pre-crack.
     PreCrack,
-    /// At another line, from which it branches off.
+    /// Junction with another line, from which this one branches off.
     Junction,
 }
 
 impl CrackEnd {
-    /// The word for it in files.
+    /// Keyword of the kind in files.
     pub fn word(self) -> &'static str {
         match self {
             Self::Tip => "tip",
@@ -47,7 +47,7 @@ impl CrackLine {
         pairs.map(|pair| distance(pair[0], pair[1])).sum()
     }
 
-    /// Length of the line up to each of its places, m.
+    /// Arc length at each position of the line, m.
     pub fn along(&self) -> Vec<f64> {
         let pairs = self.places.windows(2);
         let steps = pairs.map(|pair| distance(pair[0], pair[1]));
@@ -58,7 +58,7 @@ impl CrackLine {
         std::iter::once(0.0).chain(sums).collect()
     }
 
-    /// The tips, m: none, one or two.
+    /// Positions of the tips, m: none, one or two.
     pub fn tips(&self) -> impl Iterator<Item = [f64; 2]> {
         let places = [self.places.first(), self.places.last()];
         let ends = places.into_iter().flatten().zip(self.ends);
@@ -67,8 +67,8 @@ impl CrackLine {
     }
 }
 
-/// The cracks of a body whose faces are in some states (n_faces), with the horizons of its points (n_points), m: the longest
-/// line of each connected part before its branches, in the order of the faces.
+/// Cracks of a body, from the states of its faces (n_faces) and the horizons of its points (n_points), m: the longest line of each connected
+/// part before its branches, in the order of the faces.
 pub fn crack_lines(faces: &Faces, parts: &[Part], horizon: &[f64]) -> Vec<CrackLine> {
     let graph = Graph::new(faces, parts, horizon).bridged();
     let lines_of = |component: Vec<u32>| {
@@ -81,14 +81,14 @@ pub fn crack_lines(faces: &Faces, parts: &[Part], horizon: &[f64]) -> Vec<CrackL
     graph.components().into_iter().flat_map(lines_of).collect()
 }
 
-/// Finds the lines of a connected part of the open faces.
+/// Traces the lines of a connected part of the open faces.
 struct Tracer<'a> {
     graph: &'a Graph,
     component: Vec<u32>,
 }
 
 impl Tracer<'_> {
-    /// The lines of the part: none where it is no crack.
+    /// Lines of the part; none where it is no crack.
     fn lines(&self) -> Vec<CrackLine> {
         if !self.graph.is_long(&self.component, 1.0) {
             return Vec::new();
@@ -101,7 +101,7 @@ impl Tracer<'_> {
         if is_crack { lines } else { Vec::new() }
     }
 
-    /// The ways that lines take, one or more.
+    /// Paths of the lines, one or more.
     fn ways(&self) -> Vec<Way> {
         let longest_path = self.longest_path();
         let mut apart = self.component.clone();
@@ -127,8 +127,8 @@ impl Tracer<'_> {
         ways
     }
 
-    /// The shortest way between two corners far from each other, with its ends drawn to a pre-crack or the outline nearby; from a
-    /// pre-crack where there is one.
+    /// The shortest path between two corners far from each other, with its ends moved to a pre-crack or the outline nearby; from a pre-crack
+    /// where there is one.
     fn longest_path(&self) -> Way {
         let is_cut = |&&it: &&u32| self.corner(it).is_cut;
         let mut starts: Vec<u32> = self.component.iter().filter(is_cut).copied().collect();
@@ -144,9 +144,8 @@ impl Tracer<'_> {
         self.graph.way_to(&from_end, start).reversed()
     }
 
-    /// The end of a line at a pre-crack within the horizon of a corner, of several the one with the shortest of some ways from the
-    /// `other` end; or else at the outline, nearest to the corner; or else the corner itself. A horizon around the other end is
-    /// left out.
+    /// End corner of a line near a corner: at a pre-crack within the horizon, of several the one on the shortest path from the `other` end;
+    /// or else at the outline, nearest to the corner; or else the corner itself. Corners within a horizon of the other end are left out.
     fn drawn(&self, corner: u32, other: u32, from_other: &ShortestPaths) -> u32 {
         let reach = self.corner(corner).horizon;
         let from_here = self.graph.ways_from(&[corner]);
@@ -164,7 +163,7 @@ impl Tracer<'_> {
         at_cut.or_else(at_outline).unwrap_or(corner)
     }
 
-    /// Leaves of some corners those that are farther than a horizon from a way.
+    /// Removes from some corners those within a horizon of a path.
     fn cover(&self, apart: &mut Vec<u32>, way: &Way) {
         let is_near = |it: u32| {
             let reach = self.corner(it).horizon;
@@ -173,7 +172,7 @@ impl Tracer<'_> {
         apart.retain(|&it| !is_near(it));
     }
 
-    /// Smooth lines along the ways: a branch begins on the smooth line that it branches off from.
+    /// Smooth lines along the paths: a branch begins on the smooth line that it branches off from.
     fn smoothed(&self, ways: &[Way]) -> Vec<CrackLine> {
         let mut places_of: HashMap<u32, [f64; 2]> = HashMap::new();
         let mut lines = Vec::new();
@@ -214,7 +213,7 @@ impl Tracer<'_> {
     }
 }
 
-/// The one of some corners, one or more, with the largest value, the first of several.
+/// The corner with the largest value among one or more, the first of several.
 fn farthest(corners: &[u32], value: impl Fn(u32) -> f64) -> u32 {
     let farther = |best: u32, corner: u32| {
         if value(corner) > value(best) {

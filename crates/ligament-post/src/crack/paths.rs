@@ -1,26 +1,26 @@
-//! The graph of the open faces, and shortest ways in it.
+//! Graph of the open faces, and shortest paths in it.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::faces::{Faces, Part, distance};
 
-/// The open faces as ways between their corners.
+/// Open faces as edges between their corners.
 pub(super) struct Graph {
-    /// The corners, in the order of those of the faces.
+    /// Corners, in the order of those of the faces.
     pub(super) corners: Vec<Corner>,
     ways: Vec<OpenFace>,
 }
 
-/// A place where open faces end.
+/// A corner at which open faces end.
 pub(super) struct Corner {
     /// Position, m.
     pub(super) place: [f64; 2],
-    /// Mean horizon of the points around, m: finer than that a crack is not told.
+    /// Mean horizon of the points around the corner, m: the resolution of the crack.
     pub(super) horizon: f64,
-    /// Whether a face that a pre-crack parts ends here.
+    /// Whether a face cut by a pre-crack ends here.
     pub(super) is_cut: bool,
-    /// Whether it lies on the outline of the body.
+    /// Whether the corner lies on the outline of the body.
     pub(super) is_outside: bool,
     /// Open faces that end here, ascending.
     open: Vec<u32>,
@@ -29,40 +29,40 @@ pub(super) struct Corner {
 struct OpenFace {
     ends: [u32; 2],
     middle: [f64; 2],
-    /// Length by way of the middle, m.
+    /// Length via the middle of the face, m.
     length: f64,
 }
 
-/// Shortest ways from some corners to all others.
+/// Shortest paths from some corners to all others.
 pub(super) struct ShortestPaths {
-    /// Length of the way to each corner, m; infinite where there is none.
+    /// Length of the path to each corner, m; infinite where there is none.
     pub(super) length: Vec<f64>,
-    /// The face by which the way comes to each corner.
+    /// Last face of the path to each corner.
     by: Vec<Option<u32>>,
 }
 
-/// A way along open faces.
+/// A path along open faces.
 pub(super) struct Way {
-    /// Corners from its start to its end, one or more.
+    /// Corners from start to end, one or more.
     pub(super) corners: Vec<u32>,
-    /// Places of corners and, between two of them, of the middle of their face, m.
+    /// Positions of corners and, between two of them, of the middle of their face, m.
     pub(super) places: Vec<[f64; 2]>,
 }
 
 impl Way {
-    /// This way from its end to its start.
+    /// The path from its end to its start.
     pub(super) fn reversed(mut self) -> Self {
         self.corners.reverse();
         self.places.reverse();
         self
     }
 
-    /// The corners at its start and its end.
+    /// Corners at the start and the end.
     pub(super) fn ends(&self) -> [u32; 2] {
         [self.corners[0], self.corners[self.corners.len() - 1]]
     }
 
-    /// Makes the way longer by one that starts at one of its ends.
+    /// Extends the path by one that starts at one of its ends.
     pub(super) fn append(&mut self, other: Self) {
         let [start, end] = self.ends();
         let root = other.corners[0];
@@ -76,7 +76,7 @@ impl Way {
 }
 
 impl Graph {
-    /// The graph of faces in some states (n_faces), of points with horizons (n_points), m.
+    /// The graph of faces with given states (n_faces), for the horizons of the points (n_points), m.
     pub(super) fn new(faces: &Faces, parts: &[Part], horizon: &[f64]) -> Self {
         let mut is_cut = vec![false; faces.corners.len()];
         let mut numbers = vec![u32::MAX; faces.corners.len()];
@@ -124,7 +124,7 @@ impl Graph {
         Self { corners, ways }
     }
 
-    /// Joins two corners by a straight way.
+    /// Connects two corners by a straight edge.
     pub(super) fn bridge(&mut self, ends: [u32; 2]) {
         let [a, b] = ends.map(|it| self.corners[it as usize].place);
         for end in ends {
@@ -137,7 +137,7 @@ impl Graph {
         });
     }
 
-    /// The corners by connected parts, both in the order of their numbers.
+    /// Corners by connected parts, both in the order of their numbers.
     pub(super) fn components(&self) -> Vec<Vec<u32>> {
         let mut is_found = vec![false; self.corners.len()];
         let mut components = Vec::new();
@@ -171,13 +171,13 @@ impl Graph {
             .sum()
     }
 
-    /// The shortest ways from some corners; of ways of one length that by the corner with the lower number.
+    /// Shortest paths from some corners; of paths of equal length that through the corner with the lower number.
     pub(super) fn ways_from(&self, starts: &[u32]) -> ShortestPaths {
         let mut ways = ShortestPaths {
             length: vec![f64::INFINITY; self.corners.len()],
             by: vec![None; self.corners.len()],
         };
-        // Lengths are not negative, so that their bits stand in the same order.
+        // Lengths are not negative, so that their bits have the same order.
         let mut front = BinaryHeap::new();
         for &start in starts {
             ways.length[start as usize] = 0.0;
@@ -201,7 +201,7 @@ impl Graph {
         ways
     }
 
-    /// The way to a corner from its start.
+    /// The path to a corner from its start.
     pub(super) fn way_to(&self, ways: &ShortestPaths, end: u32) -> Way {
         let mut corners = vec![end];
         let mut places = vec![self.corners[end as usize].place];

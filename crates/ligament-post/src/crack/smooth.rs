@@ -2,7 +2,7 @@
 
 use super::faces::distance;
 
-/// Each place of a line replaced by the mean of the line within `reach` (m) on both sides, less near its ends, which stay.
+/// Replaces each position of a line by the mean of the line within `reach` (m) on both sides, less near its ends, which are fixed.
 ///
 /// With p(s) the line by its arc length s from 0 to L: p'(s) = 1/(2 w) integral of p from s - w to s + w, w = min(reach, s, L - s).
 pub(super) fn smooth(line: &[[f64; 2]], reach: f64) -> Vec<[f64; 2]> {
@@ -34,7 +34,7 @@ pub(super) fn smooth(line: &[[f64; 2]], reach: f64) -> Vec<[f64; 2]> {
     (0..line.len()).map(mean).collect()
 }
 
-/// The place at arc length `s` on the segment that ends at `next`.
+/// Position at arc length `s` on the segment that ends at `next`.
 fn on_segment(line: &[[f64; 2]], arc: &[f64], next: usize, s: f64) -> [f64; 2] {
     let length = arc[next] - arc[next - 1];
     let share = if length > 0.0 {

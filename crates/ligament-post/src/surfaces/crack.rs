@@ -1,4 +1,4 @@
-//! The surface between the sides of tetrahedra.
+//! Crack surface between the sides of tetrahedra.
 
 use std::collections::HashMap;
 
@@ -10,19 +10,19 @@ use super::surface::CrackSurface;
 use super::tetrahedra::{EDGES, Tetrahedra};
 use super::{Link, measures};
 
-/// No node: what follows the nodes of a place.
+/// Number of no node, which fills the key of a place behind its nodes.
 const NONE: u32 = u32::MAX;
 
-/// The surface as it is found.
+/// State of the search for the surface.
 struct Finder<'a> {
     tetrahedra: &'a Tetrahedra,
     links: &'a Links,
     surface: CrackSurface,
-    /// Places by the nodes that they lie between.
+    /// Numbers of the places by the nodes between which they lie.
     found: HashMap<[u32; 4], u32>,
 }
 
-/// The surface between the sides of tetrahedra, with what connects their points. See [the rules](super).
+/// The surface between the sides of tetrahedra, for the links of their points. See [the rules](super).
 pub fn crack_surface(tetrahedra: &Tetrahedra, links: &Links) -> CrackSurface {
     let with_detached_points_assigned = with_detached_points_assigned(tetrahedra, links);
     let mut finder = Finder {
@@ -40,8 +40,7 @@ pub fn crack_surface(tetrahedra: &Tetrahedra, links: &Links) -> CrackSurface {
     measures::completed(finder.surface)
 }
 
-/// Polygons between the sides of a tetrahedron: the places of their corners, each the middle of some corners of the tetrahedron, with
-/// the two sides.
+/// Polygons between the sides of a tetrahedron: their corners, each the middle of some corners of the tetrahedron, with the two sides.
 pub(super) fn interfaces(sides: [u8; 4]) -> Vec<([u8; 2], Vec<Vec<usize>>)> {
     let count = sides.iter().max().map_or(0, |it| it + 1);
     let corners_of = |side: u8| (0..4).filter(move |corner| sides[*corner] == side);
@@ -94,7 +93,7 @@ impl Finder<'_> {
         }
     }
 
-    /// Whether all that was cut between two sides of a tetrahedron was cut by a pre-crack.
+    /// Whether all cut edges between two sides of a tetrahedron were cut by a pre-crack.
     fn is_precrack(&self, corners: &[u32; 4], sides: [u8; 4], between: [u8; 2]) -> bool {
         let crossing = EDGES.into_iter().filter(|[a, b]| {
             let of_ends = [sides[*a], sides[*b]];
@@ -111,7 +110,7 @@ impl Finder<'_> {
         dot(way, way)
     }
 
-    /// The place in the middle of some corners of a tetrahedron.
+    /// Number of the place in the middle of some corners of a tetrahedron.
     fn place(&mut self, corners: &[u32; 4], of: &[usize], sides: [u8; 4]) -> u32 {
         let mut key = [NONE; 4];
         for (entry, corner) in key.iter_mut().zip(of) {
@@ -123,7 +122,7 @@ impl Finder<'_> {
         }
         let nodes = &self.tetrahedra.nodes;
         let middle = [0, 1, 2].map(|axis| {
-            // In the order of the nodes, so that the sum is the same from any tetrahedron.
+            // Summed in the order of the nodes, so that the result is the same from any tetrahedron.
             let all = key.iter().filter(|node| **node != NONE);
             let sum = all.map(|node| nodes[*node as usize][axis]).sum::<f64>();
             sum / of.len() as f64

@@ -4,11 +4,11 @@ use std::collections::HashMap;
 
 use super::tetrahedra::Tetrahedra;
 
-/// Difference of sides and places, relative to a side, up to which boxes fit together.
+/// Difference of sides and positions, relative to a side, up to which boxes fit together.
 const SAME: f64 = 0.01;
 
-/// Corners of the tetrahedra of a cube, six about its diagonal (H. W. Kuhn, Some combinatorial lemmas in topology, 1960), as
-/// numbers whose bits are the steps along x, y and z: the cubes beside each other split their faces alike.
+/// Corners of the six tetrahedra of a cube about its diagonal (H. W. Kuhn, Some combinatorial lemmas in topology, 1960), as numbers whose
+/// bits are the steps along x, y and z: adjacent cubes split their common face alike.
 const KUHN: [[usize; 4]; 6] = [
     [0, 1, 3, 7],
     [0, 5, 1, 7],
@@ -18,7 +18,7 @@ const KUHN: [[usize; 4]; 6] = [
     [0, 6, 4, 7],
 ];
 
-/// Nodes as they are found, by the place of a box in the lattice that would be there and the point that it stands for.
+/// Nodes by the lattice position of a box, possibly a missing one, and the point of the node.
 #[derive(Default)]
 struct Nodes {
     found: HashMap<([i64; 3], u32), u32>,
@@ -26,7 +26,7 @@ struct Nodes {
     points: Vec<u32>,
 }
 
-/// Boxes by their places in a lattice.
+/// Boxes by their lattice positions.
 struct Places {
     of_boxes: Vec<[i64; 3]>,
     boxes: HashMap<[i64; 3], u32>,
@@ -34,9 +34,9 @@ struct Places {
     sides: [f64; 3],
 }
 
-/// The tetrahedra of the cubes between the middles of eight boxes; none where the boxes are of different size or make no lattice.
+/// The tetrahedra of the cubes between the middles of eight boxes; none where the boxes are of different size or form no lattice.
 ///
-/// Where a box is missing around a corner, at the outside of the body, a node on the face of a box beside it stands in its place.
+/// Where a box around a corner is missing, at the outside of the body, a node on the face of an adjacent box replaces its middle.
 pub(super) fn between_boxes(boxes: &[[[f64; 3]; 2]]) -> Tetrahedra {
     let Some(places) = Places::new(boxes) else {
         return Tetrahedra::default();
@@ -64,7 +64,7 @@ pub(super) fn between_boxes(boxes: &[[[f64; 3]; 2]]) -> Tetrahedra {
     }
 }
 
-/// A place, a step along the axes of a number's bits.
+/// A lattice position moved by a step along each axis whose bit is set.
 fn stepped(place: [i64; 3], steps: usize, by: i64) -> [i64; 3] {
     std::array::from_fn(|axis| place[axis] + by * (steps >> axis & 1) as i64)
 }
@@ -100,10 +100,10 @@ impl Places {
 }
 
 impl Nodes {
-    /// The node at a corner of a cube with its lowest box at a place.
+    /// Node at a corner of a cube whose lowest box has a given position.
     fn at(&mut self, places: &Places, low: [i64; 3], corner: usize) -> u32 {
         let place = stepped(low, corner, 1);
-        // The nearest box of the cube, along as few axes as can be.
+        // Nearest box of the cube, along as few axes as possible.
         let mut away: Vec<usize> = (0..8).collect();
         away.sort_by_key(|steps: &usize| (steps.count_ones(), *steps));
         let mut boxes = away.into_iter().filter_map(|steps| {

@@ -1,4 +1,4 @@
-//! Where a field of the nodes of tetrahedra has a value.
+//! Level sets of fields at the nodes of tetrahedra.
 
 use std::collections::HashMap;
 
@@ -7,16 +7,16 @@ use super::tetrahedra::EDGES;
 /// A surface on which a field has one value.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LevelSet {
-    /// Places on edges between nodes, shape (n_places): the nodes, the lower one first, and the share of the way to the second.
+    /// Positions on edges between nodes, shape (n_places): the nodes, the lower one first, and the fraction of the way to the second.
     pub places: Vec<([u32; 2], f64)>,
-    /// Corners of the triangles, counter-clockwise seen from where the field is larger, shape (n_triangles).
+    /// Corners of the triangles, counter-clockwise seen from the larger values of the field, shape (n_triangles).
     pub triangles: Vec<[u32; 3]>,
-    /// The tetrahedron of each triangle, shape (n_triangles), ascending.
+    /// Tetrahedron of each triangle, shape (n_triangles), ascending.
     pub tetrahedra: Vec<u32>,
 }
 
-/// The surface on which a field, linear between the `values` (n_nodes) at the corners of tetrahedra, has a value: marching tetrahedra
-/// (A. Doi and A. Koide, IEICE Transactions E74, 1991). Values at the level count as above it, what is no number as below.
+/// The surface on which a field, linear between the `values` (n_nodes) at the corners of tetrahedra, has a value, by marching tetrahedra (A.
+/// Doi and A. Koide, IEICE Transactions E74, 1991). Values at the level count as above it, NaN as below.
 pub fn level_set(corners: &[[u32; 4]], values: &[f64], level: f64) -> LevelSet {
     let mut found: HashMap<[u32; 2], u32> = HashMap::new();
     let mut surface = LevelSet::default();
@@ -58,8 +58,8 @@ pub fn level_set(corners: &[[u32; 4]], values: &[f64], level: f64) -> LevelSet {
     surface
 }
 
-/// Whether the triangles between corners, in the order in which they are named, go clockwise seen from above the level, in a
-/// tetrahedron of positive volume: where the corners above and then those below are an even permutation of all.
+/// Whether the triangles between corners, in the given order, are clockwise seen from above the level, in a tetrahedron of positive volume:
+/// where the corners above and then those below are an even permutation of all.
 fn is_turned(above: &[usize], below: &[usize]) -> bool {
     let order: Vec<usize> = above.iter().chain(below).copied().collect();
     let swaps = EDGES.iter().filter(|[a, b]| order[*a] > order[*b]);

@@ -1,4 +1,4 @@
-//! Points that lie in a crack.
+//! Points whose edges are all cut, which lie in a crack.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
@@ -7,20 +7,20 @@ use ligament_model::tensor::{minus, norm};
 use super::sides::{Link, Links};
 use super::tetrahedra::{EDGES, Tetrahedra};
 
-/// The points beside a loose one that are on one side of it.
+/// Neighbours of a detached point (all edges cut) on one side of it.
 #[derive(Debug, Default)]
 struct Side {
     points: Vec<u32>,
-    /// Points among them that were loose and counted to a side.
+    /// Number of them that were detached and already assigned to a side.
     counted: usize,
-    /// Distance of the nearest one.
+    /// Distance of the nearest one, m.
     nearest: f64,
 }
 
-/// The links with every point whose edges are all cut counted to one of its sides, where it has one.
+/// The links after every detached point, whose edges are all cut, is assigned to one of its sides, where it has one.
 ///
-/// Points are taken in the order of their numbers, and after each one its loose neighbours. The side is the one with most points
-/// that were counted before, then the one with the nearest point, then the one with the lowest point.
+/// Points are processed in the order of their numbers, each followed by its detached neighbours. The side is the one with most points assigned
+/// before, then the one with the nearest point, then the one with the lowest point.
 pub(super) fn with_detached_points_assigned(tetrahedra: &Tetrahedra, links: &Links) -> Links {
     let mut links = links.clone();
     let mut loose = detached_points(tetrahedra, &links);
@@ -58,14 +58,14 @@ pub(super) fn with_detached_points_assigned(tetrahedra: &Tetrahedra, links: &Lin
                 queue.extend(corners.map(|node| tetrahedra.points[node as usize]));
             }
         }
-        // What has loose neighbours alone has no side.
+        // Points with only detached neighbours have no side.
         if loose.is_empty() || loose.len() == before {
             return links;
         }
     }
 }
 
-/// Points with cut edges, and none that is whole.
+/// Points with cut edges and without whole edges.
 fn detached_points(tetrahedra: &Tetrahedra, links: &Links) -> BTreeSet<u32> {
     let mut has_whole = tetrahedra.held.clone();
     let mut cut = BTreeSet::new();
@@ -85,7 +85,7 @@ fn detached_points(tetrahedra: &Tetrahedra, links: &Links) -> BTreeSet<u32> {
     cut
 }
 
-/// The side that a loose point with the tetrahedra near it is counted to.
+/// The side to which a detached point is assigned, from the tetrahedra around it.
 fn side_of(
     tetrahedra: &Tetrahedra,
     links: &Links,
@@ -133,7 +133,7 @@ fn side_of(
         of.counted += usize::from(counted.contains(other));
         of.nearest = of.nearest.min(distance[other]);
     }
-    // The first of equals, which has the lowest point.
+    // The first of equal sides, which has the lowest point.
     sides.into_values().reduce(|best, it| {
         let order = (it.counted.cmp(&best.counted)).then(best.nearest.total_cmp(&it.nearest));
         if order.is_gt() { it } else { best }

@@ -10,15 +10,15 @@ use super::surface::CrackSurface;
 /// A connected part of a crack.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfacePart {
-    /// Area without what a pre-crack cut, m^2.
+    /// Area without pre-cracks, m^2.
     pub area: f64,
-    /// Area that a pre-crack cut, m^2.
+    /// Area of pre-cracks, m^2.
     pub precrack: f64,
     /// Lowest and highest coordinates, m.
     pub extent: [[f64; 3]; 2],
 }
 
-/// The plane that triangles lie nearest to, by least squares over their area.
+/// Best plane through triangles, by least squares over their area.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BestPlane {
     /// Centre of the area, m.
@@ -35,7 +35,7 @@ impl CrackSurface {
         norm(area_vector(&self.places, self.triangles[triangle]))
     }
 
-    /// Area of all but pre-cracks, m^2.
+    /// Area without pre-cracks, m^2.
     pub fn area(&self) -> f64 {
         let grown = (0..self.triangles.len()).filter(|it| !self.is_precrack[*it]);
         grown
@@ -43,7 +43,7 @@ impl CrackSurface {
             .fold(0.0, |sum, area| sum + area)
     }
 
-    /// The connected parts, in the order of their numbers.
+    /// Connected parts, in the order of their numbers.
     pub fn parts(&self) -> Vec<SurfacePart> {
         let count = self.part.iter().max().map_or(0, |it| *it as usize + 1);
         let nothing = SurfacePart {
@@ -70,7 +70,7 @@ impl CrackSurface {
         parts
     }
 
-    /// The best plane through all but pre-cracks; None without any.
+    /// Best plane through the surface without pre-cracks; `None` for an empty surface.
     pub fn best_plane(&self) -> Option<BestPlane> {
         let grown = || (0..self.triangles.len()).filter(|it| !self.is_precrack[*it]);
         let middle = |triangle: usize| {
@@ -109,13 +109,13 @@ impl CrackSurface {
     }
 }
 
-/// Half of the vector product of two sides of a triangle: its area along its normal.
+/// Half of the vector product of two sides of a triangle: its area times its unit normal, m^2.
 pub(super) fn area_vector(places: &[[f64; 3]], triangle: [u32; 3]) -> [f64; 3] {
     let [a, b, c] = triangle.map(|it| places[it as usize]);
     cross(minus(b, a), minus(c, a)).map(|it| 0.5 * it)
 }
 
-/// The surface with its triangles turned alike over edges of two, and with its parts.
+/// The surface with its triangles oriented alike over edges of two triangles, and with its parts.
 pub(super) fn completed(mut surface: CrackSurface) -> CrackSurface {
     turn_alike(&mut surface.triangles);
     surface.part = parts(&surface);
@@ -126,12 +126,12 @@ fn ascending([a, b]: [u32; 2]) -> [u32; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// The directed sides of a triangle.
+/// Directed sides of a triangle.
 fn directed([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
     [[a, b], [b, c], [c, a]]
 }
 
-/// Turns triangles so that two at an edge go along it in opposite directions, from the first of each part on.
+/// Orients triangles so that two at an edge run along it in opposite directions, beginning with the first of each part.
 fn turn_alike(triangles: &mut [[u32; 3]]) {
     let mut at: HashMap<[u32; 2], Vec<u32>> = HashMap::new();
     for (number, triangle) in (0..).zip(triangles.iter()) {
@@ -163,7 +163,7 @@ fn turn_alike(triangles: &mut [[u32; 3]]) {
     }
 }
 
-/// Number of the connected part of each triangle: those with a place in common; the largest first, then the first.
+/// Number of the connected part of each triangle, connected by common places; the largest part first, then the first.
 fn parts(surface: &CrackSurface) -> Vec<u32> {
     let mut lowest: Vec<u32> = (0..surface.places.len() as u32).collect();
     fn root(lowest: &mut [u32], mut place: u32) -> u32 {

@@ -1,4 +1,4 @@
-//! The tetrahedra of a body.
+//! Tetrahedra of a body.
 
 use ligament_model::{BodyGrid, Canvas};
 
@@ -6,7 +6,7 @@ use super::lattice;
 use super::tetrahedra::Tetrahedra;
 
 impl Tetrahedra {
-    /// The tetrahedra of a body; none in the plane, and of boxes that do not fit together.
+    /// The tetrahedra of a body; none in the plane, or for boxes that do not fit together.
     pub fn new(grid: &BodyGrid) -> Self {
         match &grid.canvas {
             Canvas::Solid(cells) => {

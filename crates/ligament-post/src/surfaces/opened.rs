@@ -1,4 +1,4 @@
-//! Cells in pieces that belong to the sides of a crack.
+//! Cells cut into pieces on the sides of a crack.
 
 use std::collections::HashMap;
 
@@ -9,24 +9,24 @@ use super::pieces::{pieces, solid};
 use super::sides::{Links, sides};
 use super::tetrahedra::Tetrahedra;
 
-/// Cells that no crack goes through, and pieces of those that it does.
+/// Cells without a crack, and pieces of the cells cut by a crack.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct OpenedCells {
-    /// What each corner of the cells follows, shape (n_corners): the mean of some points.
+    /// Points whose mean displacement each corner of the cells has, shape (n_corners).
     pub follows: Vec<Vec<u32>>,
     /// Positions of the corners, shape (n_corners), m.
     pub positions: Vec<[f64; 3]>,
     /// Cells between the corners.
     pub cells: Vec<SolidCell>,
-    /// The cell of the mesh of each, shape (n_cells).
+    /// Cell of the mesh that contains each cell or piece, shape (n_cells).
     pub of: Vec<u32>,
 }
 
-/// Corners of pieces by the points between which they lie, and those of their side.
+/// Numbers of corners of pieces by the points between which they lie, and those of their side.
 type Found = HashMap<(Vec<u32>, Vec<u32>), u32>;
 
-/// The cells of a mesh, cut where the crack goes through their tetrahedra: each piece belongs to one side, and its corners on the
-/// crack follow the points of that side. `tetrahedra` are those in which something is cut, of all cells.
+/// The cells of a mesh, cut where the crack passes through their tetrahedra: each piece belongs to one side, and its corners on the crack
+/// follow the points of that side. `tetrahedra` are those with a cut edge, of all cells.
 pub fn opened_cells(
     (positions, cells): (&[[f64; 3]], &[SolidCell]),
     tetrahedra: &Tetrahedra,
@@ -70,7 +70,7 @@ pub fn opened_cells(
 }
 
 impl OpenedCells {
-    /// The corner of a piece in the middle of some corners of a tetrahedron, which follows those of them on a side.
+    /// Corner of a piece in the middle of some corners of a tetrahedron, which follows those of them on a side.
     fn corner(
         &mut self,
         corners: &[u32; 4],

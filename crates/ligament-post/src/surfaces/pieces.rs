@@ -1,4 +1,4 @@
-//! The pieces of a tetrahedron on the sides of a crack.
+//! Pieces of a tetrahedron on the sides of a crack.
 
 use ligament_mesh::SolidCell;
 
@@ -10,7 +10,7 @@ pub(super) struct Piece {
     pub(super) corners: Vec<Vec<usize>>,
 }
 
-/// The pieces of a tetrahedron whose corners are on these sides.
+/// The pieces of a tetrahedron whose corners are on given sides.
 pub(super) fn pieces(sides: [u8; 4]) -> Vec<Piece> {
     let count = sides.iter().max().map_or(0, |it| it + 1);
     let piece = |number: u8| {
@@ -54,7 +54,7 @@ fn of_two([c, d]: [usize; 2], [a, b]: [usize; 2], sides: [u8; 4]) -> Vec<Vec<usi
 /// The piece of one corner: a tetrahedron where the others are on one side, a prism where they are on two, else a hexahedron.
 fn of_one(a: usize, [x, y, z]: [usize; 3], sides: [u8; 4]) -> Vec<Vec<usize>> {
     let alike = |one: usize, other: usize| sides[one] == sides[other];
-    // Where two of the others are alike, the third stands first.
+    // Where two of the others are on one side, the third stands first.
     let [b, c, d] = match [alike(x, y), alike(y, z), alike(x, z)] {
         [true, true, _] => return vec![vec![a], vec![a, x], vec![a, y], vec![a, z]],
         [true, ..] => [z, x, y],
@@ -76,7 +76,7 @@ fn of_one(a: usize, [x, y, z]: [usize; 3], sides: [u8; 4]) -> Vec<Vec<usize>> {
     ]
 }
 
-/// The cell with these corners, turned so that its volume is positive; None of other numbers of them.
+/// The cell with given corners, oriented to positive volume; `None` for numbers of corners without a cell.
 pub(super) fn solid(corners: &[u32], positions: &[[f64; 3]]) -> Option<SolidCell> {
     let cell = match corners.len() {
         4 => corners.try_into().ok().map(SolidCell::Tetrahedron),
@@ -87,7 +87,7 @@ pub(super) fn solid(corners: &[u32], positions: &[[f64; 3]]) -> Option<SolidCell
     Some(oriented(cell?, positions))
 }
 
-/// The cell turned so that its volume is positive.
+/// The cell oriented to positive volume.
 fn oriented(cell: SolidCell, positions: &[[f64; 3]]) -> SolidCell {
     if cell.volume(positions) >= 0.0 {
         return cell;

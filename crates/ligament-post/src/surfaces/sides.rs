@@ -1,49 +1,49 @@
-//! The sides that the corners of a tetrahedron are on.
+//! Sides of a crack on which the corners of a tetrahedron lie.
 
 use std::collections::HashMap;
 
 use super::tetrahedra::{EDGES, Tetrahedra};
 
-/// What connects two neighbouring points.
+/// Connection of two neighbouring points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Link {
     /// An unbroken bond.
     Whole,
-    /// Nothing: they are farther apart than their horizons.
+    /// No bond: the points are farther apart than their horizons.
     Unbonded,
-    /// A bond that a pre-crack cut.
+    /// Bond cut by a pre-crack.
     PreCrack,
-    /// A bond that parted.
+    /// Broken bond.
     Open,
 }
 
-/// What connects pairs of points; pairs that are not named have an unbroken bond.
+/// Connections of pairs of points; an unbroken bond for all others.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Links {
     named: HashMap<[u32; 2], Link>,
 }
 
 impl Link {
-    /// Whether a crack or a pre-crack parts the points.
+    /// Whether a crack or a pre-crack separates the points.
     pub fn is_cut(self) -> bool {
         matches!(self, Self::PreCrack | Self::Open)
     }
 }
 
 impl Links {
-    /// Names what connects two points.
+    /// Sets the connection of two points.
     pub fn name(&mut self, [a, b]: [u32; 2], link: Link) {
         self.named.insert([a.min(b), a.max(b)], link);
     }
 
-    /// What connects two points; a point and itself are whole.
+    /// Connection of two points; whole for a point with itself.
     pub fn between(&self, [a, b]: [u32; 2]) -> Link {
         let named = self.named.get(&[a.min(b), a.max(b)]);
         named.copied().unwrap_or(Link::Whole)
     }
 }
 
-/// The side that each corner of a tetrahedron is on: numbers of sides from 0 in the order of the corners.
+/// Side of each corner of a tetrahedron, numbered from 0 in the order of the corners.
 pub(super) fn sides(tetrahedra: &Tetrahedra, links: &Links, corners: &[u32; 4]) -> [u8; 4] {
     let links = EDGES.map(|ends| links.between(tetrahedra.pair(corners, ends)));
     if links.iter().all(|link| !link.is_cut()) {
@@ -57,10 +57,10 @@ pub(super) fn sides(tetrahedra: &Tetrahedra, links: &Links, corners: &[u32; 4]) 
     })
 }
 
-/// The corners that edges connect, each group with a number from 0 in the order of the corners.
+/// Groups of corners connected by edges, numbered from 0 in the order of the corners.
 fn joined(connects: impl Fn(usize) -> bool) -> [u8; 4] {
     let mut lowest = [0, 1, 2, 3];
-    // Along at most three edges.
+    // Paths have at most three edges.
     for _ in 0..3 {
         for (edge, [a, b]) in EDGES.into_iter().enumerate() {
             if connects(edge) {

@@ -1,4 +1,4 @@
-//! A surface without the traces of the cells that it was cut from.
+//! Smoothing of surfaces that follow the cells from which they were cut.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,27 +7,27 @@ use ligament_model::tensor::{dot, norm};
 use super::measures::area_vector;
 use super::surface::CrackSurface;
 
-/// Sweeps over all places: traces up to some four edges long disappear.
+/// Number of sweeps over all places: roughness up to some four edges long disappears.
 const SWEEPS: usize = 20;
 
-/// Share of the way to the mean of its neighbours that a place moves in a sweep.
+/// Fraction of the way to the mean of its neighbours by which a place moves in a sweep.
 const SHARE: f64 = 0.5;
 
-/// The edges of a surface.
+/// Edges of a surface.
 struct Edges {
-    /// Places next to each place, along the rim of those on it, ascending.
+    /// Neighbours of each place, for places on the rim those along the rim, ascending.
     neighbours: Vec<Vec<u32>>,
-    /// Places at edges of one triangle.
+    /// Places on edges with one triangle.
     rim: BTreeSet<u32>,
 }
 
 impl CrackSurface {
     /// The surface with each place moved half way to the mean of its neighbours, twenty times.
     ///
-    /// On the rim, where an edge has one triangle, the neighbours are those along the rim, and places move along the normal alone: the
-    /// rim does not shrink, and stays on a face of the body that stands upright on the crack. Area and shape of what is smooth on
-    /// the scale of a few cells are those of the crack to 2 % (`tests/crack_surfaces.rs`); before, the area is up to 1.7 times as
-    /// large. A closed surface of radius R loses some two squared cells of R^2.
+    /// On the rim, where an edge has one triangle, the neighbours are those along the rim, and places move along the normal alone: the rim
+    /// does not shrink, and stays on a face of the body orthogonal to the crack. Area and shape of a surface that is smooth on the scale of
+    /// a few cells are those of the crack to 2 % (`tests/crack_surfaces.rs`); before, the area is up to 1.7 times as large. A closed surface
+    /// of radius R loses some two squared cells of R^2.
     pub fn smoothed(mut self) -> Self {
         let edges = self.edges();
         let triangles_of = self.triangles_of();
@@ -53,7 +53,7 @@ impl CrackSurface {
         self
     }
 
-    /// Unit normal at each place, shape (n_places); zero at places of no triangle.
+    /// Unit normal at each place, shape (n_places); zero at places without a triangle.
     pub fn normals(&self) -> Vec<[f64; 3]> {
         let triangles_of = self.triangles_of();
         let of = triangles_of.iter();
@@ -91,7 +91,7 @@ impl CrackSurface {
     }
 }
 
-/// Unit normal at the corner of triangles, whichever way each is turned; zero without any.
+/// Unit normal at the common corner of triangles, whatever their orientation; zero without any.
 fn normal(places: &[[f64; 3]], triangles: &[[u32; 3]]) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for triangle in triangles {

@@ -1,8 +1,8 @@
-//! The tetrahedra between the points of a solid.
+//! Tetrahedra between the points of a solid.
 
-/// Tetrahedra whose corners are nodes, and the points that nodes belong to.
+/// Tetrahedra whose corners are nodes, and the points of the nodes.
 ///
-/// In a mesh a node is a point. On a lattice a point at the outside has more nodes, on the faces of its box, so that surfaces reach
+/// In a mesh a node is a point. On a lattice a point at the outside has additional nodes, on the faces of its box, so that surfaces reach
 /// the outside of the body.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Tetrahedra {
@@ -12,17 +12,17 @@ pub struct Tetrahedra {
     pub points: Vec<u32>,
     /// Corners of the tetrahedra, shape (n_tetrahedra).
     pub corners: Vec<[u32; 4]>,
-    /// The cell of a mesh, or the corner of boxes, that each lies in, shape (n_tetrahedra), ascending.
+    /// Cell of a mesh, or corner of boxes, that contains each tetrahedron, shape (n_tetrahedra), ascending.
     pub cells: Vec<u32>,
-    /// Marks of points with tetrahedra that are left out here, none of whose edges is ever cut, shape (n_points).
+    /// Flags of points with further tetrahedra that are left out here and have no cut edge, shape (n_points).
     pub(super) held: Vec<bool>,
 }
 
-/// Places of the ends of the edges among the corners of a tetrahedron.
+/// Ends of the edges, as indices of the corners of a tetrahedron.
 pub(super) const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
 
 impl Tetrahedra {
-    /// Tetrahedra that have an edge between two points for which this holds, with the same nodes.
+    /// The tetrahedra with an edge between two points that satisfies a condition, with the same nodes.
     pub fn with_edges(&self, is_meant: impl Fn([u32; 2]) -> bool) -> Self {
         let mut held = self.held.clone();
         let mut chosen = Self {

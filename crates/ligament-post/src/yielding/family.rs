@@ -1,4 +1,4 @@
-//! The bonds of a point and when the first of them yields.
+//! First yield of the bonds of a point.
 
 use std::f64::consts::PI;
 
@@ -9,20 +9,19 @@ use ligament_model::system::BondSystem;
 use super::PrincipalStretches;
 use super::theory::critical_deformation;
 
-/// Orientations at which the search for the worst one begins: one in two degrees.
+/// Number of orientations with which the search for the worst one begins: one in two degrees.
 const FIRST_ORIENTATIONS: usize = 90;
 
-/// Relative accuracy of the least utilisation, over the utilisation of the theory.
+/// Accuracy of the smallest utilisation, relative to the theoretical utilisation.
 const LEAST_UTILISATION_TOLERANCE: f64 = 1e-9;
 
-/// Orientations at which the search ends at the latest: only families in which a single bond decides over a wide
-/// range come near.
+/// Largest number of orientations in the search, which only families come near in which a single bond decides over a wide range.
 const MOST_ORIENTATIONS: usize = 1_000_000;
 
-/// Utilisation over that of the theory below which no bond is used: rounding leaves so much of a bond across the strain.
+/// Utilisation over the theoretical one below which a bond counts as unused: the rounding in a bond across the strain.
 const UNUSED: f64 = 1e-12;
 
-/// The bonds of a point: their directions and the criteria that they fail by.
+/// Bonds of a point: their directions and their failure criteria.
 #[derive(Debug, Clone)]
 pub struct Family<'a> {
     criteria: &'a Criteria,
@@ -31,9 +30,9 @@ pub struct Family<'a> {
 
 #[derive(Debug, Clone, Copy)]
 struct Bond {
-    /// Number in the criteria.
+    /// Number of the bond in the criteria.
     number: usize,
-    /// Cosine and sine of twice the angle to the x axis: a bond and its opposite are one.
+    /// Cosine and sine of twice the angle to the x axis, which are equal for a bond and its opposite.
     twice: [f64; 2],
 }
 
@@ -42,13 +41,13 @@ struct Bond {
 pub struct Worst {
     /// Angle from the x axis to the first principal axis, rad.
     pub orientation: f64,
-    /// Error e there, infinite where no load makes a bond yield.
+    /// Error e at the orientation, infinite where no load makes a bond yield.
     pub error: f64,
 }
 
 impl<'a> Family<'a> {
-    /// Bonds at the angles `directions` to the x axis (n_bonds, rad), whose limits are those of the bonds 0, 1, ...
-    /// of the criteria.
+    /// The family of bonds at the angles `directions` to the x axis (n_bonds, rad), whose limits are those of the bonds 0, 1, ... of the
+    /// criteria.
     pub fn of_directions(directions: &[f64], criteria: &'a Criteria) -> Self {
         let bond = |(number, direction): (usize, &f64)| Bond {
             number,
@@ -60,7 +59,7 @@ impl<'a> Family<'a> {
         }
     }
 
-    /// The bonds of a point of a body, with the criteria of the body's bonds.
+    /// The family of a point of a body, with the criteria of the body's bonds.
     pub fn of_point(system: &BondSystem, criteria: &'a Criteria, point: u32) -> Self {
         let bond = |&number: &u32| {
             let [a, b] = system.bonds.direction[number as usize];
@@ -85,8 +84,7 @@ impl<'a> Family<'a> {
         self.bonds.is_empty()
     }
 
-    /// U: largest utilisation of the bonds under a strain whose first axis is at the angle `orientation` to the x
-    /// axis (rad).
+    /// Largest utilisation U of the bonds under a strain whose first axis is at the angle `orientation` to the x axis (rad).
     pub fn utilisation(&self, strains: PrincipalStretches, orientation: f64) -> f64 {
         let (sine, cosine) = (2.0 * orientation).sin_cos();
         let of_bond = |bond: &Bond| {
@@ -97,13 +95,13 @@ impl<'a> Family<'a> {
         self.bonds.iter().map(of_bond).fold(0.0, f64::max)
     }
 
-    /// Utilisation U_th of a strain if each bond lay in its worst direction.
+    /// Theoretical utilisation U_th of a strain, for each bond in its worst direction.
     pub fn theoretical_utilisation(&self, strains: PrincipalStretches) -> f64 {
         self.critical(strains).1
     }
 
-    /// The deformation in the worst direction that uses its bond most, with its criterion and utilisation U_th; the
-    /// first where several are.
+    /// Deformation with the largest utilisation of its bond in the worst direction, with its criterion and the utilisation U_th; the first
+    /// of several.
     pub(super) fn critical(
         &self,
         strains: PrincipalStretches,
@@ -121,21 +119,21 @@ impl<'a> Family<'a> {
         worst
     }
 
-    /// Largest utilisation of a bond with this deformation, whichever bond it were.
+    /// Largest utilisation over all bonds of the family for a given deformation.
     pub fn utilisation_by(&self, deformation: &BondDeformation) -> f64 {
         (self.bonds.iter())
             .map(|bond| self.criteria.utilisation(bond.number, deformation))
             .fold(0.0, f64::max)
     }
 
-    /// e = U_th/U - 1 at an orientation (rad): infinite where no bond yields however large the strain is, none where
-    /// that is so in theory as well.
+    /// Error e = U_th/U - 1 at an orientation (rad): infinite where no bond yields however large the strain is, `None` where that is so in
+    /// theory as well.
     pub fn error(&self, strains: PrincipalStretches, orientation: f64) -> Option<f64> {
         let theory = self.theoretical_utilisation(strains);
         (theory > 0.0).then(|| error_of(theory, self.utilisation(strains, orientation)))
     }
 
-    /// The worst of some orientations (rad), the first where several are.
+    /// The worst of some orientations (rad), the first of several.
     pub fn worst_of(
         &self,
         strains: PrincipalStretches,
@@ -152,9 +150,8 @@ impl<'a> Family<'a> {
 
     /// The worst of all orientations.
     ///
-    /// U is no steeper than the steepest of its criteria, which bounds it from below between two orientations; where
-    /// the bound is not above the least U found so far, the middle is looked at. What is found is the least U to 1e-9
-    /// U_th.
+    /// The slope of U is bounded by that of its steepest criterion, which bounds U from below between two orientations; an interval is
+    /// bisected where the bound is not above the smallest U so far. The result is the smallest U to 1e-9 U_th.
     pub fn worst(&self, strains: PrincipalStretches) -> Option<Worst> {
         let theory = self.theoretical_utilisation(strains);
         if theory <= 0.0 {
@@ -209,7 +206,7 @@ impl<'a> Family<'a> {
     }
 }
 
-/// U_th/U - 1.
+/// Error U_th/U - 1 of a utilisation.
 fn error_of(theory: f64, utilisation: f64) -> f64 {
     if utilisation > UNUSED * theory {
         theory / utilisation - 1.0

@@ -1,4 +1,4 @@
-//! The anisotropy of every family of a body.
+//! Anisotropy of every family of a body.
 
 use ligament_model::failure::Criteria;
 use ligament_model::system::BondSystem;
@@ -9,14 +9,13 @@ use super::{Family, PrincipalStretches, Worst};
 /// First yield of the family of a point under a strain: the effect of the directions and limits of its bonds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FamilyYield {
-    /// The worst orientation of the strain, with the error there.
+    /// Worst orientation of the strain, with its error.
     pub worst: Worst,
-    /// Load factor of the strain at first yield in theory, 1/U_th, for the orientation that yields first.
+    /// Load factor of the strain at first yield in theory, 1/U_th, which is that of the orientation that yields first.
     pub least_load: f64,
 }
 
-/// First yield of the family of each point (n_points) under the strain that `strains` gives a point; none where
-/// nothing yields.
+/// First yield of the family of each point (n_points) under the strain `strains` of the point; `None` where no bond yields.
 pub fn families(
     system: &BondSystem,
     criteria: &Criteria,
@@ -33,8 +32,8 @@ pub fn families(
     points.into_par_iter().map(of_point).collect()
 }
 
-/// Mean over some points of the error at one orientation of the strain (rad): what a body sees whose strain has that
-/// orientation everywhere. None where nothing yields at any of them.
+/// Mean over some points of the error at one orientation of the strain (rad), for a body whose strain has that orientation everywhere.
+/// `None` where no bond yields at any of them.
 pub fn mean_error(
     system: &BondSystem,
     criteria: &Criteria,
@@ -56,17 +55,17 @@ pub struct Distribution {
     pub count: usize,
     /// Mean of the values.
     pub mean: f64,
-    /// Value below which 5 % lie.
+    /// Percentile of 5 %.
     pub percentile_5: f64,
-    /// Value below which 95 % lie.
+    /// Percentile of 95 %.
     pub percentile_95: f64,
     /// Largest value.
     pub worst: f64,
 }
 
 impl Distribution {
-    /// The distribution of values given in any order; None without values. Percentiles are linear between the values, the
-    /// first at 0 and the last at 100 %.
+    /// The distribution of values in any order; `None` without values. Percentiles are linear between the values, the first at 0 and the
+    /// last at 100 %.
     pub fn from_values(mut values: Vec<f64>) -> Option<Self> {
         values.sort_by(f64::total_cmp);
         let (&worst, count) = (values.last()?, values.len());

@@ -22,10 +22,9 @@ pub fn directions(ratio: f64) -> Vec<f64> {
     angles
 }
 
-/// The ratio m, of those at which the family grows, whose family has the number of bonds nearest to `size`; the
-/// smaller one where two are equally near.
+/// The ratio m, among those at which the family grows, whose family size is nearest to `size`; the smaller one of two equally near.
 pub fn ratio_of_size(size: f64) -> f64 {
-    // The family has pi m^2 bonds, and a few more or less.
+    // A family has about pi m^2 bonds.
     let largest = (size.max(0.0) / PI).sqrt().ceil() as i64 + 2;
     let squares = (1..=largest * largest)
         .filter(|square| (0..=largest).any(|i| (0..=largest).any(|j| i * i + j * j == *square)));
@@ -45,7 +44,7 @@ pub fn worst_misalignment(directions: &[f64]) -> f64 {
     0.5 * gaps.reduce(f64::max).unwrap_or(PI)
 }
 
-/// Offsets of the neighbours in spacings.
+/// Offsets of the neighbours, in spacings.
 fn offsets(ratio: f64) -> impl Iterator<Item = [i64; 2]> {
     let reach = (ratio * (1.0 + INCLUSION_TOLERANCE)).floor() as i64;
     let square = (ratio * (1.0 + INCLUSION_TOLERANCE)).powi(2);

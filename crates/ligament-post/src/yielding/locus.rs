@@ -1,4 +1,4 @@
-//! Loci of first yield: how far strains can grow along each path from zero.
+//! Loci of first yield: limit strains along paths of loading from zero.
 
 use std::f64::consts::PI;
 
@@ -7,8 +7,8 @@ use rayon::prelude::*;
 
 use super::{Family, PrincipalStretches};
 
-/// Distance from zero, over that of the nearest point, beyond which a locus is open: rounding makes no more of
-/// parallel lines.
+/// Distance from zero, over that of the nearest point, beyond which a locus counts as open; parallel lines give larger values in spite of
+/// rounding.
 const OPEN: f64 = 1e6;
 
 /// First yield along a straight path of loading.
@@ -16,26 +16,24 @@ const OPEN: f64 = 1e6;
 pub struct LocusPoint {
     /// Angle chi of the path in the plane of s_1 and s_2, rad.
     pub path: f64,
-    /// Strains at yield in theory: the most favourable condition for yielding, a bond in the worst direction.
+    /// Strains at yield in theory, with a bond in the worst direction.
     pub theoretical: PrincipalStretches,
-    /// Strains at yield in the worst orientation of the strain: the theoretical ones times 1 + e_max (MPPD Figs 36 to
-    /// 38).
+    /// Strains at yield in the worst orientation of the strain: the theoretical ones times 1 + e_max (MPPD Figs 36 to 38).
     pub effective: PrincipalStretches,
-    /// Number of the criterion that decides in theory.
+    /// Number of the decisive criterion in theory.
     pub criterion: usize,
-    /// Deformation of the bond that yields in theory: the point of the locus in the plane of s and gamma.
+    /// Deformation of the yielding bond in theory: the point of the locus in the plane of s and gamma.
     pub bond: BondDeformation,
-    /// e_max along the path.
+    /// Error e_max along the path.
     pub error: f64,
 }
 
-/// Points of the locus in the plane of the principal stretches, at `count` paths evenly around it from s_2 = 0, s_1 >
-/// 0. Paths along which nothing yields in theory have no point; the effective strains are infinite where a family has
-/// an orientation without yield.
+/// Points of the locus in the plane of the principal stretches, at `count` paths evenly around it from s_2 = 0, s_1 > 0. Paths without yield
+/// in theory have no point; the effective strains are infinite where a family has an orientation without yield.
 ///
-/// In the plane of a bond's stretch and sliding the effective limit is the bond's deformation at theoretical yield
-/// times 1 + e_max of its path: what the limits of an isotropic material would have to be for it to yield as late as
-/// the worst orientation. For stretch these are two points, as bonds without sliding yield first.
+/// In the plane of a bond's stretch and sliding the effective limit is the bond's deformation at theoretical yield times 1 + e_max of its
+/// path: the limits of an isotropic material that would yield as late as the worst orientation. For stretch these are two points, as bonds
+/// without sliding yield first.
 pub fn principal_locus(family: &Family<'_>, count: u32) -> Vec<LocusPoint> {
     let point = |k: u32| {
         let path = 2.0 * PI * f64::from(k) / f64::from(count);
@@ -62,15 +60,15 @@ pub fn principal_locus(family: &Family<'_>, count: u32) -> Vec<LocusPoint> {
     closed(points.into_iter().flatten().collect(), size)
 }
 
-/// The points where the locus is not open.
+/// Points at which the locus is not open.
 fn closed<T>(mut points: Vec<T>, size: impl Fn(&T) -> f64) -> Vec<T> {
     let nearest = points.iter().map(&size).fold(f64::INFINITY, f64::min);
     points.retain(|point| size(point) <= OPEN * nearest);
     points
 }
 
-/// Limits (s, gamma) of the weakest bond, at `count` angles evenly around the plane of stretch and sliding from gamma
-/// = 0, s > 0; without those angles at which it never yields.
+/// Limits (s, gamma) of the weakest bond, at `count` angles evenly around the plane of stretch and sliding from gamma = 0, s > 0, without
+/// the angles at which it never yields.
 pub fn bond_locus(family: &Family<'_>, count: u32) -> Vec<[f64; 2]> {
     let point = |k: u32| {
         let angle = 2.0 * PI * f64::from(k) / f64::from(count);

@@ -1,23 +1,21 @@
-//! The measure of MPPD Tables 8 and 9.
+//! Error measure of MPPD Tables 8 and 9.
 //!
-//! It is no scaling of the load: the sliding that a bond could bear at its own stretch is divided by the sliding that
-//! it has, and that sliding is the angle atan(gamma) at the finite strains of s_0t = 0.1, while the limit stays as it
-//! is. The tables were reproduced with exactly this reading (34 of 35 entries of Table 9 at s_0t = 0.100, 20 at
-//! 0.099): the dependence of Table 9 on the path of loading comes from the angle alone. At first yield, which is what
-//! a model does, the error of frictional sliding depends on the path strongly
-//! ([`Family::error`](super::Family::error)).
+//! The measure does not scale the load: the sliding limit of a bond at its own stretch is divided by its sliding, and that sliding is the
+//! angle atan(gamma) at the finite strains of s_0t = 0.1, while the limit is unchanged. The tables were reproduced with exactly this reading
+//! (34 of 35 entries of Table 9 at s_0t = 0.100, 20 at 0.099): the dependence of Table 9 on the path of loading comes from the angle alone.
+//! At first yield, as in a model, the error of frictional sliding depends strongly on the path ([`Family::error`](super::Family::error)).
 
 use ligament_model::failure::frictional::Friction;
 
 use super::{PrincipalStretches, Worst, printed_orientations};
 
-/// The strain s_0t of the paper's tables; the measure depends on it.
+/// Strain s_0t of the paper's tables, on which the measure depends.
 pub const PAPER_STRAIN: f64 = 0.1;
 
-/// Room for sliding, over the cohesion, that counts as none: at the apex of the criterion rounding leaves so much.
+/// Sliding limit over the cohesion that counts as zero: the rounding at the apex of the criterion.
 const NO_ROOM: f64 = 1e-12;
 
-/// The worst of the printed orientations for a condition and strains on its theoretical locus, both in units of s_0t.
+/// The worst of the printed orientations for a friction law and strains on its theoretical locus, both in units of s_0t.
 pub fn worst(directions: &[f64], friction: Friction, strains: PrincipalStretches) -> Worst {
     let friction = Friction {
         cohesion: PAPER_STRAIN * friction.cohesion,
@@ -42,8 +40,8 @@ pub fn worst(directions: &[f64], friction: Friction, strains: PrincipalStretches
 ///
 /// e = min over the bonds of (a - s tan(beta))/atan|gamma| - 1,
 ///
-/// with tan(beta) = 0 for sliding without friction. A bond without sliding decides only where it has no room for any,
-/// at the apex, and e = 0 there.
+/// with tan(beta) = 0 for sliding without friction. A bond without sliding is decisive only where its limit is zero, at the apex, and e = 0
+/// there.
 pub fn error(
     directions: &[f64],
     friction: Friction,

@@ -1,22 +1,22 @@
-//! First yield of a family of bonds under a uniform strain: what the directions of the bonds do to a failure criterion.
+//! First yield of a family of bonds under a uniform strain: effect of the directions of the bonds on a failure criterion.
 //!
-//! A criterion is met first by the bond whose direction is worst for it. The family has bonds in some directions
-//! only, so that the load at first yield depends on how the strain lies to them (MPPD section 4). With U(Theta) the
-//! largest utilisation of the bonds under a strain whose first principal axis is turned by Theta, the load factor at
-//! first yield is 1/U(Theta); with U_th that of a family that has its weakest bonds in every direction, the error is
+//! The bond whose direction is worst for a criterion fails first. The family has bonds in some directions only, so that the load at first
+//! yield depends on the orientation of the strain to them (MPPD section 4). With U(Theta) the largest utilisation of the bonds under a
+//! strain whose first principal axis is rotated by Theta, the load factor at first yield is 1/U(Theta); with U_th that of a family that has
+//! its weakest bonds in every direction, the error is
 //!
 //! e(Theta) = U_th/U(Theta) - 1.
 //!
-//! | module | holds |
+//! | module | content |
 //! |---|---|
 //! | [`family`] | utilisation, errors and the worst orientation of a family of bonds |
 //! | [`lattice`] | the directions of the bonds of a regular lattice |
-//! | [`theory`] | the direction that is worst for a criterion, U_th |
-//! | [`margin`] | the measure of MPPD Tables 8 and 9, which is another one |
+//! | [`theory`] | worst direction of a criterion, for U_th |
+//! | [`margin`] | the different error measure of MPPD Tables 8 and 9 |
 //! | [`locus`] | loci of first yield over all strains, theoretical and effective |
-//! | [`field`] | the anisotropy of every family of a body |
+//! | [`field`] | anisotropy of every family of a body |
 //!
-//! All points turn with the body here: the sliding of a bond is that of the strain.
+//! All points rotate with the body here: the sliding of a bond is that of the strain.
 
 pub mod family;
 pub mod field;
@@ -32,9 +32,9 @@ use ligament_model::element::BondDeformation;
 /// A uniform strain by its principal stretches; the axis of the second is a quarter turn ahead of that of the first.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PrincipalStretches {
-    /// s_1.
+    /// Principal stretch s_1.
     pub first: f64,
-    /// s_2.
+    /// Principal stretch s_2.
     pub second: f64,
 }
 
@@ -44,12 +44,12 @@ impl PrincipalStretches {
         Self { first, second }
     }
 
-    /// (s_1 + s_2)/2.
+    /// Mean (s_1 + s_2)/2.
     pub fn mean(&self) -> f64 {
         0.5 * (self.first + self.second)
     }
 
-    /// |s_1 - s_2|/2.
+    /// Deviator |s_1 - s_2|/2.
     pub fn deviator(&self) -> f64 {
         0.5 * (self.first - self.second).abs()
     }
@@ -70,7 +70,7 @@ impl PrincipalStretches {
     }
 }
 
-/// The 101 orientations at which MPPD samples, 0 to 90 degrees in steps of 0.9, rad.
+/// The 101 orientations sampled in MPPD, 0 to 90 degrees in steps of 0.9, rad.
 pub fn printed_orientations() -> impl Iterator<Item = f64> + Clone {
     (0..=100u32).map(|k| (0.9 * f64::from(k)).to_radians())
 }

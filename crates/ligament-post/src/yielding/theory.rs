@@ -1,16 +1,16 @@
-//! Criteria in all directions: the bond that is worst for a criterion.
+//! Worst bond of a criterion, among bonds in all directions.
 
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::Measure;
 
 use super::PrincipalStretches;
 
-/// Deformation of the bond, of bonds in all directions, at which a measure with the coefficient q is largest: in the worst of its
+/// Deformation of the bond with the largest measure, for a coefficient q, among bonds in all directions: that in the worst of the
 /// [directions](Measure::worst_directions). Of the two signs of the sliding the positive one.
 ///
 /// # Panics
 ///
-/// Panics for a measure of strains of the bond's own, like [`Measure::worst_directions`].
+/// Panics for a measure of the imaginary element's own strains, like [`Measure::worst_directions`].
 pub fn critical_deformation(
     measure: Measure,
     coefficient: f64,

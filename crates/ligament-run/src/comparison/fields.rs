@@ -1,4 +1,4 @@
-//! Files of fields against each other, value by value.
+//! Comparison of field files, value by value.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use super::values::apart;
 /// Names of the components of a vector.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// The first difference of two files of fields in words; none where that is in no field.
+/// Description of the first difference of two field files; `None` if it is not in a field.
 pub(super) fn difference(then: &Path, now: &Path) -> Option<String> {
     let (then, now) = (VtuFile::open(then).ok()?, VtuFile::open(now).ok()?);
     let locations = [FieldLocation::Point, FieldLocation::Cell];
@@ -19,7 +19,7 @@ pub(super) fn difference(then: &Path, now: &Path) -> Option<String> {
         .find_map(|location| difference_at(&then, &now, location))
 }
 
-/// The first difference in the fields on points or cells.
+/// Description of the first difference in the fields on points or cells.
 fn difference_at(then: &VtuFile, now: &VtuFile, location: FieldLocation) -> Option<String> {
     let [fields, others] = [then, now].map(|file| file.fields(location).collect::<Vec<_>>());
     if fields != others {

@@ -1,4 +1,4 @@
-//! The results of two runs of one case against each other, bit by bit.
+//! Bitwise comparison of the results of two runs of one case.
 
 mod fields;
 mod summaries;
@@ -13,16 +13,16 @@ use std::path::Path;
 use anyhow::Context;
 use ligament_output::folder::{Kind, RESOLVED_CASE, is_made_later};
 
-use crate::loading::SUMMARY;
+use ligament_output::summary::SUMMARY;
 
 pub(crate) use summaries::Ending;
 
-/// The files of two runs against each other.
+/// Comparison of the result files of two runs.
 #[derive(Debug)]
 pub(crate) struct Comparison {
     /// Number of files.
     pub(crate) compared: usize,
-    /// Files that differ, those first that say most about the course of the run.
+    /// Files that differ, the most informative ones first.
     pub(crate) differing: Vec<Difference>,
 }
 
@@ -30,7 +30,7 @@ pub(crate) struct Comparison {
 #[derive(Debug)]
 pub(crate) struct Difference {
     file: String,
-    /// Where it differs first, and by how much.
+    /// Position and size of the first difference.
     words: String,
 }
 
@@ -40,7 +40,7 @@ impl fmt::Display for Difference {
     }
 }
 
-/// Files in the order in which a difference tells most; all others come between these and the summary.
+/// Files whose differences are most informative, in order; all others come between these and the summary.
 const FIRST: [&str; 5] = [
     "history.csv",
     "breaks.csv",
@@ -50,8 +50,7 @@ const FIRST: [&str; 5] = [
 ];
 
 impl Comparison {
-    /// Compares the results in two folders, `then` and `now`. What is not of the program, and what may differ between equal runs, is
-    /// left out.
+    /// Compares the results in two folders, `then` and `now`, without files of others and values that may differ between equal runs.
     ///
     /// # Errors
     ///
@@ -83,8 +82,8 @@ impl Comparison {
     }
 }
 
-/// Names of the files in a folder that equal runs have in common. The case is an input, and compared before; files of cracks are made of
-/// results afterwards.
+/// Names of the files in a folder that are equal in equal runs, without the case, which is an input, and without files of cracks, which are
+/// derived later.
 fn results(folder: &Path) -> anyhow::Result<BTreeSet<String>> {
     let listed = || format!("cannot list {}", folder.display());
     let mut names = BTreeSet::new();
@@ -100,7 +99,7 @@ fn results(folder: &Path) -> anyhow::Result<BTreeSet<String>> {
     Ok(names)
 }
 
-/// The first difference of a file in words; none if both are the same.
+/// Description of the first difference of a file; `None` if both are equal.
 fn difference(
     name: &str,
     then: &Path,

@@ -1,26 +1,26 @@
-//! Summaries against each other, number by number.
+//! Comparison of summaries, number by number.
 
 use anyhow::Context;
 use serde_json::Value;
 
 use super::values::apart;
 
-/// How the first of two runs ended.
+/// End of the first of two runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Ending {
-    /// By what was computed, or by its user.
+    /// End by the computation, or by the user.
     ByCourse,
-    /// By the time that it had, which the other need not have.
+    /// End by a limit of wall time, which the other run need not have.
     ByTime,
 }
 
-/// Keys of what may differ between equal runs: times, memory, threads and the record of the program.
+/// Keys of values that may differ between equal runs: times, memory, threads and the record of the program.
 const PASSING: [&str; 4] = ["version", "provenance", "stages", "threads"];
 
-/// Keys of the end of a run, which are others where the first of two ended by the time that it had.
+/// Keys of the end of a run, which differ where the first run ended by a limit of wall time.
 const OF_THE_END: [&str; 2] = ["termination", "termination_message"];
 
-/// The first difference of two summaries in words; none where only times, memory, threads or the program differ.
+/// Description of the first difference of two summaries; `None` if only times, memory, threads or the program differ.
 pub(super) fn difference(
     then: &[u8],
     now: &[u8],
@@ -35,7 +35,7 @@ pub(super) fn difference(
     Ok(first("", &read(then)?, &read(now)?, &is_passing))
 }
 
-/// The first difference of two values below a key.
+/// Description of the first difference of two values below a key.
 fn first(
     key: &str,
     then: &Value,

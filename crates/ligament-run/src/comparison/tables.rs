@@ -1,10 +1,10 @@
-//! Tables against each other, cell by cell.
+//! Comparison of tables, cell by cell.
 
 use ligament_output::csv::read::records;
 
 use super::values::apart;
 
-/// The first difference of two tables in words; none where that is not in a cell.
+/// Description of the first difference of two tables; `None` if it is not in a cell.
 pub(super) fn difference(then: &[u8], now: &[u8]) -> Option<String> {
     let [then, now] = [then, now].map(|bytes| records(&String::from_utf8_lossy(bytes)));
     let (header, others) = (then.first()?, now.first()?);

@@ -1,6 +1,6 @@
-//! Single values against each other.
+//! Comparison of single values.
 
-/// Two values and how far they are apart.
+/// Description of two values and their relative difference.
 pub(super) fn apart(then: &str, now: &str) -> String {
     let values = then.parse::<f64>().ok().zip(now.parse::<f64>().ok());
     let relative = values.map(|(then, now)| (now - then).abs() / then.abs().max(now.abs()));

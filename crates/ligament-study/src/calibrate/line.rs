@@ -1,7 +1,7 @@
-//! A calibration without runs: from the line of a result over another key, such as the horizon factor, in the table of a sweep.
+//! A calibration without runs, by a straight line fitted to a result over another key, such as the horizon factor, in the table of a sweep.
 //!
-//! NHPD's eq. 22 is such a line: F_eq/F_t = (3 lambda - 1)/8, the peak load of a disk over the one that its strength F_t stands
-//! for. Where the line gives c(lambda), a strength F_t/c has the peak load that is wanted.
+//! NHPD's eq. 22 is such a line: F_eq/F_t = (3 lambda - 1)/8, the peak load of a disk over the peak load of its strength F_t. With
+//! c(lambda) from the line, a strength F_t/c results in the target's peak load.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use ligament_output::csv::read::Sheet;
 use crate::line_fit::{FitError, LineFit};
 use ligament::suggestion::hint;
 
-/// What is to be read off a line.
+/// Request for a calibration by lines.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
     /// The table of a sweep, or its folder.
@@ -20,19 +20,19 @@ pub struct Request {
     pub x: String,
     /// The result, by its column.
     pub of: String,
-    /// Columns whose values have a line each.
+    /// Columns whose values distinguish the lines.
     pub by: Vec<String>,
     /// Range of x over which lines are fitted.
     pub over: [f64; 2],
-    /// Places at which the key is wanted.
+    /// Values of x at which the key is computed.
     pub at: Vec<f64>,
     /// The key whose value is sought.
     pub key: String,
-    /// What the result is to be.
+    /// Target of the result.
     pub target: f64,
 }
 
-/// Why a line cannot be had.
+/// Error of a calibration by lines.
 #[derive(Debug, thiserror::Error)]
 pub enum LineError {
     /// The table could not be read.
@@ -43,17 +43,17 @@ pub enum LineError {
         /// The reader's reason.
         source: ligament_output::Error,
     },
-    /// There is no such column.
+    /// The table has no such column.
     #[error("{} has no column `{name}`{}", path.display(), hint(name, columns, "columns", '`'))]
     NoColumn {
         /// The table.
         path: PathBuf,
         /// The name.
         name: String,
-        /// The names that there are.
+        /// Existing names.
         columns: Vec<String>,
     },
-    /// Something else than a number is where one is needed.
+    /// A value that is not a number.
     #[error(
         "`{name}` of run {run} is {text:?}, no number; leave such runs out by --over, or take another result"
     )]
@@ -62,10 +62,10 @@ pub enum LineError {
         name: String,
         /// The run.
         run: String,
-        /// What is there.
+        /// The text of the value.
         text: String,
     },
-    /// Several runs are at the same place of one line.
+    /// Several runs of one line have the same x.
     #[error(
         "runs {} and {} are both at {x} = {value}: --by COLUMN gives those that differ otherwise lines of their own",
         runs[0], runs[1]
@@ -78,7 +78,7 @@ pub enum LineError {
         /// The runs.
         runs: [String; 2],
     },
-    /// The key has not the same value in all runs of a line.
+    /// The key differs between runs of a line.
     #[error("{key} is {} in run {} and {} in run {}: a line takes runs with the same", values[0], runs[0], values[1], runs[1])]
     KeyVaries {
         /// The key.
@@ -88,7 +88,7 @@ pub enum LineError {
         /// The runs with these values.
         runs: [String; 2],
     },
-    /// No line goes through the points.
+    /// The points determine no line.
     #[error("no line of {of} over {x}{}: {source}", if name.is_empty() { String::new() } else { format!(" for {name}") })]
     NoLine {
         /// The result.
@@ -106,7 +106,7 @@ pub enum LineError {
 #[derive(Debug, Clone, PartialEq)]
 struct Run {
     name: String,
-    /// The values of the columns that lines differ by.
+    /// Values of the columns that distinguish the lines.
     line: Vec<String>,
     x: f64,
     result: f64,
@@ -116,13 +116,13 @@ struct Run {
 /// The line of some runs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Line {
-    /// Setting that the runs of the line have in common: `mesh.file = fine.msh`.
+    /// Common setting of the runs of the line: `mesh.file = fine.msh`.
     pub name: String,
-    /// The result over the target, over x.
+    /// Line of the ratio of result to target, over x.
     pub fit: LineFit,
-    /// Value of the key in its runs.
+    /// Value of the key in the runs of the line.
     pub key: f64,
-    /// Places at which the key is wanted, and its value there: `key / fit(x)`; none where the line is not positive.
+    /// Requested values of x, each with the value of the key `key / fit(x)`; none where the line is not positive.
     pub values: Vec<(f64, Option<f64>)>,
 }
 
@@ -130,7 +130,7 @@ pub struct Line {
 ///
 /// # Errors
 ///
-/// If there is no such table or column, a value is no number, or runs of a line differ in the key or are at the same place.
+/// If there is no such table or column, a value is not a number, or runs of a line differ in the key or have the same x.
 pub fn lines(request: &Request) -> Result<Vec<Line>, LineError> {
     let path = if request.table.is_dir() {
         request.table.join("table.csv")
@@ -152,7 +152,7 @@ pub fn lines(request: &Request) -> Result<Vec<Line>, LineError> {
     names.into_iter().map(of_line).collect()
 }
 
-/// The runs that are done and in the range.
+/// The completed runs within the range of x.
 fn runs(sheet: &Sheet, request: &Request) -> Result<Vec<Run>, LineError> {
     let column = |name: &str| {
         let texts = sheet.texts(name).map(|it| it.collect::<Vec<_>>());
@@ -163,7 +163,7 @@ fn runs(sheet: &Sheet, request: &Request) -> Result<Vec<Run>, LineError> {
         })
     };
     let (names, status) = (column("run")?, column("status")?);
-    // A key is an axis of the sweep, or one of the other inputs of its cases.
+    // A key is an axis of the sweep, or another input of its cases.
     let key = column(&request.key).or_else(|_| column(&format!("case.{}", request.key)))?;
     let (x, of) = (column(&request.x)?, column(&request.of)?);
     let by: Vec<Vec<&str>> = (request.by.iter())
@@ -235,7 +235,7 @@ fn line(request: &Request, of_line: &[String], runs: &[&Run]) -> Result<Line, Li
     })
 }
 
-/// Writes the lines, and the values of the key at the places that are asked for.
+/// Writes the lines, and the values of the key at the requested x.
 ///
 /// # Errors
 ///
@@ -275,7 +275,7 @@ pub fn write(request: &Request, lines: &[Line], out: &mut dyn Write) -> io::Resu
     Ok(())
 }
 
-/// Whether a path leads to a sweep or a table rather than to a case.
+/// Whether a path is the folder of a sweep or a table, not a case.
 pub fn is_table(path: &Path) -> bool {
     path.is_dir() || path.extension().is_some_and(|it| it == "csv")
 }

@@ -1,8 +1,8 @@
-//! `ligament calibrate`: the value of a key with which a result meets a target.
+//! `ligament calibrate`: the value of a key with which a result equals a target.
 //!
-//! The strength that a case gives to its bonds is no constant of the material: with the same value the peak load grows with
-//! the horizon factor lambda (NHPD eq. 22: by (3 lambda - 1)/8 on the mesh of the paper). What a specimen of known strength
-//! carries calibrates it for the horizon and the mesh at hand.
+//! The strength of bonds in a case is not a constant of the material: with the same value the peak load grows with the horizon factor
+//! lambda (NHPD eq. 22: by (3 lambda - 1)/8 on the mesh of the paper). The peak load of a specimen of known strength calibrates it for a
+//! horizon and a mesh.
 
 pub mod line;
 mod record;
@@ -25,23 +25,23 @@ use request::setting;
 pub use request::{CalibrationError, Request};
 use search::{Next, Search, Trial, Verdict};
 
-/// Relative width of a bracket in which the result jumps.
+/// Relative width of a bracket at which a remaining difference of the result is a jump.
 pub const RESOLUTION: f64 = 1e-3;
 
-/// Runs a case with one value of the key after the other until the result meets the target, or cannot; tells of each run on
-/// `progress` and of the end on `out`.
+/// Runs a case with successive values of the key until the result meets the target or the search ends; reports each run on `progress` and
+/// the end on `out`.
 ///
 /// # Errors
 ///
-/// If the case or the request is at fault, a run fails, the result is not among its results, or the target cannot be met.
-/// The record has all runs in any case.
+/// If the case or the request is wrong, a run fails, the result does not exist, or the target cannot be met. The record always has all
+/// runs.
 pub fn calibrate(
     request: &Request,
     progress: &mut dyn Write,
     out: &mut dyn Write,
 ) -> anyhow::Result<()> {
     let search = search_of(request)?;
-    // Faults of the case and of the key come before anything is written.
+    // Errors of the case and of the key are found before anything is written.
     let case = case_with(request, search.start)?;
     let inputs = Inputs::from_case(&case, None, &mut Contents::default())
         .map_err(|(path, source)| CalibrationError::Unreadable { path, source })?;
@@ -108,7 +108,7 @@ fn search_of(request: &Request) -> anyhow::Result<Search> {
     })
 }
 
-/// The error that there is nothing to begin with; a key that no case has gets an error of its own.
+/// The error of a missing start value; a key that no case has gets an error of its own.
 fn no_start(request: &Request) -> anyhow::Error {
     let is_about_key = |error: &CaseError| match error {
         CaseError::Key { fault, .. } => matches!(**fault, Fault::UnknownKey { .. }),
@@ -139,12 +139,12 @@ fn one_run(request: &Request, record: &Record, key: f64) -> anyhow::Result<Run> 
     let number = record.runs().len() + 1;
     let folder = record.run_folder(number);
     let setting = setting(&request.key, key);
-    // Where an earlier one was killed its folder is still there.
+    // The folder of a killed run may still exist.
     let one = run::Request {
         case: &case,
         out: &folder,
         force: true,
-        build: request.build,
+        build: request.build.clone(),
         communicator: Arc::new(Solo),
         is_stopped: &|| false,
     };

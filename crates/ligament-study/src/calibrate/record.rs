@@ -1,4 +1,4 @@
-//! The record of a calibration: `calibration.json` and `calibration.csv`, and the lines that a user sees.
+//! The record of a calibration: `calibration.json` and `calibration.csv`, and the printed lines.
 
 use std::fs;
 use std::io::{self, Write};
@@ -13,13 +13,13 @@ use super::search::{Trial, Verdict};
 use crate::quantities::{Quantities, QuantityError};
 use ligament_run::inputs::Inputs;
 
-/// The file by which the folder of a calibration is recognised.
+/// File that marks the folder of a calibration.
 const RECORD: &str = "calibration.json";
 
 /// The table of the runs of a calibration.
 const TABLE: &str = "calibration.csv";
 
-/// The folder of a calibration has a folder for each run.
+/// Kind of the folder of a calibration, which has a subfolder for each run.
 const KIND: Kind = Kind {
     owns: |name| name == TABLE,
     holds_run: |name| {
@@ -29,7 +29,7 @@ const KIND: Kind = Kind {
     ..Kind::marked(RECORD)
 };
 
-/// Ends of a run at which it was still carrying more load than before, so that a peak may lie beyond.
+/// Ends of a run at which the load may still have been rising, so that the peak may be later.
 const CUT_SHORT: [&str; 6] = [
     "steps-done",
     "full-load",
@@ -39,7 +39,7 @@ const CUT_SHORT: [&str; 6] = [
     "bonds-broken",
 ];
 
-/// The runs so far, on disk and in memory.
+/// Record of the runs so far, on disk and in memory.
 pub(super) struct Record {
     request: Request,
     inputs: String,
@@ -58,10 +58,10 @@ pub(super) struct Run {
     pub(super) trial: Trial,
     /// Reason why the calibration ended.
     termination: String,
-    /// Whether its last state is none in which it could stay.
+    /// Whether breakage continued in the last state of the run.
     #[serde(default)]
     last_state_not_at_rest: bool,
-    /// Broken bonds.
+    /// Number of broken bonds.
     broken_bonds: u64,
     /// Wall time, s.
     seconds: f64,
@@ -69,7 +69,7 @@ pub(super) struct Run {
     units: [String; 2],
 }
 
-/// `calibration.json`.
+/// Content of `calibration.json`.
 #[derive(Serialize)]
 struct Whole<'a> {
     version: &'static str,
@@ -84,7 +84,7 @@ struct Whole<'a> {
     runs: &'a [Run],
 }
 
-/// The part of a record that is read back.
+/// Part of `calibration.json` that is read when a calibration is continued.
 #[derive(Deserialize)]
 struct Earlier {
     key: String,
@@ -119,8 +119,8 @@ impl Run {
 }
 
 impl Record {
-    /// Begins a record in a new folder, or goes on with that of an earlier calibration of the same key and result of the
-    /// same case: its runs are trials whatever the target.
+    /// Creates a record in a new folder, or continues the record of an earlier calibration of the same key, result and case, whose runs are
+    /// trials for any target.
     pub(super) fn open(request: &Request, inputs: &Inputs) -> anyhow::Result<Self> {
         let earlier = match request.force {
             true => None,
@@ -148,7 +148,7 @@ impl Record {
             table,
             runs: Vec::new(),
         };
-        // Saved once all are there, so that a kill on the way leaves the earlier record.
+        // The record is saved after all runs are added, so that a kill leaves the earlier record.
         for run in earlier.unwrap_or_default() {
             record.note(run)?;
         }
@@ -160,12 +160,12 @@ impl Record {
         &self.runs
     }
 
-    /// The folder in which a run puts its results.
+    /// Folder for the results of a run.
     pub(super) fn run_folder(&self, number: usize) -> PathBuf {
         self.folder.file(&run_name(number))
     }
 
-    /// Adds a run that is done, and saves the record.
+    /// Adds a completed run, and saves the record.
     pub(super) fn append(&mut self, run: Run) -> anyhow::Result<()> {
         self.note(run)?;
         self.save("running", None)
@@ -187,7 +187,7 @@ impl Record {
         Ok(())
     }
 
-    /// Notes how it ended; an earlier calibration is replaced now.
+    /// Records the end of the search; an earlier calibration is then replaced.
     pub(super) fn close(self, verdict: &Verdict) -> anyhow::Result<()> {
         let (outcome, value) = match verdict {
             Verdict::Met(trial) => ("met", Some(trial.key)),
@@ -217,7 +217,7 @@ impl Record {
         (trial.result - self.request.target) / self.request.target.abs()
     }
 
-    /// What heads the lines of the runs.
+    /// Heading of the lines of the runs.
     pub(super) fn heading(&self) -> String {
         let Request {
             key,
@@ -232,7 +232,7 @@ impl Record {
         )
     }
 
-    /// The line of a run.
+    /// Printed line of a run.
     pub(super) fn line(&self, run: &Run) -> String {
         let Request { key, of, .. } = &self.request;
         let unit = match of.rsplit('.').next() {
@@ -257,7 +257,7 @@ impl Record {
         line
     }
 
-    /// The answer, for the user.
+    /// Prints the calibrated value.
     pub(super) fn write_answer(&self, trial: &Trial, out: &mut dyn Write) -> io::Result<()> {
         let key = &self.request.key;
         writeln!(out, "{key} = {}", self.words(trial))?;
@@ -275,7 +275,7 @@ impl Record {
         writeln!(out, "  record in          {}", self.request.out.display())
     }
 
-    /// Why there is no answer, for the user.
+    /// Message about a search without a result.
     pub(super) fn why_not(&self, verdict: &Verdict) -> String {
         let Request { key, of, .. } = &self.request;
         let n_runs = self.runs.len();
@@ -311,7 +311,7 @@ fn run_name(number: usize) -> String {
     format!("run-{number:02}")
 }
 
-/// The runs of an earlier calibration in the folder; none where there is no such folder.
+/// The runs of an earlier calibration in the folder; `None` where there is none.
 fn earlier_runs(request: &Request, inputs: &Inputs) -> anyhow::Result<Option<Vec<Run>>> {
     refuse_links(&request.out, KIND)?;
     let path = request.out.join(RECORD);

@@ -1,26 +1,26 @@
-//! What is to be calibrated, and why that may fail.
+//! Request for a calibration, and its errors.
 
 use std::io;
 use std::path::PathBuf;
 
-use ligament_run::provenance::Build;
+use ligament_output::summary::Build;
 use serde::Serialize;
 
 use crate::quantities::QuantityError;
 
-/// What is to be calibrated; a record keeps what decides about the result.
+/// Request for a calibration; fields that determine the result are kept in the record.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Request {
     /// The case file.
     pub case: PathBuf,
-    /// Changes to it that all runs have, `key=value` each.
+    /// Overrides of the case in all runs, `key=value` each.
     pub overrides: Vec<String>,
-    /// Threads to compute with, before those of the case.
+    /// Number of threads, if other than that of the case.
     #[serde(skip)]
     pub threads: Option<u32>,
     /// The key whose value is sought.
     pub key: String,
-    /// The result that is to meet the target, by its name in the summary.
+    /// Name in the summary of the result that should meet the target.
     pub of: String,
     /// The target, in the unit of the result.
     pub target: f64,
@@ -35,24 +35,24 @@ pub struct Request {
     /// Folder for the record and the runs.
     #[serde(skip)]
     pub out: PathBuf,
-    /// Whether an earlier calibration in the folder is replaced; it is continued otherwise.
+    /// Whether an earlier calibration in the folder is replaced, not continued.
     #[serde(skip)]
     pub force: bool,
-    /// The program, for the record of the runs.
+    /// Build of the program, for the record of the runs.
     #[serde(skip)]
     pub build: Build,
 }
 
-/// Why a calibration cannot begin or go on.
+/// Error of a calibration.
 #[derive(Debug, thiserror::Error)]
 pub enum CalibrationError {
-    /// The target is zero, which has no relative neighbourhood.
+    /// The target is zero or not finite, so that relative differences are undefined.
     #[error("--target {0}: a target is a finite number other than 0")]
     NoTarget(f64),
     /// The limits of the key exclude each other.
     #[error("--from {0} is not below --to {1}")]
     EmptyRange(f64, f64),
-    /// The case has no number at the key to begin with, or 0, which tells no size.
+    /// The case has no start value at the key, or 0, which gives no size.
     #[error(
         "the case has no number other than 0 at `{key}` to begin with: give it one by --set {key}=..., or say between which values to \
          look by --from and --to"
@@ -61,16 +61,16 @@ pub enum CalibrationError {
         /// The key.
         key: String,
     },
-    /// The result is not there.
+    /// The result does not exist.
     #[error("run {run} ({setting}), results in {}", folder.display())]
     NoResult {
         /// Number of the run.
         run: usize,
-        /// The value of the key that it ran with.
+        /// Setting of the key in the run.
         setting: String,
         /// Folder of the run.
         folder: PathBuf,
-        /// Why.
+        /// Reason of the error.
         source: QuantityError,
     },
     /// No state of a run under load is in equilibrium.
@@ -80,11 +80,11 @@ pub enum CalibrationError {
     NoEquilibrium {
         /// Number of the run.
         run: usize,
-        /// The value of the key that it ran with.
+        /// Setting of the key in the run.
         setting: String,
         /// Folder of the run.
         folder: PathBuf,
-        /// Why.
+        /// Reason of the error.
         reason: String,
     },
     /// A file of the case cannot be read.
@@ -95,7 +95,7 @@ pub enum CalibrationError {
         /// The system's reason.
         source: io::Error,
     },
-    /// The folder has a calibration of something else.
+    /// The folder has another calibration.
     #[error(
         "the calibration in {} {difference}; --force replaces it, --out takes another folder",
         folder.display()
@@ -103,15 +103,15 @@ pub enum CalibrationError {
     Other {
         /// The folder.
         folder: PathBuf,
-        /// In what it differs.
+        /// Description of the difference.
         difference: String,
     },
-    /// The search ended without an answer.
+    /// The search ended without meeting the target.
     #[error("{0}")]
     NotMet(String),
 }
 
-/// What `--set` takes.
+/// Argument of `--set` for a key and a value.
 pub(super) fn setting(key: &str, value: f64) -> String {
     format!("{key}={value:?}")
 }

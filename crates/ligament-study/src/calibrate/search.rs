@@ -1,31 +1,30 @@
-//! Where a result meets its target: a search that brackets, and asks for few runs.
+//! Search for the value of a key with which a result meets its target, by brackets and with few runs.
 //!
-//! [`Search::next`] is a function of the trials so far, so that a search can be taken up from its record. The first
-//! guess takes the result to be proportional to the key, as a peak load is to the strengths of the bonds; then a secant
-//! looks for trials on both sides of the target, and false position (Illinois rule, and a bisection where the bracket
-//! does not halve) closes in between them. Results of fracture jump: where the bracket is as narrow as the resolution and
-//! neither end meets the target, that is the answer.
+//! [`Search::next`] is a function of the trials so far, so that a search can be continued from its record. The first guess assumes that the
+//! result is proportional to the key, as a peak load is to the strengths of the bonds; then secants seek trials on both sides of the
+//! target, and false position (Illinois rule, and a bisection where the bracket does not halve) narrows the bracket. Results of fracture
+//! jump: where the bracket is as narrow as the resolution and neither end meets the target, the search ends with the jump.
 
 use serde::{Deserialize, Serialize};
 
-/// What is sought.
+/// Parameters of a search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Search {
-    /// Value of the key to begin with.
+    /// First value of the key.
     pub start: f64,
     /// Smallest and largest value of the key that may be tried.
     pub limits: [f64; 2],
-    /// What the result is to be.
+    /// Target of the result.
     pub target: f64,
     /// Largest difference from the target that counts as met, in units of the result.
     pub tolerance: f64,
-    /// Width of a bracket, relative to its larger end, that is not divided any more.
+    /// Width of a bracket, relative to its larger end, below which it is not divided.
     pub resolution: f64,
     /// Largest number of trials.
     pub most_trials: usize,
 }
 
-/// A value of the key and the result that it led to.
+/// A value of the key and its result.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
     /// Value of the key.
@@ -34,42 +33,42 @@ pub struct Trial {
     pub result: f64,
 }
 
-/// What to do after some trials.
+/// Next action of a search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Next {
-    /// Try this value of the key.
+    /// Trial of this value of the key.
     Try(f64),
-    /// Stop.
+    /// End of the search.
     Stop(Verdict),
 }
 
-/// How a search ended.
+/// End of a search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Verdict {
-    /// The target is met by this trial.
+    /// This trial meets the target.
     Met(Trial),
-    /// The result jumps over the target between two values of the key that are as good as the same.
+    /// The result jumps over the target between two values of the key that are equal within the resolution.
     Jump([Trial; 2]),
-    /// All values of the key that may be tried lead to one side of the target.
+    /// The results of all allowed values of the key are on one side of the target.
     OutOfReach,
     /// No more trials are allowed.
     OutOfTrials,
 }
 
-/// A guess without a bracket changes the key by no more than this factor, ...
+/// Largest factor by which a guess without a bracket changes the key.
 const LARGEST_STRIDE: f64 = 4.0;
 
-/// ... and goes further than the secant says by this share, so that it lands beyond the target.
+/// Share by which a guess exceeds the step of the secant, to obtain a result beyond the target.
 const OVERSHOOT: f64 = 0.25;
 
-/// A value inside a bracket stays away from its ends by this share of its width.
+/// Smallest distance of a value from the ends of its bracket, over the bracket's width.
 const MARGIN: f64 = 0.02;
 
-/// Digits of the values that are tried.
+/// Significant digits of the trial values.
 const DIGITS: usize = 7;
 
 impl Search {
-    /// The next thing to do after these trials, given in their order.
+    /// Next action after these trials, given in their order.
     pub fn next(&self, trials: &[Trial]) -> Next {
         let Some(best) = self.best(trials) else {
             return Next::Try(self.allowed(self.start));
@@ -102,7 +101,7 @@ impl Search {
         trial.result - self.target
     }
 
-    /// The value within the limits that is nearest, in digits that one would write into a case file.
+    /// The nearest value within the limits, rounded to the significant digits of trials.
     fn allowed(&self, key: f64) -> f64 {
         let written = format!("{key:.*e}", DIGITS - 1);
         written
@@ -111,7 +110,7 @@ impl Search {
             .clamp(self.limits[0], self.limits[1])
     }
 
-    /// Neighbours on both sides of the target, lower key first; of several such pairs the one that misses least.
+    /// Neighbouring trials on both sides of the target, lower key first; of several such pairs the nearest one.
     fn bracket(&self, trials: &[Trial]) -> Option<[Trial; 2]> {
         let mut sorted = trials.to_vec();
         sorted.sort_by(|a, b| a.key.total_cmp(&b.key));
@@ -127,8 +126,8 @@ impl Search {
 
     /// A value between two trials around the target.
     fn inside(&self, [a, b]: [Trial; 2], trials: &[Trial]) -> f64 {
-        // Trials in a row that came to the same side leave the other end where it is: it is made to count half for each
-        // (Illinois), and after three of them the bracket is halved.
+        // Successive trials on the same side keep the other end: its weight is halved for each of them (Illinois), and after three of them
+        // the bracket is halved.
         let same_side = |trial: &&Trial| {
             let last = trials.last().unwrap_or(trial);
             (self.miss(trial) > 0.0) == (self.miss(last) > 0.0)
@@ -160,7 +159,7 @@ impl Search {
         if !trials.iter().any(|trial| trial.key == key) {
             return Next::Try(key);
         }
-        // At a limit already: the other limit is all that is left.
+        // The key is at a limit: only the other limit remains.
         let untried = |limit: &f64| limit.is_finite() && !trials.iter().any(|it| it.key == *limit);
         match self.limits.into_iter().find(untried) {
             Some(limit) => Next::Try(limit),
@@ -168,7 +167,7 @@ impl Search {
         }
     }
 
-    /// The trial nearest to the target but for the best.
+    /// The trial nearest to the target with another key than the best.
     fn nearest_other(&self, best: Trial, trials: &[Trial]) -> Option<Trial> {
         let others: Vec<Trial> = (trials.iter().copied())
             .filter(|trial| trial.key != best.key)
@@ -176,7 +175,7 @@ impl Search {
         self.best(&others)
     }
 
-    /// The result taken to be proportional to the key.
+    /// Key under the assumption that the result is proportional to it.
     fn in_proportion(&self, trial: Trial) -> f64 {
         if trial.key == 0.0 {
             let [low, high] = self.limits;
@@ -187,12 +186,12 @@ impl Search {
         trial.key * ratio.clamp(1.0 / LARGEST_STRIDE, LARGEST_STRIDE)
     }
 
-    /// The result taken to go on as between two trials, from the better one.
+    /// Key by the secant through two trials, from the better one.
     fn along_secant(&self, best: Trial, other: Trial) -> f64 {
         let slope = (best.result - other.result) / (best.key - other.key);
         let step = -self.miss(&best) / slope * (1.0 + OVERSHOOT);
         let far = (LARGEST_STRIDE - 1.0) * best.key.abs().max((best.key - other.key).abs());
-        // Towards zero a stride leaves a share of the key, which so keeps its sign.
+        // A step towards zero keeps a share of the key, and so its sign.
         let inwards = (1.0 - 1.0 / LARGEST_STRIDE) * best.key.abs();
         let [down, up] = match best.key {
             key if key > 0.0 => [inwards, far],
@@ -202,8 +201,8 @@ impl Search {
         best.key + step.clamp(-down, up)
     }
 
-    /// Where the result does not change with the key: beyond all trials, in turns on either side, first where a result
-    /// that grows with the size of the key would meet the target.
+    /// Key beyond all trials where the result does not change with the key, alternately on either side; first on the side where a result
+    /// that grows with the key would meet the target.
     fn beyond_level(&self, best: Trial, trials: &[Trial]) -> f64 {
         let sizes = trials.iter().map(|trial| trial.key.abs());
         let grows = self.target.abs() > best.result.abs();

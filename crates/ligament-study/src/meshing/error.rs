@@ -1,4 +1,4 @@
-//! Why no mesh was made or converted.
+//! Errors of making and converting meshes.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -6,25 +6,25 @@ use std::path::{Path, PathBuf};
 use ligament::suggestion::hint;
 use ligament_mesh::gmsh::GmshError;
 
-/// Why no mesh was made or converted. An existing mesh is then as it was.
+/// Error of making or converting a mesh. An existing mesh is then unchanged.
 #[derive(Debug, thiserror::Error)]
 pub enum MeshingError {
-    /// There is no such geometry or mesh.
+    /// The geometry or mesh does not exist.
     #[error("there is no {what} {}", path.display())]
     NoSource {
-        /// The noun for the source.
+        /// Kind of the source.
         what: &'static str,
         /// The path at which the source should be.
         path: PathBuf,
     },
-    /// The file is no geometry, by its ending.
+    /// The file is not a geometry, by its extension.
     #[error(
         "{} is no .geo file: `ligament mesh` meshes geometries of Gmsh; a mesh of another program is \
          converted by `ligament mesh --via-meshio {}`",
         .0.display(), .0.display()
     )]
     NoGeo(PathBuf),
-    /// A number is to be set that the geometry does not use.
+    /// A number to be set that the geometry does not use.
     #[error(
         "--set {name}=...: {} does not mention `{name}`{}",
         geometry.display(), hint(name, declared, "it declares", '`')
@@ -32,7 +32,7 @@ pub enum MeshingError {
     UnusedNumber {
         /// The geometry.
         geometry: PathBuf,
-        /// The name that was to be set.
+        /// Name of the number.
         name: String,
         /// The names that the geometry declares by `DefineConstant`.
         declared: Vec<String>,
@@ -40,7 +40,7 @@ pub enum MeshingError {
     /// The mesh would replace its own source.
     #[error("--out {} is the {what}", path.display())]
     WouldReplaceSource {
-        /// The source in words.
+        /// Kind of the source.
         what: &'static str,
         /// The source.
         path: PathBuf,
@@ -50,7 +50,7 @@ pub enum MeshingError {
     NoProgram {
         /// The program.
         program: PathBuf,
-        /// How to get the program, or to say where it is.
+        /// Advice on installing the program, or giving its path.
         remedy: &'static str,
     },
     /// A program could not be started.
@@ -61,7 +61,7 @@ pub enum MeshingError {
         /// The system's reason.
         source: io::Error,
     },
-    /// The mesh has no place where it is to go.
+    /// The mesh cannot be written to its path.
     #[error(transparent)]
     Output(#[from] ligament_output::Error),
     /// Python lacks a package.
@@ -75,14 +75,14 @@ pub enum MeshingError {
         /// The package.
         package: String,
     },
-    /// A program made nothing of the source.
+    /// A program refused the source.
     #[error("{}", refusal.words(path, lines))]
     Refused {
-        /// What is the matter.
+        /// Kind of the refusal.
         refusal: Refusal,
         /// The geometry or mesh.
         path: PathBuf,
-        /// The lines that the program said of it.
+        /// Lines of the program about it.
         lines: Vec<String>,
     },
     /// Python ended without a mesh.
@@ -92,10 +92,10 @@ pub enum MeshingError {
         python: PathBuf,
         /// The mesh that was to be converted.
         mesh: PathBuf,
-        /// The last lines that Python said.
+        /// Last lines of Python's output.
         lines: Vec<String>,
     },
-    /// The mesh that gmsh made cannot be used.
+    /// The mesh by gmsh cannot be used.
     #[error("gmsh made a mesh of {} that cannot be used", geometry.display())]
     Unusable {
         /// The geometry.
@@ -114,7 +114,7 @@ pub enum MeshingError {
     /// A file could not be read or written.
     #[error("cannot {action} {}", path.display())]
     File {
-        /// What was tried.
+        /// Operation, a verb.
         action: &'static str,
         /// The file.
         path: PathBuf,
@@ -123,22 +123,22 @@ pub enum MeshingError {
     },
 }
 
-/// What a program has against a source.
+/// Reason why a program refused a source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Refusal {
     /// Gmsh reported errors or made no mesh.
     NotMeshed,
-    /// The format is not known to meshio.
+    /// The format is unknown to meshio.
     UnknownFormat,
-    /// The file could not be read by meshio.
+    /// Meshio could not read the file.
     Unreadable,
     /// The source is a Gmsh mesh already.
     IsGmsh,
-    /// The source has cells of shapes that are not read.
+    /// The source has cells of unsupported shapes.
     Shapes,
     /// The source has neither planar nor solid cells.
     NoCells,
-    /// The source has planar cells alone and is not in the plane of x and y.
+    /// The source has planar cells only and is not in the plane of x and y.
     NotPlanar,
 }
 
@@ -166,12 +166,12 @@ impl Refusal {
     }
 }
 
-/// Lines of another program's own below an error, each on its line.
+/// Lines of another program's output, indented below an error.
 fn indented(lines: &[String]) -> String {
     lines.iter().map(|line| format!("\n  {line}")).collect()
 }
 
-/// A package, with what it does not bring along itself: meshio needs others for formats on HDF5 and netCDF.
+/// A package with the packages to be installed together: meshio needs others for formats on HDF5 and netCDF.
 fn with_company(package: &str) -> String {
     match package {
         "meshio" | "numpy" => "meshio".to_owned(),

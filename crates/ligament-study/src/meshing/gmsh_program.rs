@@ -11,33 +11,32 @@ use ligament_output::{check_file, write_file};
 use super::error::{MeshingError, Refusal};
 use super::{Unfinished, is_same_file, last_lines, output_of};
 
-/// A mesh to be made.
+/// Request for a mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshRequest {
     /// The geometry, a Gmsh .geo file.
     pub geometry: PathBuf,
     /// The mesh file to write.
     pub out: PathBuf,
-    /// Whether it may replace a file that is there.
+    /// Whether an existing file may be replaced.
     pub force: bool,
-    /// The program gmsh: a path, or a name to be found on the PATH.
+    /// Program gmsh: a path, or a name on the PATH.
     pub gmsh: PathBuf,
-    /// Numbers of the geometry to be set.
+    /// Numbers of the geometry to be set, by name.
     pub numbers: Vec<(String, f64)>,
 }
 
-/// What to do where there is no gmsh.
+/// Advice where gmsh is missing.
 const REMEDY: &str = "install it (`pip install gmsh`, `apt install gmsh`, or from https://gmsh.info), or say where it is by \
                       --gmsh PATH";
 
-/// Calls gmsh and returns the mesh it wrote to `request.out`.
+/// Runs gmsh and returns the mesh written to `request.out`.
 ///
-/// The mesh is made next to its place and put there only once it could be read, so a failure never
-/// damages an existing one.
+/// The mesh is written to a temporary file and renamed only after it could be read, so a failure never damages an existing mesh.
 ///
 /// # Errors
 ///
-/// If gmsh is missing or fails, or its mesh cannot be used or put in place.
+/// If gmsh is missing or fails, or its mesh cannot be used or written.
 pub fn make_mesh(request: &MeshRequest) -> Result<AnyMesh, MeshingError> {
     let MeshRequest { geometry, out, .. } = request;
     if !geometry.is_file() {
@@ -81,7 +80,7 @@ pub fn make_mesh(request: &MeshRequest) -> Result<AnyMesh, MeshingError> {
     Ok(mesh)
 }
 
-/// Gmsh says nothing of a number that is not used, so a misspelt one would go unnoticed.
+/// Refuses numbers that the geometry does not use, which gmsh ignores without a message.
 fn check_numbers(request: &MeshRequest) -> Result<(), MeshingError> {
     let MeshRequest {
         geometry, numbers, ..
@@ -96,7 +95,7 @@ fn check_numbers(request: &MeshRequest) -> Result<(), MeshingError> {
     if words.contains("Include") || words.contains("Merge") {
         return Ok(());
     }
-    // Names with other characters are options and parameters of gmsh itself: Mesh.MeshSizeFactor.
+    // Names with other characters are options of gmsh, such as Mesh.MeshSizeFactor.
     let unused = |name: &&String| name.chars().all(is_word) && !words.contains(name.as_str());
     match numbers.iter().map(|(name, _)| name).find(unused) {
         None => Ok(()),
@@ -139,7 +138,7 @@ fn call_gmsh(request: &MeshRequest, out: &Path) -> Result<Output, MeshingError> 
     output_of(&mut command, REMEDY)
 }
 
-/// A path that Gmsh does not take for an option.
+/// A path in a form that gmsh does not read as an option.
 fn operand(path: &Path) -> PathBuf {
     match path.as_os_str().as_encoded_bytes().first() {
         Some(b'-') => Path::new(".").join(path),
@@ -157,7 +156,7 @@ fn lines(output: &Output) -> Vec<String> {
         .collect()
 }
 
-/// The lines in which gmsh reports errors; it may do so and still exit with success.
+/// The lines in which gmsh reports errors, possibly with a successful exit status.
 fn complaints(output: &Output) -> Vec<String> {
     lines(output)
         .into_iter()

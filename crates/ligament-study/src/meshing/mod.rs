@@ -1,4 +1,4 @@
-//! `ligament mesh`: meshes from other programs.
+//! `ligament mesh`: meshes made or converted by other programs.
 //!
 //! | module | makes a mesh of |
 //! |---|---|
@@ -18,10 +18,10 @@ pub mod via_meshio;
 
 pub use error::{MeshingError, Refusal};
 
-/// Last lines of a program that an error repeats.
+/// Number of last lines of a program in an error.
 const LAST_LINES: usize = 5;
 
-/// Whether two paths lead to one file; a path that leads nowhere is none.
+/// Whether two paths are the same existing file.
 fn is_same_file(a: &Path, b: &Path) -> bool {
     match (a.canonicalize(), b.canonicalize()) {
         (Ok(a), Ok(b)) => a == b,
@@ -29,7 +29,7 @@ fn is_same_file(a: &Path, b: &Path) -> bool {
     }
 }
 
-/// What a program puts out; `remedy` says what to do where it cannot be found.
+/// Runs a program and returns its output; `remedy` is the advice where it cannot be found.
 fn output_of(command: &mut Command, remedy: &'static str) -> Result<Output, MeshingError> {
     let output = command.stdin(Stdio::null()).output();
     output.map_err(|source| {
@@ -41,7 +41,7 @@ fn output_of(command: &mut Command, remedy: &'static str) -> Result<Output, Mesh
     })
 }
 
-/// The end of what a program, in a word `who`, has put out in lines.
+/// Last lines of a program's output; `who` names the program.
 fn last_lines(mut lines: Vec<String>, who: &str, output: &Output) -> Vec<String> {
     let last = lines.split_off(lines.len().saturating_sub(LAST_LINES));
     if last.is_empty() {
@@ -51,17 +51,17 @@ fn last_lines(mut lines: Vec<String>, who: &str, output: &Output) -> Vec<String>
     }
 }
 
-/// Makes the folder of a file, if need be.
+/// Creates the folder of a file, if needed.
 fn make_folder_of(file: &Path) -> io::Result<()> {
     file.parent().map_or(Ok(()), std::fs::create_dir_all)
 }
 
-/// A mesh in the making: a hidden file beside its place, removed at the end.
+/// An unfinished mesh: a hidden file beside its final path, removed at the end.
 struct Unfinished(PathBuf);
 
 impl Unfinished {
-    /// A name in the folder of `out`, which is made if need be, unique to this process. Beside a pipe or a device nothing is made: a
-    /// mesh for it has a name among the system's temporary files.
+    /// A path in the folder of `out`, created if needed, with a name unique to this process. For a pipe or a device the path is in the
+    /// system's folder of temporary files.
     fn beside(out: &Path) -> io::Result<Self> {
         let aside = std::env::temp_dir().join("mesh");
         let out = if is_stream(out) { &aside } else { out };
@@ -70,7 +70,7 @@ impl Unfinished {
         name.push(out.file_stem().unwrap_or_default());
         name.push(format!("-unfinished-{}.msh", std::process::id()));
         let path = out.with_file_name(name);
-        // What is written there goes to no file that a link in its place leads to.
+        // A link at the path is removed, so that its target is not written.
         remove_if_there(&path)?;
         Ok(Self(path))
     }
@@ -82,7 +82,7 @@ impl Unfinished {
 
 impl Drop for Unfinished {
     fn drop(&mut self) {
-        // What the program called did not write is not there to be removed.
+        // The file may not exist if the program did not write it.
         let _ = std::fs::remove_file(&self.0);
     }
 }

@@ -1,7 +1,7 @@
 //! Meshes in formats of other programs, read by the Python package meshio.
 //!
-//! A script in the executable (`via_meshio.py`) reads the file by meshio, gathers its groups and hands nodes, cells and groups over
-//! as text; here they become a Gmsh file, which is read back like any other.
+//! A script in the executable (`via_meshio.py`) reads the file by meshio, collects its groups and prints nodes, cells and groups as text,
+//! which becomes a Gmsh file and is read as such.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -13,37 +13,37 @@ use ligament_output::{check_file, write_file};
 use super::error::{MeshingError, Refusal};
 use super::{is_same_file, last_lines, make_folder_of, output_of};
 
-/// The script, which needs no file of its own.
+/// Text of the script, which is passed on the command line.
 const SCRIPT: &str = include_str!("via_meshio.py");
 
-/// A mesh to be converted.
+/// Request for the conversion of a mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConversionRequest {
     /// The mesh of another program.
     pub source: PathBuf,
-    /// Format of the source as meshio calls it; None to go by the ending of the name.
+    /// Name of the source's format in meshio; by default from the extension.
     pub format: Option<String>,
     /// The mesh file to write.
     pub out: PathBuf,
-    /// Whether it may replace a file that is there.
+    /// Whether an existing file may be replaced.
     pub force: bool,
-    /// The program python: a path, or a name to be found on the PATH.
+    /// Program python: a path, or a name on the PATH.
     pub python: PathBuf,
 }
 
 /// A converted mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Conversion {
-    /// The mesh as it stands in the file that was written.
+    /// The mesh in the written file.
     pub mesh: AnyMesh,
-    /// Remarks on what was read otherwise than it stands in the source, in words.
+    /// Remarks on differences between the source and the mesh.
     pub remarks: Vec<String>,
 }
 
-/// What to do where there is no Python.
+/// Advice where Python is missing.
 const REMEDY: &str = "install Python from https://python.org, or say where it is by --python PATH";
 
-/// The faults that the script finds in a source, by its words for them.
+/// Faults of a source by the script's words for them.
 const FAULTS: [(&str, Refusal); 6] = [
     ("unknown-format", Refusal::UnknownFormat),
     ("unreadable", Refusal::Unreadable),
@@ -53,14 +53,13 @@ const FAULTS: [(&str, Refusal); 6] = [
     ("not-planar", Refusal::NotPlanar),
 ];
 
-/// Calls Python and meshio and returns the mesh that it wrote to `request.out`, in Gmsh's format 4.1.
+/// Converts a mesh by Python and meshio, and returns the mesh written to `request.out` in Gmsh's format 4.1.
 ///
-/// The mesh is made next to its place and put there only once it could be read back, so a failure never damages an existing
-/// one.
+/// The mesh is written to a temporary file and renamed only after it could be read, so a failure never damages an existing mesh.
 ///
 /// # Errors
 ///
-/// If Python or meshio are missing, the file cannot be read or has no mesh, or the result cannot be put in place.
+/// If Python or meshio are missing, the file cannot be read or has no mesh, or the result cannot be written.
 pub fn convert(request: &ConversionRequest) -> Result<Conversion, MeshingError> {
     let ConversionRequest { source, out, .. } = request;
     if !source.is_file() {
@@ -106,14 +105,14 @@ pub fn convert(request: &ConversionRequest) -> Result<Conversion, MeshingError> 
 }
 
 fn call_python(request: &ConversionRequest) -> Result<Output, MeshingError> {
-    // A name that begins with a hyphen, or is `-`, would be something else to Python.
+    // A relative path that begins with a hyphen would be an option of Python.
     let path = std::path::absolute(&request.source).unwrap_or_else(|_| request.source.clone());
     let mut command = Command::new(&request.python);
     command.args(["-c", SCRIPT]).arg(path).args(&request.format);
     output_of(&mut command, REMEDY)
 }
 
-/// The error for a fault that the script found: its kind, and the reason in lines.
+/// The error for a fault found by the script, given by its kind and the lines of the reason.
 fn refused(request: &ConversionRequest, fault: &str) -> Option<MeshingError> {
     let (kind, reason) = fault.split_once('\n').unwrap_or((fault, ""));
     let lines: Vec<String> = reason.lines().map(str::to_owned).collect();
@@ -132,14 +131,14 @@ fn refused(request: &ConversionRequest, fault: &str) -> Option<MeshingError> {
     })
 }
 
-/// What the script hands over.
+/// Parsed output of the script.
 struct ScriptOutput {
     mesh: AnyMesh,
     remarks: Vec<String>,
 }
 
 impl ScriptOutput {
-    /// The mesh that the script's text tells of; None if the text is not as the script writes it.
+    /// Parses the script's output; `None` if it has another format.
     fn parse(text: &str) -> Option<Self> {
         let mut lines = text.lines();
         let n_remarks = section(lines.next()?, "remarks")?;
@@ -154,7 +153,7 @@ impl ScriptOutput {
     }
 }
 
-/// The mesh of the plane of these lines of nodes and the lines behind them.
+/// Parses a mesh in the plane from the lines of its nodes and the lines after them.
 fn plane<'a>(nodes: &[&str], mut lines: impl Iterator<Item = &'a str>) -> Option<Mesh> {
     let (node_tags, positions) = tags_and_positions(nodes)?;
     let cells = cells(&mut lines, positions.len(), face)?;
@@ -168,7 +167,7 @@ fn plane<'a>(nodes: &[&str], mut lines: impl Iterator<Item = &'a str>) -> Option
     })
 }
 
-/// The solid mesh of these lines of nodes and the lines behind them.
+/// Parses a solid mesh from the lines of its nodes and the lines after them.
 fn solid<'a>(nodes: &[&str], mut lines: impl Iterator<Item = &'a str>) -> Option<SolidMesh> {
     let (node_tags, positions) = tags_and_positions(nodes)?;
     let cells = cells(&mut lines, positions.len(), solid_cell)?;
@@ -211,7 +210,7 @@ fn solid_cell(corners: &[u32]) -> Option<SolidCell> {
     }
 }
 
-/// The section of cells, each made of its corners among so many nodes.
+/// Parses the section of cells, each constructed from its corners, indices below `n_nodes`.
 fn cells<'a, C>(
     lines: &mut impl Iterator<Item = &'a str>,
     n_nodes: usize,
@@ -226,7 +225,7 @@ fn cells<'a, C>(
     lines.take(n_cells).map(cell).collect()
 }
 
-/// The section of groups of a mesh with so many nodes and cells, the cells of a dimension, and the end.
+/// Parses the section of groups and the end, for a mesh with `n_nodes` nodes and `n_cells` cells of dimension `of_cells`.
 fn groups<'a>(
     lines: &mut impl Iterator<Item = &'a str>,
     of_cells: u8,
@@ -242,7 +241,7 @@ fn groups<'a>(
     (lines.next()? == "end").then_some(groups)
 }
 
-/// The next group, after those that came before.
+/// Parses the next group after the groups `before`.
 fn group<'a>(
     lines: &mut impl Iterator<Item = &'a str>,
     before: &[Group],
@@ -255,7 +254,7 @@ fn group<'a>(
     let mut group = Group {
         name: words.next()?.to_owned(),
         dimension,
-        // Numbers of groups are those of their order in their dimension, from 1.
+        // Groups are numbered in their order within their dimension, from 1.
         number: 1 + before.iter().filter(|it| it.dimension == dimension).count() as i32,
         ..Group::default()
     };
@@ -281,7 +280,7 @@ fn group<'a>(
     Some(group)
 }
 
-/// The number of lines of a section.
+/// Number of lines of a section, from its heading.
 fn section(line: &str, name: &str) -> Option<usize> {
     line.strip_prefix(name)?.trim().parse().ok()
 }
@@ -290,9 +289,9 @@ fn numbers(line: &str) -> Option<Vec<u32>> {
     line.split(' ').map(|word| word.parse().ok()).collect()
 }
 
-/// The mesh file for a mesh of another program: of the same name, ending in `.msh`.
+/// Default path of a converted mesh: the source's path with the extension `.msh`.
 ///
-/// A file that ends in `.msh` itself, as those of ANSYS do, gets `-gmsh.msh` instead.
+/// A source with the extension `.msh`, such as of ANSYS, gets `-gmsh.msh` instead.
 pub fn default_out(source: &Path) -> PathBuf {
     let out = source.with_extension("msh");
     if out != source {

@@ -1,4 +1,4 @@
-//! The axes of a study: keys and the values that they take.
+//! The axes of a study: keys and their values.
 
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -12,16 +12,16 @@ use ligament_case::case::fault::KeyFault;
 use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::values::{not_exactly_one, require, require_no_formula, require_unique};
 
-/// Values that an axis may have.
+/// Largest number of values of an axis.
 const MOST_VALUES: usize = 10_000;
 
-/// Significant digits of the values of a range: those that rounding leaves right, so that 1.5 + 3 * 0.1 is 1.8.
+/// Significant digits of the values of a range, few enough for 1.5 + 3 * 0.1 to be 1.8.
 const DIGITS: usize = 12;
 
-/// A setting of a run, as `--set` takes it.
+/// A setting of a run in the form of `--set`.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Setting {
-    /// `key=value`.
+    /// Text `key=value`.
     pub(crate) given: String,
     /// Place of the setting in the study.
     pub(crate) place: KeyPath,
@@ -47,7 +47,7 @@ pub struct AxisPoint {
     pub cells: Vec<Cell>,
     /// The values of the keys as TOML.
     pub(crate) texts: Vec<String>,
-    /// Label of the value for people.
+    /// Label of the value in plots and texts.
     pub label: String,
     /// Place of the value in the study.
     pub(crate) place: KeyPath,
@@ -150,7 +150,7 @@ impl Axis {
         Ok(())
     }
 
-    /// The settings that a value of it makes, `key=value` each.
+    /// The settings of a value of the axis, `key=value` each.
     pub(super) fn settings<'a>(&'a self, point: &'a AxisPoint) -> impl Iterator<Item = Setting> {
         self.keys
             .iter()
@@ -162,7 +162,7 @@ impl Axis {
     }
 }
 
-/// The key as it is written everywhere else.
+/// The canonical form of a key.
 fn canonical(key: String, place: &KeyPath) -> Result<String, KeyFault> {
     match KeyPath::parse(&key) {
         Some(path) if !path.0.is_empty() => Ok(path.to_string()),
@@ -231,13 +231,13 @@ fn listed(
     Ok(points)
 }
 
-/// What people see of values that have no label.
+/// Default label of values.
 fn label(cells: &[Cell]) -> String {
     let words: Vec<String> = cells.iter().map(short_words).collect();
     words.join(", ")
 }
 
-/// A value in words: of a path the file without folder and ending, of a large or small number its exponent.
+/// Short text of a value: for a path the file's stem, for a large or small number exponential notation.
 pub(super) fn short_words(cell: &Cell) -> String {
     match cell {
         Cell::String(text) if text.contains('/') => {
@@ -271,7 +271,7 @@ fn ranged(document: &Node, place: &KeyPath, range: &RawRange) -> Result<Vec<Axis
         let node = document.at(&place.child(key));
         node.is_none_or(|node| matches!(node.value, Value::Integer(_)))
     };
-    // A range of whole numbers has whole numbers, for keys that take no others.
+    // A range of whole numbers has integer values, for keys that require integers.
     let are_whole = ["from", "to", "step"].iter().all(|key| is_whole(key))
         && values.iter().all(|value| value.fract() == 0.0);
     let point = |value: &f64| {
@@ -319,7 +319,7 @@ fn numbers(range: &RawRange, place: &KeyPath) -> Result<Vec<f64>, KeyFault> {
     }
 }
 
-/// Numbers a step apart.
+/// The values of a range with a given step.
 fn stepped(range: &RawRange, step: f64, place: impl Fn() -> KeyPath) -> Result<Vec<f64>, KeyFault> {
     let RawRange { from, to, .. } = *range;
     let leads = step != 0.0 && (to - from) * step >= 0.0;
@@ -329,7 +329,7 @@ fn stepped(range: &RawRange, step: f64, place: impl Fn() -> KeyPath) -> Result<V
         "other than 0 and lead from `from` to `to`",
         step,
     )?;
-    // The end belongs to the range where the steps lead to it but for rounding.
+    // The end is included where the steps reach it within rounding.
     let steps = ((to - from) / step + 1e-9).floor();
     let few = format!("so large that there are {MOST_VALUES} values at most");
     require(steps < MOST_VALUES as f64, &place, &few, step)?;
@@ -338,7 +338,7 @@ fn stepped(range: &RawRange, step: f64, place: impl Fn() -> KeyPath) -> Result<V
         .collect())
 }
 
-/// So many numbers, equal steps or, with `log`, equal factors apart.
+/// The values of a range with a given count, at equal steps or, with `log`, equal ratios.
 fn counted(
     range: &RawRange,
     count: usize,
@@ -357,10 +357,10 @@ fn counted(
     Ok((0..count).map(|k| tidy(value(k))).collect())
 }
 
-/// A number without the digits that rounding put there.
+/// A number rounded to [`DIGITS`] significant digits.
 fn tidy(value: f64) -> f64 {
     let digits = DIGITS - 1;
-    // What is written here is a number.
+    // The formatted text is always a number.
     format!("{value:.digits$e}").parse().unwrap_or(value)
 }
 

@@ -1,4 +1,4 @@
-//! The curves of a study's plots: points of its table, and the lines fitted to them.
+//! The curves of a study's plots: points from its table, and fitted lines.
 
 use super::plan::{Run, safe};
 use super::study::{Study, StudyPlot};
@@ -8,7 +8,7 @@ use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::keys::unit_of;
 use ligament_plot::plots::{Colour, Plot, Series};
 
-/// Colours of curves, which begin anew where there are more; black is for what is known.
+/// Colours of curves, used cyclically; black is for known lines.
 const COLOURS: [Colour; 6] = [
     Colour::Blue,
     Colour::Vermilion,
@@ -21,22 +21,22 @@ const COLOURS: [Colour; 6] = [
 /// The curves of a plot of a study.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Curves<'a> {
-    /// The section of the study that asks for the plot.
+    /// Section of the study for the plot.
     pub(super) plot: &'a StudyPlot,
-    /// Name of the plot's file, without the ending.
+    /// Name of the plot's file, without the extension.
     pub(super) name: String,
     /// The curves in the order of the axis.
     pub(super) curves: Vec<Curve>,
 }
 
-/// Runs that have one value of the axis `by`.
+/// Curve of the runs with one value of the axis `by`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Curve {
-    /// The label of that value; empty where there is one curve for all.
+    /// Label of the value; empty where one curve has all runs.
     pub(super) label: String,
-    /// Points in the order of x, shape (n, 2); runs without numbers have none.
+    /// Points in the order of x, shape (n, 2); runs without numbers are left out.
     pub(super) points: Vec<[f64; 2]>,
-    /// The line through those in the range of the plot's fit, if it has one.
+    /// Line fitted to the points in the range of the plot's fit, if it has one.
     pub(super) fit: Option<Result<LineFit, FitError>>,
 }
 
@@ -84,7 +84,7 @@ impl<'a> Curves<'a> {
         })
     }
 
-    /// Places on x where some curve has a point, ascending.
+    /// Values of x at which any curve has a point, ascending.
     pub(super) fn places(&self) -> Vec<f64> {
         let mut places: Vec<f64> = self.points().map(|[x, _]| *x).collect();
         places.sort_by(f64::total_cmp);
@@ -96,7 +96,7 @@ impl<'a> Curves<'a> {
         self.curves.iter().flat_map(|curve| &curve.points)
     }
 
-    /// The plot: the runs, the known line dashed, fitted lines in the colours of their curves.
+    /// The plot with the runs, the known line dashed, and fitted lines in the colours of their curves.
     pub(super) fn drawn(&self, title: &str) -> Plot {
         let plot = self.plot;
         let places = self.places();
@@ -137,7 +137,7 @@ impl<'a> Curves<'a> {
 }
 
 impl Curve {
-    /// The label, or other words where there is none.
+    /// The label, or `other` where it is empty.
     pub(super) fn name<'a>(&'a self, other: &'a str) -> &'a str {
         match self.label.as_str() {
             "" => other,
@@ -162,7 +162,7 @@ fn straight(ends: [f64; 2], y: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
     ends.map(|x| [x, y(x)]).to_vec()
 }
 
-/// A fitted line as the legend has it.
+/// Equation of a fitted line for the legend.
 fn equation(fit: &LineFit) -> String {
     let sign = if fit.intercept < 0.0 { '-' } else { '+' };
     format!(
@@ -172,7 +172,7 @@ fn equation(fit: &LineFit) -> String {
     )
 }
 
-/// A number with four digits; whole ones as they are.
+/// A number with four digits; whole numbers up to 1e5 unrounded.
 pub(super) fn rounded(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 || ((100.0..1e5).contains(&size) && value.fract() == 0.0) {

@@ -1,11 +1,11 @@
-//! Why a study could not be read or run.
+//! Errors of reading and running a study.
 
 use std::io;
 use std::path::PathBuf;
 
 use ligament_case::case::{CaseError, Location};
 
-/// Why a study cannot be run. Runs that fail are no such error: they are rows of the table.
+/// Error of a study. Failed runs are rows of the table, not errors.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     /// The study file could not be read.
@@ -26,13 +26,13 @@ pub enum StudyError {
         location: Location,
         /// Name of the run.
         run: String,
-        /// What is wrong.
+        /// Error of the case.
         source: Box<CaseError>,
     },
-    /// A file that a run takes cannot be read.
+    /// An input file of a run cannot be read.
     #[error("{location}: the run {run} cannot read {}", path.display())]
     Input {
-        /// The value in the study that names it, or the study.
+        /// The value in the study that names the file, or the study.
         location: Location,
         /// Name of the run.
         run: String,
@@ -41,14 +41,14 @@ pub enum StudyError {
         /// The system's reason.
         source: io::Error,
     },
-    /// More runs than anybody means.
+    /// Too many runs.
     #[error("{}: the axes have {runs} combinations, more than the {most} that a study may have", path.display())]
     TooMany {
         /// The study file.
         path: PathBuf,
         /// Number of combinations.
         runs: usize,
-        /// The most allowed.
+        /// Largest allowed number.
         most: usize,
     },
     /// The folder is in use.
@@ -58,7 +58,7 @@ pub enum StudyError {
     Busy {
         /// The folder.
         folder: PathBuf,
-        /// The sweep that uses it, in words.
+        /// Description of the sweep that uses the folder.
         what: String,
     },
     /// The folder of the study cannot be used.
@@ -67,19 +67,19 @@ pub enum StudyError {
     /// A file of the study's folder cannot be used.
     #[error("cannot {action} {}", path.display())]
     File {
-        /// What was tried.
+        /// Operation, a verb.
         action: &'static str,
         /// The file or folder.
         path: PathBuf,
         /// The system's reason.
         source: io::Error,
     },
-    /// There is nothing to collect.
+    /// The folder is not of a study.
     #[error("{} is no folder of a study (no {marker} in it): run the study first, or name its folders by --from", folder.display())]
     NoStudy {
         /// The folder.
         folder: PathBuf,
-        /// The file by which it would be known.
+        /// Name of the missing marker file.
         marker: &'static str,
     },
     /// Runs failed.

@@ -1,4 +1,4 @@
-//! How much memory a run will take.
+//! Estimates of the memory of runs.
 
 use std::collections::BTreeMap;
 
@@ -19,7 +19,7 @@ use ligament_run::stages::Stages;
 pub(super) struct Estimates(BTreeMap<String, Option<u64>>);
 
 impl Estimates {
-    /// Bytes that a case will take at most; `None` where its model cannot be built, which its run will say.
+    /// Upper estimate of a case's memory, bytes; `None` where its model cannot be built, which its run will report.
     pub(super) fn bytes(&mut self, case: &CaseFile) -> Option<u64> {
         let given = &case.case;
         let key = serde_json::to_string(&(
@@ -31,7 +31,7 @@ impl Estimates {
             given.solver.ordering,
             given.solver.method,
         ));
-        // What cannot be written as text is not shared.
+        // A case that cannot be serialised gets an estimate of its own.
         let Ok(key) = key else {
             return estimate(case).ok();
         };
@@ -39,7 +39,8 @@ impl Estimates {
     }
 }
 
-/// Builds the model without its domain correction, which changes no sizes, and analyses the equations.
+/// Estimates the memory of a case, bytes, from its model without the domain correction, which changes no sizes, and the analysis of the
+/// equations.
 fn estimate(case: &CaseFile) -> anyhow::Result<u64> {
     let mut plain = case.clone();
     plain.case.solver.threads = Some(1);
@@ -71,7 +72,7 @@ fn equations(case: &CaseFile) -> anyhow::Result<usize> {
     })
 }
 
-/// Whether the mesh of a case is there to estimate with.
+/// Whether the mesh of a case, if it has one, exists.
 pub(super) fn has_mesh(case: &CaseFile) -> bool {
     let mesh = case.case.mesh.as_ref();
     mesh.is_none_or(|section| section.file.is_file())

@@ -1,4 +1,4 @@
-//! The folder of a study: where runs, records, logs and meshes lie, and who may write there.
+//! The folder of a study: paths of runs, records, logs and meshes, and locks.
 
 use std::fs::{self, File, TryLockError};
 use std::io;
@@ -13,10 +13,10 @@ use super::error::StudyError;
 use super::plan::Run;
 use super::study::Study;
 
-/// The file by which the folder of a study is known.
+/// File that marks the folder of a study.
 pub const MARKER: &str = "sweep.json";
 
-/// How often a folder that another shard is about to mark is looked at again, and how long apart.
+/// Number of checks of a folder that another shard may be marking, and the pause between them.
 const LOOKS: usize = 20;
 const PAUSE: Duration = Duration::from_millis(50);
 
@@ -26,7 +26,7 @@ pub struct StudyFolder {
     path: PathBuf,
 }
 
-/// A part of the runs: those whose number, from 1, is `number` after a multiple of `count`.
+/// A part of the runs: those whose index, from 0, is `number - 1` modulo `count`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
     /// Number of the shard, from 1.
@@ -36,31 +36,31 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// Whether the shard has the run of an index, from 0.
+    /// Whether the shard contains the run with an index, from 0.
     pub fn contains(self, index: usize) -> bool {
         index % self.count == self.number - 1
     }
 }
 
-/// The right to run a study, or a shard of it, in a folder; it ends with this process.
+/// Locks for running a study, or a shard of it, in a folder; released at the end of this process.
 #[derive(Debug)]
 pub struct StudyLocks {
     _locks: Vec<File>,
-    /// The file that runs hold while they live.
+    /// Lock file of the runs, which each run locks until it ends.
     pub runs: PathBuf,
 }
 
 impl StudyFolder {
-    /// The folder at a path, whether it is there or not.
+    /// The folder at a path, existing or not.
     pub fn at(path: impl Into<PathBuf>) -> Self {
         Self { path: path.into() }
     }
 
-    /// Creates it, or takes that of an earlier sweep.
+    /// Creates the folder, or opens that of an earlier sweep.
     ///
     /// # Errors
     ///
-    /// If there is something else in its place, or it cannot be written.
+    /// If the path is something else, or cannot be written.
     pub fn open(path: &Path, study: &Study) -> anyhow::Result<Self> {
         let folder = Self::at(path);
         for look in 0.. {
@@ -77,7 +77,7 @@ impl StudyFolder {
                     new.write_text(MARKER, &format!("{marker:#}\n"))?;
                     break;
                 }
-                // Another shard may have made the folder and be about to mark it.
+                // Another shard may have created the folder without marking it yet.
                 Err(_) if look < LOOKS && folder.is_fresh() => thread::sleep(PAUSE),
                 Err(error) => return Err(error.into()),
             }
@@ -96,7 +96,7 @@ impl StudyFolder {
         self.path.join(MARKER).is_file()
     }
 
-    /// Whether the folder holds nothing but what a shard that is marking it puts there.
+    /// Whether the folder has no files but those of a shard that is marking it.
     fn is_fresh(&self) -> bool {
         let hidden = format!(".{MARKER}.");
         let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
@@ -109,43 +109,43 @@ impl StudyFolder {
         &self.path
     }
 
-    /// The results of a run.
+    /// Folder of the results of a run.
     pub fn run(&self, run: &Run) -> PathBuf {
         self.path.join("runs").join(&run.name)
     }
 
-    /// The record of a run, beside its results.
+    /// File of the record of a run.
     pub(super) fn record(&self, run: &Run) -> PathBuf {
         self.path.join("records").join(format!("{}.json", run.name))
     }
 
-    /// New results of a run that has earlier ones, until they are complete.
+    /// Folder of unfinished new results of a run that has earlier ones.
     pub(super) fn new_run(&self, run: &Run) -> PathBuf {
         self.path.join("runs").join(format!("{}~new", run.name))
     }
 
-    /// The record of new results of a run that has earlier ones.
+    /// File of the record of new results of a run that has earlier ones.
     pub(super) fn new_record(&self, run: &Run) -> PathBuf {
         self.path
             .join("records")
             .join(format!("{}~new.json", run.name))
     }
 
-    /// What a run says.
+    /// File of the output of a run.
     pub(super) fn log(&self, run: &Run) -> PathBuf {
         self.path.join("logs").join(format!("{}.log", run.name))
     }
 
-    /// Meshes that are made for the study.
+    /// Folder of the meshes that are made for the study.
     pub fn meshes(&self) -> PathBuf {
         self.path.join("meshes")
     }
 
-    /// Claims the study, or a shard of it, for this process, and waits until runs that a killed sweep left have ended.
+    /// Locks the study, or a shard of it, for this process, and waits until runs left by a killed sweep have ended.
     ///
     /// # Errors
     ///
-    /// If another process has it, or a file cannot be locked.
+    /// If another process has locked it, or a file cannot be locked.
     pub fn claim(&self, shard: Option<Shard>) -> Result<StudyLocks, StudyError> {
         let mut locks = vec![self.lock("sweep", shard.is_some())?];
         if shard.is_none() {
@@ -170,19 +170,19 @@ impl StudyFolder {
         })
     }
 
-    /// Removes records that a killed sweep left half written; nobody else writes any.
+    /// Removes unfinished records of a killed sweep; no other process writes records.
     fn remove_unfinished(&self) {
         let entries = fs::read_dir(self.path.join("records"));
         for entry in entries.into_iter().flatten().flatten() {
             let name = entry.file_name().to_string_lossy().into_owned();
             if name.starts_with('.') && name.ends_with(".partial") {
-                // One that stays does no harm.
+                // A file that remains is harmless.
                 let _ = fs::remove_file(entry.path());
             }
         }
     }
 
-    /// Shards of another count have other runs in common with these.
+    /// Fails if shards of another count, which may share runs with these, are in progress.
     fn other_counts_are_free(&self, count: usize) -> Result<(), StudyError> {
         let folder = self.path.join("locks");
         let entries =

@@ -1,4 +1,4 @@
-//! Runs as processes of their own: as many at once as there are cores and memory for.
+//! Runs as separate processes, as many at once as cores and memory allow.
 
 use std::ffi::OsString;
 use std::fs::{self, File};
@@ -20,24 +20,24 @@ use super::plan::Run;
 use super::progress::StudyProgress;
 use super::record::{self, Status};
 
-/// Lines of a failed run's last words that its reason has.
+/// Number of last lines of a failed run's output in its reason.
 const LAST_WORDS: usize = 4;
 
-/// What runs may take.
+/// Resources for runs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Room {
-    /// Runs at once.
+    /// Largest number of simultaneous runs.
     pub(super) jobs: usize,
-    /// Processors.
+    /// Number of processors.
     pub(super) cores: usize,
-    /// Memory, bytes; `None` where it is not known.
+    /// Memory, bytes; `None` where unknown.
     pub(super) bytes: Option<u64>,
-    /// Whether the user said how much memory.
+    /// Whether the memory was given by the user.
     pub(super) bytes_are_given: bool,
 }
 
 impl Room {
-    /// Room as much as there is, or as the user says.
+    /// The available or given resources.
     pub(super) fn new(jobs: Option<usize>, gigabytes: Option<f64>) -> Self {
         let cores = thread::available_parallelism().map_or(1, NonZero::get);
         Self {
@@ -50,34 +50,34 @@ impl Room {
         }
     }
 
-    /// Threads for a run that is one of `left` that are running or still to come.
+    /// Threads of a run when `left` runs have not ended.
     fn threads(self, left: usize) -> usize {
         (self.cores / left.min(self.jobs).max(1)).max(1)
     }
 }
 
-/// A run that has ended: which, how, and when it had begun.
+/// A run that has ended: its index, exit status and duration.
 struct Ended {
     index: usize,
     status: io::Result<ExitStatus>,
     time: Duration,
 }
 
-/// A run that goes on.
+/// A run in progress.
 struct Running {
     index: usize,
     bytes: u64,
-    /// The folder in which its results are made.
+    /// Folder for its results.
     place: PathBuf,
-    /// Standard input of the run, which ends when this is dropped, if only because this process ends.
+    /// Standard input of the run, which is closed when this value is dropped or this process ends.
     _leash: Option<std::process::ChildStdin>,
 }
 
-/// Does runs in their order, as many at once as there is room for; gives the sum of their times.
+/// Executes runs in their order, as many at once as resources allow; returns the sum of their times.
 ///
 /// # Errors
 ///
-/// If the study's folder cannot be written; a run that fails is none.
+/// If the study's folder cannot be written. A failed run is not an error.
 pub(super) fn all(
     runs: &[&Run],
     folder: &StudyFolder,
@@ -115,11 +115,11 @@ pub(super) fn all(
     Ok(launcher.time)
 }
 
-/// Why a run was not started.
+/// Reason why a run was not started.
 enum Refusal {
-    /// For a reason of its own.
+    /// Reason of this run.
     Run(String),
-    /// Because nothing can be.
+    /// Error of the folder, which affects all runs.
     Folder(anyhow::Error),
 }
 
@@ -137,13 +137,13 @@ struct Launcher<'a> {
 }
 
 impl Launcher<'_> {
-    /// Waits until the next run fits beside those that go on, or none goes on; gives the memory it will take.
+    /// Waits until the next run fits beside the runs in progress, or none is in progress; returns its memory, bytes.
     fn wait_for_room(
         &mut self,
         next: usize,
         progress: &mut StudyProgress<'_>,
     ) -> anyhow::Result<u64> {
-        // A case without a model will fail by itself, with its reason.
+        // A case whose model cannot be built fails in its run, with the reason.
         let bytes = self.estimates.bytes(&self.runs[next].case).unwrap_or(0);
         while self.running.len() >= self.room.jobs
             || (!self.running.is_empty() && !self.fits(bytes))
@@ -153,8 +153,7 @@ impl Launcher<'_> {
         Ok(bytes)
     }
 
-    /// Whether there is room for so many bytes beside the estimates of what runs; and, in case other programs have taken what was
-    /// there at the start, at this moment.
+    /// Whether the memory suffices beside the estimates of the runs in progress and, unless given by the user, is available at present.
     fn fits(&self, bytes: u64) -> bool {
         let taken: u64 = self.running.iter().map(|it| it.bytes).sum();
         let by_estimates = self.room.bytes.is_none_or(|room| taken + bytes <= room);
@@ -193,7 +192,7 @@ impl Launcher<'_> {
         let sender = self.sender.clone();
         thread::spawn(move || {
             let status = child.wait();
-            // Where nobody listens any more there is nobody to tell.
+            // A closed channel has no receiver.
             let _ = sender.send(Ended {
                 index: next,
                 status,
@@ -205,7 +204,7 @@ impl Launcher<'_> {
 
     fn spawn(&self, run: &Run, place: &Path, threads: usize) -> io::Result<Child> {
         let log = self.folder.log(run);
-        // A new file, never one that a link in its place leads to.
+        // The log is a new file, never the target of a link.
         remove_if_there(&log)?;
         let log = File::create_new(log)?;
         let (program, leading) = (self.program.split_first())
@@ -223,7 +222,7 @@ impl Launcher<'_> {
         command
             .arg(option("--out", place))
             .arg(option("--leash", self.lock));
-        // Behind this a path may begin with a hyphen.
+        // After `--` a path may begin with a hyphen.
         command.arg("--").arg(&run.case.source.path);
         command
             .stdin(Stdio::piped())
@@ -234,7 +233,7 @@ impl Launcher<'_> {
 
     /// Waits for a run to end.
     fn wait(&mut self, progress: &mut StudyProgress<'_>) -> anyhow::Result<()> {
-        // The launcher has a sender of its own, so the channel is never closed.
+        // The launcher has a sender itself, so the channel is never closed.
         let Ok(Ended {
             index,
             status,
@@ -248,7 +247,7 @@ impl Launcher<'_> {
         self.time += time;
         let run = self.runs[index];
         let exit = status?;
-        // Also a run that ended while bonds were breaking, or without equilibrium, left results, and they say how it ended.
+        // A run that ended during breakage or without equilibrium also has results, which include its end.
         let has_results = End::leaves_results(exit.code());
         if !has_results {
             let reason = self.last_words(run, exit);
@@ -287,7 +286,7 @@ impl Launcher<'_> {
 
     /// The reason why a run failed: its error, or its last line and its exit status.
     fn last_words(&self, run: &Run, exit: ExitStatus) -> String {
-        // Without a log the exit status is all there is.
+        // If there is no log, only the exit status is known.
         let log = fs::read(self.folder.log(run)).unwrap_or_default();
         let text = String::from_utf8_lossy(&log);
         let lines: Vec<&str> = text
@@ -313,7 +312,7 @@ impl Launcher<'_> {
     }
 }
 
-/// An option with a path, whatever that begins with.
+/// An option `name=path`, for paths that may begin with a hyphen.
 fn option(name: &str, path: &Path) -> OsString {
     let mut option = OsString::from(name);
     option.push("=");
@@ -321,8 +320,8 @@ fn option(name: &str, path: &Path) -> OsString {
     option
 }
 
-/// Ties this process to the one that started it: holds a lock for as long as it lives, and ends when standard input does, which
-/// is a pipe whose other end the starter holds.
+/// Ties this process to its parent: locks a file until the process ends, and ends the process when standard input, a pipe from the parent,
+/// is closed.
 ///
 /// # Errors
 ///
@@ -334,7 +333,7 @@ pub fn bind_to_parent(lock: &Path) -> io::Result<()> {
         let _held = file;
         let mut byte = [0];
         while matches!(io::stdin().read(&mut byte), Ok(1..)) {}
-        // Nobody reads an exit code here; what is half written is recognised by what is missing.
+        // No process reads this exit code; unfinished results lack their summary.
         std::process::exit(1);
     });
     Ok(())

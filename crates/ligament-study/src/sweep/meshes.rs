@@ -1,4 +1,4 @@
-//! Meshes that a study makes from a geometry, one for each combination of its numbers.
+//! Meshes of a study's geometry, one for each combination of its numbers.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -6,18 +6,18 @@ use std::path::Path;
 use crate::meshing::MeshingError;
 use crate::meshing::gmsh_program::{MeshRequest, make_mesh};
 
-/// A mesh to be made.
+/// Plan of a mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshPlan {
-    /// How.
+    /// Request to gmsh.
     pub request: MeshRequest,
-    /// Geometry and numbers that the mesh is made from, in words.
+    /// Text of the geometry and the numbers of the mesh.
     pub content: String,
 }
 
 impl MeshPlan {
-    /// The mesh of a geometry with some numbers. Its name changes with the content of the geometry, so that a mesh that is there
-    /// is the right one.
+    /// The mesh of a geometry with some numbers. The file's name depends on the content of the geometry, so that an existing mesh is up to
+    /// date.
     pub(super) fn new(
         geometry: &Path,
         numbers: Vec<(String, f64)>,
@@ -45,11 +45,12 @@ impl MeshPlan {
     }
 }
 
-/// Makes the meshes that some runs, given by their names, still lack, by the program `gmsh`; `tell` hears of each. Gives for each run why it has none.
+/// Makes the missing meshes of runs, given by their names, by the program `gmsh`, and reports each to `tell`. Returns the reasons of runs
+/// without a mesh.
 ///
 /// # Errors
 ///
-/// If it is not a matter of one mesh alone: no geometry, no program, a number that the geometry does not have.
+/// If all meshes are affected: no geometry, no program, or a number that the geometry does not have.
 pub(super) fn make<'a>(
     runs: impl IntoIterator<Item = (&'a str, &'a MeshPlan)>,
     gmsh: &Path,
@@ -74,7 +75,7 @@ pub(super) fn make<'a>(
     Ok(failed)
 }
 
-/// Makes a mesh; gives the reason where gmsh cannot.
+/// Makes a mesh; returns the reason if gmsh fails.
 fn make_one(
     plan: &MeshPlan,
     gmsh: &Path,

@@ -1,9 +1,8 @@
 //! `ligament sweep`: a base case over all combinations of some of its settings.
 //!
-//! A study file ([`study`]) names the case and axes (`axis`); [`plan`] lists the runs and checks the case of each. Runs
-//! are processes of their own (`launch`), in a folder ([`folder`]) that remembers what was computed from which inputs
-//! (`record`), so that the same command goes on where it was stopped. At the end there is a `table` of all runs, with
-//! `curves` and fitted lines (`crate::line_fit`).
+//! A study file ([`study`]) names the case and axes (`axis`); [`plan`] lists the runs and checks the case of each. Runs are separate
+//! processes (`launch`), in a folder ([`folder`]) with a record of the inputs of each run (`record`), so that the same command continues an
+//! interrupted sweep. The final results are a `table` of all runs, with `curves` and fitted lines (`crate::line_fit`).
 
 mod axis;
 mod curves;
@@ -42,52 +41,52 @@ use record::Status;
 use study::Study;
 use table::Row;
 
-/// What is asked of a study.
+/// Request to a study.
 #[derive(Debug, Clone)]
 pub struct Request {
     /// The study file.
     pub study: PathBuf,
     /// Folder of the study's results; `results/NAME` without it.
     pub out: Option<PathBuf>,
-    /// What to do.
+    /// Task of the request.
     pub task: Task,
 }
 
-/// What to do with the runs of a study.
+/// Task for the runs of a study.
 #[derive(Debug, Clone)]
 pub enum Task {
-    /// Do what is not done yet.
+    /// Execute the runs without results.
     Run(Settings),
-    /// List them.
+    /// List the runs.
     List,
-    /// Make the tables and plots of what is done, in the study's folder or in those named here.
+    /// Write the tables and plots of the completed runs in the study's folder, or in the folders named here.
     Collect(Vec<PathBuf>),
 }
 
-/// How runs are done.
+/// Settings for executing runs.
 #[derive(Debug, Clone)]
 pub struct Settings {
-    /// The part of the runs to do.
+    /// Part of the runs to execute.
     pub shard: Option<Shard>,
-    /// Runs at once; as many as processors without it.
+    /// Largest number of simultaneous runs; by default the number of processors.
     pub jobs: Option<usize>,
-    /// Memory for the runs, GB; what is available without it.
+    /// Memory for the runs, GB; by default the available memory.
     pub memory: Option<f64>,
-    /// Do also what is done.
+    /// Whether completed runs are repeated.
     pub force: bool,
     /// The program gmsh.
     pub gmsh: PathBuf,
-    /// How progress is shown.
+    /// Display of progress.
     pub progress: ProgressMode,
-    /// The command that calls this program, by which each run is started.
+    /// Command that calls this program, for starting each run.
     pub program: Vec<OsString>,
 }
 
-/// Does what is asked, with the results on `out`.
+/// Executes the request, with its output on `out`.
 ///
 /// # Errors
 ///
-/// If the study or its case is wrong, its folder is not one of a study or in use, or runs failed.
+/// If the study or its case is wrong, its folder is not of a study or in use, or runs failed.
 pub fn sweep(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
     let study = Study::load(&request.study)?;
     let path = match &request.out {
@@ -101,10 +100,10 @@ pub fn sweep(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
     }
 }
 
-/// Does the runs that are not done.
+/// Executes the runs without results.
 fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> anyhow::Result<()> {
     let runs = plan::runs(study, &StudyFolder::at(path).meshes())?;
-    // Nothing is written before the cases of all runs were found good.
+    // Nothing is written before the cases of all runs are checked.
     let folder = StudyFolder::open(path, study)?;
     let claim = folder.claim(settings.shard)?;
     let mine: Vec<&Run> = (runs.iter().enumerate())
@@ -139,7 +138,7 @@ fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> 
         writeln!(out, "  results in {}", path.display())?;
         if failed == 0 && !problems.is_empty() {
             anyhow::bail!(
-                "not all that the study names could be made; the runs are kept, so complete_replacement it and run it again"
+                "not all that the study names could be made; the runs are kept, so mend it and run it again"
             );
         }
     } else {
@@ -161,7 +160,7 @@ fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> 
     }
 }
 
-/// The runs that are still to be done, or again, and what is to be said of them.
+/// The runs to be executed or repeated, and remarks about them.
 fn not_done<'a>(
     study: &Study,
     folder: &StudyFolder,
@@ -191,7 +190,7 @@ fn not_done<'a>(
     Ok((todo, notes))
 }
 
-/// Makes the meshes that runs lack; the runs that get none have failed, and are given with the reasons.
+/// Makes the missing meshes of runs; returns the runs without a mesh, which have failed, with the reasons.
 fn made_meshes(
     todo: &[&Run],
     folder: &StudyFolder,
@@ -232,7 +231,7 @@ fn tell_problems(problems: &[String]) -> io::Result<()> {
         .try_for_each(|problem| writeln!(stderr, "warning: {}", plain(problem)))
 }
 
-/// Makes the tables and plots of runs that lie in one or several folders, each with the runs as they are there.
+/// Writes the tables and plots of runs in one or several folders, each with its list of runs.
 fn make_report(
     study: &Study,
     runs: &[Run],
@@ -263,7 +262,7 @@ fn make_report(
     report::write(study, runs, &rows, to, out)
 }
 
-/// Makes the tables and plots of what is done.
+/// Writes the tables and plots of the completed runs.
 fn collect(
     study: &Study,
     path: &Path,
@@ -294,7 +293,7 @@ fn collect(
     Ok(())
 }
 
-/// Lists the runs, whether they are done, and the memory that they take.
+/// Lists the runs with their status and estimated memory.
 fn list(study: &Study, path: &Path, out: &mut dyn Write) -> anyhow::Result<()> {
     let folder = StudyFolder::at(path);
     let runs = plan::runs(study, &folder.meshes())?;

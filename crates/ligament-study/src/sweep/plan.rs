@@ -13,29 +13,29 @@ use ligament_case::case::{CaseError, CaseFile, Location};
 use ligament_case::input_file;
 use ligament_run::inputs::{Contents, Inputs};
 
-/// Runs that a study may have.
+/// Largest number of runs of a study.
 const MOST_RUNS: usize = 100_000;
 
-/// Longest name of a run, in bytes: file systems take 255, and files beside it have longer names.
+/// Longest name of a run, bytes: file systems allow 255, and derived names are longer.
 const LONGEST_NAME: usize = 200;
 
-/// Longest part of a name that a value has.
+/// Longest part of a name for a value, bytes.
 const LONGEST_LABEL: usize = 48;
 
 /// A run of a study.
 #[derive(Debug, Clone)]
 pub struct Run {
-    /// Name of the run and of its folder; it depends on the run's own values alone.
+    /// Name of the run and of its folder, which depends only on the values of the run.
     pub name: String,
-    /// Index of its value on each axis.
+    /// Index of the run's value on each axis.
     pub place: Vec<usize>,
-    /// The settings that make its case out of the base case, `key=value` each.
+    /// Settings of the run on the base case, `key=value` each.
     pub overrides: Vec<String>,
     /// Case of the run, checked.
     pub case: CaseFile,
-    /// The mesh that has to be made for it.
+    /// Mesh to be made for the run, if any.
     pub mesh: Option<MeshPlan>,
-    /// Inputs that decide about the results.
+    /// Inputs that determine the results.
     pub inputs: Inputs,
 }
 
@@ -49,7 +49,7 @@ impl Run {
         axes.map(|(axis, &index)| (axis, &axis.points[index]))
     }
 
-    /// The values of the run in words: "horizon_factor = 2.5, file = 4 mm".
+    /// Description of the run's values: "horizon_factor = 2.5, file = 4 mm".
     pub fn words(&self, study: &Study) -> String {
         let keys = short_keys(&study.axes);
         let parts = self.points(study).zip(&keys);
@@ -59,7 +59,7 @@ impl Run {
     }
 }
 
-/// Parts of the name of a value of an axis, by its keys: each with its value, or the first one with the label.
+/// Keys and texts that name a value of an axis: each key with its value, or the first key with the label.
 fn parts_of<'a>(
     axis: &'a Axis,
     point: &'a AxisPoint,
@@ -74,12 +74,11 @@ fn parts_of<'a>(
     cells.map(move |(key, cell)| (key.as_str(), label(cell)))
 }
 
-/// Lists the runs of a study, the last axis varying fastest, and checks the case of each; meshes that have to be made lie in
-/// `meshes`.
+/// Lists the runs of a study, with the last axis varying fastest, and checks the case of each; `meshes` is the folder of meshes to be made.
 ///
 /// # Errors
 ///
-/// If there are too many runs, or the case of one is wrong; the error tells the place in the study that makes it so.
+/// If there are too many runs, or the case of one is wrong, with the responsible position in the study.
 pub fn runs(study: &Study, meshes: &Path) -> Result<Vec<Run>, StudyError> {
     let sizes = study.axes.iter().map(|axis| axis.points.len());
     let total = sizes.fold(1, usize::saturating_mul);
@@ -109,7 +108,7 @@ pub fn runs(study: &Study, meshes: &Path) -> Result<Vec<Run>, StudyError> {
     (0..total).map(run).collect()
 }
 
-/// The value of each axis for the run of a number.
+/// Index of the value on each axis for a run's index.
 fn place(axes: &[Axis], number: usize) -> Vec<usize> {
     let mut rest = number;
     let mut place: Vec<usize> = (axes.iter().rev())
@@ -223,7 +222,7 @@ fn case_key() -> KeyPath {
     KeyPath(vec!["case".to_owned()])
 }
 
-/// The error of a case, at the value of the study that makes it wrong; where it is the case file itself, as it is.
+/// The error of a case, at the responsible value of the study, or unchanged where the case file itself is wrong.
 fn error_at_study_value(
     study: &Study,
     run: &str,
@@ -246,7 +245,7 @@ fn error_at_study_value(
     }
 }
 
-/// The error of an input that cannot be read, at the last value of the study that names it.
+/// The error of an unreadable input, at the last value of the study that names it.
 fn blame_input(
     study: &Study,
     run: &str,
@@ -264,7 +263,7 @@ fn blame_input(
     }
 }
 
-/// The part that each value of each axis has in the names of runs, `horizon_factor=2.5`; shape (n_axes, n_values).
+/// Part of each value of each axis in the names of runs, `horizon_factor=2.5`; shape (n_axes, n_values).
 fn names(axes: &[Axis]) -> Vec<Vec<String>> {
     let keys = short_keys(axes);
     let of_axis = |(axis, keys): (&Axis, &Vec<String>)| {
@@ -283,7 +282,7 @@ fn names(axes: &[Axis]) -> Vec<Vec<String>> {
                 > 1
         };
         let unique = |(point, name): (&AxisPoint, &String)| match clashes(name) {
-            // Labels that differ in letters that file systems do not tell apart.
+            // Labels that differ only in letters without a distinction in file names get a digest.
             true => format!("{name}~{:08x}", digest(&point.label) as u32),
             false => name.clone(),
         };
@@ -292,12 +291,12 @@ fn names(axes: &[Axis]) -> Vec<Vec<String>> {
     axes.iter().zip(&keys).map(of_axis).collect()
 }
 
-/// The shortest end of each key of each axis that says what it is and is that of no other; shape (n_axes, n_keys).
+/// Shortest unique and meaningful ending of each key of each axis; shape (n_axes, n_keys).
 pub(super) fn short_keys(axes: &[Axis]) -> Vec<Vec<String>> {
     let path = |key: &String| KeyPath::parse(key).unwrap_or_default().0;
     let paths: Vec<Vec<String>> = axes.iter().flat_map(|axis| &axis.keys).map(path).collect();
     let end = |path: &[String], parts: usize| path[path.len().saturating_sub(parts)..].join(".");
-    // A number or a single letter says nothing: `displacement.y` instead of `y`.
+    // A number or a single letter is not meaningful: `displacement.y` instead of `y`.
     let least = |path: &[String]| {
         let says = |part: &&String| part.chars().count() > 1 && part.parse::<usize>().is_err();
         let silent = path.iter().rev().take_while(|part| !says(part)).count();
@@ -314,7 +313,7 @@ pub(super) fn short_keys(axes: &[Axis]) -> Vec<Vec<String>> {
     axes.iter().map(of_axis).collect()
 }
 
-/// A text in letters that every file system takes.
+/// A text with unsafe characters of file names replaced by underscores.
 pub(super) fn safe(text: &str) -> String {
     let letter = |letter: char| match letter {
         'a'..='z' | 'A'..='Z' | '0'..='9' | '.' | '-' | '_' | '+' => letter,
@@ -323,7 +322,7 @@ pub(super) fn safe(text: &str) -> String {
     text.trim().chars().map(letter).collect()
 }
 
-/// A name of at most so many bytes (of safe letters); a longer one is cut and ends in a digest.
+/// A name (of safe letters) of at most `longest` bytes; a longer name is truncated and ends in a digest.
 fn shortened(name: String, longest: usize) -> String {
     if name.len() <= longest {
         return name;
@@ -333,7 +332,7 @@ fn shortened(name: String, longest: usize) -> String {
     name.chars().take(keep).collect::<String>() + &mark
 }
 
-/// A number that tells texts apart.
+/// Hash of a text.
 fn digest(text: &str) -> u64 {
     twox_hash::XxHash64::oneshot(0, text.as_bytes())
 }

@@ -1,4 +1,4 @@
-//! How far a study is: a line a run on stderr, and on a terminal what is running.
+//! Progress of a study: one line per run on stderr, and on a terminal the runs in progress.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -15,24 +15,24 @@ use ligament_output::quantity::quantity;
 use ligament_output::terminal::plain;
 use ligament_run::progress::{ProgressMode, duration_text};
 
-/// Shows how far a study is.
+/// Display of the progress of a study.
 pub(super) struct StudyProgress<'a> {
     study: &'a Study,
     mode: ProgressMode,
     bar: Option<ProgressBar>,
-    /// Runs that this sweep does, and those that ended.
+    /// Number of runs of this sweep.
     total: usize,
     ended: usize,
     failed: usize,
-    /// Whether the names of results in the study were looked up in a run that has some.
+    /// Whether the names of results in the study were checked against a completed run.
     names_are_known: bool,
     begun: Instant,
-    /// Names of the runs that go on.
+    /// Descriptions of the runs in progress, by name.
     running: BTreeMap<String, String>,
 }
 
 impl<'a> StudyProgress<'a> {
-    /// For so many runs to do.
+    /// The progress of a sweep of `total` runs.
     pub(super) fn new(study: &'a Study, mode: ProgressMode, total: usize) -> Self {
         let bar = (mode == ProgressMode::Terminal && total > 0).then(|| {
             let bar = ProgressBar::new(total as u64);
@@ -56,15 +56,15 @@ impl<'a> StudyProgress<'a> {
         }
     }
 
-    /// Tells of something in a line of its own.
+    /// Prints a line.
     pub(super) fn tell(&self, line: &str) {
         let line = &*plain(line);
         match (&self.bar, self.mode) {
             (_, ProgressMode::Quiet) => {}
             (Some(bar), _) => bar.println(line),
-            // Progress that cannot be written (a closed pipe) must not end the study.
+            // A failure to write progress (a closed pipe) must not end the study.
             (None, _) => {
-                // One write, so that lines of several shards in one log stay whole.
+                // A single write keeps lines of several shards in one log intact.
                 let _ = io::stderr()
                     .lock()
                     .write_all(format!("{line}\n").as_bytes());
@@ -72,7 +72,7 @@ impl<'a> StudyProgress<'a> {
         }
     }
 
-    /// Ends the live line; gives the wall time and the number of runs that failed.
+    /// Ends the display; returns the wall time and the number of failed runs.
     pub(super) fn finish(self) -> (Duration, usize) {
         if let Some(bar) = self.bar {
             bar.finish_and_clear();
@@ -80,7 +80,7 @@ impl<'a> StudyProgress<'a> {
         (self.begun.elapsed(), self.failed)
     }
 
-    /// Shows that a run begins, on so many threads.
+    /// Shows the start of a run on a number of threads.
     pub(super) fn begins(&mut self, run: &Run, threads: usize) {
         let mut words = run.words(self.study);
         if threads > 1 {
@@ -97,7 +97,7 @@ impl<'a> StudyProgress<'a> {
         }
     }
 
-    /// Tells that a run has ended.
+    /// Prints the end of a run.
     pub(super) fn ends(&mut self, run: &Run, status: &Status, time: Duration) {
         self.ended += 1;
         self.running.remove(&run.name);
@@ -107,7 +107,7 @@ impl<'a> StudyProgress<'a> {
                 self.failed += 1;
                 format!("failed: {reason}")
             }
-            // A run that has ended is neither.
+            // A run that has ended has no such status.
             Status::Missing | Status::Changed(_) => "no results".to_owned(),
         };
         let width = self.total.to_string().len();
@@ -121,7 +121,7 @@ impl<'a> StudyProgress<'a> {
             && !self.names_are_known
         {
             self.names_are_known = true;
-            // A misspelt result costs no run, but is better mended before the last one is through.
+            // A misspelt result fails no run, but should be corrected before the sweep ends.
             for unknown in unknown_names(self.study, run, results) {
                 self.tell(&format!("warning: {unknown}"));
             }
@@ -133,7 +133,7 @@ impl<'a> StudyProgress<'a> {
     }
 }
 
-/// What a run came to, in a few words.
+/// Short description of a run's result.
 fn outcome(results: &Quantities) -> String {
     let number = |name: &str| results.number(name).ok();
     let word = |name: &str| {
@@ -161,7 +161,7 @@ fn outcome(results: &Quantities) -> String {
     parts.join(", ")
 }
 
-/// A time: to tenths where it is short.
+/// Text of a duration, with tenths of seconds below one minute.
 pub(super) fn seconds(time: Duration) -> String {
     if time < Duration::from_secs(60) {
         return format!("{:.1} s", time.as_secs_f64());

@@ -1,4 +1,4 @@
-//! What is kept of a run beside its results, and what follows from both: whether it is done.
+//! Record of a run beside its results, and the status of the run by both.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,19 +11,18 @@ use super::folder::StudyFolder;
 use super::plan::Run;
 use crate::quantities::Quantities;
 
-/// The file that a run writes last.
+/// File that a run writes last.
 const SUMMARY: &str = "summary.json";
 
 /// A record of a run, written before it starts and again if it fails.
 ///
-/// At any time: where a summary is there, the record beside it holds the inputs that it was computed from. New results of a run
-/// that has a summary are made in a folder of their own, with a record of their own; both change places while the run has
-/// no results at all. A run that was killed has no summary.
+/// Invariant: the record beside an existing summary has the inputs of that summary. New results of a run with a summary are written to a
+/// separate folder, with a separate record; both replace the earlier ones while the run has no results. A killed run has no summary.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Record {
     /// Version of the program.
     pub(super) version: String,
-    /// The settings of the run on top of the base case.
+    /// Settings of the run on the base case.
     pub(super) settings: Vec<String>,
     /// Inputs of the run.
     pub(super) inputs: String,
@@ -31,17 +30,17 @@ pub(super) struct Record {
     pub(super) failed: Option<String>,
 }
 
-/// How far a run is.
+/// Status of a run.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) enum Status {
     /// The run is done, with these results.
     Done(Quantities),
-    /// The run failed when it was last tried.
+    /// The last attempt of the run failed, for this reason.
     Failed(String),
     /// The run has no results.
     #[default]
     Missing,
-    /// The run has results of other inputs, which differ as the text says.
+    /// The run has results of other inputs, with a description of the difference.
     Changed(String),
 }
 
@@ -68,7 +67,7 @@ impl Status {
         }
     }
 
-    /// A number that is larger the more there is of a run.
+    /// Rank of the status: completed runs above failed ones, failed ones above missing ones.
     pub(super) fn rank(&self) -> u8 {
         match self {
             Self::Done(_) => 2,
@@ -77,7 +76,7 @@ impl Status {
         }
     }
 
-    /// The word for it in tables.
+    /// Word for the status in tables.
     pub(super) fn word(&self) -> &'static str {
         match self {
             Self::Done(_) => "done",
@@ -97,7 +96,7 @@ impl Record {
         }
     }
 
-    /// The record of results that are to replace earlier ones, where it is of the inputs of today.
+    /// The record of new results that are to replace earlier ones, if it has the present inputs.
     fn of_new(run: &Run, folder: &StudyFolder) -> Option<Self> {
         let record = Self::read(&folder.new_record(run));
         record.filter(|it| it.inputs == run.inputs.text())
@@ -117,7 +116,7 @@ fn has_summary(run: &Run, folder: &StudyFolder) -> bool {
     folder.run(run).join(SUMMARY).is_file()
 }
 
-/// The place of the record of what is computed now: beside that of results that are there.
+/// File of the record of the next computation, separate from the record of existing results.
 fn record_of_now(run: &Run, folder: &StudyFolder) -> PathBuf {
     match has_summary(run, folder) {
         true => folder.new_record(run),
@@ -125,20 +124,19 @@ fn record_of_now(run: &Run, folder: &StudyFolder) -> PathBuf {
     }
 }
 
-/// Notes that a run is to be done again, though it has results; whoever goes on with the study does it.
+/// Records that a run with results should be repeated, also by a later sweep.
 pub(super) fn demand(run: &Run, folder: &StudyFolder) -> anyhow::Result<()> {
     Record::for_run(run).write(&record_of_now(run, folder))
 }
 
-/// Whether a run that has results is to be done again all the same.
+/// Whether a run with results should be repeated.
 pub(super) fn should_repeat(run: &Run, folder: &StudyFolder) -> bool {
     has_summary(run, folder) && Record::of_new(run, folder).is_some()
 }
 
-/// The folder in which a run is to put its results: its own, or one beside it while that has earlier ones. What is about to be
-/// computed is noted.
+/// Folder for the results of a run: its own, or a separate one while its own has earlier results. Writes the record of the inputs.
 pub(super) fn begin(run: &Run, folder: &StudyFolder) -> anyhow::Result<PathBuf> {
-    // A link or a file in its place is not ours to remove.
+    // A link or a foreign file at the path must not be removed.
     refuse_link(&folder.run(run))?;
     let place = match has_summary(run, folder) {
         true => folder.new_run(run),
@@ -150,7 +148,7 @@ pub(super) fn begin(run: &Run, folder: &StudyFolder) -> anyhow::Result<PathBuf> 
     Ok(place)
 }
 
-/// Ends the exchange of results that a kill has cut short, the way that the records say.
+/// Completes a replacement of results that was interrupted by a kill, according to the records.
 pub(super) fn complete_replacement(run: &Run, folder: &StudyFolder) -> anyhow::Result<()> {
     let (own, new) = (folder.run(run), folder.new_run(run));
     let is_of_new = !folder.new_record(run).exists() && new.join(SUMMARY).is_file();
@@ -160,7 +158,7 @@ pub(super) fn complete_replacement(run: &Run, folder: &StudyFolder) -> anyhow::R
     Ok(recover(&own, Kind::RUN)?)
 }
 
-/// Puts the results of a run that is done in the place of earlier ones, with their record.
+/// Replaces earlier results of a run and their record by completed new ones.
 pub(super) fn complete(run: &Run, folder: &StudyFolder, place: &Path) -> anyhow::Result<()> {
     let own = folder.run(run);
     if place == own {
@@ -170,7 +168,7 @@ pub(super) fn complete(run: &Run, folder: &StudyFolder, place: &Path) -> anyhow:
     Ok(put_in_place(place, &own, Kind::RUN, || rename(&new, &old))?)
 }
 
-/// Notes why a run failed.
+/// Records the reason why a run failed.
 pub(super) fn fail(run: &Run, folder: &StudyFolder, reason: &str) -> anyhow::Result<()> {
     let record = Record {
         failed: Some(reason.to_owned()),

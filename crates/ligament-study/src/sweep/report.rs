@@ -1,4 +1,4 @@
-//! What a study leaves: its table, its fits and plots, and the short text at its end.
+//! Results of a study: its table, its fits and plots, and the short text at its end.
 
 use std::io::{self, Write};
 
@@ -18,21 +18,20 @@ use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::{CaseError, Fault};
 use ligament_plot::drawing::Drawing;
 
-/// Width of a plot, mm, ...
+/// Width of a plot, mm.
 const WIDTH: f64 = 160.0;
 
-/// ... and dots per inch of its PNG.
+/// Dots per inch of a plot's PNG.
 const DPI: f64 = 300.0;
 
-/// Runs that are listed by name at the end where they lack.
+/// Largest number of missing runs that are listed by name at the end.
 const LISTED: usize = 20;
 
-/// The columns of `fits.csv`.
+/// Columns of `fits.csv`.
 const FIT_COLUMNS: &str =
     "plot,x,y,by,curve,slope,slope_error,intercept,intercept_error,r_squared,points,remark";
 
-/// Writes `table.csv`, `fits.csv` and the plots into the study's folder, and what people want to see of them;
-/// gives what could not be made.
+/// Writes `table.csv`, `fits.csv` and the plots into the study's folder, and prints their main contents; returns the problems.
 pub(super) fn write(
     study: &Study,
     runs: &[Run],
@@ -77,7 +76,7 @@ pub(super) fn write(
     Ok(problems)
 }
 
-/// The curves of the plots that can be made, each with a name of its own; adds why others cannot, where no problem tells it.
+/// The curves of the possible plots, each with a unique name; appends the reasons for the others to `problems`.
 fn curves_of_plots<'a>(
     study: &'a Study,
     runs: &[Run],
@@ -108,7 +107,7 @@ fn curves_of_plots<'a>(
     drawn
 }
 
-/// Results that the study names and a run does not have, each at its place in the study.
+/// Errors of results in the study that a run does not have, each at its position in the study.
 pub(super) fn unknown_names(study: &Study, run: &Run, results: &Quantities) -> Vec<CaseError> {
     let mut unknown = Vec::new();
     let is_input = |name: &str| table::inputs(run).iter().any(|(other, _)| other == name);
@@ -195,7 +194,7 @@ fn write_counts(rows: &[Row<'_>], out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// The plotted results: a row for each x, a column for each curve; means where several runs share a place.
+/// Prints the plotted results: a row for each x, a column for each curve; means where several runs have the same x.
 fn write_pivot(study: &Study, curves: &Curves<'_>, out: &mut dyn Write) -> io::Result<()> {
     let plot = curves.plot;
     let shown = |key: &str| {
@@ -284,7 +283,7 @@ fn write_aligned(lines: &[Vec<String>], out: &mut dyn Write) -> io::Result<()> {
     lines.try_for_each(|line| writeln!(out, "  {line}"))
 }
 
-/// All fitted lines, and the known ones beside them.
+/// Text of `fits.csv`: all fitted lines, and the known lines.
 fn fits(all: &[Curves<'_>]) -> String {
     let mut text = format!("{FIT_COLUMNS}\n");
     let number = |value: Option<f64>| value.map_or(Value::Missing, Value::Float);
@@ -326,7 +325,7 @@ fn fits(all: &[Curves<'_>]) -> String {
     text
 }
 
-/// The cells of a row of `fits.csv` behind its curve, all empty but the remark.
+/// The cells of a row of `fits.csv` after its curve, all empty except the remark.
 fn only(remark: Value<'_>) -> [Value<'_>; 7] {
     let mut cells = [Value::Missing; 7];
     cells[6] = remark;

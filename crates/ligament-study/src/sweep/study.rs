@@ -17,12 +17,12 @@ use ligament_case::case::values::{require, require_column_name, require_unique};
 use ligament_case::case::{CaseError, Fault, Location};
 use ligament_case::input_file;
 
-/// A study: which cases to run and what to make of their results.
+/// A study: its cases, derived results and plots.
 #[derive(Debug, Clone)]
 pub struct Study {
     /// The study file, as it was given.
     pub source: Source,
-    /// One line on what is studied.
+    /// Title of the study.
     pub title: String,
     /// The file of the base case.
     pub case: PathBuf,
@@ -32,13 +32,13 @@ pub struct Study {
     pub(crate) settings: Vec<Setting>,
     /// The axes; the first one varies slowest.
     pub axes: Vec<Axis>,
-    /// Columns that are made from results.
+    /// Columns derived from results.
     pub derived: Vec<Derived>,
     /// Plots over the runs.
     pub plots: Vec<StudyPlot>,
 }
 
-/// A column that is made from a result.
+/// A column derived from a result.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Derived {
@@ -61,19 +61,19 @@ fn one() -> f64 {
 pub struct StudyPlot {
     /// The column along x: a key of an axis, a derived column or a result.
     pub x: String,
-    /// The column along y, likewise.
+    /// The column along y: a key of an axis, a derived column or a result.
     pub y: String,
     /// A key of an axis, each value of which has a curve.
     pub by: Option<String>,
-    /// Title; that of the study without it.
+    /// Title; by default that of the study.
     pub title: Option<String>,
-    /// Words along x, with the unit; the name of the column without them.
+    /// Label along x, with the unit; by default the name of the column.
     pub x_label: Option<String>,
-    /// Words along y, likewise.
+    /// Label along y, with the unit; by default the name of the column.
     pub y_label: Option<String>,
     /// A known line beside the curves.
     pub line: Option<KnownLine>,
-    /// The range of x over which each curve has a line fitted.
+    /// Range of x of a line fitted to each curve.
     pub fit: Option<FitRange>,
 }
 
@@ -91,7 +91,7 @@ pub struct KnownLine {
 }
 
 impl KnownLine {
-    /// Name of the line: the label, or a word in place of one.
+    /// Name of the line: the label, or "known".
     pub fn name(&self) -> &str {
         match self.label.as_str() {
             "" => "known",
@@ -105,7 +105,7 @@ impl KnownLine {
     }
 }
 
-/// The range of x of a fit; open where nothing is given.
+/// Range of x of a fit; unbounded where no end is given.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FitRange {
@@ -140,11 +140,11 @@ struct RawStudy {
 }
 
 impl Study {
-    /// Reads a study file and checks what can be checked without its case.
+    /// Reads a study file and checks it as far as possible without its case.
     ///
     /// # Errors
     ///
-    /// If the file cannot be read, is not TOML, or a key or value of it is wrong.
+    /// If the file cannot be read, is not TOML, or has a wrong key or value.
     pub fn load(path: &Path) -> Result<Self, StudyError> {
         let text = input_file::read_text(path).map_err(|source| StudyError::Read {
             path: path.to_owned(),
@@ -175,19 +175,19 @@ impl Study {
         self.source.name(&["study"])
     }
 
-    /// The place of a key in the study file, or of the table that would have it.
+    /// Location of a key in the study file, or of the table that would have it.
     pub(crate) fn location(&self, key: &KeyPath) -> Location {
         self.source.location_of(key)
     }
 
-    /// The error for a fault that is found later, with the place of its key.
+    /// The error for a fault that is found later, with the location of its key.
     pub(crate) fn error(&self, key: KeyPath, fault: impl Into<Fault>) -> CaseError {
         self.source.error(KeyFault::new(key, fault))
     }
 }
 
 impl RawStudy {
-    /// The study once its parts were checked, beside its axes and the settings of all runs.
+    /// Checks the parts of the study; returns it with its axes and the settings of all runs.
     fn checked(mut self, document: &Node) -> Result<(Self, Vec<Axis>, Vec<Setting>), KeyFault> {
         let root = KeyPath::default();
         require(
@@ -226,7 +226,7 @@ impl RawStudy {
     }
 }
 
-/// The root of a study is no case file.
+/// The fault with the name of the study file, where it is about the root.
 fn in_study(mut fault: KeyFault) -> KeyFault {
     if let Fault::UnknownKey { table, .. } | Fault::MissingKey { table, .. } = &mut fault.fault
         && fault.key.0.len() == 1
@@ -305,7 +305,7 @@ fn check_plot(plot: &StudyPlot, axes: &[Axis], place: &KeyPath) -> Result<(), Ke
     Ok(())
 }
 
-/// The settings of `[set]`: keys that are quoted paths, or tables whose keys are set one by one.
+/// The settings of `[set]`, by quoted key paths or by nested tables.
 fn settings(document: &Node) -> Result<Vec<Setting>, KeyFault> {
     let mut settings = Vec::new();
     let place = KeyPath::default().child("set");

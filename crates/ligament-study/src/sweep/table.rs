@@ -1,4 +1,4 @@
-//! The table of a study: a row a run, a typed column for each axis, result and input.
+//! The table of a study: one row per run, a typed column for each axis, result and input.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -16,7 +16,7 @@ use ligament::suggestion::hint;
 /// Prefix of the keys of inputs, which distinguishes them from results.
 pub(super) const INPUT: &str = "case.";
 
-/// A row a run, in the order of the study.
+/// Table with one row per run, in the order of the study.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct StudyTable {
     columns: Vec<Column>,
@@ -26,11 +26,11 @@ pub(super) struct StudyTable {
 #[derive(Debug, Clone, PartialEq)]
 struct Column {
     name: String,
-    /// A cell a run.
+    /// One cell per run.
     cells: Vec<Cell>,
 }
 
-/// There is no such column of numbers.
+/// Error of a missing column of numbers.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(
     "no column of numbers is called `{name}`{}",
@@ -49,7 +49,7 @@ pub(super) struct Row<'a> {
     pub(super) run: &'a Run,
     /// Status of the run.
     pub(super) status: Status,
-    /// The folder of its results.
+    /// Folder of the run's results.
     pub(super) folder: String,
 }
 
@@ -98,7 +98,7 @@ impl StudyTable {
         }
     }
 
-    /// All inputs that no axis varies.
+    /// Adds columns of all inputs that no axis varies.
     fn add_inputs(&mut self, study: &Study, rows: &[Row<'_>]) {
         let inputs: Vec<Vec<(String, Cell)>> = rows.iter().map(|row| inputs(row.run)).collect();
         let names = in_order(
@@ -117,7 +117,7 @@ impl StudyTable {
     }
 
     fn add(&mut self, name: &str, rows: &[Row<'_>], cell: impl Fn(&Row<'_>) -> Cell) {
-        // An axis or a derived result may have the name of a result, which is then told apart.
+        // A result with the name of an axis or a derived result gets a prefix.
         let is_taken = self.columns.iter().any(|column| column.name == name);
         let name = if is_taken {
             format!("result.{name}")
@@ -132,7 +132,7 @@ impl StudyTable {
         self.columns.push(Column { name, cells });
     }
 
-    /// The numbers of a column, shape (n_runs); `None` where a run has none. An input may be called by its key alone.
+    /// The numbers of a column, shape (n_runs); `None` where a run has none. Inputs may be named without their prefix.
     pub(super) fn numbers(&self, name: &str) -> Result<Vec<Option<f64>>, NoColumn> {
         let is_number = |column: &&Column| column.cells.iter().any(Cell::is_number);
         let by_name = |name: &str| self.columns.iter().find(|column| column.name == name);
@@ -148,7 +148,7 @@ impl StudyTable {
         }
     }
 
-    /// Writes it as CSV; what a run does not have is an empty field.
+    /// Writes the table as CSV, with empty fields for missing values.
     pub(super) fn write_csv(&self, path: &Path) -> Result<(), ligament_output::Error> {
         let names = self.columns.iter().map(|column| Value::Text(&column.name));
         let mut text = csv::line(&names.collect::<Vec<_>>());
@@ -178,8 +178,7 @@ fn value(cell: &Cell) -> Value<'_> {
     }
 }
 
-/// The cells of a column in the narrowest type that all have: whole numbers of 64 bits, numbers, truth values or texts; null
-/// is any.
+/// The cells of a column in their narrowest common type: integers of 64 bits, numbers, Booleans or texts, with null in any.
 fn of_one_type(cells: Vec<Cell>) -> Vec<Cell> {
     let all = |is: fn(&Cell) -> bool| cells.iter().all(|cell| cell.is_null() || is(cell));
     if all(Cell::is_i64) || all(Cell::is_boolean) {
@@ -204,17 +203,17 @@ fn results<'a>(row: &'a Row<'_>) -> Option<&'a Quantities> {
 /// The inputs of a run by their keys.
 pub(super) fn inputs(run: &Run) -> Vec<(String, Cell)> {
     let mut all = Vec::new();
-    // A case whose paths are no text has no inputs to show, and cannot be run either.
+    // A case whose paths are not UTF-8 has no inputs in the table, and cannot be run.
     let case = serde_json::to_value(&run.case.case).unwrap_or_default();
     for (name, value) in case.as_object().into_iter().flatten() {
         flatten(name.clone(), value, &mut all);
     }
-    // A key that the case does not have is no input.
+    // Keys without a value are not inputs.
     all.retain(|(_, cell)| !cell.is_null());
     all
 }
 
-/// The names of several lists, each once: in the order of the first list, what others add after what precedes it there.
+/// Union of several lists of names, in the order of the first list; further names follow their predecessor.
 fn in_order(lists: impl Iterator<Item = impl Iterator<Item = String>>) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     let mut seen = BTreeSet::new();

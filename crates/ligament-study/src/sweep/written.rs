@@ -1,4 +1,4 @@
-//! Values of a study as text: for `--set`, for tables and for people.
+//! Values of a study as text, for `--set`, tables and labels.
 
 use serde_json::Value as Cell;
 
@@ -6,11 +6,11 @@ use ligament_case::case::document::{Node, Value};
 use ligament_case::case::fault::KeyFault;
 use ligament_case::case::key_path::KeyPath;
 
-/// A value as TOML on one line, which reads back to the same value.
+/// A value as TOML on one line, which is parsed to the same value.
 ///
 /// # Errors
 ///
-/// If it is a date or no finite number, which no key takes.
+/// If the value is a date or a number that is not finite, which no key takes.
 pub fn toml(node: &Node, place: &KeyPath) -> Result<String, KeyFault> {
     let joined = |parts: Result<Vec<String>, KeyFault>| Ok::<_, KeyFault>(parts?.join(", "));
     Ok(match &node.value {
@@ -38,7 +38,7 @@ pub fn toml(node: &Node, place: &KeyPath) -> Result<String, KeyFault> {
     })
 }
 
-/// A text in the quotes of TOML.
+/// A text quoted as in TOML.
 pub(crate) fn quoted(text: &str) -> String {
     toml_edit::Value::from(text).to_string()
 }
@@ -54,7 +54,7 @@ pub(crate) fn cell(node: &Node, text: &str) -> Cell {
     }
 }
 
-/// A cell in words, texts without quotes.
+/// Text of a cell, without quotes.
 pub(crate) fn words(cell: &Cell) -> String {
     match cell {
         Cell::String(text) => text.clone(),

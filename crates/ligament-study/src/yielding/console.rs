@@ -1,4 +1,4 @@
-//! Results on the terminal.
+//! Printed results.
 
 use std::io::{self, Write};
 
@@ -7,8 +7,7 @@ use ligament_post::yielding::PrincipalStretches;
 use super::diagrams::{Comparison, PATHS};
 use super::subject::Subject;
 
-/// Errors of all paths, a column a family, as MPPD Tables 7 to 9 have them; with the measure of those tables below
-/// each other.
+/// Prints the errors of all paths, one column per family, as MPPD Tables 7 to 9, and the measure of those tables.
 pub(super) fn tell(out: &mut dyn Write, comparison: &Comparison) -> anyhow::Result<()> {
     let Comparison {
         criterion,
@@ -64,7 +63,7 @@ fn write_table(
     Ok(())
 }
 
-/// Four digits: strains may be of order one or of order 1e-4.
+/// A number with three decimals, or in exponential notation: strains may be of order one or 1e-4.
 fn short(value: f64) -> String {
     if value == 0.0 || (0.01..1000.0).contains(&value.abs()) {
         format!("{:.3}", value + 0.0)

@@ -19,7 +19,7 @@ enum Part {
     Frictional,
 }
 
-/// The words of the command line, and the parts that they stand for.
+/// Words of the command line with their criteria.
 const WORDS: [(&str, &[Part]); 5] = [
     ("stretch", &[Part::Tension, Part::Compression]),
     ("tension", &[Part::Tension]),
@@ -28,7 +28,7 @@ const WORDS: [(&str, &[Part]); 5] = [
     ("frictional", &[Part::Frictional]),
 ];
 
-/// The criteria of the paper's figures: single ones, and both slidings with the limits of stretch.
+/// Criteria of the paper's figures: single ones, and both criteria of sliding combined with the limits of stretch.
 const FIGURES: [&str; 5] = [
     "stretch",
     "sliding",
@@ -37,21 +37,21 @@ const FIGURES: [&str; 5] = [
     "frictional+stretch",
 ];
 
-/// Criteria of which the first that is met decides: `sliding+stretch`.
+/// Combination of criteria, of which the first that is met decides: `sliding+stretch`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Combination {
     name: String,
     parts: Vec<Part>,
 }
 
-/// What limits come from: a bar that carries s_0t in tension and so many times as much in compression.
+/// Strengths from which limits follow: those of a bar with strain limit s_0t in tension and a multiple of it in compression.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strengths {
     /// Poisson's ratio in the plane.
     pub poisson: f64,
     /// Compressive over tensile strength, |s_0c|/s_0t.
     pub ratio: f64,
-    /// How cohesion and friction come from the strengths.
+    /// Rule for cohesion and friction from the strengths.
     pub calibration: Calibration,
 }
 
@@ -94,7 +94,7 @@ impl Combination {
     ///
     /// # Errors
     ///
-    /// If the strengths leave no friction.
+    /// If no friction fits the strengths.
     pub fn criteria(&self, strengths: &Strengths, n_bonds: usize) -> Result<Criteria, YieldError> {
         let list = self.parts.iter().map(|part| {
             let brittle =
@@ -121,12 +121,12 @@ impl Combination {
         })
     }
 
-    /// The error of MPPD Tables 7, 8 or 9 for bonds at these directions (rad), the worst of the printed orientations:
-    /// none for other criteria, which have no table, and where nothing yields.
+    /// The error of MPPD Tables 7, 8 or 9 for bonds at these directions (rad), the worst of the printed orientations; `None` for other
+    /// criteria, which have no table, and where no bond yields.
     ///
     /// # Errors
     ///
-    /// If the strengths leave no friction.
+    /// If no friction fits the strengths.
     pub fn printed_measure(
         &self,
         strengths: &Strengths,
@@ -156,14 +156,14 @@ impl Combination {
 }
 
 impl Strengths {
-    /// The strengths of the MPPD paper's tables: nu = 0, and a compressive strength of three times the tensile one.
+    /// Strengths of the MPPD paper's tables: nu = 0, and a compressive strength of three times the tensile one.
     pub const OF_THE_TABLES: Self = Self {
         poisson: 0.0,
         ratio: 3.0,
         calibration: Calibration::Printed,
     };
 
-    /// A bar with E = 1, so that stresses are strains.
+    /// Material of the bar, with E = 1, so that stresses equal strains.
     fn bar(&self) -> Isotropic {
         Isotropic {
             young: 1.0,

@@ -13,16 +13,16 @@ use ligament_plot::plots::equal::EqualScales;
 use ligament_plot::plots::polar::PolarPlot;
 use ligament_plot::plots::{Colour, Plot, Series};
 
-/// Families of bonds under one criterion, or several of which the first that is met decides.
+/// Families of bonds under one criterion, or a combination of criteria.
 #[derive(Debug, Clone)]
 pub(super) struct Comparison {
-    /// The criterion.
+    /// Name of the criterion.
     pub(super) criterion: String,
     /// The families.
     pub(super) subjects: Vec<Subject>,
 }
 
-/// Paths of loading in the tables, s_1 to s_2: those of the paper's at F_c = 3 F_t.
+/// Load paths in the tables, s_1 to s_2: those of the paper at F_c = 3 F_t.
 pub(super) const PATHS: [PrincipalStretches; 12] = [
     PrincipalStretches::new(1.0, 1.0),
     PrincipalStretches::new(0.5, 1.0),
@@ -38,19 +38,19 @@ pub(super) const PATHS: [PrincipalStretches; 12] = [
     PrincipalStretches::new(-1.0, -1.0),
 ];
 
-/// The columns of the table of errors.
+/// Columns of the table of errors.
 const ERRORS: &str = "criterion,family,bonds,s1,s2,error,worst_orientation_deg,printed_measure,printed_orientation_deg";
 
-/// The columns of the table of loci.
+/// Columns of the table of loci.
 const LOCUS: &str = "criterion,family,path_deg,s1,s2,s1_effective,s2_effective,bond_stretch,bond_sliding,decides,error";
 
-/// Paths of a locus: one a degree.
+/// Number of paths of a locus, one per degree.
 const LOCUS_PATHS: u32 = 360;
 
-/// Distance between the orientations of the tables, degrees: the paper's step.
+/// Step of the orientations in the tables, as in the paper, degrees.
 const ORIENTATION_STEP: f64 = 0.9;
 
-/// How far beyond the nearest point of the theoretical loci a diagram shows open ones.
+/// Extent of a diagram of open loci, over the distance of the nearest point.
 const WINDOW: f64 = 4.0;
 
 /// Writes the tables `yield.csv`, `orientation.csv`, `locus.csv` and the diagrams of them.
@@ -109,12 +109,12 @@ fn write_summary(folder: &ResultFolder, comparisons: &[Comparison]) -> anyhow::R
     Ok(())
 }
 
-/// The name of a diagram of a criterion; `+` is no letter of addresses.
+/// Name of a diagram's file for a criterion, without `+` and spaces.
 fn file_name(kind: &str, criterion: &str) -> String {
     format!("{kind}-{}", criterion.replace(['+', ' '], "-"))
 }
 
-/// Errors over the orientation; none where nothing yields.
+/// Diagram of errors over the orientation; `None` where no bond yields.
 fn polar(
     comparison: &Comparison,
     strain: &Strain,
@@ -154,7 +154,7 @@ fn polar(
     Ok(plot.series.iter().any(is_drawn).then_some(plot))
 }
 
-/// A row for each point of the locus of a family.
+/// Appends a row for each point of the locus of a family.
 fn append_locus(
     table: &mut Table,
     criterion: &str,
@@ -179,7 +179,7 @@ fn append_locus(
     Ok(())
 }
 
-/// Loci in the planes of the principal stretches and of the bond's stretch and sliding.
+/// Diagrams of loci in the planes of the principal stretches and of the bond's stretch and sliding.
 fn loci(comparison: &Comparison, table: &mut Table) -> anyhow::Result<Vec<EqualScales>> {
     let criterion = &comparison.criterion;
     let (mut principal, mut bond) = (Vec::new(), Vec::new());
@@ -233,7 +233,7 @@ fn loci(comparison: &Comparison, table: &mut Table) -> anyhow::Result<Vec<EqualS
     Ok(plots)
 }
 
-/// A locus as a curve around zero, open where paths have no point.
+/// A locus as a closed curve around zero, interrupted where paths have no point.
 fn around(points: &[LocusPoint], strains: fn(&LocusPoint) -> PrincipalStretches) -> Vec<[f64; 2]> {
     let mut curve = Vec::new();
     let mut last: Option<f64> = None;
@@ -249,7 +249,7 @@ fn around(points: &[LocusPoint], strains: fn(&LocusPoint) -> PrincipalStretches)
     curve
 }
 
-/// Effective limits of a bond's stretch and sliding, a piece for each run of paths with one deciding criterion.
+/// Effective limits of a bond's stretch and sliding, in pieces of successive paths with the same deciding criterion.
 fn deciding(points: &[LocusPoint]) -> Vec<Vec<[f64; 2]>> {
     let mut pieces: Vec<(usize, Vec<[f64; 2]>)> = Vec::new();
     for it in points {
@@ -263,7 +263,7 @@ fn deciding(points: &[LocusPoint]) -> Vec<Vec<[f64; 2]>> {
     pieces.into_iter().map(|(_, piece)| piece).collect()
 }
 
-/// What a diagram shows of a locus: all points that are not much farther than the nearest, and some room.
+/// Window of a diagram: all points not much farther than the nearest, with a margin.
 fn window(points: &[[f64; 2]]) -> Option<[[f64; 2]; 2]> {
     let size = |it: &[f64; 2]| it[0].hypot(it[1]);
     let finite = || points.iter().filter(|it| size(it).is_finite());

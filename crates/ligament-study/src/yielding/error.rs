@@ -1,40 +1,40 @@
-//! What cannot be looked at.
+//! Error of a request for yield domains.
 
-/// Horizons of lattices, in spacings.
+/// Allowed horizons of lattices, in spacings.
 pub(super) const RATIOS: std::ops::RangeInclusive<f64> = 1.0..=50.0;
 
-/// What cannot be looked at.
+/// Error of a request for yield domains.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum YieldError {
-    /// A horizon without neighbours, or of thousands of them.
+    /// A horizon without neighbours, or with thousands of them.
     #[error("m = {ratio}: the horizon of a lattice is {} to {} spacings", RATIOS.start(), RATIOS.end())]
     Ratio {
-        /// The one given.
+        /// Given value.
         ratio: f64,
     },
     /// A Poisson's ratio that no material has in the plane.
     #[error("nu = {poisson} is not between -1 and 1, as Poisson's ratio in the plane is")]
     Poisson {
-        /// The one given.
+        /// Given value.
         poisson: f64,
     },
-    /// A ratio of strengths that is none.
+    /// A ratio of strengths that is not positive.
     #[error(
         "the ratio of strengths is {ratio}, and should be positive: compressive over tensile strength"
     )]
     Strengths {
-        /// The one given.
+        /// Given value.
         ratio: f64,
     },
-    /// Friction needs a compressive strength of at least the tensile one.
+    /// A compressive strength below the tensile one, for which there is no friction.
     #[error(
         "frictional sliding needs --ratio of 1 or more (compressive over tensile strength), got {ratio}"
     )]
     NoFriction {
-        /// The one given.
+        /// Given value.
         ratio: f64,
     },
-    /// Two strengths that no friction fits.
+    /// Two strengths for which there is no friction.
     #[error(
         "no friction fits both strengths at nu = {poisson} in the plane: --calibration two-point needs nu below \
          1/{ratio} (tensile over compressive strength); take --calibration printed, or a smaller --ratio"
@@ -51,7 +51,7 @@ pub enum YieldError {
          with a strength of the material), or take limits that are the same for all bonds with --criterion"
     )]
     NoCriteria,
-    /// Bonds that do not see the strain by their direction.
+    /// A law whose bonds' strains do not depend on their direction.
     #[error(
         "the bonds of model.law = \"{law}\" have all strains of the body whatever their direction, so that directions weaken nothing: \
          families yield at the limits that `ligament check` lists"
@@ -60,10 +60,10 @@ pub enum YieldError {
         /// Word of the law.
         law: &'static str,
     },
-    /// A case without a Poisson's ratio for all directions, or with several.
+    /// A case without a Poisson's ratio of all directions, or with several.
     #[error("the case has {which}: give Poisson's ratio in the plane with --nu")]
     NoPoisson {
-        /// The elastic constants that the case has instead, in words.
+        /// Description of the elastic constants of the case.
         which: &'static str,
     },
     /// No point has this tag.
@@ -71,11 +71,11 @@ pub enum YieldError {
     NoPoint {
         /// The noun that tags belong to: `node` or `cell`.
         tagged: &'static str,
-        /// The one asked for.
+        /// Requested tag.
         tag: u64,
-        /// Lowest number.
+        /// Lowest tag.
         lowest: u64,
-        /// Highest number.
+        /// Highest tag.
         highest: u64,
     },
     /// A position away from the body.
@@ -83,17 +83,17 @@ pub enum YieldError {
     NotInBody {
         /// The position.
         at: [f64; 2],
-        /// The nearest point.
+        /// Description of the nearest point.
         nearest: String,
         /// Horizon of the nearest point, m.
         horizon: f64,
     },
-    /// A family that no strain makes yield.
+    /// A family that no strain causes to yield.
     #[error(
         "no bond of {of} ever fails: its limits are infinite (no_fail, or a material without strength)"
     )]
     NeverYields {
-        /// Whose.
+        /// Description of the family.
         of: String,
     },
 }

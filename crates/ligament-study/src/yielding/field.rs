@@ -1,4 +1,4 @@
-//! The families of all points of a case: how their directions distort first yield, as fields and in numbers.
+//! Distortion of first yield by the bonds' directions for all points of a case, as fields and as a distribution.
 
 use std::io::Write;
 
@@ -20,7 +20,7 @@ use ligament_plot::plots::{Colour, Plot, Series};
 use ligament_run::model::Model;
 use ligament_run::summary::heading;
 
-/// The anisotropy of all points, as fields and in numbers.
+/// Computes and writes the anisotropy of first yield at all points.
 pub(super) fn draw(
     request: &Request,
     case: &CaseFile,
@@ -33,9 +33,9 @@ pub(super) fn draw(
 struct Layer {
     criterion: String,
     strain: Strain,
-    /// Shape (n_points).
+    /// First yield of each point's family, shape (n_points).
     yields: Vec<Option<FamilyYield>>,
-    /// The error of the lattice with families of equal size, where limits are the same for all bonds.
+    /// Error of the lattice with families of equal size, where all bonds have the same limits.
     lattice: Option<f64>,
 }
 
@@ -89,7 +89,8 @@ fn draw_here(request: &Request, case: &CaseFile, screen: &mut dyn Write) -> anyh
     Ok(folder.finish()?)
 }
 
-/// Each criterion under each strain, with Poisson's ratio of each point, beside a lattice with a horizon of `ratio` spacings.
+/// Layers of each criterion under each strain, with Poisson's ratio of each point (n_points), compared with a lattice with a horizon of
+/// `ratio` spacings.
 fn layers(
     request: &Request,
     model: &Model,
@@ -120,7 +121,7 @@ fn layers(
 const COLUMNS: &str = "criterion,strain,points,count,mean,percentile_5,percentile_95,worst\
                        ,worst_point,worst_orientation_deg,lattice_m,lattice";
 
-/// Writes the errors of the interior points and of all into a table, and those of the interior points on the screen.
+/// Writes the errors of the interior points and of all points into a table, and prints those of the interior points.
 fn write_summary(
     folder: &ResultFolder,
     screen: &mut dyn Write,
@@ -165,17 +166,17 @@ fn write_summary(
     Ok(())
 }
 
-/// Numbers of some points.
+/// Statistics of some points.
 struct Summary {
     errors: Distribution,
     /// The worst point.
     point: u32,
-    /// The worst orientation there.
+    /// The worst orientation at the worst point, rad.
     orientation: f64,
 }
 
 impl Layer {
-    /// Over the points that are marked (n_points), or all.
+    /// Statistics over the marked points (n_points), or over all points; `None` where no point yields.
     fn summary(&self, marked: Option<&[bool]>) -> Option<Summary> {
         let is_in = |point: usize| marked.is_none_or(|marked| marked[point]);
         let yields = self
@@ -199,7 +200,7 @@ impl Layer {
         })
     }
 
-    /// A value of each point; no number where nothing yields.
+    /// A value at each point, shape (n_points); NaN where no bond yields.
     fn values(&self, of: impl Fn(&FamilyYield) -> f64) -> Vec<f64> {
         let value = |it: &Option<FamilyYield>| it.as_ref().map_or(f64::NAN, &of);
         self.yields.iter().map(value).collect()
@@ -212,7 +213,7 @@ fn mean_size(sizes: &[i64], is_interior: &[bool]) -> f64 {
     pairs().map(|(size, _)| *size as f64).sum::<f64>() / count
 }
 
-/// Share of the interior points whose error is no larger.
+/// Plot of the cumulative share of interior points over their error.
 fn distribution(layers: &[Layer], is_interior: &[bool]) -> Plot {
     let curve = |(layer, colour): (&Layer, &Colour)| {
         let errors = layer.yields.iter().zip(is_interior);

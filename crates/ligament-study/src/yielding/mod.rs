@@ -1,11 +1,11 @@
-//! `ligament yield`: when families of bonds yield first, and what the directions of their bonds make of that.
+//! `ligament yield`: first yield of families of bonds, and its distortion by the directions of the bonds.
 //!
 //! | module | holds |
 //! |---|---|
 //! | [`criteria`] | criteria by name with the same limits for all bonds |
-//! | [`subject`] | the families that are compared, and the strains |
-//! | `request`, `error` | what is looked at, and what cannot be |
-//! | `of_case`, `point`, `field` | families of a case: what both routes share, one point, all points |
+//! | [`subject`] | the compared families, and the strains |
+//! | `request`, `error` | the request and its errors |
+//! | `of_case`, `point`, `field` | families of a case: common parts, one point, all points |
 //! | `diagrams`, `console` | tables, polar diagrams and loci; the terminal |
 
 use std::io::Write;
@@ -26,11 +26,11 @@ pub use error::YieldError;
 pub use request::{Families, Place, Request};
 use subject::{Strain, Subject};
 
-/// Computes errors and loci, tells of them and writes them.
+/// Computes errors and loci, prints them and writes them.
 ///
 /// # Errors
 ///
-/// If the request makes no sense, the case cannot be read or has no such point, or the folder cannot be used.
+/// If the request is wrong, the case cannot be read or has no such point, or the folder cannot be used.
 pub fn yielding(request: &Request, screen: &mut (dyn Write + Send)) -> anyhow::Result<()> {
     request.check()?;
     match &request.of {

@@ -1,4 +1,4 @@
-//! A case whose families are looked at: its model, its criteria and Poisson's ratio in the plane.
+//! Model, criteria and Poisson's ratio of a case with families of bonds.
 
 use ligament_model::failure::Criteria;
 
@@ -9,7 +9,7 @@ use ligament_run::model::{Model, build_model_in_plane};
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::Stages;
 
-/// The model of a case whose bonds have directions.
+/// Builds the model of a case; refuses laws whose bonds' strains do not depend on their direction.
 pub(super) fn model(case: &CaseFile) -> anyhow::Result<Model> {
     let law = case.case.model.law.0.row;
     if law.has_own_strains() {
@@ -19,7 +19,7 @@ pub(super) fn model(case: &CaseFile) -> anyhow::Result<Model> {
     build_model_in_plane(case, &mut Stages::default(), &progress)
 }
 
-/// The criteria with their names: those of the request, or each of the case's and, where there are several, all together.
+/// The criteria with their names: those of the request, or each criterion of the case and, of several, their combination.
 pub(super) fn criteria(
     request: &Request,
     model: &Model,
@@ -45,7 +45,7 @@ pub(super) fn criteria(
     }
     let mut found: Vec<(String, Criteria)> = Vec::new();
     for criterion in list {
-        // Two of a kind keep their order in the case.
+        // Criteria of the same kind keep their order in the case.
         let before = found
             .iter()
             .filter(|(name, _)| name.starts_with(criterion.name))
@@ -63,7 +63,7 @@ pub(super) fn criteria(
     Ok(found)
 }
 
-/// Poisson's ratio in the plane at each point (n_points): the mean over its materials.
+/// Poisson's ratio in the plane at each point (n_points), the mean over its materials.
 pub(super) fn poisson(request: &Request, model: &Model) -> Result<Vec<f64>, YieldError> {
     let cloud = &model.plane().cloud;
     if let Some(poisson) = request.poisson {

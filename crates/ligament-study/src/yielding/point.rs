@@ -1,4 +1,4 @@
-//! The family of one point of a case, beside that of a lattice.
+//! The family of one point of a case, compared with that of a lattice.
 
 use std::io::Write;
 
@@ -15,7 +15,7 @@ use ligament_case::case::CaseFile;
 use ligament_run::model::Model;
 use ligament_run::summary::heading;
 
-/// Diagrams of one point.
+/// Computes and writes the diagrams of one point.
 pub(super) fn draw(
     request: &Request,
     case: &CaseFile,
@@ -35,7 +35,7 @@ pub(super) fn draw(
                 subjects: vec![subject],
             });
         }
-        // With limits that are the same for all bonds a lattice is a fair neighbour.
+        // Where all bonds have the same limits, a lattice is comparable.
         for (comparison, combination) in comparisons.iter_mut().zip(&request.combinations) {
             let ratio = lattice::ratio_of_size(comparison.subjects[0].size as f64);
             let strengths = request.strengths(poisson);

@@ -1,4 +1,4 @@
-//! What is looked at, and where it is written.
+//! Request for yield domains.
 
 use std::path::PathBuf;
 
@@ -9,21 +9,21 @@ use ligament_output::folder::{Kind, ResultFolder};
 use super::criteria::{Combination, Strengths};
 use super::error::{RATIOS, YieldError};
 
-/// The file by which a folder is known to hold yield domains.
+/// File that marks a folder of yield domains.
 pub(super) const SUMMARY: &str = "yield.csv";
 
 /// A request to `ligament yield`: the subject, and where to write.
 #[derive(Debug)]
 pub struct Request {
-    /// The families.
+    /// Families to be studied.
     pub of: Families,
-    /// Criteria with the same limits for all bonds; none for those of the figures, or of the case.
+    /// Criteria with the same limits for all bonds; where empty, those of the figures, or of the case.
     pub combinations: Vec<Combination>,
-    /// Poisson's ratio in the plane; none for 0, or that of the case.
+    /// Poisson's ratio in the plane; by default 0, or that of the case.
     pub poisson: Option<f64>,
     /// Compressive over tensile strength.
     pub ratio: f64,
-    /// How cohesion and friction come from the strengths.
+    /// Rule for cohesion and friction from the strengths.
     pub calibration: Calibration,
     /// Folder of the results.
     pub out: PathBuf,
@@ -31,10 +31,10 @@ pub struct Request {
     pub force: bool,
 }
 
-/// Whose bonds.
+/// Families of bonds to be studied.
 #[derive(Debug)]
 pub enum Families {
-    /// Lattices with horizons of so many spacings.
+    /// Lattices with these horizons, in spacings.
     Lattices(Vec<f64>),
     /// One point of a case.
     Point(Box<CaseFile>, Place),
@@ -45,13 +45,13 @@ pub enum Families {
 /// A point of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Place {
-    /// The one nearest to a position.
+    /// The point nearest to a position, m.
     At([f64; 2]),
-    /// The one of this tag.
+    /// The point with this tag.
     Tag(u64),
 }
 
-/// Files of a folder of yield diagrams, beside those with a criterion in their name.
+/// Files of a folder of yield diagrams, except those with a criterion in their name.
 const FILES: [&str; 4] = [
     "distribution.svg",
     "locus.csv",
@@ -59,7 +59,7 @@ const FILES: [&str; 4] = [
     "points.vtu",
 ];
 
-/// The folder of yield diagrams.
+/// Kind of the folder of yield diagrams.
 const KIND: Kind = Kind {
     owns: |name| {
         let is_diagram = |start: &&str| name.starts_with(*start) && name.ends_with(".svg");
@@ -93,7 +93,7 @@ impl Request {
         }
     }
 
-    /// The folder, new or empty.
+    /// Creates the folder of the results.
     pub(super) fn folder(&self) -> Result<ResultFolder, ligament_output::Error> {
         ResultFolder::create_marked(&self.out, KIND, self.force)
     }

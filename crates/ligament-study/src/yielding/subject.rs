@@ -1,4 +1,4 @@
-//! What a diagram has a curve of: a family of bonds with a name.
+//! A family of bonds with a name, the subject of a curve.
 
 use ligament_model::BondSystem;
 use ligament_model::failure::softening::brittle;
@@ -17,23 +17,23 @@ pub struct Subject {
     pub size: usize,
     directions: Vec<f64>,
     criteria: Criteria,
-    /// Arguments of the measure of the paper's tables, where the subject is a lattice.
+    /// Arguments for the error of the paper's tables, where the subject is a lattice.
     printed: Option<(Combination, Strengths)>,
 }
 
-/// A uniform strain that diagrams are drawn for.
+/// A uniform strain of the diagrams.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strain {
     /// Name of the strain in files.
     pub name: &'static str,
-    /// The strain in words.
+    /// Description of the strain.
     pub words: &'static str,
     /// Principal stretches of the strain, of size one.
     pub stretches: PrincipalStretches,
 }
 
 impl Strain {
-    /// A bar in tension, with the simple extension of the paper at nu = 0, and pure shear.
+    /// The strains of the figures: a bar in tension, which is the paper's simple extension at nu = 0, and pure shear.
     pub fn of_the_figures(poisson: f64) -> [Self; 2] {
         [
             Self {
@@ -51,11 +51,11 @@ impl Strain {
 }
 
 impl Subject {
-    /// An inner point of a square lattice with a horizon of `ratio` m spacings.
+    /// The family of an inner point of a square lattice with a horizon of `ratio` m spacings.
     ///
     /// # Errors
     ///
-    /// If the strengths leave no friction.
+    /// If no friction fits the strengths.
     pub fn of_lattice(
         ratio: f64,
         combination: &Combination,
@@ -71,7 +71,7 @@ impl Subject {
         })
     }
 
-    /// A point of a body; the criteria are those of the body's bonds.
+    /// The family of a point of a body; the criteria are those of the body's bonds.
     pub fn of_point(name: String, system: &BondSystem, criteria: &Criteria, point: u32) -> Self {
         let bonds = system.bonds.incidence.at(point);
         let angle = |&bond: &u32| {
@@ -85,7 +85,7 @@ impl Subject {
         let criterion = |it: &Criterion| Criterion {
             limit: of_family(&it.limit),
             coefficient: of_family(&it.coefficient),
-            // Only the limit of the sound body matters for first yield.
+            // First yield depends only on the limit, not on the law after it.
             after: AfterLimit::new(brittle::LAW, Vec::new()),
             crack_at_points: None,
             ..*it
@@ -106,16 +106,16 @@ impl Subject {
         Family::of_directions(&self.directions, &self.criteria)
     }
 
-    /// Name of the criterion at a place.
+    /// Name of the criterion with an index.
     pub fn criterion_name(&self, place: usize) -> &'static str {
         self.criteria.list[place].name
     }
 
-    /// The error of the paper's tables, where they have one.
+    /// The error of the paper's tables; `None` where they have none.
     ///
     /// # Errors
     ///
-    /// If the strengths leave no friction.
+    /// If no friction fits the strengths.
     pub fn printed_measure(&self, path: PrincipalStretches) -> Result<Option<Worst>, YieldError> {
         match &self.printed {
             Some((combination, strengths)) => {

@@ -1,4 +1,4 @@
-//! A body of elements: its equilibrium and its natural modes.
+//! A body of finite elements: its equilibrium and its natural modes.
 
 use std::array::from_fn;
 use std::f64::consts::TAU;
@@ -14,10 +14,10 @@ use ligament_model::material::{Elasticity, Plane};
 use super::element::{self, PlaneStiffness, Shapes, dot};
 use super::mesh::Mesh;
 
-/// Residual over eigenvalue below which a mode is found.
+/// Residual over eigenvalue below which a mode has converged.
 const TOLERANCE: f64 = 1e-9;
 
-/// Solutions after which the search for modes is given up; some tens are usual.
+/// Largest number of solutions in the search for modes; some tens are usual.
 const SOLUTIONS: usize = 2000;
 
 /// A body in plane stress.
@@ -27,7 +27,7 @@ pub struct Body {
     pub mesh: Mesh,
     thickness: f64,
     elasticity: PlaneStiffness,
-    /// Volume that belongs to each node, shape (n_nodes), m^3.
+    /// Volume of each node, shape (n_nodes), m^3.
     volumes: Vec<f64>,
 }
 
@@ -38,13 +38,13 @@ pub struct Mode {
     pub frequency: f64,
     /// Displacements of the nodes, with a kinetic energy of omega^2/2, shape (n_nodes, 2).
     pub shape: Vec<[f64; 2]>,
-    /// Share in a motion of the whole body along x and y: the sum of mass times shape.
+    /// Participation in rigid translations along x and y: the sum of mass times shape.
     pub participation: [f64; 2],
 }
 
-/// The equations of the unknowns that are not prescribed.
+/// The equations of the free unknowns.
 struct Equations {
-    /// Unknown of each component (2 node + axis) that is free, shape (2 n_nodes).
+    /// Unknown of each free component (2 node + axis), shape (2 n_nodes).
     unknown: Vec<Option<usize>>,
     factor: Box<dyn Factorisation>,
     /// Forces of the prescribed displacements on the free components, shape (n_unknowns), N.
@@ -70,8 +70,7 @@ impl Body {
         }
     }
 
-    /// The forces on the nodes of a force on the volume of each element, which follows from its middle: shape (n_nodes, 2)
-    /// from N/m^3 to N.
+    /// Nodal forces of a force per volume (N/m^3), evaluated at the middle of each element, shape (n_nodes, 2), N.
     pub fn volume_forces(&self, density: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<[f64; 2]> {
         let mut forces = vec![[0.0; 2]; self.mesh.nodes.len()];
         for (cell, centre) in self.mesh.cells.iter().zip(self.mesh.centres()) {
@@ -86,11 +85,11 @@ impl Body {
         forces
     }
 
-    /// The displacements under forces on the nodes (N), some of them prescribed (m), each of shape (n_nodes, 2).
+    /// The displacements under nodal forces (N) and prescribed displacements (m), each of shape (n_nodes, 2).
     ///
     /// # Errors
     ///
-    /// If what is prescribed does not hold the body.
+    /// If the prescribed displacements leave rigid motions free.
     pub fn displacements(
         &self,
         prescribed: &[[Option<f64>; 2]],
@@ -107,13 +106,13 @@ impl Body {
         Ok(equations.spread(&solution, prescribed))
     }
 
-    /// The lowest modes of a body of this density (kg/m^3), some components of its nodes held: shape (n_nodes, 2).
+    /// The lowest modes of a body with a density (kg/m^3) and fixed components of its nodes, shape (n_nodes, 2).
     ///
     /// The eigenvalues 1/omega^2 are those of M^(1/2) K^-1 M^(1/2), with the diagonal mass matrix of the nodes' volumes.
     ///
     /// # Errors
     ///
-    /// If what is held does not hold the body, or the modes are not found.
+    /// If the fixed components leave rigid motions free, or the modes are not found.
     pub fn modes(
         &self,
         held: &[[bool; 2]],
@@ -181,7 +180,7 @@ impl Body {
         self.mesh.cells.iter().map(stress).collect()
     }
 
-    /// The factorised equations, and the forces of what is prescribed.
+    /// The factorised equations, and the forces of the prescribed displacements.
     fn equations(&self, prescribed: &[[Option<f64>; 2]]) -> anyhow::Result<Equations> {
         let prescribed = prescribed.as_flattened();
         let mut count = 0;
@@ -225,7 +224,7 @@ impl Body {
 }
 
 impl Equations {
-    /// The solution on the nodes, with what is prescribed, shape (n_nodes, 2).
+    /// The solution at the nodes, including prescribed displacements, shape (n_nodes, 2).
     fn spread(&self, solution: &[f64], prescribed: &[[Option<f64>; 2]]) -> Vec<[f64; 2]> {
         let value = |node: usize, axis: usize| match self.unknown[2 * node + axis] {
             Some(unknown) => solution[unknown],
@@ -237,7 +236,7 @@ impl Equations {
     }
 }
 
-/// The matrix of these entries (column, row, value) of the upper triangle; entries of one place add up in their order.
+/// The matrix of entries (column, row, value) of the upper triangle; entries with equal indices are summed in their order.
 fn sum(dimension: usize, mut entries: Vec<(usize, usize, f64)>) -> anyhow::Result<SymmetricMatrix> {
     entries.sort_by_key(|&(column, row, _)| (column, row));
     let (mut starts, mut rows, mut values) = (vec![0; dimension + 1], Vec::new(), Vec::new());

@@ -5,10 +5,9 @@ use super::mesh::Degree;
 /// A stiffness of the plane C: (sigma_xx, sigma_yy, sigma_xy) = C (eps_xx, eps_yy, gamma_xy), Pa.
 pub(super) type PlaneStiffness = [[f64; 3]; 3];
 
-/// Shape functions of all nodes at a place (xi, eta) of [-1, 1]^2: values and derivatives by x and y, and the area of the
-/// element over that of the square there.
+/// Derivatives of the shape functions of all nodes by x and y at a position (xi, eta) of [-1, 1]^2, and the determinant of the Jacobian.
 pub(super) struct Shapes {
-    /// dN/dx and dN/dy of each node.
+    /// Derivatives dN/dx and dN/dy of each node.
     gradients: Vec<[f64; 2]>,
     /// Determinant of the Jacobian.
     area: f64,
@@ -70,8 +69,8 @@ pub(super) fn stiffness(degree: Degree, nodes: &[[f64; 2]], c: &PlaneStiffness) 
     sum
 }
 
-/// The area that belongs to each node of an element: the integral of its shape function by the rule whose points are the
-/// nodes (the trapezoidal rule, Simpson's rule). The same rule makes a mass matrix diagonal.
+/// The area of each node of an element: the integral of its shape function by the rule with the nodes as points (the trapezoidal rule,
+/// Simpson's rule). The same rule gives a diagonal mass matrix.
 pub(super) fn nodal_areas(degree: Degree, nodes: &[[f64; 2]]) -> Vec<f64> {
     let rule: &[[f64; 2]] = match degree {
         Degree::Linear => &[[-1.0, 1.0], [1.0, 1.0]],
@@ -88,7 +87,7 @@ pub(super) fn nodal_areas(degree: Degree, nodes: &[[f64; 2]]) -> Vec<f64> {
 
 /// Points and weights of Gauss's rule on [-1, 1], as many as there are nodes along a side.
 fn gauss(degree: Degree) -> &'static [[f64; 2]] {
-    /// 1/sqrt(3) and sqrt(3/5).
+    /// Gauss points 1/sqrt(3) and sqrt(3/5).
     const TWO: f64 = 0.577_350_269_189_625_8;
     const THREE: f64 = 0.774_596_669_241_483_4;
     match degree {
@@ -97,7 +96,7 @@ fn gauss(degree: Degree) -> &'static [[f64; 2]] {
     }
 }
 
-/// Values and derivatives of Lagrange's polynomials at a place of [-1, 1].
+/// Values and derivatives of Lagrange's polynomials at a position in [-1, 1].
 fn lagrange(degree: Degree, x: f64) -> Vec<[f64; 2]> {
     match degree {
         Degree::Linear => vec![[0.5 * (1.0 - x), -0.5], [0.5 * (1.0 + x), 0.5]],
@@ -109,7 +108,7 @@ fn lagrange(degree: Degree, x: f64) -> Vec<[f64; 2]> {
     }
 }
 
-/// a . b.
+/// Scalar product a . b.
 pub(super) fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
-/// Distance below which two nodes are one, m.
+/// Distance below which two nodes coincide, m.
 const SAME: f64 = 1e-9;
 
-/// How the cells towards a hole become smaller: the power of the depth into the body.
+/// Grading of the cells towards a hole: the exponent of the relative depth into the body.
 const GRADING: f64 = 1.3;
 
 /// Degree of the shape functions along each side of a quadrilateral.
@@ -23,27 +23,27 @@ pub enum Degree {
 pub struct Mesh {
     /// Degree of the elements.
     pub degree: Degree,
-    /// Places of the nodes, shape (n_nodes, 2), m.
+    /// Positions of the nodes, shape (n_nodes, 2), m.
     pub nodes: Vec<[f64; 2]>,
     /// Nodes of each quadrilateral, row by row from its lower left corner, shape (n_cells, 4 or 9).
     pub cells: Vec<Vec<usize>>,
 }
 
-/// A part of a mesh: a grid of cells over the unit square, and where its points come to lie.
+/// A part of a mesh: the numbers of cells of a grid over the unit square, and the mapping of its points.
 type Patch<'a> = ([usize; 2], Box<dyn Fn([f64; 2]) -> [f64; 2] + 'a>);
 
 impl Mesh {
-    /// Squares about the origin: so many along x and y, a spacing (m) wide each.
+    /// A rectangle of squares about the origin, with `cells` squares of width `spacing` (m) along x and y.
     pub fn rectangle(degree: Degree, cells: [usize; 2], spacing: f64) -> Self {
         let place =
             move |at: [f64; 2]| [0, 1].map(|axis| (at[axis] - 0.5) * spacing * cells[axis] as f64);
         Self::from_patches(degree, &[(cells, Box::new(place))])
     }
 
-    /// A lamina about the origin, twice as long (along x) as high, with a round hole in the middle and `n` quadrilaterals
-    /// along an eighth of it; at both ends a line of the mesh lies within the body by `layer`. Lengths in m.
+    /// A lamina about the origin, twice as long (along x) as high, with a round hole in the middle and `n` quadrilaterals along an eighth
+    /// of it; at both ends a mesh line is at the distance `layer` inside the body. Lengths in m.
     ///
-    /// The square around the hole is cut along rays; edges on the hole are as round as the degree lets them be.
+    /// The square around the hole is divided along rays; edges on the hole are as round as the degree allows.
     pub fn lamina_with_hole(
         degree: Degree,
         height: f64,
@@ -81,7 +81,7 @@ impl Mesh {
         Self::from_patches(degree, &patches)
     }
 
-    /// The patches together; nodes that lie in one place become one.
+    /// Joins patches; coinciding nodes are merged.
     fn from_patches(degree: Degree, patches: &[Patch<'_>]) -> Self {
         let p = degree as usize;
         let mut mesh = Self {
@@ -106,7 +106,7 @@ impl Mesh {
                             })
                     })
                     .collect();
-                // A patch that is mirrored runs clockwise.
+                // A mirrored patch has clockwise cells.
                 if mesh.is_mirrored(&nodes) {
                     nodes.chunks_mut(p + 1).for_each(<[usize]>::reverse);
                 }
@@ -124,7 +124,7 @@ impl Mesh {
         a * d - b * c < 0.0
     }
 
-    /// The places of the nodes of a quadrilateral, m.
+    /// The positions of the nodes of a quadrilateral, m.
     pub(super) fn places(&self, cell: &[usize]) -> Vec<[f64; 2]> {
         cell.iter().map(|&node| self.nodes[node]).collect()
     }
@@ -144,7 +144,7 @@ impl Mesh {
         self.cells.iter().map(centre).collect()
     }
 
-    /// The node nearest to a place, the first of several.
+    /// The node nearest to a position, the first of several.
     pub fn nearest_node(&self, place: [f64; 2]) -> usize {
         let distance =
             |node: usize| (self.nodes[node][0] - place[0]).hypot(self.nodes[node][1] - place[1]);

@@ -1,4 +1,4 @@
-//! Finite elements of classical elasticity, in plane stress: what the lattices of the papers are compared with.
+//! Finite elements of classical elasticity in plane stress, for comparison with the lattices of the papers.
 //!
 //! | Module | Holds |
 //! |--------|-------|

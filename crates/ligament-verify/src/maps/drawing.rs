@@ -1,4 +1,4 @@
-//! The motion of a body, as it is compared and drawn.
+//! The motion of a body, for comparisons and drawings.
 
 use anyhow::Context;
 use ligament_analysis::Component;
@@ -9,32 +9,32 @@ use ligament_plot::picture::maps::{MappedBody, Maps};
 use crate::finite_elements::Mesh;
 use crate::named_modes::NAMES;
 
-/// Displacements, and rotations of lattices.
+/// Displacements of a body, and rotations of a lattice.
 #[derive(Debug, Clone)]
 pub(super) struct Motion {
     /// The body.
     pub(super) body: Discretisation,
-    /// Displacements of its points, shape (n_points, 2), m; of a mode of any size.
+    /// Displacements of the body's points, shape (n_points, 2), m; of arbitrary size for a mode.
     pub(super) displacements: Vec<[f64; 2]>,
     /// Rotations of the points of a lattice, shape (n_points), rad.
     pub(super) rotations: Vec<f64>,
 }
 
-/// What has the displacements.
+/// Points or elements with the displacements.
 #[derive(Debug, Clone)]
 pub(super) enum Discretisation {
-    /// Points, a spacing apart (m).
+    /// Positions of points (m), and their spacing (m).
     Lattice(Vec<[f64; 2]>, f64),
     /// Nodes of quadrilaterals.
     Elements(Mesh),
 }
 
-/// What is drawn of a motion.
+/// Quantity of a motion that is drawn.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Quantity {
     /// A component of the displacement.
     Component(usize),
-    /// The length of the displacement, of modes.
+    /// The length of the displacement, for modes.
     Length,
     /// The rotation.
     Rotation,
@@ -65,7 +65,7 @@ impl Motion {
         }
     }
 
-    /// The motion or its opposite: the upper right corner goes to the right or up, whichever way it goes farther.
+    /// The motion or its opposite, with the sign for which the larger displacement of the upper right corner is positive.
     pub(super) fn with_sign(mut self) -> Self {
         let by = |one: &usize, other: &usize| {
             let sum = |place: usize| self.points()[place].iter().sum::<f64>();
@@ -116,7 +116,7 @@ impl Motion {
         self
     }
 
-    /// The displacements of elements at the points of a lattice, which are nodes, or else the middles of the elements.
+    /// The displacements of elements at the points of a lattice, which are nodes or the middles of elements.
     fn at(&self, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let Discretisation::Elements(mesh) = &self.body else {
             return self.displacements.clone();
@@ -142,7 +142,7 @@ impl Motion {
         points.iter().map(nearest).collect()
     }
 
-    /// L2 norm of the difference from elements over that of their displacements, at the points of this lattice.
+    /// L2 norm of the difference from the displacements of elements over the norm of these, at the points of this lattice.
     pub(super) fn difference(&self, elements: &Self) -> f64 {
         let other = elements.at(self.points());
         let squares = |values: &mut dyn Iterator<Item = [f64; 2]>| {
@@ -153,7 +153,7 @@ impl Motion {
         (apart / squares(&mut other.iter().copied())).sqrt()
     }
 
-    /// (a . b)^2/(a . a b . b) with elements, at the points of this lattice: 1 for modes of one shape.
+    /// Modal assurance (a . b)^2/(a . a b . b) with elements, at the points of this lattice: 1 for equal shapes.
     pub(super) fn assurance(&self, elements: &Self) -> f64 {
         let other = elements.at(self.points());
         let product = |one: &[[f64; 2]], other: &[[f64; 2]]| {
@@ -165,7 +165,7 @@ impl Motion {
         product(own, &other).powi(2) / (product(own, own) * product(&other, &other))
     }
 
-    /// The body with a quantity, as it is drawn.
+    /// The body with a quantity, for drawing.
     pub(super) fn drawn(&self, title: impl Into<String>, quantity: Quantity) -> MappedBody {
         let values = match quantity {
             Quantity::Component(axis) => self.displacements.iter().map(|u| u[axis]).collect(),

@@ -1,4 +1,4 @@
-//! Damage at stages: disks and plates of NHPD (Figs 10 to 12, 15, 16, 18 to 20 and 24), plates of MBB-PD (Figs 14, 16 and 17).
+//! Maps of damage at stages: disks and plates of NHPD (Figs 10 to 12, 15, 16, 18 to 20 and 24), plates of MBB-PD (Figs 14, 16 and 17).
 
 use anyhow::Context;
 use ligament::body::Origin;
@@ -12,7 +12,7 @@ use ligament_plot::picture::maps::{MappedBody, Maps};
 use crate::trial::Trial;
 use crate::{cracks, disk, inclined, slots};
 
-/// The correction of the paper, and the one under which uniform strains are equilibria.
+/// The correction of the paper, and the patch correction, under which uniform strains are in equilibrium.
 const CORRECTIONS: [&str; 2] = ["domain", "patch"];
 
 /// Shares of all breakages that are drawn.
@@ -22,10 +22,10 @@ const STAGES: [(&str, usize); 3] = [
     ("all", 1),
 ];
 
-/// Share of the largest load at which the plates of MBB-PD end: their cracks have run far then.
+/// Share of the largest load at which the runs of the plates of MBB-PD end, with long cracks.
 const END: f64 = 0.1;
 
-/// A case by the name that its experiment gives it, and the number of its figure.
+/// Name of a case in its experiment, and number of its figure.
 type Figure = (&'static str, usize);
 
 const DISKS: [Figure; 3] = [("4 mm", 10), ("3 mm", 11), ("2 mm", 12)];
@@ -73,7 +73,7 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
     Ok(maps)
 }
 
-/// Stages of a test under both corrections, a row each.
+/// Stages of a test under both corrections, one row each.
 fn under_both(
     figure: usize,
     title: String,
@@ -104,7 +104,7 @@ fn damage_maps() -> Maps {
     }
 }
 
-/// The damage after shares of the breakages, on the body without its displacement.
+/// The damage after shares of the breakages, on the undeformed body.
 fn stages(
     label: &str,
     (solution, breaks): &(Solution, Vec<BreakRecord>),

@@ -1,4 +1,4 @@
-//! Intact bodies of MBB-PD (Figs 9 to 11): plates that are pulled, sheared and heated, and a thick cylinder.
+//! Maps of intact bodies of MBB-PD (Figs 9 to 11): plates in tension, in shear and heated, and a thick cylinder.
 
 use anyhow::Context;
 use ligament_model::material::{Elasticity, Isotropic};
@@ -14,10 +14,10 @@ const YOUNG: f64 = 65.8e9;
 
 const THICKNESS: f64 = 1e-3;
 
-/// Distance of the points of the plates, and side of the elements, m.
+/// Spacing of the plates' points, and side of the elements, m.
 const SPACING: f64 = 1e-3;
 
-/// Elements along x and y: their edges above and below lie on the outermost rows of points.
+/// Numbers of elements along x and y: the upper and lower edges lie on the outermost rows of points.
 const ELEMENTS: [usize; 2] = [100, 99];
 
 /// Free strain of the heated plates: 23e-6/K times 50 K.
@@ -26,7 +26,7 @@ const FREE_STRAIN: f64 = 23e-6 * 50.0;
 /// Spacing of the cylinder's points, m.
 const COARSE: f64 = 0.05;
 
-/// What the nodes of elements are given, shape (n_nodes, 2), m.
+/// Prescribed displacements of the nodes of elements, shape (n_nodes, 2), m.
 type Prescribed = Vec<[Option<f64>; 2]>;
 
 /// All maps of intact bodies.
@@ -64,7 +64,7 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
     Ok(maps)
 }
 
-/// The motion of finite elements, and that of the lattice of a case.
+/// The motions of finite elements and of the lattice of a case.
 fn beside(
     elements: Motion,
     template: &'static Template,
@@ -101,7 +101,7 @@ fn solved(body: Body, prescribed: &Prescribed, forces: &[[f64; 2]]) -> anyhow::R
     Ok(Motion::of_elements(body.mesh, displacements))
 }
 
-/// 200 MPa on both ends, as a force on the volume of the outermost elements; the middle is at rest.
+/// The plate under 200 MPa on both ends, as a body force on the outermost elements; the middle is fixed.
 fn pulled(axis: usize) -> anyhow::Result<Motion> {
     let body = plate(0.2);
     let outermost = half()[axis] - SPACING;
@@ -118,7 +118,7 @@ fn pulled(axis: usize) -> anyhow::Result<Motion> {
     Ok(solved(body, &prescribed, &forces)?.without_rigid_motion())
 }
 
-/// The upper edge is moved along x by 1 mm, the lower one held.
+/// The plate with the upper edge moved along x by 1 mm, and the lower edge fixed.
 fn sheared() -> anyhow::Result<Motion> {
     let body = plate(0.3);
     let edge = half()[1] - 0.1 * SPACING;
@@ -132,7 +132,8 @@ fn sheared() -> anyhow::Result<Motion> {
     solved(body, &prescribed, &forces)
 }
 
-/// The free expansion about the origin, and what takes it away from the clamped edges: top and bottom, and the left one of three.
+/// The heated plate: the free expansion about the origin, and displacements that cancel it at the clamped edges, top and bottom, and of
+/// three edges also the left one.
 fn heated(edges: usize) -> anyhow::Result<Motion> {
     let body = plate(0.4);
     let edge = half().map(|it| it - 0.1 * SPACING);

@@ -1,4 +1,4 @@
-//! The orthotropic laminas of OMPPD (Figs 9, 11 to 15, 19 to 23).
+//! Maps of the orthotropic laminas of OMPPD (Figs 9, 11 to 15, 19 to 23).
 
 use ligament_plot::picture::maps::Maps;
 
@@ -8,10 +8,10 @@ use crate::lamina_elements;
 use crate::named_modes::in_named_order;
 use crate::{lamina, tension};
 
-/// The cantilevers stick out along x.
+/// Axis of the cantilevers: x.
 const ALONG: usize = 0;
 
-/// Angles of the material's axis 1, degrees, with the numbers of their figures: of tension, and of modes.
+/// Angles of the material's axis 1, degrees, with the numbers of their figures of tension and of modes.
 const ANGLES: [(f64, usize, usize); 5] = [
     (0.0, 11, 19),
     (30.0, 12, 20),
@@ -78,7 +78,7 @@ fn modes(angle: f64) -> anyhow::Result<Vec<Motion>> {
     modes.into_iter().collect()
 }
 
-/// Fig. 9: rotations of the points, which a homogeneous body does not need.
+/// Maps of Fig. 9: rotations of the points, which vanish in a homogeneous body.
 fn rotations() -> anyhow::Result<Maps> {
     let mut bodies = Vec::new();
     for (title, has_hole) in [("without hole", false), ("with hole", true)] {

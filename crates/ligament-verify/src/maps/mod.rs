@@ -1,5 +1,5 @@
-//! Maps of displacements, rotations and natural modes: lattices beside finite elements (MPPD Figs 12 to 24, OMPPD Figs 9 to 23); maps of
-//! damage (NHPD Figs 10 to 24, MBB-PD Figs 14 to 17).
+//! Maps of displacements, rotations and natural modes, lattices compared with finite elements (MPPD Figs 12 to 24, OMPPD Figs 9 to 23), and
+//! of damage (NHPD Figs 10 to 24, MBB-PD Figs 14 to 17).
 
 mod drawing;
 mod fractures;

@@ -1,4 +1,4 @@
-//! The square plates of MPPD (Figs 12 to 24).
+//! Maps of the square plates of MPPD (Figs 12 to 24).
 
 use anyhow::{Context, bail};
 use ligament_plot::picture::maps::Maps;
@@ -13,10 +13,10 @@ use crate::trial::Memory;
 
 const DENSITY: f64 = 2500.0;
 
-/// The plates stand on their base.
+/// Axis of the plates, which are supported at their base: y.
 const ALONG: usize = 1;
 
-/// Poisson's ratios of the figures, as they are written, with the number of the first figure of traction for each.
+/// Poisson's ratios of the figures, as text and number, with the number of the first figure of each.
 const RATIOS: [(&str, f64, usize); 3] =
     [("-0.5", -0.5, 12), ("0", 0.0, 13), ("1/3", 1.0 / 3.0, 14)];
 
@@ -24,7 +24,7 @@ const LOADS: [&str; 3] = ["traction", "shear", "bending"];
 
 const MODELS: [&str; 2] = ["PDS", "MPPD"];
 
-/// Motions that were computed, by load, Poisson's ratio and model.
+/// Computed motions, by load, Poisson's ratio and model.
 #[derive(Debug, Default)]
 pub(super) struct Squares {
     motions: Memory<Motion>,
@@ -135,7 +135,7 @@ fn load_of(name: &str) -> anyhow::Result<SquareLoad> {
     }
 }
 
-/// The place of a mode by its name.
+/// Index of a mode by its name.
 pub(super) fn place_of_mode(name: &str) -> anyhow::Result<usize> {
     let place = NAMES.iter().position(|it| *it == name);
     place.with_context(|| format!("no mode `{name}`"))

@@ -21,13 +21,13 @@ pub(crate) fn list(console: &mut dyn Write, experiments: &[Experiment]) -> io::R
     Ok(())
 }
 
-/// Says on the console what is run next.
+/// Prints the experiment that is run next.
 pub(crate) fn announce(console: &mut dyn Write, experiment: &Experiment) -> io::Result<()> {
     writeln!(console, "{}: {}", experiment.name, experiment.title)?;
     console.flush()
 }
 
-/// Shows the tables of an experiment on the console.
+/// Prints the tables of an experiment.
 pub(crate) fn tell(console: &mut dyn Write, findings: &Findings) -> io::Result<()> {
     for table in &findings.tables {
         let Printable { rows, notes } = Printable::from_table(table);

@@ -8,16 +8,16 @@ use crate::experiment::{Experiment, Findings};
 use crate::table::Table;
 use crate::tally::Tally;
 
-/// The file by which a folder is known to hold a report: a row an experiment.
+/// File that marks a folder with a report, with one row per experiment.
 pub(crate) const SUMMARY: &str = "verification.csv";
 
-/// Width of pictures of bodies, mm, ...
+/// Width of pictures of bodies, mm.
 const WIDTH: f64 = 160.0;
 
-/// ... and their resolution: 700 pixels across.
+/// Resolution of pictures of bodies, dots per inch: 700 pixels across.
 const DOTS_PER_INCH: f64 = 110.0;
 
-/// The table of experiments, which grows while they are run.
+/// The table of experiments, which grows during the run.
 pub(crate) struct Summary(csv::Table);
 
 impl Summary {

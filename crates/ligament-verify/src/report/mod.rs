@@ -10,9 +10,9 @@ pub(super) mod files;
 pub(super) mod markdown;
 pub(super) mod page;
 
-/// A table as words.
+/// A table as text.
 struct Printable {
-    /// The names of the columns, and a row for each entry.
+    /// Names of the columns, and one row for each entry.
     rows: Vec<Vec<String>>,
     /// Reasons for standings, numbered from 1 in the rows.
     notes: Vec<String>,
@@ -38,7 +38,7 @@ impl Printable {
     }
 }
 
-/// A row as words; a reason that is not yet there joins the notes.
+/// Text of a row; a new reason is appended to the notes.
 fn words(table: &Table, row: &Row, notes: &mut Vec<String>) -> Vec<String> {
     let entry = &row.entry;
     let mut verdict = row.verdict.words().to_owned();

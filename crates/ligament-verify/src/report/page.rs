@@ -1,4 +1,4 @@
-//! The page of the papers: a line a table or figure, and what became of it.
+//! The page of the papers: one line per table or figure, with its verdicts.
 
 use std::fmt::Write as _;
 
@@ -12,11 +12,11 @@ use crate::tally::Tally;
 /// A row with its table.
 type Compared<'a> = (&'a Table, &'a Row);
 
-/// The page, of the experiments that were run.
+/// Text of the page for the experiments that were run.
 ///
 /// # Errors
 ///
-/// If the list of what stands in the papers is not as it should be.
+/// If the list of the papers' contents is wrong.
 pub(crate) fn text(done: &[(&Experiment, Findings)], extent: Extent) -> anyhow::Result<String> {
     let items = items()?;
     let findings = || done.iter().map(|(_, findings)| findings);
@@ -76,7 +76,7 @@ to run.
 - **not judged**: shown for comparison. **FAILED**: should be near, and is not.
 ";
 
-/// How many values of each paper got which verdict: printed values, and those of other references, apart.
+/// Appends the numbers of values of each paper by verdict, separately for printed values and other references.
 fn push_counts(text: &mut String, compared: &[(&Item, Vec<Compared<'_>>)]) {
     let words = Verdict::ALL.map(Verdict::words).join(" | ");
     let dashes = "---|".repeat(3 + Verdict::ALL.len());
@@ -113,7 +113,7 @@ fn push_counts(text: &mut String, compared: &[(&Item, Vec<Compared<'_>>)]) {
     }
 }
 
-/// Experiments with tables that compare with no paper.
+/// Appends the experiments with tables that compare with no paper.
 fn push_others(
     text: &mut String,
     done: &[(&Experiment, Findings)],
@@ -146,7 +146,7 @@ fn push_others(
     }
 }
 
-/// What the rows are compared with, each once.
+/// References of the rows, each once.
 fn against(rows: &[Compared<'_>]) -> String {
     let mut known: Vec<&str> = Vec::new();
     for (table, _) in rows {
@@ -167,7 +167,7 @@ fn outcome(item: &Item, rows: &[Compared<'_>]) -> String {
     }
 }
 
-/// How many values are met how nearly, and how many statements hold.
+/// Text of the numbers of values by verdict, and of the statements that hold.
 fn words(rows: &[Compared<'_>]) -> String {
     let is_statement = |row: &&Compared<'_>| row.0.heading.known == "statement";
     let (statements, values): (Vec<Compared<'_>>, Vec<_>) = rows.iter().partition(is_statement);
@@ -176,7 +176,7 @@ fn words(rows: &[Compared<'_>]) -> String {
     parts.join("; ")
 }
 
-/// The rows of each verdict, the best first.
+/// The rows by verdict, the best first.
 fn by_verdict<'a>(
     rows: &'a [Compared<'a>],
 ) -> impl Iterator<Item = (Verdict, Vec<Compared<'a>>)> + 'a {
@@ -204,7 +204,7 @@ fn words_of_values(rows: &[Compared<'_>]) -> Vec<String> {
     by_verdict(rows).map(part).collect()
 }
 
-/// Statements are no numbers: what is compared are the bounds that stand for their words.
+/// Text of the numbers of statements by verdict; statements are compared by bounds that represent them.
 fn words_of_statements(rows: &[Compared<'_>]) -> Vec<String> {
     let part = |(verdict, those): (Verdict, Vec<Compared<'_>>)| {
         let count = those.len();
@@ -220,7 +220,7 @@ fn words_of_statements(rows: &[Compared<'_>]) -> Vec<String> {
     by_verdict(rows).map(part).collect()
 }
 
-/// The largest difference from the known values, as a share and, in tables of amounts, as an amount.
+/// Text of the largest difference from the known values, as a share and, in tables of amounts, as an amount.
 fn largest<'a>(rows: impl Iterator<Item = Compared<'a>> + Clone) -> String {
     let share = rows
         .clone()

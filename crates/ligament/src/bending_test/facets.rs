@@ -1,7 +1,8 @@
-//! The outline of a part of a mesh as flat sides, and integrals over the part by them.
+//! The outline of a part of a mesh as flat sides, and integrals over the part as sums over the sides.
 //!
-//! By the divergence of x, x_i x and x_i x_j x integrals over a body with flat sides of normal N (with the area as its length) are sums over these:
-//! D V = sum p . N, (D + 1) int x_i = sum (p . N) m_i, (D + 2) int x_i x_j = sum (p . N) m_ij with the means m over a side, p any point of it.
+//! Integrals over a body with flat sides of normal N (with the area as its length) are sums over these, by the divergence of x, x_i x and
+//! x_i x_j x: D V = sum p . N, (D + 1) int x_i = sum (p . N) m_i, (D + 2) int x_i x_j = sum (p . N) m_ij with the means m over a side, p
+//! any point of it.
 
 use super::stress::Tensor;
 use crate::setup::Setup;
@@ -9,9 +10,9 @@ use crate::setup::Setup;
 /// A flat side of the outline with D corners.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Facet<const D: usize> {
-    /// Corners, points of the body.
+    /// Indices of the points at the corners.
     pub(crate) corners: [u32; D],
-    /// Places of the corners, m.
+    /// Positions of the corners, m.
     pub(crate) places: [[f64; D]; D],
     /// Area times the outward normal, m^(D - 1).
     pub(crate) area: [f64; D],
@@ -56,12 +57,12 @@ impl<const D: usize> Facet<D> {
         mean(&self.places)
     }
 
-    /// p . N, m^D.
+    /// Product p . N of position and normal, m^D.
     fn cone(&self) -> f64 {
         dot(self.places[0], self.area)
     }
 
-    /// Means of x_i x_j, m^2.
+    /// Means of x_i x_j over the side, m^2.
     fn second(&self) -> Tensor<D> {
         let sum = self.middle().map(|it| D as f64 * it);
         let parts = 1.0 / (D * (D + 1)) as f64;
@@ -74,7 +75,7 @@ impl<const D: usize> Facet<D> {
     }
 }
 
-/// Volume (m^D) and middle (m) of what sides enclose.
+/// Volume (m^D) and centroid (m) of the region within sides.
 pub(super) fn volume_and_middle<const D: usize>(facets: &[Facet<D>]) -> (f64, [f64; D]) {
     let volume = facets.iter().map(Facet::cone).sum::<f64>() / D as f64;
     let middle = std::array::from_fn(|axis| {
@@ -84,7 +85,7 @@ pub(super) fn volume_and_middle<const D: usize>(facets: &[Facet<D>]) -> (f64, [f
     (volume, middle)
 }
 
-/// Integrals of x_i x_j over what sides enclose, m^(D + 2).
+/// Integrals of x_i x_j over the region within sides, m^(D + 2).
 pub(super) fn second_moments<const D: usize>(facets: &[Facet<D>]) -> Tensor<D> {
     let mut sum = [[0.0; D]; D];
     for facet in facets {
@@ -111,7 +112,7 @@ pub(super) fn size<const D: usize>(a: [f64; D]) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// Mean of places.
+/// Mean of positions.
 pub(super) fn mean<const D: usize>(places: &[[f64; D]]) -> [f64; D] {
     std::array::from_fn(|axis| {
         places.iter().map(|place| place[axis]).sum::<f64>() / places.len() as f64

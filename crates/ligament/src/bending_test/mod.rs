@@ -1,16 +1,16 @@
-//! The bending test of a model: how much too stiff the body is for strains that vary over its thickness.
+//! The bending test of a model: the ratio by which the body is too stiff for strains that vary over its thickness.
 //!
-//! Uniform strains say nothing of that: a body may have E and Poisson's ratio of its material to many digits and bend far too little where it
+//! Uniform strains do not show this: a body may have E and Poisson's ratio of its material to many digits and bend far too little where it
 //! has few points across. A strip of the body at its thinnest section, of one material, is free and has the tractions on its outline of a
 //! stress that is linear in the position,
 //!
 //! bending: sigma = n (a x a), torsion (in space): sigma_ab = - v_b n, sigma_an = v_n b,
 //!
-//! with n, a and b the coordinates across, along and beside the strip from its middle and v their variances over it. Both are without
-//! divergence, and strains that are linear fit together: they are the stresses of a classical continuum whatever outline the strip has. In
-//! bars of round or elliptic section the second is the torsion of Saint-Venant, in plates it is the twist. With F, the tractions spread over
-//! the points as linear shape functions do, the points should move by the u_0 of the continuum, quadratic in the position, and a rigid motion.
-//! The share c of u_0 in their motions u is that of least squares in the middle half of the strip, away from its ends: the strip is 1/c times
+//! with n, a and b the coordinates across, along and beside the strip from its middle and v their variances over it. Both stresses are
+//! without divergence, and linear strains are compatible, so that they are solutions of a classical continuum for any outline. In bars of
+//! round or elliptic section the second stress is the torsion of Saint-Venant, in plates it is the twist. Under forces F, the tractions
+//! distributed to the points by linear shape functions, the points should move by u_0 of the continuum, quadratic in the position, and a
+//! rigid motion. The share c of u_0 in their motions u is fitted by least squares in the middle half of the strip: the strip is 1/c times
 //! as stiff as the continuum.
 
 mod facets;

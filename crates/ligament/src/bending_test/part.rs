@@ -1,9 +1,9 @@
-//! A part of a body as a body of its own.
+//! Setup of a part of a body.
 
 use crate::body::AnyBody;
 use crate::setup::{Analysis, Setup};
 
-/// A setup on a part of its body, free and whole, of one of its materials.
+/// A setup on a part of its body, without supports, loads and pre-cracks, of one of its materials.
 pub(crate) fn free(setup: &Setup, body: AnyBody, material: usize) -> Setup {
     let mut region = setup.materials[material].clone();
     region.group = None;

@@ -1,4 +1,4 @@
-//! How stiff a strip is: its equations, and what they make of the tractions of a stress.
+//! Stiffness of a strip: its solution under the tractions of a stress.
 
 use std::sync::Arc;
 
@@ -16,17 +16,17 @@ use crate::patch_test::{SIZE, Untested, free_loading};
 use crate::run::NoObserver;
 use crate::setup::ELASTIC_ENERGY_TOLERANCE;
 
-/// Stiffness over that of the material from which on there is a warning.
+/// Stiffness over that of the continuum from which there is a warning.
 pub const TOO_STIFF: f64 = 1.05;
 
-/// Times as stiff as the material beyond which the points are not what is wrong: a strip of one cell is three times as stiff.
+/// Stiffness over that of the continuum above which finer points are no cure: a strip of one cell is three times as stiff.
 const MOST_CURABLE: f64 = 4.0;
 
-/// Horizons across from which on a body is not tested. With the patch correction strips of all laws but PDS are 2 % too stiff there at most
-/// in bending, and round bars 3 % in torsion.
+/// Thickness over the horizon from which a body is not tested. With the patch correction, strips of all laws but PDS are then at most 2 %
+/// too stiff in bending, and round bars 3 % in torsion.
 pub const THICK: f64 = 6.0;
 
-/// Points of a strip in some dimensions up to which the test takes a second or two.
+/// Largest number of points of a strip for which the test takes one or two seconds.
 pub fn most_points(dimensions: usize) -> usize {
     match dimensions {
         2 => 20_000,
@@ -34,7 +34,7 @@ pub fn most_points(dimensions: usize) -> usize {
     }
 }
 
-/// How many times too stiff a strip of a body is.
+/// Stiffness of a strip of a body over that of the continuum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BendingTest {
     /// Number of points of the strip.
@@ -51,8 +51,8 @@ impl BendingTest {
         self.torsion.map_or(self.bending, |it| it.max(self.bending))
     }
 
-    /// Factor by which distances of points should shrink for a body that is too stiff by no more than [`TOO_STIFF`], as what is too much
-    /// goes with their square; none where it is not, or where finer points are no cure.
+    /// Factor for the distances between points with which the stiffness ratio falls to [`TOO_STIFF`], as its excess is proportional to
+    /// their square; none below that ratio, or where finer points are no cure.
     pub fn refinement(&self) -> Option<f64> {
         let largest = self.largest();
         let factor = ((TOO_STIFF - 1.0) / (largest - 1.0)).sqrt();
@@ -62,7 +62,7 @@ impl BendingTest {
     }
 }
 
-/// The bending test of the body of a model at a section, with strips of up to so many points.
+/// The bending test of the body of a model at a section, with a strip of at most `most_points` points.
 ///
 /// # Errors
 ///
@@ -127,7 +127,7 @@ impl Solver {
         })
     }
 
-    /// How many times too stiff the strip is under the tractions of a stress that is linear.
+    /// Stiffness of the strip over that of the continuum under the tractions of a linear stress.
     fn stiffness<const D: usize>(
         &mut self,
         strip: &Strip<D>,

@@ -13,10 +13,10 @@ use crate::formulation::stiffness_of_materials;
 use crate::loading::material_of_cell;
 use crate::setup::Setup;
 
-/// Length of a strip over its thickness and its horizon together: its middle half is half of both away from the ends.
+/// Length of a strip over the sum of thickness and horizon.
 const LENGTH: f64 = 4.0;
 
-/// How far a strip reaches to either side of its middle, over its thickness: half of it, and room for what is curved.
+/// Extent of a strip to either side of its middle, over its thickness: one half, with room for curved bodies.
 const HALF_HEIGHT: f64 = 0.75;
 
 /// A strip of a body.
@@ -26,16 +26,16 @@ pub(super) struct Strip<const D: usize> {
     second: Tensor<D>,
     volume: f64,
     middle: [f64; D],
-    /// Whether it is the whole body, of one material.
+    /// Whether the strip is the whole body, of one material.
     pub(super) is_whole: bool,
     pub(super) across: [f64; D],
     pub(super) along: [f64; D],
-    /// The third direction; none in the plane.
+    /// Direction across the other two; none in the plane.
     pub(super) beside: Option<[f64; D]>,
 }
 
 impl<const D: usize> Strip<D> {
-    /// The cells around a section that hang together, of the material at its middle.
+    /// The connected cells around a section, of the material at its middle.
     ///
     /// # Errors
     ///
@@ -98,19 +98,19 @@ impl<const D: usize> Strip<D> {
         }
     }
 
-    /// Mean of the square of a coordinate, m^2.
+    /// Mean of the square of the coordinate along an axis, m^2.
     fn variance(&self, axis: [f64; D]) -> f64 {
         product(&self.second, axis, axis) / self.volume
     }
 
-    /// sigma = n (a x a).
+    /// Stress of bending, sigma = n (a x a).
     pub(super) fn bending(&self) -> LinearStress<D> {
         let along = self.along;
         self.across
             .map(|n| along.map(|row| along.map(|column| n * row * column)))
     }
 
-    /// sigma_ab = - v_b n and sigma_an = v_n b, over the larger of the variances; none in the plane.
+    /// Stress of torsion, sigma_ab = - v_b n and sigma_an = v_n b, over the larger of the variances; none in the plane.
     pub(super) fn torsion(&self) -> Option<LinearStress<D>> {
         let (along, across, beside) = (self.along, self.across, self.beside?);
         let [of_across, of_beside] = [across, beside].map(|axis| self.variance(axis));
@@ -131,7 +131,7 @@ impl<const D: usize> Strip<D> {
 
     /// Forces of the tractions of a stress on the points, shape (n_points), N.
     ///
-    /// On a flat side the mean of N_P sigma over it is the sum of sigma at its corners, that of P twice, over D (D + 1).
+    /// The mean of N_P sigma over a flat side is the sum of sigma at its corners, with that of P counted twice, over D (D + 1).
     pub(super) fn forces(&self, stress: &LinearStress<D>) -> Vec<[f64; D]> {
         let width = self.setup.thickness();
         let mut forces = vec![[0.0; D]; self.setup.body.n_points()];
@@ -149,10 +149,10 @@ impl<const D: usize> Strip<D> {
         forces
     }
 
-    /// Displacements of a classical continuum under a stress at the points, less their share of rigid motions, shape (n_points), m; zero
-    /// outside of the middle half of the strip.
+    /// Displacements of a classical continuum at the points under a stress, without their rigid motions, shape (n_points), m; zero outside
+    /// of the middle half of the strip.
     ///
-    /// With the growth E_ijk of the strain eps_ij along x_k they are u_i = 1/2 (E_ijk + E_ikj - E_jki) x_j x_k.
+    /// The displacements are u_i = 1/2 (E_ijk + E_ikj - E_jki) x_j x_k with the gradient E_ijk of the strain eps_ij along x_k.
     pub(super) fn displacement(&self, stress: &LinearStress<D>) -> Option<Vec<[f64; D]>> {
         let mut growth = [[[0.0; D]; D]; D];
         for (growth, stress) in growth.iter_mut().zip(stress) {
@@ -205,13 +205,13 @@ impl<const D: usize> Strip<D> {
         Some(found)
     }
 
-    /// Places of the points from the middle of the strip, shape (n_points), m.
+    /// Positions of the points relative to the middle of the strip, shape (n_points), m.
     fn places(&self) -> Vec<[f64; D]> {
         let positions = self.setup.body.geometry().positions().iter();
         positions.map(|it| minus(*it, self.middle)).collect()
     }
 
-    /// Size of the largest strain at the outline under a stress.
+    /// Norm of the largest strain at the outline under a stress.
     pub(super) fn largest_strain(&self, stress: &LinearStress<D>) -> Option<f64> {
         let mut largest = 0.0_f64;
         for place in self.facets.iter().flat_map(|it| it.places) {
@@ -222,7 +222,7 @@ impl<const D: usize> Strip<D> {
     }
 }
 
-/// Strains of the first material of a setup, as its law has it, under a stress (Pa).
+/// Strains of the first material of a setup under a stress (Pa), with the effective constants of the law.
 fn strain<const D: usize>(setup: &Setup, stress: &Tensor<D>) -> Option<Tensor<D>> {
     let stiffness = stiffness_of_materials(setup).into_iter().next()?;
     let stress = SymTensor::<D>::from_fn(|row, column| stress[row][column]);
@@ -239,7 +239,7 @@ fn strain<const D: usize>(setup: &Setup, stress: &Tensor<D>) -> Option<Tensor<D>
     }))
 }
 
-/// Takes its share of other motions out of motions.
+/// Subtracts the projection on other motions from motions.
 fn without<const D: usize>(motions: &mut [[f64; D]], other: &[[f64; D]]) {
     let product =
         |a: &[[f64; D]], b: &[[f64; D]]| -> f64 { a.iter().zip(b).map(|(a, b)| dot(*a, *b)).sum() };
@@ -251,7 +251,7 @@ fn without<const D: usize>(motions: &mut [[f64; D]], other: &[[f64; D]]) {
     }
 }
 
-/// A stress at a place, Pa.
+/// Value of a stress at a position from the strip's middle, Pa.
 fn at<const D: usize>(stress: &LinearStress<D>, place: [f64; D]) -> Tensor<D> {
     std::array::from_fn(|i| {
         std::array::from_fn(|j| (0..D).map(|k| stress[k][i][j] * place[k]).sum())
@@ -266,7 +266,7 @@ fn product<const D: usize>(tensor: &Tensor<D>, a: [f64; D], b: [f64; D]) -> f64 
     dot(tensor.map(|row| dot(row, b)), a)
 }
 
-/// The direction across another in which a body is longest, and in space the one across both.
+/// The direction across another in which a body is longest, and in space the direction across both.
 fn principal<const D: usize>(second: &Tensor<D>, across: [f64; D]) -> ([f64; D], Option<[f64; D]>) {
     match directions_across(across)[..] {
         [one, other] => {
@@ -283,7 +283,7 @@ fn principal<const D: usize>(second: &Tensor<D>, across: [f64; D]) -> ([f64; D],
     }
 }
 
-/// The marked cells that hang together with the first by common corners, ascending.
+/// The marked cells that common corners connect with `first`, ascending.
 fn connected(cells: &[&[u32]], mut marked: Vec<bool>, first: usize, n_points: usize) -> Vec<usize> {
     let mut at_points = vec![Vec::new(); n_points];
     for (cell, corners) in cells.iter().enumerate().filter(|(cell, _)| marked[*cell]) {

@@ -1,4 +1,4 @@
-//! The thinnest section of a body: the shortest way through it, counted in horizons, between sides that lie opposite to each other.
+//! The thinnest section of a body: the shortest path through it, in horizons, between opposite sides.
 
 use ligament_model::PointCloud;
 use rayon::prelude::*;
@@ -10,29 +10,29 @@ use crate::patch_test::Untested;
 use crate::setup::Position;
 use crate::system::over_dimension;
 
-/// Sides of an outline up to which its thinnest section is found in a second or two: each is asked where the ways from all others end.
+/// Largest number of sides of an outline for which the quadratic search takes one or two seconds.
 pub const MOST_SIDES: usize = 20_000;
 
-/// Cosine of the largest angle between the way through the body and the normal of the side where it ends: beyond it, at 26 degrees, the way
-/// goes into a corner and not through a section.
+/// Smallest cosine of the angle between the path and the normal of the side where it ends: at larger angles than 26 degrees the path ends
+/// in a corner.
 const OPPOSITE: f64 = 0.9;
 
-/// Ways longer by this factor than the shortest are as thin as it: horizons on irregular meshes differ as much.
+/// Largest ratio of a path to the shortest one that counts as equally short: horizons on irregular meshes vary as much.
 const AS_THIN: f64 = 1.2;
 
-/// Room around a side within which a way meets it, over the size of the side.
+/// Tolerance of the intersection of a path with a side, over the size of the side.
 const SLACK: f64 = 1e-9;
 
 /// A section of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Section {
-    /// Middle of the section, m.
+    /// Centre of the section, m.
     pub place: Position,
     /// Direction through the body, of length one.
     pub across: Position,
-    /// Length of the way through the body, m.
+    /// Length of the path through the body, m.
     pub thickness: f64,
-    /// Mean distance of the points at the sides to their nearest ones, m.
+    /// Mean distance of the points at the sides to their nearest points, m.
     pub spacing: f64,
     /// Mean horizon of the points at the sides, m.
     pub horizon: f64,
@@ -45,14 +45,14 @@ impl Section {
     }
 }
 
-/// The thinnest section of the body of a model, whose outline has up to so many sides.
+/// The thinnest section of the body of a model, whose outline has at most `most_sides` sides.
 ///
-/// From the middle of each side of the outline a way goes straight inwards until it leaves the body. Of the ways that are about as many
-/// horizons long as the shortest, the one nearest to the middle of all of these is taken: the middle of a strip, not its end.
+/// From the middle of each side of the outline a path goes straight inwards until it leaves the body. Of the paths about as long in
+/// horizons as the shortest, the one nearest to the mean of their positions is taken: the middle of a strip, not its end.
 ///
 /// # Errors
 ///
-/// If the outline has more sides; if the body has no mesh, or no sides that lie opposite to each other.
+/// If the outline has more sides, the body has no mesh, or no sides are opposite to each other.
 pub fn thinnest_section(model: &Model, most_sides: usize) -> Result<Section, Untested> {
     over_dimension!(&model.system, system => thinnest(model, &system.cloud, most_sides))
 }
@@ -101,7 +101,7 @@ fn thinnest<const D: usize>(
         .ok_or(Untested::NoSection)
 }
 
-/// Length of the way from a place on the outline to where it leaves the body, and the side there.
+/// Length of the path from a position on the outline to its exit from the body, m, and the side there.
 fn path_through_body<const D: usize>(
     facets: &[Facet<D>],
     from: [f64; D],
@@ -125,7 +125,7 @@ fn path_through_body<const D: usize>(
     found
 }
 
-/// Whether a place in the plane of a side lies on it: none of the sides with the place for a corner is turned round.
+/// Whether a position in the plane of a side lies on it: replacing a corner by the position never reverses the orientation.
 fn is_on<const D: usize>(facet: &Facet<D>, place: [f64; D]) -> bool {
     let slack = -SLACK * dot(facet.area, facet.area);
     (0..D).all(|corner| {

@@ -23,7 +23,7 @@ impl AnyBody {
         Self::shared::<D>(Arc::new(body))
     }
 
-    /// A body of D dimensions that others hold too.
+    /// A body of D dimensions behind a shared pointer.
     ///
     /// # Panics
     ///

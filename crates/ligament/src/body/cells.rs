@@ -6,7 +6,7 @@ use ligament_model::cloud::lattice::{Face, Lattice};
 use ligament_model::shape::{Region, Shape};
 use thiserror::Error;
 
-/// A hole: cells whose centre lies in it are removed.
+/// A hole of a lattice: cells whose centre lies in it are removed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hole<S = Shape> {
     /// Name of the group of the cells at the hole's rim; several holes may share it.
@@ -15,41 +15,41 @@ pub struct Hole<S = Shape> {
     pub shape: S,
 }
 
-/// Cells that make a set.
+/// Rule that selects the cells of a set.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cells<const D: usize, S> {
-    /// So many layers at the side with this outward normal.
+    /// The number of layers of cells at the side of the lattice with this outward normal.
     AtSide([i8; D], u32),
     /// Cells whose centre lies in a shape.
     Inside(S),
 }
 
 impl Cells<2, Shape> {
-    /// So many rows from the bottom.
+    /// The lowest rows of the lattice.
     pub fn bottom(rows: u32) -> Self {
         Self::AtSide([0, -1], rows)
     }
 
-    /// So many rows from the top.
+    /// The highest rows of the lattice.
     pub fn top(rows: u32) -> Self {
         Self::AtSide([0, 1], rows)
     }
 
-    /// So many columns from the left.
+    /// The leftmost columns of the lattice.
     pub fn left(columns: u32) -> Self {
         Self::AtSide([-1, 0], columns)
     }
 
-    /// So many columns from the right.
+    /// The rightmost columns of the lattice.
     pub fn right(columns: u32) -> Self {
         Self::AtSide([1, 0], columns)
     }
 }
 
-/// Why a lattice is no body.
+/// Error of a lattice that makes no body.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum LatticeError {
-    /// Holes take all cells.
+    /// Holes that remove all cells.
     #[error("nothing is left of the {cells} cells")]
     NothingLeft {
         /// Number of cells of the whole lattice.
@@ -78,28 +78,28 @@ pub(super) struct CellSets<const D: usize>(BTreeMap<String, Set<D>>);
 struct Set<const D: usize> {
     /// Points of the set, ascending.
     points: Vec<u32>,
-    /// Size of the side that each point stands for, a length (m), in space an area (m^2): none where the set is no part of a side.
+    /// Length (m), in space area (m^2), of the side that each point represents; none where the set is not at a side.
     part_of_side: Option<f64>,
-    /// Part of the outline that belongs to the set.
+    /// Faces of the outline that belong to the set.
     faces: Faces<D>,
 }
 
-/// The faces, with no cell behind them, that belong to a set.
+/// Selection of the faces of the outline that belong to a set.
 #[derive(Debug)]
 enum Faces<const D: usize> {
-    /// The faces of the cells of the set.
+    /// Faces of the set's cells.
     OfCells,
-    /// The faces on one side of the lattice, with this outward normal.
+    /// Faces on the side of the lattice with this outward normal.
     OfSide([i8; D]),
-    /// The faces at some of the holes, shape (n_holes).
+    /// Faces at the marked holes, shape (n_holes).
     AtHoles(Vec<bool>),
 }
 
-/// A lattice with a point in each cell that is left.
+/// A lattice with its holes, and the positions of the points, one in each remaining cell, shape (n_points), m.
 ///
 /// # Errors
 ///
-/// If nothing is left.
+/// If the holes remove all cells.
 pub(super) fn lattice<const D: usize, S: Region<D>>(
     size: [u32; D],
     spacing: [f64; D],
@@ -122,7 +122,7 @@ pub(super) fn lattice<const D: usize, S: Region<D>>(
 }
 
 impl<const D: usize> CellSets<D> {
-    /// The sets of a lattice by their names, and those of its named holes, unless a set has their name.
+    /// The named sets of a lattice, and the sets at the rims of its named holes, unless a set has the hole's name.
     ///
     /// # Errors
     ///
@@ -162,7 +162,8 @@ impl<const D: usize> CellSets<D> {
         self.0.get(group).map(|set| set.points.clone())
     }
 
-    /// The face of a cell spread over the layers of a set at a side.
+    /// Points of a set at a side, each with the length (m) or area (m^2) of a cell's face divided by the number of layers; empty for other
+    /// sets.
     pub(super) fn parts_of_side(&self, group: &str) -> Vec<(u32, f64)> {
         let set = self.0.get(group);
         set.and_then(|set| {
@@ -172,8 +173,8 @@ impl<const D: usize> CellSets<D> {
         .unwrap_or_default()
     }
 
-    /// The face of a cell, with its outward normal, at its point; on layers of a side those on the lattice's outline, at the cells of a
-    /// hole those towards it, else all faces of the cells behind which there is no cell.
+    /// Outward normals of the outline along a group, each with the point of its cell: for layers at a side the faces on that side, for the
+    /// rim of a hole the faces towards the hole, otherwise all faces of the group's cells that have no neighbour.
     pub(super) fn outline<S: Region<D>>(
         &self,
         group: &str,

@@ -1,4 +1,4 @@
-//! What a computation needs to know of a body.
+//! Interface between a computation and its body.
 
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use thiserror::Error;
 
 use crate::coordinates::coordinates;
 
-/// An edge of a group, of a solid a face, that is none of the outline of the body, on which a pressure could act.
+/// Error of a group under pressure with an edge, of a solid a face, that is not on the outline of the body.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
     "a pressure acts on the outline of the body, but the {side} of this group {}, around ({}), {}",
@@ -20,13 +20,13 @@ use crate::coordinates::coordinates;
     if *.cells == 0 { format!("is no {side} of a cell") } else { "has cells on both sides".to_owned() }
 )]
 pub struct OffOutline {
-    /// What it is: `edge` or `face`.
+    /// Kind of the side: `edge` or `face`.
     pub side: &'static str,
-    /// Tags of its nodes.
+    /// Tags of the side's nodes.
     pub nodes: Vec<u64>,
-    /// Middle, m.
+    /// Midpoint of the side, m.
     pub middle: Vec<f64>,
-    /// Number of cells that have it.
+    /// Number of cells with this side.
     pub cells: usize,
 }
 
@@ -50,20 +50,19 @@ pub enum Origin<'a> {
     Points,
 }
 
-/// The outline of a meshed body, which bonds do not leave.
+/// The outline of a meshed body, which bonds must not cross.
 pub trait BodyOutline<const D: usize> {
-    /// The nodes of an edge that passes through a side of the outline, the first of them all; none where cells do not overlap.
+    /// The nodes of the first edge that passes through a side of the outline; none where cells do not overlap.
     fn first_crossing(&self) -> Option<[u32; 2]>;
 
-    /// Distance of each node to the nearest other one that it sees within the outline, shape (n_points), m.
+    /// Distance of each node to the nearest other node whose connecting line stays within the outline, shape (n_points), m.
     fn spacing(&self, cloud: &PointCloud<D>) -> Vec<f64>;
 
-    /// For each bond, whether its straight line leaves the outline, shape (n_bonds).
+    /// Whether the straight line of each bond leaves the outline, shape (n_bonds).
     fn is_crossed_by_bonds(&self, bonds: &BondSet<D>, cloud: &PointCloud<D>) -> Vec<bool>;
 }
 
-/// A body as a computation sees it: points and groups, whatever the points come from. Its [`Geometry`] has as many coordinates as the body
-/// has dimensions.
+/// A body of points and groups, independent of the origin of the points and of the dimension; [`Geometry`] adds the coordinates.
 pub trait Body: Debug + Send + Sync {
     /// Origin of the points.
     fn origin(&self) -> Origin<'_>;
@@ -74,7 +73,7 @@ pub trait Body: Debug + Send + Sync {
     /// Coordinates of a point, as many as the body has dimensions, m.
     fn position(&self, point: u32) -> &[f64];
 
-    /// How the points are numbered: here, and in the file or the arrays that they come from.
+    /// Numbering of the points, here and in the file or the arrays of their origin.
     fn numbering(&self) -> Numbering {
         Numbering::default()
     }
@@ -82,7 +81,7 @@ pub trait Body: Debug + Send + Sync {
     /// The noun that tags belong to: `node`, `cell` or `point`.
     fn tagged(&self) -> &'static str;
 
-    /// The tag that a point goes by.
+    /// Tag of a point in messages and results.
     fn tag(&self, point: u32) -> u64;
 
     /// Number of cells, each of which has one material.
@@ -100,56 +99,56 @@ pub trait Body: Debug + Send + Sync {
     /// Cells of the group of this name, empty where it has only points; `None` where there is no such group.
     fn cells_of(&self, group: &str) -> Option<Vec<u32>>;
 
-    /// Length that each point of a group stands for, m; empty where the group has no length.
+    /// Points of a group, each with the length that it represents, m; empty where the group has no length.
     fn lengths_of(&self, group: &str) -> Vec<(u32, f64)>;
 
-    /// Area of the surface of a solid that each point of a group stands for, m^2; empty where the group has no area.
+    /// Points of a group, each with the area of the solid's surface that it represents, m^2; empty where the group has no area.
     fn areas_of(&self, _group: &str) -> Vec<(u32, f64)> {
         Vec::new()
     }
 
-    /// Faces of the surface groups of a name; none of bodies without a mesh.
+    /// Faces of the surface groups of a name; `None` for bodies without a mesh.
     fn faces_of(&self, _group: &str) -> Option<Vec<Cell>> {
         None
     }
 
-    /// The other points of the cells at a point; none where there are no cells between points.
+    /// The other points of the cells at a point; empty where the body has no cells between points.
     fn around(&self, _point: u32) -> Vec<u32> {
         Vec::new()
     }
 
-    /// Corners of the cells of a meshed body, shape (n_cells, corners); empty for others.
+    /// Corners of the cells of a meshed body, shape (n_cells, corners); empty for other bodies.
     fn corners(&self) -> Vec<&[u32]> {
         Vec::new()
     }
 
-    /// Edges of the cells of a meshed body; empty for others.
+    /// Edges of the cells of a meshed body; empty for other bodies.
     fn edges(&self) -> Vec<[u32; 2]> {
         Vec::new()
     }
 
-    /// Values at the points that the file of the body brings along.
+    /// Fields of values at the points from the file of the body.
     fn fields(&self) -> &[NodeField] {
         &[]
     }
 
-    /// Marks of the points on the rim, at the edge of the body or of a hole (n_points).
+    /// Whether each point lies at the edge of the body or of a hole, shape (n_points).
     fn rim(&self) -> Vec<bool>;
 
-    /// Remarks about the body that the user should know.
+    /// Remarks about the body for the user.
     fn remarks(&self) -> Vec<String> {
         Vec::new()
     }
 
-    /// The body as result files show it.
+    /// Grid of the body for result files.
     fn grid(&self) -> BodyGrid;
 
-    /// A point in words: "node 12".
+    /// Description of a point for messages: "node 12".
     fn label(&self, point: u32) -> String {
         format!("{} {}", self.tagged(), self.tag(point))
     }
 
-    /// A point in words, and where it is.
+    /// Description of a point for messages, with its position.
     fn place(&self, point: u32) -> String {
         let position = coordinates(self.position(point));
         format!("{} at ({position})", self.label(point))
@@ -161,44 +160,46 @@ pub trait Geometry<const D: usize>: Body {
     /// Positions of the points, shape (n_points), m.
     fn positions(&self) -> &[[f64; D]];
 
-    /// The material points; `material_of_cell` (n_cells) holds the index of each cell's material.
+    /// The material points; `material_of_cell` (n_cells) has the index of each cell's material.
     fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D>;
 
-    /// Points and their shares, which add up to one, in a value at a position (m), by the cell around it; None off the cells, and for a body
-    /// without cells.
+    /// Points of the cell around a position (m) and their interpolation weights, which sum to one; `None` outside of all cells and for
+    /// bodies without cells.
     fn interpolation_weights(&self, _position: [f64; D]) -> Option<Vec<(u32, f64)>> {
         None
     }
 
-    /// Outward normals of the outline along a group times their lengths, m, in space times their areas, m^2, added up at its points: half
-    /// of an edge of a mesh at each of its nodes, a face of a lattice at its cell. Empty where no part of the group is an edge or a face.
+    /// Outward normals of the outline along a group times lengths (m), in space times areas (m^2), summed at the group's points: half of an
+    /// edge of a mesh at each of its nodes, a face of a lattice at its cell. Empty where no part of the group is an edge or a face.
     ///
     /// # Errors
     ///
-    /// If an edge of the group is none of the outline.
+    /// If an edge of the group is not on the outline.
     fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; D])>, OffOutline>;
 
-    /// Corners of the sides that one cell of a meshed body has alone, in an order that tells inside from outside; empty for others.
+    /// Corners of the outline's sides of a meshed body, each side of only one cell, ordered so that the outside is known; empty for other
+    /// bodies.
     fn outer_sides(&self) -> Vec<[u32; D]> {
         Vec::new()
     }
 
-    /// A body of some of the cells (ascending) of a meshed one, without its groups; none of others.
+    /// A body of some of the cells (ascending) of a meshed body, without groups; `None` for other bodies.
     fn part(&self, _cells: &[usize]) -> Option<Arc<dyn Geometry<D>>> {
         None
     }
 
-    /// The outline of a meshed body with its nodes at the points of a cloud; none of others.
+    /// The outline of a meshed body with its nodes at the points of a cloud; `None` for other bodies.
     fn outline(&self, _cloud: &PointCloud<D>) -> Option<Box<dyn BodyOutline<D> + '_>> {
         None
     }
 
-    /// For each bond, whether a hole of a lattice is between its ends, shape (n_bonds); empty where there is no hole.
+    /// Whether a hole of a lattice is between the ends of each bond, shape (n_bonds); empty where there is no hole.
     fn crosses_holes(&self, _bonds: &BondSet<D>, _cloud: &PointCloud<D>) -> Vec<bool> {
         Vec::new()
     }
 
-    /// Bonds followed through cells with the index of the material of each (n_cells); as they are where there are no cells.
+    /// Bonds with their composition from the materials of the cells that they cross; `materials` (n_cells) has the index of each cell's
+    /// material. Unchanged where the body has no cells.
     fn composed(
         &self,
         bonds: BondSet<D>,
@@ -208,8 +209,8 @@ pub trait Geometry<const D: usize>: Body {
         bonds
     }
 
-    /// Forces of uniform strains on the points of a cloud, as the cells of the body know them, with the stiffness of each material
-    /// (n_materials, Pa) and the index of that of each cell (n_cells).
+    /// Forces of uniform strains on the points of a cloud, computed from the cells of the body; `material_of_cell` (n_cells) has the index
+    /// of each cell's material, `stiffness` (n_materials) its stiffness, Pa.
     fn cell_forces(
         &self,
         cloud: &PointCloud<D>,

@@ -30,12 +30,11 @@ pub type LatticeBody = BodyOnLattice<2, Shape>;
 pub type SolidLatticeBody = BodyOnLattice<3, SolidShape>;
 
 impl<const D: usize, S: LatticeShape<D>> BodyOnLattice<D, S> {
-    /// A lattice with named sets of cells and the holes that took cells from it, in the order of its own; named holes are groups
-    /// too, unless a set has their name.
+    /// A lattice with named sets of cells and with holes; named holes are groups too, unless a set has the hole's name.
     ///
     /// # Errors
     ///
-    /// If nothing is left of the lattice, or a set or the rim of a named hole has no cell.
+    /// If the holes remove all cells, or a set or the rim of a named hole has no cell.
     pub fn new(
         size: [u32; D],
         spacing: [f64; D],
@@ -70,7 +69,7 @@ impl<const D: usize, S: LatticeShape<D>> Body for BodyOnLattice<D, S> {
         "cell"
     }
 
-    /// Cells that are left count from 1.
+    /// Number of the remaining cell, from 1.
     fn tag(&self, point: u32) -> u64 {
         u64::from(point) + 1
     }
@@ -96,7 +95,7 @@ impl<const D: usize, S: LatticeShape<D>> Body for BodyOnLattice<D, S> {
         self.points_of(group)
     }
 
-    /// The side of a cell spread over the rows or columns of the set.
+    /// Length of a cell's side divided by the number of rows or columns of the set, at each point; empty in space.
     fn lengths_of(&self, group: &str) -> Vec<(u32, f64)> {
         match D {
             2 => self.sets.parts_of_side(group),
@@ -104,7 +103,7 @@ impl<const D: usize, S: LatticeShape<D>> Body for BodyOnLattice<D, S> {
         }
     }
 
-    /// The side of a cell spread over the layers of the set.
+    /// Area of a cell's side divided by the number of layers of the set, at each point; empty in the plane.
     fn areas_of(&self, group: &str) -> Vec<(u32, f64)> {
         match D {
             2 => Vec::new(),

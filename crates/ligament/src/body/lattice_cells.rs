@@ -1,4 +1,4 @@
-//! Cells of a lattice in the plane and in space: what their geometry has apart.
+//! Parts of the geometry of lattice cells that differ between the plane and space.
 
 use std::fmt::Debug;
 
@@ -13,7 +13,7 @@ pub trait LatticeShape<const D: usize>: Region<D> + Debug + Send + 'static {
     /// A lattice as the origin of a body.
     fn origin(lattice: &Lattice<D, Self>) -> Origin<'_>;
 
-    /// Cells with half of their sides (m) around some positions, as result files show them.
+    /// Cells for result files around some positions, given by half of their sides, m.
     fn canvas(positions: &[[f64; D]], half: [f64; D]) -> Canvas;
 }
 

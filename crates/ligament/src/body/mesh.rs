@@ -11,10 +11,10 @@ use ligament_model::{BodyGrid, BondSet, PointCloud, raised};
 use super::interface::{Body, BodyOutline, Geometry, OffOutline, Origin};
 use super::mesh_cells::BodyCell;
 
-/// A body with a point at each node of a mesh, by the names of its physical groups.
+/// A body with a point at each node of a mesh; its groups are the physical groups.
 #[derive(Debug)]
 pub struct BodyOnMesh<const D: usize, C> {
-    /// The mesh, its nodes numbered along a curve.
+    /// The mesh with its nodes numbered along a space-filling curve.
     mesh: Mesh<D, C>,
     numbering: Numbering,
 }
@@ -33,7 +33,8 @@ impl<const D: usize, C: BodyCell<D>> From<Mesh<D, C>> for BodyOnMesh<D, C> {
 }
 
 impl<const D: usize, C: BodyCell<D>> BodyOnMesh<D, C> {
-    /// Union of what the groups of a name hold, whatever their dimension, ascending; `None` where there is no such group.
+    /// Union of the elements that `held` returns for the groups of a name, of all dimensions, ascending; `None` where there is no such
+    /// group.
     fn union<T: Copy + Ord>(&self, name: &str, held: fn(&Group) -> &[T]) -> Option<Vec<T>> {
         let mut groups = self.mesh.groups_named(name).peekable();
         groups.peek()?;
@@ -43,7 +44,7 @@ impl<const D: usize, C: BodyCell<D>> BodyOnMesh<D, C> {
         Some(all)
     }
 
-    /// Sides of cells that are held by the groups of a name.
+    /// Sides of cells that `held` returns for the groups of a name.
     fn of_groups<T: Copy>(&self, name: &str, held: fn(&Group) -> &[T]) -> Vec<T> {
         let groups = self.mesh.groups_named(name);
         groups.flat_map(held).copied().collect()
@@ -116,13 +117,13 @@ impl<const D: usize, C: BodyCell<D>> Body for BodyOnMesh<D, C> {
         self.union(group, |group| &group.cells)
     }
 
-    /// Half of the edges of a curve group at each of its nodes.
+    /// Half of the length of each edge of a curve group, at each of its nodes, m.
     fn lengths_of(&self, group: &str) -> Vec<(u32, f64)> {
         let edges = self.of_groups(group, |it| &it.edges);
         self.mesh.lengths_at_nodes(&edges)
     }
 
-    /// Parts of the faces of a surface group at each of their nodes.
+    /// Parts of the areas of the faces of a surface group, at each of their nodes, m^2.
     fn areas_of(&self, group: &str) -> Vec<(u32, f64)> {
         C::areas_at_nodes(&self.mesh, &self.of_groups(group, |it| &it.faces))
     }
@@ -149,7 +150,7 @@ impl<const D: usize, C: BodyCell<D>> Body for BodyOnMesh<D, C> {
         &self.mesh.fields
     }
 
-    /// The nodes of sides that one cell has alone.
+    /// Whether each node lies on a side that only one cell has, shape (n_points).
     fn rim(&self) -> Vec<bool> {
         let mut marked = vec![false; self.mesh.positions.len()];
         for &node in self.outer_sides().as_flattened() {
@@ -190,7 +191,7 @@ impl<const D: usize, C: BodyCell<D>> Geometry<D> for BodyOnMesh<D, C> {
         C::outer_sides(&self.mesh.cells, self.mesh.positions.len())
     }
 
-    /// A body of the nodes of the cells, without groups.
+    /// A body of some cells and their nodes, without groups.
     fn part(&self, cells: &[usize]) -> Option<Arc<dyn Geometry<D>>> {
         let cells = cells.iter().map(|&cell| self.mesh.cells[cell]);
         let mut nodes: Vec<u32> = (cells.clone())
@@ -237,7 +238,7 @@ impl<const D: usize, C: BodyCell<D>> Geometry<D> for BodyOnMesh<D, C> {
         C::interpolation_weights(&self.mesh, position)
     }
 
-    /// Parts of the outward normal of each side of a cell on the outline at each of its nodes.
+    /// Parts of the outward normals of the outline's sides along a group, at each of their nodes.
     fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; D])>, OffOutline> {
         C::outward(
             &self.mesh,

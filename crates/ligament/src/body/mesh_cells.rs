@@ -1,4 +1,4 @@
-//! Cells of a meshed body in the plane and in space: what their geometry has apart.
+//! Parts of the geometry of mesh cells that differ between the plane and space.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Debug;
@@ -14,7 +14,7 @@ use super::interface::{OffOutline, Origin};
 
 /// Geometry of the cells of a meshed body in D dimensions.
 pub trait BodyCell<const D: usize>: MeshCell<D> + Debug + Send + 'static {
-    /// The outline of a body of such cells.
+    /// Type of the outline of a body of such cells.
     type Outline: Outline<D>;
 
     /// A mesh as the origin of a body.
@@ -23,7 +23,8 @@ pub trait BodyCell<const D: usize>: MeshCell<D> + Debug + Send + 'static {
     /// The outline of some cells between the points of a cloud.
     fn outline(cells: &[Self], cloud: &PointCloud<D>) -> Self::Outline;
 
-    /// Bonds followed through cells with the index of the material of each (n_cells).
+    /// Bonds with their composition from the materials of the cells that they cross; `materials` (n_cells) has the index of each cell's
+    /// material.
     fn composed(
         bonds: BondSet<D>,
         cells: &[Self],
@@ -31,7 +32,7 @@ pub trait BodyCell<const D: usize>: MeshCell<D> + Debug + Send + 'static {
         materials: &[u32],
     ) -> BondSet<D>;
 
-    /// Forces of uniform strains on the points of a cloud, with the index of the material of each cell (n_cells).
+    /// Forces of uniform strains on the points of a cloud; `material_of_cell` (n_cells) has the index of each cell's material.
     fn forces(
         cells: &[Self],
         cloud: &PointCloud<D>,
@@ -39,24 +40,25 @@ pub trait BodyCell<const D: usize>: MeshCell<D> + Debug + Send + 'static {
         stiffness: Vec<Stiffness>,
     ) -> CellForces<D>;
 
-    /// Corners of the sides that one cell has alone, edges with the cell on their left or triangles seen from outside counter-clockwise.
+    /// Corners of the sides that only one cell has: edges with the cell on their left, or triangles that are counter-clockwise from
+    /// outside.
     fn outer_sides(cells: &[Self], n_points: usize) -> Vec<[u32; D]>;
 
-    /// Outward normals of the sides of some groups times their lengths, in space their areas, in parts at their nodes.
+    /// Outward normals of the sides of some groups times lengths (m), in space times areas (m^2), in parts at the sides' nodes.
     ///
     /// # Errors
     ///
-    /// If a side of the groups is none of the outline.
+    /// If a side of the groups is not on the outline.
     fn outward(mesh: &Mesh<D, Self>, groups: &[&Group])
     -> Result<Vec<(u32, [f64; D])>, OffOutline>;
 
-    /// Area of some faces in parts at their nodes, m^2; none in the plane.
+    /// Areas of some faces in parts at their nodes, m^2; empty in the plane.
     fn areas_at_nodes(mesh: &Mesh<D, Self>, faces: &[Cell]) -> Vec<(u32, f64)>;
 
-    /// Nodes and their shares in a value at a position (m), by the cell around it.
+    /// Nodes of the cell around a position (m) and their interpolation weights; `None` outside of all cells.
     fn interpolation_weights(mesh: &Mesh<D, Self>, position: [f64; D]) -> Option<Vec<(u32, f64)>>;
 
-    /// The cells as result files show them.
+    /// The cells for result files.
     fn canvas(cells: &[Self]) -> Canvas;
 }
 
@@ -97,7 +99,7 @@ impl BodyCell<2> for Cell {
             .collect()
     }
 
-    /// Half of the normal of each edge at each of its nodes.
+    /// Half of the normal of each edge, at each of its nodes, m.
     fn outward(mesh: &Mesh, groups: &[&Group]) -> Result<Vec<(u32, [f64; 2])>, OffOutline> {
         let edges = groups.iter().flat_map(|group| &group.edges);
         let edges: BTreeSet<[u32; 2]> = edges.map(|&edge| ascending(edge)).collect();
@@ -117,7 +119,7 @@ impl BodyCell<2> for Cell {
                     cells,
                 });
             }
-            // Corners stand counter-clockwise: the outside is on the right.
+            // Corners are in counter-clockwise order: the outside is on the right.
             let half = [0.5 * (q[1] - p[1]), 0.5 * (p[0] - q[0])];
             for node in edge {
                 let sum = normals.entry(node).or_insert([0.0; 2]);
@@ -197,8 +199,8 @@ impl BodyCell<3> for SolidCell {
     }
 }
 
-/// For each edge of a cell, by its nodes in ascending order, how many cells have it, and the nodes in the order in which the last of these
-/// cells, on their left, goes along it.
+/// Edges, keyed by their nodes in ascending order: the number of cells, and the nodes in the order with the last of these cells on the
+/// left.
 fn edges_of(cells: &[Cell]) -> BTreeMap<[u32; 2], (usize, [u32; 2])> {
     let mut edges = BTreeMap::new();
     for cell in cells {

@@ -19,11 +19,11 @@ pub use lattice_cells::LatticeShape;
 pub use mesh::{BodyOnMesh, MeshBody, SolidMeshBody};
 pub use points::{Points, PointsError};
 
-/// Cells that make a set of a lattice in the plane.
+/// Rule that selects the cells of a set of a lattice in the plane.
 pub type CellSet = Cells<2, Shape>;
 
-/// Cells that make a set of a box.
+/// Rule that selects the cells of a set of a lattice in space.
 pub type SolidCellSet = Cells<3, SolidShape>;
 
-/// A hole of a box.
+/// A hole of a lattice in space.
 pub type SolidHole = Hole<SolidShape>;

@@ -9,21 +9,21 @@ use thiserror::Error;
 
 use super::interface::{Body, Geometry, OffOutline, Origin};
 
-/// A body of points that are given one by one, each with the area, or in space the volume, that it stands for. Its groups are sets of
-/// points; they have no length and no outline, so that forces are spread over their points by volume.
+/// A body of points from arrays, each with the area, or in space the volume, that it represents. Groups are sets of points without length
+/// and outline, so that forces are distributed over their points by volume.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Points<const D: usize = 2> {
-    /// How they are numbered in what follows, which is along a curve, and in the arrays.
+    /// Numbering of the points here, along a space-filling curve, and in the arrays.
     numbering: Numbering,
     positions: Vec<[f64; D]>,
     sizes: Vec<f64>,
     groups: BTreeMap<String, Vec<u32>>,
 }
 
-/// Why arrays are no body.
+/// Error of arrays that make no body.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PointsError {
-    /// Arrays of different lengths, or none at all.
+    /// Arrays of different lengths, or empty ones.
     #[error(
         "{positions} positions and {sizes} {what}s: every point needs one of each, and there must be a point"
     )]
@@ -32,10 +32,10 @@ pub enum PointsError {
         positions: usize,
         /// Number of areas or volumes.
         sizes: usize,
-        /// What a point stands for: `area`, or in space `volume`.
+        /// Quantity that a point represents: `area`, or in space `volume`.
         what: &'static str,
     },
-    /// A position, an area or a volume that is no number, or one of the latter that is not positive.
+    /// A position, an area or a volume that is not finite, or an area or a volume that is not positive.
     #[error(
         "point {point} has the position {position:?} and the {what} {size:?}: positions must be finite, {what}s greater than 0"
     )]
@@ -46,18 +46,18 @@ pub enum PointsError {
         position: Vec<f64>,
         /// Area of the point, m^2, or its volume, m^3.
         size: f64,
-        /// What a point stands for: `area`, or in space `volume`.
+        /// Quantity that a point represents: `area`, or in space `volume`.
         what: &'static str,
     },
-    /// A group without points, or with a point that there is not.
+    /// A group without points, or with an index of no point.
     #[error("group `{group}` {}: it takes indices below {n_points}, one or more", match found {
         Some(found) => format!("has the point {found}"),
         None => "is empty".to_owned(),
     })]
     Group {
-        /// The group.
+        /// Name of the group.
         group: String,
-        /// The index that is too large; none where the group is empty.
+        /// Index that is too large; none where the group is empty.
         found: Option<u32>,
         /// Number of points.
         n_points: usize,
@@ -65,11 +65,11 @@ pub enum PointsError {
 }
 
 impl<const D: usize> Points<D> {
-    /// Points at `positions` (n_points, m), each with the area (n_points, m^2) or in space the volume (n_points, m^3) that it stands for.
+    /// Points at `positions` (n_points, m), each with the area (n_points, m^2), or in space the volume (n_points, m^3), that it represents.
     ///
     /// # Errors
     ///
-    /// If the arrays have different lengths or no element, or a position, an area or a volume is none.
+    /// If the arrays have different lengths or no element, a value is not finite, or an area or a volume is not positive.
     pub fn new(positions: Vec<[f64; D]>, sizes: Vec<f64>) -> Result<Self, PointsError> {
         let what = if D == 2 { "area" } else { "volume" };
         if positions.len() != sizes.len() || positions.is_empty() {
@@ -106,7 +106,7 @@ impl<const D: usize> Points<D> {
     ///
     /// # Errors
     ///
-    /// If the group is empty or has a point that there is not.
+    /// If the group is empty or has an index of no point.
     pub fn with_group(
         mut self,
         name: &str,
@@ -181,12 +181,12 @@ impl<const D: usize> Body for Points<D> {
         Vec::new()
     }
 
-    /// No point: arrays do not say where the body ends.
+    /// Marks no point: arrays do not define the edge of the body.
     fn rim(&self) -> Vec<bool> {
         vec![false; self.positions.len()]
     }
 
-    /// A square of its area, in space a cube of its volume, around each point.
+    /// Grid of the body with a square of its area, in space a cube of its volume, around each point.
     fn grid(&self) -> BodyGrid {
         let positions = raised(&self.positions);
         let around = positions.iter().zip(&self.sizes);
@@ -222,7 +222,7 @@ impl<const D: usize> Geometry<D> for Points<D> {
     }
 
     fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D> {
-        // In space the thickness is 1.
+        // The thickness in space is 1.
         let volumes: Vec<f64> = self.sizes.iter().map(|size| size * thickness).collect();
         let positions = &self.positions;
         PointCloud {
@@ -237,7 +237,7 @@ impl<const D: usize> Geometry<D> for Points<D> {
         }
     }
 
-    /// No force: arrays have no cells.
+    /// No forces, because arrays have no cells.
     fn cell_forces(
         &self,
         cloud: &PointCloud<D>,

@@ -10,23 +10,23 @@ use super::temperature::{Heating, heating};
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::{Action, Couple, Displacement, Load, MaterialRegion, Place, Profile, Setup};
 
-/// Forces along the axes and couples about them, or their directions, in the order of the components of the dimension: three in the
-/// plane, six in space.
+/// Forces along the axes (N) and couples about them (N m), or their directions, in the order of the components: three in the plane, six in
+/// space.
 type Wrench = [f64; 6];
 
-/// Loads that act.
+/// Selection of the loads that act.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ActiveLoads {
     /// All loads and the temperature.
     All,
     /// The load with this index, without temperature.
     Load(usize),
-    /// The temperature alone.
+    /// The temperature without loads.
     Temperature,
 }
 
-/// Supports and the loads that act on the points with all components of the dimension, whichever of them the bonds have; the groups and
-/// the control are the same whatever acts.
+/// Supports and acting loads on the points, with all components of the dimension, also those that the bonds do not have. Groups and control
+/// do not depend on `acting`.
 pub(super) fn boundary<const D: usize>(
     setup: &Setup,
     cloud: &PointCloud<D>,
@@ -81,7 +81,7 @@ pub(super) fn boundary<const D: usize>(
     Ok(boundary)
 }
 
-/// Refuses couples on points that no bond keeps from turning: they would act on nothing.
+/// Refuses couples on points without rotational stiffness, on which they would have no effect.
 pub(super) fn require_rotational_stiffness<const D: usize>(
     setup: &Setup,
     boundary: &ProportionalLoading,
@@ -119,9 +119,9 @@ pub(super) fn require_rotational_stiffness<const D: usize>(
 /// Forces and couples of a load at load factor 1, N and N m.
 #[derive(Default)]
 struct Given {
-    /// Shares of the points of the load.
+    /// Points of the load with their forces and couples.
     at_points: Vec<(u32, Wrench)>,
-    /// Size before the profile: of the sum over the points, or the pressure, Pa.
+    /// Size before the profile: of the sum over the points, N or N m, or the pressure, Pa.
     size: f64,
 }
 
@@ -209,7 +209,7 @@ impl<const D: usize> Places<'_, D> {
         })
     }
 
-    /// Factors of a profile at the points; 1 without one.
+    /// Factors of a profile at the points, shape (n_points); 1 without a profile.
     pub(super) fn factors(
         &self,
         field: Field,
@@ -227,7 +227,7 @@ impl<const D: usize> Places<'_, D> {
         Ok(factors)
     }
 
-    /// What points of a group stand for: areas of a surface, lengths of a curve; none elsewhere.
+    /// Areas (m^2) or lengths (m) that the points of a group represent; empty for other places.
     fn extents(&self, place: &Place) -> Vec<(u32, f64)> {
         let Place::Group(group) = place else {
             return Vec::new();
@@ -240,7 +240,8 @@ impl<const D: usize> Places<'_, D> {
         }
     }
 
-    /// Shares of points in a total: by the area or length that each stands for in a group that has one, elsewhere by their volumes.
+    /// Shares of points in a total, which sum to one: by the areas or lengths that they represent in a group that has such, elsewhere by
+    /// volume.
     pub(super) fn shares(&self, place: &Place, points: &[u32]) -> Vec<(u32, f64)> {
         let mut weights = self.extents(place);
         if weights.is_empty() {
@@ -252,11 +253,11 @@ impl<const D: usize> Places<'_, D> {
         weights.into_iter().map(share).collect()
     }
 
-    /// Forces and couples of a load on its points; none where it prescribes a displacement.
+    /// Forces and couples of a load on its points; empty where the load prescribes a displacement.
     ///
-    /// A total force is spread over a group that has an area or a length by what each point stands for, over other places by the points'
-    /// volumes; a force per length goes by the lengths, one per area by the areas; body forces and all couples go by the volumes. Each
-    /// point's share is then multiplied by the profile.
+    /// A total force is distributed over a group with an area or a length by the points' areas or lengths, over other places by the points'
+    /// volumes; a force per length by lengths, a force per area by areas; body forces and all couples by volumes. Each point's share is
+    /// then multiplied by the profile.
     fn forces(&self, field: Field, load: &Load, points: &[u32]) -> Result<Given, SetupError> {
         let extents = self.extents(&load.place);
         let volume = |&point: &u32| (point, self.cloud.volumes[point as usize]);
@@ -301,7 +302,7 @@ impl<const D: usize> Places<'_, D> {
         })
     }
 
-    /// Lengths that the points of a group stand for, m.
+    /// Lengths that the points of a group represent, m.
     fn lengths(&self, field: Field, place: &Place) -> Result<Vec<(u32, f64)>, SetupError> {
         let lengths = match place {
             Place::Group(group) => self.setup.body.lengths_of(group),
@@ -313,7 +314,7 @@ impl<const D: usize> Places<'_, D> {
         }
     }
 
-    /// Areas that the points of a group stand for, m^2.
+    /// Areas that the points of a group represent, m^2.
     fn areas(&self, field: Field, place: &Place) -> Result<Vec<(u32, f64)>, SetupError> {
         let areas = match place {
             Place::Group(group) => self.setup.body.areas_of(group),
@@ -344,9 +345,9 @@ impl<const D: usize> Places<'_, D> {
         Ok((points.iter().map(|&point| (point, mass[point as usize]))).collect())
     }
 
-    /// Forces of a pressure p on the outline of a group: -p t n L, half at each node of an edge of a mesh of length L and outward
-    /// normal n, or at the cell of a lattice whose face it is; in space -p n A with the area A of a face. All are those of the body at rest
-    /// (a dead load). Each point's share is then multiplied by the profile.
+    /// Forces of a pressure p on the outline of a group: -p t n L, half at each node of an edge of a mesh of length L and outward normal n,
+    /// or at the cell of a lattice whose face it is; in space -p n A with the area A of a face. Normals, lengths and areas are those of the
+    /// undeformed body (a dead load). Each point's share is then multiplied by the profile.
     fn pressures(&self, field: Field, load: &Load, pressure: f64) -> Result<Given, SetupError> {
         let place = field.part("place");
         let normals = match &load.place {
@@ -376,7 +377,7 @@ fn force_alone<const D: usize>(force: &[f64; D]) -> Wrench {
     std::array::from_fn(|place| force.get(place).copied().unwrap_or(0.0))
 }
 
-/// A couple without a force: in the plane about z alone.
+/// A couple without a force; in the plane only its component about z.
 fn couple_alone<const D: usize>(couple: &Couple) -> Wrench {
     let about = |component: &Component| match component {
         Component::RotationX => couple.about[0],
@@ -387,7 +388,7 @@ fn couple_alone<const D: usize>(couple: &Couple) -> Wrench {
     of_components::<D>(about)
 }
 
-/// What the axis of a curve takes of prescribed motions: the displacements, or the rotations where these are zero.
+/// Prescribed motion on the axis of a force-displacement curve: the displacements, or the rotations where the displacements are zero.
 fn motion<const D: usize>(given: &Displacement) -> Wrench {
     let is_turned = (given.components()).all(|(it, value)| it.is_rotation() || value == 0.0);
     let value = |component: &Component| {

@@ -34,11 +34,11 @@ use restraints::restrained;
 pub struct Loading {
     /// Supports and loads as they are at load factor 1.
     pub boundary: Arc<ProportionalLoading>,
-    /// Supports and loads in the first part of the stages, if there are any.
+    /// Supports and loads at the first part of the stages; none without stages.
     pub staged: Option<Arc<StagedLoading>>,
     /// Probes.
     pub probes: Arc<[Probe]>,
-    /// How the equations are solved.
+    /// Settings of the equation solver.
     pub solver: SolverSettings,
 }
 
@@ -47,8 +47,8 @@ impl Loading {
     ///
     /// # Errors
     ///
-    /// If a name of the setup is not in the body, a probe is off it or reads nothing, supports and loads contradict
-    /// each other, or a couple acts on nothing.
+    /// If a name of the setup is not in the body, a probe is off the body or its section crosses no bond, supports and loads contradict
+    /// each other, or a couple acts on points without rotational stiffness.
     pub fn new(model: &Model) -> Result<Self, SetupError> {
         over_dimension!(&model.system, system => Self::on(&model.setup, &**system))
     }
@@ -73,7 +73,7 @@ impl Loading {
         })
     }
 
-    /// The problem that it makes of the bonds of its model and their failure criteria.
+    /// The problem of this loading with the bonds of its model and their failure criteria.
     pub fn problem(&self, model: &Model) -> Problem {
         let loads: Arc<dyn LoadProgram> = match &self.staged {
             None => self.boundary.clone(),

@@ -1,4 +1,4 @@
-//! Places of a setup looked up in its body: groups, boxes, positions.
+//! Resolution of the places of a setup, groups, boxes and positions, to points of its body.
 
 use ligament_model::PointCloud;
 
@@ -6,7 +6,7 @@ use crate::coordinates::narrowed;
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::{Place, Reading, Setup};
 
-/// A setup and the points of its body, to look places up in.
+/// A setup and the points of its body, which resolve places.
 #[derive(Clone, Copy)]
 pub(super) struct Places<'a, const D: usize> {
     pub(super) setup: &'a Setup,
@@ -57,8 +57,8 @@ impl<const D: usize> Places<'_, D> {
         Ok(())
     }
 
-    /// Refuses a position farther from its nearest point than that is from its neighbours: a longest side of its cells, or a
-    /// diagonal of the spacing where there are none.
+    /// Refuses a position farther from its nearest point than that point is from its neighbours: the longest side of its cells, or a
+    /// diagonal of the spacing where there are no cells.
     fn require_on_body(
         &self,
         field: Field,
@@ -101,7 +101,7 @@ pub fn no_fail<const D: usize>(
     Ok(marked)
 }
 
-/// Index of the material of each cell, shape (n_cells): every cell must have exactly one.
+/// Index of the material of each cell, shape (n_cells). Refuses cells without a material or with two.
 pub fn material_of_cell(setup: &Setup) -> Result<Vec<u32>, SetupError> {
     let n_cells = setup.body.n_cells();
     let mut material_of_cell = vec![None; n_cells];

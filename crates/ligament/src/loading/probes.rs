@@ -1,4 +1,4 @@
-//! Probes of a setup on the points of its model.
+//! Probes of a setup as weights on the points and bonds of its model.
 
 use ligament_analysis::probe;
 use ligament_model::bonds::precrack::{crossing_bonds, cut_bonds};
@@ -10,7 +10,7 @@ use crate::coordinates::narrowed;
 use crate::precracks::cracks;
 use crate::setup::{Position, Probe, Reading, Setup};
 
-/// A horizon that reaches farther than coordinates of meshes may, m.
+/// A horizon larger than the coordinates of any mesh, m.
 const EVERYWHERE: f64 = 1e120;
 
 /// A probe on the points and bonds of the model of a setup.
@@ -43,8 +43,8 @@ pub(super) fn on<const D: usize>(
     }
 }
 
-/// Points and their shares in what is read at a position (m): those of the cell around it, and the nearest point off the cells. Where a
-/// pre-crack parts them, the nearest of them that it does not part from the position.
+/// Points and their weights in a reading at a position (m): the points of the cell around it, or the nearest point outside of the cells.
+/// Where a pre-crack separates points of the cell, the nearest of them that is not separated from the position.
 fn shares<const D: usize>(
     position: [f64; D],
     setup: &Setup,
@@ -61,12 +61,12 @@ fn shares<const D: usize>(
     let corners = shares
         .iter()
         .map(|(point, _)| body.positions()[*point as usize]);
-    // The position stands before its points.
+    // The position precedes its points.
     let places: Vec<[f64; D]> = std::iter::once(position).chain(corners).collect();
     let n = places.len();
     let few = PointCloud::from_points(&places, &vec![1.0; n], 1.0, &vec![0; n], 1);
     let pairs = BondSet::search(&few, &Horizons::unified(EVERYWHERE, n));
-    // What is wrong with a surface was told when the model was made.
+    // Errors of surfaces were reported when the model was built.
     let cracks = cracks(&**body, &setup.precracks).unwrap_or_default();
     let parted = cut_bonds(&cracks, &pairs, &few);
     if !parted.contains(&true) {
@@ -80,8 +80,8 @@ fn shares<const D: usize>(
     })
 }
 
-/// Bonds through a line of the plane, or through a plane of space given by a point and one before it, and whether their first end lies on
-/// its left or behind it; a point on the plane lies beyond it. Bonds that pre-cracks cut count where faces close.
+/// Bonds through a line in the plane, or through a plane in space given by a point and one before it, and whether their first end lies on
+/// the left of the line or behind the plane; a point on the plane lies beyond it. Bonds that pre-cracks cut count where faces close.
 fn crossing<const D: usize>(
     system: &BondSystem<D>,
     [start, end]: [[f64; D]; 2],

@@ -1,4 +1,4 @@
-//! Stages of a setup as a programme of its loads on the points.
+//! Stages of a setup as a load program.
 
 use std::sync::Arc;
 
@@ -13,11 +13,11 @@ use super::restraints::restrained;
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::{self, Analysis, Quantity, Setup, Stage};
 
-/// Shares of a stage that are nearer to each other are one.
+/// Shares of a stage that differ by less than this are equal.
 const SAME: f64 = 1e-9;
 
 impl Setup {
-    /// Index of the load that is the axis of the force-displacement curve; None for the temperature.
+    /// Index of the load whose displacement and force are those of the force-displacement curve; `None` for the temperature.
     pub(crate) fn curve_load(&self) -> Option<usize> {
         match &self.curve {
             Some(name) => self.loads.iter().position(|it| it.name == *name),
@@ -25,8 +25,8 @@ impl Setup {
         }
     }
 
-    /// Number of the solutions that the loading is followed in: load steps, or ends of the parts of stages; None along the exact path.
-    /// Steps may be added to those of the first breakage.
+    /// Number of solutions of the loading: load steps, or ends of the parts of stages; `None` along the exact path. The first breakage may
+    /// add load steps.
     pub fn n_steps(&self) -> Option<usize> {
         let is_staged = !self.stages.is_empty();
         match &self.analysis {
@@ -39,7 +39,7 @@ impl Setup {
     }
 }
 
-/// Each load of a setup with stages by itself, in the first part of the programme that the stages are; None without stages.
+/// Load program of a setup with stages, each load with a factor of its own, at the first part; `None` without stages.
 ///
 /// # Errors
 ///
@@ -75,7 +75,7 @@ pub(super) fn staged<const D: usize>(
     Ok(Some(StagedLoading::new(loads.into(), course)))
 }
 
-/// The parts of all stages with what controls them.
+/// The parts of all stages with their controls.
 fn controlled_parts(setup: &Setup, layout: Layout, probes: &[Probe]) -> Vec<Part> {
     let mut parts = parts(setup);
     for part in &mut parts {
@@ -88,7 +88,7 @@ fn controlled_parts(setup: &Setup, layout: Layout, probes: &[Probe]) -> Vec<Part
     parts
 }
 
-/// The motion that probes with weights add up to, with its value at the end.
+/// Weighted sum of the motions of probes, with its value at the end of the stage.
 fn motion(of: &[(String, f64)], end: f64, layout: Layout, probes: &[Probe]) -> MotionControl {
     let of_probe = |(name, factor): &(String, f64)| {
         let probe = probes.iter().find(|it| it.name == *name);
@@ -103,7 +103,7 @@ fn motion(of: &[(String, f64)], end: f64, layout: Layout, probes: &[Probe]) -> M
     }
 }
 
-/// The parts of all stages, without what controls them.
+/// The parts of all stages without controls.
 fn parts(setup: &Setup) -> Vec<Part> {
     let names = setup.factor_names();
     let mut parts = Vec::new();
@@ -114,7 +114,7 @@ fn parts(setup: &Setup) -> Vec<Part> {
     parts
 }
 
-/// Adds the parts of a stage, and brings the factors of the loads to its end.
+/// Adds the parts of a stage, and sets the load factors to their values at its end.
 fn add_parts(
     index: usize,
     stage: &Stage,
@@ -150,7 +150,7 @@ fn add_parts(
     }
 }
 
-/// Refuses points that two loads move: one of them would have to follow two factors.
+/// Refuses degrees of freedom that two loads move, because they would follow two factors.
 fn refuse_shared_motions(
     setup: &Setup,
     layout: Layout,

@@ -10,11 +10,11 @@ use crate::coordinates::narrowed;
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::{Action, Load, Setup, Support};
 
-/// Stiffness of inclined rollers and platens over that of a point against its neighbours: they give way by one in this of what the bonds
-/// of a point do, and a force loses no more digits than it can spare.
+/// Stiffness of inclined rollers and platens over the stiffness of a point's bonds: their compliance is negligible, and the loss of digits
+/// in forces is acceptable.
 const RIGID: f64 = 1e6;
 
-/// A loading with the components of the bonds alone and the restraints of a setup; far ends move where their loads act.
+/// A loading reduced to the components of the bonds, with the restraints of a setup; the far ends of springs move where their loads act.
 pub(super) fn restrained<const D: usize>(
     setup: &Setup,
     system: &dyn System<D>,
@@ -54,14 +54,14 @@ pub(super) fn restrained<const D: usize>(
     })
 }
 
-/// Restraints so far.
+/// Restraints collected so far.
 struct RestraintBuilder<'a, const D: usize> {
     places: Places<'a, D>,
     system: &'a dyn System<D>,
     /// Stiffness at each point that counts as rigid, shape (n_points), N/m.
     rigid: Vec<f64>,
     list: Vec<Restraint>,
-    /// Forces of moved far ends on a body that does not move, shape (n_degrees_of_freedom), N.
+    /// Forces of the springs with moved far ends on the undisplaced body, shape (n_degrees_of_freedom), N.
     driving: Vec<f64>,
 }
 
@@ -188,7 +188,7 @@ impl<const D: usize> RestraintBuilder<'_, D> {
         Ok(())
     }
 
-    /// The ways in which some points may tilt about their middle across a direction: one in the plane, two in space, which share nothing.
+    /// The tilts of some points about their middle across a direction: one in the plane, two orthogonal ones in space.
     fn tilts(&self, points: &[u32], direction: [f64; D]) -> Vec<Tilt> {
         let mut tilts: Vec<Tilt> = Vec::new();
         for across in directions_across(direction) {
@@ -212,7 +212,7 @@ impl<const D: usize> RestraintBuilder<'_, D> {
         tilts
     }
 
-    /// Moves the far ends of the restraints from `first` on: those at some points by a motion times their factors.
+    /// Moves the far ends of the restraints from index `first` on, at each of some points by a motion times the point's factor.
     fn drive(&mut self, first: usize, (points, factors): (&[u32], &[f64]), motion: [f64; D]) {
         let layout = self.system.layout();
         let mut far_ends = vec![0.0; self.driving.len()];
@@ -232,7 +232,7 @@ impl<const D: usize> RestraintBuilder<'_, D> {
         }
     }
 
-    /// The displacement of a point along a direction times a factor: its degrees of freedom with their parts in it.
+    /// The displacement of a point along a direction times a factor, as degrees of freedom with weights.
     fn along(&self, direction: [f64; D], point: u32, factor: f64) -> Vec<(u32, f64)> {
         let layout = self.system.layout();
         let parts = Component::in_dimensions(D).iter().copied().zip(direction);
@@ -245,11 +245,11 @@ impl<const D: usize> RestraintBuilder<'_, D> {
     }
 }
 
-/// A way in which points may tilt.
+/// A tilt of points about their middle.
 struct Tilt {
     /// Places of the points from their middle, shape (n_points), m.
     places: Vec<f64>,
-    /// Sum of their squares, m^2.
+    /// Sum of the squared places, m^2.
     squares: f64,
 }
 

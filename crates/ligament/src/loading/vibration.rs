@@ -1,4 +1,4 @@
-//! What an analysis of natural modes makes of its model.
+//! Supports and masses of a model for an analysis of natural modes.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ pub struct Vibration {
     pub supports: Arc<Supports>,
     /// Masses of the points.
     pub mass: Arc<LumpedMass>,
-    /// How the equations are solved.
+    /// Settings of the equation solver.
     pub solver: SolverSettings,
 }
 
@@ -44,7 +44,7 @@ impl Vibration {
         })
     }
 
-    /// The problem that it makes of the bonds of its model.
+    /// The eigenvalue problem of the supports and masses with the bonds of the model.
     pub fn problem(&self, model: &Model) -> ModalProblem {
         ModalProblem {
             system: model.system.to_bonds(),
@@ -55,7 +55,7 @@ impl Vibration {
     }
 }
 
-/// The supports on the points.
+/// The fixed components of the points.
 fn supports<const D: usize>(setup: &Setup, system: &dyn System<D>) -> Result<Supports, SetupError> {
     let cloud = &system.cloud;
     let places = Places { setup, cloud };

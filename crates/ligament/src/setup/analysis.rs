@@ -1,4 +1,4 @@
-//! What is computed: an elastic solution, the breaking of bonds, or natural modes.
+//! Kind of analysis: an elastic solution, the breakage of bonds, or natural modes.
 
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
 use ligament_analysis::driver::StopRules;
@@ -12,15 +12,15 @@ pub const ELASTIC_ENERGY_TOLERANCE: f64 = 1e-4;
 /// Bonds closer than this (relative) to the worst one break together with it.
 const TIE_TOLERANCE: f64 = 1e-8;
 
-/// What is computed.
+/// Kind of analysis.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Analysis {
     /// One elastic solution at load factor 1.
     Elastic {
-        /// Relative change of energy below which it is in equilibrium.
+        /// Relative change of energy below which the solution is in equilibrium.
         energy_tolerance: f64,
     },
-    /// The breaking of bonds under load steps: in each, bonds break until none is beyond its limit.
+    /// Breakage of bonds under load steps: in each step bonds break until none exceeds its limit.
     Stepped(SteppedSettings),
     /// The exact path from breakage to breakage, which may snap back, up to load factor 1.
     Event(EventSettings),
@@ -37,7 +37,7 @@ impl Default for Analysis {
 }
 
 impl Analysis {
-    /// Name of the analysis, as results call it.
+    /// Name of the analysis in results.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Elastic { .. } => "static",
@@ -52,7 +52,7 @@ impl Analysis {
     }
 }
 
-/// Settings of an analysis with these load factors, five bonds at most breaking between two solutions.
+/// Settings of load steps with these load factors; at most five bonds break between two solutions.
 pub fn stepped(load_factors: Vec<f64>) -> SteppedSettings {
     SteppedSettings {
         load_factors,
@@ -77,7 +77,7 @@ pub fn event() -> EventSettings {
     }
 }
 
-/// Settings of an analysis of the ten lowest modes, rigid ones included.
+/// Settings of an analysis of the ten lowest modes, including rigid modes.
 pub fn modal() -> ModalSettings {
     ModalSettings {
         modes: 10,

@@ -1,4 +1,4 @@
-//! What a setup says must go together before anything is made of it.
+//! Checks of a setup for consistency.
 
 use std::borrow::Cow;
 use std::fmt::Debug;
@@ -17,11 +17,11 @@ use crate::error::{Fault, Field, SetupError};
 pub(super) type Checked = Result<(), SetupError>;
 
 impl Setup {
-    /// Checks that the fields of the setup make sense and go together. Groups are looked up when the model is built.
+    /// Checks the ranges and the consistency of the fields of the setup. The names of groups are checked when the model is built.
     ///
     /// # Errors
     ///
-    /// If a field is out of range, missing, or does not go with another.
+    /// If a field is out of range, missing, or contradicts another.
     pub fn check(&self) -> Checked {
         match self.horizon {
             Horizon::Factor(factor) => require(
@@ -86,7 +86,7 @@ impl Setup {
             let laws = Setting::Law(suited(|it| it.materials >= needed));
             return contradiction(elasticity, Advice::new(text, [laws]));
         }
-        // Six constants are those of the plane whichever it is, and so is what the temperature does to it.
+        // Six constants describe either state of the plane, and so does their thermal expansion.
         if matches!(material.elasticity, Elasticity::Anisotropic(_))
             || self.space() != Plane::Strain.into()
         {
@@ -180,7 +180,7 @@ impl Setup {
         contradiction(field.part(part), Advice::new(text, [law, instead]))
     }
 
-    /// Forces of uniform strains are those of whole cells.
+    /// Refuses the patch correction for bodies without cells and together with the correction after pre-cracks, and settings out of range.
     fn check_patch(&self, field: Field, settings: patch::Settings) -> Checked {
         if matches!(self.body.origin(), Origin::Points) {
             let text = "the forces of uniform strains are those of the cells of a body, and points from arrays have none: take a mesh or a \
@@ -264,7 +264,7 @@ impl Setup {
     }
 }
 
-/// Moduli are positive, and every strain costs energy.
+/// Refuses elastic constants with moduli that are not positive, or with a strain energy that is not positive.
 fn check_constants(field: Field, elasticity: &Elasticity) -> Checked {
     match elasticity {
         Elasticity::Isotropic(Isotropic { young, poisson }) => {
@@ -320,10 +320,10 @@ fn check_anisotropic(field: Field, constants: &Anisotropic) -> Checked {
     contradiction(field.part("elasticity"), reason)
 }
 
-/// What the size of a load must be.
+/// Required size of a load.
 const NOT_IDLE: &str = "other than 0, or the load does nothing";
 
-/// A load does something, along a curve where it is spread along one.
+/// Refuses loads without an effect, or of a kind that their place does not have.
 fn check_load(field: Field, load: &Load, dimensions: usize) -> Checked {
     if let Some(profile) = load.profile {
         require(
@@ -378,7 +378,7 @@ fn check_load(field: Field, load: &Load, dimensions: usize) -> Checked {
     }
 }
 
-/// A couple turns something: in the plane about z.
+/// Refuses a couple of zero, in the plane about z.
 fn require_couple(action: Field, Couple { about }: Couple, dimensions: usize) -> Checked {
     match dimensions {
         2 => require(about[2] != 0.0, action, NOT_IDLE, about[2]),
@@ -386,7 +386,7 @@ fn require_couple(action: Field, Couple { about }: Couple, dimensions: usize) ->
     }
 }
 
-/// What is wrong with a vector of zeros.
+/// Message about a load whose vector is zero.
 fn idle_vector(dimensions: usize) -> &'static str {
     match dimensions {
         2 => "this load does nothing: neither `x` nor `y` is given a value",
@@ -394,7 +394,7 @@ fn idle_vector(dimensions: usize) -> &'static str {
     }
 }
 
-/// What is wrong with a displacement without a component.
+/// Message about a displacement without a component.
 fn no_component(dimensions: usize) -> String {
     let names = Component::in_dimensions(dimensions)
         .iter()
@@ -418,7 +418,7 @@ pub(super) fn require(
     Err(field.error(Fault::OutOfRange { expected, found }))
 }
 
-/// Fails where there is a value that is not greater than zero, or is none.
+/// Refuses a value that is not finite and greater than zero; no value passes.
 pub(super) fn positive(field: Field, value: Option<f64>) -> Checked {
     let value = value.unwrap_or(1.0);
     require(!value.is_infinite(), field, "a finite number", value)?;

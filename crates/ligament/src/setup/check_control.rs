@@ -1,4 +1,4 @@
-//! What may control a stage, and what it goes together with.
+//! Checks of the control of stages.
 
 use super::check::{Checked, contradiction, require};
 use super::{Analysis, Control, Course, Quantity, Setup, Stage};
@@ -28,7 +28,7 @@ impl Setup {
         Ok(())
     }
 
-    /// Motions of points control load steps alone.
+    /// Refuses control by probes in other analyses than load steps, by unknown probes or ones that read no motion, and with weights of 0.
     fn check_probes_that_control(&self, part: Field, probes: &[(String, f64)]) -> Checked {
         if !matches!(self.analysis, Analysis::Stepped(_)) {
             let reason = "a probe controls load steps: the exact path passes peaks and snap-backs by itself, and an elastic answer has none";
@@ -54,7 +54,7 @@ impl Setup {
         require(!probes.is_empty(), part, "one probe or more", probes)
     }
 
-    /// Energy goes little by little into bonds that soften, and in jumps into brittle ones.
+    /// Refuses control by dissipated energy in load steps without softening bonds, which dissipate it in jumps.
     fn check_dissipated(&self, part: Field) -> Checked {
         match &self.analysis {
             Analysis::Event(_) => Ok(()),

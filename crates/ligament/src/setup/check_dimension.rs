@@ -1,4 +1,4 @@
-//! What a setup says must exist in the dimension of its body.
+//! Checks that the settings of a setup exist in the dimension of its body.
 
 use ligament_analysis::Component;
 use ligament_analysis::probe::{PointField, PointReading};
@@ -17,10 +17,10 @@ use super::{
 use crate::body::Origin;
 use crate::error::Field;
 
-/// What is wrong with a z axis in the plane.
+/// Message about a z axis in the plane.
 const NO_Z: &str = "a body in the plane has no z: give \"x\" or \"y\"";
 
-/// What is wrong with a motion that points in a space do not have.
+/// Message about a component of motion that points in a space do not have.
 fn no_motion(space: Space) -> &'static str {
     match space {
         Space::Plane(_) => {
@@ -103,7 +103,7 @@ impl Setup {
         }
     }
 
-    /// Probes read forces along the axes of the body, and motions that its points have.
+    /// Refuses probes along axes, or of components, that the body does not have.
     fn check_readings(&self) -> Checked {
         let components = self.components();
         for (index, probe) in self.probes.iter().enumerate() {
@@ -130,12 +130,12 @@ impl Setup {
         Ok(())
     }
 
-    /// Whether a vector or a position has a part along z that a body in the plane does not.
+    /// Whether a vector or a position of a body in the plane has a z coordinate other than zero.
     fn leaves_plane(&self, vector: &Position) -> bool {
         self.dimensions() == 2 && vector[2] != 0.0
     }
 
-    /// Positions in the plane have no part along z.
+    /// Refuses positions with a z coordinate in a body in the plane.
     fn check_positions(&self) -> Checked {
         let is_off = |place: &Place| match place {
             Place::At(position) => self.leaves_plane(position),
@@ -167,7 +167,7 @@ impl Setup {
         }
     }
 
-    /// Supports and loads move points by components that they have.
+    /// Refuses supports and loads on components that the points do not have.
     fn check_components(&self) -> Checked {
         let (components, reason) = (self.components(), no_motion(self.space()));
         let leaves = |given: &Displacement| {
@@ -216,7 +216,7 @@ impl Setup {
         Ok(())
     }
 
-    /// Elements with strains of their own need rows and columns, and not all analyses take all of their variants.
+    /// Refuses elements with strains of their own (`mbb-pd`) off a lattice, and with settings that they do not support.
     fn check_strains_of_bonds(&self) -> Checked {
         let (row, options) = (self.law.row, self.law.options);
         if !row.needs_lattice {

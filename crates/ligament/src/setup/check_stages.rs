@@ -1,4 +1,4 @@
-//! What stages must be, and what they go together with.
+//! Checks of the stages.
 
 use super::check::{Checked, contradiction, require, require_unique};
 use super::stage::TEMPERATURE;
@@ -37,7 +37,7 @@ impl Setup {
         Ok(())
     }
 
-    /// Names of all that has a factor: the loads, and the temperature where it changes.
+    /// Names of the load factors: the loads, and the temperature where it changes.
     pub fn factor_names(&self) -> Vec<String> {
         let loads = self.loads.iter().map(|it| it.name.clone());
         let heated = (!self.temperatures.is_empty()).then(|| TEMPERATURE.to_owned());
@@ -79,7 +79,7 @@ impl Setup {
         Ok(())
     }
 
-    /// Load steps belong to the stages, as far as there are any.
+    /// Refuses load steps of the analysis beside those of the stages.
     fn check_steps_of_stages(&self) -> Checked {
         let stepped = match &self.analysis {
             Analysis::Stepped(settings) => Some(settings),

@@ -1,4 +1,4 @@
-//! Faces that close ask something of law, correction and analysis.
+//! Checks of closing faces against law, correction and analysis.
 
 use ligament_model::law::{BondLaw, listed, suited};
 use ligament_model::{Advice, ElementKind};

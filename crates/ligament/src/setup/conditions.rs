@@ -2,10 +2,10 @@
 
 use ligament_analysis::Component;
 
-/// A position or a vector along x, y and z; that of a body in the plane has no part along z.
+/// A position or a vector along x, y and z; in the plane the z coordinate is zero.
 pub type Position = [f64; 3];
 
-/// Where on the body something acts.
+/// Part of the body on which a support, a load or a setting acts.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Place {
     /// All points.
@@ -24,7 +24,7 @@ impl From<&str> for Place {
     }
 }
 
-/// A value for some components of the motion; a component without one is left alone.
+/// Values of some components of the motion; a component without a value is free.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Displacement {
     /// Displacement along x, m.
@@ -43,75 +43,74 @@ pub struct Displacement {
     pub rotation_z: Option<f64>,
 }
 
-/// A support: components of the displacement that are held at zero, or resisted by springs.
+/// A support: components of the displacement that are fixed at zero, or resisted by springs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Support {
-    /// Where it holds.
+    /// Supported part of the body.
     pub place: Place,
-    /// Components that it holds.
+    /// Fixed components.
     pub held: Vec<Component>,
-    /// Direction along which displacements are held while they are free across it: the normal of the plane of a roller. It need not
-    /// have the length 1.
+    /// Normal of the plane of a roller: displacements along it are fixed, across it free. Its length is arbitrary.
     pub normal: Option<Position>,
     /// Springs to the ground.
     pub stiffness: SpringStiffness,
 }
 
-/// Stiffness of springs in total over the points, shared out as a force is.
+/// Total stiffness of springs, distributed over the points as a force is.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SpringStiffness {
-    /// Along and about the axes, N/m and N m/rad; a component without a value has no spring.
+    /// Stiffness along and about the axes, N/m and N m/rad; a component without a value has no spring.
     pub components: Displacement,
-    /// Along the normal of the support, N/m; without it the normal is held.
+    /// Stiffness along the normal of the support, N/m; without it the normal is fixed.
     pub normal: Option<f64>,
 }
 
-/// A load as it is at load factor 1.
+/// A load at load factor 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Load {
-    /// Name, unique among the loads: its reaction goes by it.
+    /// Name, unique among the loads, also of the load's reaction.
     pub name: String,
-    /// Where it acts.
+    /// Part of the body on which the load acts.
     pub place: Place,
-    /// What acts.
+    /// Kind and size of the load.
     pub action: Action,
-    /// How it varies from point to point; without it every point takes its whole share.
+    /// Variation over the points; without it every point has its whole share.
     pub profile: Option<Profile>,
-    /// Stiffness in total of springs between what moves and the points, where a displacement is given, N/m: what gives way in a testing
-    /// machine. Without it the points move as prescribed.
+    /// Total stiffness of springs between a prescribed displacement and the points, such as that of a testing machine, N/m. Without it the
+    /// points move as prescribed.
     pub stiffness: Option<f64>,
-    /// Whether the load acts through a rigid platen that may tilt: along the load its points move as those of a rigid body, their
-    /// mean by the displacement, if one is given.
+    /// Whether the load acts through a rigid platen that may tilt: along the load the points move as a rigid body, with the prescribed
+    /// displacement, if any, as their mean.
     pub tilts: bool,
 }
 
-/// What a load does.
+/// Kind and size of a load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Action {
     /// Prescribed displacements, m and rad.
     Displacement(Displacement),
-    /// A force in total over the points, N.
+    /// A total force, distributed over the points, N.
     Force(Position),
-    /// A force along a group that has a length, N/m.
+    /// A force per length of a group, N/m.
     ForcePerLength(Position),
-    /// A force in the volume, N/m^3.
+    /// A force per volume, N/m^3.
     BodyForce(Position),
-    /// An acceleration that acts on the masses in the volume, as gravity does, m/s^2.
+    /// An acceleration of all masses, such as gravity, m/s^2.
     Acceleration(Position),
-    /// A force over a group of a solid that has an area, N/m^2.
+    /// A force per area of a group of a solid, N/m^2.
     ForcePerArea(Position),
-    /// A couple in total over the points, N m.
+    /// A total couple, distributed over the points, N m.
     Moment(Couple),
-    /// A couple in the volume, N m/m^3.
+    /// A couple per volume, N m/m^3.
     BodyCouple(Couple),
     /// A pressure on the outline of the body along a group, Pa; a positive one pushes on the body.
     Pressure(f64),
 }
 
-/// A couple about the axes, right-handed; in the plane about z alone, counter-clockwise.
+/// A couple about the axes, right-handed; in the plane only about z, counter-clockwise.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Couple {
-    /// About x, y and z.
+    /// Couples about x, y and z; their unit is that of the action.
     pub about: [f64; 3],
 }
 
@@ -124,15 +123,14 @@ impl From<f64> for Couple {
     }
 }
 
-/// A linear variation of a load: what a point would take without it is multiplied by (c - zero)/(one - zero), with the
-/// point's coordinate c.
+/// A linear variation of a load: the share of a point is multiplied by (c - zero)/(one - zero), with the point's coordinate c.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Profile {
-    /// The coordinate.
+    /// Axis of the coordinate c.
     pub along: Axis,
     /// Coordinate at which the load is zero, m.
     pub zero: f64,
-    /// Coordinate at which the load is as given, m.
+    /// Coordinate at which the load has its given value, m.
     pub one: f64,
 }
 
@@ -148,12 +146,12 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// Number of the coordinate.
+    /// Index of the coordinate, from 0.
     pub fn number(self) -> usize {
         self as usize
     }
 
-    /// The displacement along the axis.
+    /// Component of the displacement along the axis.
     pub fn displacement(self) -> Component {
         match self {
             Self::X => Component::X,
@@ -164,7 +162,7 @@ impl Axis {
 }
 
 impl Support {
-    /// A support that holds some components.
+    /// A support that fixes some components.
     pub fn new(place: impl Into<Place>, held: &[Component]) -> Self {
         Self {
             place: place.into(),
@@ -174,7 +172,7 @@ impl Support {
         }
     }
 
-    /// Components that it holds; one along an axis where its normal lies there.
+    /// Fixed components, including the axis along which a normal without a spring lies.
     pub fn components(&self) -> impl Iterator<Item = Component> {
         let normal = self.normal.filter(|_| self.stiffness.normal.is_none());
         let along = normal.and_then(|it| axis_along(&it));
@@ -183,7 +181,7 @@ impl Support {
         all.filter(move |it| self.held.contains(it) || along == Some(*it))
     }
 
-    /// Name of the support with this index in the history: that of its group, unless it begins as a formula does.
+    /// Name in the history of the support with this index: the name of its group, unless that begins as a formula.
     pub fn name(&self, index: usize) -> String {
         match &self.place {
             Place::Group(group) if !begins_as_formula(group) => group.clone(),
@@ -192,7 +190,7 @@ impl Support {
     }
 }
 
-/// Whether a name begins as a formula does, which a spreadsheet computes where the name heads a column.
+/// Whether a spreadsheet would read a name as a formula.
 pub fn begins_as_formula(name: &str) -> bool {
     name.starts_with(['=', '+', '-', '@'])
 }
@@ -205,7 +203,7 @@ const BEYOND_THE_PLANE: [Component; 4] = [
     Component::RotationZ,
 ];
 
-/// The axis that a direction lies along, if it lies along one.
+/// The axis along which a direction lies, if any.
 pub(super) fn axis_along(direction: &[f64]) -> Option<Axis> {
     let mut axes = [Axis::X, Axis::Y, Axis::Z].into_iter().zip(direction);
     let (axis, _) = axes.find(|(_, cosine)| **cosine != 0.0)?;
@@ -229,7 +227,7 @@ impl Displacement {
             .filter_map(|(component, value)| Some((component, value?)))
     }
 
-    /// Values along the first D axes, zero where there is none.
+    /// Displacements along the first D axes, m; zero where there is no value.
     pub fn vector<const D: usize>(&self) -> [f64; D] {
         let along = [self.x, self.y, self.z];
         std::array::from_fn(|axis| along[axis].unwrap_or(0.0))
@@ -243,7 +241,7 @@ impl Displacement {
 }
 
 impl Load {
-    /// A load without a profile, named by its group, or `load` where it acts elsewhere.
+    /// A load without a profile, named after its group, or `load` for other places.
     pub fn new(place: impl Into<Place>, action: Action) -> Self {
         let place = place.into();
         let name = match &place {
@@ -262,7 +260,7 @@ impl Load {
 }
 
 impl Profile {
-    /// The factor at a position.
+    /// Factor of the load at a position.
     pub fn at(&self, position: &[f64]) -> f64 {
         (position[self.along.number()] - self.zero) / (self.one - self.zero)
     }

@@ -3,7 +3,7 @@
 use ligament_model::correction::{StopRule, Sweeps, patch};
 use ligament_model::law::{Calibration, Law, PaperCorrection};
 
-/// Number of bonds above which a model takes the stop rule that does not depend on its size, unless the setup names a rule.
+/// Number of bonds above which the default stop rule is the one that does not depend on the size of the model.
 const LARGE_MODEL: usize = 1_000_000;
 
 /// The corrections of the bonds.
@@ -11,9 +11,9 @@ const LARGE_MODEL: usize = 1_000_000;
 pub struct Correction {
     /// Factor alpha of each bond.
     pub alpha: Alpha,
-    /// What surfaces take from the families, given back by a factor Omega of each bond.
+    /// Correction of the stiffness that families lack at surfaces, by a factor Omega of each bond.
     pub surface: Surface,
-    /// Body that the correction sees.
+    /// Body on which the correction is computed.
     pub domain: CorrectionDomain,
 }
 
@@ -28,23 +28,23 @@ pub enum Alpha {
     Length,
 }
 
-/// The correction of surfaces and irregular meshes.
+/// Correction for surfaces and irregular meshes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Surface {
     /// No correction.
     None,
-    /// By the volumes of the families.
+    /// Correction by the volumes of the families.
     Volume,
     /// NHPD's iterative domain correction.
     Domain(Iteration),
-    /// Two factors a bond for which every uniform strain is an equilibrium; of bodies with cells.
+    /// Two factors for each bond with which every uniform strain is in equilibrium; for bodies with cells.
     Patch(patch::Settings),
 }
 
 impl Surface {
-    /// Largest ratio of the stiffnesses of materials between which the factors are found ([milder](ligament_model::material::milder)). Where
-    /// it is smaller, soft layers between stiffer parts come closer to what they should carry, stiff layers under a pull along them less:
-    /// both were measured, on layers of one to four cells.
+    /// Largest ratio of the materials' stiffnesses in the computation of the factors ([milder](ligament_model::material::milder)). With a
+    /// smaller ratio, soft layers between stiffer parts carry a more accurate load, stiff layers under tension along them a less accurate
+    /// one, as measured on layers of one to four cells.
     pub(crate) fn largest_contrast(&self) -> f64 {
         match self {
             Self::Patch(_) => 10.0,
@@ -54,23 +54,22 @@ impl Surface {
     }
 }
 
-/// How the domain correction is iterated.
+/// Iteration of the domain correction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Iteration {
-    /// Rule that says when the iteration has converged; without one the sum over all bonds decides, or in models of more
-    /// than a million bonds their mean.
+    /// Convergence rule; by default the sum over all bonds, or in models of more than a million bonds their mean.
     pub stop: Option<StopRule>,
-    /// Sweeps at most.
+    /// Maximum number of sweeps.
     pub max_sweeps: usize,
 }
 
-/// The body that the correction sees.
+/// Body on which the correction is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum CorrectionDomain {
-    /// Before the pre-cracks cut bonds.
+    /// The body before pre-cracks cut bonds.
     #[default]
     Whole,
-    /// After the pre-cracks cut bonds.
+    /// The body after pre-cracks cut bonds.
     Cracked,
 }
 
@@ -84,13 +83,13 @@ impl Default for Iteration {
 }
 
 impl Iteration {
-    /// The paper's rule: change of a sweep summed over all bonds, which grows with the size of the model.
+    /// The rule of the NHPD paper: change of a sweep summed over all bonds, which grows with the size of the model.
     pub const SUM: StopRule = StopRule::Sum(1e-3);
 
-    /// Mean change per bond, which makes the energies of a large model as right as the sum does those of a small one.
+    /// Mean change per bond, which gives large models the accuracy that the sum gives small ones.
     pub const MEAN: StopRule = StopRule::Mean(1e-7);
 
-    /// Stop rule and limit for a model of so many bonds.
+    /// Stop rule and limit of sweeps for a model of `n_bonds` bonds.
     pub fn sweeps(&self, n_bonds: usize) -> Sweeps {
         let by_size = if n_bonds > LARGE_MODEL {
             Self::MEAN
@@ -105,7 +104,7 @@ impl Iteration {
 }
 
 impl Correction {
-    /// The corrections that the paper of a law takes with it.
+    /// The corrections in the paper of a law.
     pub fn of_paper(law: &Law) -> Self {
         let (alpha, surface) = match (law.row.correction, law.options.calibration) {
             (PaperCorrection::None, _) => (Alpha::None, Surface::None),

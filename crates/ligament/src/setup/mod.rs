@@ -1,4 +1,4 @@
-//! The setup: everything that a computation is told, as typed values.
+//! The setup: the complete input of a computation, as typed values.
 
 mod analysis;
 pub(crate) mod check;
@@ -43,44 +43,43 @@ pub use temperature::{Sample, Temperature, TemperatureChange};
 /// Description of a computation in the plane or in space: body, section, materials, law, corrections, supports, loads and the
 /// analysis.
 ///
-/// Lengths are in metres, forces in newtons, all else in SI units. Positions are in the coordinates of the body.
-/// [`Setup::new`] fills in what need not be said; every field can be set afterwards.
+/// All values are in SI units. Positions are in the coordinates of the body. [`Setup::new`] sets defaults; every field can be changed
+/// afterwards.
 #[derive(Debug, Clone)]
 pub struct Setup {
     /// Points with their groups: from a mesh, a lattice or arrays.
     pub body: AnyBody,
     /// Section of the body.
     pub section: Section,
-    /// Materials: one without a group for the whole body, or one for each of some groups.
+    /// Materials: one without a group for the whole body, or one for each of several groups.
     pub materials: Vec<MaterialRegion>,
     /// Bond law.
     pub law: Law,
-    /// Size of the stiffness against relative rotation, of laws whose points turn.
+    /// Size of the rotational stiffness, for laws with rotations of points.
     pub rotational_scale: RotationalScale,
     /// Horizon of the points.
     pub horizon: Horizon,
-    /// Whether bonds run through holes, slots and notches of a meshed body, as if these were filled; those of a lattice never do.
+    /// Whether bonds cross holes, slots and notches of a meshed body; bonds of a lattice never do.
     pub bonds_through_voids: bool,
     /// Corrections of the bonds.
     pub correction: Correction,
-    /// Cracks that are there from the start.
+    /// Initial cracks.
     pub precracks: Vec<PreCrack>,
-    /// Whether the faces of pre-cracks and of broken bonds carry pressure again where they close; of laws whose points turn.
+    /// Whether the faces of pre-cracks and of broken bonds carry pressure where they close; for laws with rotations of points.
     pub closing: bool,
     /// Parts of the body where bonds never fail.
     pub no_fail: Vec<Place>,
-    /// Supports of the body; there need be none.
+    /// Supports of the body, none or more.
     pub supports: Vec<Support>,
-    /// Loads as they are at load factor 1.
+    /// Loads at load factor 1.
     pub loads: Vec<Load>,
-    /// Name of the load that is the axis of the force-displacement curve; without it the first, or the temperature where there is
-    /// none.
+    /// Name of the load of the force-displacement curve; by default the first load, or the temperature where there is no load.
     pub curve: Option<String>,
-    /// Stages one after the other, in which each load follows a factor of its own; without any all loads grow with one load factor.
+    /// Successive stages, in which each load has a factor of its own; without stages all loads grow with one load factor.
     pub stages: Vec<Stage>,
-    /// Changes of temperature at load factor 1; where several reach, the last holds.
+    /// Changes of temperature at load factor 1; where several apply, the last counts.
     pub temperatures: Vec<Temperature>,
-    /// Failure criteria of the bonds, in an analysis of fracture: the first criterion that is met decides.
+    /// Failure criteria of the bonds in an analysis of fracture; the first criterion that is met applies.
     pub criteria: Vec<Choice>,
     /// A property of the materials that varies at random over the body, in an analysis of fracture.
     pub scatter: Option<Scatter>,
@@ -90,9 +89,9 @@ pub struct Setup {
     pub analysis: Analysis,
     /// Solver of the equations.
     pub solver: SolverSettings,
-    /// Number of threads; without it the threads of the caller.
+    /// Number of threads; by default the caller's threads.
     pub threads: Option<usize>,
-    /// What a user should know of the input that the other fields were made of: the model tells it among its warnings.
+    /// Remarks on the input of the other fields, which become warnings of the model.
     pub remarks: Vec<Implausible>,
 }
 
@@ -115,8 +114,8 @@ pub enum Horizon {
 }
 
 impl Setup {
-    /// The elastic analysis of a body of one material, horizon factor 3 and the correction of the law's paper; nothing holds it and nothing
-    /// loads it yet. A body in the plane is in plane stress and 1 m thick.
+    /// The elastic analysis of a body of one material, with horizon factor 3 and the correction of the law's paper, without supports and
+    /// loads. A body in the plane is in plane stress and 1 m thick.
     pub fn new<const D: usize>(
         body: impl Geometry<D> + 'static,
         material: Material,
@@ -152,13 +151,13 @@ impl Setup {
         }
     }
 
-    /// Materials in their order, which indices of materials refer to.
+    /// Materials in the order of their indices.
     pub fn materials(&self) -> Vec<Material> {
         let regions = self.materials.iter();
         regions.map(|region| region.material.clone()).collect()
     }
 
-    /// The setup with one isotropic material in all regions; none where it has no other.
+    /// The setup with one isotropic material in all regions; `None` where it has that already.
     pub(crate) fn of_one_material(&self) -> Option<Self> {
         let mut first = self.materials.first()?.material.clone();
         let isotropic = first.elasticity.isotropic();
@@ -192,12 +191,12 @@ impl Setup {
         self.section.space()
     }
 
-    /// State of the plane; plane strain in a solid.
+    /// State of the plane; plane strain for a solid.
     pub fn plane(&self) -> Plane {
         self.space().plane()
     }
 
-    /// Thickness of the body, m; 1 of a solid.
+    /// Thickness of the body, m; 1 for a solid.
     pub fn thickness(&self) -> f64 {
         self.section.thickness()
     }

@@ -1,8 +1,8 @@
-//! Cracks that are in a body from the start.
+//! Initial cracks of a body.
 
 use ligament_model::bonds::precrack::Ends;
 
-/// A crack that is in a body from the start.
+/// An initial crack of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreCrack {
     /// Line or surface of the crack.
@@ -18,20 +18,20 @@ pub enum CrackShape {
     Line(Vec<[f64; 2]>),
     /// A disk in space.
     Disk {
-        /// Middle, m.
+        /// Centre of the disk, m.
         centre: [f64; 3],
-        /// Normal; it need not have the length 1.
+        /// Normal of the disk, of arbitrary length.
         normal: [f64; 3],
         /// Radius, m.
         radius: f64,
     },
     /// A plane polygon in space by its corners, three or more, m.
     Polygon(Vec<[f64; 3]>),
-    /// Triangles in space by the numbers of their corners among points, m.
+    /// Triangles in space.
     Triangles {
-        /// Corners, m.
+        /// Positions of the corners, m.
         points: Vec<[f64; 3]>,
-        /// The triangles.
+        /// Indices of each triangle's corners in `points`.
         triangles: Vec<[u32; 3]>,
     },
     /// The faces of a surface group of a solid mesh.

@@ -1,11 +1,11 @@
-//! Probes: what the history records beside displacement and load.
+//! Probes: quantities that the history records beside displacement and load.
 
 use ligament_analysis::Component;
 use ligament_analysis::probe::{PointField, PointReading};
 
 use super::conditions::{Axis, Position};
 
-/// A number read off the body at every load step.
+/// A quantity of the body that is recorded at every load step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Probe {
     /// Name, unique among the probes.
@@ -14,27 +14,28 @@ pub struct Probe {
     pub reading: Reading,
 }
 
-/// What a probe reads.
+/// Quantity that a probe reads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Reading {
     /// Displacement of one point relative to another.
     Between {
-        /// Two positions, m: the displacement at the second less that at the first.
+        /// Two positions, m: the reading is the displacement at the second minus the displacement at the first.
         positions: [Position; 2],
         /// Component read, m or rad.
         component: Component,
     },
     /// A field at a position.
     At {
-        /// Position, m: what the points of the cell around it have, in parts; where no cell is, or a pre-crack parts them, the nearest point.
+        /// Position, m. The reading is interpolated between the points of the cell around it; outside of cells, or where a pre-crack
+        /// separates the points, the value of the nearest point.
         position: Position,
         /// Field read.
         field: PointField,
     },
     /// The force that the bonds carry through a line of the plane, or through a plane of space.
     Section {
-        /// Ends of the line, m: what is on its right pulls at what is on its left; in space a point of the plane and one before it along
-        /// its normal: what is before the plane pulls at what is behind it.
+        /// Ends of the line, m, with the force of the right side on the left side; in space a point of the plane and one before it along
+        /// its normal, with the force of the side before the plane on the side behind it.
         line: [Position; 2],
         /// Component read, N.
         component: Axis,
@@ -42,13 +43,13 @@ pub enum Reading {
 }
 
 impl Reading {
-    /// Whether it is a virial stress.
+    /// Whether the quantity is a virial stress.
     pub(crate) fn is_stress(&self) -> bool {
         let is_stress = |it: &PointField| matches!(it.reading, PointReading::Stress(_));
         matches!(self, Self::At { field, .. } if is_stress(field))
     }
 
-    /// Whether it is a motion of points, or a difference of such.
+    /// Whether the quantity is a motion of points, or a difference of motions.
     pub(crate) fn is_motion(&self) -> bool {
         match self {
             Self::Between { .. } => true,

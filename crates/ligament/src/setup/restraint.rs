@@ -1,4 +1,4 @@
-//! What supports and loads with springs, rollers and platens must be.
+//! Checks of supports and loads with springs, rollers and platens.
 
 use ligament_model::Advice;
 
@@ -9,13 +9,13 @@ use super::{Action, Analysis, Form, Load, Position, Setup, Support};
 use crate::error::Field;
 
 impl Support {
-    /// Whether it resists without holding still, by springs or along a direction between the axes.
+    /// Whether the support has springs or an inclined normal.
     pub fn is_restraint(&self) -> bool {
         let springs = self.stiffness.components;
         self.restrained_normal().is_some() || springs.components().next().is_some()
     }
 
-    /// The normal, where it has a spring or lies between the axes.
+    /// The normal, where it has a spring or is inclined to the axes.
     pub fn restrained_normal(&self) -> Option<Position> {
         let has_spring = self.stiffness.normal.is_some();
         self.normal
@@ -24,7 +24,7 @@ impl Support {
 }
 
 impl Load {
-    /// Whether it acts through springs or a platen.
+    /// Whether the load acts through springs or a platen.
     pub fn is_restraint(&self) -> bool {
         self.stiffness.is_some() || self.tilts
     }

@@ -1,4 +1,4 @@
-//! The size of the rotational stiffness must go with law and materials.
+//! Checks of the rotational stiffness against law and materials.
 
 use ligament_model::Advice;
 use ligament_model::law::orthotropic;
@@ -43,8 +43,7 @@ impl Setup {
         }
     }
 
-    /// A rotation that costs less than nothing against the displacements, and something against its neighbours, has a wave length
-    /// at which it costs nothing.
+    /// Refuses a negative shear stiffness with a positive rotational stiffness: waves of rotation of some wave length would have no energy.
     fn check_coupling(&self, field: Field) -> Checked {
         let elasticities = self.materials.iter().map(|it| &it.material.elasticity);
         let least = elasticities.map(|it| orthotropic::smallest_shear(it, self.plane()));

@@ -1,4 +1,4 @@
-//! Properties that vary at random.
+//! Checks of properties that vary at random.
 
 use ligament_model::Advice;
 use ligament_model::scatter::{Distribution, Scattered};
@@ -9,7 +9,7 @@ use super::setting::Setting;
 use crate::error::Field;
 
 impl Setup {
-    /// Factors are positive, and some criterion feels them.
+    /// Refuses distributions with factors out of range, and scatter that no criterion depends on.
     pub(super) fn check_scatter(&self) -> Checked {
         let Some(scatter) = self.scatter else {
             return Ok(());

@@ -1,9 +1,9 @@
-//! The extent of a point across the dimensions of its body.
+//! Section of a body: state of the plane and thickness.
 
 use ligament_model::Plane;
 use ligament_model::material::Space;
 
-/// Section of the body: the part of it that a point stands for across its dimensions.
+/// Section of the body: its extent across the dimensions of its points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Section {
     /// A plate or a slice of a long body.
@@ -13,12 +13,12 @@ pub enum Section {
         /// Thickness, m.
         thickness: f64,
     },
-    /// A solid, whose points stand for volumes alone.
+    /// A solid.
     Solid,
 }
 
 impl Section {
-    /// The usual section of bodies in D dimensions: plane stress and 1 m thick, or a solid.
+    /// The default section of bodies in D dimensions: plane stress and 1 m thick, or a solid.
     pub fn usual<const D: usize>() -> Self {
         match D {
             2 => Self::Plane {
@@ -37,7 +37,7 @@ impl Section {
         }
     }
 
-    /// Thickness, m; 1 of a solid.
+    /// Thickness, m; 1 for a solid.
     pub fn thickness(&self) -> f64 {
         match *self {
             Self::Plane { thickness, .. } => thickness,

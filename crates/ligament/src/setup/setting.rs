@@ -1,4 +1,4 @@
-//! Settings that messages about a setup name.
+//! Settings that are named in messages about a setup.
 
 use std::fmt;
 
@@ -8,24 +8,24 @@ use ligament_model::scatter::Scattered;
 
 use super::correction::{Alpha, CorrectionDomain, Surface};
 
-/// What a field of a [`Setup`](crate::Setup) is set to, or should be.
+/// Actual or recommended value of a field of a [`Setup`](crate::Setup).
 #[derive(Debug, Clone, PartialEq)]
 pub enum Setting {
-    /// A bond law, or one of several.
+    /// One or several bond laws.
     Law(Vec<&'static BondLaw>),
     /// Origin of the constants of the law.
     Calibration(Calibration),
     /// Stiffness against relative rotation.
     RotationalStiffness(RotationalStiffness),
-    /// Strains that bonds resist.
+    /// Form of the strains that bonds resist.
     Form(Form),
-    /// Distances that strains are taken over.
+    /// Distances over which strains are taken.
     Strains(Strains),
     /// Factor alpha of the bonds.
     Alpha(Alpha),
     /// Correction of surfaces.
     Surface(Surface),
-    /// Body that the correction sees.
+    /// Body on which the correction is computed.
     Domain(CorrectionDomain),
     /// Property that varies at random.
     Scattered(Scattered),

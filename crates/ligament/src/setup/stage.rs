@@ -1,56 +1,56 @@
-//! Stages of a loading: what happens one after the other.
+//! Successive stages of a loading.
 
-/// A stage of a loading, in which loads go to other factors than they have.
+/// A stage of a loading, in which load factors change.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stage {
     /// Name, unique among the stages.
     pub name: String,
-    /// Loads that change, by their names, the temperature as [`TEMPERATURE`]; every other load keeps its factor, which is 0 before
-    /// the first stage that names it.
+    /// Names and courses of the loads that change, with [`TEMPERATURE`] for the temperature; every other load keeps its factor, which is 0
+    /// before the first stage that names it.
     pub loads: Vec<(String, Course)>,
-    /// Load steps of the stage; of load steps alone.
+    /// Number of load steps of the stage; only in an analysis of load steps.
     pub steps: Option<usize>,
-    /// What grows in equal steps; without it the factors do.
+    /// Control whose quantity grows in equal steps; without it the factors do.
     pub control: Option<Control>,
 }
 
-/// What grows in equal steps over a stage, while the loads of the stage follow: their factors, which go there from what they are in a
-/// fixed proportion, may fall and change sign.
+/// Control of a stage by a quantity that grows in equal steps. The factors of the stage's loads change in a fixed proportion from their
+/// values at the start, and may fall and change sign.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Control {
-    /// What grows.
+    /// Controlling quantity.
     pub quantity: Quantity,
     /// Value of the quantity at the end of the stage, m, rad or J.
     pub to: f64,
 }
 
-/// What controls a stage.
+/// Quantity that controls a stage.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Quantity {
     /// Names of probes of motions with their weights in a sum.
     Probes(Vec<(String, f64)>),
-    /// The energy that bonds have taken for good since the loading began: of bonds that soften in load steps, of brittle ones along the exact
-    /// path, where it says how far the stage goes.
+    /// The energy dissipated by bonds since the start of the loading: of softening bonds in load steps, of brittle bonds along the exact
+    /// path, where its value ends the stage.
     DissipatedEnergy,
 }
 
-/// Name of the changes of temperature, all together, among the loads of a stage.
+/// Name of all changes of temperature among the loads of a stage.
 pub const TEMPERATURE: &str = "temperature";
 
-/// The factor of a load in a stage, along straight lines between these points from the factor that it has at the start.
+/// The factor of a load over a stage, piecewise linear from its value at the start.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Course {
-    /// Share of the stage that is over, ascending, more than 0 and at most 1, and the factor there; the last one stays to the end.
+    /// Shares of the stage, ascending, more than 0 and at most 1, with the factors there; the last factor is kept to the end.
     pub points: Vec<[f64; 2]>,
 }
 
 impl Course {
-    /// A straight line to a factor at the end of the stage.
+    /// A linear course to a factor at the end of the stage.
     pub fn to(factor: f64) -> Self {
         Self::through(&[factor])
     }
 
-    /// Factors one after the other at the ends of equal parts of the stage.
+    /// A course through factors at the ends of equal parts of the stage.
     pub fn through(factors: &[f64]) -> Self {
         let count = factors.len() as f64;
         let point = |(index, factor): (usize, &f64)| [(index + 1) as f64 / count, *factor];

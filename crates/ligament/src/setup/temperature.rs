@@ -5,24 +5,24 @@ use super::conditions::{Place, Position};
 /// A change of temperature at load factor 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Temperature {
-    /// Part of the body: the cells of a group that has any, else the points.
+    /// Part of the body: the cells of a group that has cells, otherwise the points.
     pub place: Place,
-    /// How much the temperature changes.
+    /// Change of the temperature.
     pub change: TemperatureChange,
 }
 
-/// How much the temperature changes.
+/// Change of the temperature.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TemperatureChange {
-    /// One change everywhere, K.
+    /// The same change everywhere, K.
     Uniform(f64),
-    /// Changes at positions, each of which belongs to the point within a tenth of the distance to the nearest other point.
+    /// Changes at positions, each assigned to the point within a tenth of its distance to the nearest other point.
     Table(Vec<Sample>),
-    /// A field that the mesh brings along.
+    /// A field of the mesh file.
     Field {
         /// Name of the field.
         name: String,
-        /// Time step, where the mesh has several.
+        /// Time step, where the field has several.
         time_step: Option<i32>,
         /// Value that is subtracted from the field, in its unit.
         reference: f64,

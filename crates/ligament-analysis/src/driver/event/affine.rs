@@ -1,14 +1,13 @@
 //! Lines A + w B of a part of a programme, between its start and its end.
 //!
-//! What the displacements grow by with the load factor is one solution; with it the load factors at which a bond is within its
-//! limits are an interval in closed form. The path goes on to the upper end of what all bonds admit, which may lie below the
-//! present load factor (snap-back), or to the end of the part. Where no load factor of the part is admissible, A alone breaks
-//! bonds: the load is held, and the bonds farthest beyond their limits break with those tied with them, group after group, until
-//! some load is admissible again. That is how sequentially linear analyses redistribute what was applied first (DeJong 2008;
-//! Elias 2010).
+//! The rate of the displacements with the load factor is one solution; with it the load factors at which a bond is within its
+//! limits are an interval in closed form. The path continues to the upper end of the intersection of all intervals, which may lie
+//! below the present load factor (snap-back), or to the end of the part. Where no load factor of the part is admissible, A alone
+//! breaks bonds: at fixed load, the bonds farthest beyond their limits break with those tied with them, group after group, until
+//! some load is admissible again, as in the redistribution of sequentially linear analyses (DeJong 2008; Elias 2010).
 //!
-//! A part that goes on until the bonds have dissipated an energy has no ends: the load goes as far either way as the path does, and the part
-//! is over before the first breakage at which that energy is gone.
+//! A part that ends at a dissipated energy has no bounds: the load changes as far in both directions as the path does, and the part
+//! ends before the first breakage at which that energy is reached.
 
 use std::mem;
 use std::time::Instant;
@@ -35,7 +34,7 @@ pub(super) struct Affine {
 }
 
 impl Affine {
-    /// With the growth of a checkpoint; it is empty at the start.
+    /// Lines with the growth of a checkpoint, which is empty at the start.
     pub(super) fn new(tie_tolerance: f64, growth: Vec<f64>) -> Self {
         Self {
             tie_tolerance,
@@ -44,7 +43,7 @@ impl Affine {
         }
     }
 
-    /// Growth of the deformations (n_bonds) with the load factor.
+    /// Rate of the deformations (n_bonds) with the load factor.
     fn slopes(
         &mut self,
         path: &mut Path<'_>,
@@ -133,7 +132,7 @@ impl EquilibriumLine for Affine {
     }
 }
 
-/// The interval that the bonds of all processes admit.
+/// Intersection of the admissible intervals of all processes.
 fn on_all_processes(subdomain: &Subdomain, here: Option<Interval>) -> Option<Interval> {
     let [lower, upper] = here.unwrap_or(EVERYWHERE);
     let mut most = [f64::from(u8::from(here.is_none())), lower, -upper];
@@ -142,7 +141,7 @@ fn on_all_processes(subdomain: &Subdomain, here: Option<Interval>) -> Option<Int
     (is_none == 0.0 && lower <= upper).then_some([lower, upper])
 }
 
-/// The goal where no load is admissible: the load stays.
+/// Goal at fixed load, where no load is admissible.
 fn held(tie: f64, line: &Balanced, criteria: &Criteria, path: &Path<'_>) -> Goal {
     let FirstToBreak { ratio, bonds } = path.first_to_break(tie, &line.deformations, criteria);
     Goal {

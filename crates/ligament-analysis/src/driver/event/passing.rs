@@ -1,8 +1,8 @@
-//! Events between those after which somebody looks at the whole body: parts of it are [left behind](crate::lagging).
+//! Skipped events, for which the observer does not need the whole body: [updates of its parts are delayed](crate::lagging).
 //!
-//! The line through the unloaded state is followed at one load factor, and what is asked for at the critical ones is in proportion. Each
-//! event needs the motions of the parts whose bonds may be next, and of supported and loaded points, whose forces give reactions, work and
-//! the stored energy. After some events all parts catch up, and the residual of the whole body is checked.
+//! The line through the unloaded state is stored at one load factor, and quantities at critical load factors are proportional. Each
+//! event needs the motions of parts whose bonds may break next, and of supported and loaded points, whose forces give reactions,
+//! work and the stored energy. After some events all parts are updated, and the residual of the whole body is checked.
 
 use std::time::Instant;
 
@@ -19,38 +19,38 @@ use crate::error::SetupError;
 use crate::lagging::{Body, ForwardSubstituted, Lagging};
 use crate::problem::Problem;
 
-/// Events with a number that this divides are seen whole in any case, so that the residual of the whole body is checked and rounding does
-/// not add up for long.
+/// Interval of events after which the whole body is updated in any case, so that its residual is checked and rounding does not
+/// accumulate.
 const WHOLE_EVERY: usize = 64;
 
-/// Where passing over events ends.
+/// Result of skipping events.
 pub(super) enum Passed {
-    /// Where it began: the run may end with the next event.
+    /// No event was skipped, because the run may end with the next one.
     Nothing,
-    /// In an equilibrium of the whole body, or without one.
+    /// An equilibrium of the whole body, or the reason why there is none.
     Line(Attempt),
-    /// With a breakage that the parts left behind cannot take in; the equilibrium of the whole body before it.
+    /// A breakage that cannot be applied to delayed parts, and the equilibrium of the whole body before it.
     Broke(Balanced, Breakage),
 }
 
-/// Events that are passed over, on the line of one load factor.
+/// State while events are skipped, on the line of one load factor.
 pub(super) struct Passing<'a, 'p> {
     path: &'a mut Path<'p>,
     problem: &'a Problem,
     body: &'a Body,
     lagging: Lagging<'a>,
-    /// Load factor of the displacements that lag behind.
+    /// Load factor of the delayed displacements.
     load_factor: f64,
-    /// The equilibrium there: forces at the points that are asked for, and no deformations.
+    /// Equilibrium at that load factor, with forces at the observed points only and without deformations.
     line: Balanced,
 }
 
-/// Whether an event may be passed over.
+/// Whether an event may be skipped.
 pub(super) fn may_pass(path: &Path<'_>, step: usize) -> bool {
     !step.is_multiple_of(WHOLE_EVERY) && !path.observer.looks(step)
 }
 
-/// Whether parts of a body may wait with what is held of it: parts that came loose alone, which do not move.
+/// Whether updates of the body may be delayed with its added supports: these may fix only detached parts that are not observed.
 pub(super) fn may_wait(path: &Path<'_>, body: &Body) -> bool {
     let fragments = path.equilibrium.fragments();
     let layout = path.problem.system.layout();
@@ -63,7 +63,7 @@ pub(super) fn may_wait(path: &Path<'_>, body: &Body) -> bool {
     held.all(|(dof, _)| !is_asked_for[fragment(layout.point(dof))])
 }
 
-/// Passes over events from an equilibrium on the line to the first of them, as long as that may be; counts the steps.
+/// Skips events from an equilibrium on the line to the first of them, as long as allowed; advances the step number.
 pub(super) fn pass(
     path: &mut Path<'_>,
     body: &Body,
@@ -140,7 +140,7 @@ impl Passing<'_, '_> {
         (!ends).then_some(critical)
     }
 
-    /// Moves back to where passing over events began.
+    /// Moves back to the state before the first skipped event.
     fn go_back(&mut self) {
         self.path.state.load_factor = self.load_factor;
         let motions = &mut self.path.state.displacement;
@@ -185,7 +185,7 @@ impl Passing<'_, '_> {
         path.break_deformed(&bonds, judged, &critical, step, 1)
     }
 
-    /// Takes in a breakage; gives the bonds that are the next to break. None where the factor broke on the way.
+    /// Applies a breakage; returns the bonds that break next. None where the update of the factor failed.
     fn follow(&mut self, breakage: &Breakage) -> Option<FirstToBreak> {
         let scale = self.factor().recip();
         let Path {
@@ -209,17 +209,17 @@ impl Passing<'_, '_> {
         Some(first)
     }
 
-    /// The equilibrium at the load factor of the state, as far as it is known.
+    /// Equilibrium at the load factor of the state, as far as known.
     fn known(&self) -> Balanced {
         self.line.scaled(self.factor())
     }
 
-    /// Factor from the displacements that lag behind to those of the state.
+    /// Ratio of the displacements of the state to the delayed ones.
     fn factor(&self) -> f64 {
         self.path.state.load_factor / self.load_factor
     }
 
-    /// Gives the state the motions of the points that are asked for, and of the ends of some bonds.
+    /// Sets the motions of the observed points and of the ends of some bonds in the state.
     fn know(&mut self, bonds: &[u32]) {
         let factor = self.factor();
         let system = &self.problem.system;
@@ -232,7 +232,7 @@ impl Passing<'_, '_> {
         }
     }
 
-    /// Adds up the forces of the bonds on the points that are asked for.
+    /// Sums the forces of the bonds on the observed points.
     fn add_up_forces(&mut self) {
         let system = &self.problem.system;
         let (layout, intact) = (system.layout(), &self.path.state.intact);
@@ -255,10 +255,10 @@ impl Passing<'_, '_> {
         }
     }
 
-    /// Brings the motions of all points to where the state is.
+    /// Updates the motions of all points to the load factor of the state.
     fn catch_up(&mut self) {
         let start = Instant::now();
-        // Without a factor the motions are those that were known last, and an equilibrium is sought from there.
+        // Without a factor the last known motions are the start of the next iteration.
         if let Some(factor) = self.path.equilibrium.factor() {
             self.lagging.catch_up(factor, &self.path.state);
         }
@@ -270,7 +270,7 @@ impl Passing<'_, '_> {
         self.path.equilibrium.count_bond_work(start);
     }
 
-    /// The equilibrium of the whole body before a breakage that was not taken in.
+    /// Equilibrium of the whole body before a breakage that was not applied.
     fn before(&mut self, breakage: &Breakage) -> Balanced {
         self.catch_up();
         let Path {

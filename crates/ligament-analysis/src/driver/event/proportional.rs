@@ -1,7 +1,7 @@
-//! Lines through the unloaded state: everything is in proportion to one load factor.
+//! Lines through the unloaded state, in proportion to one load factor.
 //!
-//! So are the measures of all criteria (s/s_0 stands here for measure over limit): the next bond breaks where the largest s/s_0
-//! reaches one, lambda_next = lambda / max(s/s_0) over the intact bonds with s > 0.
+//! The measures of all criteria are proportional too (s/s_0 stands here for measure over limit): the next bond breaks where the
+//! largest s/s_0 reaches one, lambda_next = lambda / max(s/s_0) over the intact bonds with s > 0.
 
 use std::time::Instant;
 
@@ -17,7 +17,7 @@ use crate::unbalanced::Unbalanced;
 /// Lines through the unloaded state.
 pub(super) struct Proportional {
     tie_tolerance: f64,
-    /// Degrees of freedom that something moves or loads.
+    /// Degrees of freedom that are prescribed or loaded.
     loaded: Vec<u32>,
 }
 
@@ -31,7 +31,7 @@ impl Proportional {
 }
 
 impl EquilibriumLine for Proportional {
-    /// The end of the way along the line of an equilibrium: the critical load, or what ends the run before it.
+    /// End of the line of an equilibrium: the critical load, or the end of the run before it.
     fn goal(&mut self, path: &mut Path<'_>, line: &Balanced) -> Result<Goal, Unbalanced> {
         let start = Instant::now();
         let FirstToBreak { ratio, bonds } =
@@ -47,7 +47,7 @@ impl EquilibriumLine for Proportional {
             end: None,
         };
         if goal.load_factor > 1.0 {
-            // Loose parts have stretches of rounding size, which are none.
+            // Detached parts have stretches of rounding size, which do not count.
             let is_stretched = ratio > NO_LOAD * now;
             let end = if is_stretched {
                 Termination::FullLoad
@@ -75,12 +75,12 @@ impl EquilibriumLine for Proportional {
         Ok(goal)
     }
 
-    /// Moves to another load factor with the same bonds, where no solution is needed.
+    /// Moves to another load factor with the same bonds, without a solution.
     ///
-    /// A part that something moves or loads has strains in proportion to the load factor, so its displacements are scaled.
-    /// Where it may move freely, with just this motion held, the motion is scaled with the rest: it costs nothing, and its
-    /// size is arbitrary. A part that nothing moves or loads has no strains and stays where it is, to the last bit.
-    /// The residual after the next breakage covers the whole state, and so tells if this did not hold.
+    /// A part that is prescribed or loaded has strains in proportion to the load factor, so that its displacements are scaled. A
+    /// free motion of such a part, fixed by an added support, is scaled with the rest: it has no energy, and its size is arbitrary.
+    /// A part without prescribed motions and loads has no strains and stays where it is, to the last bit. The residual after the
+    /// next breakage covers the whole state, and so verifies this.
     fn follow(&self, path: &mut Path<'_>, line: &Balanced, load_factor: f64) -> Balanced {
         let start = Instant::now();
         let state = &mut path.state;

@@ -1,4 +1,4 @@
-//! What several ranks keep of a matrix and its preconditioner beside their values.
+//! State of a distributed matrix and its preconditioner, apart from their values.
 
 use std::collections::BTreeSet;
 
@@ -7,24 +7,24 @@ use crate::checkpoint::CheckpointError;
 use crate::serial::Serial;
 use crate::tangent::making::FactorRecord;
 
-/// What a preconditioner came from and how it serves: the same on all ranks.
+/// Origin and performance of a preconditioner, equal on all ranks.
 pub(super) struct PreconditionerState {
-    /// What the preconditioner was made of.
+    /// Bonds and supports from which the preconditioner was built.
     pub(super) preconditioner_of: FactorRecord,
-    /// What the matrix is of.
+    /// Bonds and supports of the matrix.
     pub(super) matrix_of: FactorRecord,
-    /// Points whose columns are out of date.
+    /// Points whose columns are outdated.
     pub(super) stale: BTreeSet<u32>,
-    /// Whether the preconditioner is to be made anew.
+    /// Whether the preconditioner must be rebuilt.
     pub(super) is_due: bool,
-    /// Iterations a decade with the preconditioner as it was new.
+    /// Iterations per decade of residual reduction with the new preconditioner.
     pub(super) pace: Option<f64>,
-    /// Iterations beyond that since.
+    /// Iterations in excess of that rate since then.
     pub(super) excess: f64,
 }
 
 impl PreconditionerState {
-    /// Nothing is made yet.
+    /// State before the first matrix.
     pub(super) fn new() -> Self {
         Self {
             preconditioner_of: FactorRecord::default(),
@@ -36,11 +36,11 @@ impl PreconditionerState {
         }
     }
 
-    /// Reads what was kept, with the local bonds alone.
+    /// Reads the state of all bonds, and keeps the local bonds.
     ///
     /// # Errors
     ///
-    /// If the bytes are damaged or of another body.
+    /// If the bytes are damaged or belong to another body.
     pub(super) fn read(numbers: &BondNumbers, from: &mut &[u8]) -> Result<Self, CheckpointError> {
         let mut making = || FactorRecord::read_local(numbers, from);
         let (preconditioner_of, matrix_of) = (making()?, making()?);
@@ -55,7 +55,7 @@ impl PreconditionerState {
         })
     }
 
-    /// Appends what it takes to make it again, with all bonds of the body, see [`BondNumbers::write`].
+    /// Appends the state with all bonds of the body, see [`BondNumbers::write`].
     pub(super) fn write(&self, numbers: &BondNumbers, out: &mut Vec<u8>) {
         self.preconditioner_of.write_all(numbers, out);
         self.matrix_of.write_all(numbers, out);

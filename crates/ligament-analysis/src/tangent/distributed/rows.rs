@@ -1,7 +1,8 @@
-//! The rows of the tangent stiffness that a rank has.
+//! Rows of the tangent stiffness on a rank.
 //!
-//! The blocks in the columns of a point come from its bonds at rows of smaller number; what stands above the diagonal is what stands
-//! below it. A rank goes through the columns of its own points and of those of larger number beside them, and keeps its own rows.
+//! The blocks in the columns of a point are computed from its bonds for rows of smaller number; those above the diagonal follow by
+//! symmetry. A rank computes the columns of its owned points and of points of larger number coupled with them, and stores its own
+//! rows.
 
 use ligament_model::subdomain::Partition;
 use ligament_model::{Bonds, UnbrokenBonds};
@@ -11,10 +12,10 @@ use crate::distributed_matrix::{DistributedMatrix, Rows};
 use crate::tangent::iterative::vanishing_of_block;
 use crate::unknowns::Unknowns;
 
-/// Columns whose blocks are there at the same time.
+/// Largest number of columns whose blocks are stored at the same time.
 const TASK: usize = 1024;
 
-/// The rows of a rank.
+/// Rows of the owned points of a rank.
 pub(super) struct OwnRows<'a> {
     pub(super) system: &'a dyn Bonds,
     pub(super) unknowns: &'a Unknowns,
@@ -22,14 +23,14 @@ pub(super) struct OwnRows<'a> {
     pub(super) rank: usize,
 }
 
-/// Bonds, and which degrees of freedom take part (n_degrees_of_freedom): the others are cut off, with a diagonal entry alone.
+/// Bonds, and whether each degree of freedom is free (n_degrees_of_freedom); the others are decoupled, with a diagonal entry alone.
 #[derive(Clone, Copy)]
 pub(super) struct Taken<'a> {
     pub(super) bonds: UnbrokenBonds<'a>,
     pub(super) free: &'a [bool],
 }
 
-/// Blocks in the columns of a point, at the rows of the `lower` points and of itself.
+/// Blocks in the columns of a point, in the rows of the `lower` points and of the point itself.
 struct Column {
     point: u32,
     lower: Vec<u32>,
@@ -46,7 +47,7 @@ impl OwnRows<'_> {
         restraints.lower_points(layout, self.system.coupled_points(), point as usize)
     }
 
-    /// Place of a point among the own ones.
+    /// Index of a point among the owned ones; None for other points.
     fn own_place(&self, point: u32) -> Option<usize> {
         let (place, own) = (
             self.partition.place(point),
@@ -59,7 +60,7 @@ impl OwnRows<'_> {
         self.own_place(point).is_some()
     }
 
-    /// The points whose columns have entries in own rows, ascending.
+    /// Points whose columns have entries in owned rows, ascending.
     pub(super) fn columns(&self) -> Vec<u32> {
         let is_seen = |&point: &u32| {
             self.is_own(point) || self.lower(point).into_iter().any(|it| self.is_own(it))
@@ -68,7 +69,7 @@ impl OwnRows<'_> {
         points.into_par_iter().filter(is_seen).collect()
     }
 
-    /// Numbers of the blocks in the rows of each own point, in own columns and others.
+    /// Numbers of blocks in the rows of each owned point, in owned columns and in others, shape (n_own).
     pub(super) fn couplings(&self, columns: &[u32]) -> Vec<[usize; 2]> {
         let mut couplings = vec![[0, 0]; self.partition.places(self.rank).len()];
         let mut count = |row: u32, column: u32| {
@@ -86,7 +87,7 @@ impl OwnRows<'_> {
         couplings
     }
 
-    /// Points that an element or a restraint couples at most, as far as is known here.
+    /// Largest number of points coupled by an element or a restraint, as far as known on this rank.
     pub(super) fn most_coupled(&self) -> usize {
         let elements = self.system.elements_at_points();
         let mut n_points = vec![0; self.system.ends().len()];
@@ -100,7 +101,7 @@ impl OwnRows<'_> {
         of_elements.max(restraints.most_coupled(self.unknowns.layout()))
     }
 
-    /// A matrix without values.
+    /// Structure of a matrix without values.
     pub(super) fn rows<'a>(&self, couplings: &'a [[usize; 2]]) -> Rows<'a> {
         Rows {
             n_components: self.n_components(),
@@ -109,8 +110,8 @@ impl OwnRows<'_> {
         }
     }
 
-    /// Sets what stands in own rows and the columns of some points, and above the diagonal in theirs; gives own degrees of freedom that
-    /// nothing resists.
+    /// Sets the entries in owned rows and in the columns of some points, and their transposes; returns owned degrees of freedom
+    /// without stiffness.
     pub(super) fn set(
         &self,
         columns: &[u32],
@@ -151,7 +152,7 @@ impl OwnRows<'_> {
                 if rows[r] && free[c] {
                     continue;
                 }
-                // Any positive number does for an equation that stands alone: a held point may have lost all its bonds.
+                // A decoupled equation may have any positive diagonal entry: a fixed point may have lost all its bonds.
                 *value = match *value {
                     _ if !is_own || r != c => 0.0,
                     0.0 => 1.0,
@@ -195,7 +196,7 @@ impl OwnRows<'_> {
         matrix.set(place, &places, &row);
     }
 
-    /// The degrees of freedom of the point of a column that nothing resists.
+    /// First degree of freedom without stiffness at the point of a column.
     fn loose(&self, column: &Column, taken: Taken<'_>) -> Option<usize> {
         let n = self.n_components();
         let dofs = self.unknowns.layout().range(column.point);

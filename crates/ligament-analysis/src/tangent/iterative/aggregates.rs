@@ -1,18 +1,18 @@
-//! Aggregates: a body in small connected parts, whose rigid motions are the coarse space.
+//! Aggregates: small connected parts of a body, whose rigid motions span the coarse space.
 
 use ligament_model::Bonds;
 
-/// The parts of a body, each with a few dozen points.
+/// Partition of a body into aggregates of a few dozen points each.
 pub(super) struct Aggregates {
-    /// Points of each part.
+    /// Points of each aggregate.
     pub(super) points: Vec<Vec<u32>>,
-    /// Part of each point, shape (n_points).
+    /// Aggregate of each point, shape (n_points).
     pub(super) of_point: Vec<u32>,
 }
 
 impl Aggregates {
-    /// Parts of at most `largest` points by recursive bisection of the coordinates, split where the bonds that are intact (n_bonds) do
-    /// not connect them within themselves.
+    /// Aggregates of at most `largest` points by recursive bisection of the coordinates, split into parts that are connected by
+    /// intact bonds (n_bonds).
     pub(super) fn new(system: &dyn Bonds, intact: &[bool], largest: usize) -> Self {
         let n_points = system.n_points();
         let mut parts = Self {
@@ -35,7 +35,7 @@ impl Aggregates {
         parts
     }
 
-    /// Number of parts.
+    /// Number of aggregates.
     pub(super) fn len(&self) -> usize {
         self.points.len()
     }

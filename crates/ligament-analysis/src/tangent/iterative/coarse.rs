@@ -1,4 +1,4 @@
-//! The coarse space with the forces that resist it and the factor of the stiffness in it, kept up while bonds break.
+//! The coarse space, its forces and the factor of its stiffness, updated while bonds break.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -10,18 +10,18 @@ use super::coarse_stiffness::{CoarseStiffness, Factored};
 use super::operator::Operator;
 use super::resistance::Resistance;
 
-/// The coarse space Z, the forces K Z and the factor of E = Z^T K Z.
+/// Coarse space Z, forces K Z and factor of E = Z^T K Z.
 pub(super) struct Coarse {
     space: CoarseBasis,
     resistance: Resistance,
     factor: Box<dyn Factorisation>,
     pattern: Arc<Pattern>,
-    /// Coarse unknowns that the factor is cut off from.
+    /// Coarse unknowns decoupled from the others in the factor.
     left_out: BTreeSet<usize>,
 }
 
 impl Coarse {
-    /// The coarse space of the bonds of an operator, with the stiffness of each degree of freedom by itself
+    /// Coarse space of the bonds of an operator, from aggregates of at most `largest` points and the diagonal of K
     /// (n_degrees_of_freedom).
     ///
     /// # Errors
@@ -51,12 +51,13 @@ impl Coarse {
         })
     }
 
-    /// The space.
+    /// Coarse space Z.
     pub(super) fn space(&self) -> &CoarseBasis {
         &self.space
     }
 
-    /// Takes terms into K Z and E: those that add stiffness first. Whether that was possible; if not, all is to be made anew.
+    /// Updates K Z and E by terms, those that add stiffness first. Returns whether that succeeded; if not, the coarse space must be
+    /// rebuilt.
     #[must_use]
     pub(super) fn change(&mut self, terms: &[RankOne]) -> bool {
         let mut in_space = Vec::new();
@@ -77,7 +78,7 @@ impl Coarse {
         self.factor.change(&in_space, &[]).is_ok()
     }
 
-    /// Whether the factor has room for the product of every two works.
+    /// Whether the pattern of the factor contains the product of any two of the works.
     fn couples(&self, works: &[(usize, f64)]) -> bool {
         let (starts, rows) = (self.pattern.column_starts(), self.pattern.rows());
         works.iter().enumerate().all(|(place, &(column, _))| {
@@ -87,14 +88,14 @@ impl Coarse {
         })
     }
 
-    /// Amounts E^-1 Z^T f of the motions for forces f (n_degrees_of_freedom), shape (n_aggregates, n_motions).
+    /// Amounts E^-1 Z^T f of the coarse motions for forces f (n_degrees_of_freedom), shape (n_aggregates, n_motions).
     pub(super) fn amounts(&mut self, forces: &[f64]) -> Vec<f64> {
         let mut works = self.space.works_of_all(forces);
         self.factor.solve_in_place(&mut works);
         works
     }
 
-    /// Amounts E^-1 Z^T (f - K y) for forces f and motions y (n_degrees_of_freedom).
+    /// Amounts E^-1 Z^T (f - K y) for forces f and motions y (n_degrees_of_freedom), shape (n_aggregates, n_motions).
     pub(super) fn amounts_after(
         &mut self,
         operator: &Operator<'_>,

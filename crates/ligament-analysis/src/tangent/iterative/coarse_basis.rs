@@ -1,4 +1,4 @@
-//! The coarse space of the rigid motions of aggregates.
+//! The coarse space spanned by the rigid motions of aggregates.
 
 use std::collections::BTreeMap;
 
@@ -8,27 +8,27 @@ use super::aggregates::Aggregates;
 use super::operator::Operator;
 use crate::vectors::dot;
 
-/// Share of a rigid motion below which what is left of it beside the others counts as none: an aggregate that is mostly held has
-/// fewer motions.
+/// Share of a rigid motion below which its part orthogonal to the others counts as zero: an aggregate with many fixed degrees of
+/// freedom has fewer motions.
 const RANK_TOLERANCE: f64 = 1e-6;
 
-/// Aggregates that make a task worth while.
+/// Least number of aggregates of a parallel task.
 const TASK: usize = 32;
 
 /// The coarse space Z.
 ///
-/// A column of Z is a rigid motion of an aggregate where it is free. Those that an aggregate has not are zero, with a unit on the
-/// diagonal of E.
+/// A column of Z is a rigid motion of an aggregate at its free degrees of freedom. Columns of missing motions are zero, with a unit
+/// on the diagonal of E.
 pub(super) struct CoarseBasis {
     pub(super) aggregates: Aggregates,
-    /// Rigid motions of an aggregate.
+    /// Number of rigid motions of an aggregate.
     pub(super) n_motions: usize,
-    /// Rows of Z by degree of freedom, shape (n_degrees_of_freedom, n_motions).
+    /// Rows of Z, shape (n_degrees_of_freedom, n_motions).
     rows: Vec<f64>,
 }
 
 impl CoarseBasis {
-    /// The rigid motions of aggregates of at most so many points.
+    /// Coarse space of aggregates of at most `largest` points, from the diagonal of K (n_degrees_of_freedom).
     pub(super) fn new(operator: &Operator<'_>, diagonal: &[f64], largest: usize) -> Self {
         let aggregates = Aggregates::new(operator.system, operator.bonds.intact, largest);
         let shapes: Vec<Vec<Vec<f64>>> = (aggregates.points.par_iter())
@@ -54,13 +54,13 @@ impl CoarseBasis {
         }
     }
 
-    /// Rows of Z at a point of so many components, shape (components, n_motions).
+    /// Rows of Z at a point, shape (n_components, n_motions).
     pub(super) fn rows_of(&self, point: u32, n_components: usize) -> &[f64] {
         let size = self.n_motions * n_components;
         &self.rows[size * point as usize..size * (point as usize + 1)]
     }
 
-    /// The work of entries at degrees of freedom on the motions, by coarse unknown, ascending.
+    /// Work of entries at degrees of freedom on the coarse motions, by coarse unknown, ascending.
     pub(super) fn works(&self, entries: &[(usize, f64)]) -> Vec<(usize, f64)> {
         let n = self.n_motions;
         let n_components = self.rows.len() / n / self.aggregates.of_point.len();
@@ -75,7 +75,7 @@ impl CoarseBasis {
         works.into_iter().collect()
     }
 
-    /// The work Z^T f of forces f (n_degrees_of_freedom), shape (n_aggregates, n_motions).
+    /// Work Z^T f of forces f (n_degrees_of_freedom) on the coarse motions, shape (n_aggregates, n_motions).
     pub(super) fn works_of_all(&self, forces: &[f64]) -> Vec<f64> {
         let n = self.n_motions;
         let n_components = forces.len() / self.aggregates.of_point.len();
@@ -98,7 +98,7 @@ impl CoarseBasis {
         works
     }
 
-    /// Adds motions Z a for amounts a (n_aggregates, n_motions) at a range of points from a first one on, shape (n, components).
+    /// Adds motions Z a for amounts a (n_aggregates, n_motions) at consecutive points from `first` on, shape (n, n_components).
     pub(super) fn add_motions(
         &self,
         first: usize,
@@ -118,8 +118,8 @@ impl CoarseBasis {
     }
 }
 
-/// The rigid motions of the free degrees of freedom of an aggregate, orthonormal with the stiffness of each degree of freedom by itself
-/// as weights; zero where there is no further one, shape (n_motions, degrees of freedom of the points).
+/// Rigid motions of the free degrees of freedom of an aggregate, orthonormal with the diagonal of K as weights; zero where there
+/// are fewer motions, shape (n_motions, degrees of freedom of the points).
 fn shapes(operator: &Operator<'_>, diagonal: &[f64], points: &[u32]) -> Vec<Vec<f64>> {
     let layout = operator.unknowns.layout();
     let dofs = || points.iter().flat_map(|&point| layout.range(point));
@@ -138,7 +138,7 @@ fn shapes(operator: &Operator<'_>, diagonal: &[f64], points: &[u32]) -> Vec<Vec<
             }
         }
         let size = dot(shape, &weighted(shape)).sqrt();
-        // Twice is enough, whatever the angle.
+        // Two passes suffice for any angle between the motions.
         for other in before.iter().chain(before.iter()) {
             let share = dot(shape, &weighted(other));
             for (value, other) in shape.iter_mut().zip(other) {

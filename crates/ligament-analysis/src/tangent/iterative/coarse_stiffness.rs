@@ -1,4 +1,4 @@
-//! The stiffness E = Z^T K Z in a coarse space, and its factor.
+//! The stiffness E = Z^T K Z of a coarse space, and its factor.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use super::coarse_basis::CoarseBasis;
 use super::operator::Operator;
 use super::resistance::Block;
 
-/// The stiffness in a coarse space, to be made.
+/// Data from which the stiffness of a coarse space is assembled.
 pub(super) struct CoarseStiffness<'a> {
     pub(super) operator: &'a Operator<'a>,
     pub(super) space: &'a CoarseBasis,
@@ -21,16 +21,16 @@ pub(super) struct CoarseStiffness<'a> {
 }
 
 impl CoarseStiffness<'_> {
-    /// E.
+    /// Assembles E.
     ///
     /// # Errors
     ///
-    /// If its entries are too many to be numbered.
+    /// If E has too many entries for their indices.
     pub(super) fn matrix(&self) -> Result<SymmetricMatrix, FactorError> {
         let n = self.space.n_motions;
         let mut matrix = SymmetricMatrix::zero(Arc::new(self.pattern()?));
         let pattern = matrix.pattern().clone();
-        // The rows of the columns of an aggregate are blocks that ascend: of which aggregates?
+        // The rows in the columns of an aggregate are blocks of ascending aggregates.
         for ([first, second], block) in self.blocks.iter().flatten() {
             let (first, second) = (*first as usize, *second as usize);
             let start = pattern.column_starts()[n * second];
@@ -58,7 +58,7 @@ impl CoarseStiffness<'_> {
         Ok(matrix)
     }
 
-    /// The pattern of E for the blocks and the terms beside.
+    /// Sparsity pattern of E for the blocks and the additional terms.
     fn pattern(&self) -> Result<Pattern, FactorError> {
         let n = self.space.n_motions;
         let mut above: Vec<Vec<u32>> = vec![Vec::new(); self.space.aggregates.len()];
@@ -89,10 +89,10 @@ impl CoarseStiffness<'_> {
     }
 }
 
-/// The factor of E.
+/// Factor of E.
 pub(super) struct Factored {
     pub(super) factor: Box<dyn Factorisation>,
-    /// Motions that cost nothing beside those before them, as those of mechanisms: they are left out of the space.
+    /// Motions without stiffness beyond those before them, as those of mechanisms; decoupled in the factor.
     pub(super) left_out: BTreeSet<usize>,
 }
 
@@ -130,7 +130,7 @@ impl Factored {
     }
 }
 
-/// Cuts unknowns off from the others, with a unit on the diagonal.
+/// Decouples unknowns from the others, with a unit on the diagonal.
 fn cut_off(matrix: &mut SymmetricMatrix, unknowns: &BTreeSet<usize>) {
     let pattern = matrix.pattern().clone();
     for column in 0..pattern.dimension() {

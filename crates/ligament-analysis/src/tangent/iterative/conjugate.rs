@@ -1,8 +1,8 @@
-//! Conjugate gradients with two levels: A-DEF2 (Tang 2009).
+//! Conjugate gradients with a two-level preconditioner: A-DEF2 (Tang 2009).
 //!
-//! With block Jacobi M^-1 and the coarse correction Q = Z E^-1 Z^T the preconditioner takes a force r to M^-1 r + Q (r - K M^-1 r). The
-//! iteration begins at Q f: from elsewhere it stalls. The coefficient of the search is that of Polak and Ribiere, which holds
-//! where bonds broke since the coarse stiffness was made.
+//! With block Jacobi M^-1 and the coarse correction Q = Z E^-1 Z^T, the preconditioner maps a force r to M^-1 r + Q (r - K M^-1 r).
+//! The iteration must start at Q f, else it stalls. The coefficient of the search direction is that of Polak and Ribiere, which
+//! remains valid where bonds broke since the coarse stiffness was built.
 
 use rayon::prelude::*;
 
@@ -12,60 +12,61 @@ use super::point_blocks::PointBlocks;
 use crate::tangent::UNRESISTED;
 use crate::vectors::{CHUNK, dot_of_chunks, weighted_square};
 
-/// Iterations after which what there is has to do; those who asked find out by the residual.
+/// Largest number of iterations; the caller judges the result by its residual.
 pub(super) const ITERATION_LIMIT: usize = 2000;
 
-/// Share of the norm of the force at which nothing but rounding is left.
+/// Share of the norm of the force at which the residual is rounding.
 const ROUNDING: f64 = 1e-14;
 
-/// A preconditioner of two levels.
+/// Two-level preconditioner.
 pub(super) struct TwoLevels {
     pub(super) blocks: PointBlocks,
     pub(super) coarse: Coarse,
 }
 
-/// The force that may be left at each degree of freedom.
+/// Residual force allowed at the degrees of freedom.
 pub(super) enum Limit {
-    /// Norm of all.
+    /// Norm over all degrees of freedom.
     Norm(f64),
-    /// Sizes, shape (n_degrees_of_freedom).
+    /// Largest size at each degree of freedom, shape (n_degrees_of_freedom).
     Sizes(Vec<f64>),
 }
 
-/// What conjugate gradients found.
+/// Result of conjugate gradients.
 pub(super) struct Found {
-    /// The solution, or the way that the stiffness does not resist, shape (n_degrees_of_freedom).
+    /// Solution, or a direction without stiffness, shape (n_degrees_of_freedom).
     pub(super) motions: Vec<f64>,
     pub(super) iterations: usize,
-    /// Decades by which the norm of the force out of balance fell.
+    /// Decades by which the norm of the residual force fell.
     pub(super) decades: f64,
-    /// Whether the stiffness resisted every way: by more than the rounding of the stiffnesses of the points.
+    /// Whether the stiffness of every search direction exceeded the rounding of the stiffnesses of the points.
     pub(super) is_definite: bool,
-    /// Whether the iteration ended at its limit, with more force left than may be.
+    /// Whether the iteration ended at its limit, with a residual above the allowed one.
     pub(super) is_stalled: bool,
 }
 
-/// What is kept of the last step.
+/// Coefficients of the last step.
 #[derive(Clone, Copy)]
 struct Last {
-    /// Size of the step along its way.
+    /// Length of the step along its search direction.
     step: f64,
-    /// Work of the force before it on what the preconditioner made of that force.
+    /// Work of the residual force before the step on the preconditioned force.
     work: f64,
 }
 
-/// The iteration on its way.
+/// State of the iteration.
 struct Iteration<'a> {
     operator: &'a Operator<'a>,
     levels: &'a mut TwoLevels,
-    /// Points of a chunk times components.
+    /// Number of degrees of freedom of the points of a chunk.
     chunk: usize,
     motions: Vec<f64>,
-    /// Force out of balance.
+    /// Residual force, shape (n_degrees_of_freedom).
     force: Vec<f64>,
 }
 
-/// Solves K u = f for forces f that are zero where nothing is free (n_degrees_of_freedom), until what is left is within a limit.
+/// Solves K u = f for forces f that are zero at degrees of freedom that are not free (n_degrees_of_freedom), to a residual within a
+/// limit.
 pub(super) fn solve(
     operator: &Operator<'_>,
     levels: &mut TwoLevels,
@@ -86,7 +87,7 @@ pub(super) fn solve(
     {
         let mut conditioned = iteration.conditioned();
         let mut work = dot_of_chunks(&conditioned, &iteration.force);
-        // A coarse stiffness that is out of date need not be definite with what is left of the body.
+        // An outdated coarse stiffness may be indefinite for the present bonds.
         if work <= 0.0 {
             conditioned = iteration.levels.blocks.conditioned(&iteration.force);
             work = dot_of_chunks(&conditioned, &iteration.force);
@@ -138,7 +139,7 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    /// Goes to the start Q f.
+    /// Sets the motions to the start Q f.
     fn go_to_coarse_solution(&mut self) {
         let amounts = self.levels.coarse.amounts(&self.force);
         let mut motions = std::mem::take(&mut self.motions);
@@ -164,7 +165,7 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    /// M^-1 r + Q (r - K M^-1 r).
+    /// Preconditioned force M^-1 r + Q (r - K M^-1 r).
     fn conditioned(&mut self) -> Vec<f64> {
         let mut motions = self.levels.blocks.conditioned(&self.force);
         let coarse = &mut self.levels.coarse;
@@ -173,7 +174,7 @@ impl<'a> Iteration<'a> {
         motions
     }
 
-    /// Adds Z a to motions, where they are free.
+    /// Adds Z a to the motions of free degrees of freedom.
     fn add_coarse(&self, amounts: &[f64], motions: &mut [f64]) {
         let n_components = self.operator.n_components();
         let (space, chunk) = (self.levels.coarse.space(), self.chunk);
@@ -183,7 +184,7 @@ impl<'a> Iteration<'a> {
             .enumerate()
             .for_each(|(place, (motions, free))| {
                 space.add_motions(place * chunk / n_components, n_components, amounts, motions);
-                // What is held since the coarse space was made.
+                // Degrees of freedom fixed since the coarse space was built.
                 for (motion, free) in motions.iter_mut().zip(free) {
                     if !free {
                         *motion = 0.0;
@@ -192,7 +193,7 @@ impl<'a> Iteration<'a> {
             });
     }
 
-    /// Goes a step along a way, which pushes back by some forces.
+    /// Takes a step along a direction `way`, on which the stiffness exerts the forces `pushed`.
     fn go(&mut self, step: f64, way: &[f64], pushed: &[f64]) {
         (self.motions.par_chunks_mut(CHUNK))
             .zip(way.par_chunks(CHUNK))

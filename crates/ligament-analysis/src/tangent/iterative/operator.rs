@@ -1,4 +1,4 @@
-//! The tangent stiffness of a state as a product: bonds, restraints and closed pairs, without a matrix.
+//! Product with the tangent stiffness of a state, of bonds, restraints and closed pairs, without a matrix.
 
 use ligament_model::element::Term;
 use ligament_model::{Bonds, UnbrokenBonds};
@@ -7,20 +7,20 @@ use rayon::prelude::*;
 use crate::unknowns::Unknowns;
 use crate::vectors::CHUNK;
 
-/// The tangent stiffness between the degrees of freedom that are free.
+/// Tangent stiffness between free degrees of freedom.
 pub(super) struct Operator<'a> {
     pub(super) system: &'a dyn Bonds,
     pub(super) unknowns: &'a Unknowns,
-    /// The bonds that are left.
+    /// Intact bonds and their remaining stiffness.
     pub(super) bonds: UnbrokenBonds<'a>,
     /// Whether each degree of freedom is free, shape (n_degrees_of_freedom).
     pub(super) free: &'a [bool],
-    /// Terms beside those of bonds and restraints, at free degrees of freedom.
+    /// Additional terms at free degrees of freedom, other than bonds and restraints.
     pub(super) beside: &'a [Term],
 }
 
 impl Operator<'_> {
-    /// The product with motions that are zero where they are not free, shape (n_degrees_of_freedom) both; zero there as well.
+    /// Product with motions, both of shape (n_degrees_of_freedom) and zero where not free.
     pub(super) fn multiply(&self, motions: &[f64], forces: &mut [f64]) {
         self.system.multiply(self.bonds, motions, forces);
         self.unknowns.restraints().add_forces(motions, forces);
@@ -41,15 +41,15 @@ impl Operator<'_> {
             });
     }
 
-    /// The points of smaller number that something couples with a point, ascending.
+    /// Points of smaller number that are coupled with a point, ascending.
     pub(super) fn lower_points(&self, point: u32) -> Vec<u32> {
         let coupled = self.system.coupled_points();
         let (restraints, layout) = (self.unknowns.restraints(), self.unknowns.layout());
         restraints.lower_points(layout, coupled, point as usize)
     }
 
-    /// Adds up the blocks in the columns of a point at the rows of its `lower` points and of itself, without the terms beside, shape
-    /// (n_lower + 1, components, components); what is not free counts as well.
+    /// Adds the blocks in the columns of a point, in the rows of its `lower` points and of itself, without the additional terms,
+    /// shape (n_lower + 1, n_components, n_components); including degrees of freedom that are not free.
     pub(super) fn add_blocks(&self, point: u32, lower: &[u32], blocks: &mut [f64]) {
         self.system.add_blocks(self.bonds, point, lower, blocks);
         let (restraints, layout) = (self.unknowns.restraints(), self.unknowns.layout());

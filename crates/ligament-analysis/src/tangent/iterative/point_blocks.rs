@@ -1,4 +1,4 @@
-//! Block Jacobi: the inverses of the stiffnesses of the points by themselves.
+//! Block Jacobi: the inverses of the diagonal blocks of the points.
 
 use ligament_linalg::{FactorError, VANISHING_PIVOT};
 use rayon::prelude::*;
@@ -6,20 +6,20 @@ use rayon::prelude::*;
 use super::operator::Operator;
 use crate::vectors::CHUNK;
 
-/// Points that make a task worth while.
+/// Least number of points of a parallel task.
 const TASK: usize = 512;
 
-/// The inverse of the stiffness of each point against its neighbours where they are.
+/// Inverse diagonal block of each point, the stiffness of the point with all others fixed.
 pub(super) struct PointBlocks {
     n_components: usize,
-    /// Symmetric inverses, zero in the rows and columns of what is not free, shape (n_points, components, components).
+    /// Symmetric inverses, zero in rows and columns that are not free, shape (n_points, n_components, n_components).
     inverses: Vec<f64>,
-    /// Stiffness of each degree of freedom by itself, 1 where it is not free or has none, shape (n_degrees_of_freedom).
+    /// Diagonal of K, 1 where a degree of freedom is not free or has no stiffness, shape (n_degrees_of_freedom).
     diagonal: Vec<f64>,
 }
 
 impl PointBlocks {
-    /// The blocks of all points, and the degrees of freedom that nothing resists.
+    /// Computes the blocks of all points; also returns the degrees of freedom without stiffness.
     ///
     /// # Errors
     ///
@@ -45,7 +45,7 @@ impl PointBlocks {
         Ok((blocks, loose?.concat()))
     }
 
-    /// Makes the blocks of some points anew; gives their degrees of freedom that nothing resists.
+    /// Recomputes the blocks of some points; returns their degrees of freedom without stiffness.
     ///
     /// # Errors
     ///
@@ -66,15 +66,15 @@ impl PointBlocks {
         Ok(loose)
     }
 
-    /// Stiffness of each degree of freedom by itself, 1 where it is not free or has none, shape (n_degrees_of_freedom).
+    /// Diagonal of K, 1 where a degree of freedom is not free or has no stiffness, shape (n_degrees_of_freedom).
     pub(super) fn diagonal(&self) -> &[f64] {
         &self.diagonal
     }
 
-    /// The product M^-1 f of the inverses with forces f, both of shape (n_degrees_of_freedom).
+    /// Product M^-1 f of the inverses with forces f, both of shape (n_degrees_of_freedom).
     pub(super) fn conditioned(&self, force: &[f64]) -> Vec<f64> {
         let mut motions = vec![0.0; force.len()];
-        // Points of a chunk times components.
+        // Number of degrees of freedom of the points of a chunk.
         let chunk = CHUNK / self.n_components * self.n_components;
         (motions.par_chunks_mut(chunk))
             .zip(force.par_chunks(chunk))
@@ -85,7 +85,7 @@ impl PointBlocks {
         motions
     }
 
-    /// The product of the inverses with the forces of a range of points from a first one on, shape (n, components) both.
+    /// Product of the inverses with the forces of consecutive points from `first` on, both of shape (n, n_components).
     fn apply(&self, first: usize, forces: &[f64], motions: &mut [f64]) {
         match self.n_components {
             2 => self.apply_to::<2>(first, forces, motions),
@@ -106,10 +106,10 @@ impl PointBlocks {
     }
 }
 
-/// A term beside at a point that it acts on: the point, its weight and its entries by degree of freedom.
+/// An additional term at a point that it acts on: the point, its weight and its entries by degree of freedom.
 type Beside<'a> = (u32, f64, &'a [(usize, f64)]);
 
-/// Terms beside, by the points that they act on: few.
+/// Additional terms, sorted by the points that they act on.
 fn of_points_beside<'a>(operator: &'a Operator<'_>) -> Vec<Beside<'a>> {
     let layout = operator.unknowns.layout();
     let mut of_points = Vec::new();
@@ -123,11 +123,11 @@ fn of_points_beside<'a>(operator: &'a Operator<'_>) -> Vec<Beside<'a>> {
     of_points
 }
 
-/// Inverts the block of a point; gives its degrees of freedom that nothing resists.
+/// Inverts the block of a point; returns its degree of freedom without stiffness, if any.
 ///
 /// # Errors
 ///
-/// If the block is not definite: holding what gives energy back would change the answer.
+/// If the block is not definite: fixing a motion with negative stiffness would change the solution.
 fn invert(
     operator: &Operator<'_>,
     point: u32,
@@ -172,7 +172,7 @@ fn invert(
     }
 }
 
-/// The first of the rows and columns `free` of a symmetric block (n, n) whose pivot vanishes or is negative.
+/// First of the rows and columns `free` of a symmetric block (n, n) whose pivot vanishes or is negative.
 pub(in crate::tangent) fn vanishing_of_block(
     free: &[usize],
     n: usize,
@@ -183,7 +183,7 @@ pub(in crate::tangent) fn vanishing_of_block(
     Some(place)
 }
 
-/// Why a block has no inverse: the pivot of a row.
+/// Reason why a block has no inverse, with the row of the pivot.
 enum NoInverse {
     Vanishing(usize),
     Negative(usize),

@@ -1,7 +1,7 @@
-//! The forces K Z with which a body resists the motions of its coarse space.
+//! The forces K Z that resist the motions of a coarse space.
 //!
-//! With them the force that a motion y leaves out of balance is known in the coarse space, Z^T K y = (K Z)^T y, without another product
-//! with K. A bond that breaks takes its share away from them.
+//! With them the work of the force K y of a motion y on the coarse space, Z^T K y = (K Z)^T y, needs no further product with K. The
+//! share of a broken bond is subtracted.
 
 use std::collections::BTreeMap;
 
@@ -11,14 +11,14 @@ use rayon::prelude::*;
 use super::coarse_basis::CoarseBasis;
 use super::operator::Operator;
 
-/// Share of the stiffness of a point against its neighbours below which a force is rounding: an aggregate that moves as one with all
-/// neighbours of a point does not strain it.
+/// Force, relative to the stiffness of a point, that counts as rounding: an aggregate that moves rigidly with all neighbours of a
+/// point does not strain its bonds.
 const ROUNDING: f64 = 1e-12;
 
-/// Aggregates that make a task worth while.
+/// Least number of aggregates of a parallel task.
 const TASK: usize = 16;
 
-/// The forces W = K Z, zero where nothing is free.
+/// Forces W = K Z, zero at degrees of freedom that are not free.
 pub(super) struct Resistance {
     /// Blocks of W by aggregate of their columns.
     columns: Vec<Columns>,
@@ -26,32 +26,32 @@ pub(super) struct Resistance {
     free: Vec<bool>,
 }
 
-/// The columns of an aggregate. They only steer the iteration: single precision is enough.
+/// Columns of W of an aggregate, in single precision, which suffices for a preconditioner.
 #[derive(Default)]
 struct Columns {
     /// Points that resist motions of the aggregate, ascending.
     points: Vec<u32>,
-    /// Blocks at the points, shape (n_points, components, n_motions).
+    /// Blocks at the points, shape (n_points, n_components, n_motions).
     blocks: Vec<f32>,
 }
 
-/// A block of E = Z^T K Z: its aggregates, first not above second, and its values (n_motions, n_motions).
+/// A block of E = Z^T K Z: its aggregates, the first not above the second, and its values (n_motions, n_motions).
 pub(super) type Block = ([u32; 2], Vec<f64>);
 
-/// What the couples of the points of an aggregate with points of smaller number give.
+/// Contributions to W of the couplings of the points of an aggregate with points of smaller number.
 struct Share {
-    /// To columns of its own: points, ascending, and their blocks.
+    /// Points of blocks in columns of this aggregate, ascending.
     own: Vec<u32>,
     blocks_of_own: Vec<f64>,
-    /// To those of other aggregates: aggregate and point.
+    /// Aggregate and point of blocks in columns of other aggregates.
     others: Vec<[u32; 2]>,
-    /// Blocks of these, as in [`Columns`].
+    /// Blocks in columns of other aggregates, as in [`Columns`].
     blocks_of_others: Vec<f64>,
 }
 
 impl Resistance {
-    /// The forces of the bonds and restraints of an operator, the terms beside left out, with the stiffness of each degree of freedom
-    /// by itself (n_degrees_of_freedom); and what they do on the coarse space, blocks by aggregate of their columns.
+    /// Forces W of the bonds and restraints of an operator, without its additional terms, from the diagonal of K
+    /// (n_degrees_of_freedom); and the blocks of E by aggregate of their columns.
     pub(super) fn new(
         operator: &Operator<'_>,
         space: &CoarseBasis,
@@ -81,7 +81,7 @@ impl Resistance {
         (Self { columns, free }, blocks)
     }
 
-    /// Takes the work W^T y for motions y (n_degrees_of_freedom) away from works (n_aggregates, n_motions).
+    /// Subtracts the work W^T y of motions y (n_degrees_of_freedom) from works (n_aggregates, n_motions).
     pub(super) fn subtract_works(&self, space: &CoarseBasis, motions: &[f64], works: &mut [f64]) {
         match (
             motions.len() / space.aggregates.of_point.len(),
@@ -122,7 +122,7 @@ impl Resistance {
             });
     }
 
-    /// Adds c w (Z^T w)^T for a term c w w^T with the works Z^T w of its entries by coarse unknown, ascending.
+    /// Adds c w (Z^T w)^T for a term c w w^T, with the works Z^T w by coarse unknown, ascending.
     pub(super) fn add(&mut self, space: &CoarseBasis, term: &RankOne, works: &[(usize, f64)]) {
         let n = space.n_motions;
         let n_components = self.free.len() / space.aggregates.of_point.len();
@@ -131,7 +131,7 @@ impl Resistance {
             let free = term.entries.iter().filter(|(dof, _)| self.free[*dof]);
             for &(dof, value) in free {
                 let (point, component) = ((dof / n_components) as u32, dof % n_components);
-                // Points that an aggregate does not strain have no block, and the work is rounding.
+                // Points that an aggregate does not strain have no block, and their work is rounding.
                 if let Ok(place) = columns.points.binary_search(&point) {
                     let row = (place * n_components + component) * n;
                     columns.blocks[row + unknown % n] += (term.weight * value * work) as f32;
@@ -141,7 +141,7 @@ impl Resistance {
     }
 }
 
-/// The forces on their way.
+/// Data from which W is computed.
 struct ResistanceBuilder<'a> {
     operator: &'a Operator<'a>,
     space: &'a CoarseBasis,
@@ -149,12 +149,12 @@ struct ResistanceBuilder<'a> {
 }
 
 impl ResistanceBuilder<'_> {
-    /// Values of a block.
+    /// Number of values of a block.
     fn size(&self) -> usize {
         self.operator.n_components() * self.space.n_motions
     }
 
-    /// What the couples in the columns of the points of an aggregate give.
+    /// Contributions to W of the columns of the points of an aggregate.
     fn share(&self, aggregate: u32) -> Share {
         let n = self.space.n_motions;
         let k = self.operator.n_components();
@@ -176,7 +176,7 @@ impl ResistanceBuilder<'_> {
             self.operator.add_blocks(point, lower, &mut blocks);
             let of_row = others.len();
             for (&other, block) in lower.iter().chain([&point]).zip(blocks.chunks_exact(k * k)) {
-                // Across a crack.
+                // Blocks across a crack are zero.
                 if block.iter().all(|value| *value == 0.0) {
                     continue;
                 }
@@ -208,7 +208,7 @@ impl ResistanceBuilder<'_> {
         }
     }
 
-    /// All columns of an aggregate, from its own share and those of others at points, and their blocks of E.
+    /// Columns of W of an aggregate, from its own and other contributions at points, and its blocks of E.
     fn joined<'b>(
         &self,
         aggregate: u32,
@@ -241,7 +241,7 @@ impl ResistanceBuilder<'_> {
         (columns, blocks)
     }
 
-    /// The sum of all shares of a point in the columns of an aggregate, where it is free; none where it is rounding.
+    /// Sum of the contributions of a point to the columns of an aggregate, at free degrees of freedom; none where it is rounding.
     fn block(&self, aggregate: u32, shares: &[(u32, &[f64])]) -> Option<Vec<f64>> {
         let (n, k) = (self.space.n_motions, self.operator.n_components());
         let mut sum = vec![0.0; self.size()];

@@ -1,7 +1,8 @@
-//! The motion that a body does not resist and forces push: conjugate residuals (Saad 2003, section 6.8) with block Jacobi.
+//! Motion without stiffness on which forces do work, by conjugate residuals (Saad 2003, section 6.8) with block Jacobi.
 //!
-//! Conjugate gradients go astray in a body that has become a mechanism: forces along a motion that costs nothing have no solution, and
-//! the coarse stiffness, nearly singular, steers by its rounding. Conjugate residuals bring the least force out of balance that there
+//! Conjugate gradients fail in a body that has become a mechanism: forces along a motion without stiffness have no solution, and
+//! the nearly singular coarse stiffness is dominated by rounding. Conjugate residuals minimise the residual force; where a residual
+//! r cannot be reduced, M^-1 r is the motion.
 //! is, and of forces r that no motion balances, M^-1 r is the motion.
 
 use super::conjugate::ITERATION_LIMIT;
@@ -10,14 +11,14 @@ use super::point_blocks::PointBlocks;
 use crate::tangent::UNRESISTED;
 use crate::vectors::{dot_of_chunks, weighted_square};
 
-/// Share of the motion M^-1 f of the forces at which what is left of it is rounding: the body resists all of them.
+/// Share of the motion M^-1 f of the forces below which the remaining motion is rounding: the body resists all forces.
 const ROUNDING: f64 = 1e-14;
 
-/// The motion that the stiffness K resists by no more than the rounding of the stiffnesses of the points, and that forces
-/// (n_degrees_of_freedom) push; none where it balances them.
+/// Motion whose stiffness does not exceed the rounding of the stiffnesses of the points, and on which forces (n_degrees_of_freedom)
+/// do work; none where the body balances the forces.
 ///
-/// The motions z = M^-1 r of the forces r out of balance are followed alone: a step takes a M^-1 q from z with a = z . K z / q . M^-1 q, and
-/// q = K z + b q goes on with b = z . K z over that before.
+/// Only the preconditioned residual z = M^-1 r is iterated: a step subtracts a M^-1 q from z with a = z . K z / q . M^-1 q, and the
+/// next q is K z + b q with b = z . K z over its previous value.
 pub(super) fn motion(
     operator: &Operator<'_>,
     blocks: &PointBlocks,

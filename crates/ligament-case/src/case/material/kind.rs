@@ -1,4 +1,4 @@
-//! The kinds of materials, each with keys of its own, and the schema of them all.
+//! The kinds of materials, each with keys of its own, and their common schema.
 
 use schemars::{Schema, json_schema};
 use serde_json::{Map, Value, json};
@@ -8,16 +8,16 @@ use super::super::fault::{Fault, KeyFault};
 use super::super::key_path::KeyPath;
 use super::super::values::RANGE;
 
-/// Beyond this, in 1/K, a coefficient of expansion was given in other units.
+/// Largest plausible coefficient of expansion, 1/K; a larger one is probably in other units.
 const LARGEST_EXPANSION: f64 = 0.01;
 
-/// A kind of material by the keys that not all kinds have.
+/// A kind of material, by the keys that not all kinds have.
 pub(super) struct Kind {
-    /// Keys that it must have.
+    /// Required keys of this kind only.
     needed: &'static [&'static str],
-    /// Keys that it may have and that, like those, only this kind has.
+    /// Optional keys of this kind only.
     optional: &'static [&'static str],
-    /// Coefficients of expansion along axes that it may have.
+    /// Optional coefficients of expansion along axes.
     expansion: &'static [&'static str],
 }
 
@@ -44,7 +44,7 @@ static ANISOTROPIC: Kind = Kind {
 };
 
 impl Kind {
-    /// The kind of a table, which a key that no other kind has tells.
+    /// The kind of a table, determined by a key that only this kind has.
     pub(super) fn of_table(table: &Node) -> &'static Self {
         let tells = |kind: &&Self| kind.telling().any(|key| table.get(key).is_some());
         let mut with_axes = [&ANISOTROPIC, &ORTHOTROPIC].into_iter();
@@ -59,7 +59,7 @@ impl Kind {
         self.needed.iter().chain(self.optional).copied()
     }
 
-    /// Keys of the other kinds that are none of this one.
+    /// Keys of other kinds that this kind does not have.
     fn foreign(&self) -> impl Iterator<Item = &'static str> {
         let all = [&ISOTROPIC, &ORTHOTROPIC, &ANISOTROPIC].into_iter();
         let all = all.flat_map(|kind| kind.telling().chain(kind.expansion.iter().copied()));
@@ -68,7 +68,7 @@ impl Kind {
         all.filter(move |key| !is_own(key))
     }
 
-    /// The fault of a key that tables of this kind do not have; `valid` are the keys of all kinds.
+    /// Refuses keys that tables of this kind do not have; `valid` are the keys of all kinds.
     pub(super) fn refuse_others(
         &self,
         table: &Node,
@@ -90,7 +90,7 @@ impl Kind {
         Err(KeyFault::new(key.child(&unknown.key), fault))
     }
 
-    /// What the schema says of this kind: keys that must be there, and keys that must not.
+    /// Schema of this kind: required and excluded keys.
     fn schema(&self) -> Value {
         let foreign: Map<String, Value> = (self.foreign())
             .map(|key| (key.to_owned(), false.into()))
@@ -99,8 +99,8 @@ impl Kind {
     }
 }
 
-/// One material, or a table for each of several. The kinds of tables are one, so that an editor offers all keys; the keys
-/// that tell the kind to the reader then tell which of the others must be there and which must not.
+/// Schema of one material, or of a table for each of several. All kinds share one table, so that an editor offers all keys; the keys that
+/// determine the kind then determine which other keys are required or excluded.
 pub(super) fn schema(mut keys: Map<String, Value>) -> Schema {
     let tells = |kind: &Kind| has_one_of(kind.telling());
     let named = json!({
@@ -134,7 +134,7 @@ fn has_one_of<'a>(keys: impl Iterator<Item = &'a str>) -> Value {
     json!({ "anyOf": each.collect::<Value>() })
 }
 
-/// The range of a coefficient of expansion in the schema: what lies beyond is a slip of the unit.
+/// Adds the range of a coefficient of expansion to the schema, beyond which the unit is probably wrong.
 pub(super) fn expansion_range(schema: &mut Schema) {
     for (keyword, value) in [
         ("exclusiveMinimum", (-LARGEST_EXPANSION).into()),

@@ -2,29 +2,29 @@
 
 use ligament_mesh::Group;
 
-/// What the case is about.
+/// Body of a starter case.
 pub(in crate::starter) struct Body<const D: usize> {
     /// Name of the body, for the title.
     pub(in crate::starter) name: String,
-    /// Where it comes from.
+    /// Origin of the body.
     pub(in crate::starter) section: Section<D>,
-    /// Groups with a material each; none where one material fills the body.
+    /// Groups with a material each; empty where one material fills the body.
     pub(in crate::starter) parts: Vec<String>,
-    /// The lowest and the highest corner of the box around it, m.
+    /// Lowest and highest corner of the body's bounding box, m.
     pub(in crate::starter) extent: [[f64; D]; 2],
-    /// Where it is in the middle, m.
+    /// Position in the middle of the body, m.
     pub(in crate::starter) middle: [f64; D],
-    /// Two places on it whose distance along the load is an opening, m.
+    /// Two positions on the body whose distance along the load is an opening, m.
     pub(in crate::starter) opening: [[f64; D]; 2],
-    /// Distance of the points, m.
+    /// Spacing of the points, m.
     pub(in crate::starter) spacing: f64,
 }
 
-/// Where a body comes from.
+/// Origin of a body.
 pub(in crate::starter) enum Section<const D: usize> {
-    /// From a mesh file.
+    /// Body from a mesh file.
     Mesh { file: String, groups: Vec<Group> },
-    /// From a lattice; so many rows or layers are held, and so many are moved.
+    /// Body from a lattice, with `rows` rows or layers fixed and as many moved.
     Lattice { cells: [u32; D], rows: u32 },
 }
 

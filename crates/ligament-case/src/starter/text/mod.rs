@@ -21,21 +21,21 @@ use numbers::{coordinates, digits, exact, quoted};
 use precrack::precrack;
 use section::section;
 
-/// The example material: a concrete-like one.
+/// Young's modulus and tensile strength of the example material, similar to concrete, Pa.
 const YOUNG: f64 = 30e9;
 const TENSILE_STRENGTH: f64 = 3e6;
-/// Critical stretch of the examples that do not take the strength.
+/// Critical stretch of the examples without a strength.
 const STRETCH: f64 = TENSILE_STRENGTH / YOUNG;
-/// The displacement of a load over what would bring a bar to its tensile strength: bars pulled at their ends fail well before, a
-/// disk between platens needs several times as much.
+/// Displacement of a load over that at which a bar reaches its tensile strength: bars pulled at their ends fail well before, a disk between
+/// platens needs several times as much.
 const PULLED: f64 = 4.0;
 const PRESSED: f64 = 16.0;
-/// The displacement in the middle of a beam over what brings it to its tensile strength.
+/// Displacement in the middle of a beam over that at which it reaches its tensile strength.
 const BENT: f64 = 2.0;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// The case. Lines of prose begin with `# `; lines that are settings to be taken by removing the sign, with `#` alone.
+/// Text of the case. Comments begin with `# `; settings that are activated by removing the sign begin with `#` without a space.
 pub(super) fn case_text<const D: usize>(
     body: &Body<D>,
     ends: &Ends<D>,
@@ -129,7 +129,7 @@ angle = 0.0 # rad, from the x axis to the axis 1, counter-clockwise, EXAMPLE
             exact(0.25 * YOUNG)
         ),
         Materials::Isotropic | Materials::Anisotropic if row.has_own_strains() => {
-            // What bonds of three spacings at the stretch of the example store.
+            // Energy of bonds with a horizon of three spacings at the example's stretch.
             let energy =
                 STRETCH.powi(2) * 2.0 * YOUNG / std::f64::consts::PI / 0.8 * 2.25 * body.spacing;
             let failure = format!(

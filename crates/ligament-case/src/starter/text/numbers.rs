@@ -1,11 +1,11 @@
-//! Numbers and words as a case has them.
+//! Numbers and strings in the form of a case.
 
 use toml_edit::Value;
 
 use super::body::Body;
 use crate::case::values::is_unseen;
 
-/// A TOML string, in which all characters are seen.
+/// A TOML string with invisible characters escaped.
 pub(super) fn quoted(text: &str) -> String {
     if !text.contains(is_unseen) {
         return Value::from(text).to_string().trim().to_owned();
@@ -18,7 +18,7 @@ pub(super) fn quoted(text: &str) -> String {
     format!("\"{}\"", shown.collect::<String>())
 }
 
-/// What coordinates are rounded to: a power of ten at most a tenth of the distance of points.
+/// Rounding step of coordinates: a power of ten, at most a tenth of the spacing of points.
 #[derive(Clone, Copy)]
 pub(super) struct Quantum {
     pub(super) step: f64,
@@ -46,17 +46,17 @@ impl Quantum {
     }
 }
 
-/// A number rounded to so many significant digits.
+/// A number rounded to `count` significant digits.
 pub(super) fn digits(value: f64, count: usize) -> f64 {
     format!("{value:.*e}", count - 1).parse().unwrap_or(value)
 }
 
-/// A number for a sentence.
+/// Text of a number for a sentence.
 pub(super) fn short(value: f64) -> String {
     exact(digits(value, 4))
 }
 
-/// A number as TOML has it: with a point or an exponent.
+/// Text of a number in TOML, with a point or an exponent.
 pub(super) fn exact(value: f64) -> String {
     let size = value.abs();
     if size != 0.0 && !(1e-3..1e5).contains(&size) {
@@ -66,7 +66,7 @@ pub(super) fn exact(value: f64) -> String {
     }
 }
 
-/// A list of coordinates, each at the quantum of the body.
+/// Text of a list of coordinates, rounded to the quantum of the body.
 pub(super) fn coordinates<const D: usize>(body: &Body<D>, position: [f64; D]) -> String {
     let quantum = quantum(body);
     let rounded: Vec<String> = position

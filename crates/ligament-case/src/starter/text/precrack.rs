@@ -1,10 +1,10 @@
-//! An example of a crack that is there from the start, as a comment.
+//! An example of an initial crack, as a comment.
 
 use super::body::{Body, size};
 use super::numbers::{coordinates, exact, quantum};
 use crate::starter::groups::Ends;
 
-/// `[[precrack]]`: across the load, in the middle of the body.
+/// Text of `[[precrack]]`: a crack across the load, in the middle of the body.
 pub(super) fn precrack<const D: usize>(body: &Body<D>, ends: &Ends<D>) -> String {
     let quantum = quantum(body);
     let across = (0..D).filter(|axis| *axis != ends.axis);

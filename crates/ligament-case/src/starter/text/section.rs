@@ -1,4 +1,4 @@
-//! Where the body comes from.
+//! The section of the body.
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ use ligament_mesh::Group;
 use super::body::{Body, Section, size};
 use super::numbers::{exact, quantum, quoted, short};
 
-/// `[mesh]` or the section of a lattice.
+/// Text of `[mesh]` or of the section of a lattice.
 pub(super) fn section<const D: usize>(body: &Body<D>) -> String {
     match &body.section {
         Section::Mesh { file, groups } => mesh(body, file, groups),
@@ -18,7 +18,7 @@ pub(super) fn section<const D: usize>(body: &Body<D>) -> String {
     }
 }
 
-/// What a body in the plane has beside its shape.
+/// Further keys of a body in the plane.
 const OF_THE_PLANE: &str = "\
 thickness = 1.0 # m, EXAMPLE
 plane = \"stress\" # thin bodies; \"strain\" for long ones

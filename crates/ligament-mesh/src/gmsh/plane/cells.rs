@@ -1,4 +1,4 @@
-//! The planar cells: their shape, their orientation, and those that lie on the same side of an edge.
+//! Planar cells: their shape, their orientation, and checks for cells on the same side of an edge.
 
 use super::super::cells::Cells;
 use super::super::cursor::Cursor;
@@ -7,10 +7,10 @@ use super::super::error::GmshError;
 use super::super::records::{Element, Records};
 use crate::cell::{Cell, MeshCell};
 
-/// Twice the area of a triangle, as a part of its longest side times the mesh size, that counts as none.
+/// Twice the area of a triangle, relative to its longest side times the mesh size, that counts as zero.
 const FLATNESS: f64 = 1e-12;
 
-/// The cell that an element is, if it is a planar one.
+/// The planar cell of an element; `None` for other elements.
 pub(super) fn cell(shape: Shape, corners: &[u32]) -> Option<Cell> {
     match (shape, corners) {
         (Shape::Triangle, &[a, b, c]) => Some(Cell::Triangle([a, b, c])),
@@ -19,7 +19,7 @@ pub(super) fn cell(shape: Shape, corners: &[u32]) -> Option<Cell> {
     }
 }
 
-/// Turns a cell counter-clockwise; refuses it if it has no area or is not convex.
+/// Orients a cell counter-clockwise; refuses a cell without area, or one that is not convex.
 pub(super) fn oriented(
     cursor: &Cursor<'_>,
     element: &Element,
@@ -61,7 +61,7 @@ pub(super) fn oriented(
     Ok(cell)
 }
 
-/// Refuses cells that lie on the same side of a common edge: one of them covers some of the other.
+/// Refuses cells on the same side of a common edge, which overlap.
 pub(super) fn check_common_edges(
     cursor: &Cursor<'_>,
     records: &Records,
@@ -75,7 +75,7 @@ pub(super) fn check_common_edges(
     let of_cells = planar.cells.iter().zip(&planar.elements);
     let mut sides: Vec<(u32, u32, usize)> = of_cells.flat_map(sides).collect();
     sides.sort_unstable();
-    // Cells stand counter-clockwise, so that neighbours go along their common edge in opposite directions.
+    // Cells are counter-clockwise, so that neighbours run along their common edge in opposite directions.
     let same = |pair: &&[(u32, u32, usize)]| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1);
     match sides.windows(2).find(same) {
         Some(pair) => {

@@ -1,4 +1,4 @@
-//! A planar mesh from the records of a file.
+//! Planar meshes from the records of a file.
 
 mod cells;
 

@@ -1,4 +1,4 @@
-//! The solid cells: their shape and their orientation.
+//! Solid cells: their shape and their orientation.
 
 use super::super::cursor::Cursor;
 use super::super::element_type::Shape;
@@ -7,10 +7,10 @@ use super::super::records::Element;
 use crate::cell::MeshCell;
 use crate::solid::SolidCell;
 
-/// Volume between the edges at a corner of a cell, as a part of the cube of its longest edge, below which the cell is flat.
+/// Volume between the edges at a corner of a cell, relative to the cube of its longest edge, below which the cell is flat.
 const FLATNESS: f64 = 1e-8;
 
-/// The cell that an element is, if it is a solid one.
+/// The solid cell of an element; `None` for other elements.
 pub(super) fn cell(shape: Shape, corners: &[u32]) -> Option<SolidCell> {
     Some(match (shape, corners) {
         (Shape::Tetrahedron, &[a, b, c, d]) => SolidCell::Tetrahedron([a, b, c, d]),
@@ -23,7 +23,7 @@ pub(super) fn cell(shape: Shape, corners: &[u32]) -> Option<SolidCell> {
     })
 }
 
-/// Turns a cell that is inside out; refuses it if it has no volume or is not convex.
+/// Reorients an inverted cell; refuses a cell without volume, or one that is not convex.
 pub(super) fn oriented(
     cursor: &Cursor<'_>,
     element: &Element,
@@ -75,7 +75,7 @@ pub(super) fn oriented(
     })
 }
 
-/// The tetrahedra between the three edges at each corner of a cell, at the apex of a pyramid excepted.
+/// Tetrahedra of the three edges at each corner of a cell, except at the apex of a pyramid.
 fn corner_tetrahedra(cell: &SolidCell) -> impl Iterator<Item = [u32; 4]> {
     const TETRAHEDRON: &[[usize; 4]] = &[[0, 1, 2, 3]];
     const HEXAHEDRON: &[[usize; 4]] = &[
@@ -107,7 +107,7 @@ fn corner_tetrahedra(cell: &SolidCell) -> impl Iterator<Item = [u32; 4]> {
     places.iter().map(|it| it.map(|place| corners[place]))
 }
 
-/// The cell turned inside out: top and base change places, or the corners of the base go round the other way.
+/// The cell with the opposite orientation: top and base are exchanged, or the corners of the base reversed.
 fn turned_round(cell: SolidCell) -> SolidCell {
     match cell {
         SolidCell::Tetrahedron([a, b, c, d]) => SolidCell::Tetrahedron([a, c, b, d]),

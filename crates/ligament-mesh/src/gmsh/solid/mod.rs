@@ -1,4 +1,4 @@
-//! A solid mesh from the records of a file.
+//! Solid meshes from the records of a file.
 
 mod cells;
 
@@ -45,7 +45,7 @@ pub(super) fn assemble(cursor: &Cursor<'_>, records: &Records) -> Result<SolidMe
     })
 }
 
-/// Refuses cells that lie on the same side of a common face: one of them covers some of the other.
+/// Refuses cells on the same side of a common face, which overlap.
 fn check_overlap(
     cursor: &Cursor<'_>,
     records: &Records,
@@ -63,7 +63,7 @@ fn check_overlap(
     })
 }
 
-/// Refuses surface elements in a group that are faces of no cell: shells beside the solid, or a surface that was meshed anew.
+/// Refuses surface elements in a group that are not faces of cells: shells beside the solid, or a surface that was meshed anew.
 fn check_faces(
     cursor: &Cursor<'_>,
     records: &Records,

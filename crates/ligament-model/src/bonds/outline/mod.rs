@@ -1,10 +1,10 @@
-//! The outline of a mesh: a bond whose straight line leaves the meshed body is none.
+//! The outline of a mesh: pairs whose straight line leaves the meshed body are not bonded.
 //!
-//! Holes, slots, notches and re-entrant corners are what the cells leave free. The outline is the edges, or in space the faces, that one
-//! cell has alone. The rule, decided with exact orientation predicates: a bond stays in the body if it passes through no facet of the
-//! outline, and if it goes on into a cell, or along a side of one, from its first end and from every node and, in space, every edge of the
-//! outline on it. Along the outline, and past a corner or an edge that it only touches, it stays: what comes closer to a line or a plane
-//! than 1e-5 of the nearest distance of the bond's ends lies on it, or rounding would decide about bonds along a slanted side.
+//! Holes, slots, notches and re-entrant corners are regions without cells. The outline consists of the edges, or in space the faces, that
+//! belong to one cell only. The rule, decided with exact orientation predicates: a bond stays in the body if it passes through no facet of
+//! the outline, and if it continues into a cell, or along a side of one, from its first end and from every node and, in space, every edge of
+//! the outline on it. A bond along the outline, or one that only touches a corner or an edge, stays in the body: positions closer to a line
+//! or a plane than 1e-5 of the nearest distance of the bond's ends lie on it, or rounding would decide about bonds along a slanted side.
 
 mod plane;
 mod solid;
@@ -21,29 +21,29 @@ use crate::cloud::{PointCloud, distance, search_tree};
 use crate::geometry::bounding_box;
 use crate::horizon::INCLUSION_TOLERANCE;
 
-/// Points along the curve that are asked for together whether the outline is near: most of a body is far from it.
+/// Number of points along the curve that are checked together for a near outline: most of a body is far from it.
 const BLOCK: usize = 64;
 
-/// The outline of a mesh in the plane.
+/// Outline of a mesh in the plane.
 pub type PlaneOutline = Facets<2, 3>;
 
-/// The outline of a mesh in space.
+/// Outline of a mesh in space.
 pub type SolidOutline = Facets<3, 4>;
 
-/// The facets of an outline, edges or triangles, and the parts of cells at their nodes, triangles or tetrahedra (N = D + 1).
+/// Facets of an outline, edges or triangles, and the parts of cells at their nodes, triangles or tetrahedra (N = D + 1).
 #[derive(Debug)]
 pub struct Facets<const D: usize, const N: usize> {
     positions: Vec<[f64; D]>,
-    /// Nodes of the facets, as a tree for searches by place.
+    /// Nodes of the facets, in a spatial search tree.
     tree: RTree<GeomWithData<Rectangle<[f64; D]>, [u32; D]>>,
     /// Parts of cells at nodes of the outline.
     parts: Vec<[u32; N]>,
-    /// Numbers of the parts at each node of the outline; none at the others.
+    /// Numbers of the parts at each node of the outline; none at other nodes.
     parts_at: Incidence,
 }
 
 impl<const D: usize, const N: usize> Facets<D, N> {
-    /// The outline of these facets, with those of the parts of cells that have a node of it.
+    /// The outline of given facets, with the parts of cells that have a node of the outline.
     fn new(
         facets: &[[u32; D]],
         parts: impl Iterator<Item = [u32; N]>,
@@ -71,20 +71,20 @@ impl<const D: usize, const N: usize> Facets<D, N> {
         self.positions[node as usize]
     }
 
-    /// The parts of cells at a node, if it is one of the outline.
+    /// Parts of cells at a node; none at a node off the outline.
     fn parts_at(&self, node: u32) -> impl Iterator<Item = [u32; N]> + Clone {
         let numbers = self.parts_at.at(node).iter();
         numbers.map(|&number| self.parts[number as usize])
     }
 
-    /// Nodes of the facets that meet a box.
+    /// Nodes of the facets that intersect a box.
     fn within(&self, [lower, upper]: [[f64; D]; 2]) -> impl Iterator<Item = [u32; D]> {
         let around = AABB::from_corners(lower, upper);
         let found = self.tree.locate_in_envelope_intersecting(around);
         found.map(|facet| facet.data)
     }
 
-    /// The nodes of an edge of the outline that passes through a facet, the first of them all.
+    /// Nodes of an edge of the outline that passes through a facet, the smallest of all such edges.
     fn first_edge_through(
         &self,
         is_passed: impl Fn([u32; D], [[f64; D]; 2]) -> bool,
@@ -96,13 +96,13 @@ impl<const D: usize, const N: usize> Facets<D, N> {
             self.within(bounding_box(ends))
                 .any(|facet| is_passed(facet, ends))
         };
-        // Each edge stands there in both directions.
+        // Each edge occurs in both directions.
         let once = edges.filter(|[from, to]| from < to);
         once.filter(is_passing).min()
     }
 }
 
-/// Marks of the nodes of some facets, shape (n_nodes).
+/// Flags of the nodes of some facets, shape (n_nodes).
 fn marked<const D: usize>(facets: &[[u32; D]], n_nodes: usize) -> Vec<bool> {
     let mut is_marked = vec![false; n_nodes];
     for &node in facets.as_flattened() {
@@ -111,22 +111,22 @@ fn marked<const D: usize>(facets: &[[u32; D]], n_nodes: usize) -> Vec<bool> {
     is_marked
 }
 
-/// What bonds ask the outline of a mesh for.
+/// Geometric queries of bonds to the outline of a mesh.
 pub trait Outline<const D: usize>: Sync {
     /// An edge or a triangle of the outline.
     type Facet;
 
-    /// The facets that meet a box, given by its lowest and its highest corner (m).
+    /// Facets that intersect a box, given by its lowest and its highest corner (m).
     fn facets_within(&self, bounds: [[f64; D]; 2]) -> impl Iterator<Item = Self::Facet>;
 
-    /// Whether the line between two nodes leaves the body, with all facets that it may meet.
+    /// Whether the line between two nodes leaves the body, given all facets that it may intersect.
     fn is_crossed_by_bonds(&self, ends: [u32; 2], near: &[Self::Facet], slack: f64) -> bool;
 
-    /// The nodes of an edge that passes through a facet, the first of them all; none where cells do not overlap.
+    /// Nodes of an edge that passes through a facet, the smallest of all such edges; none where cells do not overlap.
     fn first_crossing(&self) -> Option<[u32; 2]>;
 }
 
-/// For each bond between nodes of a mesh, whether its straight line leaves the outline of the cells, shape (n_bonds).
+/// Whether the straight line of each bond between nodes of a mesh leaves the outline of the cells, shape (n_bonds).
 pub fn bonds_outside<const D: usize, O: Outline<D>>(
     outline: &O,
     bonds: &BondSet<D>,
@@ -164,9 +164,9 @@ pub fn bonds_outside<const D: usize, O: Outline<D>>(
     outside
 }
 
-/// Distance of each node of the mesh of `cells` to the nearest other one that it sees within their outline, shape (n_points), m.
+/// Distance of each node of the mesh of `cells` to the nearest other node that is visible within their outline, shape (n_points), m.
 ///
-/// Across a thin slot the nearest node of all may be much nearer; a horizon that follows it would reach nothing but the other side.
+/// Across a thin slot the nearest node of all may be much nearer; a horizon that follows it would reach only the other side.
 pub fn spacing_inside<const D: usize, C: MeshCell<D>>(
     outline: &impl Outline<D>,
     cells: &[C],
@@ -174,7 +174,7 @@ pub fn spacing_inside<const D: usize, C: MeshCell<D>>(
 ) -> Vec<f64> {
     let shortest = shortest_edges(cloud, cells);
     let mut spacing = cloud.spacing.clone();
-    // What is nearer than the ends of all edges of cells may lie behind a void.
+    // Nodes nearer than the ends of all edges of cells may lie behind a void.
     let may_be_parted: Vec<u32> = (0..cloud.len() as u32)
         .filter(|&point| {
             let shortest = shortest[point as usize];
@@ -206,7 +206,7 @@ pub fn spacing_inside<const D: usize, C: MeshCell<D>>(
     spacing
 }
 
-/// Lowest and highest corner of the box of what is no farther than `reach` (m) from a position along any axis.
+/// Lowest and highest corner of the box of positions within `reach` (m) of a position along every axis.
 fn box_around<const D: usize>(position: [f64; D], reach: f64) -> [[f64; D]; 2] {
     let reach = reach * (1.0 + INCLUSION_TOLERANCE);
     [position.map(|x| x - reach), position.map(|x| x + reach)]

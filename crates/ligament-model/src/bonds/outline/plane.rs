@@ -1,4 +1,4 @@
-//! The edges that one cell of the plane has alone, and the triangles beside them.
+//! Edges that belong to one cell of the plane only, and the triangles beside them.
 
 use ligament_mesh::{Cell, MeshCell};
 use rayon::prelude::*;
@@ -22,7 +22,7 @@ impl PlaneOutline {
         Self::new(&alone, triangles, &cloud.positions)
     }
 
-    /// Whether the way from a node to a position begins in a triangle or along an edge of one; inside the body it always does.
+    /// Whether the line from a node to a position begins in a triangle or along an edge of one; inside the body it always does.
     fn continues_in_body(&self, node: u32, end: [f64; 2], slack: f64) -> bool {
         let position = self.at(node);
         let goes_into = |[a, b, c]: [u32; 3]| {
@@ -35,7 +35,7 @@ impl PlaneOutline {
             }
             .map(|corner| self.at(corner));
             let [left, right] = [next, last].map(|it| side_of_line([position, it], end, slack));
-            // Opposite to a corner a position lies on the line of the edge, but not along it.
+            // Opposite to a corner, a position lies on the line of the edge but not along the edge.
             let along = |corner: [f64; 2]| dot(minus(corner, position), minus(end, position)) > 0.0;
             (left == 0.0 && along(next))
                 || (right == 0.0 && along(last))

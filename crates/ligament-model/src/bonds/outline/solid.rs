@@ -1,7 +1,7 @@
-//! The triangles of the outline of a solid mesh and the tetrahedra beside them.
+//! Triangles of the outline of a solid mesh, and the tetrahedra beside them.
 //!
-//! Quadrangles are split in two triangles as their cells are split in tetrahedra. The nodes of a round body lie on its surface, but the
-//! triangles between them dip below it wherever an edge goes round the body and its neighbours lie along it. These dips count as part of
+//! Quadrangles are split into two triangles as their cells are split into tetrahedra. The nodes of a round body lie on its surface, but the
+//! triangles between them dip below it wherever an edge runs around the body and its neighbours lie along it. These dips count as part of
 //! the body (`dips.rs`): a convex body loses no bond.
 
 mod dips;
@@ -19,9 +19,9 @@ use crate::tensor::{cross, minus, norm};
 pub struct Facet {
     nodes: [u32; 3],
     corners: [[f64; 3]; 3],
-    /// Normal, twice as long as its area.
+    /// Normal, whose length is twice the area.
     normal: [f64; 3],
-    /// Length of the normal.
+    /// Length of the normal, twice the area, m^2.
     size: f64,
 }
 
@@ -52,7 +52,7 @@ impl SolidOutline {
         }
     }
 
-    /// Whether a line leaves the body at a triangle, behind the line's first end.
+    /// Whether a line leaves the body at a triangle, beyond the line's first end.
     fn is_left_at(&self, facet: &Facet, ends: [[f64; 3]; 2], slack: f64) -> bool {
         if facet.is_beside(ends, slack) {
             return false;
@@ -79,7 +79,7 @@ impl SolidOutline {
         }
     }
 
-    /// Whether a line in the plane of a triangle leaves the body at an edge or a node of it.
+    /// Whether a line in the plane of a triangle leaves the body at an edge or a node of the triangle.
     fn is_left_along(&self, facet: &Facet, ends: [[f64; 3]; 2], slack: f64) -> bool {
         let flat = |point: [f64; 3]| flattened(point, facet.normal);
         let line = ends.map(flat);
@@ -100,8 +100,8 @@ impl SolidOutline {
         })
     }
 
-    /// Whether the way from a node to a position begins in a tetrahedron, or along a face or an edge of one; inside the body it
-    /// always does.
+    /// Whether the line from a node to a position begins in a tetrahedron, or along a face or an edge of one; inside the body it always
+    /// does.
     fn continues_in_body(&self, node: u32, end: [f64; 3], slack: f64) -> bool {
         let apex = self.at(node);
         let length = norm(minus(end, apex));
@@ -123,7 +123,7 @@ impl SolidOutline {
             })
     }
 
-    /// Whether a line that meets an edge of the outline goes on there into a tetrahedron, or along a face of one.
+    /// Whether a line that crosses an edge of the outline continues there into a tetrahedron, or along a face of one.
     fn goes_on_past(&self, [p, q]: [u32; 2], ends: [[f64; 3]; 2], slack: f64) -> bool {
         let at = |node: u32| self.at(node);
         let length = norm(minus(ends[1], ends[0]));
@@ -134,7 +134,7 @@ impl SolidOutline {
                 .iter()
                 .position(|&node| node == q)
                 .unwrap_or_default();
-            // Between the half-planes of the edge and the two other nodes, in this order.
+            // Half-planes through the edge and each of the two other nodes, in this order.
             let [r, s] = [others[(place + 1) % 3], others[(place + 2) % 3]];
             let sides = [r, s].map(|other| {
                 let (along, across) = (minus(at(q), at(p)), minus(at(other), at(p)));
@@ -173,7 +173,7 @@ impl Facet {
         !boxes_meet(around, bounding_box(self.corners))
     }
 
-    /// Whether a line passes through the inside of the triangle.
+    /// Whether a line passes through the interior of the triangle.
     fn is_crossed_by(&self, [a, b]: [[f64; 3]; 2]) -> bool {
         let [p, q, r] = self.corners;
         let [start, end] = [a, b].map(|point| above(p, q, r, point));
@@ -183,20 +183,19 @@ impl Facet {
     }
 }
 
-/// The side on which a line passes the line of an edge; zero where they meet.
+/// Side on which a line passes the line of an edge; zero where they intersect.
 fn passes([a, b]: [[f64; 3]; 2], [p, q]: [[f64; 3]; 2], slack: f64) -> i8 {
     let least = slack * norm(cross(minus(b, a), minus(q, p)));
     side_of_plane([a, b, p], q, least)
 }
 
-/// Whether a point lies on the line between two others, but at none of them.
+/// Whether a point lies on the line between two others, but at neither of them.
 fn is_on_line(point: [f64; 3], ends: [[f64; 3]; 2], slack: f64) -> bool {
     let way = minus(ends[1], ends[0]);
     is_between(point, ends) && norm(cross(minus(point, ends[0]), way)) <= slack * norm(way)
 }
 
-/// The other corners of a tetrahedron, counter-clockwise seen from inside of it at the node: with the node first, its volume is
-/// positive.
+/// Other corners of a tetrahedron, counter-clockwise as seen from inside at the node: with the node first, its volume is positive.
 fn opposite([a, b, c, d]: [u32; 4], node: u32) -> [u32; 3] {
     if node == a {
         [b, c, d]

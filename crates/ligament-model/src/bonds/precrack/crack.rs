@@ -1,4 +1,4 @@
-//! A pre-crack of a body, whatever its dimension.
+//! Pre-cracks of any dimension.
 
 use super::plane::PreCrack;
 use super::solid::SolidPreCrack;
@@ -13,7 +13,7 @@ pub enum Crack {
     Surface(SolidPreCrack),
 }
 
-/// A position with as many coordinates as E, those beyond D zero.
+/// A position with E coordinates, of which those beyond D are zero.
 fn resized<const D: usize, const E: usize>(position: [f64; D]) -> [f64; E] {
     std::array::from_fn(|axis| position.get(axis).copied().unwrap_or(0.0))
 }

@@ -2,13 +2,13 @@
 //!
 //! The rule, decided with exact orientation predicates, with the rim of the crack (the ends of a polyline) excluded:
 //! - a point exactly on the crack counts as lying on its front: on the left of a polyline, seen along it, and on the side of a surface from
-//!   which its corners stand counter-clockwise;
+//!   which its corners are counter-clockwise;
 //! - a bond along a piece of the crack survives;
-//! - a bond that only touches the rim survives; one through an inner vertex or edge is cut. What is closed has no rim.
+//! - a bond that only touches the rim survives; one through an inner vertex or edge is cut. A closed crack has no rim.
 //!
 //! With the rim included every bond is cut that has a point in common with the crack, whatever the point: one of the rim, an end of the
 //! bond, or a part of it along the crack. A point on the crack then loses all of its bonds. Bonds of a lattice pass exactly through such
-//! rims, but not their rounded coordinates: what comes closer than 1e-5 of the nearest distance of the bond's ends has a point in common.
+//! rims, but not their rounded coordinates: a bond closer to the crack than 1e-5 of the nearest distance of its ends has a point in common.
 
 mod crack;
 mod plane;
@@ -36,10 +36,10 @@ pub enum Ends {
     Included,
 }
 
-/// Geometry of a pre-crack: the pieces of a line or of a surface, by their numbers from 0. Bonds are given by the positions of their ends,
-/// and all coordinates are those of the case or, once moved, of a cloud (m).
+/// Geometry of a pre-crack: the pieces of a line or of a surface, numbered from 0. Bonds are given by the positions of their ends, and all
+/// coordinates are those of the case or, once moved, of a cloud (m).
 pub trait Cut<const D: usize>: Sync + Sized {
-    /// The pre-crack with every position taken to another one.
+    /// The pre-crack with every position mapped by a function.
     #[must_use]
     fn moved(&self, by: impl Fn([f64; D]) -> [f64; D]) -> Self;
 
@@ -49,29 +49,29 @@ pub trait Cut<const D: usize>: Sync + Sized {
     /// Lowest and highest corner of the box around a piece, m.
     fn bounds(&self, piece: u32) -> [[f64; D]; 2];
 
-    /// Whether a piece cuts a bond; what is no farther apart than `slack` (m) touches.
+    /// Whether a piece cuts a bond; parts no farther apart than `slack` (m) touch.
     fn cuts(&self, piece: u32, bond: [[f64; D]; 2], slack: f64) -> bool;
 
-    /// Whether the rim of a piece lies on a bond, between its ends.
+    /// Whether the rim of a piece touches a bond between its ends.
     fn touches(&self, piece: u32, bond: [[f64; D]; 2], slack: f64) -> bool;
 
-    /// Where the line of a bond meets a piece.
+    /// Intersection of the line of a bond with a piece.
     fn crossing(&self, piece: u32, bond: [[f64; D]; 2]) -> Crossing<D>;
 }
 
-/// A piece of a pre-crack where the line of a bond meets it.
+/// Intersection of the line of a bond with a piece of a pre-crack.
 #[derive(Debug, Clone, Copy)]
 pub struct Crossing<const D: usize> {
     /// Unit normal of the piece, from the first end of the bond to the second.
     pub normal: [f64; D],
-    /// Distance from the rim of the piece, over its size; negative beyond it.
+    /// Distance of the intersection from the rim of the piece, over the size of the piece; negative beyond the rim.
     pub depth: f64,
 }
 
-/// Pre-cracks in the coordinates of a cloud, their pieces found by place.
+/// Pre-cracks in the coordinates of a cloud, with their pieces in a spatial search tree.
 struct Pieces<const D: usize, C> {
     cracks: Vec<C>,
-    /// Crack and piece.
+    /// Pieces by their boxes: number of the crack and of the piece.
     tree: RTree<GeomWithData<Rectangle<[f64; D]>, [u32; 2]>>,
 }
 
@@ -89,7 +89,7 @@ impl<const D: usize, C: Cut<D>> Pieces<D, C> {
         Self { cracks, tree }
     }
 
-    /// Whether a question is true of a piece near a bond.
+    /// Whether a predicate is true of a piece near a bond.
     fn any(
         &self,
         cloud: &PointCloud<D>,
@@ -114,7 +114,7 @@ fn in_cloud<const D: usize, C: Cut<D>>(cracks: &[C], cloud: &PointCloud<D>) -> V
     local.collect()
 }
 
-/// For each bond, whether a pre-crack cuts it, shape (n_bonds).
+/// Whether a pre-crack cuts each bond, shape (n_bonds).
 pub fn cut_bonds<const D: usize, C: Cut<D>>(
     cracks: &[C],
     bonds: &BondSet<D>,
@@ -128,8 +128,8 @@ pub fn cut_bonds<const D: usize, C: Cut<D>>(
     ends.map(|&ends| pieces.any(cloud, ends, C::cuts)).collect()
 }
 
-/// Number of bonds that the pre-cracks leave whole although the rim of one lies on the bond, between its ends: where a polyline begins
-/// on the outline of a mesh, these are the bonds along the outline.
+/// Number of bonds that the pre-cracks do not cut although the rim of one touches them between their ends: where a polyline begins on the
+/// outline of a mesh, these are the bonds along the outline.
 pub fn count_touched_bonds<const D: usize, C: Cut<D>>(
     cracks: &[C],
     bonds: &BondSet<D>,
@@ -148,7 +148,7 @@ pub fn count_touched_bonds<const D: usize, C: Cut<D>>(
 }
 
 /// Unit normals of pre-cracks where they cut some bonds, from the first end to the second, shape (n_cut): of the piece that the bond
-/// crosses, and where it crosses several of the one that it meets farthest from a rim.
+/// crosses, or of several the piece that it crosses farthest from a rim.
 pub fn normals<const D: usize, C: Cut<D>>(
     cracks: &[C],
     cut: &[[u32; 2]],

@@ -15,8 +15,8 @@ pub struct PreCrack {
     pub ends: Ends,
 }
 
-/// The bonds, by their ends, that cross the straight line from `start` to `end` (mesh-file coordinates), by the rule of pre-cracks,
-/// and whether their first end lies on its left.
+/// Bonds, given by their ends, that cross the straight line from `start` to `end` (mesh-file coordinates), by the rule of pre-cracks; the
+/// flag is true where the first end lies on the left of the line.
 pub fn crossing_bonds(
     bonds: impl Iterator<Item = [u32; 2]>,
     cloud: &PointCloud,
@@ -40,7 +40,7 @@ impl PreCrack {
         [0, 1].map(|end| self.points[piece as usize + end])
     }
 
-    /// Whether each end of a piece is no end of the polyline.
+    /// Whether each end of a piece is an inner vertex of the polyline.
     fn is_inner(&self, piece: u32) -> [bool; 2] {
         let last = self.points.len() - 1;
         let is_closed = last > 1 && self.points[0] == self.points[last];
@@ -110,9 +110,9 @@ impl Cut<2> for PreCrack {
     }
 }
 
-/// Whether two segments have a point in common, or come no farther apart than `slack` (m).
+/// Whether two segments have a point in common, or come within `slack` (m) of each other.
 fn meet_within(one: [[f64; 2]; 2], other: [[f64; 2]; 2], slack: f64) -> bool {
-    // Segments apart are nearest to each other at an end of one of them.
+    // Disjoint segments are nearest to each other at an end of one of them.
     let is_near = |line, ends: [_; 2]| ends.into_iter().any(|it| distance_to(line, it) <= slack);
     meet(one, other) || is_near(one, other) || is_near(other, one)
 }

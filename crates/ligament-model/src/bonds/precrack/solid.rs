@@ -1,6 +1,6 @@
 //! Pre-cracks in space: surfaces.
 //!
-//! The rim of a disk is round: what comes closer to it, or to its plane, than 1e-5 of the nearest distance of the bond's ends touches it.
+//! The rim of a disk is round: a bond closer to it, or to its plane, than 1e-5 of the nearest distance of the bond's ends touches it.
 
 mod disk;
 mod sheet;
@@ -31,44 +31,43 @@ impl SolidPreCrack {
     ///
     /// # Errors
     ///
-    /// If the normal has no direction or the radius is not positive.
+    /// Returns an error if the normal has no direction or the radius is not positive.
     pub fn disk(centre: [f64; 3], normal: [f64; 3], radius: f64) -> Result<Self, UnfitCrack> {
         Disk::new(centre, normal, radius).map(|it| Self::without_rim(Surface::Disk(it)))
     }
 
-    /// The parallelogram between a corner and the corners beside it (coordinates of the case, m); its front is the side from which the
-    /// three stand counter-clockwise.
+    /// The parallelogram of a corner and the two corners beside it (coordinates of the case, m); its front is the side from which the three
+    /// are counter-clockwise.
     ///
     /// # Errors
     ///
-    /// If the three lie on a line.
+    /// Returns an error if the three corners lie on a line.
     pub fn parallelogram([corner, one, other]: [[f64; 3]; 3]) -> Result<Self, UnfitCrack> {
         let opposite = [0, 1, 2].map(|axis| one[axis] + (other[axis] - corner[axis]));
         Self::polygon(&[corner, one, opposite, other])
     }
 
-    /// A plane polygon with three corners or more (coordinates of the case, m); its front is the side from which they stand
-    /// counter-clockwise.
+    /// A plane polygon with three corners or more (coordinates of the case, m); its front is the side from which they are counter-clockwise.
     ///
     /// # Errors
     ///
-    /// If the corners do not lie in a plane (to 1e-6 of its size), lie on a line, or the polygon crosses itself.
+    /// Returns an error if the corners do not lie in a plane (to 1e-6 of the size), lie on a line, or the polygon crosses itself.
     pub fn polygon(corners: &[[f64; 3]]) -> Result<Self, UnfitCrack> {
         Sheet::polygon(corners).map(|it| Self::without_rim(Surface::Sheet(it)))
     }
 
-    /// A surface of triangles by the numbers of their corners among `points` (coordinates of the case, m). Neighbours are turned so that
-    /// they have the front on the same side as the first of the triangles that hang together.
+    /// A surface of triangles, given by the numbers of their corners among `points` (coordinates of the case, m). Connected triangles are
+    /// oriented with the front on the same side as the first of them.
     ///
     /// # Errors
     ///
-    /// If there is no triangle, one names a point that there is not, or one has no area.
+    /// Returns an error if there is no triangle, a triangle refers to a point that does not exist, or has no area.
     pub fn triangles(points: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<Self, UnfitCrack> {
         Sheet::new(points.to_vec(), triangles.to_vec())
             .map(|it| Self::without_rim(Surface::Sheet(it)))
     }
 
-    /// Surface with its rim: every bond that has a point in common with it is cut.
+    /// The surface with its rim included: every bond that has a point in common with it is cut.
     pub fn with_rim(self) -> Self {
         Self {
             ends: Ends::Included,

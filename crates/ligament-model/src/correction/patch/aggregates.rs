@@ -1,10 +1,10 @@
-//! Long waves of the multipliers: numbers that are the same over all points of an aggregate.
+//! Coarse space of the multipliers: multipliers that are constant over all points of an aggregate.
 //!
-//! The ends of a bond have opposite terms in the equations of forces, so multipliers that are the same at both cost nothing, and waves of
-//! them that are much longer than a horizon little: less, in a large body, than the regularisation. What it lets go of equations that
-//! cannot be met is local, at corners and points of few bonds; what it lets go in long waves adds up to forces, and the body is too soft.
-//! So the points are divided into aggregates, over which multipliers may be constant at hardly any cost, and the directions
-//! of Newton steps are solved exactly for such ones (a coarse space, Nicolaides 1987).
+//! The ends of a bond have opposite terms in the equations of forces, so multipliers that are equal at both ends cost nothing, and long
+//! waves of them little: less, in a large body, than the regularisation. The residual that regularisation leaves in unsatisfiable equations
+//! is local, at corners and points of few bonds; in long waves it would add up to forces, and the body would be too soft. So the points are
+//! divided into aggregates, over which multipliers may be constant at hardly any cost, and the directions of Newton steps are solved exactly
+//! for such multipliers (a coarse space, Nicolaides 1987).
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use rayon::prelude::*;
@@ -14,34 +14,34 @@ use super::pairs::BLOCK;
 use crate::cloud::{PointCloud, distance};
 use crate::correction::sweep_order::SweepOrder;
 
-/// Aggregates at most: the dense matrix of their multipliers is to cost less than a product.
+/// Largest number of aggregates: the dense matrix of their multipliers is to cost less than a product.
 const MOST: usize = 64;
 
-/// Points of an aggregate at least: less is hardly more than what the block of a point sees.
+/// Smallest number of points of an aggregate: fewer are hardly more than the block of a point covers.
 const FEWEST_POINTS: usize = 32;
 
-/// Below this share of a distance or a volume another one is the smaller of both, whatever rounding did.
+/// Ratio below which one of two distances or volumes is the smaller one in spite of rounding.
 const TIE: f64 = 1.0 - 1e-9;
 
-/// Regularisation of multipliers that are constant over aggregates over that of others: it holds those that are the same everywhere, which
-/// have no equation.
+/// Regularisation of multipliers that are constant over aggregates relative to that of others: it fixes those that are constant over the
+/// body, which have no equation.
 const SHARE: f64 = 1e-3;
 
-/// Points that are nearer to one of some points far from each other than to the others.
+/// Aggregates of points: each point belongs to the nearest of some seeds far from each other.
 ///
-/// Distances decide, and volumes of the points where distances are equal: a body that is turned, or whose nodes have other numbers, has the
-/// same aggregates. The numbers in the file count only where a body is as symmetric as its mesh.
+/// Distances decide, then volumes of the points where distances are equal: a body that is turned, or whose nodes are renumbered, has the
+/// same aggregates. The numbers in the file matter only where a body is as symmetric as its mesh.
 pub(crate) struct Aggregates<'a> {
     order: &'a SweepOrder<'a>,
-    /// Place of the first number of the aggregate of each point.
+    /// Index of the first number of the aggregate of each point.
     first: Vec<u32>,
     count: usize,
-    /// Numbers of an aggregate: one for each equation of forces.
+    /// Numbers per aggregate: one for each equation of forces.
     width: usize,
 }
 
 impl<'a> Aggregates<'a> {
-    /// Aggregates of the points of a cloud in the order of sweeps, with some numbers each.
+    /// Aggregates of the points of a cloud in the order of sweeps, with `width` numbers each.
     pub(crate) fn new<const D: usize>(
         cloud: &PointCloud<D>,
         order: &'a SweepOrder<'a>,
@@ -69,13 +69,13 @@ impl<'a> Aggregates<'a> {
         }
     }
 
-    /// The numbers of the aggregate of a point.
+    /// Numbers of the aggregate of a point.
     #[inline(always)]
     pub(super) fn at<'b>(&self, of_aggregates: &'b [f64], index: usize) -> &'b [f64] {
         &of_aggregates[self.first[index] as usize..][..self.width]
     }
 
-    /// Sums over the points of each aggregate, from the values of own points.
+    /// Sums over the points of each aggregate, from the values of owned points.
     pub(super) fn sums<const N: usize>(
         &self,
         value: impl Fn(usize) -> [f64; N] + Sync,
@@ -105,7 +105,7 @@ impl<'a> Aggregates<'a> {
     }
 }
 
-/// The mean of the positions by volume, m.
+/// Volume-weighted mean of the positions, m.
 fn centroid<const D: usize>(cloud: &PointCloud<D>) -> [f64; D] {
     let total: f64 = cloud.volumes.iter().sum();
     std::array::from_fn(|axis| {
@@ -115,13 +115,13 @@ fn centroid<const D: usize>(cloud: &PointCloud<D>) -> [f64; D] {
     })
 }
 
-/// Distances of all points from a place, m.
+/// Distances of all points from a position, m.
 fn distances_from<const D: usize>(place: [f64; D], cloud: &PointCloud<D>) -> Vec<f64> {
     let from_place = |&position: &[f64; D]| distance(position, place);
     cloud.positions.iter().map(from_place).collect()
 }
 
-/// The point with the largest of some distances (n_points); of several that are equally far the one of the largest volume, and of those the
+/// The point with the largest of some distances (n_points); of several at equal distance the one of the largest volume, and of those the
 /// first in the file.
 fn farthest<const D: usize>(cloud: &PointCloud<D>, distances: &[f64]) -> usize {
     let largest = distances.iter().copied().fold(0.0, f64::max);
@@ -134,9 +134,10 @@ fn farthest<const D: usize>(cloud: &PointCloud<D>, distances: &[f64]) -> usize {
     })
 }
 
-/// What holds the multipliers of each point at a centre: r/d^2 times their distance from it, less what an aggregate has in common.
+/// Regularisation of the multipliers of each point about a centre: r/d^2 times their deviation from it, less the mean deviation of the
+/// aggregate.
 pub(super) struct Regularisation<'a, const N: usize> {
-    /// r/d^2 of own points, by index.
+    /// Weights r/d^2 of owned points, by index.
     pub(super) of_points: Multipliers<N>,
     pub(super) aggregates: &'a Aggregates<'a>,
     /// Sums of r/d^2 over the aggregates.
@@ -153,7 +154,7 @@ impl<'a, const N: usize> Regularisation<'a, N> {
         }
     }
 
-    /// What the aggregates have in common of distances (n_own) from a centre, but for the share that is held.
+    /// Weighted means over the aggregates of deviations (n_own) from a centre, reduced by the fraction that stays regularised.
     pub(super) fn common(&self, distance: impl Fn(usize) -> [f64; N] + Sync) -> Vec<f64> {
         let weighted = |index: usize| {
             let (distance, weight) = (distance(index), &self.of_points[index]);
@@ -166,7 +167,7 @@ impl<'a, const N: usize> Regularisation<'a, N> {
             .collect()
     }
 
-    /// The force of a point at a distance from its centre.
+    /// Gradient of the regularisation at a point for its deviation from the centre.
     #[inline(always)]
     pub(super) fn force(&self, index: usize, mut distance: [f64; N], common: &[f64]) -> [f64; N] {
         let of_aggregate = self.aggregates.at(common, index);
@@ -177,14 +178,14 @@ impl<'a, const N: usize> Regularisation<'a, N> {
     }
 }
 
-/// The Hessian over multipliers of forces that are constant over each aggregate.
+/// Hessian of the multipliers of forces that are constant over each aggregate.
 pub(super) struct CoarseHessian {
-    /// None if the matrix is not definite to rounding.
+    /// Cholesky factor; `None` if the matrix is not definite to rounding.
     factor: Option<Cholesky<f64, Dyn>>,
 }
 
 impl CoarseHessian {
-    /// The matrix of the aggregates from the slopes of the pairs.
+    /// Assembles the matrix of the aggregates from the slopes of the pairs.
     pub(super) fn new<const N: usize, E: Equations<N>>(
         equations: &E,
         regularisation: &Regularisation<'_, N>,
@@ -225,7 +226,7 @@ impl CoarseHessian {
         }
     }
 
-    /// The multipliers of the aggregates for sums over their points; zero without a factor.
+    /// Multipliers of the aggregates for sums over their points; zero without a factor.
     pub(super) fn solve(&self, sums: &[f64]) -> Vec<f64> {
         let Some(factor) = &self.factor else {
             return vec![0.0; sums.len()];

@@ -1,21 +1,21 @@
-//! The factors nearest to given ones for which linear equations hold: Newton's method on the dual problem.
+//! Factors nearest to given ones that satisfy linear equations, by Newton's method on the dual problem.
 //!
 //! minimise sum over the bonds of q_0 h(q/q_0) under G q = f, with h' = z - z_0 and
 //!
 //! q(z) = q_0 (lo + (hi - lo)/(1 + exp(-z))), q(z_0) = q_0,
 //!
-//! which keeps every factor between lo q_0 and hi q_0. It is convex, and with one multiplier mu an equation it is solved where
+//! This keeps every factor between lo q_0 and hi q_0. The problem is convex, and with one multiplier mu an equation its solution satisfies
 //!
 //! z = z_0 + G^T mu, G q(z) - f + r (mu - mu_k)/d^2 = 0,
 //!
-//! d the scales of the equations; r lets go of equations that cannot be met, and outer steps k, each from the multipliers mu_k of the
-//! one before, take its bias away. Long waves of mu are left out of that term ([`Regularisation`]). A Newton step solves, with
-//! D = dq/dz and what is left of the first condition, rho = z_0 + G^T mu - z,
+//! with the scales d of the equations; r relaxes equations that cannot be satisfied, and outer steps k, each from the multipliers mu_k of
+//! the one before, remove its bias. Long waves of mu are left out of that term ([`Regularisation`]). A Newton step solves, with D = dq/dz
+//! and the residual of the first condition, rho = z_0 + G^T mu - z,
 //!
 //! (G D G^T + r/d^2) delta mu = -(G (q + D rho) - f + r (mu - mu_k)/d^2).
 //!
-//! Then either z or q of a bond goes as far as the tangent says, whichever changes the bond less. With z alone, factors that have to
-//! grow several times, at corners, would grow exponentially; as it is no step needs to be shortened.
+//! Then either z or q of a bond follows the tangent, whichever changes the bond less. With z alone, factors that have to grow several times,
+//! at corners, would grow exponentially; with this choice no step needs to be shortened.
 
 use rayon::prelude::*;
 
@@ -28,43 +28,42 @@ use super::settings::Settings;
 /// Regularisation of the first outer step.
 const FIRST_REGULARISATION: f64 = 1e-2;
 
-/// Regularisation of an outer step over that of the one before: three steps to that of the default settings leave hardly more of the
-/// equations than four, for half the products.
+/// Ratio of the regularisations of successive outer steps: three steps to that of the default settings leave hardly more residual than four,
+/// for half the products.
 const NEXT_REGULARISATION: f64 = 0.03;
 
 /// Reduction of the gradient in an outer step.
 const REDUCTION: f64 = 0.1;
 
-/// Newton steps of an outer step at most: it takes two to four, and about ten where the equations cannot be met. With more of them
+/// Largest number of Newton steps of an outer step: two to four suffice, about ten where the equations cannot be satisfied. More show that
 /// the change of the regularisation was too large.
 const MOST_STEPS: usize = 20;
 
-/// Growth of the gradient in an outer step with which the change of the regularisation was too large.
+/// Growth of the gradient in an outer step that shows that the change of the regularisation was too large.
 const GROWTH: f64 = 1e3;
 
-/// Change of the regularisation that is no longer divided.
+/// Ratio of regularisations above which the change is not divided any further.
 const SMALLEST_CHANGE: f64 = 0.7;
 
-/// Accuracies of the direction of a Newton step, from the one where much is to be won to the one near the end.
+/// Smallest and largest relative accuracy of the direction of a Newton step: early steps are solved more accurately than the last ones.
 const ACCURACIES: [f64; 2] = [0.1, 0.5];
 
-/// The iteration for the factors.
+/// Report of the iteration for the factors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
-    /// Newton steps.
+    /// Number of Newton steps.
     pub steps: usize,
-    /// Products with the Hessian.
+    /// Number of products with the Hessian.
     pub products: usize,
-    /// Root mean square over the points of what is left of their equations.
+    /// Root mean square over the points of the scaled residual of their equations.
     pub left: f64,
-    /// Largest force or moment that is left at each point under a uniform strain of size one, over the size of its terms, shape
-    /// (n_points).
+    /// Largest residual force or moment at each point under a uniform strain of size one, over the size of its terms, shape (n_points).
     pub residual: Vec<f64>,
 }
 
-/// Factors of the bonds, and what they leave of the equations.
+/// Factors of the bonds, with the residual of the equations.
 pub(crate) struct Factors {
-    /// First and second factors, each of shape (n_bonds).
+    /// First factors, of the axial stiffness, shape (n_bonds); `shear` alike.
     pub(crate) axial: Vec<f64>,
     pub(crate) shear: Vec<f64>,
     pub(crate) report: Report,
@@ -74,24 +73,24 @@ struct Dual<'a, E> {
     equations: &'a E,
     lowest: f64,
     span: f64,
-    /// z_0.
+    /// Argument z_0 of the uncorrected factors.
     offset: f64,
     aggregates: Aggregates<'a>,
 }
 
-/// A place on the way.
+/// An iterate of Newton's method.
 struct Place<const N: usize> {
-    /// Of the points by index; what has no bonds in it is of own points alone.
+    /// Multipliers mu of the points, by index; arrays without bonds are over owned points only.
     mu: Multipliers<N>,
-    /// z of the pairs.
+    /// Arguments z of the pairs.
     z: Vec<[f64; 2]>,
-    /// D of the pairs, times the squares of their stiffness.
+    /// Derivatives D of the pairs, times the squares of their stiffness.
     slopes: Vec<[f64; 2]>,
-    /// G (q + D rho) - f.
+    /// Linearised residual G (q + D rho) - f.
     unbalanced: Multipliers<N>,
 }
 
-/// The factors that meet the equations as far as they can, with aggregates that have a number for each equation of forces.
+/// Factors that satisfy the equations as far as possible, with aggregates of one number for each equation of forces.
 pub(crate) fn minimise<'a, const N: usize, E: Equations<N>>(
     equations: &'a E,
     aggregates: Aggregates<'a>,
@@ -119,7 +118,7 @@ pub(crate) fn minimise<'a, const N: usize, E: Equations<N>>(
             }
             r = (NEXT_REGULARISATION * r).max(settings.regularisation);
         } else {
-            // Back to where the steps went wrong, and on with less of a change.
+            // Restarts before the failed outer step with a smaller change of the regularisation.
             let nowhere = vec![[0.0; N]; centre.len()];
             (place.mu, place.z) = (centre, z);
             dual.advance(&mut place, &nowhere);
@@ -131,7 +130,7 @@ pub(crate) fn minimise<'a, const N: usize, E: Equations<N>>(
     }
 }
 
-/// What an outer step took.
+/// Cost and outcome of an outer step.
 struct OuterStep {
     steps: usize,
     products: usize,
@@ -139,7 +138,7 @@ struct OuterStep {
 }
 
 impl<const N: usize> Place<N> {
-    /// The right-hand side of a Newton step, with the opposite sign.
+    /// Right-hand side of a Newton step, with the opposite sign.
     fn gradient(
         &self,
         regularisation: &Regularisation<'_, N>,
@@ -160,7 +159,7 @@ impl<const N: usize> Place<N> {
 }
 
 impl<E> Dual<'_, E> {
-    /// Goes to where the equations with a regularisation about a centre are solved.
+    /// Solves the equations with a regularisation about a centre, from the current iterate.
     fn outer_step<const N: usize>(
         &self,
         place: &mut Place<N>,
@@ -184,7 +183,7 @@ impl<E> Dual<'_, E> {
                     has_converged,
                 };
             }
-            // The direction need be no better than what is still to be won.
+            // The direction need not be more accurate than the reduction that remains.
             let [finest, coarsest] = ACCURACIES;
             let accuracy = (0.5 * REDUCTION * first / size).clamp(finest, coarsest);
             let hessian = Hessian::new(self.equations, &regularisation, &place.slopes);
@@ -199,7 +198,7 @@ impl<E> Dual<'_, E> {
         }
     }
 
-    /// The regularisation r/d^2.
+    /// Regularisation with the weights r/d^2.
     fn regularisation<const N: usize>(&self, r: f64) -> Regularisation<'_, N>
     where
         E: Equations<N>,
@@ -209,7 +208,7 @@ impl<E> Dual<'_, E> {
                 if scale > 0.0 {
                     r / (scale * scale)
                 } else {
-                    // An equation without terms: any positive number keeps its multiplier at zero.
+                    // In an equation without terms any positive weight keeps its multiplier at zero.
                     1.0
                 }
             })
@@ -219,7 +218,7 @@ impl<E> Dual<'_, E> {
         Regularisation::new(of_points, &self.aggregates)
     }
 
-    /// Root mean square of scaled numbers.
+    /// Root mean square of values times their scales.
     fn root_mean_square<const N: usize>(&self, values: &Multipliers<N>) -> f64
     where
         E: Equations<N>,
@@ -234,7 +233,7 @@ impl<E> Dual<'_, E> {
         (order.subdomain.sum(squares.sum::<f64>()) / (n_all * N) as f64).sqrt()
     }
 
-    /// The place of the uncorrected factors.
+    /// The iterate of the uncorrected factors.
     fn start<const N: usize>(&self) -> Place<N>
     where
         E: Equations<N>,
@@ -251,7 +250,7 @@ impl<E> Dual<'_, E> {
         place
     }
 
-    /// Goes in the direction of a Newton step.
+    /// Advances the iterate along the direction of a Newton step.
     fn advance<const N: usize>(&self, place: &mut Place<N>, direction: &Multipliers<N>)
     where
         E: Equations<N>,
@@ -298,7 +297,7 @@ impl<E> Dual<'_, E> {
         right.map(|right| right.map(|it| -it)).collect()
     }
 
-    /// The factors at a place, and what they leave of the equations, G q - f.
+    /// Factors of an iterate, with the residual G q - f of the equations.
     fn factors<const N: usize>(&self, place: Place<N>, steps: usize, products: usize) -> Factors
     where
         E: Equations<N>,
@@ -335,10 +334,10 @@ impl<E> Dual<'_, E> {
     }
 }
 
-/// Where z goes for which the tangent says `target`: there, or where q is as far along its tangent, if that is nearer.
+/// New z for a tangent value `target` of z: the target itself, or the z whose q follows the tangent of q, if that is nearer.
 ///
-/// The second, with the share s = 1/(1 + e^-z) and the change c of z, is z + log((1 + (1 - s) c)/(1 - s c)). It can be nearer only on
-/// the way to the middle of the curve at z = 0, and does not exist where the tangent leaves the limits of the factors.
+/// The second, with s = 1/(1 + e^-z) and the change c of z, is z + log((1 + (1 - s) c)/(1 - s c)). It can be nearer only towards the middle
+/// of the curve at z = 0, and does not exist where the tangent leaves the limits of the factors.
 #[inline(always)]
 fn after_tangent_step(z: f64, target: f64) -> f64 {
     let change = target - z;

@@ -5,16 +5,16 @@ use super::pairs::Pairs;
 /// A number for each equation of some points, by index.
 pub(crate) type Multipliers<const N: usize> = Vec<[f64; N]>;
 
-/// Linear equations G q = f in two factors a bond, N a point. Points go by their indices, bonds by pairs.
+/// Linear equations G q = f in two factors a bond, N a point. Points are given by their indices, bonds by pairs.
 pub(crate) trait Equations<const N: usize>: Sync {
-    /// Number of the equations of forces, in which the ends of a bond have opposite terms; those behind them, of moments, have the
-    /// same terms at both ends.
+    /// Number of the equations of forces, in which the ends of a bond have opposite terms; the equations of moments after them have equal
+    /// terms at both ends.
     const FORCES: usize;
 
-    /// The pairs of points with bonds.
+    /// Pairs of points with bonds.
     fn pairs(&self) -> &Pairs<'_>;
 
-    /// Stiffnesses of the pairs, with which both factors are multiplied.
+    /// Stiffnesses of the pairs, which multiply both factors.
     fn stiffness(&self) -> &[[f64; 2]];
 
     /// Uncorrected factors q_0 of the pairs.
@@ -29,18 +29,18 @@ pub(crate) trait Equations<const N: usize>: Sync {
     /// Terms of a pair in the equations of its other end, for given products of factors and stiffness.
     fn forces(&self, pair: usize, products: [f64; 2]) -> [f64; N];
 
-    /// The transpose of the forces: both entries of G^T mu over the stiffness of a pair, from the sum of the multipliers of its ends
-    /// with the signs that its terms have there.
+    /// Transpose of the forces: both entries of G^T mu over the stiffness of a pair, from the sum of the multipliers of its ends with the
+    /// signs of its terms there.
     fn strains(&self, pair: usize, sum: &[f64; N]) -> [f64; 2];
 
-    /// Terms at the point of a pair, from those at its other end.
+    /// Terms of a pair at its own point, from those at its other end.
     #[inline(always)]
     fn at_own(mut terms: [f64; N]) -> [f64; N] {
         terms[..Self::FORCES].iter_mut().for_each(|it| *it = -*it);
         terms
     }
 
-    /// Terms of a pair at its other end, for what a function makes of G^T mu; `own` has the multipliers of its point with their signs.
+    /// Terms of a pair at its other end, for a function of G^T mu; `own` has the multipliers of its point with their signs.
     #[inline(always)]
     fn terms(
         &self,
@@ -54,7 +54,7 @@ pub(crate) trait Equations<const N: usize>: Sync {
         self.forces(pair, products(pair, self.strains(pair, &sum)))
     }
 
-    /// Adds to the sums of a block of points G times what a function makes of G^T mu, pair by pair; both are over the stiffness.
+    /// Adds G times a function of G^T mu to the sums of a block of points, pair by pair; both are over the stiffness.
     #[inline(always)]
     fn add(
         &self,

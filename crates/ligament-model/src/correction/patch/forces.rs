@@ -1,4 +1,4 @@
-//! The forces of uniform strains, as the cells of a mesh know them.
+//! Forces of uniform strains from the cells of a mesh.
 
 use ligament_mesh::{Cell, SolidCell};
 
@@ -6,20 +6,20 @@ use crate::cloud::PointCloud;
 use crate::material::Stiffness;
 use crate::tensor::{SymTensor, cross, dot, minus};
 
-/// Forces on the points in uniform strains, which are orthonormal as tensors, so that nothing depends on the axes: eps_ii = 1, and
+/// Forces on the points in uniform strains, which are orthonormal as tensors, so that results do not depend on the axes: eps_ii = 1, and
 /// eps_ij = eps_ji = 1/sqrt(2), in the order of [`SymTensor`].
 #[derive(Debug, Clone)]
 pub struct CellForces<const D: usize = 2> {
-    /// Shape (n_points, n_strains, D), N.
+    /// Forces, shape (n_points, n_strains, D), N.
     values: Vec<[f64; D]>,
-    /// Stiffness of each material that the forces have: on a mesh its own, on a lattice what uniaxial tractions find.
+    /// Stiffness of each material in the forces: on a mesh its own, on a lattice that which the uniaxial tractions act on.
     pub stiffness: Vec<Stiffness>,
 }
 
-/// Points as the correction sees them.
+/// Points with the forces that the correction needs.
 #[derive(Debug, Clone)]
 pub struct Points<'a, const D: usize = 2> {
-    /// Places and volumes.
+    /// Positions and volumes.
     pub cloud: &'a PointCloud<D>,
     /// Forces of uniform strains.
     pub forces: CellForces<D>,
@@ -41,7 +41,7 @@ pub(crate) fn uniform_strains<const D: usize>() -> impl Iterator<Item = SymTenso
 }
 
 impl<const D: usize> CellForces<D> {
-    /// No forces on some points, of materials with a stiffness.
+    /// Zero forces on some points, of materials with a stiffness.
     pub fn none(n_points: usize, stiffness: Vec<Stiffness>) -> Self {
         Self {
             values: vec![[0.0; D]; SymTensor::<D>::COMPONENTS.len() * n_points],
@@ -49,7 +49,7 @@ impl<const D: usize> CellForces<D> {
         }
     }
 
-    /// Stresses of each material in each of the strains, shape (n_materials, n_strains), Pa.
+    /// Stresses of each material in each strain, shape (n_materials, n_strains), Pa.
     pub(super) fn stresses(&self) -> Vec<Vec<SymTensor<D>>> {
         let of_material = |stiffness: &Stiffness| {
             let strains = SymTensor::<D>::COMPONENTS.iter().enumerate();
@@ -68,7 +68,7 @@ impl<const D: usize> CellForces<D> {
         self.stiffness.iter().map(of_material).collect()
     }
 
-    /// Adds the tractions of the stresses in each of the strains, Pa, on an area, m^2, to the forces on a point.
+    /// Adds the tractions of the stresses in each strain, Pa, on an area, m^2, to the forces on a point.
     pub(super) fn add(&mut self, point: u32, stresses: &[SymTensor<D>], area: [f64; D]) {
         let of_point = &mut self.values[stresses.len() * point as usize..][..stresses.len()];
         for (force, stress) in of_point.iter_mut().zip(stresses) {
@@ -77,19 +77,19 @@ impl<const D: usize> CellForces<D> {
         }
     }
 
-    /// Forces on each point in each of the strains.
+    /// Forces on each point in each strain.
     pub fn of_points(&self) -> impl Iterator<Item = &[[f64; D]]> {
         self.values.chunks_exact(SymTensor::<D>::COMPONENTS.len())
     }
 
-    /// Forces on a point in each of the strains.
+    /// Forces on a point in each strain.
     pub fn of_point(&self, point: u32) -> &[[f64; D]] {
         let n_strains = SymTensor::<D>::COMPONENTS.len();
         &self.values[n_strains * point as usize..][..n_strains]
     }
 }
 
-/// Forces of the cells of a mesh with the stiffness of each material, of which each cell has one (n_cells).
+/// Forces of the cells of a mesh for the stiffness of each material, with the index of the material of each cell (n_cells).
 ///
 /// The integral of the gradient of N_P over a cell is half of the side from its last corner before P to the next one after it, turned
 /// by a right angle, for triangles and for quadrangles.
@@ -111,7 +111,7 @@ pub fn of_mesh(
     forces
 }
 
-/// The integral of the gradient of N over a cell for its corner number k, m^2.
+/// Integral of the gradient of N over a cell for its corner number k, m^2.
 fn gradient(corners: &[u32], k: usize, cloud: &PointCloud) -> [f64; 2] {
     let n = corners.len();
     let sides = [corners[(k + n - 1) % n], corners[(k + 1) % n]];
@@ -120,10 +120,10 @@ fn gradient(corners: &[u32], k: usize, cloud: &PointCloud) -> [f64; 2] {
     [half * (y1 - y0), half * (x0 - x1)]
 }
 
-/// Forces of the cells of a solid mesh with the stiffness of each material, of which each cell has one (n_cells).
+/// Forces of the cells of a solid mesh for the stiffness of each material, with the index of the material of each cell (n_cells).
 ///
 /// Shape functions are linear on tetrahedra. Other cells are split into tetrahedra ([`SolidCell::tetrahedra`]), alike on both sides of a
-/// face: what neighbours give to a point inside a body of one material cancels.
+/// face: contributions of neighbours to a point inside a body of one material cancel.
 pub fn of_solid_mesh(
     cells: &[SolidCell],
     cloud: &PointCloud<3>,

@@ -11,8 +11,8 @@ pub(super) const fn count(dimension: usize, order: usize) -> usize {
     if dimension == 2 { 2 } else { 2 * order + 1 }
 }
 
-/// The harmonics of the second order of a unit vector. In the plane, with its angle theta, these are (-sin 2 theta, cos 2 theta), and what
-/// follows is nothing.
+/// Harmonics of the second order of a unit vector. In the plane, with its angle theta, these are (-sin 2 theta, cos 2 theta), followed by
+/// zeros.
 #[inline(always)]
 pub(super) fn second<const D: usize>(n: [f64; D]) -> [f64; 5] {
     let (x, y) = (n[0], n[1]);
@@ -29,7 +29,7 @@ pub(super) fn second<const D: usize>(n: [f64; D]) -> [f64; 5] {
     ]
 }
 
-/// The harmonics of the third order of a unit vector. In the plane these are (cos 3 theta, sin 3 theta), and what follows is nothing.
+/// Harmonics of the third order of a unit vector. In the plane these are (cos 3 theta, sin 3 theta), followed by zeros.
 #[inline(always)]
 pub(super) fn third<const D: usize>(n: [f64; D]) -> [f64; 7] {
     let (x, y) = (n[0], n[1]);
@@ -51,8 +51,7 @@ pub(super) fn third<const D: usize>(n: [f64; D]) -> [f64; 7] {
     ]
 }
 
-/// The harmonics of the third order in space of a symmetric tensor S_ijk, by its components: those of a unit vector n are the ones of
-/// n_i n_j n_k.
+/// Harmonics of the third order in space of a symmetric tensor S_ijk, by its components: those of a unit vector n are those of n_i n_j n_k.
 pub(super) fn third_of_tensor(s: impl Fn([usize; 3]) -> f64) -> [f64; 7] {
     let [x, y, z] = [0, 1, 2];
     [

@@ -1,7 +1,7 @@
-//! The forces of uniform strains on a lattice, whose points are the centres of its cells.
+//! Forces of uniform strains on a lattice, whose points are the centres of its cells.
 //!
-//! Normal tractions act on the faces of the outline, at the cells that have them: a bar has the force of its whole section. Shear acts on
-//! the blocks between the points, as the cells of a mesh: on the faces, half a cell outside the points, it would have a moment.
+//! Normal tractions act on the faces of the outline, at the cells of the faces: a bar carries the force of its whole section. Shear acts on
+//! the blocks between the points, as on the cells of a mesh: on the faces, half a cell outside the points, it would have a moment.
 
 use super::forces::CellForces;
 use crate::cloud::PointCloud;
@@ -10,10 +10,10 @@ use crate::material::Stiffness;
 use crate::shape::Region;
 use crate::tensor::SymTensor;
 
-/// Forces of the cells of a lattice with the stiffness of each material, of which each cell has one (n_points).
+/// Forces of the cells of a lattice for the stiffness of each material, with the index of the material of each cell (n_points).
 ///
-/// The tractions on the faces between two materials act, with both signs, at the cell of the stiffer one, and a block between several
-/// has the shear stress of the softest, because the bonds between them are corrected as bonds of the softer one.
+/// The tractions on the faces between two materials act, with both signs, at the cell of the stiffer one, and a block between several has
+/// the shear stress of the softest, because the bonds between them are corrected as bonds of the softer material.
 pub fn of_lattice<const D: usize, S: Region<D>>(
     lattice: &Lattice<D, S>,
     cloud: &PointCloud<D>,
@@ -44,7 +44,7 @@ pub fn of_lattice<const D: usize, S: Region<D>>(
     forces
 }
 
-/// What has a stress: an area times its normal, m^2, with the point where it acts.
+/// An area times its normal under a stress, m^2, with the point where the traction acts.
 struct Part<const D: usize> {
     at: u32,
     material: u32,
@@ -101,7 +101,7 @@ impl<const D: usize> Parts<D> {
         Self { faces, corners }
     }
 
-    /// The volumes of a material over which its stresses do work.
+    /// Volumes of a material over which its stresses do work.
     fn reach(&self, material: u32, cloud: &PointCloud<D>) -> WorkVolumes {
         let sum = |parts: &[Part<D>], axis: usize| -> f64 {
             let of_material = parts.iter().filter(|part| part.material == material);
@@ -114,7 +114,7 @@ impl<const D: usize> Parts<D> {
         };
         let volumes: Vec<f64> = SymTensor::<D>::COMPONENTS.iter().map(volume).collect();
         let [least, most] = [f64::min, f64::max].map(|it| volumes.iter().copied().reduce(it));
-        // One layer of cells has no strain across it, but for rounding.
+        // One layer of cells has no strain across it, except by rounding.
         let is_layer = least <= most.map(|it| 1e-9 * it);
         WorkVolumes(if is_layer {
             vec![1.0; volumes.len()]
@@ -124,8 +124,8 @@ impl<const D: usize> Parts<D> {
     }
 }
 
-/// The sum of C_ij over the normal strains i and j, Pa, which does not depend on the axes and is what the laws' axial constants are in
-/// proportion to: the softer of two materials has the smaller one.
+/// Sum of C_ij over the normal strains i and j, Pa, which is independent of the axes and proportional to the axial constants of the laws:
+/// the softer of two materials has the smaller one.
 fn bulk_stiffness<const D: usize>(stiffness: &Stiffness) -> f64 {
     let normal = SymTensor::<D>::COMPONENTS.iter().enumerate();
     let normal: Vec<usize> = normal.filter(|(_, [i, j])| i == j).map(|it| it.0).collect();
@@ -133,7 +133,7 @@ fn bulk_stiffness<const D: usize>(stiffness: &Stiffness) -> f64 {
     pairs.sum()
 }
 
-/// The blocks between the centres of cells around a corner: the points at the corners of a block, lower before upper ones, along x first.
+/// Blocks between the centres of cells around a corner: the points at the corners of a block, lower before upper ones, along x first.
 fn blocks<const D: usize, S: Region<D>>(lattice: &Lattice<D, S>) -> Vec<Vec<u32>> {
     let above = |cell: &[u32; D]| -> Option<Vec<u32>> {
         let corners = 0..1_usize << D;
@@ -144,13 +144,13 @@ fn blocks<const D: usize, S: Region<D>>(lattice: &Lattice<D, S>) -> Vec<Vec<u32>
     lattice.cells.iter().filter_map(above).collect()
 }
 
-/// Whether a corner of a block is an upper one along an axis: 1, or 0.
+/// Returns 1 if a corner of a block is an upper one along an axis, else 0.
 fn upper(corner: usize, axis: usize) -> usize {
     (corner >> axis) & 1
 }
 
-/// The integral of the gradient of the shape function of a corner of a block over it, m^2: of what is left of the face across each axis,
-/// half in the plane and a quarter in space.
+/// Integral of the gradient of the shape function of a corner over a block, m^2: half in the plane, a quarter in space, of the existing part
+/// of the face across each axis.
 fn gradient<const D: usize>(block: &[u32], corner: usize, cloud: &PointCloud<D>) -> [f64; D] {
     let place = |corner: usize| cloud.positions[block[corner] as usize];
     let (low, high) = (place(0), place(block.len() - 1));
@@ -165,10 +165,10 @@ fn gradient<const D: usize>(block: &[u32], corner: usize, cloud: &PointCloud<D>)
 
 /// Volumes over which the components of the stress do work in uniform strains, m^3: sums of a coordinate of the points times the areas.
 ///
-/// The points lie half a cell inside the faces, so these are less than the volume, and differ unless there are as many cells along each
-/// axis. No symmetric stiffness then answers all tractions with the E and nu of the material: by the theorem of Betti sigma_xx would do
-/// another work in the contraction nu sigma_yy/E than sigma_yy in nu sigma_xx/E. What has no room is left to the shorter direction: with
-/// the volumes w, the compliance S_ij becomes S_ij w_j/max(w_i, w_j), which leaves E and G and, under tractions along the longer side, nu.
+/// The points lie half a cell inside the faces, so these volumes are smaller than the body's, and differ unless there are as many cells
+/// along each axis. No symmetric stiffness then agrees with all tractions for the E and nu of the material: by the theorem of Betti sigma_xx
+/// would do another work in the contraction nu sigma_yy/E than sigma_yy in nu sigma_xx/E. The error is left to the shorter direction: with
+/// the volumes w, the compliance S_ij becomes S_ij w_j/max(w_i, w_j), which keeps E and G and, under tractions along the longer side, nu.
 #[derive(Debug, Clone)]
 struct WorkVolumes(Vec<f64>);
 

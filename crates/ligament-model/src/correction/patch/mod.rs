@@ -1,35 +1,34 @@
 //! The patch-exact correction: two factors a bond, for which a uniform strain is an equilibrium with the right tractions.
 //!
-//! The energy correction of NHPD makes the energies of two uniform strains right at every point, and nothing makes the forces
-//! right: under a uniform strain the points of an irregular mesh are not in equilibrium, and the body does something else than
-//! strain uniformly. A mesh knows the forces of a uniform strain eps: with linear shape functions N_P on its cells
+//! The energy correction of NHPD makes the energies of two uniform strains right at every point, but not the forces: under a uniform strain
+//! the points of an irregular mesh are not in equilibrium, and the strain of the body is not uniform. A mesh determines the forces of a
+//! uniform strain eps: with linear shape functions N_P on its cells
 //!
 //! f_P(eps) = sum over the cells c at P of V_c sigma_c grad N_P, sigma_c = C_c : eps,
 //!
-//! zero inside a homogeneous body, the consistent traction on its outline, the jump at an interface. Each bond gets two positive
-//! factors, q_n of its axial and q_t of its shear and rotational stiffness, in the place of alpha Omega, for which at every point
-//! and for every uniform strain
+//! zero inside a homogeneous body, the consistent traction on its outline, the jump at an interface. Each bond has two positive factors, q_n
+//! of its axial and q_t of its shear and rotational stiffness, instead of alpha Omega, for which at every point and for every uniform strain
 //!
 //! forces of the bonds = f_P(eps), moments of the bonds = 0.
 //!
 //! These equations G q = f are fewer than the factors: the factors are those nearest to given ones (`reference.rs`).
 //!
-//! | file | of the correction |
+//! | file | content |
 //! |---|---|
 //! | `forces.rs`, `lattice_forces.rs` | f of meshes and of lattices |
-//! | `equations.rs`, `rows.rs`, `harmonics.rs` | G, as sums over the bonds; its rows, and the waves that they are made of |
-//! | `reference.rs` | the factors that it departs from |
-//! | `pairs.rs` | the order in which sums go over the bonds |
-//! | `dual.rs` | the way to the factors by Newton steps |
-//! | `newton.rs` | the direction of such a step |
-//! | `aggregates.rs` | its long waves |
+//! | `equations.rs`, `rows.rs`, `harmonics.rs` | G, as sums over the bonds; its rows, and the harmonics in them |
+//! | `reference.rs` | reference factors |
+//! | `pairs.rs` | order of the sums over the bonds |
+//! | `dual.rs` | iteration for the factors by Newton steps |
+//! | `newton.rs` | direction of a Newton step |
+//! | `aggregates.rs` | coarse space of the direction |
 //!
-//! In the plane a point has 6 equations of forces and 2 of moments, in space 13 and 5. A box of tetrahedra with a horizon factor of 3 meets
-//! them everywhere, with one of 2 there are fewer factors than equations: then the report says how much is left, and a larger horizon or the
-//! [correction of energies](super::domain) is the better choice.
+//! In the plane a point has 6 equations of forces and 2 of moments, in space 13 and 5. A box of tetrahedra with a horizon factor of 3
+//! satisfies them everywhere; with one of 2 there are fewer factors than equations: then the report gives the residual, and a larger horizon
+//! or the [correction of energies](super::domain) is the better choice.
 //!
-//! Related: micromoduli of a family fitted to the stiffness, point by point (Prakash 2019); weights of each point that are exact
-//! for polynomials (Trask 2019), for which w_AB and w_BA differ, so that there is neither an energy nor a symmetric stiffness.
+//! Related: micromoduli of a family fitted to the stiffness, point by point (Prakash 2019); weights of each point that are exact for
+//! polynomials (Trask 2019), for which w_AB and w_BA differ, so that neither an energy nor a symmetric stiffness exists.
 
 mod aggregates;
 mod dual;
@@ -58,8 +57,8 @@ use dual::Factors;
 use equations::Equations;
 use rows::Rows;
 
-/// The correction of bonds with uncorrected factors alpha (n_bonds): Omega = q_n/alpha, and beside it what shear and rotation have
-/// more, q_t/q_n. The factors q are those nearest to given ones times one number for the body (n_bonds).
+/// The correction of bonds with uncorrected factors alpha (n_bonds): Omega = q_n/alpha, and the ratio q_t/q_n for shear and rotation. The
+/// factors q are those nearest to given ones times one number for the body (n_bonds).
 pub fn correct<const D: usize>(
     bonds: &BondSet<D>,
     points: &Points<'_, D>,
@@ -76,7 +75,7 @@ pub fn correct<const D: usize>(
     factors(bonds, points, stiffness, nearest_to, settings).correction(alpha)
 }
 
-/// The factors nearest to given ones (n_bonds) of N equations a point.
+/// Factors nearest to given ones (n_bonds) that satisfy N equations a point.
 fn nearest<const D: usize, const N: usize>(
     bonds: &BondSet<D>,
     points: &Points<'_, D>,

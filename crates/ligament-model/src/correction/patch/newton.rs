@@ -1,5 +1,4 @@
-//! The direction of a Newton step: conjugate gradients, with the blocks of the points and the matrix of aggregates of them as
-//! preconditioner.
+//! Direction of a Newton step, by conjugate gradients preconditioned with the blocks of the points and the matrix of the aggregates.
 
 use rayon::prelude::*;
 
@@ -7,31 +6,31 @@ use super::aggregates::{CoarseHessian, Regularisation};
 use super::equations::{Equations, Multipliers};
 use super::pairs::BLOCK;
 
-/// Products for the direction of a Newton step at most.
+/// Largest number of products for the direction of a Newton step.
 const MOST_PRODUCTS: usize = 400;
 
-/// The matrix G D G^T with the regularisation.
+/// Hessian G D G^T with the regularisation.
 pub(super) struct Hessian<'a, E, const N: usize> {
     equations: &'a E,
     regularisation: &'a Regularisation<'a, N>,
-    /// D of the pairs, times the squares of their stiffness.
+    /// Derivatives D of the pairs, times the squares of their stiffness.
     slopes: &'a [[f64; 2]],
-    /// Inverses of the blocks of own points, by index; in single precision they would be rounded along the axes, and factors of a turned
-    /// body would differ.
+    /// Inverses of the blocks of owned points, by index; single precision would round them along the axes, and factors of a turned body
+    /// would differ.
     inverses: Vec<[[f64; N]; N]>,
     coarse: CoarseHessian,
 }
 
-/// What the preconditioner makes of what is left.
+/// The preconditioner applied to a residual.
 struct Solved<const N: usize> {
-    /// From the blocks of the points.
+    /// Part of the blocks of the points.
     points: Multipliers<N>,
-    /// From the aggregates, some numbers for each.
+    /// Part of the aggregates, `width` numbers for each.
     aggregates: Vec<f64>,
 }
 
 impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
-    /// The matrix with the inverses of its blocks.
+    /// The Hessian with the inverses of its blocks.
     pub(super) fn new(
         equations: &'a E,
         regularisation: &'a Regularisation<'a, N>,
@@ -54,7 +53,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         hessian
     }
 
-    /// Adds the blocks of the points of a block of points.
+    /// Adds the diagonal blocks of the points in a block of points.
     fn add_blocks(&self, block: usize, sums: &mut [[[f64; N]; N]]) {
         let pairs = self.equations.pairs();
         let indices = pairs.indices(block);
@@ -79,8 +78,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         }
     }
 
-    /// The solution with the negative gradient on the right, to an accuracy in the norm of the preconditioner, and the number of
-    /// products that it took.
+    /// Solution for the negative gradient on the right, to an accuracy in the norm of the preconditioner, and the number of products needed.
     pub(super) fn solve(&self, gradient: Multipliers<N>, accuracy: f64) -> (Multipliers<N>, usize) {
         let zeros = vec![[0.0; N]; gradient.len()];
         let mut left = gradient;
@@ -116,7 +114,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         (step, MOST_PRODUCTS)
     }
 
-    /// The next direction: what was solved and a share of the direction before.
+    /// Next direction: the preconditioned residual plus `share` times the last direction.
     fn turn(&self, direction: &mut Multipliers<N>, share: f64, solved: &Solved<N>) {
         let points = direction.par_iter_mut().zip(&solved.points).enumerate();
         points
@@ -134,7 +132,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         self.equations.pairs().order.update_ghosts(direction);
     }
 
-    /// Makes the product with values by index, and gives the inner product of both.
+    /// Computes the product of the Hessian with values by index, and returns the inner product of both.
     fn multiply(&self, values: &Multipliers<N>, product: &mut Multipliers<N>) -> f64 {
         let common = self.regularisation.common(|index| values[index]);
         let of_block = |(block, product): (usize, &mut [[f64; N]])| {
@@ -157,8 +155,8 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
             .sum(of_blocks.iter().sum())
     }
 
-    /// Goes a length in a direction with a known product: changes the step and what is left, solves with the preconditioner, and gives
-    /// the inner product of what is left and what was solved.
+    /// Takes a step of a given length along a direction with a known product: updates the solution and the residual, applies the
+    /// preconditioner, and returns the inner product of the residual and the preconditioned residual.
     fn go(
         &self,
         length: f64,
@@ -198,14 +196,14 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
     }
 }
 
-/// A direction of a search with its product with the matrix.
+/// A search direction with its product with the matrix.
 #[derive(Clone, Copy)]
 struct SearchDirection<'a, const N: usize> {
     direction: &'a Multipliers<N>,
     product: &'a Multipliers<N>,
 }
 
-/// Adds the squares of two rows with weights.
+/// Adds the outer squares of two rows, with weights.
 #[inline(always)]
 fn add_squares<const N: usize>(
     sums: &mut [[f64; N]; N],
@@ -220,7 +218,7 @@ fn add_squares<const N: usize>(
     }
 }
 
-/// Inverts a positive definite matrix in its place, by Gauss and Jordan; such a matrix needs no search for pivots.
+/// Inverts a positive definite matrix in place, by Gauss-Jordan elimination without pivoting.
 fn invert<const N: usize>(matrix: &mut [[f64; N]; N]) {
     for k in 0..N {
         let inverse = 1.0 / matrix[k][k];

@@ -1,4 +1,4 @@
-//! The bonds by blocks of points along the curve, for sweeps that add to both ends of a bond at once.
+//! Bonds by blocks of points along the curve, for sweeps that add to both ends of a bond at once.
 
 use std::ops::Range;
 
@@ -9,25 +9,25 @@ use crate::cloud::PointCloud;
 pub(crate) use crate::correction::members::BLOCK;
 use crate::correction::sweep_order::SweepOrder;
 
-/// The bonds seen from own points: once where both ends are in a block, from the one that comes first, and from either end, where it is
-/// an own point, where they are not. `index` is the place of a point in the order of the sweeps.
+/// Pairs of an owned point and the other end of a bond: one pair, from the end of the smaller index, where both ends are in a block, else
+/// one from either end that is an owned point. `index` is the position of a point in the order of the sweeps.
 pub(crate) struct Pairs<'a> {
-    /// The points by index.
+    /// Points by index.
     pub(crate) order: SweepOrder<'a>,
     /// Number of points of the whole body.
     pub(crate) n_all: usize,
     n_bonds: usize,
-    /// First pair of each point with its other end in the block and with its other end outside, and behind the last point the number
-    /// of all pairs.
+    /// First pair of each point with its other end inside the block and outside, and the number of all pairs at the end, shape (n_own + 1,
+    /// 2).
     starts: Vec<[usize; 2]>,
-    /// Rank of the other end of each pair.
+    /// Index of the other end of each pair.
     pub(crate) other: Vec<u32>,
     /// Bond of each pair.
     bond: Vec<u32>,
 }
 
 impl<'a> Pairs<'a> {
-    /// The pairs of all bonds.
+    /// Pairs of all bonds.
     pub(crate) fn new<const D: usize>(bonds: &BondSet<D>, cloud: &'a PointCloud<D>) -> Self {
         let order = SweepOrder::new(bonds, cloud);
         let (indices, n_own) = (order.indices(), order.owned().len());
@@ -69,7 +69,7 @@ impl<'a> Pairs<'a> {
         self.other.len()
     }
 
-    /// Number of own points.
+    /// Number of owned points.
     pub(crate) fn n_points(&self) -> usize {
         self.starts.len() - 1
     }
@@ -79,12 +79,12 @@ impl<'a> Pairs<'a> {
         self.n_points().div_ceil(BLOCK)
     }
 
-    /// Ranks of a block.
+    /// Indices of the points of a block.
     pub(crate) fn indices(&self, block: usize) -> Range<usize> {
         block * BLOCK..((block + 1) * BLOCK).min(self.n_points())
     }
 
-    /// Pairs of a point whose other end is in the block too.
+    /// Pairs of a point whose other end is in the same block.
     #[inline(always)]
     pub(crate) fn inner(&self, index: usize) -> Range<usize> {
         let [inner, outer] = self.starts[index];
@@ -97,7 +97,7 @@ impl<'a> Pairs<'a> {
         self.starts[index][1]..self.starts[index + 1][0]
     }
 
-    /// A value of each pair, from its point and its bond.
+    /// A value of each pair, computed from its point and its bond.
     pub(crate) fn values<T: Send>(&self, value: impl Fn(u32, u32) -> T + Sync) -> Vec<T> {
         let of_index = |index: usize| {
             let (point, value) = (self.order.owned()[index], &value);
@@ -108,7 +108,7 @@ impl<'a> Pairs<'a> {
         indices.flat_map_iter(of_index).collect()
     }
 
-    /// An array over the pairs, cut into those of the points of each block.
+    /// An array over the pairs, divided into those of the points of each block.
     pub(crate) fn blocks<'b, T>(&self, mut values: &'b mut [T]) -> Vec<&'b mut [T]> {
         let of_block = |block| {
             let indices = self.indices(block);
@@ -123,7 +123,7 @@ impl<'a> Pairs<'a> {
         self.starts[block * BLOCK][0]
     }
 
-    /// The value of each bond from those of the pairs, which are the same from either end, shape (n_bonds).
+    /// Value of each bond from the values of its pairs, which are equal from both ends, shape (n_bonds).
     pub(crate) fn of_bonds(&self, values: impl Iterator<Item = f64>) -> Vec<f64> {
         let mut of_bonds = vec![0.0; self.n_bonds];
         for (&bond, value) in self.bond.iter().zip(values) {

@@ -1,4 +1,4 @@
-//! The factors that the correction departs from.
+//! Reference factors of the correction.
 
 use rayon::prelude::*;
 
@@ -6,31 +6,31 @@ use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::correction::sweep_order::SweepOrder;
 
-/// Sweeps over the points. On a block of tetrahedra graded four to one they leave 8 % of T_P/T - I as a root mean square, of 180 % before, most
-/// of it at edges and corners; with four times as many the energy that a crack in the block releases changes by less than 1 %.
+/// Number of sweeps over the points. On a block of tetrahedra graded four to one they leave 8 % of T_P/T - I as a root mean square, of 180 %
+/// before, most of it at edges and corners; with four times as many the energy released by a crack in the block changes by less than 1 %.
 const SWEEPS: usize = 10;
 
-/// Largest change of a factor, and one over the smallest: the family of a corner of a solid is an eighth of one inside.
+/// Largest change of a factor, and the reciprocal of the smallest: the family of a corner of a solid is an eighth of one inside.
 const LARGEST: f64 = 8.0;
 
-/// What the correction departs from.
+/// Reference factors, to which those of the correction are nearest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reference {
-    /// alpha times one number for the body.
+    /// Reference alpha times one number for the body.
     Body,
-    /// alpha times one number for the body and a factor of each bond, with which a dilation has one stress at all points.
+    /// Reference alpha times one number for the body and a factor of each bond, for which a dilation has one stress at all points.
     Families,
 }
 
 /// A symmetric tensor at a point.
 type Tensor<const D: usize> = [[f64; D]; D];
 
-/// The factors that the correction departs from, but for one number for the body, shape (n_bonds), from factors alpha (n_bonds) and, made
-/// where they are needed, axial densities k_n (n_bonds, N/m^6) of bonds as in a body of one material.
+/// Reference factors of the correction, but for one number for the body, shape (n_bonds), from factors alpha (n_bonds) and axial densities
+/// k_n (n_bonds, N/m^6) of bonds as in a body of one material, which are computed only if needed.
 ///
-/// Horizons follow the mesh. Where it is graded, families reach farther to one side than to the other, and with alpha alone they store
-/// more or less of a uniform strain than the material does; the factors nearest to these carry the strain and leave its energy where it was.
-/// [`Reference::Families`] departs from alpha g instead, with g nearest to 1 in the entropy g log g for which
+/// Horizons follow the mesh. Where it is graded, families reach farther to one side than to the other, and with alpha alone they store more
+/// or less energy of a uniform strain than the material does; the factors nearest to these reproduce the strain and keep the energy.
+/// [`Reference::Families`] uses alpha g instead, with g nearest to 1 in the entropy g log g for which
 ///
 /// T_P = sum over the bonds of P of alpha g k_n l V_J n n^T = T I
 ///
@@ -71,7 +71,7 @@ pub fn reference<const D: usize>(
     factors.collect()
 }
 
-/// Changes M of a point by what would make T_P/T the unit tensor if all families were spread evenly.
+/// Changes M of a point such that T_P/T would become the unit tensor if all families were spread evenly.
 fn approach<const D: usize>(tensor: &mut Tensor<D>, mut excess: Tensor<D>) {
     (0..D).for_each(|axis| excess[axis][axis] -= 1.0);
     let common = 0.5 * trace(&excess);
@@ -88,16 +88,16 @@ fn approach<const D: usize>(tensor: &mut Tensor<D>, mut excess: Tensor<D>) {
 struct Families<'a, const D: usize> {
     bonds: &'a BondSet<D>,
     cloud: &'a PointCloud<D>,
-    /// Rank of each point.
+    /// Index of each point.
     indices: Vec<u32>,
-    /// alpha k_n l of the bonds.
+    /// Products alpha k_n l of the bonds.
     weights: Vec<f64>,
 }
 
 impl Reference {
-    /// The better one by dimension. In space, where families grow with the third power of the horizon, a mesh graded four to one has 1.3 times
-    /// the energy of a uniform strain in the mean with one number for the body. In the plane it has 1.05 times at most, and stresses at
-    /// holes, deflections and places of first breakage are nearer to what they should be with one number.
+    /// The better choice by dimension. In space, where families grow with the third power of the horizon, a mesh graded four to one has 1.3
+    /// times the energy of a uniform strain in the mean with one number for the body. In the plane it has 1.05 times at most, and stresses
+    /// at holes, deflections and places of first breakage are more accurate with one number.
     const fn of_dimension(dimension: usize) -> Self {
         match dimension {
             3 => Self::Families,
@@ -107,7 +107,7 @@ impl Reference {
 }
 
 impl<const D: usize> Families<'_, D> {
-    /// T for tensors M by index.
+    /// Mean T for tensors M by index, Pa.
     fn mean_stress(&self, order: &SweepOrder<'_>, tensors: &[Tensor<D>]) -> f64 {
         let mut sums = [0.0; 2];
         for (&point, stress) in order.owned().iter().zip(self.stresses(order, tensors)) {
@@ -119,7 +119,7 @@ impl<const D: usize> Families<'_, D> {
         sums[0] / sums[1]
     }
 
-    /// T_P of the own points, by index, for tensors M by index.
+    /// Tensors T_P of the owned points, by index, for tensors M by index, Pa.
     fn stresses(&self, order: &SweepOrder<'_>, tensors: &[Tensor<D>]) -> Vec<Tensor<D>> {
         let own = order.owned().par_iter();
         own.map(|&point| self.stress(point, tensors)).collect()
@@ -141,7 +141,7 @@ impl<const D: usize> Families<'_, D> {
         stress
     }
 
-    /// g of a bond.
+    /// Factor g of a bond.
     fn factor(&self, bond: usize, tensors: &[Tensor<D>]) -> f64 {
         let direction = &self.bonds.direction[bond];
         let [one, other] = self.bonds.ends[bond].map(|end| {
@@ -152,7 +152,7 @@ impl<const D: usize> Families<'_, D> {
     }
 }
 
-/// n . M n.
+/// Product n . M n.
 fn along<const D: usize>(direction: &[f64; D], tensor: &Tensor<D>) -> f64 {
     let of_row = |(one, row): (&f64, &[f64; D])| {
         let products = row

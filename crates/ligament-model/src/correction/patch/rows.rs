@@ -1,4 +1,4 @@
-//! The equations of points in uniform strains: forces, and moments where the points turn.
+//! Equations of points in uniform strains: forces, and moments where the points have rotations.
 
 use super::equations::Equations;
 use super::forces::{CellForces, Points};
@@ -10,18 +10,17 @@ use crate::correction::sweep_order::SweepOrder;
 use crate::law::BondStiffness;
 use crate::tensor::{SymTensor, dot};
 
-/// The equations of all points: 6 of forces in the plane and 13 in space, and with those of moments N = 8 and 18 a point.
+/// Equations of all points: 6 of forces in the plane and 13 in space, and with those of moments N = 8 and 18 a point.
 ///
-/// A bond of length l from a point in the direction n, with w = V_A V_B, acts under a strain eps on its other end with the force
-/// w (q_n k_n s n + q_t k_t gamma), s = n . eps n, gamma = eps n - s n, on the point with the opposite one and on both with the moment
-/// -1/2 w q_t k_t l n x gamma. The strains are orthonormal as tensors. With a = w q_n k_n and b = w q_t k_t the force in
-/// eps_jk = eps_kj is the tensor
+/// A bond of length l from a point in the direction n, with w = V_A V_B, acts under a strain eps on its other end with the force w (q_n k_n
+/// s n + q_t k_t gamma), s = n . eps n, gamma = eps n - s n, on the point with the opposite force and on both with the moment -1/2 w q_t k_t
+/// l n x gamma. The strains are orthonormal as tensors. With a = w q_n k_n and b = w q_t k_t the force in eps_jk = eps_kj is the tensor
 ///
 /// F_i,jk = (a - b) n_i n_j n_k + b/2 (delta_ij n_k + delta_ik n_j),
 ///
-/// which has parts of the first and the third order: along delta_jk n_i, along what the other product has at right angles to that, and
-/// the third harmonics Y_3 of n. The moments, of the strains n_j n_k, are second harmonics Y_2 of n. In space a part of the second order is
-/// nothing for bonds, and left out of what the cells have. In orthonormal combinations of the forces and moments in the strains a bond has
+/// which has parts of the first and the third order: along delta_jk n_i, along the part of the other product orthogonal to that, and the
+/// third harmonics Y_3 of n. The moments, of the strains n_j n_k, are second harmonics Y_2 of n. In space a part of the second order is zero
+/// for bonds, and left out of the forces of the cells. In orthonormal combinations of the forces and moments in the strains a bond has
 ///
 /// | equations in the plane | of q_n, times w k_n | of q_t, times w k_t |
 /// |---|---|---|
@@ -38,39 +37,39 @@ use crate::tensor::{SymTensor, dot};
 /// | 13 to 17 | 0 | -l/2 Y_2(n) |
 ///
 /// with harmonics of the sum of squares 1. The equations of a point are scaled by one number for its forces and one for its moments, never
-/// each by itself, which keeps them independent of the axes.
+/// singly, which keeps them independent of the axes.
 pub(super) struct Rows<'a, const D: usize, const N: usize> {
     pairs: Pairs<'a>,
-    /// Places of the other ends, seen from the points.
+    /// Directions and lever arms of the other ends of the pairs.
     places: Vec<Place<D>>,
     /// w k_n and w k_t of the pairs, N.
     stiffness: Vec<[f64; 2]>,
-    /// Factors q_0 of the pairs, to which those of the correction are the nearest.
+    /// Reference factors q_0 of the pairs.
     start: Vec<f64>,
-    /// Scales of the forces and the moments of own points, by index: one over the norm of their rows with the weights q_0.
+    /// Scales of the forces and the moments of owned points, by index: the reciprocal norm of their rows with the weights q_0.
     scale: Vec<[f64; 2]>,
-    /// f of own points, by index.
+    /// Right-hand sides f of owned points, by index.
     right: Vec<[f64; N]>,
 }
 
-/// Where the other end of a pair is.
+/// Direction and lever arm of the other end of a pair.
 #[derive(Debug, Clone, Copy)]
 struct Place<const D: usize> {
-    /// n, from the point to the other.
+    /// Unit vector n from the point to the other end.
     direction: [f64; D],
-    /// -l/sqrt 8, in space -l/2, m.
+    /// Lever arm -l/sqrt 8, in space -l/2, m.
     lever: f64,
 }
 
-/// What is in proportion to the harmonics of n, by dimension.
+/// Coefficients of the harmonics of n in the equations, by dimension.
 struct Sizes {
-    /// Of n, times q_n.
+    /// Coefficient of n, times q_n.
     first: f64,
-    /// Of n, times q_n and q_t.
+    /// Coefficients of n, times q_n and q_t.
     second: [f64; 2],
-    /// Of Y_3, times q_n.
+    /// Coefficient of Y_3, times q_n.
     third: f64,
-    /// Of Y_2, times q_t and the length.
+    /// Coefficient of Y_2, times q_t and the length.
     turn: f64,
 }
 
@@ -83,7 +82,7 @@ const PLANE: Sizes = Sizes {
     turn: -0.5 * ROOT,
 };
 
-/// 1/sqrt 3, 2/sqrt 15, 3/sqrt 15 and sqrt(2/5).
+/// Coefficients 1/sqrt 3, 2/sqrt 15, 3/sqrt 15 and sqrt(2/5).
 const SPACE: Sizes = Sizes {
     first: 0.577_350_269_189_625_8,
     second: [0.516_397_779_494_322_3, 0.774_596_669_241_483_4],
@@ -154,7 +153,7 @@ impl<'a, const D: usize, const N: usize> Rows<'a, D, N> {
     }
 }
 
-/// The combinations of the forces on a point in the strains; no moments.
+/// Combinations of the forces on a point in the strains; the moments are zero.
 fn combined<const D: usize, const N: usize>(forces: &[[f64; D]]) -> [f64; N] {
     let mut all = [0.0; N];
     if D == 2 {
@@ -169,7 +168,7 @@ fn combined<const D: usize, const N: usize>(forces: &[[f64; D]]) -> [f64; N] {
         all[..6].copy_from_slice(combinations.as_flattened());
         return all;
     }
-    // F_i,jk.
+    // Force tensor F_i,jk.
     let force = |i: usize, [j, k]: [usize; 2]| {
         let mut strains = SymTensor::<D>::COMPONENTS.iter();
         let strain = strains.position(|it| *it == [j.min(k), j.max(k)]);
@@ -196,7 +195,7 @@ fn combined<const D: usize, const N: usize>(forces: &[[f64; D]]) -> [f64; N] {
     all
 }
 
-/// c_0: makes the energy of the bonds of the body that of its cells, in the mean over the strains.
+/// Factor c_0 for which the bonds of the body have the energy of its cells, in the mean over the strains.
 fn body_factor<const D: usize>(
     bonds: &BondSet<D>,
     points: &Points<'_, D>,
@@ -207,7 +206,7 @@ fn body_factor<const D: usize>(
     let Points { cloud, forces, .. } = points;
     let of_bond = |bond: usize| {
         let [a, b] = bonds.ends[bond].map(|end| cloud.volumes[end as usize]);
-        // In the mean over the strains s^2 and |gamma|^2 do not depend on the direction.
+        // Averaged over the strains, s^2 and |gamma|^2 do not depend on the direction.
         let densities = stiffness.axial[bond] + shear_share(D) * stiffness.shear[bond];
         nearest_to[bond] * a * b * bonds.length[bond] * densities
     };
@@ -215,7 +214,7 @@ fn body_factor<const D: usize>(
     work(cloud, forces) / order.subdomain.sum(counted.map(of_bond).sum::<f64>())
 }
 
-/// The work of the cells in all strains, J.
+/// Work of the cells in all strains, J.
 fn work<const D: usize>(cloud: &PointCloud<D>, forces: &CellForces<D>) -> f64 {
     let of_point = |(forces, x): (&[[f64; D]], &[f64; D])| {
         let strains = forces.iter().zip(SymTensor::<D>::COMPONENTS);

@@ -2,23 +2,23 @@
 
 use super::reference::Reference;
 
-/// Settings of the correction.
+/// Settings of the patch correction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Smallest factor over the uncorrected one, lo.
+    /// Smallest ratio lo of a factor to the uncorrected one.
     pub lowest: f64,
-    /// Largest factor over the uncorrected one, hi.
+    /// Largest ratio hi of a factor to the uncorrected one.
     pub highest: f64,
     /// Weight of the equations of moments against those of forces.
     pub moment_weight: f64,
-    /// The factors from which it departs; without a word [`Reference::Body`] in the plane and [`Reference::Families`] in space.
+    /// Reference factors; `None` stands for [`Reference::Body`] in the plane and [`Reference::Families`] in space.
     pub reference: Option<Reference>,
-    /// Regularisation r of the last outer step. The steps begin with 1e-2, and each has three hundredths of the one before.
+    /// Regularisation r of the last outer step. The first step has 1e-2, and each has three hundredths of the one before.
     pub regularisation: f64,
 }
 
 impl Settings {
-    /// The settings that meet the equations best on meshes of all kinds.
+    /// Settings that satisfy the equations best on meshes of all kinds.
     pub const DEFAULT: Self = Self {
         lowest: 0.02,
         highest: 20.0,

@@ -1,19 +1,18 @@
-//! The classes of the bonds of a lattice.
+//! Classes of the bonds of a lattice.
 
-/// The class of a bond.
+/// Class of a bond by its direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BondClass {
-    /// Along x.
+    /// Bond along x (H).
     Horizontal,
-    /// Along y.
+    /// Bond along y (V).
     Vertical,
-    /// Any other.
+    /// Bond in any other direction (S).
     Shear,
 }
 
 impl BondClass {
-    /// The class of a bond with these direction cosines: rows and columns of a lattice have equal coordinates to the last
-    /// bit.
+    /// The class of a bond with given direction cosines: points in a row or column of a lattice have equal coordinates to the last bit.
     #[inline]
     pub fn from_direction(direction: [f64; 2]) -> Self {
         match direction {

@@ -1,29 +1,29 @@
-//! The difference quotients that the strains of an element are made of.
+//! Difference quotients that make up the strains of an element.
 
 use super::{BondClass, Surroundings};
 use crate::bonds::BondSet;
 
-/// Most quotients of an element.
+/// Largest number of quotients of an element.
 const MOST: usize = 4;
 
-/// One of the two derivatives.
+/// Axis of a derivative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::element) enum Axis {
     X,
     Y,
 }
 
-/// A difference quotient along an axis, with its share in the mean.
+/// A difference quotient along an axis, with its weight in the mean.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::element) struct Quotient {
     pub(in crate::element) axis: Axis,
-    /// From the first to the second point.
+    /// First and second point: the difference is second minus first.
     pub(in crate::element) ends: [u32; 2],
     pub(in crate::element) weight: f64,
 }
 
 impl Quotient {
-    /// The distance along the axis between points at these positions (n_points), m.
+    /// Distance along the axis between the ends of the quotient, m, for positions of the points (n_points), m.
     #[inline]
     pub(in crate::element) fn distance(&self, positions: &[[f64; 2]]) -> f64 {
         let [from, to] = self
@@ -33,7 +33,7 @@ impl Quotient {
     }
 }
 
-/// The quotients of an element; none where one of the derivatives has no support.
+/// Difference quotients of an element; none where one of the derivatives has no support.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::element) struct Quotients {
     count: usize,
@@ -73,7 +73,7 @@ impl Quotients {
             }
             BondClass::Shear => {
                 let [first, second] = ends;
-                // a lies above or below the first end, b beside it.
+                // Corner a lies above or below the first end, corner b beside it.
                 let [a, b] = surroundings.corners(bond, is_linked);
                 let along_x = [b.map(|b| [first, b]), a.map(|a| [a, second])];
                 let along_y = [a.map(|a| [first, a]), b.map(|b| [b, second])];
@@ -83,7 +83,7 @@ impl Quotients {
         if is_supported { quotients } else { Self::NONE }
     }
 
-    /// Adds the mean of the quotients that there are; tells whether there are any.
+    /// Adds the mean of the given quotients along an axis; returns whether there is at least one.
     #[inline]
     fn add_mean(&mut self, axis: Axis, quotients: [Option<[u32; 2]>; 2]) -> bool {
         let count = quotients.iter().flatten().count();

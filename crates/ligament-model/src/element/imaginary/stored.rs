@@ -1,4 +1,4 @@
-//! Strains of the bonds of a lattice that was stored: from positions, ends and motions alone.
+//! Strains of the bonds of a stored lattice, from positions, ends and motions alone.
 
 use super::{ImaginaryElements, StrainStiffness};
 use crate::bonds::{BondSet, Composition, Incidence};
@@ -14,7 +14,7 @@ pub struct LatticeStrains {
 }
 
 impl LatticeStrains {
-    /// The bonds of points at some positions (n_points, m) with their ends and horizons (n_bonds each, the latter in m).
+    /// The bonds between points at some positions (n_points), m, with their ends and horizons (m), shape (n_bonds) each.
     pub fn new(positions: Vec<[f64; 2]>, ends: Vec<[u32; 2]>, horizon: Vec<f64>) -> Self {
         let offset = |[a, b]: &[u32; 2]| minus(positions[*b as usize], positions[*a as usize]);
         let offsets: Vec<[f64; 2]> = ends.iter().map(offset).collect();
@@ -50,8 +50,8 @@ impl LatticeStrains {
         &self.bonds.ends
     }
 
-    /// Deformation of a bond under displacements of the points (n_points, m) while the bonds marked in `intact` (n_bonds) are unbroken, less
-    /// that of a strain that it has without stress.
+    /// Deformation of a bond under displacements of the points (n_points), m, while the bonds marked in `intact` (n_bonds) are unbroken,
+    /// less that of a stress-free strain.
     pub fn deformation(
         &self,
         bond: usize,

@@ -1,23 +1,23 @@
-//! Which bonds of a lattice support which: the neighbours of the points and the corners of the rectangles.
+//! Bonds of a lattice that support each other: neighbours of the points and corners of the rectangles.
 
 use super::BondClass;
 use crate::bonds::{BondSet, Incidence};
 
-/// No bond.
+/// Number of a missing bond.
 const NONE: u32 = u32::MAX;
 
-/// The bonds around each point and each bond of a lattice.
+/// Bonds around each point and each bond of a lattice.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surroundings {
     /// Neighbours of each point on its left and right, below and above, with the bonds of one spacing to them, shape (n_points, 2, 2).
     links: Vec<[[Link; 2]; 2]>,
-    /// Of each S bond the edges of its rectangle that meet at its two other corners, shape (n_bonds, 2, 2).
+    /// Edges of the rectangle of each S bond that meet at its two other corners, shape (n_bonds, 2, 2).
     edges: Vec<[[Link; 2]; 2]>,
-    /// Of each bond those whose elements change when it breaks, itself left out.
+    /// Bonds whose elements change when a bond breaks, itself left out, for each bond.
     dependents: Incidence,
 }
 
-/// A point at the other end of a bond; no bond where there is none.
+/// A point at the other end of a bond; without a bond where none exists.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Link {
     bond: u32,
@@ -37,8 +37,8 @@ impl Link {
 }
 
 impl Surroundings {
-    /// The surroundings in a set of bonds between the points of a lattice, whose cells may be rectangles: the shortest bonds along x and
-    /// along y are its spacings.
+    /// The surroundings of bonds between the points of a lattice with rectangular cells: the shortest bonds along x and along y give its
+    /// spacings.
     pub fn from_bonds(bonds: &BondSet) -> Self {
         let spacing = spacings(bonds);
         let steps = |bond: u32, from: u32| {
@@ -89,7 +89,7 @@ impl Surroundings {
         }
     }
 
-    /// The points between which the difference quotient of a point along an axis (0: x, 1: y) is taken.
+    /// Points of the difference quotient at a point along an axis (0: x, 1: y); `None` without a linked neighbour.
     #[inline]
     pub(super) fn across(
         &self,
@@ -107,7 +107,7 @@ impl Surroundings {
         (ends[0] != ends[1]).then_some(ends)
     }
 
-    /// The corners of the rectangle of an S bond that are left.
+    /// Remaining corners of the rectangle of an S bond.
     #[inline]
     pub(super) fn corners(&self, bond: usize, is_linked: impl Fn(u32) -> bool) -> [Option<u32>; 2] {
         self.edges[bond].map(|edges| {
@@ -116,13 +116,13 @@ impl Surroundings {
         })
     }
 
-    /// The bonds whose elements may change when a bond breaks, itself left out, ascending.
+    /// Bonds whose elements may change when a bond breaks, itself left out, ascending.
     pub fn dependents(&self, bond: u32) -> &[u32] {
         self.dependents.at(bond)
     }
 }
 
-/// Distances of the columns and of the rows of a lattice, from the shortest bonds along x and along y, m.
+/// Distances between the columns and between the rows of a lattice, from the shortest bonds along x and along y, m.
 fn spacings(bonds: &BondSet) -> [f64; 2] {
     let along = |class: BondClass| {
         let of_bonds = bonds.direction.iter().zip(&bonds.length);
@@ -133,8 +133,8 @@ fn spacings(bonds: &BondSet) -> [f64; 2] {
     [along(BondClass::Horizontal), along(BondClass::Vertical)]
 }
 
-/// Of each bond those that it supports: H bonds at the ends of a V bond of one spacing, V bonds at those of such an H bond, and
-/// S bonds of which it is an edge.
+/// Bonds that each bond supports: for a V bond of one spacing the H bonds at its ends, for such an H bond the V bonds at its ends, and the S
+/// bonds of which it is an edge.
 fn dependents(bonds: &BondSet, links: &[[[Link; 2]; 2]], edges: &[[[Link; 2]; 2]]) -> Incidence {
     let supports = |bond: u32| -> Vec<u32> {
         let of_edges = edges[bond as usize].as_flattened();

@@ -1,4 +1,4 @@
-//! Micro-modulus matrices of bonds, and the stiffness of the plane that they come from.
+//! Micro-modulus matrices of bonds, from the stiffness of the plane.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -6,7 +6,7 @@ use crate::bonds::BondSet;
 use crate::element::imaginary::{StrainStiffness, entries};
 use crate::law::{BondStiffness, LawInput, bulk_stiffness, materials};
 
-/// The stiffness of bonds with these micro-modulus matrices and shares of their first ends (n_bonds).
+/// Stiffness of bonds with given micro-modulus matrices and energy fractions of their first ends (n_bonds).
 pub(super) fn of_matrices(bonds: &BondSet, matrices: &[(Matrix3<f64>, f64)]) -> BondStiffness {
     let along = |((matrix, _), &[a, b]): (&(Matrix3<f64>, f64), &[f64; 2])| {
         let stretch = Vector3::new(a * a, b * b, a * b);
@@ -26,7 +26,7 @@ pub(super) fn of_matrices(bonds: &BondSet, matrices: &[(Matrix3<f64>, f64)]) -> 
     }
 }
 
-/// The stiffness of the plane for the materials of each bond ([`materials::of_bond`]), shape (n_bonds), Pa.
+/// Plane stiffness of the materials of each bond ([`materials::of_bond`]), shape (n_bonds), Pa.
 pub(super) fn plane_stiffnesses(input: &LawInput<'_, 2>) -> Vec<Matrix3<f64>> {
     let (bonds, plane) = (input.bonds, input.space.plane());
     let of_materials: Vec<Matrix3<f64>> = (input.elasticity.iter())

@@ -1,5 +1,4 @@
-//! The form of MBB-PD that keeps to the rows of (A.9): bonds along x resist S_xx alone, bonds along y S_yy alone, all others all three
-//! strains.
+//! Row form of MBB-PD, after (A.9): bonds along x resist S_xx alone, bonds along y S_yy alone, all others all three strains.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -9,13 +8,13 @@ use crate::cloud::PointCloud;
 use crate::element::imaginary::BondClass;
 use crate::law::{BondStiffness, LawInput};
 
-/// Micro-modulus matrices: the symmetric part of diag(psi_1, psi_2, psi_6) c, of which a bond has the rows of its class, with the
-/// means of its ends and
+/// Micro-modulus matrices: the symmetric part of diag(psi_1, psi_2, psi_6) c, of which a bond has the rows of its class, with the means of
+/// its ends and
 ///
 /// psi_1 = 2/(V (sum_H + sum_S)), psi_2 = 2/(V (sum_V + sum_S)), psi_6 = 2/(V sum_S)
 ///
-/// over the lengths of the bonds of a point in their classes. So every row has its whole energy at every point, but the matrix of a bond
-/// along an axis is indefinite where c_12, c_16 or c_26 is not zero; and a straight free side is not free of forces, by 0.055 of the stress.
+/// over the lengths of the bonds of a point by class. Every row thus has its whole energy at every point, but the matrix of a bond along an
+/// axis is indefinite where c_12, c_16 or c_26 is not zero; and a straight free side has residual forces of 0.055 of the stress.
 pub(super) fn densities(input: &LawInput<'_, 2>) -> BondStiffness {
     let stiffnesses = plane_stiffnesses(input);
     let (bonds, cloud) = (input.bonds, input.cloud);
@@ -44,7 +43,7 @@ pub(super) fn densities(input: &LawInput<'_, 2>) -> BondStiffness {
     of_matrices(bonds, &matrices)
 }
 
-/// psi_1, psi_2 and psi_6 of a point, 1/m^4; infinite where it has no bond that resists the strain.
+/// Factors psi_1, psi_2 and psi_6 of a point, 1/m^4; infinite where the point has no bond that resists the strain.
 fn factors(bonds: &BondSet, cloud: &PointCloud, point: u32) -> [f64; 3] {
     let mut sums = [0.0; 3];
     for &bond in bonds.incidence.at(point) {

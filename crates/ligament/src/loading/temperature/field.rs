@@ -1,11 +1,11 @@
-//! Temperatures from a field that the mesh brings along.
+//! Temperatures from a field of the mesh file.
 
 use ligament_mesh::NodeField;
 
 use crate::body::Body;
 use crate::error::Fault;
 
-/// The scalar field of a name, at a time step if there are several; else the part that is wrong, and why.
+/// The scalar field of a name, at a time step if there are several; as the error the wrong part of the setup and its fault.
 pub(super) fn find<'a>(
     body: &'a dyn Body,
     name: &str,

@@ -1,4 +1,4 @@
-//! Changes of temperature on the points of a body, and the strains that they make.
+//! Changes of temperature at the points of a body, and their free strains.
 
 mod field;
 mod table;
@@ -10,27 +10,27 @@ use super::places::Places;
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::{Place, Temperature, TemperatureChange};
 
-/// A body that is heated or cooled, at load factor 1.
+/// Heating or cooling of a body at load factor 1.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Heating {
     /// Change of the temperature of each point, shape (n_points), K.
     pub(super) change: Vec<f64>,
-    /// Strain that each point would have without stress.
+    /// Strain of each point without stress.
     pub(super) strain: StressFreeStrains,
 }
 
-/// What one section says of the points.
+/// Changes of temperature by one section of the setup.
 enum Change {
-    /// One change everywhere, K.
+    /// The same change everywhere, K.
     Uniform(f64),
-    /// A value for each point (n_points) that has one, K; and why others have none.
+    /// Change of each point that has one, shape (n_points), K; and the reason why other points have none.
     Each(Vec<Option<f64>>, &'static str),
 }
 
-/// The heating of a setup; none without a temperature.
+/// The heating of a setup; `None` without a temperature.
 ///
-/// A temperature holds on the whole body, the cells of a group, or the points of a box or curve; of those that reach, the last
-/// one holds. A point with cells of several groups has the mean by its volume in them.
+/// A temperature applies to the whole body, the cells of a group, or the points of a box or curve; where several apply, the last one
+/// counts. A point with cells of several groups has their mean by volume.
 pub(super) fn heating<const D: usize>(
     places: &Places<'_, D>,
 ) -> Result<Option<Heating>, SetupError> {
@@ -60,13 +60,13 @@ pub(super) fn heating<const D: usize>(
     Ok(Some(Heating { change, strain }))
 }
 
-/// The section that holds at each point or cell.
+/// The section of temperatures that applies to each point or cell.
 struct Reach {
     /// Number of sections.
     n_sections: usize,
-    /// Share of each section in the cells of each point, shape (n_points, n_sections + 1); the first is that of none.
+    /// Share of each section in the cells of each point, shape (n_points, n_sections + 1); the first is the share without a section.
     shares: Vec<f64>,
-    /// The last section that reaches a point by itself, counted from 1, shape (n_points); 0 where none does.
+    /// The last section, from 1, that applies to a point directly and not by its cells, shape (n_points); 0 where none does.
     of_point: Vec<u32>,
 }
 
@@ -91,7 +91,7 @@ impl Reach {
                 None => points.iter().for_each(|&it| of_point[it as usize] = number),
             }
         }
-        // The volumes of the cells at a point are what a cloud with a material for each section counts.
+        // A cloud with a material for each section gives the volumes of the sections' cells at a point.
         let counted = body
             .geometry::<D>()
             .cloud(cloud.thickness, &of_cell, sections.len() + 1);
@@ -102,7 +102,7 @@ impl Reach {
         })
     }
 
-    /// The sections that hold at a point, each with its share, which sum to at most one.
+    /// The sections that apply to a point with their shares, which sum to at most one.
     fn at(&self, point: usize) -> impl Iterator<Item = (usize, f64)> {
         let width = self.n_sections + 1;
         let shares = &self.shares[point * width..(point + 1) * width];
@@ -142,10 +142,10 @@ impl<const D: usize> Places<'_, D> {
     }
 }
 
-/// Points that a section says nothing of, though it holds there.
+/// Points without a temperature from the section that applies to them.
 #[derive(Default)]
 struct Missing {
-    /// The section, its first such point, and their number.
+    /// The section, its first such point, and the number of such points.
     first: Option<(usize, u32, usize)>,
 }
 
@@ -177,7 +177,7 @@ impl Missing {
     }
 }
 
-/// Strains of the points (n_points): the mean of their materials by volume.
+/// Thermal strains of the points (n_points): the mean over their materials by volume.
 fn thermal_strain<const D: usize>(
     places: &Places<'_, D>,
     change: &[f64],

@@ -8,15 +8,15 @@ use crate::error::Fault;
 use crate::loading::places::distance;
 use crate::setup::Sample;
 
-/// A sample belongs to a point if it is nearer than this part of the distance to the nearest other point: coordinates may be
-/// written with a few digits, but those of another mesh are refused.
+/// Largest distance of a sample from its point over the distance between nearest points: coordinates may be rounded, but those of another
+/// mesh are refused.
 const NEARNESS: f64 = 0.1;
 
-/// Why a point has no change.
+/// Reason why a point has no change.
 pub(super) const MISSING: &str =
     "the table has no row within a tenth of the distance to the nearest other point";
 
-/// The change at each point (n_points) that a sample belongs to, K; else what is wrong with the samples.
+/// The change at each point with a sample, shape (n_points), K; as the error the fault of the samples.
 pub(super) fn at_points<const D: usize>(
     samples: &[Sample],
     body: &dyn Body,

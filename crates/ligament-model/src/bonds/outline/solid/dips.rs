@@ -1,9 +1,9 @@
 //! Dips of a triangulated outline below a round surface.
 //!
-//! Of four nodes of a convex surface in two triangles, the edge between the triangles may be either diagonal of the four. Along one of
-//! them the triangles bulge, along the other they dip, by the difference of the sagittas: no less part of the body, as its surface
-//! goes through all four. A dip is filled by the tetrahedron of the four nodes; the edge becomes the other diagonal. Re-entrant edges
-//! of the body itself are no dips: they turn by more, or the outline around them is not convex.
+//! The edge between two triangles on four nodes of a convex surface may be either diagonal of the four. Along one diagonal the triangles
+//! bulge, along the other they dip, by the difference of the sagittas; the dip is part of the body, as its surface passes through all four
+//! nodes. A dip is filled by the tetrahedron of the four nodes; the edge becomes the other diagonal. Re-entrant edges of the body itself are
+//! no dips: they turn by more, or the outline around them is not convex.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -14,17 +14,17 @@ use crate::tensor::{cross, dot, minus, norm};
 /// Cosine of the largest angle between two triangles of a round surface, 45 degrees.
 const ROUND: f64 = 0.707;
 
-/// Height of a node over a triangle, as a part of the size of the triangle, that counts as none.
+/// Height of a node over a triangle, relative to the size of the triangle, that counts as zero.
 const FLATNESS: f64 = 1e-9;
 
-/// The triangles of an outline (counter-clockwise seen from outside) once its dips are filled, and the tetrahedra that fill them.
+/// Triangles of an outline (counter-clockwise as seen from outside) after its dips are filled, and the tetrahedra that fill them.
 pub(super) fn filled(
     triangles: Vec<[u32; 3]>,
     positions: &[[f64; 3]],
 ) -> (Vec<[u32; 3]>, Vec<[u32; 4]>) {
     let mut skin = TriangulatedSurface::new(triangles, positions);
     let mut filling = Vec::new();
-    // Every filling adds to the volume of the body: there is an end. The bound is for surfaces that are none.
+    // Every filling adds to the volume of the body, so the loop ends. The bound is for triangles that form no surface.
     let mut left = 8 * skin.triangles.len();
     let mut open: BTreeSet<[u32; 2]> = skin.edges.keys().copied().collect();
     open.retain(|edge| skin.dip(*edge).is_some());
@@ -44,14 +44,14 @@ pub(super) fn filled(
     (skin.triangles, filling)
 }
 
-/// Two triangles (p, q, r) and (q, p, s) with the outside between them.
+/// A dip: two triangles (p, q, r) and (q, p, s) with the outside between them.
 struct Dip {
     nodes: [u32; 4],
     /// Numbers of the triangles.
     triangles: [usize; 2],
 }
 
-/// Triangles with the edges between them.
+/// Triangles with their edges.
 struct TriangulatedSurface<'a> {
     positions: &'a [[f64; 3]],
     triangles: Vec<[u32; 3]>,
@@ -78,7 +78,7 @@ impl<'a> TriangulatedSurface<'a> {
         self.positions[node as usize]
     }
 
-    /// The two triangles at an edge, as (p, q, r) and (q, p, s); none where there are others.
+    /// The two triangles at an edge, as (p, q, r) and (q, p, s); `None` at other edges.
     fn pair(&self, edge: [u32; 2]) -> Option<Dip> {
         let &[one, other] = self.edges.get(&edge)?.as_slice() else {
             return None;
@@ -91,7 +91,7 @@ impl<'a> TriangulatedSurface<'a> {
         })
     }
 
-    /// The dip at an edge; none where there is none.
+    /// The dip at an edge, if any.
     fn dip(&self, edge: [u32; 2]) -> Option<Dip> {
         let pair = self.pair(edge)?;
         let [p, q, r, s] = pair.nodes;
@@ -113,15 +113,15 @@ impl<'a> TriangulatedSurface<'a> {
             .iter()
             .filter_map(|it| self.bend(ascending(*it)))
             .collect();
-        // Each of the four is half of another pair's; sharp edges say nothing of the surface beside them.
+        // Each of these four edges counts half, as it belongs to two pairs; sharp edges give no information on the surface beside them.
         let mean_bend = around.iter().sum::<f64>() / around.len().max(1) as f64;
         let is_convex = self.bend(edge)? + 2.0 * mean_bend > 0.0;
         (is_convex && turned.iter().all(|it| is_round(*it, mean))).then_some(pair)
     }
 
-    /// The length of an edge times the angle between its triangles, positive where the body is convex: a part of the integral of the
-    /// mean curvature (D. Cohen-Steiner and J.-M. Morvan, Restricted Delaunay triangulations and normal cycle, 2003). None at edges
-    /// of the body itself, where the surface is not round.
+    /// Length of an edge times the angle between its triangles, positive where the body is convex: a contribution to the integral of the
+    /// mean curvature (D. Cohen-Steiner and J.-M. Morvan, Restricted Delaunay triangulations and normal cycle, 2003). `None` at edges of the
+    /// body itself, where the surface is not round.
     fn bend(&self, edge: [u32; 2]) -> Option<f64> {
         let [p, q, r, s] = self.pair(edge)?.nodes;
         let [one, other] = [[p, q, r], [q, p, s]].map(|nodes| self.normal(nodes));
@@ -139,7 +139,7 @@ impl<'a> TriangulatedSurface<'a> {
         cross(minus(self.at(b), self.at(a)), minus(self.at(c), self.at(a)))
     }
 
-    /// Puts the other diagonal in the place of the edge of a dip.
+    /// Replaces the edge of a dip by the other diagonal.
     fn turn(&mut self, dip: Dip) {
         let [p, q, r, s] = dip.nodes;
         for number in dip.triangles {
@@ -159,7 +159,7 @@ impl<'a> TriangulatedSurface<'a> {
     }
 }
 
-/// The corners of a triangle from those of an edge on.
+/// Corners of a triangle, beginning with those of an edge.
 fn from_edge(nodes: [u32; 3], edge: [u32; 2]) -> Option<[u32; 3]> {
     let turns = (0..3).map(|k| [nodes[k], nodes[(k + 1) % 3], nodes[(k + 2) % 3]]);
     turns

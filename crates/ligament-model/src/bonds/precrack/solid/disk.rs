@@ -1,4 +1,4 @@
-//! A crack in the form of a disk.
+//! Disk-shaped cracks.
 
 use super::UnfitCrack;
 use crate::bonds::precrack::Crossing;
@@ -9,7 +9,7 @@ use crate::tensor::{cross, dot, minus, norm};
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Disk {
     centre: [f64; 3],
-    /// Unit normal towards its front.
+    /// Unit normal towards the front.
     normal: [f64; 3],
     radius: f64,
 }
@@ -50,7 +50,7 @@ impl Disk {
         if height.abs() <= slack { 0.0 } else { height }
     }
 
-    /// Distance from the axis at which a line meets the plane, m; none where it lies in the plane.
+    /// Distance from the axis at which a line crosses the plane of the disk, m; `None` where it lies in the plane.
     fn distance_of_crossing(&self, [a, b]: [[f64; 3]; 2]) -> Option<f64> {
         let [start, end] = [a, b].map(|point| dot(self.normal, minus(point, self.centre)));
         let place = start / (start - end);
@@ -58,7 +58,7 @@ impl Disk {
         place.is_finite().then(|| norm(cross(self.normal, at)))
     }
 
-    /// Whether the ends of a bond lie on different sides; a point on the plane is in front.
+    /// Whether the ends of a bond lie on different sides of the plane; a point on the plane is in front.
     fn parts(&self, bond: [[f64; 3]; 2], slack: f64) -> bool {
         let [start, end] = bond.map(|point| self.height(point, slack) >= 0.0);
         start != end

@@ -1,4 +1,4 @@
-//! A crack of triangles.
+//! Cracks made of triangles.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,17 +9,17 @@ use crate::predicates::{above, left};
 use crate::shape::crosses_itself;
 use crate::tensor::{cross, dot, minus, norm};
 
-/// Distance of a corner of a polygon from its plane, over the size of the polygon, that counts as none.
+/// Distance of a corner of a polygon from its plane, over the size of the polygon, that counts as zero.
 const FLATNESS: f64 = 1e-6;
 
-/// A surface of triangles, neighbours with their fronts on the same side.
+/// A surface of triangles; neighbours have their fronts on the same side.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Sheet {
     points: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,
-    /// Whether two triangles have an edge of each: from the first corner to the second, and so on.
+    /// Whether each edge of a triangle belongs to two triangles: from the first corner to the second, and so on.
     is_inner_edge: Vec<[bool; 3]>,
-    /// Whether a point is no end of an edge of the rim.
+    /// Whether each point lies on no edge of the rim.
     is_inner_point: Vec<bool>,
 }
 
@@ -62,7 +62,7 @@ impl Sheet {
         })
     }
 
-    /// A plane polygon, cut into triangles ear by ear.
+    /// A plane polygon, divided into triangles by ear clipping.
     pub(super) fn polygon(corners: &[[f64; 3]]) -> Result<Self, UnfitCrack> {
         if corners.len() < 3 {
             let corners = corners.len();
@@ -112,7 +112,7 @@ impl Sheet {
         bounding_box(self.corners(triangle))
     }
 
-    /// Where the line of a bond meets a triangle.
+    /// Contact of the line of a bond with a triangle.
     fn contact(&self, triangle: u32, [a, b]: [[f64; 3]; 2]) -> Contact {
         let [p, q, r] = self.corners(triangle);
         let sides = edges_of([p, q, r]).map(|[from, to]| above(a, b, from, to));
@@ -151,12 +151,12 @@ impl Sheet {
         is_parted && self.contact(triangle, bond) == Contact::Rim
     }
 
-    /// Whether a triangle has a point in common with a bond, or comes no farther away than `slack` (m).
+    /// Whether a triangle has a point in common with a bond, or comes within `slack` (m) of it.
     pub(super) fn meets(&self, triangle: u32, bond: [[f64; 3]; 2], slack: f64) -> bool {
         let [p, q, r] = self.corners(triangle);
         let [start, end] = bond.map(|point| above(p, q, r, point));
         let is_parted = (start >= 0.0) != (end >= 0.0);
-        // Apart from each other, the nearest points are an end of the bond or on an edge of the triangle.
+        // Where they are disjoint, the nearest points are an end of the bond or on an edge of the triangle.
         (is_parted && self.contact(triangle, bond) != Contact::None)
             || edges_of([p, q, r])
                 .into_iter()
@@ -186,18 +186,17 @@ impl Sheet {
     }
 }
 
-/// What the line of a bond has in common with a triangle.
+/// Contact of the line of a bond with a triangle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Contact {
     None,
     /// A point of the rim of the surface.
     Rim,
-    /// A point inside of the surface.
+    /// A point of the interior of the surface.
     Inside,
 }
 
-/// The triangles, turned so that neighbours go along their common edge in opposite directions, from the first of those that hang
-/// together on.
+/// Triangles oriented so that neighbours run along their common edge in opposite directions, beginning with the first of each connected set.
 fn turned_alike(mut triangles: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
     let mut at_edge: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
     for (number, nodes) in triangles.iter().enumerate() {
@@ -226,7 +225,7 @@ fn turned_alike(mut triangles: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// The triangles of a polygon that does not cross itself, counter-clockwise or clockwise as it is.
+/// Triangles of a polygon that does not cross itself, with its orientation.
 fn ears(corners: &[[f64; 2]]) -> Vec<[u32; 3]> {
     let n = corners.len();
     let doubled: f64 = (1..n - 1)
@@ -244,14 +243,15 @@ fn ears(corners: &[[f64; 2]]) -> Vec<[u32; 3]> {
                 left[place],
                 left[(place + 1) % m],
             ];
-            // Nothing may lie in the ear, nor next to nowhere off the side that it leaves.
+            // No corner may lie in the ear, or within rounding of the side that it leaves.
             let is_free = |&k: &usize| {
                 let beyond = turn(c, a, k) < -FLATNESS * doubled.abs();
                 [a, b, c].contains(&k) || beyond || turn(a, b, k) < 0.0 || turn(b, c, k) < 0.0
             };
             turn(a, b, c) > 0.0 && left.iter().all(is_free)
         };
-        // A corner on a straight side is no ear, but goes with one of its neighbours; were there none, rounding would have bent a side.
+        // A corner on a straight side is no ear, but is removed with one of its neighbours; without any ear, rounding would have bent a
+        // side.
         let place = (0..m).find(|place| is_ear(*place)).unwrap_or_default();
         let [a, b, c] = [
             left[(place + m - 1) % m],
@@ -271,7 +271,7 @@ fn gap([a, b]: [[f64; 3]; 2], [p, q]: [[f64; 3]; 2]) -> f64 {
     let across = cross(u, v);
     let size = dot(across, across);
     let between = |place: f64| (0.0..=1.0).contains(&place);
-    // The common perpendicular, where it stands on both.
+    // Feet of the common perpendicular, where it meets both segments.
     let places = [
         -dot(cross(w, v), across) / size,
         -dot(cross(w, u), across) / size,
@@ -288,7 +288,7 @@ fn gap([a, b]: [[f64; 3]; 2], [p, q]: [[f64; 3]; 2]) -> f64 {
     ends.into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// Height of a point over or under a triangle, m; infinite where it stands over or under none of its points.
+/// Height of a point over or under a triangle, m; infinite where its projection lies outside the triangle.
 fn height_over([p, q, r]: [[f64; 3]; 3], point: [f64; 3]) -> f64 {
     let normal = cross(minus(q, p), minus(r, p));
     let is_over = edges_of([p, q, r])

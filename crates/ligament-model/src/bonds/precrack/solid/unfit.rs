@@ -1,8 +1,8 @@
-//! Why a surface is no pre-crack.
+//! Reasons why a surface is not a pre-crack.
 
 use std::fmt;
 
-/// Why a surface is no pre-crack.
+/// Reasons why a surface is not a pre-crack.
 #[derive(Debug, Clone, PartialEq)]
 pub enum UnfitCrack {
     /// A disk whose normal has no direction.
@@ -19,10 +19,10 @@ pub enum UnfitCrack {
     },
     /// A polygon or a triangle whose corners lie on a line.
     NoArea {
-        /// Number of the triangle from 0; none of a polygon.
+        /// Number of the triangle from 0; `None` for a polygon.
         triangle: Option<usize>,
     },
-    /// A corner of a polygon out of the plane of the others.
+    /// A corner of a polygon off the plane of the others.
     NotPlane {
         /// Number of the corner, from 0.
         corner: usize,
@@ -31,11 +31,11 @@ pub enum UnfitCrack {
     },
     /// A polygon that crosses itself.
     CrossesItself,
-    /// A triangle that names a point that there is not.
+    /// A triangle that refers to a point that does not exist.
     NoSuchPoint {
         /// Number of the triangle, from 0.
         triangle: usize,
-        /// The number that it names.
+        /// Number of the point.
         point: u32,
     },
 }
