@@ -125,7 +125,7 @@ pub(crate) const ARROWS: [(&str, &[&str]); 16] = [
 ];
 
 /// Packages that few crates may use, in their tests too: texts of cases and records, the command line, errors for people.
-const RESERVED: [(&str, &[&str]); 14] = [
+const RESERVED: [(&str, &[&str]); 17] = [
     ("clap", &["ligament-cli", "ligament-verify"]),
     ("clap_complete", &["ligament-cli"]),
     ("indicatif", &["ligament-run", "ligament-study"]),
@@ -162,8 +162,11 @@ const RESERVED: [(&str, &[&str]); 14] = [
     ("serde_path_to_error", &["ligament-case"]),
     ("toml", &["ligament-case", "ligament-cli", "ligament-plot"]),
     ("toml_edit", &["ligament-case", "ligament-study"]),
-    ("resvg", &["ligament-cli", "ligament-plot"]),
-    ("plotters", &["ligament-plot"]),
+    ("roxmltree", &["ligament-cli", "ligament-output"]),
+    ("csv", &["ligament-output"]),
+    ("rustix", &["ligament-run"]),
+    ("skrifa", &["ligament-plot"]),
+    ("tiny-skia", &["ligament-plot"]),
 ];
 
 /// Crates that touch files.
@@ -188,7 +191,7 @@ const CALLS_C: &str = "ligament-petsc";
 const PARTS: usize = 4;
 
 /// What lies at the top of the repository, hidden files and results aside.
-const TOP: [&str; 13] = [
+const TOP: [&str; 14] = [
     "ARCHITECTURE.md",
     "CHANGELOG.md",
     "CONTRIBUTING.md",
@@ -199,6 +202,7 @@ const TOP: [&str; 13] = [
     "README.md",
     "cases",
     "crates",
+    "deny.toml",
     "docs",
     "meshes",
     "tests",

@@ -1,7 +1,6 @@
-//! The repository itself: how crates and modules are arranged, words, packages and their licences.
+//! The repository itself: how crates and modules are arranged, and words.
 
 mod architecture;
-mod dependencies;
 mod existence;
 mod metadata;
 mod structure;

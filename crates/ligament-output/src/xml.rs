@@ -1,5 +1,21 @@
 //! Common parts of the XML formats.
 
+<<<<<<< libraries
+/// The text as the value of an XML attribute in double quotes.
+pub(crate) fn escape_attribute(text: &str) -> String {
+    // The ampersand goes first: it stands in what the others become.
+    [
+        ("&", "&amp;"),
+        ("<", "&lt;"),
+        (">", "&gt;"),
+        ("\"", "&quot;"),
+        ("'", "&apos;"),
+    ]
+    .into_iter()
+    .fold(text.to_owned(), |text, (plain, escaped)| {
+        text.replace(plain, escaped)
+    })
+=======
 /// Characters and their escapes. The ampersand is escaped first and restored last, because all other escapes contain it.
 const ESCAPED: [(&str, &str); 5] = [
     ("&", "&amp;"),
@@ -53,4 +69,5 @@ mod tests {
             prop_assert_eq!(attribute(&tag, "Nam"), None);
         }
     }
+>>>>>>> summary
 }

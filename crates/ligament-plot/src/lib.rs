@@ -1,15 +1,17 @@
-//! Pictures of stored results and plots of numbers, as SVG and PNG. It changes when something is to look otherwise.
+//! Pictures of stored results and plots of numbers, as SVG, PNG, PDF and GIF. It changes when something is to look otherwise.
 //!
 //! | module | draws |
 //! |---|---|
 //! | [`picture`] | fields, cracks, modes and histories from folders of results |
 //! | [`plots`] | curves, polar diagrams and scatter, of numbers given in memory |
+//! | [`drawing`] | paths and text, of which all pictures and plots consist, as files of each kind |
 //! | [`stored_loading`] | nothing: what the loading of a stored run was like |
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
 )]
 
+pub mod drawing;
 pub mod picture;
 pub mod plots;
 pub mod stored_loading;

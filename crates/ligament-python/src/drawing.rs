@@ -1,4 +1,4 @@
-//! Pictures of results in memory, as SVG.
+//! Pictures of results in memory.
 
 use std::borrow::Cow;
 
@@ -6,11 +6,10 @@ use ligament_mesh::Cell;
 use ligament_model::{BodyGrid, Canvas};
 use ligament_output::results::fields::unit_of;
 use ligament_output::vtu;
+use ligament_plot::drawing::Drawing;
 use ligament_plot::picture::PictureError;
 use ligament_plot::picture::maps::{MappedBody, Maps};
 use ligament_plot::picture::units::Shown;
-use ligament_plot::plots::pdf::to_pdf;
-use ligament_plot::plots::png::to_png;
 use ligament_plot::plots::{Colour, Plot, Series};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
@@ -31,8 +30,13 @@ pub(crate) struct Picture<'a> {
     pub(crate) title: String,
 }
 
+<<<<<<< libraries
+/// The picture with a width, mm.
+pub(crate) fn drawn(picture: Picture<'_>, width: f64) -> Result<Drawn, PictureError> {
+=======
 /// The picture as SVG with a width, mm.
 pub(crate) fn svg(picture: Picture<'_>, width: f64) -> Result<String, PictureError> {
+>>>>>>> summary
     let Picture {
         grid,
         values,
@@ -62,9 +66,32 @@ pub(crate) fn svg(picture: Picture<'_>, width: f64) -> Result<String, PictureErr
         columns: 1,
         are_modes: false,
     };
-    maps.to_svg(width)
+    maps.draw(width).map(Drawn)
 }
 
+<<<<<<< libraries
+/// A picture in memory, which becomes a file of any kind.
+#[pyclass(frozen, name = "Drawing")]
+pub(crate) struct Drawn(Drawing);
+
+#[pymethods]
+impl Drawn {
+    /// The text of the picture as SVG with a title.
+    fn svg(&self, title: &str) -> String {
+        self.0.to_svg(title)
+    }
+
+    /// The bytes of the picture as PNG with so many dots per inch.
+    fn png(&self, py: Python<'_>, dpi: f64) -> PyResult<Cow<'static, [u8]>> {
+        let bytes = self.0.to_png(dpi).map(Cow::Owned);
+        bytes.map_err(|error| errors::of_request(py, &error.to_string()))
+    }
+
+    /// The bytes of the picture as PDF with a title.
+    fn pdf(&self, title: &str) -> Cow<'static, [u8]> {
+        Cow::Owned(self.0.to_pdf(title))
+    }
+=======
 /// Contents of a file for a picture (SVG) with a title, in the format `kind`: svg, png or pdf.
 #[pyfunction]
 pub(crate) fn picture_file(
@@ -81,6 +108,7 @@ pub(crate) fn picture_file(
     };
     let bytes = bytes.map_err(|fault| errors::of_request(py, &fault))?;
     Ok(Cow::Owned(bytes))
+>>>>>>> summary
 }
 
 /// A curve: its label, and its values along x and y.
@@ -90,7 +118,11 @@ type Curve<'py> = (
     PyReadonlyArray1<'py, f64>,
 );
 
+<<<<<<< libraries
+/// Curves of one quantity over another in a picture of a width (mm), each axis by its words and its SI unit.
+=======
 /// Curves of one quantity over another as SVG with a width (mm); each axis has a label and an SI unit.
+>>>>>>> summary
 #[pyfunction]
 pub(crate) fn draw_curves(
     py: Python<'_>,
@@ -99,7 +131,7 @@ pub(crate) fn draw_curves(
     y: (String, String),
     title: String,
     width: f64,
-) -> PyResult<String> {
+) -> PyResult<Drawn> {
     let values = |axis: usize| {
         let of = curves
             .iter()
@@ -120,6 +152,6 @@ pub(crate) fn draw_curves(
     });
     let labels = [shown[0].label(&x.0), shown[1].label(&y.0)];
     let plot = Plot::new("curves", title, [&labels[0], &labels[1]], series.collect());
-    let svg = plot.for_paper(width);
-    svg.map_err(|error| errors::of_request(py, &error.to_string()))
+    let drawing = plot.for_paper(width).map(Drawn);
+    drawing.map_err(|error| errors::of_request(py, &error.to_string()))
 }

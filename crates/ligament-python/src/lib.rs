@@ -43,7 +43,7 @@ mod native {
     #[pymodule_export]
     use crate::case::Case;
     #[pymodule_export]
-    use crate::drawing::{draw_curves, picture_file};
+    use crate::drawing::{Drawn, draw_curves};
     #[pymodule_export]
     use crate::modes::modes;
     #[pymodule_export]

@@ -16,7 +16,7 @@ use pyo3::types::PyDict;
 use crate::arrays::{array, rows};
 use crate::case::Case;
 use crate::collector::Kept;
-use crate::drawing::{self, Picture};
+use crate::drawing::{self, Drawn, Picture};
 use crate::errors;
 use crate::in_file::in_order_of_file;
 use crate::solution::{Solved, solve, watched};
@@ -84,8 +84,12 @@ impl Run {
             .collect()
     }
 
+<<<<<<< libraries
+    /// A picture of a field (n_points), by the words for its quantity, its name and a title, on the body moved by a displacement (n_points, 3).
+=======
     /// A picture (SVG) of a field (n_points), given by a description of its quantity, its name and a title, on the body moved by a
     /// displacement (n_points, 3).
+>>>>>>> summary
     fn draw(
         &self,
         py: Python<'_>,
@@ -93,7 +97,7 @@ impl Run {
         values: PyReadonlyArray1<'_, f64>,
         displacement: PyReadonlyArray2<'_, f64>,
         width: f64,
-    ) -> PyResult<String> {
+    ) -> PyResult<Drawn> {
         self.require_plane(py, "pictures in memory are")?;
         let moved = displacement.as_array();
         let (quantity, field, title) = named;
@@ -105,8 +109,8 @@ impl Run {
             displacements: moved.rows().into_iter().map(|it| [it[0], it[1]]).collect(),
             title,
         };
-        let svg = drawing::svg(picture, width);
-        svg.map_err(|error| errors::of_request(py, &error.to_string()))
+        let drawn = drawing::drawn(picture, width);
+        drawn.map_err(|error| errors::of_request(py, &error.to_string()))
     }
 }
 

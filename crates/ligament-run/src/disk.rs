@@ -1,7 +1,6 @@
 //! Room that the results of a case take on a disk, foreseen, and what there is.
 
 use std::path::Path;
-use std::process::{Command, Stdio};
 
 use ligament::Model;
 use ligament::setup::Analysis;
@@ -60,18 +59,27 @@ impl FieldsOnDisk {
     }
 }
 
-/// Free bytes of the file system of a folder, as the program `df` of POSIX tells; None where there is none.
+/// Free bytes of the file system of a folder that a program without privileges may fill; None where the system does not say.
+#[cfg(unix)]
 pub fn free(folder: &Path) -> Option<f64> {
-    let mut command = Command::new("df");
-    command.arg("-Pk").arg(folder).stdin(Stdio::null());
-    let output = command.output().ok()?;
-    let text = String::from_utf8_lossy(&output.stdout);
-    let kibibytes: f64 = text
-        .lines()
-        .nth(1)?
-        .split_whitespace()
-        .nth(3)?
-        .parse()
-        .ok()?;
-    Some(1024.0 * kibibytes)
+    let system = rustix::fs::statvfs(folder).ok()?;
+    Some(system.f_bavail as f64 * system.f_frsize as f64)
+}
+
+/// Free bytes of the file system of a folder; unknown on this system.
+#[cfg(not(unix))]
+pub fn free(_: &Path) -> Option<f64> {
+    None
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_has_free_bytes_and_a_missing_one_has_none() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(free(folder.path()).is_some_and(|bytes| bytes >= 0.0));
+        assert_eq!(free(&folder.path().join("missing")), None);
+    }
 }

@@ -93,7 +93,10 @@ pub fn bond_stiffness(request: &Request, screen: &mut dyn Write) -> anyhow::Resu
         tell(screen, name, curves)?;
         append(&mut table, name, curves)?;
         for plot in plots(name, &file_stem(name, index), curves) {
-            folder.write_text(&format!("{}.svg", plot.name), &plot.to_svg()?)?;
+            folder.write_text(
+                &format!("{}.svg", plot.name),
+                &plot.for_screen()?.to_svg(&plot.title),
+            )?;
         }
     }
     folder.finish()?;

@@ -85,19 +85,23 @@ pub(super) fn items() -> Result<Vec<Item>, TableError> {
         fault: fault.to_owned(),
     };
     let mut rows = records(TEXT).into_iter().enumerate();
-    if rows.next().is_none_or(|(_, columns)| columns != COLUMNS) {
+    if rows
+        .next()
+        .is_none_or(|(_, columns)| columns != COLUMNS[..])
+    {
         return Err(at(
             0,
             &format!("the columns should be {}", COLUMNS.join(",")),
         ));
     }
     rows.map(|(line, cells)| {
-        let [paper, place, content, tables, remark] = <[String; 5]>::try_from(cells)
-            .map_err(|_| at(line, "a row has a cell for each column"))?;
+        let [paper, place, content, tables, remark] = cells.iter().collect::<Vec<_>>()[..] else {
+            return Err(at(line, "a row has a cell for each column"));
+        };
         if PAPERS.iter().all(|(name, _)| *name != paper) {
             return Err(at(line, "there is no such paper"));
         }
-        let comparison = match tables.as_str() {
+        let comparison = match tables {
             "-" => Comparison::NoResult,
             "drawn" => Comparison::Drawn,
             "" if remark.is_empty() => {
@@ -107,11 +111,11 @@ pub(super) fn items() -> Result<Vec<Item>, TableError> {
             tables => Comparison::Rows(tables.split(';').map(Selection::parse).collect()),
         };
         Ok(Item {
-            paper,
-            place,
-            content,
+            paper: paper.to_owned(),
+            place: place.to_owned(),
+            content: content.to_owned(),
             comparison,
-            remark,
+            remark: remark.to_owned(),
         })
     })
     .collect()

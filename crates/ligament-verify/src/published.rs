@@ -14,7 +14,7 @@
 //! The columns before `known` are the labels of an entry. `allowed` is `digits`, a share such as `3 %`, an amount in the unit of the table,
 //! or `any`; `subset` is `fast` or `full`; `standing` is empty, `truncated`, `misprint`, `open` or `missed`.
 
-use ligament_output::csv::read::records;
+use ligament_output::csv::read::{StringRecord, records};
 
 use super::entry::{Entry, Reliability};
 use super::printed::{Allowed, Printed};
@@ -93,7 +93,8 @@ pub(super) fn known_values(name: &str, text: &str) -> Result<Known, TableError> 
         .count();
     let below = text.splitn(n_notes + 1, '\n').last().unwrap_or_default();
     let mut rows = (n_notes..).zip(records(below));
-    let (line, columns) = rows.next().ok_or_else(|| at(0)(unknown_columns()))?;
+    let (line, header) = rows.next().ok_or_else(|| at(0)(unknown_columns()))?;
+    let columns: Vec<&str> = header.iter().collect();
     let n_keys = columns.len().saturating_sub(COLUMNS.len());
     if columns[n_keys..] != COLUMNS || n_keys == 0 {
         return Err(at(line)(unknown_columns()));
@@ -108,7 +109,7 @@ pub(super) fn known_values(name: &str, text: &str) -> Result<Known, TableError> 
     Ok(Known { heading, entries })
 }
 
-fn heading(name: &str, text: &str, keys: &[String]) -> Result<Heading, String> {
+fn heading(name: &str, text: &str, keys: &[&str]) -> Result<Heading, String> {
     let notes = || text.lines().map_while(|line| line.strip_prefix('#'));
     let told = |key: &str| {
         notes()
@@ -124,21 +125,22 @@ fn heading(name: &str, text: &str, keys: &[String]) -> Result<Heading, String> {
         quantity: told("quantity")?,
         known: told("known")?,
         tolerance: told("tolerance")?,
-        keys: keys.to_vec(),
+        keys: keys.iter().copied().map(str::to_owned).collect(),
     })
 }
 
-fn entry(cells: &[String], n_keys: usize) -> Result<Entry, String> {
+fn entry(cells: &StringRecord, n_keys: usize) -> Result<Entry, String> {
     let expected = n_keys + COLUMNS.len();
-    let (labels, rest) = cells.split_at_checked(n_keys).unwrap_or((cells, &[]));
-    let [known, allowed, subset, standing, instead, reason] = rest else {
+    let labels = cells.iter().take(n_keys).map(str::to_owned);
+    let rest: Vec<&str> = cells.iter().skip(n_keys).collect();
+    let [known, allowed, subset, standing, instead, reason] = rest[..] else {
         return Err(format!("{} cells, expected {expected}", cells.len()));
     };
     Ok(Entry {
-        labels: labels.to_vec(),
+        labels: labels.collect(),
         known: number("known", known)?,
         allowed: read_allowed(allowed)?,
-        is_fast: match subset.as_str() {
+        is_fast: match subset {
             "fast" => true,
             "full" => false,
             _ => return Err(fault("subset", subset, "fast or full")),

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use resvg::usvg::roxmltree::Document;
+use roxmltree::Document;
 
 use super::{LATTICE, call, pixels, plot, refusal, run, steps, text, texts};
 
@@ -116,7 +116,9 @@ fn the_crack_is_made_of_the_broken_bonds_and_the_precrack() {
         let document = Document::parse(svg).unwrap();
         let paths = document
             .descendants()
-            .filter(|it| it.attribute("stroke") == Some(colour));
+            .filter(|it| it.attribute("stroke") == Some(colour))
+            // Samples of the legend are wider than bonds.
+            .filter(|it| it.attribute("stroke-width") == Some("40"));
         paths
             .filter_map(|it| it.attribute("d"))
             .map(|it| it.matches('m').count())

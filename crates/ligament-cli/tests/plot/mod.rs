@@ -11,7 +11,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
-use resvg::usvg::roxmltree::Document;
+use roxmltree::Document;
 
 use crate::support::{ligament, text};
 

@@ -3,6 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use ::csv::ReaderBuilder;
+pub use ::csv::StringRecord;
+
 use crate::{Error, read_text};
 
 /// A table in memory, all values as texts.
@@ -10,7 +13,7 @@ use crate::{Error, read_text};
 pub struct Sheet {
     path: PathBuf,
     columns: Vec<String>,
-    rows: Vec<Vec<String>>,
+    rows: Vec<StringRecord>,
 }
 
 impl Sheet {
@@ -32,8 +35,9 @@ impl Sheet {
     pub fn parse(path: impl Into<PathBuf>, text: &str) -> Result<Self, Error> {
         let path = path.into();
         let mut records = records(text).into_iter();
-        let columns = records.next().unwrap_or_default();
-        let rows: Vec<Vec<String>> = records.collect();
+        let header = records.next().unwrap_or_default();
+        let columns: Vec<String> = header.iter().map(str::to_owned).collect();
+        let rows: Vec<StringRecord> = records.collect();
         if let Some(place) = rows.iter().position(|row| row.len() != columns.len()) {
             return Err(Error::Unreadable {
                 reason: format!(
@@ -65,7 +69,7 @@ impl Sheet {
     /// The texts of a column; None where there is no such column.
     pub fn texts(&self, column: &str) -> Option<impl Iterator<Item = &str>> {
         let place = self.columns.iter().position(|name| name == column)?;
-        Some(self.rows.iter().map(move |row| row[place].as_str()))
+        Some(self.rows.iter().map(move |row| &row[place]))
     }
 
     /// What a function makes of each row.
@@ -158,25 +162,17 @@ impl Row<'_> {
     }
 }
 
-/// The records of a text that end in a line feed; what is quoted may hold commas, quotes (doubled) and line feeds.
-pub fn records(text: &str) -> Vec<Vec<String>> {
-    let (mut records, mut record, mut value) = (Vec::new(), Vec::new(), String::new());
-    let mut is_quoted = false;
-    let mut letters = text.chars().peekable();
-    while let Some(letter) = letters.next() {
-        match letter {
-            '"' if is_quoted && letters.peek() == Some(&'"') => {
-                letters.next();
-                value.push('"');
-            }
-            '"' => is_quoted = !is_quoted,
-            ',' if !is_quoted => record.push(std::mem::take(&mut value)),
-            '\n' if !is_quoted => {
-                record.push(std::mem::take(&mut value));
-                records.push(std::mem::take(&mut record));
-            }
-            other => value.push(other),
-        }
+/// The records of a text that end in a line feed; values in quotes may hold commas, quotes (doubled) and line feeds.
+pub fn records(text: &str) -> Vec<StringRecord> {
+    let finished = text.rfind('\n').map_or("", |end| &text[..=end]);
+    let mut format = ReaderBuilder::new();
+    let format = format.has_headers(false).flexible(true);
+    let reader = format.from_reader(finished.as_bytes());
+    // Bytes in memory that are text, in records of any length, have nothing that could fail.
+    let mut records: Vec<StringRecord> = reader.into_records().map_while(Result::ok).collect();
+    let is_cut_in_quotes = finished.matches('"').count() % 2 == 1;
+    if is_cut_in_quotes {
+        records.pop();
     }
     records
 }
@@ -220,8 +216,10 @@ mod tests {
 
     #[test]
     fn a_row_that_is_not_finished_is_left_out() {
-        let sheet = read("step,load\n1,0.5\n2,0.").unwrap();
-        assert_eq!(sheet.values::<f64>("load").unwrap(), [0.5]);
+        for rest in ["2,0.", "2,\"0.\n", "2,\"0.\n1"] {
+            let sheet = read(&format!("step,load\n1,0.5\n{rest}")).unwrap();
+            assert_eq!(sheet.values::<f64>("load").unwrap(), [0.5], "{rest}");
+        }
     }
 
     #[test]

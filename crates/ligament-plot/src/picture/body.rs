@@ -7,6 +7,8 @@ use ligament_output::vtu::Cell;
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::{Error, FieldLocation};
 
+use crate::drawing::frame::bounds;
+
 /// Share of the body's size that the largest displacement has where the scale is chosen by the program.
 const DRAWN_SHARE: f64 = 0.05;
 
@@ -134,20 +136,6 @@ fn rounded_down(scale: f64) -> f64 {
     let steps = [5.0, 2.0, 1.0].map(|it| it * power);
     let fits = |it: &f64| *it <= scale * (1.0 + 1e-9);
     steps.into_iter().find(fits).unwrap_or(power)
-}
-
-/// Lower left and upper right corner of a box around finite positions; None without any.
-pub(super) fn bounds(positions: &[[f64; 2]]) -> Option<[[f64; 2]; 2]> {
-    let finite = positions
-        .iter()
-        .filter(|p| p.iter().all(|it| it.is_finite()));
-    finite.fold(None, |found: Option<[[f64; 2]; 2]>, &p| {
-        let [low, high] = found.unwrap_or([p, p]);
-        Some([
-            [low[0].min(p[0]), low[1].min(p[1])],
-            [high[0].max(p[0]), high[1].max(p[1])],
-        ])
-    })
 }
 
 #[cfg(test)]

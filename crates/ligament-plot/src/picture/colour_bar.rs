@@ -1,8 +1,8 @@
 //! The colour bar beside the bodies.
 
 use super::panel::Scale;
-use super::svg::{Anchor, Document, text_width};
 use super::units::{Shown, with_decimals_of};
+use crate::drawing::{Anchor, Drawing, OUTLINE, Paint, text_width};
 
 /// Width of the bar, pixels.
 const WIDTH: f64 = 11.0;
@@ -68,22 +68,23 @@ impl<'a> ColourBar<'a> {
     }
 
     /// Draws it with its upper left corner at a place, pixels.
-    pub(super) fn draw(&self, document: &mut Document, [x, y]: [f64; 2], height: f64) {
+    pub(super) fn draw(&self, drawing: &mut Drawing, [x, y]: [f64; 2], height: f64) {
         let colours = &self.scale.colours;
         let n_bands = colours.len() as f64;
         let up = |level: f64| y + height * (1.0 - level / n_bands);
-        for (band, colour) in colours.iter().enumerate() {
+        for (band, &colour) in colours.iter().enumerate() {
             // Up to the top, under the bands that follow: no seam is left between two.
-            document.rectangle([x, y], [WIDTH, up(band as f64) - y], colour);
+            let size = [WIDTH, up(band as f64) - y];
+            drawing.rectangle([x, y], size, Paint::fill(colour));
         }
-        document.frame([x, y], [WIDTH, height]);
+        drawing.rectangle([x, y], [WIDTH, height], Paint::stroke(OUTLINE, 0.6));
         for (level, text) in &self.labels {
             let at = up(*level as f64);
-            document.line([x + WIDTH, at], [x + WIDTH + TICK, at], "#404040", 0.6);
+            drawing.line([[x + WIDTH, at], [x + WIDTH + TICK, at]], OUTLINE, 0.6);
             let start = x + WIDTH + 2.0 * TICK;
-            document.text([start, at + 0.36 * SIZE], Anchor::Start, SIZE, text);
+            drawing.text([start, at + 0.36 * SIZE], Anchor::Start, SIZE, text);
         }
         let end = x + self.width() - 0.2 * SIZE;
-        document.upright_text([end, y + 0.5 * height], SIZE, &self.title);
+        drawing.upright_text([end, y + 0.5 * height], SIZE, &self.title);
     }
 }

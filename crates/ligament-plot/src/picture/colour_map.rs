@@ -2,6 +2,8 @@
 
 use colorous::{CIVIDIS, Color, GREYS, RED_BLUE, VIRIDIS};
 
+use crate::drawing::Rgb;
+
 /// A map from the shares of a scale to colours that any colour vision can distinguish.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ColourMap {
@@ -29,8 +31,8 @@ impl ColourMap {
         }
     }
 
-    /// The colour of a share from 0 to 1, as `#rrggbb`.
-    pub(super) fn colour(self, share: f64) -> String {
+    /// The colour of a share from 0 to 1.
+    pub(super) fn colour(self, share: f64) -> Rgb {
         let Color { r, g, b } = match self {
             Self::Viridis => VIRIDIS.eval_continuous(share),
             Self::Cividis => CIVIDIS.eval_continuous(share),
@@ -38,11 +40,11 @@ impl ColourMap {
             Self::Grey => GREYS.eval_continuous(0.1 + 0.9 * share),
             Self::Diverging => RED_BLUE.eval_continuous(1.0 - share),
         };
-        format!("#{r:02x}{g:02x}{b:02x}")
+        [r, g, b]
     }
 
     /// Colours of so many bands, from one end of the map to the other.
-    pub(super) fn bands(self, count: usize) -> Vec<String> {
+    pub(super) fn bands(self, count: usize) -> Vec<Rgb> {
         let share = |band: usize| match count {
             1 => 0.5,
             _ => band as f64 / (count - 1) as f64,
@@ -55,29 +57,28 @@ impl ColourMap {
 mod tests {
     use super::*;
 
-    fn channels(colour: &str) -> [i32; 3] {
-        [1, 3, 5].map(|at| i32::from_str_radix(&colour[at..at + 2], 16).unwrap())
-    }
-
     /// The published ends of viridis, and of ColorBrewer's RdBu, which splines through its colours meet to one in 255.
     #[test]
     fn the_ends_of_a_scale_have_the_colours_of_the_map() {
         let bands = ColourMap::Viridis.bands(9);
         assert_eq!(
-            (bands[0].as_str(), bands[8].as_str()),
-            ("#440154", "#fde725")
+            [bands[0], bands[8]],
+            [[0x44, 0x01, 0x54], [0xfd, 0xe7, 0x25]]
         );
         let bands = ColourMap::Diverging.bands(4);
-        for (found, published) in [(&bands[0], "#053061"), (&bands[3], "#67001f")] {
-            let away = channels(found).into_iter().zip(channels(published));
-            assert!(away.into_iter().all(|(a, b)| (a - b).abs() <= 1), "{found}");
+        for (found, published) in [
+            (bands[0], [0x05, 0x30, 0x61]),
+            (bands[3], [0x67, 0x00, 0x1f]),
+        ] {
+            let mut away = found.into_iter().zip::<Rgb>(published);
+            assert!(away.all(|(a, b)| a.abs_diff(b) <= 1), "{found:?}");
         }
         assert_eq!(ColourMap::Cividis.bands(1).len(), 1);
     }
 
     #[test]
     fn the_middle_of_the_diverging_map_is_nearly_white() {
-        let [r, g, b] = channels(&ColourMap::Diverging.colour(0.5));
-        assert!(r.min(g).min(b) > 230 && (r - b).abs() < 8);
+        let [r, g, b] = ColourMap::Diverging.colour(0.5);
+        assert!(r.min(g).min(b) > 230 && r.abs_diff(b) < 8);
     }
 }

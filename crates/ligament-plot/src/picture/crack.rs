@@ -7,13 +7,14 @@ use ligament_output::csv::read::Sheet;
 use ligament_output::results::outputs::cut_pairs;
 
 use super::PictureError;
+use crate::drawing::Rgb;
 use crate::plots::Colour;
 
 /// Colour of what a pre-crack cut.
-const CUT: &str = "#8c8c8c";
+const CUT: Rgb = [0x8c; 3];
 
 /// Colour of bonds broken by the one criterion there is, over a field.
-const OVER_FIELD: &str = "#000000";
+const OVER_FIELD: Rgb = [0; 3];
 
 /// Bonds that broke by one criterion, or that a pre-crack cut.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,7 +22,7 @@ pub(super) struct Broken {
     /// The criterion.
     pub(super) name: String,
     /// Colour of the criterion.
-    pub(super) colour: String,
+    pub(super) colour: Rgb,
     /// Tags of the ends with the step in which they broke.
     bonds: Vec<([i64; 2], usize)>,
 }
@@ -45,7 +46,7 @@ impl Crack {
         let cut = cut_pairs(folder)?.unwrap_or_default();
         let cut = (!cut.is_empty()).then(|| Broken {
             name: "pre-crack".to_owned(),
-            colour: CUT.to_owned(),
+            colour: CUT,
             bonds: cut.into_iter().map(|ends| (ends, 0)).collect(),
         });
         let broken = if with_broken {
@@ -90,7 +91,7 @@ fn broken(sheet: &Sheet) -> Result<Vec<Broken>, PictureError> {
     }
     let of_name = |(name, bonds)| Broken {
         name,
-        colour: OVER_FIELD.to_owned(),
+        colour: OVER_FIELD,
         bonds,
     };
     Ok(by_name.into_iter().map(of_name).collect())
@@ -107,7 +108,7 @@ pub(super) fn paint(mut cracks: Vec<&mut Crack>, over_field: bool) {
     let kinds = cracks.iter_mut().flat_map(|crack| &mut crack.kinds);
     for kind in kinds.filter(|kind| !kind.is_cut()) {
         let place = names.iter().position(|it| *it == kind.name).unwrap_or(0);
-        kind.colour = Colour::CYCLE[place % Colour::CYCLE.len()].hex();
+        kind.colour = Colour::CYCLE[place % Colour::CYCLE.len()].rgb();
     }
 }
 

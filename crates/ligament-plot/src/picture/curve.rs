@@ -99,14 +99,14 @@ pub fn draw_curves(request: &CurveRequest) -> Result<PathBuf, PictureError> {
         .target
         .width
         .unwrap_or(WIDTHS[usize::from(!is_single)]);
-    let svg = plot.for_paper(width)?;
+    let drawing = plot.for_paper(width)?;
     let title = format!(
         "{} over {} of {}",
         words(&request.columns[1]),
         words(&request.columns[0]),
         labels.join(", ")
     );
-    target.write(file, &svg, &title)
+    target.write(file, &drawing, &title)
 }
 
 /// Curves up to which each has a colour of its own.

@@ -42,6 +42,6 @@ pub fn draw_fields(request: &FieldRequest) -> Result<PathBuf, PictureError> {
     let mut legend = crack_legend(&subject.sources, &panels, panels.len() == 1);
     legend.extend(Output::warning(&outputs));
     let width = WIDTHS[usize::from(panels.len() > 1)];
-    let svg = style.svg(&panels, legend, None, width);
-    request.target.write(file, &svg, &style.title)
+    let drawing = style.drawing(&panels, legend, None, width);
+    request.target.write(file, &drawing, &style.title)
 }

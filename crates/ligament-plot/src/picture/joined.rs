@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use ligament_output::vtu::Cell;
 
-use super::body::bounds;
+use crate::drawing::frame::bounds;
 
 /// Share of the shorter side of a cell beyond which corners are apart.
 const NEAR: f64 = 0.25;

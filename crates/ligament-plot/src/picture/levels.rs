@@ -1,6 +1,6 @@
 //! The levels between the bands of a contour plot, and which of them are labelled.
 
-use crate::plots::rounded_up;
+use crate::drawing::ticks::rounded_up;
 
 /// Bands that a scale of its own has at most, ...
 const MOST_BANDS: f64 = 20.0;

@@ -6,12 +6,12 @@ use ligament_output::results::cracks::StoredCracks;
 use ligament_output::{Error, read_text};
 
 use super::PictureError;
-use super::svg::{Document, Paint, PathData};
+use crate::drawing::{Drawing, Paint, PathData, Rgb};
 use crate::plots::Colour;
 use crate::stored_loading::resolved_case;
 
 /// Colour of pre-cracks.
-const CUT: &str = "#8c8c8c";
+const CUT: Rgb = [0x8c; 3];
 
 /// Widths of lines, pixels: of the cracks and of all others.
 const CRACK_WIDTH: f64 = 1.4;
@@ -27,8 +27,8 @@ pub(super) struct Lines {
     pub(super) name: String,
     /// More words, of one state.
     pub(super) detail: String,
-    /// Colour as `#rrggbb`.
-    pub(super) colour: String,
+    /// Colour.
+    pub(super) colour: Rgb,
     /// Width, pixels.
     width: f64,
     /// Corners of each line in the undeformed body, m.
@@ -45,7 +45,7 @@ impl Lines {
         Self {
             name: "crack path".to_owned(),
             detail: format!(" ({:.1} mm)", 1e3 * length),
-            colour: Colour::Vermilion.hex(),
+            colour: Colour::Vermilion.rgb(),
             width: CRACK_WIDTH,
             tips: lines.iter().flat_map(|line| line.tips()).collect(),
             polylines: lines.into_iter().map(|line| line.places).collect(),
@@ -57,7 +57,7 @@ impl Lines {
         Ok(Self {
             name: "pre-crack".to_owned(),
             detail: String::new(),
-            colour: CUT.to_owned(),
+            colour: CUT,
             width: CRACK_WIDTH,
             polylines: stored_precracks(folder)?,
             tips: Vec::new(),
@@ -72,7 +72,7 @@ impl Lines {
         Ok(Self {
             name: name.to_string_lossy().into_owned(),
             detail: String::new(),
-            colour: colours[place % colours.len()].hex(),
+            colour: colours[place % colours.len()].rgb(),
             width: WIDTH,
             polylines: polylines(path, &text)?,
             tips: Vec::new(),
@@ -80,15 +80,14 @@ impl Lines {
     }
 
     /// Draws them by a function from places to pixels.
-    pub(super) fn draw(&self, document: &mut Document, to_pixels: impl Fn([f64; 2]) -> [f64; 2]) {
+    pub(super) fn draw(&self, drawing: &mut Drawing, to_pixels: impl Fn([f64; 2]) -> [f64; 2]) {
         let mut path = PathData::default();
         for line in &self.polylines {
             path.line(line.iter().map(|&place| to_pixels(place)));
         }
-        let stroke = Some((self.colour.as_str(), self.width));
-        document.path(&path, Paint { fill: None, stroke });
+        drawing.path(path, Paint::stroke(self.colour, self.width));
         for &tip in &self.tips {
-            document.circle(to_pixels(tip), TIP, &self.colour);
+            drawing.circle(to_pixels(tip), TIP, Paint::fill(self.colour));
         }
     }
 }

@@ -10,7 +10,7 @@ use super::field::{Field, relate_to_largest};
 use super::panel::{Panel, Scale};
 use super::strip::{Entry, Strip};
 use super::style::magnification_words;
-use super::svg::PIXELS_PER_MM;
+use crate::drawing::{Drawing, PIXELS_PER_MM};
 
 /// A body with a value at each of its corners or cells.
 #[derive(Debug, Clone, PartialEq)]
@@ -101,12 +101,12 @@ impl MappedBody {
 }
 
 impl Maps {
-    /// The maps as the text of an SVG file of a width, mm.
+    /// The maps as a drawing of a width, mm.
     ///
     /// # Errors
     ///
     /// If no body has a finite value.
-    pub fn to_svg(&self, width: f64) -> Result<String, PictureError> {
+    pub fn draw(&self, width: f64) -> Result<Drawing, PictureError> {
         let bodies = || self.bodies.iter().map(|it| &it.body);
         let common = match bodies().all(|body| body.largest_displacement() == 0.0) {
             _ if self.are_modes => None,
@@ -151,12 +151,11 @@ impl Maps {
             }],
             window: None,
             columns: Some(self.columns),
-            title: self.title.clone(),
             room: None,
             has_axes: false,
             panels: &panels,
         };
-        Ok(strip.to_svg(width * PIXELS_PER_MM))
+        Ok(strip.draw(width * PIXELS_PER_MM))
     }
 }
 
@@ -185,12 +184,12 @@ mod tests {
             columns: 2,
             are_modes: false,
         };
-        let svg = maps.to_svg(120.0).unwrap();
+        let svg = maps.draw(120.0).unwrap().to_svg("");
         for text in [">mesh<", ">lattice<", "A bar; deformation × 10"] {
             assert!(svg.contains(text), "{text}\n{svg}");
         }
         maps.are_modes = true;
-        let svg = maps.to_svg(120.0).unwrap();
+        let svg = maps.draw(120.0).unwrap().to_svg("");
         assert!(svg.contains("largest displacement drawn as 0.1"), "{svg}");
     }
 
@@ -211,7 +210,8 @@ mod tests {
             columns: 1,
             are_modes: false,
         };
-        assert!(maps.to_svg(90.0).unwrap().contains("A bar; undeformed"));
+        let svg = maps.draw(90.0).unwrap().to_svg("");
+        assert!(svg.contains("A bar; undeformed"));
     }
 
     #[test]
@@ -227,6 +227,6 @@ mod tests {
             columns: 1,
             are_modes: false,
         };
-        assert!(matches!(maps.to_svg(90.0), Err(PictureError::NoValues(name)) if name == "u_x"));
+        assert!(matches!(maps.draw(90.0), Err(PictureError::NoValues(name)) if name == "u_x"));
     }
 }

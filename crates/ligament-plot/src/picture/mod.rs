@@ -1,11 +1,9 @@
 //! `ligament plot`: pictures of the results of runs, as SVG, PNG or PDF, and animations.
 //!
 //! Outputs are chosen ([`select`]), read (`body`, `field`, `crack`), moved by the displacement, cut into bands of colour
-//! (`levels`, `contour`, `joined`) and arranged (`strip`) in one SVG document (`svg`), from which a PNG or a PDF is made
-//! ([`plots`](crate::plots)), several of them over the steps (`series`). Force-displacement curves are plots ([`curve`]). [`maps`] draws bodies that are in
-//! memory.
+//! (`levels`, `contour`, `joined`) and arranged (`strip`) in one [`drawing`](crate::drawing), several of them over the steps (`series`).
+//! Force-displacement curves are plots ([`curve`]). [`maps`] draws bodies that are in memory.
 
-mod axes;
 mod body;
 mod colour_bar;
 pub mod colour_map;
@@ -29,7 +27,6 @@ mod solid;
 mod source;
 mod strip;
 mod style;
-mod svg;
 mod target;
 pub mod units;
 
@@ -47,10 +44,9 @@ pub use series::{animate, draw_each, pictures_of_each};
 pub use solid::{Section, View};
 pub use target::{Format, Target};
 
+use crate::drawing::gif::GifError;
+use crate::drawing::png::PngError;
 use crate::plots::PlotError;
-use crate::plots::gif::GifError;
-use crate::plots::pdf::PdfError;
-use crate::plots::png::PngError;
 
 /// Why there is no picture.
 #[derive(Debug, Error)]
@@ -183,9 +179,6 @@ pub enum PictureError {
     /// A PNG could not be made of the picture.
     #[error(transparent)]
     Png(#[from] PngError),
-    /// A PDF could not be made of the picture.
-    #[error(transparent)]
-    Pdf(#[from] PdfError),
     /// An animation could not be made of the pictures.
     #[error(transparent)]
     Gif(#[from] GifError),

@@ -3,7 +3,7 @@
 use ligament_output::FieldLocation;
 use ligament_output::vtu::Cell;
 
-use super::body::{Body, bounds};
+use super::body::Body;
 use super::colour_map::ColourMap;
 use super::contour::{Surface, halves, oriented};
 use super::field::Field;
@@ -11,16 +11,13 @@ use super::joined::Joined;
 use super::levels::{Levels, Rule, has_both_signs};
 use super::lines::Lines;
 use super::solid::{Scene, View};
-use super::svg::{Document, Paint, PathData};
+use crate::drawing::{Drawing, Frame, OUTLINE, Paint, PathData, Rgb};
 
 /// Colour of a body without a field, and of what has no value.
-const BARE: &str = "#dcdcdc";
+const BARE: Rgb = [0xdc; 3];
 
 /// Colour of a body without a field below lines.
-const LIGHT: &str = "#f4f4f4";
-
-/// Colour of outlines.
-const OUTLINE: &str = "#404040";
+const LIGHT: Rgb = [0xf4; 3];
 
 /// Widths of lines in pixels: outlines ...
 const OUTLINE_WIDTH: f64 = 0.5;
@@ -40,7 +37,7 @@ pub(super) struct Panel {
     /// The field, if one is drawn.
     pub(super) field: Option<Field>,
     /// Broken bonds by colour, between deformed ends.
-    pub(super) broken: Vec<(String, Vec<[[f64; 2]; 2]>)>,
+    pub(super) broken: Vec<(Rgb, Vec<[[f64; 2]; 2]>)>,
     /// Lines over the body.
     pub(super) lines: Vec<Lines>,
     /// What is drawn of a solid in place of the body's cells.
@@ -64,7 +61,7 @@ pub(super) struct Scale {
     /// Levels between the bands.
     pub(super) levels: Levels,
     /// Colours of the bands.
-    pub(super) colours: Vec<String>,
+    pub(super) colours: Vec<Rgb>,
 }
 
 impl Scale {
@@ -93,73 +90,35 @@ impl Scale {
     }
 }
 
-/// Where a part of the plane lies in a document, at one scale along both axes and y upwards.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Frame {
-    /// Lower left corner of the part, m.
-    pub(super) low: [f64; 2],
-    /// Upper right corner, m.
-    pub(super) high: [f64; 2],
-    /// Upper left corner of the panel in the document, pixels.
-    pub(super) at: [f64; 2],
-    /// Pixels to the metre.
-    pub(super) scale: f64,
-}
-
-impl Frame {
-    /// A place in pixels.
-    pub(super) fn to_pixels(self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [
-            self.at[0] + (x - self.low[0]) * self.scale,
-            self.at[1] + (self.high[1] - y) * self.scale,
-        ]
-    }
-
-    /// Whether a polygon may reach into the frame.
-    fn meets(&self, points: &[[f64; 2]]) -> bool {
-        bounds(points).is_some_and(|[low, high]| {
-            (0..2).all(|axis| low[axis] <= self.high[axis] && high[axis] >= self.low[axis])
-        })
-    }
-
-    /// Adds the outline of a polygon that reaches into the frame.
-    pub(super) fn add(&self, path: &mut PathData, outline: &[[f64; 2]]) {
-        if self.meets(outline) && outline.iter().flatten().all(|it| it.is_finite()) {
-            path.outline(outline.iter().map(|&point| self.to_pixels(point)));
-        }
-    }
-}
-
 impl Panel {
-    /// Draws it into a frame of a document.
-    pub(super) fn draw(&self, document: &mut Document, frame: Frame, scale: Option<&Scale>) {
+    /// Draws it into a frame of a drawing.
+    pub(super) fn draw(&self, drawing: &mut Drawing, frame: Frame, scale: Option<&Scale>) {
         let field = self.field.as_ref().zip(scale);
         if let Some(solid) = &self.solid {
-            (solid.scene).draw(document, (frame, scale), solid.view, solid.factor);
+            (solid.scene).draw(drawing, (frame, scale), solid.view, solid.factor);
             return;
         }
         match field {
             Some((field, scale)) if field.location == FieldLocation::Cell => {
-                self.draw_cells(document, frame, Some((field, scale)));
+                self.draw_cells(drawing, frame, Some((field, scale)));
             }
-            None if !self.body.is_mesh() => self.draw_cells(document, frame, None),
-            _ => self.draw_surface(document, frame, field),
+            None if !self.body.is_mesh() => self.draw_cells(drawing, frame, None),
+            _ => self.draw_surface(drawing, frame, field),
         }
         for (colour, bonds) in &self.broken {
             let mut path = PathData::default();
             for ends in bonds.iter().filter(|ends| frame.meets(*ends)) {
                 path.segment(ends.map(|end| frame.to_pixels(end)));
             }
-            let stroke = Some((colour.as_str(), BOND_WIDTH));
-            document.path(&path, Paint { fill: None, stroke });
+            drawing.path(path, Paint::stroke(*colour, BOND_WIDTH));
         }
         for lines in &self.lines {
-            lines.draw(document, |place| frame.to_pixels(place));
+            lines.draw(drawing, |place| frame.to_pixels(place));
         }
     }
 
     /// Colour of what has no value.
-    fn bare(&self) -> &'static str {
+    fn bare(&self) -> Rgb {
         match self.field.is_none() && !self.lines.is_empty() {
             true => LIGHT,
             false => BARE,
@@ -167,30 +126,29 @@ impl Panel {
     }
 
     /// Contours of values at the points, each region over the one of the level below.
-    fn draw_surface(&self, document: &mut Document, frame: Frame, field: Option<(&Field, &Scale)>) {
+    fn draw_surface(&self, drawing: &mut Drawing, frame: Frame, field: Option<(&Field, &Scale)>) {
         let triangles = || self.body.cells.iter().flat_map(halves_of);
         let reference = &self.body.reference;
         let whole = Surface::new(triangles(), reference, |_| true);
         let outline = path_of(whole.outlines(&self.positions), frame);
-        document.path(&outline, fill(self.bare()));
+        drawing.path(outline.clone(), Paint::fill(self.bare()));
         if let Some((field, Scale { levels, colours })) = field {
             let values = &field.values;
             let surface = Surface::new(triangles(), reference, |node| {
                 values[node as usize].is_finite()
             });
             let lowest = surface.outlines(&self.positions);
-            document.path(&path_of(lowest, frame), fill(&colours[0]));
+            drawing.path(path_of(lowest, frame), Paint::fill(colours[0]));
             for (level, colour) in levels.bounds.iter().zip(colours).skip(1) {
                 let region = surface.region(&self.positions, values, *level);
-                document.path(&path_of(region, frame), fill(colour));
+                drawing.path(path_of(region, frame), Paint::fill(*colour));
             }
         }
-        let stroke = Some((OUTLINE, OUTLINE_WIDTH));
-        document.path(&outline, Paint { fill: None, stroke });
+        drawing.path(outline, Paint::stroke(OUTLINE, OUTLINE_WIDTH));
     }
 
     /// Cells with a colour each: those of a band and of all above it over those of the band below.
-    fn draw_cells(&self, document: &mut Document, frame: Frame, field: Option<(&Field, &Scale)>) {
+    fn draw_cells(&self, drawing: &mut Drawing, frame: Frame, field: Option<(&Field, &Scale)>) {
         let (body, cells) = (&self.body, &self.body.cells);
         let joined = Joined::new(cells, &body.reference, &self.positions);
         let band_of = |cell: usize| {
@@ -200,27 +158,22 @@ impl Panel {
         };
         // What has no value lies below all bands.
         let bands: Vec<Option<usize>> = (0..cells.len()).map(band_of).collect();
-        let mut draw = |from: Option<usize>, paint: Paint<'_>| {
+        let mut draw = |from: Option<usize>, paint: Paint| {
             let chosen = cells.iter().zip(&bands).filter(|(_, band)| **band >= from);
             let triangles = chosen.flat_map(|(cell, _)| halves_of(cell));
             // Corners of one cell differ, so that orientations are seen without load.
             let named = triangles.map(|corners| oriented(corners, &body.reference));
             let named = named.map(|it| it.map(|corner| joined.place_of[corner as usize]));
             let surface = Surface::of_oriented(named.collect());
-            document.path(&path_of(surface.outlines(&joined.places), frame), paint);
+            drawing.path(path_of(surface.outlines(&joined.places), frame), paint);
         };
         let rim = Some((OUTLINE, OUTLINE_WIDTH)).filter(|_| !self.lines.is_empty());
         let stroke = rim.filter(|_| field.is_none());
-        draw(
-            None,
-            Paint {
-                fill: Some(self.bare()),
-                stroke,
-            },
-        );
+        let bare = Paint::fill(self.bare());
+        draw(None, Paint { stroke, ..bare });
         let colours = field.iter().flat_map(|(_, scale)| &scale.colours);
         for (band, colour) in colours.enumerate() {
-            draw(Some(band), fill(colour));
+            draw(Some(band), Paint::fill(*colour));
         }
     }
 }
@@ -240,11 +193,4 @@ fn path_of(outlines: Vec<Vec<[f64; 2]>>, frame: Frame) -> PathData {
         frame.add(&mut path, outline);
     }
     path
-}
-
-fn fill(colour: &str) -> Paint<'_> {
-    Paint {
-        fill: Some(colour),
-        stroke: None,
-    }
 }

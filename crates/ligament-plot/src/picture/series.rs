@@ -5,15 +5,16 @@ use std::path::{Path, PathBuf};
 use ligament_output::{check_file, is_stream, write_file};
 
 use super::PictureError;
-use super::body::{bounds, common_scale_of};
+use super::body::common_scale_of;
 use super::panel::Panel;
 use super::request::{FieldRequest, Magnification, WIDTHS};
 use super::select::Choice;
 use super::source::{Output, Subject, outputs};
 use super::strip::{Entry, Room};
 use super::style::{Style, crack_legend};
-use crate::plots::gif::to_gif;
-use crate::plots::png::Pixels;
+use crate::drawing::Drawing;
+use crate::drawing::frame::bounds;
+use crate::drawing::gif::to_gif;
 
 /// Most pictures of an animation whose steps nobody chose.
 const MOST_FRAMES: usize = 120;
@@ -46,11 +47,9 @@ pub fn draw_each(request: &FieldRequest) -> Result<Vec<PathBuf>, PictureError> {
     }
     for output in &series.outputs {
         let numbered = files(output);
-        written.push(
-            request
-                .target
-                .write(numbered, &series.svg(output)?, &series.style.title)?,
-        );
+        let drawing = series.draw(output)?;
+        let target = &request.target;
+        written.push(target.write(numbered, &drawing, &series.style.title)?);
     }
     Ok(written)
 }
@@ -65,7 +64,10 @@ pub fn pictures_of_each(request: &FieldRequest) -> Result<Vec<(usize, String)>, 
     let subject = one_subject(request, "a series of pictures")?;
     let series = Series::new(request, &subject)?;
     let outputs = series.outputs.iter();
-    let drawn = outputs.map(|output| Ok((output.number(), series.svg(output)?)));
+    let drawn = outputs.map(|output| {
+        let svg = series.draw(output)?.to_svg(&series.style.title);
+        Ok((output.number(), svg))
+    });
     drawn.collect()
 }
 
@@ -98,7 +100,7 @@ pub fn animate(
     let mut pictures = Vec::new();
     for output in &series.outputs {
         let dpi = request.target.dpi.unwrap_or(DPI);
-        pictures.push(Pixels::drawn(&series.svg(output)?, dpi)?);
+        pictures.push(series.draw(output)?.pixels(dpi)?);
     }
     let hundredths = (100.0 / per_second).round().clamp(2.0, 6000.0);
     let bytes = to_gif(&pictures, hundredths as u16)?;
@@ -167,11 +169,11 @@ impl<'a> Series<'a> {
     }
 
     /// The picture of an output.
-    fn svg(&self, output: &Output<'_>) -> Result<String, PictureError> {
+    fn draw(&self, output: &Output<'_>) -> Result<Drawing, PictureError> {
         let panel = output.panel(&self.subject.field)?;
         let panel = output.deformed(panel, self.style.magnification);
         let (legend, room) = (self.legend.clone(), Some(&self.room));
-        Ok(self.style.svg(&[panel], legend, room, WIDTHS[0]))
+        Ok(self.style.drawing(&[panel], legend, room, WIDTHS[0]))
     }
 }
 

@@ -352,7 +352,7 @@ impl Output<'_> {
         panel.broken = kinds
             .map(|(crack, kind)| {
                 let bonds = crack.until(kind, self.chosen.number).into_iter();
-                (kind.colour.clone(), bonds.filter_map(line).collect())
+                (kind.colour, bonds.filter_map(line).collect())
             })
             .collect();
         panel.positions = positions;

@@ -1,16 +1,23 @@
 //! Bodies side by side at one scale, with titles above, the colour bar at the right and the legend below.
 
-use super::axes;
-use super::body::bounds;
 use super::colour_bar::ColourBar;
-use super::panel::{Frame, Panel, Scale};
-use super::svg::{Anchor, Document, text_width};
+use super::panel::{Panel, Scale};
+use crate::drawing::axes::{self, Axes};
+use crate::drawing::frame::bounds;
+use crate::drawing::{Anchor, Drawing, Frame, OUTLINE, Paint, Rgb, text_width};
 
 /// Size of the text, pixels.
 const SIZE: f64 = 9.0;
 
 /// Height of a line of text, pixels.
 const LINE: f64 = 12.0;
+
+/// Size of the numbers along axes, and distance of the axes from the body, pixels.
+const AXIS_SIZE: f64 = 8.0;
+const AXIS_GAP: f64 = 3.0;
+
+/// Width of the line around a window, pixels.
+const FRAME_WIDTH: f64 = 0.6;
 
 /// Room at the rim and between bodies, pixels.
 const MARGIN: f64 = 6.0;
@@ -28,7 +35,7 @@ const WIDE: f64 = 2.2;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Entry {
     /// Colour of its sample; None: words alone.
-    pub(super) colour: Option<String>,
+    pub(super) colour: Option<Rgb>,
     /// Words of the title.
     pub(super) words: String,
 }
@@ -63,8 +70,6 @@ pub(super) struct Strip<'a> {
     pub(super) window: Option<[[f64; 2]; 2]>,
     /// Bodies in a row.
     pub(super) columns: Option<usize>,
-    /// Words for the file.
-    pub(super) title: String,
     /// Whether axes in mm stand at the left of and below each body.
     pub(super) has_axes: bool,
     /// Room for the other pictures of a series, if it is one.
@@ -91,15 +96,15 @@ struct Layout {
 }
 
 impl Strip<'_> {
-    /// The picture as the text of an SVG file, so many pixels wide.
-    pub(super) fn to_svg(&self, width: f64) -> String {
+    /// The picture, so many pixels wide.
+    pub(super) fn draw(&self, width: f64) -> Drawing {
         let legend = self.legend_lines(width - 2.0 * MARGIN);
         let below = LINE * legend.len() as f64 + if legend.is_empty() { 0.0 } else { 4.0 };
         let layout = self.layout(width, below);
         let height = 2.0 * MARGIN + layout.inner + below;
-        let mut document = Document::new([width, height]);
+        let mut drawing = Drawing::new([width, height]);
         for place in 0..self.panels.len() {
-            self.draw_panel(&mut document, &layout, place);
+            self.draw_panel(&mut drawing, &layout, place);
         }
         if let Some(bar) = &self.bar {
             // Beside the bodies, without the titles of the first row.
@@ -107,20 +112,21 @@ impl Strip<'_> {
             let height = room.clamp(60.0, LONGEST_BAR);
             let x = layout.start[0] + layout.bodies[0] + 2.0 * MARGIN;
             let y = MARGIN + layout.title_height + 0.5 * (room - height);
-            bar.draw(&mut document, [x, y], height);
+            bar.draw(&mut drawing, [x, y], height);
         }
         for (line, entries) in legend.iter().enumerate() {
             let y = MARGIN + layout.inner + 4.0 + LINE * (line as f64 + 0.8);
             for (x, Entry { colour, words }) in entries {
                 let mut start = MARGIN + x;
                 if let Some(colour) = colour {
-                    document.line([start, y - 3.0], [start + 14.0, y - 3.0], colour, 1.5);
+                    let ends = [[start, y - 3.0], [start + 14.0, y - 3.0]];
+                    drawing.line(ends, *colour, 1.5);
                     start += SAMPLE;
                 }
-                document.text([start, y], Anchor::Start, SIZE, words);
+                drawing.text([start, y], Anchor::Start, SIZE, words);
             }
         }
-        document.finish(&self.title)
+        drawing
     }
 
     /// Lower left and upper right corner of what is seen of a body, m.
@@ -162,7 +168,7 @@ impl Strip<'_> {
         let row_gaps = MARGIN * (rows - 1.0);
         let fixed = 2.0 * MARGIN + below + title_height * rows + row_gaps;
         let tallest_cell = (TALLEST * width - fixed).max(1.0) / rows;
-        let [left, right, bottom] = axes::room(self.has_axes);
+        let [left, right, bottom] = self.axes_room();
         let scale = ((widest_cell - left - right).max(1.0) / body[0])
             .min((tallest_cell - bottom).max(1.0) / body[1]);
         // Bodies that do not fill the width stand together in its middle.
@@ -188,45 +194,48 @@ impl Strip<'_> {
         }
     }
 
-    fn draw_panel(&self, document: &mut Document, layout: &Layout, place: usize) {
+    fn draw_panel(&self, drawing: &mut Drawing, layout: &Layout, place: usize) {
         let (panel, cell, scale) = (&self.panels[place], layout.cell, layout.scale);
         let (row, column) = (place / layout.columns, place % layout.columns);
         let x = layout.start[0] + (cell[0] + 2.0 * MARGIN) * column as f64;
         let y = layout.start[1] + (layout.title_height + cell[1] + MARGIN) * row as f64;
         for (line, words) in layout.titles[place].iter().enumerate() {
             let at = [x + 0.5 * cell[0], y + LINE * (line as f64 + 0.8)];
-            document.text(at, Anchor::Middle, SIZE, words);
+            drawing.text(at, Anchor::Middle, SIZE, words);
         }
         let Some([low, high]) = self.extent(panel) else {
             return;
         };
         let own = [0, 1].map(|axis| (high[axis] - low[axis]) * scale);
-        let [left, right, bottom] = axes::room(self.has_axes);
+        let [left, right, bottom] = self.axes_room();
         let at = [
             x + left + 0.5 * (cell[0] - left - right - own[0]),
             y + layout.title_height + 0.5 * (cell[1] - bottom - own[1]),
         ];
-        let frame = Frame {
-            low,
-            high,
-            at,
-            scale,
-        };
+        let frame = Frame::new([low, high], [at, own]);
         if self.has_axes {
-            axes::draw(document, frame);
+            draw_axes(drawing, [low, high], [at, own]);
         }
         if self.window.is_none() && !self.has_axes {
-            panel.draw(document, frame, self.scale);
+            panel.draw(drawing, frame, self.scale);
             return;
         }
         // Outlines at the rim keep their width.
         let rim = if self.window.is_none() { RIM } else { 0.0 };
         let (from, size) = (at.map(|it| it - rim), own.map(|it| it + 2.0 * rim));
-        document.begin_window(&format!("window-{place}"), from, size);
-        panel.draw(document, frame, self.scale);
-        document.end_window();
+        drawing.begin_window(from, size);
+        panel.draw(drawing, frame, self.scale);
+        drawing.end_window();
         if self.window.is_some() {
-            document.frame(at, own);
+            drawing.rectangle(at, own, Paint::stroke(OUTLINE, FRAME_WIDTH));
+        }
+    }
+
+    /// Room for axes at the left of a body, at its right and below it, pixels.
+    fn axes_room(&self) -> [f64; 3] {
+        match self.has_axes {
+            true => axes::room(AXIS_SIZE),
+            false => [0.0; 3],
         }
     }
 
@@ -258,6 +267,18 @@ impl Strip<'_> {
         }
         lines
     }
+}
+
+/// Draws axes in mm around a part of the plane (m) in a rectangle of the drawing.
+fn draw_axes(drawing: &mut Drawing, corners: [[f64; 2]; 2], rectangle: [[f64; 2]; 2]) {
+    let axes = Axes {
+        names: ["x (mm)", "y (mm)"],
+        letters: AXIS_SIZE,
+        gap: AXIS_GAP,
+        has_grid: false,
+    };
+    let in_mm = corners.map(|corner| corner.map(|it| 1e3 * it));
+    axes.draw(drawing, Frame::new(in_mm, rectangle));
 }
 
 fn widest(titles: &[Vec<String>]) -> f64 {

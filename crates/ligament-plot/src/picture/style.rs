@@ -11,7 +11,7 @@ use super::panel::{Panel, Scale};
 use super::request::FieldRequest;
 use super::source::{Source, Subject};
 use super::strip::{Entry, Room, Strip};
-use super::svg::PIXELS_PER_MM;
+use crate::drawing::{Drawing, PIXELS_PER_MM};
 
 /// What all bodies of a picture, or of a series of pictures, have in common.
 pub(super) struct Style<'a> {
@@ -64,13 +64,13 @@ impl<'a> Style<'a> {
     }
 
     /// The picture of bodies with a legend, beside each other; `width` (mm) is its width where none is asked for.
-    pub(super) fn svg(
+    pub(super) fn drawing(
         &self,
         panels: &[Panel],
         legend: Vec<Entry>,
         room: Option<&Room>,
         width: f64,
-    ) -> String {
+    ) -> Drawing {
         let magnification = Entry {
             colour: None,
             words: magnification_words(self.magnification),
@@ -84,12 +84,11 @@ impl<'a> Style<'a> {
             legend: [vec![magnification], legend].concat(),
             window: self.request.window,
             columns: self.request.columns,
-            title: self.title.clone(),
             room,
             has_axes: self.request.has_lines() && panels.iter().all(|it| it.solid.is_none()),
             panels,
         };
-        strip.to_svg(self.request.target.width.unwrap_or(width) * PIXELS_PER_MM)
+        strip.draw(self.request.target.width.unwrap_or(width) * PIXELS_PER_MM)
     }
 }
 
@@ -130,7 +129,7 @@ pub(super) fn crack_legend(sources: &[Source], panels: &[Panel], is_numbered: bo
         };
         if count > 0 && !entries.iter().any(|it| it.words == words) {
             entries.push(Entry {
-                colour: Some(kind.colour.clone()),
+                colour: Some(kind.colour),
                 words,
             });
         }
@@ -140,7 +139,7 @@ pub(super) fn crack_legend(sources: &[Source], panels: &[Panel], is_numbered: bo
         let words = format!("{}{detail}", lines.name);
         if !lines.polylines.is_empty() && !entries.iter().any(|it| it.words == words) {
             entries.push(Entry {
-                colour: Some(lines.colour.clone()),
+                colour: Some(lines.colour),
                 words,
             });
         }

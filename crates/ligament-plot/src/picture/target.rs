@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use ligament_output::{check_file, write_file};
 
 use super::PictureError;
-use crate::plots::pdf::to_pdf;
-use crate::plots::png::to_png;
+use crate::drawing::Drawing;
 
 /// Size and file of a picture.
 #[derive(Debug, Clone, PartialEq)]
@@ -99,13 +98,13 @@ impl Target {
     pub(super) fn write(
         &self,
         path: PathBuf,
-        svg: &str,
+        drawing: &Drawing,
         title: &str,
     ) -> Result<PathBuf, PictureError> {
         let bytes = match self.format_of(&path)? {
-            Format::Png => to_png(svg, self.dpi.unwrap_or(DPI))?,
-            Format::Svg => svg.as_bytes().to_vec(),
-            Format::Pdf => to_pdf(svg, title)?,
+            Format::Png => drawing.to_png(self.dpi.unwrap_or(DPI))?,
+            Format::Svg => drawing.to_svg(title).into_bytes(),
+            Format::Pdf => drawing.to_pdf(title),
         };
         write_file(&path, &bytes, self.may_replace())?;
         Ok(path)

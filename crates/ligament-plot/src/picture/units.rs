@@ -60,7 +60,7 @@ fn power_of_ten(exponent: i32) -> String {
 }
 
 /// Numbers with as many decimals as the widest of them needs to show `step`.
-pub(super) fn with_decimals_of(value: f64, step: f64) -> String {
+pub(crate) fn with_decimals_of(value: f64, step: f64) -> String {
     let needs = |decimals: usize| {
         let scaled = step * 10f64.powi(decimals as i32);
         (scaled - scaled.round()).abs() < 1e-6 * scaled.abs().max(1e-300)

@@ -1,23 +1,23 @@
 //! Curves around a centre: a quantity over the direction.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
-use plotters::chart::ChartBuilder;
-use plotters::prelude::{
-    IntoDrawingArea, IntoTextStyle, PathElement, SVGBackend, ShapeStyle, Text, WHITE,
-};
-use plotters::style::Color;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use super::sheet::Sheet;
+use super::{LETTERS, PlotError, Series, TITLE};
+use crate::drawing::ticks::rounded_up;
+use crate::drawing::{Anchor, Drawing, Frame, Paint, Rgb};
+use crate::picture::units::with_decimals_of;
 
-use super::axis::{decimals, rounded_up, tick};
-use super::paper::{LEGEND, Pen};
-use super::{Chart, Drawn, GRID, PlotError, Series, TEXT, draw_legends, svg_text};
-
-/// Width and height, in pixels: the room beside the legend is square.
-const SIZE: (u32, u32) = (570 + LEGEND as u32, 600);
+/// Height, and room above the square for the curves, pixels.
+const HEIGHT: f64 = 600.0;
+const ABOVE: f64 = 30.0;
 
 /// Radius of the outermost circle over what the plane shows.
-const FILLED: f64 = 0.85;
+const FILLED: f64 = 0.83;
+
+/// Colour of circles and spokes, and size of their numbers, pixels.
+const GRID: Rgb = [225; 3];
+const NUMBERS: f64 = 13.0;
 
 /// A polar plot.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,79 +33,59 @@ pub struct PolarPlot {
 }
 
 impl PolarPlot {
-    /// The plot as the text of an SVG file.
+    /// The plot for a screen, 600 pixels high.
     ///
     /// # Errors
     ///
     /// If there is no finite point to draw.
-    pub fn to_svg(&self) -> Result<String, PlotError> {
-        let points = self.series.iter().flat_map(|series| &series.points);
+    pub fn for_screen(&self) -> Result<Drawing, PlotError> {
+        let points = self.series.iter().flat_map(|series| series.points());
         let finite = points.filter(|point| point.iter().all(|it| it.is_finite()));
         let largest = finite.map(|point| point[1]).reduce(f64::max);
         let largest = largest.ok_or_else(|| PlotError::Empty {
             name: self.name.clone(),
         })?;
-        svg_text(&self.name, |text| self.draw(text, largest))
-    }
-
-    fn draw(&self, out: &mut String, largest: f64) -> Drawn {
-        let area = SVGBackend::with_string(out, SIZE).into_drawing_area();
-        area.fill(&WHITE)?;
-        let (plane, legend) = area.split_horizontally(SIZE.0 as i32 - LEGEND);
         let step = circle_step(largest);
         let circles = (largest / step).ceil().max(1.0) as u32;
         let half = step * f64::from(circles) / FILLED;
-        let mut chart = ChartBuilder::on(&plane)
-            .margin(4)
-            .caption(&self.title, ("sans-serif", 19, &TEXT))
-            .build_cartesian_2d(-half..half, -half..half)?;
-        draw_circles(&mut chart, step, circles)?;
-        let style = ("sans-serif", 15, &TEXT).into_text_style(&plane);
-        let bottom = Pos::new(HPos::Center, VPos::Bottom);
-        let label = Text::new(self.radius.clone(), (0.0, -half), style.pos(bottom));
-        chart.draw_series([label])?;
+        let sheet = Sheet::screen(HEIGHT, &self.series);
+        let room = [[0.0, ABOVE], [sheet.plane; 2]];
+        let frame = Frame::new([[-half; 2], [half; 2]], room);
+        let mut drawing = sheet.drawing();
+        let middle = 0.5 * sheet.plane;
+        drawing.text([middle, 1.3 * TITLE], Anchor::Middle, TITLE, &self.title);
+        draw_circles(&mut drawing, frame, step, circles);
+        let below = [middle, HEIGHT - 0.5 * LETTERS];
+        drawing.text(below, Anchor::Middle, LETTERS, &self.radius);
         for series in &self.series {
-            let planar = |&[angle, radius]: &[f64; 2]| [radius * angle.cos(), radius * angle.sin()];
-            let planar = Series {
-                points: series.points.iter().map(planar).collect(),
-                ..series.clone()
-            };
-            planar.draw(&mut chart, Pen::SCREEN)?;
+            series.in_plane().draw(&mut drawing, frame, sheet.pen);
         }
-        draw_legends(&self.series, &legend, Pen::SCREEN)?;
-        area.present()
+        sheet.draw_legend(&mut drawing, &self.series);
+        Ok(drawing)
     }
 }
 
 /// Circles with their radii along a line between two spokes, and spokes every 30 degrees.
-fn draw_circles(chart: &mut Chart<'_, '_>, step: f64, circles: u32) -> Drawn {
-    let at = |angle: f64, radius: f64| (radius * angle.cos(), radius * angle.sin());
-    let thin: ShapeStyle = GRID.stroke_width(1);
+fn draw_circles(drawing: &mut Drawing, frame: Frame, step: f64, circles: u32) {
+    let at =
+        |angle: f64, radius: f64| frame.to_pixels([radius * angle.cos(), radius * angle.sin()]);
     let outer = step * f64::from(circles);
-    let small = || ("sans-serif", 13, &TEXT).into_text_style(chart.plotting_area());
-    let centred = small().pos(Pos::new(HPos::Center, VPos::Center));
-    let spokes = (0..12).map(|k| f64::from(k) * PI / 6.0);
-    let lines = spokes
-        .clone()
-        .map(|it| PathElement::new([at(it, 0.0), at(it, outer)], thin));
-    chart.draw_series(lines)?;
-    chart.draw_series(spokes.map(|it| {
-        let degrees = format!("{:.0}°", it.to_degrees());
-        Text::new(degrees, at(it, 1.06 * outer), centred.clone())
-    }))?;
-    let decimals = decimals([0.0, outer]);
-    for circle in 1..=circles {
-        let radius = step * f64::from(circle);
-        let round = (0..=180).map(|k| at(TAU * f64::from(k) / 180.0, radius));
-        chart.draw_series([PathElement::new(round.collect::<Vec<_>>(), thin)])?;
-        let label = Text::new(
-            tick(radius, decimals),
-            at(PI / 12.0, radius),
-            centred.clone(),
-        );
-        chart.draw_series([label])?;
+    let number = |[x, y]: [f64; 2], text: &str, drawing: &mut Drawing| {
+        drawing.text([x, y + 0.35 * NUMBERS], Anchor::Middle, NUMBERS, text);
+    };
+    let angles = || (0..12).map(|spoke| f64::from(spoke) * PI / 6.0);
+    let spokes = angles().map(|angle| [at(angle, 0.0), at(angle, outer)]);
+    drawing.lines(spokes, GRID, 1.0);
+    for angle in angles() {
+        let degrees = format!("{:.0}°", angle.to_degrees());
+        number(at(angle, 1.06 * outer), &degrees, drawing);
     }
-    Ok(())
+    for radius in (1..=circles).map(|circle| step * f64::from(circle)) {
+        let line = Paint::stroke(GRID, 1.0);
+        drawing.circle(at(0.0, 0.0), radius * frame.scale[0], line);
+        let label = with_decimals_of(radius, step);
+        number(at(PI / 12.0, radius), &label, drawing);
+    }
 }
 
 /// Distance of the circles: 1, 2 or 5 times a power of ten, so that there are 3 to 7.
@@ -146,13 +126,16 @@ mod tests {
             series: vec![Series::new("m = 2", Mark::Curve, Colour::Blue, points)],
         };
         let points = vec![[0.0, 0.0], [0.4, 17.0], [0.8, f64::INFINITY]];
-        let svg = plot(points).to_svg().unwrap();
+        let svg = plot(points).for_screen().unwrap().to_svg("");
         for word in ["Errors", "m = 2", "error, %", "30°", "15"] {
             assert!(svg.contains(word), "{word}");
         }
         assert!(!svg.contains("NaN"));
-        assert!(plot(vec![[0.0, 0.0]]).to_svg().is_ok(), "no error at all");
-        let nothing = plot(vec![[0.0, f64::NAN]]).to_svg();
+        assert!(
+            plot(vec![[0.0, 0.0]]).for_screen().is_ok(),
+            "no error at all"
+        );
+        let nothing = plot(vec![[0.0, f64::NAN]]).for_screen();
         assert!(matches!(nothing, Err(PlotError::Empty { .. })));
     }
 }

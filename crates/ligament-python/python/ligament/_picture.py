@@ -15,10 +15,11 @@ OTHER_KINDS = ("bmp", "eps", "gif", "jpeg", "jpg", "ps", "tif", "tiff", "webp")
 
 
 class Picture:
-    """A picture as SVG, which notebooks show."""
+    """A picture, which notebooks show as SVG."""
 
-    def __init__(self, svg: str, words: str) -> None:
-        self.svg = svg
+    def __init__(self, drawing: _native.Drawing, words: str) -> None:
+        self._drawing = drawing
+        self.svg = drawing.svg(words)
         self.words = words
 
     def save(self, path: str | os.PathLike[str], *, dpi: float = 300.0) -> Path:
@@ -32,7 +33,13 @@ class Picture:
             raise LigamentError(f"{written}: pictures are written as .svg, .png or .pdf", hint="name it .svg, .png or .pdf")
         if kind not in KINDS:
             written, kind = written.with_name(written.name + ".svg"), "svg"
-        written.write_bytes(_native.picture_file(self.svg, self.words, kind, dpi))
+        match kind:
+            case "png":
+                written.write_bytes(self._drawing.png(dpi))
+            case "pdf":
+                written.write_bytes(self._drawing.pdf(self.words))
+            case _:
+                written.write_text(self.svg, encoding="utf-8", newline="")
         return written
 
     def to_html(self) -> str:

@@ -153,13 +153,13 @@ class Result:
         if not np.any(np.isfinite(values)):
             raise LigamentError(f"the field `{field}` has no value in step {step}")
         words = field.replace("_", " ")
-        svg = self._run.draw(
+        drawing = self._run.draw(
             (words, name, f"step {step}"),
             np.ascontiguousarray(values, dtype=np.float64),
             self.field("displacement", step),
             width,
         )
-        return Picture(svg, f"{words} in step {step}")
+        return Picture(drawing, f"{words} in step {step}")
 
     def _scalar(self, field: str, step: int) -> tuple[NDArray[Any], str]:
         """Values of a field or of a component of one, and the name of the field."""

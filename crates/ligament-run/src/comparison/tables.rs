@@ -21,8 +21,8 @@ pub(super) fn difference(then: &[u8], now: &[u8]) -> Option<String> {
     Some(format!(
         "line {} ({} {}), column {column}: {}",
         line + 1,
-        header[0],
-        one[0],
+        &header[0],
+        &one[0],
         apart(value, another)
     ))
 }

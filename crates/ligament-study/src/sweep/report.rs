@@ -16,7 +16,7 @@ use super::table::{NoColumn, Row, StudyTable};
 use crate::quantities::{Quantities, QuantityError};
 use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::{CaseError, Fault};
-use ligament_plot::plots::png::to_png;
+use ligament_plot::drawing::Drawing;
 
 /// Width of a plot, mm.
 const WIDTH: f64 = 160.0;
@@ -66,7 +66,7 @@ pub(super) fn write(
         write_fits(curves, out)?;
         let plot = curves.drawn(&title);
         match plot.for_paper(WIDTH) {
-            Ok(svg) => write_plot(folder, &curves.name, &svg)?,
+            Ok(drawing) => write_plot(folder, &curves.name, &drawing)?,
             Err(error) => problems.push(error.to_string()),
         }
     }
@@ -151,10 +151,10 @@ pub(super) fn unknown_names(study: &Study, run: &Run, results: &Quantities) -> V
 }
 
 /// Writes a plot as SVG and PNG.
-fn write_plot(folder: &StudyFolder, name: &str, svg: &str) -> anyhow::Result<()> {
+fn write_plot(folder: &StudyFolder, name: &str, drawing: &Drawing) -> anyhow::Result<()> {
     let file = |ending| folder.path().join(format!("{name}.{ending}"));
-    replace_file(&file("svg"), svg.as_bytes())?;
-    replace_file(&file("png"), &to_png(svg, DPI)?)?;
+    replace_file(&file("svg"), drawing.to_svg(name).as_bytes())?;
+    replace_file(&file("png"), &drawing.to_png(DPI)?)?;
     Ok(())
 }
 

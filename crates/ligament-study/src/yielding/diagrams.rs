@@ -68,11 +68,13 @@ pub(super) fn write(
     for comparison in comparisons {
         for strain in strains {
             if let Some(plot) = polar(comparison, strain, &mut orientation)? {
-                folder.write_text(&format!("{}.svg", plot.name), &plot.to_svg()?)?;
+                let svg = plot.for_screen()?.to_svg(&plot.title);
+                folder.write_text(&format!("{}.svg", plot.name), &svg)?;
             }
         }
         for plot in loci(comparison, &mut locus)? {
-            folder.write_text(&format!("{}.svg", plot.plot.name), &plot.to_svg()?)?;
+            let svg = plot.for_screen()?.to_svg(&plot.plot.title);
+            folder.write_text(&format!("{}.svg", plot.plot.name), &svg)?;
         }
     }
     Ok(folder.finish()?)

@@ -3,8 +3,6 @@
 use ligament_output::folder::ResultFolder;
 use ligament_output::{csv, replace_file};
 
-use ligament_plot::plots::png::to_png;
-
 use crate::entry::Verdict;
 use crate::experiment::{Experiment, Findings};
 use crate::table::Table;
@@ -55,10 +53,11 @@ pub(crate) fn write(folder: &ResultFolder, findings: &Findings) -> anyhow::Resul
         write_csv(folder, table)?;
     }
     for plot in &findings.plots {
-        folder.write_text(&format!("{}.svg", plot.name), &plot.to_svg()?)?;
+        let svg = plot.for_screen()?.to_svg(&plot.title);
+        folder.write_text(&format!("{}.svg", plot.name), &svg)?;
     }
     for maps in &findings.maps {
-        let png = to_png(&maps.to_svg(WIDTH)?, DOTS_PER_INCH)?;
+        let png = maps.draw(WIDTH)?.to_png(DOTS_PER_INCH)?;
         replace_file(&folder.file(&format!("{}.png", maps.name)), &png)?;
     }
     Ok(())

@@ -136,6 +136,11 @@ fn what_is_no_result_file_is_named() {
     assert!(message("mesh").ends_with("a.vtu: it is no VTU file of this program"));
     let other = text.replace("vtkZLibDataCompressor", "vtkLZ4DataCompressor");
     assert!(message(&other).ends_with("it is no VTU file of this program"));
+    let unclosed = message(&text.replace("</Piece>", ""));
+    assert!(
+        unclosed.contains("a.vtu: it is damaged: expected 'Piece' tag"),
+        "{unclosed}"
+    );
     let open = VtuFile::open(path.with_file_name("b.vtu"));
     assert!(matches!(open, Err(Error::System { action: "read", .. })));
 }
@@ -155,7 +160,7 @@ fn what_inflates_beyond_its_file_is_refused() {
         format!(
             "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
              compressor=\"vtkZLibDataCompressor\"><Piece NumberOfPoints=\"{n_points}\" NumberOfCells=\"1\"><PointData>\
-             <DataArray type=\"Float64\" Name=\"damage\">{content}</DataArray></PointData></VTKFile>"
+             <DataArray type=\"Float64\" Name=\"damage\">{content}</DataArray></PointData></Piece></VTKFile>"
         )
     };
     std::fs::write(&path, file((n_blocks << 20) / 8)).unwrap();

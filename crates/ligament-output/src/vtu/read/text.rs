@@ -7,9 +7,9 @@ use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use miniz_oxide::inflate::decompress_to_vec_zlib_with_limit;
 use rayon::prelude::*;
+use roxmltree::{Document, Node};
 
 use crate::atomic::read_bytes;
-use crate::xml::{attribute, unescape};
 use crate::{Error, FieldLocation};
 
 /// Corners of a cell at most.
@@ -141,17 +141,24 @@ impl Text {
     }
 }
 
-/// Names of the pieces that a grid in pieces names; none where the file is something else.
+/// Names of the pieces of a grid in pieces.
+///
+/// # Errors
+///
+/// If the file is something else.
 pub(super) fn sources(path: &Path) -> Result<Vec<String>, Error> {
     let text = read(path)?;
-    let is_whole =
-        text.contains("type=\"PUnstructuredGrid\"") && text.trim_end().ends_with("</VTKFile>");
-    let pieces = text.split('<').filter(|tag| tag.starts_with("Piece "));
-    let names: Option<Vec<String>> = pieces
-        .map(|tag| attribute(tag, "Source").map(unescape))
-        .collect();
-    let names = names.filter(|names| is_whole && !names.is_empty());
-    names.ok_or_else(|| strange(path, "it is no PVTU file of this program"))
+    let names = || {
+        let document = Document::parse(&text).ok()?;
+        let grid = document.root_element();
+        let pieces = grid.descendants().filter(|it| it.has_tag_name("Piece"));
+        let names: Option<Vec<String>> = pieces
+            .map(|piece| piece.attribute("Source").map(str::to_owned))
+            .collect();
+        let is_in_pieces = grid.attribute("type") == Some("PUnstructuredGrid");
+        names.filter(|names| is_in_pieces && !names.is_empty())
+    };
+    names().ok_or_else(|| strange(path, "it is no PVTU file of this program"))
 }
 
 fn read(path: &Path) -> Result<String, Error> {
@@ -167,68 +174,63 @@ pub(super) fn strange(path: &Path, reason: impl Into<String>) -> Error {
     }
 }
 
-/// The contents of a text. Base64 has no `<`, so that tags are what lies between the angles.
-fn contents(text: &str) -> Result<Contents, &'static str> {
-    let mut arrays = Vec::new();
-    let mut counts = None;
-    let mut section = None;
-    let mut is_known_format = false;
-    let mut at = 0;
-    while let Some(start) = text[at..].find('<').map(|offset| at + offset + 1) {
-        let end = text[start..].find('>').ok_or("it ends in a tag")? + start;
-        let tag = &text[start..end];
-        at = end + 1;
-        let name_end = tag.find([' ', '\n', '/']).unwrap_or(tag.len());
-        match &tag[..name_end] {
-            "VTKFile" => is_known_format = is_ours(tag),
-            "Piece" => {
-                let count = |key| attribute(tag, key)?.parse().ok();
-                counts = count("NumberOfPoints").zip(count("NumberOfCells"));
-            }
-            "PointData" => section = Some(Section::Fields(FieldLocation::Point)),
-            "CellData" => section = Some(Section::Fields(FieldLocation::Cell)),
-            "Points" => section = Some(Section::Points),
-            "Cells" => section = Some(Section::Cells),
-            "DataArray" => {
-                let of = |key| attribute(tag, key).ok_or("an array has no name or type");
-                let length = text[at..].find('<').ok_or("it ends in an array")?;
-                let count = attribute(tag, "NumberOfComponents").map_or(Ok(1), str::parse);
-                let component = |number| attribute(tag, &format!("ComponentName{number}"));
-                arrays.push(Entry {
-                    section: section.ok_or("an array is out of place")?,
-                    name: unescape(of("Name")?),
-                    vtk_type: of("type")?.to_owned(),
-                    n_components: (count
-                        .ok()
-                        .filter(|count| (1..=MOST_COMPONENTS).contains(count)))
-                    .ok_or("an array has no number of components")?,
-                    components: (0..).map_while(component).map(unescape).collect(),
-                    content: at..at + length,
-                });
-            }
-            _ => {}
-        }
+/// The contents of a text.
+fn contents(text: &str) -> Result<Contents, String> {
+    const OTHER: &str = "it is no VTU file of this program";
+    let fault = |error: roxmltree::Error| match text.contains("<VTKFile") {
+        true => format!("it is damaged: {error}"),
+        false => OTHER.to_owned(),
+    };
+    let document = Document::parse(text).map_err(fault)?;
+    let grid = document.root_element();
+    if !is_ours(grid) {
+        return Err(OTHER.to_owned());
     }
-    if !is_known_format {
-        return Err("it is no VTU file of this program");
-    }
-    if !text.trim_end().ends_with("</VTKFile>") {
-        return Err("its end is missing");
-    }
-    let (n_points, n_cells): (usize, usize) =
-        counts.ok_or("it has no number of points and cells")?;
+    let piece = grid.descendants().find(|it| it.has_tag_name("Piece"));
+    let count = |key| piece?.attribute(key)?.parse().ok();
+    let (n_points, n_cells): (usize, usize) = count("NumberOfPoints")
+        .zip(count("NumberOfCells"))
+        .ok_or("it has no number of points and cells")?;
     // However well it is compressed, a point or cell takes more than a byte for its position and corners.
     if n_points.max(n_cells) > text.len() {
-        return Err("it is too short for its number of points and cells");
+        return Err("it is too short for its number of points and cells".to_owned());
     }
+    let arrays = grid.descendants().filter(|it| it.has_tag_name("DataArray"));
     Ok(Contents {
-        arrays,
+        arrays: arrays.map(Entry::new).collect::<Result<_, _>>()?,
         n_points,
         n_cells,
     })
 }
 
-fn is_ours(tag: &str) -> bool {
+impl Entry {
+    fn new(array: Node<'_, '_>) -> Result<Self, &'static str> {
+        let section = array.parent_element().map(|it| it.tag_name().name());
+        let section = match section {
+            Some("PointData") => Section::Fields(FieldLocation::Point),
+            Some("CellData") => Section::Fields(FieldLocation::Cell),
+            Some("Points") => Section::Points,
+            Some("Cells") => Section::Cells,
+            _ => return Err("an array is out of place"),
+        };
+        let text_of = |key: &str| array.attribute(key).map(str::to_owned);
+        let count = array.attribute("NumberOfComponents").unwrap_or("1");
+        let component = |number| text_of(&format!("ComponentName{number}"));
+        let content = array.first_child().filter(Node::is_text);
+        Ok(Self {
+            section,
+            name: text_of("Name").ok_or("an array has no name")?,
+            vtk_type: text_of("type").ok_or("an array has no type")?,
+            n_components: (count.parse().ok())
+                .filter(|count| (1..=MOST_COMPONENTS).contains(count))
+                .ok_or("an array has no number of components")?,
+            components: (0..).map_while(component).collect(),
+            content: content.ok_or("an array has no content")?.range(),
+        })
+    }
+}
+
+fn is_ours(grid: Node<'_, '_>) -> bool {
     [
         ("type", "UnstructuredGrid"),
         ("byte_order", "LittleEndian"),
@@ -236,7 +238,7 @@ fn is_ours(tag: &str) -> bool {
         ("compressor", "vtkZLibDataCompressor"),
     ]
     .into_iter()
-    .all(|(key, value)| attribute(tag, key) == Some(value))
+    .all(|(key, value)| grid.attribute(key) == Some(value))
 }
 
 /// The bytes of an array, of which there are so many at most: a header in base64, then the compressed blocks in base64 of their

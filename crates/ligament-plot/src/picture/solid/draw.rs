@@ -3,8 +3,8 @@
 use super::outline::unit_normal;
 use super::visible::DepthBuffer;
 use super::{Scene, View};
-use crate::picture::panel::{Frame, Scale};
-use crate::picture::svg::{Anchor, Document, Paint, PathData};
+use crate::drawing::{Anchor, Drawing, Frame, OUTLINE, Paint, PathData, Rgb};
+use crate::picture::panel::Scale;
 
 /// Direction of the light: to the right, up, to the eye.
 const LIGHT: [f64; 3] = [-0.35, 0.55, 0.76];
@@ -16,11 +16,11 @@ const SHADE: f64 = 0.62;
 const STEPS: f64 = 24.0;
 
 /// Colour of what has no field or no value.
-const BARE: [u8; 3] = [205, 210, 216];
+const BARE: Rgb = [205, 210, 216];
 
 /// Colour and widths (pixels) of edges, and of edges seen through the body.
-const EDGE: (&str, f64) = ("#303030", 0.55);
-const FAINT: (&str, f64) = ("#9a9a9a", 0.4);
+const EDGE: (Rgb, f64) = ([0x30; 3], 0.55);
+const FAINT: (Rgb, f64) = ([0x9a; 3], 0.4);
 
 /// Width of the rim of each piece in its own colour, pixels: no seam is left between two.
 const SEAM: f64 = 0.5;
@@ -32,39 +32,35 @@ impl Scene {
     /// Draws it into a frame, seen from a side with displacements larger by a factor.
     pub(crate) fn draw(
         &self,
-        document: &mut Document,
+        drawing: &mut Drawing,
         (frame, scale): (Frame, Option<&Scale>),
         view: View,
         factor: f64,
     ) {
         let seen = self.deformed(view, factor);
         let window = [frame.low, frame.high];
-        let buffer = DepthBuffer::new(&seen, &self.triangles, window, frame.scale);
+        let buffer = DepthBuffer::new(&seen, &self.triangles, window, frame.scale[0]);
         if self.shows_all_edges {
-            let all = self
-                .edges
-                .iter()
-                .map(|it| it.map(|end| flat(seen[end as usize])));
-            lines(document, frame, all, FAINT);
+            let places =
+                |ends: &[u32; 2]| ends.map(|end| frame.to_pixels(flat(seen[end as usize])));
+            let (colour, width) = FAINT;
+            drawing.lines(self.edges.iter().map(places), colour, width);
         }
-        self.paint(document, (frame, scale), &seen, &buffer);
+        self.paint(drawing, (frame, scale), &seen, &buffer);
         let pieces = self
             .edges
             .iter()
             .flat_map(|ends| buffer.seen_pieces(ends.map(|end| seen[end as usize])));
-        lines(
-            document,
-            frame,
-            pieces,
-            if self.shows_all_edges { FAINT } else { EDGE },
-        );
-        axes(document, frame, view);
+        let pieces = pieces.map(|ends| ends.map(|end| frame.to_pixels(end)));
+        let (colour, width) = if self.shows_all_edges { FAINT } else { EDGE };
+        drawing.lines(pieces, colour, width);
+        axes(drawing, frame, view);
     }
 
     /// Paints the triangles that are seen, the farthest first; those of one colour that follow each other together.
     fn paint(
         &self,
-        document: &mut Document,
+        drawing: &mut Drawing,
         (frame, scale): (Frame, Option<&Scale>),
         seen: &[[f64; 3]],
         buffer: &DepthBuffer,
@@ -79,21 +75,21 @@ impl Scene {
         let mut order: Vec<usize> = (0..visible.len()).filter(|it| visible[*it]).collect();
         order.sort_by(|one, other| depth(*one).total_cmp(&depth(*other)).then(one.cmp(other)));
         let mut path = PathData::default();
-        let mut colour = String::new();
+        let mut colour = BARE;
         for number in order {
             let triangle = self.triangles[number];
             let corners = triangle.map(|it| seen[it as usize]);
             let light = brightness(corners);
             for (base, polygon) in self.bands(triangle, corners, scale) {
-                let painted = hex(base.map(|it| (f64::from(it) * light).round() as u8));
+                let painted = base.map(|it| (f64::from(it) * light).round() as u8);
                 if painted != colour {
-                    fill(document, &path, &colour);
-                    (path, colour) = (PathData::default(), painted);
+                    fill(drawing, std::mem::take(&mut path), colour);
+                    colour = painted;
                 }
                 frame.add(&mut path, &polygon);
             }
         }
-        fill(document, &path, &colour);
+        fill(drawing, path, colour);
     }
 
     /// A triangle in pieces of one band each, with the colour of the band.
@@ -102,7 +98,7 @@ impl Scene {
         triangle: [u32; 3],
         corners: [[f64; 3]; 3],
         scale: Option<&Scale>,
-    ) -> Vec<([u8; 3], Vec<[f64; 2]>)> {
+    ) -> Vec<(Rgb, Vec<[f64; 2]>)> {
         let whole: Vec<[f64; 2]> = corners.map(flat).to_vec();
         let Some(scale) = scale.filter(|_| !self.values.is_empty()) else {
             return vec![(BARE, whole)];
@@ -124,7 +120,7 @@ impl Scene {
                 piece = cut(&piece, scale.levels.bounds[band + 1], -1.0);
             }
             (
-                rgb(&scale.colours[band]),
+                scale.colours[band],
                 piece.into_iter().map(|it| it.0).collect(),
             )
         });
@@ -163,37 +159,16 @@ fn brightness(corners: [[f64; 3]; 3]) -> f64 {
     (light.min(1.0) * STEPS).round() / STEPS
 }
 
-fn fill(document: &mut Document, path: &PathData, colour: &str) {
-    document.path(
-        path,
-        Paint {
-            fill: Some(colour),
-            stroke: Some((colour, SEAM)),
-        },
-    );
-}
-
-fn lines(
-    document: &mut Document,
-    frame: Frame,
-    all: impl Iterator<Item = [[f64; 2]; 2]>,
-    stroke: (&str, f64),
-) {
-    let mut path = PathData::default();
-    for ends in all {
-        path.segment(ends.map(|end| frame.to_pixels(end)));
-    }
-    document.path(
-        &path,
-        Paint {
-            fill: None,
-            stroke: Some(stroke),
-        },
-    );
+fn fill(drawing: &mut Drawing, path: PathData, colour: Rgb) {
+    let paint = Paint {
+        fill: Some(colour),
+        ..Paint::stroke(colour, SEAM)
+    };
+    drawing.path(path, paint);
 }
 
 /// Draws the axes as seen below the left of the frame.
-fn axes(document: &mut Document, frame: Frame, view: View) {
+fn axes(drawing: &mut Drawing, frame: Frame, view: View) {
     let [x, y] = frame.to_pixels(frame.low);
     let axes = view.axes();
     // The arrows that point away from the eye lie below the others.
@@ -206,22 +181,8 @@ fn axes(document: &mut Document, frame: Frame, view: View) {
             continue;
         }
         let end = [at[0] + ARROW * right, at[1] - ARROW * up];
-        document.line(at, end, "#404040", 0.7);
+        drawing.line([at, end], OUTLINE, 0.7);
         let label = [end[0] + 4.5 * right, end[1] - 4.5 * up + 2.5];
-        document.text(label, Anchor::Middle, 7.5, name);
+        drawing.text(label, Anchor::Middle, 7.5, name);
     }
-}
-
-fn hex([r, g, b]: [u8; 3]) -> String {
-    format!("#{r:02x}{g:02x}{b:02x}")
-}
-
-/// The channels of `#rrggbb`.
-fn rgb(colour: &str) -> [u8; 3] {
-    let channel = |at: usize| {
-        colour
-            .get(at..at + 2)
-            .and_then(|it| u8::from_str_radix(it, 16).ok())
-    };
-    [1, 3, 5].map(|at| channel(at).unwrap_or(0))
 }

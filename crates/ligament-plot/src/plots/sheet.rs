@@ -1,0 +1,84 @@
+//! What a plot is drawn on: its size, the room for the legend, and how fine the pen is.
+
+use super::series::{LETTERS, Series};
+use crate::drawing::{Drawing, PIXELS_PER_MM, text_width};
+
+/// Pixels of a screen that a millimetre of paper takes: text of 15 pixels has a height of 7 points in print.
+const SCREEN_PIXELS_PER_MM: f64 = 6.0;
+
+/// Height over the width of the room for the curves on paper.
+const HEIGHT: f64 = 0.68;
+
+/// Width of the room for the curves on a screen, and least width of the legend beside it, pixels.
+const PLANE: f64 = 570.0;
+const LEGEND: f64 = 190.0;
+
+/// Largest share of the legend of a sheet of paper.
+const LARGEST_LEGEND: f64 = 0.6;
+
+/// Place of the first entry of the legend, and distance of the entries, pixels of a screen.
+const FIRST_ENTRY: f64 = 52.0;
+const ENTRY: f64 = 22.0;
+
+/// Width of an entry of the legend without its label, pixels of a screen.
+const BESIDE_LABEL: f64 = 58.0;
+
+/// The sheet for a plot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Sheet {
+    /// Pixels of the drawing to a pixel of a screen.
+    pub(super) pen: f64,
+    /// Width and height, pixels.
+    size: [f64; 2],
+    /// Width of the room for the curves, pixels; the rest of the width is for the legend.
+    pub(super) plane: f64,
+}
+
+impl Sheet {
+    /// A screen of a height in pixels, whose legend is at the right of a room of 570 pixels.
+    pub(super) fn screen(height: f64, series: &[Series]) -> Self {
+        Self {
+            pen: 1.0,
+            size: [PLANE + legend(series).max(LEGEND), height],
+            plane: PLANE,
+        }
+    }
+
+    /// A sheet of paper of a width in mm, with room for the legend at the right where a curve has a label.
+    pub(super) fn paper(width: f64, series: &[Series]) -> Self {
+        let pen = PIXELS_PER_MM / SCREEN_PIXELS_PER_MM;
+        let width = width * PIXELS_PER_MM;
+        let legend = (pen * legend(series)).min(LARGEST_LEGEND * width);
+        let plane = width - legend;
+        Self {
+            pen,
+            size: [width, HEIGHT * plane],
+            plane,
+        }
+    }
+
+    pub(super) fn height(&self) -> f64 {
+        self.size[1]
+    }
+
+    /// An empty drawing of the size of the sheet.
+    pub(super) fn drawing(&self) -> Drawing {
+        Drawing::new(self.size)
+    }
+
+    /// Draws the entries of the curves that have a label and points, below each other.
+    pub(super) fn draw_legend(&self, drawing: &mut Drawing, series: &[Series]) {
+        let named = series.iter().filter(|series| series.is_named());
+        for (place, series) in named.enumerate() {
+            let y = self.pen * (FIRST_ENTRY + ENTRY * place as f64);
+            series.draw_entry(drawing, [self.plane, y], self.pen);
+        }
+    }
+}
+
+/// Width of the legend of curves, pixels of a screen; 0 without labels.
+fn legend(series: &[Series]) -> f64 {
+    let labels = series.iter().filter(|it| it.is_named());
+    let widths = labels.map(|it| BESIDE_LABEL + text_width(it.label(), LETTERS));
+    widths.fold(0.0, f64::max)
+}
