@@ -267,6 +267,7 @@ fn is_false(value: &bool) -> bool {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 
@@ -291,7 +292,7 @@ mod tests {
         assert_eq!(early.solver.factor.as_ref().unwrap().update, "incremental");
 
         let folder = tempfile::tempdir().unwrap();
-        let results = ResultFolder::create(&folder.path().join("out"), false).unwrap();
+        let results = ResultFolder::create(folder.path().join("out"), false).unwrap();
         assert!(read::<Summary>(results.path()).unwrap().is_none());
         let stage = Stage {
             name: "solution".into(),

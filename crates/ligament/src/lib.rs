@@ -35,7 +35,7 @@
 //! # }
 //! ```
 //!
-//! An [`Observer`](ligament_analysis::Observer) in the place of [`NoObserver`](run::Unobserved) receives the load steps of a run;
+//! An [`Observer`](ligament_analysis::Observer) in the place of [`NoObserver`](run::NoObserver) receives the load steps of a run;
 //! [`Model::build`] only builds the model. Nothing is printed and no file is read or written here.
 #![cfg_attr(
     test,
