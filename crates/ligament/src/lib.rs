@@ -28,7 +28,7 @@
 //! setup.supports = vec![Support::new("left", &[Component::X, Component::Y])];
 //! setup.loads = vec![Load::new("right", Action::Force([1e3, 0.0, 0.0]))];
 //!
-//! let solution = setup.solve(&mut Unobserved)?;
+//! let solution = setup.solve(&mut NoObserver)?;
 //! let last = solution.outcome.history.last().ok_or("no solution")?;
 //! assert!(last.displacement > 0.0);
 //! # Ok(())
