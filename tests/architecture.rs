@@ -145,14 +145,14 @@ const RESERVED: [(&str, &[&str]); 17] = [
     ("schemars", &["ligament-case"]),
     (
         "serde",
-        &["ligament-case", "ligament-run", "ligament-study"],
+        &["ligament-case", "ligament-output", "ligament-study"],
     ),
     (
         "serde_json",
         &[
             "ligament-case",
             "ligament-cli",
-            "ligament-plot",
+            "ligament-output",
             "ligament-python",
             "ligament-report",
             "ligament-run",

@@ -4,8 +4,8 @@ mod modal;
 mod model;
 mod provenance;
 mod solver;
+mod values;
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
@@ -13,7 +13,7 @@ use std::path::Path;
 use ligament_analysis::balanced::Stability;
 use ligament_analysis::driver::LoadPoint;
 use serde::de::DeserializeOwned;
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 use crate::Error;
 use crate::atomic::read_text;
@@ -23,13 +23,13 @@ use crate::quantity::place;
 pub use modal::{ModalSummary, ModeSummary};
 pub use model::{CorrectionSummary, ModelSummary, ScatterSummary, Spread};
 pub use provenance::{Build, Identity, Input, Provenance, Stage};
+use values::number;
+
 pub use solver::{FactorSummary, IterationSummary, SolverSummary};
+pub use values::Text;
 
 /// Name of the file.
 pub const SUMMARY: &str = "summary.json";
-
-/// A word, a constant of the program in a new summary, owned text in one that was read.
-pub type Text = Cow<'static, str>;
 
 /// Summary of a run. Keys that an earlier version did not write have their default.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -257,16 +257,12 @@ pub fn write<S: Serialize>(folder: &ResultFolder, summary: &S) -> Result<(), Err
     folder.write_text(SUMMARY, &(text + "\n"))
 }
 
-/// Reads a number; null, which JSON has for infinity and NaN, becomes NaN.
-fn number<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
-}
-
 fn is_false(value: &bool) -> bool {
     !value
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 
@@ -291,7 +287,7 @@ mod tests {
         assert_eq!(early.solver.factor.as_ref().unwrap().update, "incremental");
 
         let folder = tempfile::tempdir().unwrap();
-        let results = ResultFolder::create(&folder.path().join("out"), false).unwrap();
+        let results = ResultFolder::create(folder.path().join("out"), false).unwrap();
         assert!(read::<Summary>(results.path()).unwrap().is_none());
         let stage = Stage {
             name: "solution".into(),

@@ -30,13 +30,8 @@ pub(crate) struct Picture<'a> {
     pub(crate) title: String,
 }
 
-<<<<<<< libraries
 /// The picture with a width, mm.
 pub(crate) fn drawn(picture: Picture<'_>, width: f64) -> Result<Drawn, PictureError> {
-=======
-/// The picture as SVG with a width, mm.
-pub(crate) fn svg(picture: Picture<'_>, width: f64) -> Result<String, PictureError> {
->>>>>>> summary
     let Picture {
         grid,
         values,
@@ -69,7 +64,6 @@ pub(crate) fn svg(picture: Picture<'_>, width: f64) -> Result<String, PictureErr
     maps.draw(width).map(Drawn)
 }
 
-<<<<<<< libraries
 /// A picture in memory, which becomes a file of any kind.
 #[pyclass(frozen, name = "Drawing")]
 pub(crate) struct Drawn(Drawing);
@@ -91,24 +85,6 @@ impl Drawn {
     fn pdf(&self, title: &str) -> Cow<'static, [u8]> {
         Cow::Owned(self.0.to_pdf(title))
     }
-=======
-/// Contents of a file for a picture (SVG) with a title, in the format `kind`: svg, png or pdf.
-#[pyfunction]
-pub(crate) fn picture_file(
-    py: Python<'_>,
-    svg: &str,
-    title: &str,
-    kind: &str,
-    dpi: f64,
-) -> PyResult<Cow<'static, [u8]>> {
-    let bytes = match kind {
-        "png" => to_png(svg, dpi).map_err(|error| error.to_string()),
-        "pdf" => to_pdf(svg, title).map_err(|error| error.to_string()),
-        _ => Ok(svg.as_bytes().to_vec()),
-    };
-    let bytes = bytes.map_err(|fault| errors::of_request(py, &fault))?;
-    Ok(Cow::Owned(bytes))
->>>>>>> summary
 }
 
 /// A curve: its label, and its values along x and y.
@@ -118,11 +94,7 @@ type Curve<'py> = (
     PyReadonlyArray1<'py, f64>,
 );
 
-<<<<<<< libraries
-/// Curves of one quantity over another in a picture of a width (mm), each axis by its words and its SI unit.
-=======
-/// Curves of one quantity over another as SVG with a width (mm); each axis has a label and an SI unit.
->>>>>>> summary
+/// Curves of one quantity over another in a picture of a width (mm); each axis has a label and an SI unit.
 #[pyfunction]
 pub(crate) fn draw_curves(
     py: Python<'_>,

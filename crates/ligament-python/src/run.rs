@@ -84,12 +84,8 @@ impl Run {
             .collect()
     }
 
-<<<<<<< libraries
-    /// A picture of a field (n_points), by the words for its quantity, its name and a title, on the body moved by a displacement (n_points, 3).
-=======
-    /// A picture (SVG) of a field (n_points), given by a description of its quantity, its name and a title, on the body moved by a
-    /// displacement (n_points, 3).
->>>>>>> summary
+    /// A picture of a field (n_points), given by a description of its quantity, its name and a title, on the body moved by a displacement
+    /// (n_points, 3).
     fn draw(
         &self,
         py: Python<'_>,

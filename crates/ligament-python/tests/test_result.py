@@ -111,7 +111,8 @@ def test_the_crack_goes_straight_on_from_the_notch(result: Any) -> None:
 def test_pictures_are_svg(result: Any, tmp_path: Path) -> None:
     for picture in (result.plot(), result.plot("displacement_y", 10), result.curve()):
         root = ElementTree.fromstring(picture.svg)
-        assert root.tag.endswith("svg") and len(list(root.iter())) > 20
+        kinds = {it.tag.rpartition("}")[2] for it in root.iter()}
+        assert root.tag.endswith("svg") and {"path", "text"} <= kinds
     assert result.plot().save(tmp_path / "damage").read_text().startswith("<svg")
     names = ["lambda2.5", "lambda2.75", "a.png", "a.pdf", "a.svg", "no-ending"]
     saved = [result.plot().save(tmp_path / name) for name in names]

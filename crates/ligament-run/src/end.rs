@@ -20,7 +20,7 @@ pub enum End {
 
 impl End {
     /// The end of a run by its summary.
-    pub fn of(summary: &Summary) -> Self {
+    pub fn from_summary(summary: &Summary) -> Self {
         const ASKED_FOR: [&str; 2] = ["bonds-broken", "wall-time"];
         let termination = &*summary.termination;
         if termination == Termination::Stopped.name() {

@@ -144,7 +144,7 @@ impl Request<'_> {
             |folder| {
                 let summary = body.follow(folder, kept, &mut stages, &mut progress)?;
                 progress.finish(&summary.termination_message);
-                let is_complete = End::of(&summary) != End::Stopped;
+                let is_complete = End::from_summary(&summary) != End::Stopped;
                 Ok((summary, is_complete))
             },
         )?;

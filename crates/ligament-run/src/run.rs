@@ -60,7 +60,7 @@ impl Report {
     /// End of the run.
     pub fn end(&self) -> End {
         match self {
-            Self::Loading(summary) => End::of(summary),
+            Self::Loading(summary) => End::from_summary(summary),
             Self::Modes(_) | Self::OfRankZero => End::Done,
         }
     }
@@ -184,7 +184,7 @@ fn follow_loads(
         }
         let summary = body.follow(folder, None, &mut stages, &mut progress)?;
         progress.finish(&summary.termination_message);
-        let is_complete = End::of(&summary) != End::Stopped;
+        let is_complete = End::from_summary(&summary) != End::Stopped;
         Ok((summary, is_complete))
     })?;
     Ok(Report::Loading(Box::new(summary)))

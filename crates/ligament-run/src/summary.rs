@@ -155,7 +155,7 @@ pub fn write(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
     if summary.without_equilibrium {
         let none = "no state under load is in equilibrium: there are no results";
         writeln!(out, "  NO EQUILIBRIUM     {none}")?;
-    } else if End::of(summary) == End::NoEquilibrium {
+    } else if End::from_summary(summary) == End::NoEquilibrium {
         writeln!(out, "  NO EQUILIBRIUM     {UP_TO_THERE}")?;
     } else if summary.last_state_not_at_rest {
         let last = "the last state is no answer: its bonds were still breaking when the run ended";

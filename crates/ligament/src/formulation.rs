@@ -101,7 +101,7 @@ impl<'a, const D: usize> Formulation<'a, D> {
         rotational::calibrated(scaled, alpha, bonds, cloud, &moduli)
     }
 
-    /// The correction of bonds with stiffness densities and factors alpha (n_bonds), computed with materials of a [milder] contrast.
+    /// The correction of bonds with stiffness densities and factors alpha (n_bonds), with materials [of less contrast](with_reduced_contrast).
     pub fn correction(
         &self,
         bonds: &BondSet<D>,

@@ -28,14 +28,14 @@
 //! setup.supports = vec![Support::new("left", &[Component::X, Component::Y])];
 //! setup.loads = vec![Load::new("right", Action::Force([1e3, 0.0, 0.0]))];
 //!
-//! let solution = setup.solve(&mut Unobserved)?;
+//! let solution = setup.solve(&mut NoObserver)?;
 //! let last = solution.outcome.history.last().ok_or("no solution")?;
 //! assert!(last.displacement > 0.0);
 //! # Ok(())
 //! # }
 //! ```
 //!
-//! An [`Observer`](ligament_analysis::Observer) in the place of [`NoObserver`](run::Unobserved) receives the load steps of a run;
+//! An [`Observer`](ligament_analysis::Observer) in the place of [`NoObserver`](run::NoObserver) receives the load steps of a run;
 //! [`Model::build`] only builds the model. Nothing is printed and no file is read or written here.
 #![cfg_attr(
     test,

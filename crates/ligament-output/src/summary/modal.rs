@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{ModelSummary, Provenance, SolverSummary, StabilitySummary, Stage, Text, number};
+use super::values::{Text, number};
+use super::{ModelSummary, Provenance, SolverSummary, StabilitySummary, Stage};
 
 /// Summary of a modal analysis. Keys that an earlier version did not write have their default.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Text, number};
+use super::values::{Text, number};
 
 /// Summary of a model.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Text;
+use super::values::Text;
 
 /// The solver and its work.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]

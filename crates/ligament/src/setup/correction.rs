@@ -42,7 +42,7 @@ pub enum Surface {
 }
 
 impl Surface {
-    /// Largest ratio of the materials' stiffnesses in the computation of the factors ([milder](ligament_model::material::milder)). With a
+    /// Largest ratio of the materials' stiffnesses in the computation of the factors ([contrast](ligament_model::material::with_reduced_contrast)). With a
     /// smaller ratio, soft layers between stiffer parts carry a more accurate load, stiff layers under tension along them a less accurate
     /// one, as measured on layers of one to four cells.
     pub(crate) fn largest_contrast(&self) -> f64 {

@@ -14,7 +14,7 @@ pub struct Temperature {
 /// Change of the temperature.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TemperatureChange {
-    /// The same change everywhere, K.
+    /// Uniform change of the temperature, K.
     Uniform(f64),
     /// Changes at positions, each assigned to the point within a tenth of its distance to the nearest other point.
     Table(Vec<Sample>),

@@ -21,7 +21,7 @@ pub(super) struct Heating {
 
 /// Changes of temperature by one section of the setup.
 enum Change {
-    /// The same change everywhere, K.
+    /// Uniform change of the temperature, K.
     Uniform(f64),
     /// Change of each point that has one, shape (n_points), K; and the reason why other points have none.
     Each(Vec<Option<f64>>, &'static str),
