@@ -3,8 +3,8 @@
 //! Limits, factors and horizons come from `model.vtu`, breakages from `breaks.csv`, loads from `history.csv`, and the deformation of a bond
 //! from the displacements and rotations of the fields, by the kinematics of the bonds.
 
+mod bond_history;
 mod files;
-mod life;
 mod report;
 mod strains;
 mod words;
@@ -16,7 +16,7 @@ use ligament_output::results::stored::StoredRun;
 use ligament_output::{check_file, write_file};
 use thiserror::Error;
 
-use self::life::{BondHistories, bonds_of, pair_of};
+use self::bond_history::{BondHistories, bonds_of, pair_of};
 use ligament_plot::stored_loading::stored_loading;
 
 /// Bond or family to be explained.
