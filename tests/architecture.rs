@@ -145,7 +145,12 @@ const RESERVED: [(&str, &[&str]); 17] = [
     ("schemars", &["ligament-case"]),
     (
         "serde",
-        &["ligament-case", "ligament-output", "ligament-study"],
+        &[
+            "ligament-case",
+            "ligament-output",
+            "ligament-plot",
+            "ligament-study",
+        ],
     ),
     (
         "serde_json",

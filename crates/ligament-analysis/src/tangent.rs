@@ -2,8 +2,8 @@
 
 pub(crate) mod direct;
 pub(crate) mod distributed;
+mod factor_record;
 pub(crate) mod iterative;
-mod making;
 pub(crate) mod solving;
 mod terms;
 pub(crate) mod unsymmetric;

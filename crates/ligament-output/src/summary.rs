@@ -179,9 +179,14 @@ pub struct BondEvent {
     pub reaction: f64,
     /// Name of the criterion.
     pub criterion: String,
-    /// Kind of the tags, `node` or `cell`; not in the file.
-    #[serde(skip)]
+    /// Kind of the tags, `node` or `cell`. The file does not have it: of an event that was read it is `point`.
+    #[serde(skip, default = "point")]
     pub tagged: &'static str,
+}
+
+/// Kind of the tags of an event that was read.
+fn point() -> &'static str {
+    "point"
 }
 
 impl fmt::Display for BondEvent {
@@ -285,6 +290,8 @@ mod tests {
         assert_eq!(early.units.stiffness(), "N/m");
         assert!(early.provenance.is_none() && early.solver.iteration.is_none());
         assert_eq!(early.solver.factor.as_ref().unwrap().update, "incremental");
+        let bond = early.first_broken_bond.as_ref().unwrap().to_string();
+        assert!(bond.starts_with("points 3 and 7 at "), "{bond}");
 
         let folder = tempfile::tempdir().unwrap();
         let results = ResultFolder::create(folder.path().join("out"), false).unwrap();

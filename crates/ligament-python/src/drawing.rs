@@ -12,6 +12,7 @@ use ligament_plot::picture::maps::{MappedBody, Maps};
 use ligament_plot::picture::units::Shown;
 use ligament_plot::plots::{Colour, Plot, Series};
 use numpy::PyReadonlyArray1;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::errors;
@@ -65,11 +66,23 @@ pub(crate) fn drawn(picture: Picture<'_>, width: f64) -> Result<Drawn, PictureEr
 }
 
 /// A picture in memory, which becomes a file of any kind.
-#[pyclass(frozen, name = "Drawing")]
+#[pyclass(frozen, name = "Drawing", module = "ligament._native")]
 pub(crate) struct Drawn(Drawing);
 
 #[pymethods]
 impl Drawn {
+    /// The picture of a text that [`Drawn::__getnewargs__`] gave, by which pictures are pickled and copied.
+    #[new]
+    fn new(text: &str) -> PyResult<Self> {
+        let drawing = serde_json::from_str(text);
+        (drawing.map(Self)).map_err(|error| PyValueError::new_err(error.to_string()))
+    }
+
+    fn __getnewargs__(&self) -> PyResult<(String,)> {
+        let text = serde_json::to_string(&self.0);
+        (text.map(|it| (it,))).map_err(|error| PyValueError::new_err(error.to_string()))
+    }
+
     /// The text of the picture as SVG with a title.
     fn svg(&self, title: &str) -> String {
         self.0.to_svg(title)

@@ -1,8 +1,11 @@
 """Results: the same numbers as the files of the program, arrays that are not copied, pictures."""
 
+import copy
 import csv
 import importlib.util
 import json
+import pickle
+import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -111,8 +114,13 @@ def test_the_crack_goes_straight_on_from_the_notch(result: Any) -> None:
 def test_pictures_are_svg(result: Any, tmp_path: Path) -> None:
     for picture in (result.plot(), result.plot("displacement_y", 10), result.curve()):
         root = ElementTree.fromstring(picture.svg)
-        kinds = {it.tag.rpartition("}")[2] for it in root.iter()}
-        assert root.tag.endswith("svg") and {"path", "text"} <= kinds
+        parts = list(root.iter())
+        corners = sum(len(re.findall(r"[MLml]", it.get("d", ""))) for it in parts)
+        assert root.tag.endswith("svg") and len(parts) > 10 and corners > 10, (len(parts), corners)
+        for copied in (pickle.loads(pickle.dumps(picture)), copy.deepcopy(picture)):
+            assert copied.svg == picture.svg
+            first, second = (it.save(tmp_path / "copied.png").read_bytes() for it in (picture, copied))
+            assert first == second
     assert result.plot().save(tmp_path / "damage").read_text().startswith("<svg")
     names = ["lambda2.5", "lambda2.75", "a.png", "a.pdf", "a.svg", "no-ending"]
     saved = [result.plot().save(tmp_path / name) for name in names]

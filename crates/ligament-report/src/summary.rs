@@ -71,14 +71,14 @@ fn of_steps(summary: Summary) -> InWords {
     }
     texts.extend(summary.warnings.iter().map(String::as_str));
     let computed = provenance(&summary.model, summary.provenance.as_ref(), &summary.stages);
-    let html = [
-        warnings(&texts),
-        table("Results", &results_of_steps(&summary)),
-        table("Model", &model(&summary.model)),
-        table("Computed by", &computed),
-    ];
+    let html = tables(
+        &texts,
+        &results_of_steps(&summary),
+        &summary.model,
+        &computed,
+    );
     InWords {
-        html: html.concat(),
+        html,
         title: Some(summary.model.title),
     }
 }
@@ -86,16 +86,27 @@ fn of_steps(summary: Summary) -> InWords {
 fn of_modes(summary: ModalSummary) -> InWords {
     let texts: Vec<&str> = summary.warnings.iter().map(String::as_str).collect();
     let computed = provenance(&summary.model, summary.provenance.as_ref(), &summary.stages);
-    let html = [
-        warnings(&texts),
-        table("Results", &results_of_modes(&summary)),
-        table("Model", &model(&summary.model)),
-        table("Computed by", &computed),
-    ];
+    let html = tables(
+        &texts,
+        &results_of_modes(&summary),
+        &summary.model,
+        &computed,
+    );
     InWords {
-        html: html.concat(),
+        html,
         title: Some(summary.model.title),
     }
+}
+
+/// Warnings and the tables of results, model and origin.
+fn tables(texts: &[&str], results: &[Entry], of: &ModelSummary, computed: &[Entry]) -> String {
+    [
+        warnings(texts),
+        table("Results", results),
+        table("Model", &model(of)),
+        table("Computed by", computed),
+    ]
+    .concat()
 }
 
 /// A row of a table: name and text.
@@ -162,7 +173,8 @@ fn results_of_steps(summary: &Summary) -> Vec<Entry> {
         false => "load steps",
     };
     let broken = format!("{} in {} {steps}", summary.broken_bonds, summary.steps);
-    let balance = format!("off by {:.1e} of the work", summary.energy_balance_error);
+    let balance = Some(summary.energy_balance_error).filter(|it| it.is_finite());
+    let balance = balance.map(|it| entry("Energy balance", format!("off by {it:.1e} of the work")));
     let rows = [
         load_at("Largest load", summary.peak),
         load_at("First peak", other_peak),
@@ -171,7 +183,7 @@ fn results_of_steps(summary: &Summary) -> Vec<Entry> {
         bond("First broken bond", &summary.first_broken_bond),
         summary.elastic_stiffness.map(stiffness),
         Some(entry("Broken bonds", broken)),
-        Some(entry("Energy balance", balance)),
+        balance,
         Some(entry("Ended because", &*summary.termination_message)),
     ];
     rows.into_iter().flatten().collect()

@@ -90,7 +90,7 @@ pub fn bond_stiffness(request: &Request, screen: &mut dyn Write) -> anyhow::Resu
         "law {law}, bonds of {length:.4e} m with the horizon {horizon:.4e} m\n"
     )?;
     for (index, (name, curves)) in materials.iter().enumerate() {
-        tell(screen, name, curves)?;
+        write_extremes(screen, name, curves)?;
         append(&mut table, name, curves)?;
         for plot in plots(name, &file_stem(name, index), curves) {
             folder.write_text(
@@ -129,7 +129,11 @@ const STIFFNESSES: [Quantity; 3] = [
 ];
 
 /// Prints values along x and y, and the smallest and largest values with their directions.
-fn tell(screen: &mut dyn Write, name: &str, curves: &[InDirection]) -> anyhow::Result<()> {
+fn write_extremes(
+    screen: &mut dyn Write,
+    name: &str,
+    curves: &[InDirection],
+) -> anyhow::Result<()> {
     writeln!(screen, "{name}")?;
     for (quantity, value) in STIFFNESSES {
         let unit = if quantity == "k_theta" {

@@ -182,7 +182,7 @@ pub fn verify(request: &Request, screen: &mut dyn Write) -> anyhow::Result<()> {
     for experiment in chosen {
         console::announce(screen, experiment)?;
         let findings = experiment.run(extent)?;
-        console::tell(screen, &findings)?;
+        console::write(screen, &findings)?;
         files::write(&folder, &findings)?;
         summary.append(experiment, &Tally::from_findings(&findings))?;
         done.push((experiment, findings));

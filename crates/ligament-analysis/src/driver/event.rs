@@ -7,9 +7,9 @@
 //! size. A test under displacement control follows its envelope, [`super::Outcome::envelope`].
 
 mod affine;
+mod equilibrium_line;
 mod passing;
 mod proportional;
-mod way;
 
 use std::cell::OnceCell;
 use std::mem;
@@ -29,8 +29,8 @@ use crate::history::{Observer, Termination};
 use crate::lagging::Body;
 use crate::problem::Problem;
 use crate::state::State;
+use equilibrium_line::{EquilibriumLine, Goal};
 use passing::Passed;
-use way::{EquilibriumLine, Goal};
 
 /// Settings of the exact path, with its stop rules. The path ends at load factor one in any case, or with the last stage.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,6 @@
 //! State of a run, as all drivers that break bonds use it.
 //!
-//! It computes equilibria with their energies, breaks bonds, fixes detached parts, makes records and applies stop rules.
+//! A `Path` computes equilibria with their energies, breaks bonds, fixes detached parts, makes records and applies stop rules.
 
 use std::borrow::Cow;
 use std::time::Instant;

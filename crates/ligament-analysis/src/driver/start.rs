@@ -133,8 +133,8 @@ impl Start {
         );
         self.elastic.stiffness = record.reaction / record.displacement;
         let ratio = largest_ratio(problem, at_one, balanced);
-        let is_foretold = ratio > 0.0 && problem.system.is_linear();
-        self.elastic.first_break = is_foretold.then(|| LoadPoint {
+        let is_predicted = ratio > 0.0 && problem.system.is_linear();
+        self.elastic.first_break = is_predicted.then(|| LoadPoint {
             load_factor: 1.0 / ratio,
             displacement: record.displacement / ratio,
             reaction: record.reaction / ratio,

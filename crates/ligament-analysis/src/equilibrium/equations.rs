@@ -9,9 +9,9 @@ use ligament_model::subdomain::Subdomain;
 use ligament_model::thermal::ThermalStrain;
 
 use super::accuracy::{Accuracy, Loaded};
+use super::earlier_equilibria::EarlierEquilibria;
 use super::iterate::Iterate;
 use super::mechanism::Measure;
-use super::precedents::EarlierEquilibria;
 use super::residual::{Extents, ROUNDING, Residual};
 use crate::balanced::{Attempt, Balanced};
 use crate::bond_numbers::BondNumbers;
@@ -53,7 +53,7 @@ pub(super) struct Equations {
     /// Pairs across cracks, where faces close.
     pub(super) contact: Contact,
     /// Earlier equilibria of softening bonds.
-    pub(super) precedents: EarlierEquilibria,
+    pub(super) earlier: EarlierEquilibria,
     pub(super) costs: Costs,
 }
 
@@ -84,7 +84,7 @@ impl Equations {
             },
             accuracy,
             contact: Contact::default(),
-            precedents: EarlierEquilibria::default(),
+            earlier: EarlierEquilibria::default(),
             costs: Costs {
                 analysis: analysis.unwrap_or_default(),
                 ..Costs::default()
@@ -117,13 +117,13 @@ impl Equations {
             choice: _,
             energy_tolerance: _,
             contact: _,
-            precedents,
+            earlier,
         } = self;
         accuracy.largest_extents.write(out);
         costs.write(out);
         solver.write(out);
         if problem.criteria.soften() {
-            precedents.write_all(halo.subdomain(), unknowns, out);
+            earlier.write_all(halo.subdomain(), unknowns, out);
         }
     }
 
@@ -144,7 +144,7 @@ impl Equations {
             self.solver.restore(from)?;
         }
         if self.problem.criteria.soften() {
-            self.precedents = EarlierEquilibria::restored(from, &self.unknowns)?;
+            self.earlier = EarlierEquilibria::restored(from, &self.unknowns)?;
         }
         self.contact = Contact::new(&*self.problem.system, &state.intact);
         let measured = self.measure(state).balanced(0, Vec::new());

@@ -1,11 +1,11 @@
 //! Equilibrium of bonds that soften, by a quasi-Newton iteration from their secant stiffness.
 
 use super::curvature::Curvature;
+use super::earlier_equilibria::EarlierEquilibria;
 use super::equations::Equations;
 use super::iterate::Iterate;
 use super::line;
 use super::line_search;
-use super::precedents::EarlierEquilibria;
 use super::residual::RESIDUAL_TOLERANCE;
 use super::target::Target;
 use crate::balanced::Attempt;
@@ -83,8 +83,8 @@ fn sought(
     target: Option<&Target>,
     observer: &mut dyn Observer,
 ) -> Result<Attempt, ObserverError> {
-    let mut precedents = applicable_precedents(equations, breakage);
-    let (mut iterate, mut iterations) = begun(equations, state, breakage, target, &precedents);
+    let mut earlier = applicable_precedents(equations, breakage);
+    let (mut iterate, mut iterations) = begun(equations, state, breakage, target, &earlier);
     let mut mechanisms = Vec::new();
     let mut previous_energy = f64::NAN;
     let faces_close = equations.problem.system.faces_close();
@@ -107,8 +107,8 @@ fn sought(
         if (is_small || energy_settled) && is_met && !is_carried {
             state.softening.settle();
             equations.remember(iterate.extents);
-            precedents.learn(state, !breakage.bonds.is_empty());
-            equations.precedents = precedents;
+            earlier.learn(state, !breakage.bonds.is_empty());
+            equations.earlier = earlier;
             return Ok(equations.settled(iterate, iterations, mechanisms));
         }
         if iterations == ITERATION_LIMIT || !residual.relative.is_finite() {
@@ -116,7 +116,7 @@ fn sought(
         }
         previous_energy = iterate.stored_energy;
         let is_one_way = iterations > ONE_WAY_AFTER;
-        let curvature = &mut precedents.curvature;
+        let curvature = &mut earlier.curvature;
         equations
             .solver
             .update_for_softening(state, &mut equations.costs);
@@ -140,14 +140,14 @@ fn sought(
 /// Pairs that close and open change the stiffness at once; and where one breakage causes another, curvature from before it would
 /// affect where the drop ends.
 fn applicable_precedents(equations: &mut Equations, breakage: &Breakage) -> EarlierEquilibria {
-    let mut precedents = std::mem::take(&mut equations.precedents);
+    let mut earlier = std::mem::take(&mut equations.earlier);
     if equations.problem.system.faces_close() {
         return EarlierEquilibria::default();
     }
     if !breakage.bonds.is_empty() {
-        precedents.curvature.discard();
+        earlier.curvature.discard();
     }
-    precedents
+    earlier
 }
 
 /// First iterate, and the number of corrections made to reach it.
@@ -156,7 +156,7 @@ fn begun(
     state: &mut State,
     breakage: &Breakage,
     target: Option<&Target>,
-    precedents: &EarlierEquilibria,
+    earlier: &EarlierEquilibria,
 ) -> (Iterate, usize) {
     equations.prescribe(state);
     let has_followed = equations.follow(state, breakage);
@@ -166,7 +166,7 @@ fn begun(
         return (softened(equations, state, false), usize::from(has_followed));
     }
     let is_new = breakage.bonds.is_empty();
-    let ahead = is_new.then(|| precedents.ahead(state, target)).flatten();
+    let ahead = is_new.then(|| earlier.ahead(state, target)).flatten();
     let Some(mut ahead) = ahead else {
         return (iterate, 0);
     };

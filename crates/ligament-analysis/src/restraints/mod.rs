@@ -4,7 +4,7 @@
 //! force like that of a support: its energy is not part of the bond energies, and its work is work of the supports. Where the far
 //! end of a spring is moved, a loading adds S g to its given forces.
 
-mod holds;
+mod supports_to_add;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,7 +12,7 @@ use ligament_model::interface::CoupledPoints;
 
 use crate::unknowns::Layout;
 
-pub use holds::missing_supports;
+pub use supports_to_add::missing_supports;
 
 /// A stiffness between some degrees of freedom and the ground.
 #[derive(Debug, Clone, PartialEq)]

@@ -9,8 +9,8 @@ use ligament_linalg::{
 use ligament_model::contact::ClosedPair;
 use ligament_model::element::StiffnessFactors;
 
+use super::factor_record::FactorRecord;
 use super::iterative;
-use super::making::FactorRecord;
 use super::terms::{Coupled, due_bonds};
 use super::{AllowedResidual, HalfUpdated, SOFT_HOLD, TangentSolver, Unsolved};
 use crate::breakage::Breakage;

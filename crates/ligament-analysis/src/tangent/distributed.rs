@@ -5,7 +5,7 @@
 //! and where the iterations in excess of its initial rate have cost as much as a rebuild. A factor is computed anew after every
 //! breakage.
 
-mod kept;
+mod preconditioner_state;
 mod rows;
 
 use std::collections::BTreeSet;
@@ -20,9 +20,9 @@ use ligament_model::element::StiffnessFactors;
 use ligament_model::subdomain::Partition;
 use ligament_model::thermal::ThermalStrain;
 
-use self::kept::PreconditionerState;
+use self::preconditioner_state::PreconditionerState;
 use self::rows::{OwnRows, Taken};
-use super::making::FactorRecord;
+use super::factor_record::FactorRecord;
 use super::terms::due_bonds;
 use super::{AllowedResidual, TangentSolver, Unsolved};
 use crate::bond_numbers::BondNumbers;

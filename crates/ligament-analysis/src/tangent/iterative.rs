@@ -28,7 +28,7 @@ use self::coarse::Coarse;
 use self::conjugate::{Found, Limit, TwoLevels};
 use self::operator::Operator;
 use self::point_blocks::PointBlocks;
-use super::making::FactorRecord;
+use super::factor_record::FactorRecord;
 use super::terms::{Coupled, due_bonds};
 use super::{AllowedResidual, SOFT_HOLD, TangentSolver, Unsolved};
 use crate::breakage::Breakage;

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use ligament_linalg::{FactorError, GeneralMatrix, Inertia, Lu};
 
-use super::making::FactorRecord;
+use super::factor_record::FactorRecord;
 use super::{AllowedResidual, TangentSolver, Unsolved};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;

@@ -47,13 +47,15 @@ pub(super) fn write(
         entry(out, name, format!("not done: {reason}"))?;
         return Ok(Vec::new());
     }
-    let mut heard = Heard::default();
-    let foretold = stages.time("first solution", || predict(problem, analysis, &mut heard));
-    if let Some(foretold) = foretold.map_err(|it| case.explained(it))? {
-        write_foretold(out, model, problem, &foretold)?;
+    let mut notices = Notices::default();
+    let prediction = stages.time("first solution", || {
+        predict(problem, analysis, &mut notices)
+    });
+    if let Some(prediction) = prediction.map_err(|it| case.explained(it))? {
+        write_prediction(out, model, problem, &prediction)?;
     }
     // Free rigid motions are reported with the supports.
-    let told = heard
+    let told = notices
         .0
         .iter()
         .filter(|it| !matches!(it, Notice::FreeBody(_)));
@@ -87,18 +89,18 @@ pub(super) fn too_costly(
     }
 }
 
-fn write_foretold(
+fn write_prediction(
     out: &mut dyn Write,
     model: &Model,
     problem: &Problem,
-    foretold: &Prediction,
+    prediction: &Prediction,
 ) -> io::Result<()> {
     let stage = |part: usize| {
         let course = problem.loads.course();
         course.map(|it| format!("stage `{}`", it.programme.stage_name(part)))
     };
     let name = "first breakage";
-    match foretold {
+    match prediction {
         Prediction::FirstFailure(first) => write_first(out, model, first, stage(first.part)),
         Prediction::NoFailure { utilisation } if *utilisation < ROUNDING => {
             entry(out, name, "none: no bond is strained towards a limit")
@@ -180,9 +182,9 @@ fn write_first(
 
 /// Observer that collects the notices of a run.
 #[derive(Default)]
-struct Heard(Vec<Notice>);
+struct Notices(Vec<Notice>);
 
-impl Observer for Heard {
+impl Observer for Notices {
     fn notice(&mut self, notice: &Notice) -> Result<(), ObserverError> {
         self.0.push(notice.clone());
         Ok(())

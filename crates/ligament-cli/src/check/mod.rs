@@ -58,11 +58,11 @@ fn check_here(
     let mut stages = Stages::default();
     let progress = Progress::new(ProgressMode::Quiet);
     let model = build_model(case, &mut stages, &progress)?;
-    tell(case, extent, fields, (&model, stages), out)
+    write_report(case, extent, fields, (&model, stages), out)
 }
 
 /// Reports a model.
-fn tell(
+fn write_report(
     case: &CaseFile,
     extent: Extent,
     fields: Option<&Path>,

@@ -122,7 +122,7 @@ impl CrackArgs {
         let steps = choice.steps(&self.results, &cracks.steps())?;
         let step = steps.first().map_or(0, |it| it.step);
         let surface = write_surface(&self.results, &cracks, step)?;
-        tell(&mut out, step, &surface)?;
+        write_measures(&mut out, step, &surface)?;
         let names = SURFACE_FILES
             .into_iter()
             .filter(|it| self.results.join(it).is_file());
@@ -171,8 +171,8 @@ fn number(text: &str) -> Result<f64, String> {
     numbers::number(text).ok_or_else(|| format!("`{text}` is not a number"))
 }
 
-/// Tells area, plane and parts of a surface.
-fn tell(out: &mut dyn Write, step: usize, surface: &CrackSurface) -> std::io::Result<()> {
+/// Writes area, plane and parts of a surface.
+fn write_measures(out: &mut dyn Write, step: usize, surface: &CrackSurface) -> std::io::Result<()> {
     let parts = surface.parts();
     let (area, count) = (quantity(surface.area(), "m^2"), parts.len());
     writeln!(

@@ -8,7 +8,7 @@ use ligament_case::case::MOST_THREADS;
 use ligament_run::progress::ProgressMode;
 use ligament_run::resume::Request;
 
-use super::run::tell;
+use super::run::print_report;
 use crate::build::BUILD;
 use crate::processes;
 use crate::stop_signal::StopSignal;
@@ -53,6 +53,6 @@ impl ResumeArgs {
             communicator: processes::join()?,
         };
         let report = request.resume(ProgressMode::detect(self.quiet))?;
-        tell(&report, &self.folder, false)
+        print_report(&report, &self.folder, false)
     }
 }

@@ -86,12 +86,16 @@ impl RunArgs {
             communicator,
         };
         let report = request.run(ProgressMode::detect(self.quiet))?;
-        tell(&report, &out, self.plot)
+        print_report(&report, &out, self.plot)
     }
 }
 
 /// Shows what a run found, and where its results are, with pictures of them if these are wanted or its case asks for them.
-pub(super) fn tell(report: &Report, folder: &Path, pictures: bool) -> anyhow::Result<ExitCode> {
+pub(super) fn print_report(
+    report: &Report,
+    folder: &Path,
+    pictures: bool,
+) -> anyhow::Result<ExitCode> {
     let code = ExitCode::from(report.end().exit_code());
     if matches!(report, Report::OfRankZero) {
         return Ok(code);

@@ -7,7 +7,7 @@ use ligament_output::csv::{Value, line};
 use ligament_output::results::stored::StoredRun;
 use serde_json::json;
 
-use super::life::{BondHistories, BondHistory};
+use super::bond_history::{BondHistories, BondHistory};
 use super::report::angle;
 
 /// A table with one row per bond and step with fields.

@@ -4,8 +4,8 @@
 //! from the displacements and rotations of the fields, by the kinematics of the bonds.
 
 mod around;
+mod bond_history;
 mod files;
-mod life;
 mod report;
 mod strains;
 mod words;
@@ -17,7 +17,7 @@ use ligament_output::results::stored::StoredRun;
 use ligament_output::{check_file, write_file};
 use thiserror::Error;
 
-use self::life::{BondHistories, bonds_of, pair_of};
+use self::bond_history::{BondHistories, bonds_of, pair_of};
 use ligament_plot::stored_loading::stored_loading;
 
 /// Bond or family to be explained.

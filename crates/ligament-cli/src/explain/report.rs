@@ -8,7 +8,7 @@ use ligament_model::Absence;
 use ligament_output::quantity::quantity;
 use ligament_output::results::stored::{StoredRun, StoredStep};
 
-use super::life::{BondHistories, BondHistory};
+use super::bond_history::{BondHistories, BondHistory};
 use super::words::{self, label, metres, number, place};
 use crate::lines::{self, Columns};
 use ligament::units::Units;

@@ -6,7 +6,7 @@ use ligament_model::failure::{Measure, Softened};
 use ligament_output::quantity::quantity;
 use ligament_output::results::stored::StoredRun;
 
-use super::life::{BondHistories, BondHistory, Limit, Nearest};
+use super::bond_history::{BondHistories, BondHistory, Limit, Nearest};
 
 /// Text of a number without a unit.
 pub(super) fn number(value: f64) -> String {
@@ -314,7 +314,7 @@ mod tests {
     use ligament_model::failure::softening::{brittle, linear, plastic};
 
     use super::*;
-    use crate::explain::life::life_of;
+    use crate::explain::bond_history::life_of;
 
     fn said(measure: Measure, limit: f64, after: AfterLimit) -> String {
         let coefficients: &[f64] = match measure {

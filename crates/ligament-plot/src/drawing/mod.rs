@@ -14,6 +14,7 @@ pub mod png;
 mod svg;
 pub(crate) mod ticks;
 
+use serde::{Deserialize, Serialize};
 use tiny_skia::Transform;
 
 pub(crate) use font::text_width;
@@ -38,7 +39,7 @@ pub(crate) const TEXT: Rgb = [0x1e; 3];
 pub(crate) const OUTLINE: Rgb = [0x40; 3];
 
 /// A drawing of a size, on white.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Drawing {
     /// Width and height, pixels.
     size: [f64; 2],
@@ -46,7 +47,7 @@ pub struct Drawing {
 }
 
 /// A part of a drawing.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 enum Item {
     /// Lines and outlines.
     Path(PathData, Paint),
@@ -61,7 +62,7 @@ enum Item {
 }
 
 /// A line of text.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct TextLine {
     /// Words with one space between two, without control characters.
     text: String,
@@ -75,7 +76,7 @@ struct TextLine {
 }
 
 /// The part of a line of text that lies at its place.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Anchor {
     Start,
     Middle,
@@ -83,7 +84,7 @@ pub(crate) enum Anchor {
 }
 
 /// How a path is painted: first its inside, then its line.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Paint {
     /// Colour of the inside.
     pub(crate) fill: Option<Rgb>,

@@ -1,12 +1,13 @@
 //! Outlines and lines in whole hundredths of a pixel.
 
+use serde::{Deserialize, Serialize};
 use tiny_skia::{Path, PathBuilder, Transform};
 
 /// Whole numbers in the data of paths to the pixel: 2.6 micrometres on paper.
 pub(super) const UNITS_PER_PIXEL: f64 = 100.0;
 
 /// Pieces of a path.
-#[derive(Debug, Default, Clone, PartialEq, Eq)]
+#[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct PathData {
     /// Corners of all pieces, hundredths of a pixel.
     points: Vec<[i32; 2]>,

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use ligament_model::tensor::{dot, minus};
 
-use super::loose::with_detached_points_assigned;
+use super::detached::with_detached_points_assigned;
 use super::sides::{Links, sides};
 use super::surface::CrackSurface;
 use super::tetrahedra::{EDGES, Tetrahedra};

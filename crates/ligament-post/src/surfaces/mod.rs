@@ -19,9 +19,9 @@
 //! Sides of tetrahedra also cut cells into pieces that move apart ([`opened_cells`]).
 
 mod crack;
+mod detached;
 mod lattice;
 mod level_set;
-mod loose;
 mod measures;
 mod of_grid;
 mod opened;

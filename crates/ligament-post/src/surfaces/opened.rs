@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use ligament_mesh::SolidCell;
 
-use super::loose::with_detached_points_assigned;
+use super::detached::with_detached_points_assigned;
 use super::pieces::{pieces, solid};
 use super::sides::{Links, sides};
 use super::tetrahedra::Tetrahedra;

@@ -54,7 +54,7 @@ impl MeshPlan {
 pub(super) fn make<'a>(
     runs: impl IntoIterator<Item = (&'a str, &'a MeshPlan)>,
     gmsh: &Path,
-    tell: &mut dyn FnMut(&str),
+    print: &mut dyn FnMut(&str),
 ) -> Result<BTreeMap<String, String>, MeshingError> {
     let mut failed = BTreeMap::new();
     let mut tried: BTreeMap<&Path, Option<String>> = BTreeMap::new();
@@ -64,7 +64,7 @@ pub(super) fn make<'a>(
             let reason = if out.is_file() {
                 None
             } else {
-                make_one(plan, gmsh, tell)?
+                make_one(plan, gmsh, print)?
             };
             tried.insert(out, reason);
         }
@@ -79,7 +79,7 @@ pub(super) fn make<'a>(
 fn make_one(
     plan: &MeshPlan,
     gmsh: &Path,
-    tell: &mut dyn FnMut(&str),
+    print: &mut dyn FnMut(&str),
 ) -> Result<Option<String>, MeshingError> {
     let request = MeshRequest {
         gmsh: gmsh.to_owned(),
@@ -88,7 +88,7 @@ fn make_one(
     match make_mesh(&request) {
         Ok(mesh) => {
             let name = request.out.display();
-            tell(&format!("meshed {name}: {} nodes", mesh.n_nodes()));
+            print(&format!("meshed {name}: {} nodes", mesh.n_nodes()));
             Ok(None)
         }
         Err(error @ (MeshingError::Refused { .. } | MeshingError::Unusable { .. })) => {

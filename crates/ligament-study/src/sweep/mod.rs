@@ -114,16 +114,16 @@ fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> 
     let before = mine.len() - todo.len();
     let mut progress = StudyProgress::new(study, settings.progress, todo.len());
     if let Some(Shard { number, count }) = settings.shard {
-        progress.tell(&format!(
+        progress.print(&format!(
             "shard {number} of {count}: {} of {} runs",
             mine.len(),
             runs.len()
         ));
     }
     if before > 0 {
-        progress.tell(&format!("{before} of {} runs were done before", mine.len()));
+        progress.print(&format!("{before} of {} runs were done before", mine.len()));
     }
-    notes.iter().for_each(|note| progress.tell(note));
+    notes.iter().for_each(|note| progress.print(note));
     let unmeshed = made_meshes(&todo, &folder, &settings.gmsh, &mut progress)?;
     todo.retain(|run| !unmeshed.contains_key(&run.name));
     let room = Room::new(settings.jobs, settings.memory);
@@ -200,7 +200,7 @@ fn made_meshes(
     let lacking = todo
         .iter()
         .filter_map(|run| Some((run.name.as_str(), run.mesh.as_ref()?)));
-    let unmeshed = meshes::make(lacking, gmsh, &mut |line| progress.tell(line))?;
+    let unmeshed = meshes::make(lacking, gmsh, &mut |line| progress.print(line))?;
     for (name, reason) in &unmeshed {
         if let Some(run) = todo.iter().find(|run| run.name == *name) {
             record::fail(run, folder, reason)?;

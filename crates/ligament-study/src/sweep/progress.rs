@@ -57,7 +57,7 @@ impl<'a> StudyProgress<'a> {
     }
 
     /// Prints a line.
-    pub(super) fn tell(&self, line: &str) {
+    pub(super) fn print(&self, line: &str) {
         let line = &*plain(line);
         match (&self.bar, self.mode) {
             (_, ProgressMode::Quiet) => {}
@@ -111,7 +111,7 @@ impl<'a> StudyProgress<'a> {
             Status::Missing | Status::Changed(_) => "no results".to_owned(),
         };
         let width = self.total.to_string().len();
-        self.tell(&format!(
+        self.print(&format!(
             "[{:>width$}/{}] {}: {what}",
             self.ended,
             self.total,
@@ -123,7 +123,7 @@ impl<'a> StudyProgress<'a> {
             self.names_are_known = true;
             // A misspelt result fails no run, but should be corrected before the sweep ends.
             for unknown in unknown_names(self.study, run, results) {
-                self.tell(&format!("warning: {unknown}"));
+                self.print(&format!("warning: {unknown}"));
             }
         }
         if let Some(bar) = &self.bar {

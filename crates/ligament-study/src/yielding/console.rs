@@ -8,7 +8,7 @@ use super::diagrams::{Comparison, PATHS};
 use super::subject::Subject;
 
 /// Prints the errors of all paths, one column per family, as MPPD Tables 7 to 9, and the measure of those tables.
-pub(super) fn tell(out: &mut dyn Write, comparison: &Comparison) -> anyhow::Result<()> {
+pub(super) fn write(out: &mut dyn Write, comparison: &Comparison) -> anyhow::Result<()> {
     let Comparison {
         criterion,
         subjects,

@@ -66,7 +66,7 @@ fn of_lattices(request: &Request, ratios: &[f64], screen: &mut dyn Write) -> any
         request.ratio
     )?;
     for comparison in &comparisons {
-        console::tell(screen, comparison)?;
+        console::write(screen, comparison)?;
     }
     Ok(())
 }

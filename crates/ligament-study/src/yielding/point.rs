@@ -57,7 +57,7 @@ pub(super) fn draw(
         writeln!(screen, "{}", heading(&case.case.title))?;
         writeln!(screen, "family of {}\n", model.body().place(point))?;
         for comparison in &comparisons {
-            console::tell(screen, comparison)?;
+            console::write(screen, comparison)?;
         }
         Ok(())
     })?

@@ -28,7 +28,7 @@ pub(crate) fn announce(console: &mut dyn Write, experiment: &Experiment) -> io::
 }
 
 /// Prints the tables of an experiment.
-pub(crate) fn tell(console: &mut dyn Write, findings: &Findings) -> io::Result<()> {
+pub(crate) fn write(console: &mut dyn Write, findings: &Findings) -> io::Result<()> {
     for table in &findings.tables {
         let Printable { rows, notes } = Printable::from_table(table);
         writeln!(

@@ -134,7 +134,7 @@ nu,known,allowed,subset,standing,instead,reason
     #[test]
     fn the_console_shows_each_entry_and_the_reasons() {
         let mut out = Vec::new();
-        console::tell(&mut out, &findings().unwrap()).unwrap();
+        console::write(&mut out, &findings().unwrap()).unwrap();
         let expected = "
   First mode, f, Hz
     nu    printed  computed  difference  allowed  verdict

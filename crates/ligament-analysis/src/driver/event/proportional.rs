@@ -5,7 +5,7 @@
 
 use std::time::Instant;
 
-use super::way::{EquilibriumLine, Goal};
+use super::equilibrium_line::{EquilibriumLine, Goal};
 use crate::balanced::Balanced;
 use crate::breaking::FirstToBreak;
 use crate::driver::ends::NO_LOAD;

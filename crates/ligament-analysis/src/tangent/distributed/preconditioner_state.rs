@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
 use crate::serial::Serial;
-use crate::tangent::making::FactorRecord;
+use crate::tangent::factor_record::FactorRecord;
 
 /// Origin and performance of a preconditioner, equal on all ranks.
 pub(super) struct PreconditionerState {

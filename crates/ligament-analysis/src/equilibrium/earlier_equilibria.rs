@@ -38,26 +38,26 @@ serial!(Precedent {
 });
 
 impl EarlierEquilibria {
-    /// Restores precedents from bytes of [`EarlierEquilibria::write_all`].
+    /// Restores earlier from bytes of [`EarlierEquilibria::write_all`].
     ///
     /// # Errors
     ///
     /// If the bytes are damaged or belong to another model.
     pub(super) fn restored(from: &mut &[u8], unknowns: &Unknowns) -> Result<Self, CheckpointError> {
-        let mut precedents: Self = Serial::read(from)?;
+        let mut earlier: Self = Serial::read(from)?;
         if unknowns.len() < unknowns.of_all().count() {
-            precedents.curvature = precedents.curvature.mapped(|all| unknowns.own_of(all));
+            earlier.curvature = earlier.curvature.mapped(|all| unknowns.own_of(all));
         }
         let n = unknowns.layout().n_degrees_of_freedom();
-        let mut equilibria = precedents.equilibria.iter();
+        let mut equilibria = earlier.equilibria.iter();
         let is_whole = equilibria.all(|it| it.displacement.len() == n);
-        match is_whole && precedents.curvature.fits(unknowns.len()) {
-            true => Ok(precedents),
+        match is_whole && earlier.curvature.fits(unknowns.len()) {
+            true => Ok(earlier),
             false => Err(CheckpointError::OtherModel),
         }
     }
 
-    /// Appends the precedents at the unknowns and points of all processes; collective.
+    /// Appends the earlier at the unknowns and points of all processes; collective.
     pub(super) fn write_all(&self, subdomain: &Subdomain, unknowns: &Unknowns, out: &mut Vec<u8>) {
         match subdomain.is_whole() {
             true => self.write(out),
@@ -65,7 +65,7 @@ impl EarlierEquilibria {
         }
     }
 
-    /// Gathers the precedents at the unknowns and points of all processes from those at owned points.
+    /// Gathers the earlier at the unknowns and points of all processes from those at owned points.
     fn of_all(&self, subdomain: &Subdomain, unknowns: &Unknowns) -> Self {
         let curvature = self.curvature.mapped(|own| {
             let mut all = vec![0.0; unknowns.layout().n_degrees_of_freedom()];
