@@ -1,7 +1,10 @@
 //! Equilibrium states, and reasons for a missing equilibrium.
 
+use std::sync::OnceLock;
+
 use ligament_model::contact::ClosedPair;
 use ligament_model::deformation::Deformations;
+use ligament_model::failure::Stresses;
 
 use crate::internal::InternalForces;
 use crate::serial;
@@ -48,6 +51,8 @@ pub struct Balanced {
     pub mechanisms: Vec<u32>,
     /// Closed pairs across cracks, in the order of their numbers; none where faces do not close.
     pub closed: Vec<ClosedPair>,
+    /// Stresses across the bonds for each criterion, once some criterion was [asked](crate::problem::Problem::criteria_in).
+    pub(crate) stresses: OnceLock<Vec<Stresses>>,
 }
 
 impl Balanced {
@@ -71,6 +76,14 @@ impl Balanced {
                     ..*it
                 })
                 .collect(),
+            stresses: match self.stresses.get() {
+                Some(stresses) => {
+                    let scaled: Vec<Stresses> =
+                        stresses.iter().map(|it| it.scaled(factor)).collect();
+                    scaled.into()
+                }
+                None => OnceLock::new(),
+            },
             ..*self
         }
     }

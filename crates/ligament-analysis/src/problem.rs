@@ -29,12 +29,15 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// The criteria with the limits and measures that the bonds have in an equilibrium.
+    /// The criteria with the limits and stresses that the bonds have in an equilibrium.
     pub fn criteria_in(&self, state: &State, balanced: &Balanced) -> Cow<'_, Criteria> {
-        let sound = state.softening.sound(&state.intact);
-        let motion = self.motion(state, &sound);
-        let (system, deformations) = (&*self.system, &balanced.deformations);
-        self.criteria.in_state(system, motion, deformations)
+        let deformations = &balanced.deformations;
+        let stresses = balanced.stresses.get_or_init(|| {
+            let sound = state.softening.sound(&state.intact);
+            let motion = self.motion(state, &sound);
+            self.criteria.stresses(&*self.system, motion, deformations)
+        });
+        self.criteria.in_state(stresses, &state.intact, deformations)
     }
 
     /// The deformations at which bonds began to soften by the stress around them, with those that begin in an equilibrium; None where

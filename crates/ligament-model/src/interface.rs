@@ -15,7 +15,8 @@ use crate::failure::starting::Starting;
 use crate::layout::{Component, Layout};
 use crate::material::Stiffness;
 use crate::rigid_motions::FreeMotion;
-use crate::stress::point_strain::{Motion, StrainAround};
+use crate::failure::hooke::{Moduli, StressAcross};
+use crate::stress::point_strain::Motion;
 use crate::subdomain::Subdomain;
 use crate::sweep::BondSweep;
 use crate::system::UnbrokenBonds;
@@ -266,9 +267,14 @@ pub trait BondReadings: BondTopology {
         point: u32,
     ) -> Option<Vec<f64>>;
 
-    /// Strains of the points around each bond in a motion of which some bonds are left, shape (n_bonds); None where the bonds of
-    /// neither end span the space.
-    fn strains_around(&self, motion: Motion<'_>) -> Vec<Option<StrainAround>>;
+    /// Stress on the plane across each bond in a motion with its deformations (n_bonds), from the moduli of a bond by its number, shape
+    /// (n_bonds); of a bar where the bonds of neither end span the space.
+    fn stresses_across(
+        &self,
+        motion: Motion<'_>,
+        deformations: &[BondDeformation],
+        moduli: &(dyn Fn(usize) -> Moduli + Sync),
+    ) -> Vec<StressAcross>;
 
     /// Largest principal stress around each bond over the strength at which it begins to soften, shape (n_bonds); 0 where the bond is not
     /// pulled across by a share of it.

@@ -5,6 +5,8 @@ mod contact;
 mod crack_axis;
 pub mod elements;
 
+use std::sync::OnceLock;
+
 use rayon::prelude::*;
 
 use crate::bonds::BondSet;
@@ -35,6 +37,8 @@ pub struct BondSystem<const D: usize = 2> {
     pub faces: Faces<D>,
     /// Reusable memory for deformations.
     pub room: DeformationPool,
+    /// Factors of the [strains of points](crate::stress::point_strain), once some were asked for, shape (n_bonds).
+    pub(crate) closeness: OnceLock<Vec<f64>>,
 }
 
 impl<const D: usize> BondSystem<D> {
@@ -93,6 +97,7 @@ impl<const D: usize> BondSystem<D> {
             cloud,
             faces: Faces::default(),
             room: DeformationPool::default(),
+            closeness: OnceLock::new(),
         }
     }
 

@@ -1,5 +1,7 @@
 //! A state during the iteration, with its measured quantities.
 
+use std::sync::OnceLock;
+
 use ligament_model::contact::ClosedPair;
 use ligament_model::deformation::Deformations;
 
@@ -34,6 +36,7 @@ impl Iterate {
             negative_energy: self.negative_energy,
             mechanisms,
             closed: self.closed,
+            stresses: OnceLock::new(),
         }
     }
 }

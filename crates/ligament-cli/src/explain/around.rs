@@ -4,7 +4,7 @@ use std::array::from_fn;
 use std::collections::BTreeMap;
 
 use ligament_model::Absence;
-use ligament_model::stress::point_strain::{Fit, StrainAround, mean_strain, weight};
+use ligament_model::stress::point_strain::{Fit, StrainAround, closeness, mean_strain};
 use ligament_model::tensor::SymTensor;
 use ligament_output::results::stored::{Motions, StoredRun};
 
@@ -93,9 +93,10 @@ impl<'a> Around<'a> {
             let difference = |of: &[[f64; 3]]| from_fn(|axis| of[there][axis] - of[here][axis]);
             let along: [f64; D] = difference(&model.positions);
             let length = along.iter().map(|it| it * it).sum::<f64>().sqrt();
-            let weight = weight(model.volumes[there], length, model.bonds.horizon[bond]);
+            let weight_per_length =
+                model.volumes[there] * closeness(length, model.bonds.horizon[bond]);
             let moved = difference(&motions.displacement);
-            fit.add(along.map(|it| it / length), moved, length, weight);
+            fit.add(along.map(|it| it / length), moved, length, weight_per_length);
         }
         let strain = fit.strain()?;
         if motions.thermal_strain.is_empty() {

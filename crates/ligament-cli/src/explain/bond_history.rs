@@ -1,10 +1,9 @@
 //! Deformation and breakage of bonds over a run.
 
-use std::borrow::Cow;
-
 use ligament_model::element::BondDeformation;
 use ligament_model::element::beam::BeamBond;
 use ligament_model::element::pair::measured;
+use ligament_model::failure::hooke::Moduli;
 use ligament_model::failure::{AfterLimit, Measure, Softened};
 use ligament_model::stress::point_strain::StrainAround;
 use ligament_output::Error;
@@ -160,30 +159,16 @@ impl Limit {
         })
     }
 
-    /// The criterion's measure of a deformation.
-    pub(super) fn measure(&self, deformation: &BondDeformation) -> f64 {
-        self.measure.value(deformation, &self.coefficients)
-    }
-
-    /// Measure over limit, 0 where the measure is not positive.
-    pub(super) fn utilisation(&self, deformation: &BondDeformation) -> f64 {
-        (self.measure(deformation) / self.limit).max(0.0)
-    }
-
-    /// The limit with the stress around the bond in its coefficients, where it takes that.
-    fn with_stress(
+    /// The criterion's measure of a deformation, with the strain of the points around the bond.
+    pub(super) fn measure(
         &self,
-        around: Option<&StrainAround>,
         deformation: &BondDeformation,
-    ) -> Cow<'_, Self> {
-        if !self.measure.takes_stress() {
-            return Cow::Borrowed(self);
-        }
-        let mut there = self.clone();
-        let coefficients = &mut there.coefficients;
-        self.measure
-            .follow_stress(coefficients, around, deformation);
-        Cow::Owned(there)
+        around: Option<StrainAround>,
+    ) -> f64 {
+        let coefficients = &self.coefficients;
+        self.measure.value(deformation, coefficients, || {
+            Moduli::from_coefficients(coefficients).stress_across(deformation.stretch(), around)
+        })
     }
 }
 
@@ -265,7 +250,7 @@ impl BondHistory {
             // The stress around a bond when it breaks stands in the table of broken bonds alone.
             utilisation: match limit.measure.takes_stress() {
                 true => broke.utilisation * limit.after.end(0),
-                false => limit.utilisation(&broke.deformation),
+                false => (limit.measure(&broke.deformation, None) / limit.limit).max(0.0),
             },
             step: broke.at.step,
             criterion,
@@ -302,16 +287,15 @@ impl BondHistory {
         nearest
     }
 
-    /// The limit of a criterion in a moment, with the stress around the bond.
-    pub(super) fn limit_in(&self, criterion: usize, moment: usize) -> Cow<'_, Limit> {
-        let around = self.around.get(moment).and_then(Option::as_ref);
-        self.limits[criterion].with_stress(around, &self.deformation[moment])
+    /// The measure of a criterion in a moment.
+    pub(super) fn measure(&self, criterion: usize, moment: usize) -> f64 {
+        let around = self.around.get(moment).copied().flatten();
+        self.limits[criterion].measure(&self.deformation[moment], around)
     }
 
     /// Measure over limit of a criterion in a moment, 0 where the measure is not positive.
     pub(super) fn utilisation(&self, criterion: usize, moment: usize) -> f64 {
-        let limit = self.limit_in(criterion, moment);
-        limit.utilisation(&self.deformation[moment])
+        (self.measure(criterion, moment) / self.limits[criterion].limit).max(0.0)
     }
 
     /// Softened state of the bond under a criterion at a moment, zero after its breakage.

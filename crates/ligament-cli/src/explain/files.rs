@@ -44,13 +44,13 @@ pub(super) fn csv(run: &StoredRun, lives: &BondHistories) -> String {
             let values = deformation.strains().into_iter();
             row.extend(values.take(lives.components.len()).map(Value::from));
             for criterion in 0..life.limits.len() {
-                let limit = life.limit_in(criterion, place);
+                let limit = &life.limits[criterion];
                 let utilisation = if is_intact {
-                    limit.utilisation(deformation)
+                    life.utilisation(criterion, place)
                 } else {
                     f64::NAN
                 };
-                let measure = limit.measure(deformation);
+                let measure = life.measure(criterion, place);
                 row.extend([limit.limit, measure, utilisation].map(Value::from));
                 if !limit.after.is_brittle() {
                     let left = life.left(criterion, &lives.moments, place);

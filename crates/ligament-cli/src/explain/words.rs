@@ -109,7 +109,7 @@ pub(super) fn bond_description(
             let end = limit.limit * limit.after.end(0);
             let seen = match limit.measure.takes_stress() {
                 true => broke.utilisation * end,
-                false => limit.measure(&deformation),
+                false => limit.measure(&deformation, None),
             };
             lines.push(format!(
                 "`{}` saw {} = {}, {:.4} of the {} at which it breaks.",

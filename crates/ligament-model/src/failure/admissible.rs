@@ -63,8 +63,9 @@ impl Criteria {
         let of = |interval: Interval, (it, rate): (&Criterion, &Criterion)| {
             let limit = it.break_limit(bond);
             let of_criterion = if limit.is_finite() {
-                let coefficients = [it, rate].map(|it| it.coefficients(bond));
-                it.measure.within(line, coefficients, limit)?
+                let stress = [it, rate].map(|it| it.stress(bond));
+                it.measure
+                    .within(line, it.coefficients(bond), stress, limit)?
             } else {
                 EVERYWHERE
             };

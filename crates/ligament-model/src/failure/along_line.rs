@@ -4,6 +4,7 @@
 //! is stretched. In space shear and relative rotation are vectors: |gamma_0 + t gamma_1|^2 is a quadratic function of t that is no square
 //! of a linear one.
 
+use super::hooke::StressAcross;
 use super::measure::Measure;
 use crate::deformation::{Deformation, SpaceDeformation};
 use crate::element::BondDeformation;
@@ -136,7 +137,7 @@ impl Measure {
     }
 
     /// The t for which the measure of the first deformation of a line + t the second is at most a limit; None where it is for no t. The
-    /// stress around a bond goes along the line as well, and is in the coefficients of both.
+    /// stress across the bond goes along a line as well.
     ///
     /// # Panics
     ///
@@ -144,10 +145,10 @@ impl Measure {
     pub(super) fn within<B: AlongLine>(
         self,
         line: [&B; 2],
-        of_line: [&[f64]; 2],
+        coefficients: &[f64],
+        stress: [StressAcross; 2],
         limit: f64,
     ) -> Option<Interval> {
-        let [coefficients, _] = of_line;
         let of_ends = B::along(line);
         let (stretch, shear) = (of_ends.stretch, of_ends.shear);
         let q = coefficients.first().copied().unwrap_or(0.0);
@@ -165,11 +166,11 @@ impl Measure {
             Self::Energy => root(stretch, shear.square_times(q), limit),
             Self::MixedModeX => mixed(0),
             Self::MixedModeY => mixed(1),
-            Self::NormalStress => at_most(normal(stretch, of_line), limit),
+            Self::NormalStress => at_most(stress.map(|it| it.normal), limit),
             Self::CoulombStress => {
-                let shear = of_line.map(|it| [1, 2, 3].map(|axis| it[axis]));
                 let slope = coefficients.last().copied().unwrap_or(0.0);
-                shear.beside_at_most(normal(stretch, of_line).times(slope), limit)
+                let normal = stress.map(|it| it.normal).times(slope);
+                stress.map(|it| it.shear).beside_at_most(normal, limit)
             }
             Self::PrintedOpening | Self::PrintedSliding | Self::PrintedMixed => {
                 unreachable!("measures of the bonds that are left have no closed form")
@@ -177,11 +178,6 @@ impl Measure {
         };
         (interval[0] <= interval[1]).then_some(interval)
     }
-}
-
-/// Stress across a bond along a line, from its stretch and what the strains around it add.
-fn normal(stretch: Linear, of_line: [&[f64]; 2]) -> Linear {
-    [0, 1].map(|it| stretch[it] + of_line[it].first().copied().unwrap_or(0.0))
 }
 
 /// Where a strain is at most a limit; empty (the first is larger) where it nowhere is.
@@ -268,9 +264,9 @@ mod tests {
         for measure in measures {
             let value = |t: f64| {
                 let at = here.less(&slope.scaled(-t)).measured();
-                measure.value(&at, &[q])
+                measure.value(&at, &[q], StressAcross::default)
             };
-            let interval = measure.within(line, [&[q]; 2], 0.8);
+            let interval = measure.within(line, &[q], [StressAcross::default(); 2], 0.8);
             // Where q is negative the measure may fall again: beyond the first place where it is at its limit nothing is asked.
             let steps = if q > 0.0 { -4000..=4000 } else { 0..=4000 };
             let mut passed = false;
@@ -331,7 +327,6 @@ mod tests {
     /// Stresses whose shear turns, outruns the normal stress or is outrun by it, or lies in one line as in the plane, against a search.
     #[test]
     fn intervals_of_stresses_are_those_of_a_search() {
-        let moduli = [0.25, 0.75, 0.9, 5.0, 0.7];
         let stresses = [
             ([0.3, 0.1, 0.2, -0.3], [1.0, -0.5, 0.3, 0.7]),
             ([-0.5, 0.2, 0.0, 0.4], [1.3, 0.8, -0.4, 0.0]),
@@ -341,16 +336,16 @@ mod tests {
         ];
         let line = [0.1, -0.2].map(|stretch| deformation([stretch, 0.4, 0.0]));
         for (here, slope) in stresses {
-            let of_line = [here, slope].map(|it| [&it as &[f64], &moduli].concat());
-            let of_line = [&of_line[0] as &[f64], &of_line[1]];
+            let of_line = [here, slope].map(|[normal, x, y, z]| StressAcross {
+                normal,
+                shear: [x, y, z],
+            });
             for measure in [Measure::NormalStress, Measure::CoulombStress] {
-                let interval = measure.within([&line[0], &line[1]], of_line, 0.8);
+                let interval = measure.within([&line[0], &line[1]], &[0.7], of_line, 0.8);
                 for place in -4000..=4000 {
                     let t = f64::from(place) * 1e-3;
-                    let mut at = of_line[0].to_vec();
-                    let stresses = at[..4].iter_mut().zip(of_line[1]);
-                    stresses.for_each(|(it, slope)| *it += t * slope);
-                    let value = measure.value(&line[0].less(&line[1].scaled(-t)), &at);
+                    let at = || of_line[0].plus(&of_line[1], t);
+                    let value = measure.value(&line[0], &[0.7], at);
                     let found = interval.is_some_and(|[from, to]| from <= t && t <= to);
                     let near = (value - 0.8).abs() < 1e-9;
                     assert!(near || found == (value <= 0.8), "{measure:?} at {t}");
@@ -363,11 +358,11 @@ mod tests {
     fn a_bond_that_slides_too_far_is_beyond_its_limit_wherever_it_closes() {
         let (here, slope) = (deformation([0.0, 3.0, 0.0]), deformation([1.0, 0.0, 0.0]));
         assert_eq!(
-            Measure::Energy.within([&here, &slope], [&[0.5]; 2], 1.0),
+            Measure::Energy.within([&here, &slope], &[0.5], [StressAcross::default(); 2], 1.0),
             None
         );
         assert_eq!(
-            Measure::Tension.within([&here, &slope], [&[]; 2], 1.0),
+            Measure::Tension.within([&here, &slope], &[], [StressAcross::default(); 2], 1.0),
             Some([f64::NEG_INFINITY, 1.0])
         );
     }
@@ -377,7 +372,7 @@ mod tests {
     fn a_negative_shear_stiffness_takes_from_the_measure() {
         let (here, slope) = (deformation([0.5, 0.0, 0.0]), deformation([0.1, 1.0, 0.0]));
         assert_eq!(
-            Measure::Energy.within([&here, &slope], [&[-0.5]; 2], 1.0),
+            Measure::Energy.within([&here, &slope], &[-0.5], [StressAcross::default(); 2], 1.0),
             Some(EVERYWHERE)
         );
         assert!(!Measure::PrintedMixed.is_known_along_lines(&[0.5]));

@@ -35,5 +35,5 @@ pub(super) fn tensile<const D: usize>(basis: &Basis<'_, D>) -> Limits {
     let strains = basis.each(|constants, material| {
         Some(material.tensile_strength? / modulus(constants, basis.space))
     });
-    of_stress(basis, &strains, |_, it| [0.0, it.lateral, it.bar, it.along])
+    of_stress(basis, &strains, |_, it| it.coefficients())
 }

@@ -2,7 +2,7 @@
 
 use super::KINDS;
 use super::basis::Basis;
-use super::criterion::{Criteria, Criterion};
+use super::criterion::{Criteria, Criterion, Stresses};
 use super::fracture_energy;
 use super::kind::{After, Choice, Kind};
 use super::measure::Measure;
@@ -46,8 +46,9 @@ pub fn criteria<const D: usize>(
                     true => AfterLimit::new(brittle::LAW, Vec::new()),
                     false => after(&choice.after, &limits.limit, basis).map_err(at_place)?,
                 },
-                limit: limits.limit,
-                coefficient: limits.coefficient,
+                limit: limits.limit.into(),
+                coefficient: limits.coefficient.into(),
+                stress: Stresses::default(),
                 surroundings: limits.surroundings,
             });
         }

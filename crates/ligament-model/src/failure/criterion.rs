@@ -3,6 +3,9 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
+use super::hooke::StressAcross;
 use super::measure::{Measure, Weakened};
 use super::softening::{AfterLimit, brittle};
 use super::starting::Starting;
@@ -17,9 +20,11 @@ pub struct Criterion {
     /// Measure of the deformation that has the limit.
     pub measure: Measure,
     /// Limit of each bond; infinite where it never fails, shape (n_bonds).
-    pub limit: Vec<f64>,
+    pub limit: Arc<Vec<f64>>,
     /// Coefficients of the measure for each bond; empty where the measure has none, shape (n_bonds, n).
-    pub coefficient: Vec<f64>,
+    pub coefficient: Arc<Vec<f64>>,
+    /// Stresses across the bonds in the state of the criterion; none but where the measure takes them.
+    pub stress: Stresses,
     /// What happens after the limit.
     pub after: AfterLimit,
     /// What its limits or its measure follow while the body deforms and bonds break; None where both depend on the bond alone.
@@ -32,8 +37,9 @@ impl Criterion {
         Self {
             name,
             measure,
-            limit,
-            coefficient: Vec::new(),
+            limit: limit.into(),
+            coefficient: Arc::default(),
+            stress: Stresses::default(),
             after: AfterLimit::new(brittle::LAW, Vec::new()),
             surroundings: None,
         }
@@ -77,7 +83,16 @@ impl Criterion {
     /// The measure of a deformation of a bond.
     #[inline]
     pub fn measure(&self, bond: usize, deformation: &BondDeformation) -> f64 {
-        self.measure.value(deformation, self.coefficients(bond))
+        let coefficients = self.coefficients(bond);
+        self.measure
+            .value(deformation, coefficients, || self.stress(bond))
+    }
+
+    /// Stress across a bond over E'; zero where the measure takes none.
+    #[inline]
+    pub(super) fn stress(&self, bond: usize) -> StressAcross {
+        let of_bond = self.stress.of_bonds.get(bond);
+        of_bond.map_or_else(StressAcross::default, |it| it.scaled(self.stress.times))
     }
 
     /// The coefficients of the measure for a bond, shape (n).
@@ -86,7 +101,7 @@ impl Criterion {
         let count = match self.coefficient.len() {
             0 => return &[],
             len if len == self.limit.len() => 1,
-            len => len / self.limit.len(),
+            _ => self.measure.coefficient_names().len(),
         };
         &self.coefficient[count * bond..count * (bond + 1)]
     }
@@ -106,6 +121,55 @@ impl Criterion {
             measure / self.limit[bond]
         } else {
             0.0
+        }
+    }
+}
+
+/// Stresses across the bonds of a body, as they are at one load factor times another one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stresses {
+    /// Stress across each bond, shape (n_bonds); empty where no measure takes it.
+    pub(super) of_bonds: Arc<Vec<StressAcross>>,
+    /// Factor on all of them.
+    pub(super) times: f64,
+}
+
+impl Default for Stresses {
+    fn default() -> Self {
+        Self {
+            of_bonds: Arc::default(),
+            times: 1.0,
+        }
+    }
+}
+
+impl Stresses {
+    /// Stresses across the bonds (n_bonds).
+    pub(super) fn new(of_bonds: Vec<StressAcross>) -> Self {
+        Self {
+            of_bonds: of_bonds.into(),
+            times: 1.0,
+        }
+    }
+
+    /// All stresses times a factor.
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self {
+            of_bonds: self.of_bonds.clone(),
+            times: factor * self.times,
+        }
+    }
+
+    /// The stresses and others times a factor.
+    fn plus(&self, other: &Self, factor: f64) -> Self {
+        let both = self.of_bonds.par_iter().zip(&*other.of_bonds);
+        let factor = factor * other.times;
+        let sum = |(one, other): (&StressAcross, &StressAcross)| {
+            one.scaled(self.times).plus(other, factor)
+        };
+        Self {
+            of_bonds: Arc::new(both.map(sum).collect()),
+            times: 1.0,
         }
     }
 }
@@ -145,33 +209,29 @@ impl Criteria {
     /// The criteria on the straight line between two motions, of the same body with the same bonds: from that of some criteria, or none
     /// from the unloaded body, to that of these, at a share of it. Limits are those of these.
     pub fn on_line(&self, from: Option<&Self>, share: f64) -> Cow<'_, Self> {
-        self.with_stresses(|criterion, at, there| {
-            let begin = from.map_or(0.0, |it| it.list[criterion].coefficient[at]);
-            begin + share * (there - begin)
+        self.with_stresses(|place, there| {
+            let there = there.scaled(share);
+            match from {
+                Some(from) => there.plus(&from.list[place].stress, 1.0 - share),
+                None => there,
+            }
         })
     }
 
     /// The criteria of a motion + t another one, of the same body with the same bonds, from those of both.
     pub fn ahead(&self, rates: &Self, t: f64) -> Cow<'_, Self> {
-        self.with_stresses(|criterion, at, here| here + t * rates.list[criterion].coefficient[at])
+        self.with_stresses(|place, here| here.plus(&rates.list[place].stress, t))
     }
 
-    /// The criteria with other stresses around the bonds, which a function makes of the number of a criterion, the place of a coefficient
-    /// and its value.
-    fn with_stresses(&self, stress: impl Fn(usize, usize, f64) -> f64) -> Cow<'_, Self> {
+    /// The criteria with other stresses across the bonds, which a function makes of the number of a criterion and its stresses.
+    fn with_stresses(&self, stress: impl Fn(usize, &Stresses) -> Stresses) -> Cow<'_, Self> {
         if !self.list.iter().any(Criterion::follows_stress) {
             return Cow::Borrowed(self);
         }
         let mut criteria = self.clone();
         let of_stress = criteria.list.iter_mut().enumerate();
         for (place, criterion) in of_stress.filter(|(_, it)| it.follows_stress()) {
-            let count = criterion.measure.coefficient_names().len();
-            for bond in 0..criterion.limit.len() {
-                for at in count * bond..count * bond + criterion.measure.n_of_stress() {
-                    let value = &mut criterion.coefficient[at];
-                    *value = stress(place, at, *value);
-                }
-            }
+            criterion.stress = stress(place, &criterion.stress);
         }
         Cow::Owned(criteria)
     }

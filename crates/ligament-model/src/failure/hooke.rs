@@ -1,10 +1,11 @@
 //! Moduli of the stresses around a bond, by Hooke's law.
 
 use crate::material::{Isotropic, Plane, Space};
+use crate::stress::point_strain::StrainAround;
 
 /// Moduli of a bond over the modulus E' of a strain along the bond alone. With them the stresses on the plane across the bond are
 ///
-/// sigma_n/E' = s + q, q = (lambda/E') (tr(eps) - n . eps n), tau/E' = (2 mu/E') (eps n - (n . eps n) n),
+/// sigma_n/E' = s + (lambda/E') (tr(eps) - n . eps n), tau/E' = (2 mu/E') (eps n - (n . eps n) n),
 ///
 /// with the own stretch s of the bond and the strain eps of the points ([`crate::stress::point_strain`]), by Hooke's law:
 ///
@@ -27,7 +28,73 @@ pub struct Moduli {
     pub along: f64,
 }
 
+/// Stress on the plane across a bond over the modulus E' of its [`Moduli`]; linear in the motion.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StressAcross {
+    /// sigma_n/E'.
+    pub normal: f64,
+    /// tau/E'; in the plane without its third component.
+    pub shear: [f64; 3],
+}
+
+impl StressAcross {
+    /// The stress and another one times a factor.
+    #[inline]
+    pub(super) fn plus(&self, other: &Self, factor: f64) -> Self {
+        let shear = self.shear.iter().zip(&other.shear);
+        let mut sum = Self {
+            normal: self.normal + factor * other.normal,
+            shear: [0.0; 3],
+        };
+        let sums = sum.shear.iter_mut().zip(shear);
+        sums.for_each(|(sum, (one, other))| *sum = one + factor * other);
+        sum
+    }
+
+    /// The stress times a factor.
+    #[inline]
+    pub(super) fn scaled(&self, factor: f64) -> Self {
+        Self {
+            normal: factor * self.normal,
+            shear: self.shear.map(|it| factor * it),
+        }
+    }
+}
+
 impl Moduli {
+    /// Moduli from the coefficients of a measure of [stress](super::Measure::takes_stress), with which these begin.
+    pub fn from_coefficients(coefficients: &[f64]) -> Self {
+        match *coefficients {
+            [lateral, shear, bar, along, ..] => Self {
+                lateral,
+                shear,
+                bar,
+                along,
+            },
+            _ => Self::BAR,
+        }
+    }
+
+    /// The coefficients from which they [come](Self::from_coefficients).
+    pub(super) fn coefficients(&self) -> [f64; 4] {
+        [self.lateral, self.shear, self.bar, self.along]
+    }
+
+    /// Stress across a bond from its own stretch and the strain of the points around it; of a bar where that is not known.
+    #[inline]
+    pub fn stress_across(&self, stretch: f64, around: Option<StrainAround>) -> StressAcross {
+        match around {
+            Some(around) => StressAcross {
+                normal: stretch + self.lateral * around.lateral,
+                shear: around.shear.map(|it| self.shear * it),
+            },
+            None => StressAcross {
+                normal: self.bar * stretch,
+                shear: [0.0; 3],
+            },
+        }
+    }
+
     /// Moduli of a bar without Poisson's effect.
     pub(super) const BAR: Self = Self {
         lateral: 0.0,

@@ -1,10 +1,11 @@
-//! Criteria in a state of the body: with the limits and measures that the bonds have then.
+//! Criteria in a state of the body: with the limits and stresses that the bonds have then.
 
 use std::borrow::Cow;
-use std::cell::LazyCell;
+use std::sync::Arc;
 
 use super::criterion::{Criteria, Criterion};
-use super::of_stress::follow_stress;
+use super::criterion::Stresses;
+use super::hooke::Moduli;
 use super::softening::AfterLimit;
 use super::surroundings::Surroundings;
 use crate::element::BondDeformation;
@@ -12,29 +13,44 @@ use crate::interface::Bonds;
 use crate::stress::point_strain::Motion;
 
 impl Criteria {
-    /// The criteria with the limits and coefficients that they have in a motion of a body of which some bonds are left, with the
-    /// deformations (n_bonds) in it.
-    pub fn in_state(
+    /// Stresses across the bonds in a motion of a body of which some bonds are left, with the deformations (n_bonds) in it, for each
+    /// criterion; empty for those that take none.
+    pub fn stresses(
         &self,
         system: &dyn Bonds,
         motion: Motion<'_>,
+        deformations: &[BondDeformation],
+    ) -> Vec<Stresses> {
+        let of = |criterion: &Criterion| match criterion.follows_stress() {
+            true => {
+                let moduli = |bond| Moduli::from_coefficients(criterion.coefficients(bond));
+                Stresses::new(system.stresses_across(motion, deformations, &moduli))
+            }
+            false => Stresses::default(),
+        };
+        self.list.iter().map(of).collect()
+    }
+
+    /// The criteria with the limits and the stresses that they have in a state of the body, in which some bonds are intact, of the
+    /// deformations (n_bonds) and with the [`stresses`](Self::stresses).
+    pub fn in_state(
+        &self,
+        stresses: &[Stresses],
+        intact: &[bool],
         deformations: &[BondDeformation],
     ) -> Cow<'_, Self> {
         if self.list.iter().all(|it| it.surroundings.is_none()) {
             return Cow::Borrowed(self);
         }
         let mut criteria = self.clone();
-        let around = LazyCell::new(|| system.strains_around(motion));
-        for criterion in &mut criteria.list {
+        for (criterion, stresses) in criteria.list.iter_mut().zip(stresses) {
             match criterion.surroundings.as_deref() {
                 None | Some(Surroundings::Starting(_)) => {}
                 Some(Surroundings::CrackAtPoints(crack)) => {
-                    criterion.limit = crack.limits(&criterion.limit, motion.intact, deformations);
+                    let limits = crack.limits(&criterion.limit, intact, deformations);
+                    criterion.limit = limits.into();
                 }
-                Some(Surroundings::Stress) => {
-                    let coefficients = &mut criterion.coefficient;
-                    follow_stress(criterion.measure, coefficients, &around, deformations);
-                }
+                Some(Surroundings::Stress) => criterion.stress = stresses.clone(),
             }
         }
         Cow::Owned(criteria)
@@ -93,9 +109,10 @@ impl Criteria {
                     }
                 });
             criteria.list[place].after = AfterLimit::new(law, parameter.collect());
-            criteria.list[place].limit.clone_from(begun);
+            criteria.list[place].limit = begun.clone().into();
             // The criterion before it is that of bonds that never began.
-            let never_began = criteria.list[place - 1].limit.iter_mut().zip(begun);
+            let never_began = Arc::make_mut(&mut criteria.list[place - 1].limit);
+            let never_began = never_began.iter_mut().zip(begun);
             for (limit, _) in never_began.filter(|(_, began)| began.is_finite()) {
                 *limit = f64::INFINITY;
             }

@@ -1,6 +1,8 @@
 //! How a criterion looks at the deformation of a bond.
 
+use super::hooke::StressAcross;
 use crate::element::BondDeformation;
+use crate::tensor::norm;
 
 const NO_DIRECTION: &str =
     "a measure of more than the relative motion of the ends has no worst direction";
@@ -24,10 +26,9 @@ pub enum Measure {
     /// sqrt(max(s, 0)^2 + q gamma^2), q = k_t/k_n: the stretch that would store the same energy. Compression stores none that
     /// counts.
     Energy,
-    /// s + q: stress on the plane across the bond over the modulus E', with what the strains across the bond add to it
-    /// ([`Moduli`](super::hooke::Moduli)).
+    /// sigma_n/E': stress on the plane across the bond over the modulus E' ([`Moduli`](super::hooke::Moduli)).
     NormalStress,
-    /// |tau|/E' + (s + q) tan(phi): shear stress on the plane across the bond with what friction takes off it under pressure, after
+    /// (|tau| + sigma_n tan(phi))/E': shear stress on the plane across the bond with what friction takes off it under pressure, after
     /// Mohr and Coulomb.
     CoulombStress,
     /// Opening S_n = S_xx and shear S_xy of a bond with strains of its own, a measure that reaches s_I where the bond breaks:
@@ -134,15 +135,6 @@ impl Measure {
         self.looks_at() == Sight::Stress
     }
 
-    /// Number of the coefficients, first of all, that are the stress around the bond; linear in the motion.
-    pub(super) fn n_of_stress(self) -> usize {
-        let is_of_stress = |name: &&&str| **name == "q" || name.starts_with("tau");
-        match self.takes_stress() {
-            true => self.coefficient_names().iter().filter(is_of_stress).count(),
-            false => 0,
-        }
-    }
-
     /// Whether the measure looks at the rotations of the points.
     pub fn takes_rotations(self) -> bool {
         self.looks_at() == Sight::Bending
@@ -192,8 +184,8 @@ impl Measure {
             Self::Sliding => "|gamma|",
             Self::Friction => "|gamma| + s tan(beta)",
             Self::Energy => "sqrt(max(s, 0)^2 + gamma^2 k_t/k_n)",
-            Self::NormalStress => "s + q",
-            Self::CoulombStress => "|tau|/E' + (s + q) tan(phi)",
+            Self::NormalStress => "sigma_n/E'",
+            Self::CoulombStress => "(|tau| + sigma_n tan(phi))/E'",
             Self::MixedModeX => "sqrt(max(S_xx, 0)^2 + q S_xy^2)",
             Self::MixedModeY => "sqrt(max(S_yy, 0)^2 + q S_xy^2)",
             Self::PrintedOpening => "S_xx, S_yy or phi/sin(theta)",
@@ -209,26 +201,22 @@ impl Measure {
             Self::Fibre => &["kappa/l"],
             Self::Friction => &["tan(beta)"],
             Self::Energy => &["k_t/k_n"],
-            Self::NormalStress => &["q", "lambda/E'", "E/E'", "E'"],
-            Self::CoulombStress => &[
-                "q",
-                "tau_x/E'",
-                "tau_y/E'",
-                "tau_z/E'",
-                "lambda/E'",
-                "2 mu/E'",
-                "E/E'",
-                "E'",
-                "tan(phi)",
-            ],
+            Self::NormalStress => &["lambda/E'", "2 mu/E'", "E/E'", "E'"],
+            Self::CoulombStress => &["lambda/E'", "2 mu/E'", "E/E'", "E'", "tan(phi)"],
             Self::MixedModeX | Self::MixedModeY => &["q", "G_IIc/G_Ic", "eta"],
             Self::PrintedOpening | Self::PrintedSliding | Self::PrintedMixed => &["tan(theta)"],
         }
     }
 
-    /// The value of the measure for a deformation, with the coefficients of the bond where the measure has some.
+    /// The value of the measure for a deformation, with the coefficients of the bond where the measure has some, and the stress across it
+    /// where the measure [takes that](Self::takes_stress).
     #[inline]
-    pub fn value(self, deformation: &BondDeformation, coefficients: &[f64]) -> f64 {
+    pub fn value(
+        self,
+        deformation: &BondDeformation,
+        coefficients: &[f64],
+        stress: impl FnOnce() -> StressAcross,
+    ) -> f64 {
         let (stretch, shear) = (deformation.stretch(), deformation.shear());
         let strain = deformation.strain();
         let coefficient = || coefficients.first().copied().unwrap_or(0.0);
@@ -242,8 +230,12 @@ impl Measure {
                 let square = stretch.max(0.0).powi(2) + coefficient() * shear * shear;
                 square.max(0.0).sqrt()
             }
-            Self::NormalStress => stretch + coefficient(),
-            Self::CoulombStress => coulomb(stretch, coefficients),
+            Self::NormalStress => stress().normal,
+            Self::CoulombStress => {
+                let slope = coefficients.last().copied().unwrap_or(0.0);
+                let stress = stress();
+                norm(stress.shear) + stress.normal * slope
+            }
             Self::MixedModeX => mixed_mode(strain[0], strain[2], coefficients),
             Self::MixedModeY => mixed_mode(strain[1], strain[2], coefficients),
             Self::PrintedOpening => printed(strain, coefficient(), |angle, sine| angle / sine),
@@ -348,15 +340,6 @@ fn printed([xx, yy, xy]: [f64; 3], tangent: f64, of_angle: impl Fn(f64, f64) -> 
     of_angle(angle, tangent.abs() / tangent.hypot(1.0))
 }
 
-/// Measure of the stretch of a bond with the stress around it; `coefficients` are q, the components of tau/E', moduli and tan(phi).
-#[inline]
-fn coulomb(stretch: f64, coefficients: &[f64]) -> f64 {
-    let &[normal, x, y, z, .., slope] = coefficients else {
-        return 0.0;
-    };
-    (x * x + y * y + z * z).sqrt() + (stretch + normal) * slope
-}
-
 /// Measure of the opening and the shear of a bond with strains of its own; `coefficients` are q, or q, r and eta.
 #[inline]
 fn mixed_mode(opening: f64, shear: f64, coefficients: &[f64]) -> f64 {
@@ -392,7 +375,7 @@ mod tests {
     #[test]
     fn values_by_hand() {
         let of = |stretch, shear| {
-            let value = |it: &Measure| it.value(&deformation(*it, stretch, shear), &[0.25]);
+            let value = |it: &Measure| it.value(&deformation(*it, stretch, shear), &[0.25], StressAcross::default);
             let measures = Measure::ALL[..8].iter();
             measures.map(value).collect::<Vec<f64>>()
         };
@@ -415,7 +398,7 @@ mod tests {
         use Measure::{PrintedMixed, PrintedOpening, PrintedSliding};
         let of = |strain: [f64; 3], tangent: f64| {
             let deformation = BondDeformation::of_strain(strain);
-            let value = |it: Measure| it.value(&deformation, &[tangent]);
+            let value = |it: Measure| it.value(&deformation, &[tangent], StressAcross::default);
             [PrintedOpening, PrintedSliding, PrintedMixed].map(value)
         };
         let close = |found: [f64; 3], expected: [f64; 3]| {

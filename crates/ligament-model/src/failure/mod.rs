@@ -50,7 +50,7 @@ mod unfit;
 
 pub use basis::Basis;
 pub use choosing::criteria;
-pub use criterion::{Criteria, Criterion, Verdict};
+pub use criterion::{Criteria, Criterion, Stresses, Verdict};
 pub use kind::{After, Calibration, Choice, Kind, Limits, MakeLimits, PerSpace, Property};
 pub use measure::{Measure, Weakened};
 pub use setting::Setting;

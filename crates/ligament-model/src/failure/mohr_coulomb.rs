@@ -113,9 +113,8 @@ fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<L
         .map(|it| friction(it).map_or(0.0, |it| it.slope))
         .collect();
     let sheared = of_stress(basis, &cohesions, |material, it| {
-        let [q, x, y, z] = [0.0; 4];
-        let slope = slopes[material];
-        [q, x, y, z, it.lateral, it.shear, it.bar, it.along, slope]
+        let [lateral, shear, bar, along] = it.coefficients();
+        [lateral, shear, bar, along, slopes[material]]
     });
     Ok(vec![tensile(basis), sheared])
 }

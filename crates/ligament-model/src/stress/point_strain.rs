@@ -12,6 +12,8 @@
 use nalgebra::SMatrix;
 use rayon::prelude::*;
 
+use crate::element::BondDeformation;
+use crate::failure::hooke::{Moduli, StressAcross};
 use crate::layout::Layout;
 use crate::system::BondSystem;
 use crate::tensor::{SymTensor, dot, minus};
@@ -20,12 +22,13 @@ use crate::thermal::ThermalStrain;
 /// Smallest det(D K/tr K) with which the bonds of a point span the space; a full family has 1.
 const LEAST_SPAN: f64 = 4e-4;
 
-/// Weight V exp(-l/H) of a bond of a length l with a horizon H (m) to a point of a volume V (m^3).
-pub fn weight(volume: f64, length: f64, horizon: f64) -> f64 {
-    volume * (-length / horizon).exp()
+/// Factor exp(-l/H)/l of a bond of a length l with a horizon H (m), by which near points count more, 1/m.
+pub fn closeness(length: f64, horizon: f64) -> f64 {
+    (-length / horizon).exp() / length
 }
 
 /// The mean strain of the ends of a bond as far as these are known.
+#[inline]
 pub fn mean_strain<const D: usize>(of_ends: [Option<SymTensor<D>>; 2]) -> Option<SymTensor<D>> {
     match of_ends {
         [Some(a), Some(b)] => Some(a.plus(&b).scaled(0.5)),
@@ -36,9 +39,9 @@ pub fn mean_strain<const D: usize>(of_ends: [Option<SymTensor<D>>; 2]) -> Option
 /// The sums over the bonds of a point from which its strain comes.
 #[derive(Debug, Clone)]
 pub struct Fit<const D: usize> {
-    /// K, row by row.
+    /// K, of which the entries above its diagonal are not used.
     spread: SMatrix<f64, D, D>,
-    /// M, row by row.
+    /// M.
     slopes: SMatrix<f64, D, D>,
 }
 
@@ -53,18 +56,23 @@ impl<const D: usize> Default for Fit<D> {
 
 impl<const D: usize> Fit<D> {
     /// Adds a bond with the direction n away from the point, what its other end moved by against the point (m), its length (m) and
-    /// its [`weight`].
-    pub fn add(&mut self, n: [f64; D], moved: [f64; D], length: f64, weight: f64) {
-        let slope = moved.map(|it| it / length);
-        for row in 0..D {
-            for column in 0..D {
-                self.spread[(row, column)] += weight * n[row] * n[column];
-                self.slopes[(row, column)] += weight * slope[row] * n[column];
+    /// its weight over that, V exp(-l/H)/l.
+    #[inline]
+    pub fn add(&mut self, n: [f64; D], moved: [f64; D], length: f64, weight_per_length: f64) {
+        for column in 0..D {
+            let along = weight_per_length * n[column];
+            let spread = length * along;
+            for row in 0..D {
+                self.slopes[(row, column)] += along * moved[row];
+            }
+            for row in column..D {
+                self.spread[(row, column)] += spread * n[row];
             }
         }
     }
 
     /// Strain of the point with all that its motion has; None where its bonds do not span the space.
+    #[inline]
     pub fn strain(&self) -> Option<SymTensor<D>> {
         let per_trace = D as f64 / self.spread.trace();
         let factor = (self.spread * per_trace).cholesky()?;
@@ -144,6 +152,7 @@ impl<const D: usize> BondSystem<D> {
         point: u32,
     ) -> Option<SymTensor<D>> {
         let (bonds, volumes) = (&self.bonds, &self.cloud.volumes);
+        let closeness = self.closeness();
         let place = |point: u32| -> [f64; D] {
             let first = layout.range(point).start;
             std::array::from_fn(|axis| motion.displacement[first + axis])
@@ -154,38 +163,44 @@ impl<const D: usize> BondSystem<D> {
         for &bond in family.filter(|&&bond| motion.intact[bond as usize]) {
             let other = bonds.neighbour(bond, point);
             let bond = bond as usize;
+            let weight_per_length = volumes[other as usize] * closeness[bond];
             // Signs of a bond seen from its other end cancel in the products.
             let n = match bonds.ends[bond][0] == point {
                 true => bonds.direction[bond],
                 false => bonds.direction[bond].map(|cosine| -cosine),
             };
             let moved = minus(place(other), here);
-            let [length, horizon] = [bonds.length[bond], bonds.horizon[bond]];
-            fit.add(
-                n,
-                moved,
-                length,
-                weight(volumes[other as usize], length, horizon),
-            );
+            fit.add(n, moved, bonds.length[bond], weight_per_length);
         }
         fit.strain()
     }
 
-    /// Strains around each bond, which are the means of those of its ends as far as these are known, shape (n_bonds); None where
-    /// neither is.
-    pub(crate) fn strains_around(
+    /// Factor exp(-l/H)/l of each bond on the volumes of its ends, shape (n_bonds).
+    fn closeness(&self) -> &[f64] {
+        self.closeness.get_or_init(|| {
+            let both = self.bonds.length.par_iter().zip(&self.bonds.horizon);
+            both.map(|(length, horizon)| closeness(*length, *horizon))
+                .collect()
+        })
+    }
+
+    /// Stress across each bond, with the means of the strains of its ends as far as these are known, shape (n_bonds).
+    pub(crate) fn stresses_across(
         &self,
         layout: Layout,
         motion: Motion<'_>,
-    ) -> Vec<Option<StrainAround>> {
+        deformations: &[BondDeformation],
+        moduli: impl Fn(usize) -> Moduli + Sync,
+    ) -> Vec<StressAcross> {
         let of_points = self.point_strains(layout, motion);
-        let of_bond = |(ends, &n): (&[u32; 2], &[f64; D])| {
-            let mean = mean_strain(ends.map(|end| of_points[end as usize]))?;
-            Some(StrainAround::new(&mean, n))
-        };
         let bonds = &self.bonds;
-        let both = bonds.ends.par_iter().zip(&bonds.direction);
-        both.map(of_bond).collect()
+        let of_bond = |(bond, deformation): (usize, &BondDeformation)| {
+            let [a, b] = bonds.ends[bond].map(|end| end as usize);
+            let mean = mean_strain([of_points[a], of_points[b]]);
+            let around = mean.map(|it| StrainAround::new(&it, bonds.direction[bond]));
+            moduli(bond).stress_across(deformation.stretch(), around)
+        };
+        deformations.par_iter().enumerate().map(of_bond).collect()
     }
 }
 
@@ -200,6 +215,7 @@ pub struct StrainAround {
 
 impl StrainAround {
     /// The parts of a strain around a bond with the direction n.
+    #[inline]
     pub fn new<const D: usize>(strain: &SymTensor<D>, n: [f64; D]) -> Self {
         let along = strain.times(n);
         let normal = dot(n, along);

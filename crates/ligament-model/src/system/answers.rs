@@ -18,7 +18,8 @@ use crate::interface::{
 use crate::layout::Component;
 use crate::material::Stiffness;
 use crate::rigid_motions::{self, FreeMotion, RigidMotions, Turn};
-use crate::stress::point_strain::{Motion, StrainAround};
+use crate::failure::hooke::{Moduli, StressAcross};
+use crate::stress::point_strain::Motion;
 use crate::stress::traction;
 use crate::subdomain::Subdomain;
 use crate::sweep::BondSweep;
@@ -369,8 +370,14 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
         Some(stress.components().collect())
     }
 
-    fn strains_around(&self, motion: Motion<'_>) -> Vec<Option<StrainAround>> {
-        self.system.strains_around(self.layout(), motion)
+    fn stresses_across(
+        &self,
+        motion: Motion<'_>,
+        deformations: &[BondDeformation],
+        moduli: &(dyn Fn(usize) -> Moduli + Sync),
+    ) -> Vec<StressAcross> {
+        let (system, layout) = (&self.system, self.layout());
+        system.stresses_across(layout, motion, deformations, moduli)
     }
 
     fn principal_stresses(

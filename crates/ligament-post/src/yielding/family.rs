@@ -306,11 +306,11 @@ mod tests {
         let directions = [0.03, 0.31, 0.42, 0.97, 1.5, 1.52, 2.2, 2.41, 2.9];
         let limit = vec![1.0, 1.3, 0.9, 1.1, 1.0, 0.8, 1.4, 0.5, 1.0];
         let energy = Criterion {
-            coefficient: vec![0.4; 9],
+            coefficient: vec![0.4; 9].into(),
             ..Criterion::brittle("energy", Measure::Energy, limit.clone())
         };
         let friction = Criterion {
-            coefficient: vec![0.6; 9],
+            coefficient: vec![0.6; 9].into(),
             ..Criterion::brittle("friction", Measure::Friction, limit.clone())
         };
         let tension = Criterion::brittle("tension", Measure::Tension, limit);

@@ -91,7 +91,7 @@ mod tests {
 
     fn uniform(list: &[(Measure, f64, f64)], n_bonds: usize) -> Criteria {
         let criterion = |&(measure, limit, q): &(Measure, f64, f64)| Criterion {
-            coefficient: vec![q; n_bonds],
+            coefficient: vec![q; n_bonds].into(),
             ..Criterion::brittle("test", measure, vec![limit; n_bonds])
         };
         Criteria {

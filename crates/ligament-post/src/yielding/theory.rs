@@ -2,6 +2,7 @@
 
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::Measure;
+use ligament_model::failure::hooke::StressAcross;
 
 use super::PrincipalStretches;
 
@@ -22,7 +23,7 @@ pub fn critical_deformation(
         let shear = deviator * (1.0 - cosine * cosine).sqrt();
         BondDeformation::new([mean + deviator * cosine, shear, 0.0])
     };
-    let value = |deformation: &BondDeformation| measure.value(deformation, &[coefficient]);
+    let value = |deformation: &BondDeformation| measure.value(deformation, &[coefficient], StressAcross::default);
     let [first, others @ ..] = measure.worst_directions(coefficient, mean, deviator);
     let finite = others.into_iter().filter(|cosine| cosine.is_finite());
     finite.map(at).fold(at(first), |worst, it| {
@@ -66,11 +67,11 @@ mod tests {
                 ] {
                     let strains = PrincipalStretches::new(first, second);
                     let critical = critical_deformation(measure, q, strains);
-                    let largest = measure.value(&critical, &[q]);
+                    let largest = measure.value(&critical, &[q], StressAcross::default);
                     let sampled = (0..20_000)
                         .map(|k| PI * f64::from(k) / 20_000.0)
                         .map(|x| strains.along([(2.0 * x).cos(), (2.0 * x).sin()]))
-                        .map(|deformation| measure.value(&deformation, &[q]))
+                        .map(|deformation| measure.value(&deformation, &[q], StressAcross::default))
                         .fold(f64::NEG_INFINITY, f64::max);
                     let place = format!("{measure:?} {q} {first} {second}: {sampled} {largest}");
                     assert!(sampled <= largest + 1e-14, "{place}");
@@ -89,7 +90,7 @@ mod tests {
             let bound = measure.steepest_slope(2.0) * strains.deviator();
             let value = |x: f64| {
                 let twice = [(2.0 * x).cos(), (2.0 * x).sin()];
-                measure.value(&strains.along(twice), &[2.0])
+                measure.value(&strains.along(twice), &[2.0], StressAcross::default)
             };
             let slope = |k: u32| {
                 let x = f64::from(k) * PI / 5000.0;

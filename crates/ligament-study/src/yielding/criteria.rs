@@ -110,7 +110,7 @@ impl Combination {
                 Part::Frictional => {
                     let Friction { cohesion, slope } = strengths.friction()?;
                     Criterion {
-                        coefficient: vec![slope; n_bonds],
+                        coefficient: vec![slope; n_bonds].into(),
                         ..brittle("frictional", Measure::Friction, cohesion)
                     }
                 }

@@ -1,8 +1,7 @@
 //! A family of bonds with a name, the subject of a curve.
 
 use ligament_model::BondSystem;
-use ligament_model::failure::softening::brittle;
-use ligament_model::failure::{AfterLimit, Criteria, Criterion};
+use ligament_model::failure::{Criteria, Criterion};
 use ligament_post::yielding::{Family, PrincipalStretches, Worst, lattice};
 
 use super::criteria::{Combination, Strengths};
@@ -82,13 +81,10 @@ impl Subject {
             let bonds = bonds.iter().map(|&bond| bond as usize);
             bonds.filter_map(|bond| values.get(bond).copied()).collect()
         };
+        // First yield depends only on the limit, not on the law after it.
         let criterion = |it: &Criterion| Criterion {
-            limit: of_family(&it.limit),
-            coefficient: of_family(&it.coefficient),
-            // First yield depends only on the limit, not on the law after it.
-            after: AfterLimit::new(brittle::LAW, Vec::new()),
-            surroundings: None,
-            ..*it
+            coefficient: of_family(&it.coefficient).into(),
+            ..Criterion::brittle(it.name, it.measure, of_family(&it.limit))
         };
         Self {
             name,

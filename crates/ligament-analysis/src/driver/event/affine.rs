@@ -64,8 +64,9 @@ impl Affine {
             system, criteria, ..
         } = &path.problem;
         let slopes = system.deformations(motion.intact, motion.displacement, motion.expansion);
-        let criteria = criteria.in_state(&**system, motion, &slopes).into_owned();
-        Ok((slopes, criteria))
+        let stresses = criteria.stresses(&**system, motion, &slopes);
+        let rates = criteria.in_state(&stresses, motion.intact, &slopes);
+        Ok((slopes, rates.into_owned()))
     }
 }
 
