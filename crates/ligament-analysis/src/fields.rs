@@ -54,7 +54,7 @@ pub fn point_damage_by(
     way: Weakened,
     point: u32,
 ) -> f64 {
-    let fails_so = |criterion: usize| criteria.list[criterion].measure.weakens() == way;
+    let fails_so = |criterion: usize| criteria.list[criterion].measure.weakens().shows_as(way);
     let force = |bond: usize| {
         let broke_so = state.broken_by[bond].is_some_and(|it| fails_so(usize::from(it)));
         if broke_so {

@@ -375,7 +375,7 @@ fn point_energy_density(it: Solution<'_>, point: u32) -> f64 {
 
 /// Damage by one failure mode; None where no criterion has this mode.
 fn damage_by(it: Solution<'_>, way: Weakened) -> Option<Vec<f64>> {
-    let occurs = (it.criteria.list.iter()).any(|it| it.measure.weakens() == way);
+    let occurs = (it.criteria.list.iter()).any(|it| it.measure.weakens().shows_as(way));
     occurs.then(|| fields::damage_by(it.system, it.criteria, it.state, way))
 }
 

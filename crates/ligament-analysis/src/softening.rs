@@ -212,12 +212,15 @@ fn remaining_of(
             continue;
         }
         let secant = criterion.after.at(bond, largest).secant;
-        let weakest = match criterion.measure.weakens() {
-            Weakened::Opening => &mut opening,
-            Weakened::Crushing => &mut crushing,
-            Weakened::Sliding => &mut sliding,
+        let weakened: &mut [&mut f64] = match criterion.measure.weakens() {
+            Weakened::Opening => &mut [&mut opening],
+            Weakened::Crushing => &mut [&mut crushing],
+            Weakened::Sliding => &mut [&mut sliding],
+            Weakened::Whole => &mut [&mut opening, &mut crushing],
         };
-        *weakest = weakest.min(secant);
+        for weakest in weakened {
+            **weakest = weakest.min(secant);
+        }
     }
     StiffnessFactors {
         axial: if is_open { opening } else { crushing },

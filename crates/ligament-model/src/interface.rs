@@ -276,9 +276,9 @@ pub trait BondReadings: BondTopology {
         moduli: &(dyn Fn(usize) -> Moduli + Sync),
     ) -> Vec<StressAcross>;
 
-    /// Largest principal stress around each bond over the strength at which it begins to soften, shape (n_bonds); 0 where the bond is not
-    /// pulled across by a share of it.
-    fn principal_stresses(
+    /// Stress around each bond over the strength at which it begins to soften, shape (n_bonds); 0 where tension does not pull the
+    /// bond across.
+    fn utilisations(
         &self,
         motion: Motion<'_>,
         deformations: &[BondDeformation],

@@ -129,7 +129,8 @@ impl Measure {
             | Self::Fibre
             | Self::Sliding
             | Self::Friction
-            | Self::Energy => true,
+            | Self::Energy
+            | Self::StoredEnergy => true,
             Self::MixedModeX | Self::MixedModeY => coefficients.get(1).is_none_or(|&r| r == 1.0),
             Self::NormalStress | Self::CoulombStress => true,
             Self::PrintedOpening | Self::PrintedSliding | Self::PrintedMixed => false,
@@ -164,6 +165,11 @@ impl Measure {
             Self::Sliding => shear.beside_at_most([0.0; 2], limit),
             Self::Friction => shear.beside_at_most(stretch.times(q), limit),
             Self::Energy => root(stretch, shear.square_times(q), limit),
+            Self::StoredEnergy => {
+                let [a, b, c] = stretch.square_times(1.0);
+                let [d, e, f] = shear.square_times(q);
+                quadratic([a + d, b + e, c + f - limit * limit])
+            }
             Self::MixedModeX => mixed(0),
             Self::MixedModeY => mixed(1),
             Self::NormalStress => at_most(stress.map(|it| it.normal), limit),

@@ -11,7 +11,7 @@ use super::of_stress::of_stress;
 use super::unfit::NoLimit;
 
 /// Reason why bonds break at once where a stress lets them fail.
-pub(super) const BRITTLE: &str =
+const BRITTLE: &str =
     "its measure is a stress, of which a bond does not tell how much energy it has taken";
 
 /// Tensile stress across the bond.

@@ -37,10 +37,10 @@ pub fn criteria<const D: usize>(
                 scatter(choice, &mut limits.limit, basis);
             }
             list.push(Criterion {
-                name: match kind.measures {
+                name: limits.name.unwrap_or(match kind.measures {
                     [_] => kind.word,
                     _ => measure.word(),
-                },
+                }),
                 measure,
                 after: match limits.is_brittle {
                     true => AfterLimit::new(brittle::LAW, Vec::new()),

@@ -108,7 +108,7 @@ fn by_criterion(
     // Of the elastic energy at the end of the law, that at the limit is 1/end^2, of which the law takes `total` times.
     let softened = after.total_dissipated(bond) / after.end(bond).powi(2);
     let [axial, shear] = match criterion.measure.weakens() {
-        Weakened::Opening | Weakened::Crushing => [softened; 2],
+        Weakened::Opening | Weakened::Crushing | Weakened::Whole => [softened; 2],
         Weakened::Sliding => [1.0, softened],
     };
     let rigidities = &system.rigidities;

@@ -69,7 +69,7 @@ impl Criterion {
     /// Energy of a bond at its limit, J; zero without a limit.
     pub(crate) fn energy_at_limit(&self, rigidities: &Rigidities, bond: usize) -> f64 {
         let rigidity = match self.measure.weakens() {
-            Weakened::Opening | Weakened::Crushing => rigidities.axial[bond],
+            Weakened::Opening | Weakened::Crushing | Weakened::Whole => rigidities.axial[bond],
             Weakened::Sliding => rigidities.shear[bond],
         };
         let limit = self.limit[bond];

@@ -109,10 +109,19 @@ pub fn stretch_at_strength(material: &Isotropic, strength: f64, space: impl Into
     }
 }
 
-/// Critical stretches of brittle bonds (n_bonds); a bond has the mean opening modulus and the mean length of its ends.
+/// Critical stretches of brittle bonds (n_bonds).
 pub fn critical_stretches<const D: usize>(basis: &Basis<'_, D>) -> Vec<f64> {
+    critical_stretches_for(basis, &basis.each(|_, material| material.fracture_energy))
+}
+
+/// Critical stretches of brittle bonds (n_bonds) for fracture energies of the materials (n_materials), J/m^2; a bond has the mean opening
+/// modulus and the mean length of its ends.
+pub(super) fn critical_stretches_for<const D: usize>(
+    basis: &Basis<'_, D>,
+    of_materials: &[f64],
+) -> Vec<f64> {
     let system = basis.system;
-    let energy = basis.weakest(&basis.each(|_, material| material.fracture_energy));
+    let energy = basis.weakest(of_materials);
     let moduli = basis.each(|constants, _| Some(opening_modulus(constants, basis.space)));
     let lengths = mean_lengths(system);
     let modulus = |end: u32| system.cloud.mean_property(end as usize, &moduli);

@@ -66,24 +66,29 @@ impl Criteria {
         motion: Motion<'_>,
         deformations: &[BondDeformation],
     ) -> Option<Vec<Vec<f64>>> {
+        let utilisations = |criterion: &Criterion| {
+            let starting = criterion.starting()?;
+            Some(system.utilisations(motion, deformations, starting))
+        };
+        let of_criteria: Vec<Option<Vec<f64>>> = self.list.iter().map(utilisations).collect();
         let mut begun = begun.to_vec();
         let mut some = false;
-        for (criterion, begun) in self.list.iter().zip(&mut begun) {
-            let Some(starting) = criterion.starting() else {
-                continue;
-            };
-            let least = criterion
-                .after
-                .law()
-                .parameter
-                .map_or(1.0, |it| it.least_energy);
-            let stresses = system.principal_stresses(motion, deformations, starting);
-            for (bond, &utilisation) in stresses.iter().enumerate() {
-                if utilisation >= 1.0 && motion.intact[bond] {
-                    let deformation = criterion.measure(bond, &deformations[bond]);
-                    begun[bond] = starting.began_at(bond, deformation, utilisation, least);
-                    some = true;
+        for bond in (0..deformations.len()).filter(|bond| motion.intact[*bond]) {
+            let mut farthest = None;
+            for (place, of_bonds) in of_criteria.iter().enumerate() {
+                let utilisation = of_bonds.as_ref().map_or(0.0, |it| it[bond]);
+                if utilisation >= farthest.map_or(1.0, |(_, it)| it) {
+                    farthest = Some((place, utilisation));
                 }
+            }
+            if let Some((place, utilisation)) = farthest
+                && let Some(starting) = self.list[place].starting()
+            {
+                let deformation = self.list[place].measure(bond, &deformations[bond]);
+                let least = self.list[place].after.law().parameter;
+                let least = least.map_or(1.0, |it| it.least_energy);
+                begun[place][bond] = starting.began_at(bond, deformation, utilisation, least);
+                some = true;
             }
         }
         some.then_some(begun)
@@ -110,11 +115,12 @@ impl Criteria {
                 });
             criteria.list[place].after = AfterLimit::new(law, parameter.collect());
             criteria.list[place].limit = begun.clone().into();
-            // The criterion before it is that of bonds that never began.
-            let never_began = Arc::make_mut(&mut criteria.list[place - 1].limit);
-            let never_began = never_began.iter_mut().zip(begun);
-            for (limit, _) in never_began.filter(|(_, began)| began.is_finite()) {
-                *limit = f64::INFINITY;
+            for back in starting.never_began {
+                let never_began = Arc::make_mut(&mut criteria.list[place - back].limit);
+                let never_began = never_began.iter_mut().zip(begun);
+                for (limit, _) in never_began.filter(|(_, began)| began.is_finite()) {
+                    *limit = f64::INFINITY;
+                }
             }
         }
         criteria

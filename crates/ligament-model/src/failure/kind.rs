@@ -113,6 +113,8 @@ pub struct Limits {
     pub surroundings: Option<Arc<Surroundings>>,
     /// Whether bonds break there, whatever they do after other limits of the kind.
     pub is_brittle: bool,
+    /// Name of the criterion in results, where neither the kind nor the measure names it.
+    pub name: Option<&'static str>,
 }
 
 impl Limits {
@@ -128,6 +130,7 @@ impl Limits {
             coefficient,
             surroundings: None,
             is_brittle: false,
+            name: None,
         }
     }
 

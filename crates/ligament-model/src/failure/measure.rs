@@ -26,6 +26,8 @@ pub enum Measure {
     /// sqrt(max(s, 0)^2 + q gamma^2), q = k_t/k_n: the stretch that would store the same energy. Compression stores none that
     /// counts.
     Energy,
+    /// sqrt(s^2 + q gamma^2), q = k_t/k_n: the stretch that would store the same energy, of a bond that is pressed too.
+    StoredEnergy,
     /// sigma_n/E': stress on the plane across the bond over the modulus E' ([`Moduli`](super::hooke::Moduli)).
     NormalStress,
     /// (|tau| + sigma_n tan(phi))/E': shear stress on the plane across the bond with what friction takes off it under pressure, after
@@ -60,6 +62,8 @@ pub enum Weakened {
     Crushing,
     /// Resistance to shear.
     Sliding,
+    /// All resistance, where shear under pressure crushes the material.
+    Whole,
 }
 
 /// What a measure looks at.
@@ -73,9 +77,16 @@ enum Sight {
     OwnStrains,
 }
 
+impl Weakened {
+    /// Whether damage of this kind shows in the field of another one: what takes all resistance is a shear failure.
+    pub fn shows_as(self, way: Self) -> bool {
+        self == way || (self == Self::Whole && way == Self::Sliding)
+    }
+}
+
 impl Measure {
     /// All measures.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Tension,
         Self::Compression,
         Self::Fibre,
@@ -89,6 +100,7 @@ impl Measure {
         Self::PrintedMixed,
         Self::NormalStress,
         Self::CoulombStress,
+        Self::StoredEnergy,
     ];
 
     /// The word for the measure in results.
@@ -100,6 +112,7 @@ impl Measure {
             Self::Sliding => "sliding",
             Self::Friction => "friction",
             Self::Energy => "energy",
+            Self::StoredEnergy => "stored-energy",
             Self::NormalStress => "normal-stress",
             Self::CoulombStress => "coulomb-stress",
             Self::MixedModeX => "mixed-mode-x",
@@ -115,7 +128,7 @@ impl Measure {
             Self::Tension | Self::Compression => Sight::Stretch,
             Self::Fibre => Sight::Bending,
             Self::Sliding | Self::Friction => Sight::Sliding,
-            Self::Energy => Sight::Energy,
+            Self::Energy | Self::StoredEnergy => Sight::Energy,
             Self::NormalStress | Self::CoulombStress => Sight::Stress,
             Self::MixedModeX
             | Self::MixedModeY
@@ -171,7 +184,11 @@ impl Measure {
             Self::PrintedOpening | Self::PrintedSliding | Self::PrintedMixed => "stretch or angle",
             Self::NormalStress => "stress across the bond over E'",
             Self::CoulombStress => "stress of Mohr and Coulomb over E'",
-            Self::Friction | Self::Energy | Self::MixedModeX | Self::MixedModeY => "",
+            Self::Friction
+            | Self::Energy
+            | Self::StoredEnergy
+            | Self::MixedModeX
+            | Self::MixedModeY => "",
         }
     }
 
@@ -184,6 +201,7 @@ impl Measure {
             Self::Sliding => "|gamma|",
             Self::Friction => "|gamma| + s tan(beta)",
             Self::Energy => "sqrt(max(s, 0)^2 + gamma^2 k_t/k_n)",
+            Self::StoredEnergy => "sqrt(s^2 + gamma^2 k_t/k_n)",
             Self::NormalStress => "sigma_n/E'",
             Self::CoulombStress => "(|tau| + sigma_n tan(phi))/E'",
             Self::MixedModeX => "sqrt(max(S_xx, 0)^2 + q S_xy^2)",
@@ -200,7 +218,7 @@ impl Measure {
             Self::Tension | Self::Compression | Self::Sliding => &[],
             Self::Fibre => &["kappa/l"],
             Self::Friction => &["tan(beta)"],
-            Self::Energy => &["k_t/k_n"],
+            Self::Energy | Self::StoredEnergy => &["k_t/k_n"],
             Self::NormalStress => &["lambda/E'", "2 mu/E'", "E/E'", "E'"],
             Self::CoulombStress => &["lambda/E'", "2 mu/E'", "E/E'", "E'", "tan(phi)"],
             Self::MixedModeX | Self::MixedModeY => &["q", "G_IIc/G_Ic", "eta"],
@@ -226,6 +244,10 @@ impl Measure {
             Self::Fibre => stretch + coefficient() * deformation.rotation().abs(),
             Self::Sliding => shear.abs(),
             Self::Friction => shear.abs() + stretch * coefficient(),
+            Self::StoredEnergy => {
+                let square = stretch * stretch + coefficient() * shear * shear;
+                square.max(0.0).sqrt()
+            }
             Self::Energy => {
                 let square = stretch.max(0.0).powi(2) + coefficient() * shear * shear;
                 square.max(0.0).sqrt()
@@ -260,6 +282,7 @@ impl Measure {
             | Self::PrintedSliding
             | Self::PrintedMixed => Weakened::Opening,
             Self::Compression => Weakened::Crushing,
+            Self::StoredEnergy => Weakened::Whole,
             Self::Sliding | Self::Friction | Self::CoulombStress => Weakened::Sliding,
         }
     }
@@ -294,7 +317,8 @@ impl Measure {
                 -mean / deviator,
                 mean / (deviator * (coefficient - 1.0)),
             ],
-            Self::NormalStress
+            Self::StoredEnergy
+            | Self::NormalStress
             | Self::CoulombStress
             | Self::MixedModeX
             | Self::MixedModeY
@@ -315,7 +339,8 @@ impl Measure {
             Self::Tension | Self::Compression | Self::Fibre | Self::Sliding => 1.0,
             Self::Friction => (1.0 + coefficient * coefficient).sqrt(),
             Self::Energy => coefficient.max(1.0).sqrt(),
-            Self::NormalStress
+            Self::StoredEnergy
+            | Self::NormalStress
             | Self::CoulombStress
             | Self::MixedModeX
             | Self::MixedModeY

@@ -1,16 +1,27 @@
-//! Failure by the stresses on the plane across a bond, after Mohr and Coulomb with a tension cut-off.
+//! Failure by tension and by shear with friction, after Mohr and Coulomb with a tension cut-off.
 //!
-//! A bond fails where sigma_n = F_t, or where |tau| + sigma_n tan(phi) = c. The plane across a bond is one of those on which a body may
-//! slide; of a family of bonds the planes have all directions, and the worst of them decides as in a continuum.
+//! A brittle bond breaks where on the plane across it sigma_n = F_t, or |tau| + sigma_n tan(phi) = c. The plane across a bond is one of
+//! those on which a body may slide; of a family of bonds the planes have all directions, and the worst of them decides as in a continuum.
+//!
+//! A bond that softens begins where the stress around it comes to the surface on any plane, as with [`super::rankine`]: by tension where sigma_1
+//! = F_t, and by shear where
+//!
+//! (sigma_1 - sigma_3)/(2 cos(phi)) + (sigma_1 + sigma_3)/2 tan(phi) = c,
+//!
+//! in the plane with the principal stresses in it. Of both surfaces it begins by the one that the stress is farther beyond. Pulled bonds take
+//! what `bond-energy` takes. Sheared ones have a fracture energy of their own, and lose their resistance to pressure as well, by the
+//! deformation sqrt(s^2 + gamma^2 k_t/k_n): bonds that stay stiff when pressed are struts across the slip, and the body does not fail.
 
 use std::f64::consts::FRAC_PI_2;
 
 use super::basis::Basis;
-use super::bond_rankine::{BRITTLE, tensile};
+use super::bond_rankine::tensile;
 use super::hooke::modulus;
 use super::kind::{COMPRESSIVE_STRENGTH, Choice, Kind, Limits, PerSpace, TENSILE_STRENGTH};
 use super::measure::Measure;
 use super::of_stress::of_stress;
+use super::rankine;
+use super::starting::Surface;
 use super::unfit::{NoLimit, Unfit};
 use crate::material::Material;
 
@@ -18,19 +29,25 @@ use crate::material::Material;
 pub const MOHR_COULOMB: Kind = Kind {
     takes: &[TENSILE_STRENGTH, COMPRESSIVE_STRENGTH],
     keys: &["cohesion", "friction_angle"],
-    brittle_because: Some(BRITTLE),
     check,
     suits,
     ..Kind::new(
         "mohr-coulomb",
-        "Stresses on the plane across the bond: tension up to the `tensile_strength`, and shear with friction, from the \
-         `compressive_strength` and a `friction_angle` or one that fits both strengths, or from a `cohesion` and a `friction_angle`.",
-        &[Measure::NormalStress, Measure::CoulombStress],
+        "Tension up to the `tensile_strength`, and shear with friction, from the `compressive_strength` and a `friction_angle` or one \
+         that fits both strengths, or from a `cohesion` and a `friction_angle`; where bonds soften, by the `fracture_energy` and by \
+         `fracture_energy_sliding`.",
+        &[
+            Measure::NormalStress,
+            Measure::CoulombStress,
+            Measure::Energy,
+            Measure::StoredEnergy,
+        ],
         PerSpace::both(limits, limits),
     )
 };
 
 fn check(choice: &Choice) -> Result<(), Unfit> {
+    rankine::check(choice)?;
     match choice.friction_angle {
         None if choice.cohesion.is_some() => Err(Unfit::Missing {
             field: "friction_angle",
@@ -92,7 +109,8 @@ impl Friction {
     }
 }
 
-/// Limits F_t/E' of tension and c/E' of shear; a bond between materials takes those of the one with the smaller cohesion.
+/// Limits F_t/E' of tension and c/E' of shear, by which brittle bonds break, or from which those begin that soften; a bond between materials
+/// takes those of the one with the smaller cohesion.
 fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit> {
     let friction = |material: &Material| {
         if let (Some(cohesion), Some(angle)) = (choice.cohesion, choice.friction_angle) {
@@ -116,7 +134,44 @@ fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<L
         let [lateral, shear, bar, along] = it.coefficients();
         [lateral, shear, bar, along, slopes[material]]
     });
-    Ok(vec![tensile(basis), sheared])
+    if !choice.after.law.softens {
+        return Ok(vec![tensile(basis), sheared]);
+    }
+    let [never_pulled, pulled] = rankine::of_tension(basis, &[2, 1]);
+    let [never_sheared, sheared] = of_shear(basis, sheared);
+    Ok(vec![
+        never_pulled,
+        never_sheared,
+        Limits {
+            name: Some("tension-softening"),
+            ..pulled
+        },
+        Limits {
+            name: Some("shear-softening"),
+            ..sheared
+        },
+    ])
+}
+
+/// Limits of bonds that never began to soften by shear, and of those that did, from the limits c/E' where bonds begin.
+///
+/// A bond that never began breaks where the stress on the plane across it shears it by gamma = e_c/sqrt(k_t/k_n), the angle at which it would
+/// have the whole energy.
+fn of_shear<const D: usize>(basis: &Basis<'_, D>, of_stress: Limits) -> [Limits; 2] {
+    let energy = basis.each(|_, it| it.fracture_energy_sliding.or(it.fracture_energy));
+    let slope = of_stress.coefficient.chunks_exact(5).map(|it| it[4]);
+    let surface = Surface::Shear {
+        slope: slope.collect(),
+    };
+    let starting = rankine::starting(basis, surface, (&of_stress, &energy), &[3, 2]);
+    let mut never_began = of_stress;
+    let both = never_began.limit.iter_mut().zip(&starting.moduli);
+    for (bond, (limit, moduli)) in both.enumerate().filter(|it| it.1.0.is_finite()) {
+        let ratio = rankine::shear_ratio(moduli, basis.space);
+        *limit = 0.5 * moduli.shear * starting.critical[bond] / ratio.sqrt();
+    }
+    never_began.is_brittle = true;
+    [never_began, rankine::of_energy(starting, basis)]
 }
 
 #[cfg(test)]

@@ -25,5 +25,6 @@ pub(super) fn of_stress<const D: usize, const N: usize>(
         coefficient: materials.flat_map(|it| of_material[it]).collect(),
         surroundings: Some(Surroundings::Stress.into()),
         is_brittle: false,
+        name: None,
     }
 }

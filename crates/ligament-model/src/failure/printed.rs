@@ -70,5 +70,6 @@ fn limits(mode: Mode, basis: &Basis<'_>) -> Vec<Limits> {
         coefficient: system.bonds.direction.iter().map(tangent).collect(),
         surroundings: Some(Arc::new(Surroundings::CrackAtPoints(crack))),
         is_brittle: false,
+        name: None,
     }]
 }

@@ -12,14 +12,14 @@
 
 use std::sync::Arc;
 
-use super::basis::{Basis, weakest_materials};
+use super::basis::Basis;
 use super::bond_rankine::tensile;
-use super::fracture_energy::critical_stretches;
+use super::fracture_energy::critical_stretches_for;
 use super::hooke::Moduli;
 use super::kind::{Choice, FRACTURE_ENERGY, Kind, Limits, PerSpace, TENSILE_STRENGTH};
 use super::measure::Measure;
 use super::setting::Setting;
-use super::starting::Starting;
+use super::starting::{Starting, Surface};
 use super::surroundings::Surroundings;
 use super::unfit::{NoLimit, Unfit};
 use crate::material::Space;
@@ -41,13 +41,14 @@ pub const RANKINE: Kind = Kind {
     )
 };
 
-fn check(choice: &Choice) -> Result<(), Unfit> {
+/// Refuses a parameter of softening: each bond has its own.
+pub(super) fn check(choice: &Choice) -> Result<(), Unfit> {
     let key = choice.after.law.parameter.map(|it| it.key);
     match key.filter(|_| choice.after.parameter.is_some()) {
         Some(key) => Err(Unfit::NotWith {
             field: key,
             named: Setting::Field(key),
-            setting: Setting::Criterion(RANKINE.word),
+            setting: Setting::Criterion(choice.kind.word),
             reason: "each bond has its own, from the `fracture_energy` and from where it begins to soften".into(),
         }),
         None => Ok(()),
@@ -56,60 +57,74 @@ fn check(choice: &Choice) -> Result<(), Unfit> {
 
 /// Limits of bonds that never began to soften, and of those that did: none before they do.
 fn limits<const D: usize>(_: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit> {
-    let largest = critical_stretches(basis);
-    let mut never_began = tensile(basis);
-    let mut strength = never_began.limit.clone();
-    basis.scatter(Scattered::Strength, &mut strength, |factor| factor);
-    let moduli = moduli(basis);
-    for ((limit, largest), it) in never_began.limit.iter_mut().zip(&largest).zip(&moduli) {
-        // Bonds that never fail have an infinite one.
-        *limit = if limit.is_finite() {
-            largest * it.bar
-        } else {
-            f64::INFINITY
-        };
+    let [never_began, begun] = of_tension(basis, &[1]);
+    Ok(vec![never_began, begun])
+}
+
+/// Limits of bonds that never began to soften by tension, and of those that did; places of all criteria of bonds that never began, counted
+/// back from that of those that did.
+pub(super) fn of_tension<const D: usize>(
+    basis: &Basis<'_, D>,
+    never_began: &'static [usize],
+) -> [Limits; 2] {
+    let energy = basis.each(|_, material| material.fracture_energy);
+    let mut of_stress = tensile(basis);
+    let starting = starting(basis, Surface::Tension, (&of_stress, &energy), never_began);
+    // Bonds that never fail have an infinite limit.
+    let largest = critical_stretches_for(basis, &energy).into_iter();
+    let both = of_stress.limit.iter_mut().zip(largest.zip(&starting.moduli));
+    for (limit, (largest, moduli)) in both.filter(|(limit, _)| limit.is_finite()) {
+        *limit = largest * moduli.bar;
     }
-    let mut toughness = largest;
-    basis.scatter(Scattered::FractureEnergy, &mut toughness, f64::sqrt);
-    let starting = Starting::new(strength, toughness, moduli);
-    Ok(vec![
-        Limits {
-            is_brittle: true,
-            ..never_began
-        },
-        begun_limits(starting, basis),
-    ])
+    of_stress.is_brittle = true;
+    [of_stress, of_energy(starting, basis)]
 }
 
-/// Moduli of the bonds (n_bonds), between materials those of the one with the smaller strength.
-fn moduli<const D: usize>(basis: &Basis<'_, D>) -> Vec<Moduli> {
-    let strength = basis.each(|_, material| material.tensile_strength);
-    let of_materials = basis.constants.iter();
-    let of_materials: Vec<Moduli> = of_materials
-        .map(|it| it.map_or(Moduli::BAR, |it| Moduli::new(&it, basis.space)))
-        .collect();
-    let materials = weakest_materials(basis.system, &strength).into_iter();
-    materials.map(|it| of_materials[it]).collect()
+/// Where bonds begin to soften, from the limits of a measure of stress, with the coefficients of its moduli, and the fracture energies of
+/// the materials (n_materials) that they take.
+pub(super) fn starting<const D: usize>(
+    basis: &Basis<'_, D>,
+    surface: Surface,
+    (of_stress, energy): (&Limits, &[f64]),
+    never_began: &'static [usize],
+) -> Starting {
+    let mut strength = of_stress.limit.clone();
+    basis.scatter(Scattered::Strength, &mut strength, |factor| factor);
+    let mut critical = critical_stretches_for(basis, energy);
+    basis.scatter(Scattered::FractureEnergy, &mut critical, f64::sqrt);
+    let count = of_stress.coefficient.len() / strength.len().max(1);
+    let coefficients = of_stress.coefficient.chunks_exact(count.max(1));
+    Starting {
+        surface,
+        strength,
+        critical,
+        moduli: coefficients.map(Moduli::from_coefficients).collect(),
+        never_began,
+    }
 }
 
-/// Limits of bonds none of which began, with k_t/k_n as the law has it: corrections change it from bond to bond, and a bond whose
-/// shear they make stiff would be at its end from the start.
-fn begun_limits<const D: usize>(starting: Starting, basis: &Basis<'_, D>) -> Limits {
-    let ratio = |it: &Moduli| {
-        // Poisson's ratio of the plane, lambda/E' = nu; of space nu/(1 - nu).
-        let ratio = match basis.space {
-            Space::Plane(_) => (1.0 - 3.0 * it.lateral) / (1.0 + it.lateral),
-            Space::Solid => {
-                let nu = it.lateral / (1.0 + it.lateral);
-                (1.0 - 4.0 * nu) / (1.0 + nu)
-            }
-        };
-        ratio.max(0.0)
+/// k_t/k_n as the law has it: corrections change it from bond to bond, and a bond whose shear they make stiff would be at its end from
+/// the start.
+pub(super) fn shear_ratio(moduli: &Moduli, space: Space) -> f64 {
+    // Poisson's ratio of the plane, lambda/E' = nu; of space nu/(1 - nu).
+    let ratio = match space {
+        Space::Plane(_) => (1.0 - 3.0 * moduli.lateral) / (1.0 + moduli.lateral),
+        Space::Solid => {
+            let nu = moduli.lateral / (1.0 + moduli.lateral);
+            (1.0 - 4.0 * nu) / (1.0 + nu)
+        }
     };
+    ratio.max(0.0)
+}
+
+/// Limits of the energy of bonds of which none began.
+pub(super) fn of_energy<const D: usize>(starting: Starting, basis: &Basis<'_, D>) -> Limits {
+    let ratio = |it: &Moduli| shear_ratio(it, basis.space);
     Limits {
         limit: vec![f64::INFINITY; starting.strength.len()],
         coefficient: starting.moduli.iter().map(ratio).collect(),
         surroundings: Some(Arc::new(Surroundings::Starting(starting))),
         is_brittle: false,
+        name: None,
     }
 }

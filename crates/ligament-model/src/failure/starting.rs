@@ -12,29 +12,37 @@ const LEAST: f64 = 0.5;
 /// By how much the energy of the whole life of a bond exceeds the least that its law of softening takes.
 const BEYOND_LEAST: f64 = 1.001;
 
+/// What the stress around a bond must come to for the bond to begin.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Surface {
+    /// The largest principal stress comes to the tensile strength F_t, and pulls the bond across.
+    Tension,
+    /// On some plane |tau| + sigma_n tan(phi) comes to the cohesion c. Bonds of all directions begin then: any of them left sound, or stiff
+    /// under pressure, would be a strut that carries more than the strength.
+    Shear {
+        /// tan(phi), shape (n_bonds).
+        slope: Vec<f64>,
+    },
+}
+
 /// Where bonds begin to soften.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Starting {
-    /// F_t/E', shape (n_bonds); infinite where a bond never fails.
+    /// The surface that the stress comes to.
+    pub(crate) surface: Surface,
+    /// F_t/E' or c/E', shape (n_bonds); infinite where a bond never fails.
     pub(super) strength: Vec<f64>,
-    /// Critical stretch e_c of brittle bonds, shape (n_bonds).
+    /// Critical stretch e_c of brittle bonds of the fracture energy that a bond takes, shape (n_bonds).
     pub(super) critical: Vec<f64>,
     /// Moduli of the bonds, shape (n_bonds).
     pub(super) moduli: Vec<Moduli>,
+    /// Places of the criteria by which bonds break that never began, counted back from this one in the list.
+    pub(super) never_began: &'static [usize],
 }
 
 impl Starting {
-    /// Bonds of strengths F_t/E', critical stretches and moduli (n_bonds).
-    pub(super) fn new(strength: Vec<f64>, critical: Vec<f64>, moduli: Vec<Moduli>) -> Self {
-        Self {
-            strength,
-            critical,
-            moduli,
-        }
-    }
-
-    /// F_t/E' of a bond and its moduli.
-    pub(crate) fn surface(&self, bond: usize) -> (f64, &Moduli) {
+    /// F_t/E' or c/E' of a bond, and its moduli.
+    pub(crate) fn strength(&self, bond: usize) -> (f64, &Moduli) {
         (self.strength[bond], &self.moduli[bond])
     }
 

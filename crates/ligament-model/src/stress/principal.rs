@@ -1,25 +1,26 @@
-//! The largest principal stress around a bond.
+//! Principal stresses around a bond, and the surfaces at which it begins to soften.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
 
-use super::point_strain::{Motion, mean_strain};
+use super::point_strain::{Motion, StrainAround, mean_strain};
 use crate::element::BondDeformation;
-use crate::failure::starting::{SHARE, Starting};
+use crate::failure::hooke::Moduli;
+use crate::failure::starting::{SHARE, Starting, Surface};
 use crate::layout::Layout;
 use crate::system::BondSystem;
 use crate::tensor::{SymTensor, dot};
 
 impl<const D: usize> BondSystem<D> {
-    /// Largest principal stress around each bond over the strength, shape (n_bonds); 0 where the bond is pulled across by less than
-    /// [`SHARE`] of it or of the strength.
+    /// Stress around each bond over the strength at which it begins to soften, shape (n_bonds); 0 where tension pulls the bond across by less
+    /// than [`SHARE`] of it.
     ///
     /// The strain is that of the ends, with the bond's own stretch in the place of theirs along it,
     ///
-    /// eps = eps_m + (s - n . eps_m n) n (x) n, sigma_1 = 2 mu eps_1 + lambda tr(eps),
+    /// eps = eps_m + (s - n . eps_m n) n (x) n, sigma_i = 2 mu eps_i + lambda tr(eps),
     ///
     /// where neither end has a strain sigma_1 = E s of a bar.
-    pub(crate) fn principal_stresses(
+    pub(crate) fn utilisations(
         &self,
         layout: Layout,
         motion: Motion<'_>,
@@ -28,38 +29,65 @@ impl<const D: usize> BondSystem<D> {
     ) -> Vec<f64> {
         let of_points = self.point_strains(layout, motion);
         let of_bond = |(bond, deformation): (usize, &BondDeformation)| {
-            let (strength, moduli) = starting.surface(bond);
+            let (strength, moduli) = starting.strength(bond);
             let stretch = deformation.stretch();
-            let ends = self.bonds.ends[bond].map(|end| of_points[end as usize]);
-            let Some(mean) = mean_strain(ends) else {
-                return (moduli.bar * stretch / strength).max(0.0);
+            let [a, b] = self.bonds.ends[bond].map(|end| end as usize);
+            let Some(mean) = mean_strain([of_points[a], of_points[b]]) else {
+                return match starting.surface {
+                    Surface::Tension => (moduli.bar * stretch / strength).max(0.0),
+                    Surface::Shear { .. } => 0.0,
+                };
             };
             let n = self.bonds.direction[bond];
-            let along = dot(n, mean.times(n));
-            let trace = stretch - along + (0..D).map(|axis| mean.at(axis, axis)).sum::<f64>();
-            let normal = stretch + moduli.lateral * (trace - stretch);
-            if normal < SHARE * strength {
-                return 0.0;
-            }
-            let strain = SymTensor::<D>::from_fn(|row, column| {
-                mean.at(row, column) + (stretch - along) * n[row] * n[column]
-            });
-            let principal = moduli.shear * largest(&strain) + moduli.lateral * trace;
-            match normal >= SHARE * principal {
-                true => principal / strength,
-                false => 0.0,
+            let principal = || principal(&own_strain(&mean, stretch, n), moduli);
+            match &starting.surface {
+                Surface::Tension => {
+                    let around = StrainAround::new(&mean, n);
+                    let normal = moduli.stress_across(stretch, Some(around)).normal;
+                    if normal < SHARE * strength {
+                        return 0.0;
+                    }
+                    let [largest, _] = principal();
+                    match normal >= SHARE * largest {
+                        true => largest / strength,
+                        false => 0.0,
+                    }
+                }
+                Surface::Shear { slope } => {
+                    let slope = slope[bond];
+                    let [largest, smallest] = principal();
+                    let (mean, radius) = (0.5 * (largest + smallest), 0.5 * (largest - smallest));
+                    let worst = radius * slope.hypot(1.0) + mean * slope;
+                    (worst / strength).max(0.0)
+                }
             }
         };
         deformations.par_iter().enumerate().map(of_bond).collect()
     }
 }
 
-/// The largest principal value of a tensor.
-fn largest<const D: usize>(tensor: &SymTensor<D>) -> f64 {
+/// Strain around a bond with the direction n, from that of its ends and its own stretch.
+fn own_strain<const D: usize>(mean: &SymTensor<D>, stretch: f64, n: [f64; D]) -> SymTensor<D> {
+    let along = dot(n, mean.times(n));
+    SymTensor::from_fn(|row, column| {
+        mean.at(row, column) + (stretch - along) * n[row] * n[column]
+    })
+}
+
+/// The largest and the smallest principal stress of a strain over E'.
+fn principal<const D: usize>(strain: &SymTensor<D>, moduli: &Moduli) -> [f64; 2] {
+    let trace: f64 = (0..D).map(|axis| strain.at(axis, axis)).sum();
+    extremes(strain).map(|it| moduli.shear * it + moduli.lateral * trace)
+}
+
+/// The largest and the smallest principal value of a tensor.
+fn extremes<const D: usize>(tensor: &SymTensor<D>) -> [f64; 2] {
     if D == 2 {
         let [xx, yy, xy] = [[0, 0], [1, 1], [0, 1]].map(|[row, column]| tensor.at(row, column));
-        return 0.5 * (xx + yy) + (0.5 * (xx - yy)).hypot(xy);
+        let (mean, radius) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
+        return [mean + radius, mean - radius];
     }
     let matrix = DMatrix::from_fn(D, D, |row, column| tensor.at(row, column));
-    SymmetricEigen::new(matrix).eigenvalues.max()
+    let values = SymmetricEigen::new(matrix).eigenvalues;
+    [values.max(), values.min()]
 }

@@ -380,14 +380,14 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
         system.stresses_across(layout, motion, deformations, moduli)
     }
 
-    fn principal_stresses(
+    fn utilisations(
         &self,
         motion: Motion<'_>,
         deformations: &[BondDeformation],
         starting: &Starting,
     ) -> Vec<f64> {
         let (system, layout) = (&self.system, self.layout());
-        system.principal_stresses(layout, motion, deformations, starting)
+        system.utilisations(layout, motion, deformations, starting)
     }
 
     fn force_through(

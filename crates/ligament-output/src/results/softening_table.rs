@@ -154,7 +154,8 @@ impl SoftenedBonds {
         let softening = &view.state.softening;
         let mut changed = Vec::new();
         for (criterion, largest) in softening.largest.iter().enumerate() {
-            let opens = view.criteria.list[criterion].measure.weakens() == Weakened::Opening;
+            let weakened = view.criteria.list[criterion].measure.weakens();
+            let opens = matches!(weakened, Weakened::Opening | Weakened::Whole);
             for (bond, &largest) in largest.iter().enumerate() {
                 if largest <= 1.0 || self.told[bond] == 2 {
                     continue;
