@@ -67,8 +67,8 @@ fn of_bonds(model: &Model) -> Vec<(&'static str, Vec<f64>)> {
         ("shear ratio", model.fixed.shear_ratio.clone()),
     ];
     for criterion in &model.criteria.list {
-        lists.push(("limit", criterion.limit.clone()));
-        lists.push(("coefficient", criterion.coefficient.clone()));
+        lists.push(("limit", criterion.limit.to_vec()));
+        lists.push(("coefficient", criterion.coefficient.to_vec()));
     }
     lists
 }

@@ -123,6 +123,7 @@ impl Truss {
                 beyond_correction: Vec::new(),
                 faces: Faces::default(),
                 room: DeformationPool::default(),
+                closeness: std::sync::OnceLock::new(),
                 cloud,
                 bonds,
             },

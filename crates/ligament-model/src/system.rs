@@ -38,7 +38,7 @@ pub struct BondSystem<const D: usize = 2> {
     /// Reusable memory for deformations.
     pub room: DeformationPool,
     /// Factors of the [strains of points](crate::stress::point_strain), once some were asked for, shape (n_bonds).
-    pub(crate) closeness: OnceLock<Vec<f64>>,
+    pub closeness: OnceLock<Vec<f64>>,
 }
 
 impl<const D: usize> BondSystem<D> {
