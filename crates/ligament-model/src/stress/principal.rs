@@ -1,6 +1,5 @@
-//! The largest principal stress around a bond.
+//! Principal stresses: of a point, and the largest one around a bond.
 
-use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
 
 use super::point_strain::{Motion, mean_strain};
@@ -44,7 +43,7 @@ impl<const D: usize> BondSystem<D> {
             let strain = SymTensor::<D>::from_fn(|row, column| {
                 mean.at(row, column) + (stretch - along) * n[row] * n[column]
             });
-            let principal = moduli.shear * largest(&strain) + moduli.lateral * trace;
+            let principal = moduli.shear * strain.principal_values()[0] + moduli.lateral * trace;
             match normal >= SHARE * principal {
                 true => principal / strength,
                 false => 0.0,
@@ -54,12 +53,27 @@ impl<const D: usize> BondSystem<D> {
     }
 }
 
-/// The largest principal value of a tensor.
-fn largest<const D: usize>(tensor: &SymTensor<D>) -> f64 {
-    if D == 2 {
-        let [xx, yy, xy] = [[0, 0], [1, 1], [0, 1]].map(|[row, column]| tensor.at(row, column));
-        return 0.5 * (xx + yy) + (0.5 * (xx - yy)).hypot(xy);
+/// Principal values of a stress with these components, the largest first: two in the plane, three in space.
+pub fn values(stress: &[f64]) -> Vec<f64> {
+    match stress.len() == SymTensor::<2>::COMPONENTS.len() {
+        true => SymTensor::<2>::from_components(stress)
+            .principal_values()
+            .to_vec(),
+        false => SymTensor::<3>::from_components(stress)
+            .principal_values()
+            .to_vec(),
     }
-    let matrix = DMatrix::from_fn(D, D, |row, column| tensor.at(row, column));
-    SymmetricEigen::new(matrix).eigenvalues.max()
+}
+
+/// Unit vector (x, y, z) along the largest principal stress of a stress with these components.
+pub fn direction(stress: &[f64]) -> Vec<f64> {
+    match stress.len() == SymTensor::<2>::COMPONENTS.len() {
+        true => {
+            let [x, y] = SymTensor::<2>::from_components(stress).principal_direction();
+            vec![x, y, 0.0]
+        }
+        false => SymTensor::<3>::from_components(stress)
+            .principal_direction()
+            .to_vec(),
+    }
 }
