@@ -184,6 +184,54 @@ fn fields_have_units_and_signs_their_colours() {
     }
 }
 
+/// A point whose bonds pre-cracks cut has no stress: pictures leave its square bare, and the page, a profile and a probe are written.
+#[test]
+fn points_without_a_stress_are_bare() {
+    let folder = tempfile::tempdir().unwrap();
+    let box_of_one = "precrack=[{ points = [[0.0501, 0.0601], [0.0599, 0.0601], [0.0599, 0.0699], [0.0501, 0.0699], [0.0501, 0.0601]] }]";
+    let probe = "probe=[{ name = \"alone\", at = [0.055, 0.065], field = \"stress.yy\" }]";
+    let settings = ["output.stress=[\"material\"]", box_of_one, probe];
+    let results = run(folder.path(), LATTICE, "plate", &settings);
+    let path = results.to_str().unwrap();
+    let history = fs::read_to_string(results.join("history.csv")).unwrap();
+    assert!(
+        history.starts_with("step,") && history.trim_end().ends_with("NaN"),
+        "{history}"
+    );
+    let out = folder.path().join("a.svg");
+    let out = out.to_str().unwrap();
+    // Outlines of the lowest band beyond those of the body, which is drawn below it.
+    let holes = |field: &str| {
+        let svg = plot(&[path, "--step", "2", "--field", field, "--out", out]);
+        assert!(texts(&svg).iter().any(|it| it.starts_with(field)));
+        let svg = text(&svg);
+        let document = Document::parse(&svg).unwrap();
+        let paths: Vec<(Option<&str>, usize)> = (document.descendants())
+            .filter_map(|it| {
+                Some((
+                    it.attribute("fill"),
+                    it.attribute("d")?.matches('m').count(),
+                ))
+            })
+            .collect();
+        let body = paths.iter().position(|it| it.0 == Some("#dcdcdc")).unwrap();
+        paths[body + 1].1 - paths[body].1
+    };
+    let found = ["stress_principal.1", "stress.xy", "damage"].map(holes);
+    assert_eq!(found, [1, 1, 0]);
+    let line = ["profile", path, "--from", "0,0.065", "--to", "0.12,0.065"];
+    let profile = ligament([&line[..], &["--field", "stress.yy", "--step", "2"]].concat());
+    assert!(
+        text(&profile.stdout).contains("NaN"),
+        "{}",
+        text(&profile.stderr)
+    );
+    for words in [["report", path], ["repeat", path]] {
+        let output = ligament(words);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    }
+}
+
 #[test]
 fn curves_have_labels_units_and_first_peaks() {
     let folder = tempfile::tempdir().unwrap();
