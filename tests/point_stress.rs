@@ -29,7 +29,8 @@ fn tractions([xx, yy, xy]: [f64; 3]) -> String {
         let [x, y] = [x, y].map(|it| 0.02 * it);
         format!("[[load]]\ngroup = \"{group}\"\nforce_per_length = {{ x = {x:?}, y = {y:?} }}\n")
     };
-    sides.map(load).concat()
+    let loaded = sides.into_iter().filter(|(_, x, y)| *x != 0.0 || *y != 0.0);
+    loaded.map(load).collect()
 }
 
 /// Fields of the last state and the last row of the history.
@@ -81,7 +82,7 @@ impl Results {
 }
 
 /// Tension of 3 and 1 MPa with a shear of 1 MPa on all sides, in both states of the plane: the stress of every point, edges and corners
-/// too, its principal values (2 + sqrt 2 and 2 - sqrt 2) MPa and the larger one's direction at 22.5 degrees. The correction leaves .5 % of
+/// too, its principal values (2 + sqrt 2 and 2 - sqrt 2) MPa and the larger one's direction at 22.5 degrees. The correction leaves .6 % of
 /// the largest at corners, of which the direction has its share over twice the radius of Mohr's circle.
 #[test]
 fn a_uniform_stress_is_the_tractions() {
@@ -100,7 +101,7 @@ fn a_uniform_stress_is_the_tractions() {
         let of_stress = [off("stress", &stress), off("stress_principal", &principal)];
         let of_direction = off("stress_direction", &[cosine, sine, 0.0]);
         println!("plane {plane}: {of_stress:.0?} Pa, direction {of_direction:.1e}");
-        assert!(of_stress.iter().all(|it| *it < 5e-3 * principal[0]));
+        assert!(of_stress.iter().all(|it| *it < 1e-2 * principal[0]));
         assert!(of_direction < 5e-3);
         for (found, expected) in results
             .probes
@@ -185,21 +186,14 @@ output = { stress = ["material", "virial"] }
     assert!(virial > 5.0 * by_material, "{virial}");
 }
 
-/// A plate of a material with axes at 0.4 rad, pulled by 1 MPa: the stress is that of the ends, though the plate shears. No correction makes
-/// its bonds right at the outline, so that points two horizons from it count.
+/// A plate of a material with axes at 0.4 rad, pulled by 1 MPa: the stress is that of the ends, though the plate shears; the
+/// correction leaves 1.9 % at corners.
 #[test]
 fn a_turned_material_with_axes_carries_what_pulls_it() {
     let material = "material={ young_1 = 15e9, young_2 = 5e9, poisson_12 = 0.25, shear_modulus = 4.8e9, angle = 0.4 }";
-    let settings = [
-        material,
-        "model.law=orthotropic",
-        "correction.surface=domain",
-    ];
     let text = format!("{PLATE}{}", tractions([1e6, 0.0, 0.0]));
-    let results = Results::of(&text, &settings, &[]);
-    let is_inside =
-        |[x, y, _]: &[f64; 3]| [*x, 0.2 - x, *y, 0.1 - y].into_iter().all(|it| it > 0.025);
-    let off = results.off("stress", &[1e6, 0.0, 0.0], is_inside);
+    let results = Results::of(&text, &[material, "model.law=orthotropic"], &[]);
+    let off = results.off("stress", &[1e6, 0.0, 0.0], |_| true);
     println!("turned: off by {off:.2e} Pa");
-    assert!(off < 2e5);
+    assert!(off < 3e4);
 }
