@@ -209,7 +209,7 @@ result_fields! {
     STRESS_PRINCIPAL "stress_principal" ["Pa"] PRINCIPAL Pictured(2), "Principal values of `stress`, the largest first."
         => MaterialStress(principal::values, probed!("stress_principal" "Principal value of that stress": "1" "2" "3"));
     STRESS_DIRECTION "stress_direction" ["-"] VECTOR Low, "Unit vector along the largest principal value of `stress`."
-        => MaterialStress(principal::direction, &[]);
+        => MaterialStress(principal::direction_of_largest, &[]);
     STRESS_VIRIAL "stress_virial" ["Pa"] SYMMETRIC Pictured(2),
         "Symmetric part of the mean of the force dyads of the point's bonds, if asked for."
         => Stress(StressReading::Virial);

@@ -66,7 +66,7 @@ pub fn values(stress: &[f64]) -> Vec<f64> {
 }
 
 /// Unit vector (x, y, z) along the largest principal stress of a stress with these components.
-pub fn direction(stress: &[f64]) -> Vec<f64> {
+pub fn direction_of_largest(stress: &[f64]) -> Vec<f64> {
     match stress.len() == SymTensor::<2>::COMPONENTS.len() {
         true => {
             let [x, y] = SymTensor::<2>::from_components(stress).principal_direction();
