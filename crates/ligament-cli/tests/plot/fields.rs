@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use roxmltree::Document;
 
 use super::{LATTICE, call, pixels, plot, refusal, run, steps, text, texts};
+use crate::support;
 
 #[test]
 fn a_field_has_title_scale_and_colour_bar_and_is_the_same_twice() {
@@ -220,14 +221,14 @@ fn points_without_a_stress_are_bare() {
     let found = ["stress_principal.1", "stress.xy", "damage"].map(holes);
     assert_eq!(found, [1, 1, 0]);
     let line = ["profile", path, "--from", "0,0.065", "--to", "0.12,0.065"];
-    let profile = ligament([&line[..], &["--field", "stress.yy", "--step", "2"]].concat());
+    let profile = support::ligament([&line[..], &["--field", "stress.yy", "--step", "2"]].concat());
     assert!(
         text(&profile.stdout).contains("NaN"),
         "{}",
         text(&profile.stderr)
     );
     for words in [["report", path], ["repeat", path]] {
-        let output = ligament(words);
+        let output = support::ligament(words);
         assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     }
 }
