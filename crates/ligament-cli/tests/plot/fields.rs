@@ -196,13 +196,13 @@ fn points_without_a_stress_are_bare() {
     let path = results.to_str().unwrap();
     let history = fs::read_to_string(results.join("history.csv")).unwrap();
     assert!(
-        history.starts_with("step,") && history.trim_end().ends_with("NaN"),
+        history.starts_with("step,") && history.trim_end().ends_with("nan"),
         "{history}"
     );
     let out = folder.path().join("a.svg");
     let out = out.to_str().unwrap();
-    // Outlines of the lowest band beyond those of the body, which is drawn below it.
-    let holes = |field: &str| {
+    // Outlines of the body, of which the square is one, beyond those of the lowest band, which is drawn over it.
+    let bare = |field: &str| {
         let svg = plot(&[path, "--step", "2", "--field", field, "--out", out]);
         assert!(texts(&svg).iter().any(|it| it.starts_with(field)));
         let svg = text(&svg);
@@ -216,14 +216,14 @@ fn points_without_a_stress_are_bare() {
             })
             .collect();
         let body = paths.iter().position(|it| it.0 == Some("#dcdcdc")).unwrap();
-        paths[body + 1].1 - paths[body].1
+        paths[body].1 - paths[body + 1].1
     };
-    let found = ["stress_principal.1", "stress.xy", "damage"].map(holes);
+    let found = ["stress_principal.1", "stress.xy", "damage"].map(bare);
     assert_eq!(found, [1, 1, 0]);
     let line = ["profile", path, "--from", "0,0.065", "--to", "0.12,0.065"];
     let profile = support::ligament([&line[..], &["--field", "stress.yy", "--step", "2"]].concat());
     assert!(
-        text(&profile.stdout).contains("NaN"),
+        text(&profile.stdout).contains(",nan"),
         "{}",
         text(&profile.stderr)
     );
