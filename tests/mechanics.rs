@@ -23,6 +23,7 @@ mod patch;
 mod patch_test;
 mod physics;
 mod pieces;
+mod point_stress;
 mod pressure;
 mod probes;
 mod ranks;

@@ -10,6 +10,7 @@ use ligament_analysis::driver::{Outcome, Problem};
 use ligament_analysis::history::{
     BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, View,
 };
+use ligament_analysis::result_fields::{FieldValues, STRESS_PRINCIPAL};
 use ligament_analysis::{Termination, fields};
 use ligament_run::model::{Model, build_model_on};
 use ligament_run::progress::{Progress, ProgressMode};
@@ -34,7 +35,7 @@ material = { young = 30e9, poisson = 0.2, fracture_energy = 50.0 }
 model = { law = "nhpd", horizon_factor = 2.0 }
 support = [{ group = "left", displacement = { x = 0.0, y = 0.0, z = 0.0 } }]
 load = [{ group = "right", displacement = { x = 1e-3, y = 2e-4 } }]
-probe = [{ name = "stress", at = [0.035, 0.025, 0.02], field = "stress_xx" }, { name = "damage", at = [0.035, 0.025, 0.02], field = "damage" }]
+probe = [{ name = "stress", at = [0.035, 0.025, 0.02], field = "stress_xx" }, { name = "damage", at = [0.035, 0.025, 0.02], field = "damage" }, { name = "by-material", at = [0.035, 0.025, 0.02], field = "stress_principal.1" }]
 [fracture]
 control = "event"
 tie_tolerance = 1e-6
@@ -52,7 +53,7 @@ precrack = [{ points = [[-0.1, 0.0225], [0.0151, 0.0225]] }]
 support = [{ group = "bottom", displacement = { x = 0.0, y = 0.0 } }]
 load = [{ group = "top", displacement = { y = 4e-5 } }]
 no_fail = [{ group = "bottom" }, { group = "top" }]
-probe = [{ name = "below", section = [[-0.01, 0.0145], [0.07, 0.0145]], component = "y" }]
+probe = [{ name = "below", section = [[-0.01, 0.0145], [0.07, 0.0145]], component = "y" }, { name = "stress", at = [0.032, 0.031], field = "stress.yy" }]
 [fracture]
 steps = 8
 [[fracture.criterion]]
@@ -81,8 +82,8 @@ struct Seen {
     notices: Vec<Notice>,
     parts: Vec<Vec<usize>>,
     softened: Vec<usize>,
-    /// Damage and energy density of the own points after each step.
-    at_points: Vec<Vec<[f64; 3]>>,
+    /// Damage, energy density and largest principal stress of the own points after each step, without a stress 0.
+    at_points: Vec<Vec<[f64; 4]>>,
     /// The moment at which a checkpoint is kept.
     keeps_at: Option<usize>,
     moments: usize,
@@ -121,7 +122,20 @@ impl Observer for Seen {
         let energy = fields::strain_energy_density(system, state.bonds(), deformations, &[]);
         let own = |point: &u32| system.subdomain().owns(*point);
         let points = (0..system.n_points() as u32).filter(own);
-        let of_point = |it: u32| [f64::from(it), damage[it as usize], energy[it as usize]];
+        let Some(FieldValues::Numbers(stress)) = STRESS_PRINCIPAL.values(view) else {
+            panic!("stresses are numbers")
+        };
+        let count = stress.len() / system.n_points();
+        let of_point = |it: u32| {
+            let place = it as usize;
+            let largest = Some(stress[count * place]).filter(|it| !it.is_nan());
+            [
+                f64::from(it),
+                damage[place],
+                energy[place],
+                largest.unwrap_or(0.0),
+            ]
+        };
         self.at_points.push(points.map(of_point).collect());
         Ok(())
     }
@@ -252,12 +266,12 @@ fn compare((text, settings): (&str, &[&str]), (alone, expected): (Outcome, Seen)
     );
     assert!(history < NEAR, "{history:e}");
     // A body that came apart has rounding alone: fields are judged by the largest value of all steps.
-    for field in [1, 2] {
-        let of = |rows: &[[f64; 3]]| rows.iter().map(|it| it[field]).collect::<Vec<f64>>();
+    for field in [1, 2, 3] {
+        let of = |rows: &[[f64; 4]]| rows.iter().map(|it| it[field]).collect::<Vec<f64>>();
         let whole: Vec<f64> = expected.at_points.iter().flat_map(|it| of(it)).collect();
         let joined = (0..expected.at_points.len()).flat_map(|step| {
             let of_ranks = together.iter();
-            let mut all: Vec<[f64; 3]> = of_ranks
+            let mut all: Vec<[f64; 4]> = of_ranks
                 .flat_map(|it| it.1.at_points[step].clone())
                 .collect();
             all.sort_by(|one, other| one[0].total_cmp(&other[0]));

@@ -107,9 +107,13 @@ fn assert_free(name: &str, bench: &Bench, run: &Run) {
     let force = YOUNG * size * volume / length;
     let forces = run.last().group_forces.iter().flatten();
     let forces = largest(forces.map(|it| it.abs())) / force;
-    println!("{name}: shape {off:.1e}, bonds {left:.1e}, energy {energy:.1e}, forces {forces:.1e}");
+    let stress = stresses::by_material(&**bench.model.plane(), run.state(), &bench.boundary);
+    let stress = largest(stress.iter().flatten().map(|it| it.abs())) / (YOUNG * size);
+    println!(
+        "{name}: shape {off:.1e}, bonds {left:.1e}, energy {energy:.1e}, forces {forces:.1e}, stress {stress:.1e}"
+    );
     assert!(
-        off < 1e-10 && left < 1e-10 && energy.abs() < 1e-10 && forces < 1e-10,
+        off < 1e-10 && left < 1e-10 && energy.abs() < 1e-10 && forces < 1e-10 && stress < 1e-9,
         "{name}"
     );
 }
@@ -170,7 +174,7 @@ fn free_bodies_expand_without_stress() {
 
 /// A body that is held at every point stores the energy of the biaxial strain -alpha dT, E (alpha dT)^2/(1 - nu) in plane stress
 /// and E (alpha dT)^2 (1 + nu)/(1 - 2 nu) per volume in plane strain, where each family stores what it stores under that strain
-/// (`energy_ratios`); and the axes of the curve are work-conjugate: the energy is half of force times change.
+/// (`energy_ratios`); its stress is that energy's derivative; and the axes of the curve are work-conjugate: the energy is half of force times change.
 #[test]
 fn bodies_held_everywhere_store_the_energy_of_the_continuum() {
     let text = "support = [{ box = [[-1, -1], [1, 1]], displacement = { x = 0, y = 0, rotation = 0 } }]\n\
@@ -196,6 +200,15 @@ fn bodies_held_everywhere_store_the_energy_of_the_continuum() {
             let work = 0.5 * last.displacement * last.reaction;
             assert!(relative_error(work, expected) < 1e-12, "{value}");
             assert_eq!(last.displacement, CHANGE);
+            let held = match value {
+                "stress" => -YOUNG * strain / (1.0 - nu),
+                _ => -YOUNG * strain / (1.0 - 2.0 * nu),
+            };
+            let system = &**bench.model.plane();
+            for [xx, yy, xy] in stresses::by_material(system, run.state(), &bench.boundary) {
+                let off = [xx - held, yy - held, xy].map(f64::abs);
+                assert!(largest(off) < 1e-12 * held.abs(), "{xx:e} {yy:e} {xy:e}");
+            }
         }
     }
 }

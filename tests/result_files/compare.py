@@ -33,6 +33,8 @@ CONSTANT = {
     ("cell", "displacement", 2): "planar",
     ("point", "reaction", 2): "planar",
     ("cell", "reaction", 2): "planar",
+    ("point", "stress_direction", 2): "planar",
+    ("cell", "stress_direction", 2): "planar",
     ("point", "held", 0): "no point of a mesh comes loose",
     ("cell", "nearest_distance", 0): "all points of a lattice have the same",
     ("cell", "volume", 0): "all points of a lattice have the same",

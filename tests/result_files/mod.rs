@@ -241,6 +241,10 @@ component = "x"
 name = "stress"
 at = [0.05, 0.04]
 field = "stress_xx"
+[[probe]]
+name = "stress by material"
+at = [0.05, 0.04]
+field = "stress_principal.2"
 [fracture]
 steps = 8
 bonds_per_iteration = 10
@@ -266,7 +270,7 @@ limit = 4e-3
 [output]
 fields_every = 3
 bonds = true
-stress = ["virial", "traction"]
+stress = ["material", "virial", "traction"]
 "#;
 
 /// An elastic plate of triangles that a force pulls, heated, with a material that has axes; it may turn about a corner.
@@ -276,7 +280,7 @@ model = { law = "orthotropic", horizon_factor = 2.5 }
 temperature = [{ group = "soft", change = 5.0 }]
 support = [{ at = [0.0, 0.0], displacement = { x = 0.0, y = 0.0, rotation = 0.0 } }]
 load = [{ group = "right", force = { x = 1e4, y = 2e3 } }]
-output = { bonds = true, stress = ["traction"] }
+output = { bonds = true, stress = ["material", "traction"] }
 [material]
 young_1 = 40e9
 young_2 = 12e9
@@ -294,7 +298,7 @@ material = { young = 15e9, poisson = 0.21, tensile_strength = 3e6 }
 model = { law = "nhpd", horizon_factor = 2.5 }
 support = [{ group = "left", displacement = { x = 0.0, y = 0.0 } }]
 load = [{ group = "right", displacement = { x = 1e-3 } }]
-output = { bonds = true, fields_every = 40 }
+output = { bonds = true, fields_every = 40, stress = ["material"] }
 [fracture]
 control = "event"
 stop = { load_fraction = 0.3 }
@@ -351,7 +355,7 @@ bonds_per_iteration = 20
 [output]
 fields_every = 5
 bonds = true
-stress = ["virial"]
+stress = ["material", "virial"]
 "#;
 
 /// A heated lattice that nothing holds, whose material has axes, with stresses of both kinds.
@@ -385,7 +389,7 @@ limit = 2e-5
 [output]
 fields_every = 1
 bonds = true
-stress = ["virial", "traction"]
+stress = ["material", "virial", "traction"]
 "#;
 
 const MODES_OF_A_MESH: &str = r#"

@@ -248,6 +248,24 @@ impl<'a> Recorder<'a> {
             let strains = stresses::free(&of_points);
             fields_of.components("thermal_strain", ["xx", "yy", "xy"], strains);
         }
+        if self.stress.contains(&StressField::Material) {
+            let stresses = stresses::by_material(system, state, view.loads);
+            let principal = |&[xx, yy, xy]: &[f64; 3]| {
+                let radius = (0.5 * (xx - yy)).hypot(xy);
+                [0.5 * (xx + yy) + radius, 0.5 * (xx + yy) - radius]
+            };
+            let direction = |&[xx, yy, xy]: &[f64; 3]| {
+                let (sine, cosine) = (0.5 * (2.0 * xy).atan2(xx - yy)).sin_cos();
+                [cosine, sine, 0.0].map(|it| if xx.is_nan() { f64::NAN } else { it })
+            };
+            let (values, directions) = (
+                stresses.iter().map(principal),
+                stresses.iter().map(direction),
+            );
+            fields_of.components("stress_principal", ["1", "2"], values);
+            fields_of.components("stress_direction", ["", "", ""], directions);
+            fields_of.components("stress", ["xx", "yy", "xy"], stresses);
+        }
         if self.stress.contains(&StressField::Virial) {
             let stress = stresses::of_reading::<3>(
                 StressReading::Virial,

@@ -1,7 +1,9 @@
 //! Strains and stresses of points as arrays of components.
 
+use ligament_analysis::{LoadProgram, State};
 use ligament_model::deformation::Deformations;
 use ligament_model::interface::StressReading;
+use ligament_model::stress::point_strain::Motion;
 use ligament_model::tensor::SymTensor;
 use ligament_model::thermal::StressFreeStrains;
 use ligament_model::{Bonds, UnbrokenBonds};
@@ -14,6 +16,16 @@ pub fn of_reading<const N: usize>(
     deformations: &Deformations,
 ) -> Vec<[f64; N]> {
     let stresses = system.stresses(reading, bonds, deformations);
+    stresses.values.as_chunks().0.to_vec()
+}
+
+/// Stresses (xx, yy, xy) of all points by the laws of their materials, in a state under loads, Pa.
+pub fn by_material(system: &dyn Bonds, state: &State, loads: &dyn LoadProgram) -> Vec<[f64; 3]> {
+    let stresses = system.stresses_by_material(Motion {
+        intact: &state.softening.sound(&state.intact),
+        displacement: &state.displacement,
+        expansion: loads.thermal_strain(state.load_factor),
+    });
     stresses.values.as_chunks().0.to_vec()
 }
 

@@ -121,6 +121,7 @@ impl Truss {
                 },
                 element: ElementKind::Beam,
                 beyond_correction: Vec::new(),
+                materials: Vec::new(),
                 faces: Faces::default(),
                 room: DeformationPool::default(),
                 closeness: std::sync::OnceLock::new(),

@@ -62,6 +62,15 @@ pub enum PointReading {
     Motion(Component),
     /// A component of the virial stress, Pa.
     Stress(StressComponent),
+    /// A component of a function of the stress by the law of the material, Pa.
+    MaterialStress {
+        /// The function of the components of the stress.
+        read: fn(&[f64]) -> Vec<f64>,
+        /// The component of its value.
+        component: usize,
+        /// Whether bodies in the plane have the component.
+        in_plane: bool,
+    },
     /// A scalar of the [table of fields](FIELDS).
     Scalar(fn(Solution<'_>, u32) -> f64),
 }
@@ -140,24 +149,42 @@ impl PartialEq for PointField {
 }
 
 impl PointField {
-    /// All fields: the scalars of the [table of fields](FIELDS) that are read at a point, then the components of vectors and
+    /// All fields: those of the [table of fields](FIELDS) that are read at a point, then the components of other vectors and
     /// tensors.
-    pub const ALL: [Self; N_SCALARS + OF_VECTORS_AND_TENSORS.len()] = {
-        let mut all = [OF_VECTORS_AND_TENSORS[0]; N_SCALARS + OF_VECTORS_AND_TENSORS.len()];
+    pub const ALL: [Self; N_OF_TABLE + OF_VECTORS_AND_TENSORS.len()] = {
+        let mut all = [OF_VECTORS_AND_TENSORS[0]; N_OF_TABLE + OF_VECTORS_AND_TENSORS.len()];
         let (mut row, mut place) = (0, 0);
         while row < FIELDS.len() {
-            if let FieldReading::Probed(_, at) = FIELDS[row].reading {
-                all[place] = Self {
-                    word: FIELDS[row].name,
-                    meaning: FIELDS[row].meaning,
-                    reading: PointReading::Scalar(at),
-                };
-                place += 1;
+            match FIELDS[row].reading {
+                FieldReading::Probed(_, at) => {
+                    all[place] = Self {
+                        word: FIELDS[row].name,
+                        meaning: FIELDS[row].meaning,
+                        reading: PointReading::Scalar(at),
+                    };
+                    place += 1;
+                }
+                FieldReading::MaterialStress(read, parts) => {
+                    let mut part = 0;
+                    while part < parts.len() {
+                        all[place] = Self {
+                            word: parts[part][0],
+                            meaning: parts[part][1],
+                            reading: PointReading::MaterialStress {
+                                read,
+                                component: part,
+                                in_plane: part < FIELDS[row].components[0].count(),
+                            },
+                        };
+                        (part, place) = (part + 1, place + 1);
+                    }
+                }
+                _ => {}
             }
             row += 1;
         }
         while place < all.len() {
-            all[place] = OF_VECTORS_AND_TENSORS[place - N_SCALARS];
+            all[place] = OF_VECTORS_AND_TENSORS[place - N_OF_TABLE];
             place += 1;
         }
         all
@@ -174,11 +201,15 @@ impl PointField {
     }
 }
 
-/// Number of scalars that a probe can read.
-const N_SCALARS: usize = {
+/// Number of scalars and components of the table of fields that a probe can read.
+const N_OF_TABLE: usize = {
     let (mut row, mut count) = (0, 0);
     while row < FIELDS.len() {
-        count += matches!(FIELDS[row].reading, FieldReading::Probed(..)) as usize;
+        count += match FIELDS[row].reading {
+            FieldReading::Probed(..) => 1,
+            FieldReading::MaterialStress(_, parts) => parts.len(),
+            _ => 0,
+        };
         row += 1;
     }
     count
@@ -286,6 +317,15 @@ impl Reading {
             }
             Self::Field { place, field } => mean(place, |point| match field.reading {
                 PointReading::Motion(component) => motion(point, component),
+                PointReading::MaterialStress {
+                    read, component, ..
+                } => {
+                    let stress = solution.with_motion(|it| system.stress_by_material(it, point));
+                    match stress[0].is_nan() {
+                        true => f64::NAN,
+                        false => read(&stress)[component],
+                    }
+                }
                 PointReading::Stress(component) => {
                     let deformations = &balanced.deformations;
                     let mut stress = system.stress(state.bonds(), deformations, point);

@@ -5,16 +5,20 @@
 
 use ligament_model::failure::{Criteria, Weakened};
 use ligament_model::interface::StressReading;
+use ligament_model::stress::point_strain::Motion;
+use ligament_model::stress::principal;
 use ligament_model::tensor::SymTensor;
 use ligament_model::{Bonds, ConstantFields};
 
 use crate::balanced::Balanced;
 use crate::fields;
 use crate::history::View;
+use crate::load_program::LoadProgram;
 use crate::state::State;
 use crate::unknowns::{Component, Layout};
 use FieldReading::{
-    CrackSurface, EnergyRatios, Model, Probed, ScatterFactors, State as InState, Stress,
+    CrackSurface, EnergyRatios, MaterialStress, Model, Probed, ScatterFactors, State as InState,
+    Stress,
 };
 use Interest::{Low, Main, Pictured};
 
@@ -71,6 +75,9 @@ pub enum FieldReading {
     ),
     /// Stress from the forces of the bonds, if the user requests it.
     Stress(StressReading),
+    /// Function of the components of the stress of a point by the law of its material, if the user requests it; the components that probes
+    /// read, each with a name and a meaning.
+    MaterialStress(fn(&[f64]) -> Vec<f64>, &'static [[&'static str; 2]]),
     /// Field of the model, which does not change; empty where the model has no such field.
     Model(for<'a> fn(ModelPoints<'a>) -> &'a [f64]),
     /// Family of fields: ratios of the energies of uniform strains.
@@ -101,6 +108,8 @@ pub struct Solution<'a> {
     pub state: &'a State,
     /// Deformations and forces.
     pub balanced: &'a Balanced,
+    /// Supports and loads.
+    pub loads: &'a dyn LoadProgram,
 }
 
 /// Fields of a model that do not change in a run.
@@ -131,6 +140,17 @@ const STRAIN: [Components; 2] = [
     Components::Named(&["xx", "yy", "xy"]),
     Components::Named(&["xx", "yy", "zz", "xy", "xz", "yz"]),
 ];
+const PRINCIPAL: [Components; 2] = [
+    Components::Named(&["1", "2"]),
+    Components::Named(&["1", "2", "3"]),
+];
+
+/// Components of a field as probes read them: names and meanings.
+macro_rules! probed {
+    ($field:literal $meaning:literal: $($part:literal)+) => {
+        &[$([concat!($field, ".", $part), concat!($meaning, " ", $part, ", Pa.")]),+]
+    };
+}
 
 /// Rows of the table: constant, name, unit, components, interest, meaning, reading.
 macro_rules! result_fields {
@@ -183,6 +203,13 @@ result_fields! {
     THERMAL_STRAIN "thermal_strain" ["-"] STRAIN Low,
         "Strain that the temperature would make without stress, with engineering shears, where it changes."
         => InState(|view| present(thermal_strain(view)));
+    STRESS "stress" ["Pa"] SYMMETRIC Pictured(2),
+        "Stress of the point by the law of its material, from its strain by least squares over its bonds, if asked for."
+        => MaterialStress(<[f64]>::to_vec, probed!("stress" "Stress by the law of the material": "xx" "yy" "xy" "zz" "xz" "yz"));
+    STRESS_PRINCIPAL "stress_principal" ["Pa"] PRINCIPAL Pictured(2), "Principal values of `stress`, the largest first."
+        => MaterialStress(principal::values, probed!("stress_principal" "Principal value of that stress": "1" "2" "3"));
+    STRESS_DIRECTION "stress_direction" ["-"] VECTOR Low, "Unit vector along the largest principal value of `stress`."
+        => MaterialStress(principal::direction_of_largest, &[]);
     STRESS_VIRIAL "stress_virial" ["Pa"] SYMMETRIC Pictured(2),
         "Symmetric part of the mean of the force dyads of the point's bonds, if asked for."
         => Stress(StressReading::Virial);
@@ -233,7 +260,11 @@ impl ResultField {
         match self.reading {
             InState(read) => read(view),
             Probed(read, _) => read(view.solution()).map(FieldValues::Numbers),
-            Stress(reading) => Some(FieldValues::Numbers(stresses(view, reading))),
+            Stress(reading) => numbers(stresses(view, reading)),
+            MaterialStress(read, _) => {
+                let count = self.components(view.system.layout().is_in_space()).count();
+                numbers(material_stresses(view.solution(), read, count))
+            }
             Model(_) | EnergyRatios | ScatterFactors | CrackSurface => None,
         }
     }
@@ -246,7 +277,7 @@ pub fn unit_of(field: &str) -> &'static str {
 
 impl Components {
     /// Number of values at a point.
-    pub fn count(self) -> usize {
+    pub const fn count(self) -> usize {
         match self {
             Self::Integer | Self::Scalar => 1,
             Self::Vector => 3,
@@ -281,7 +312,20 @@ impl<'a> View<'a> {
             criteria: self.criteria,
             state: self.state,
             balanced: self.balanced,
+            loads: self.loads,
         }
+    }
+}
+
+impl Solution<'_> {
+    /// Runs a function on the motion of the bonds that are intact and not softening.
+    pub(crate) fn with_motion<T>(self, run: impl FnOnce(Motion<'_>) -> T) -> T {
+        let state = self.state;
+        run(Motion {
+            intact: &state.softening.sound(&state.intact),
+            displacement: &state.displacement,
+            expansion: self.loads.thermal_strain(state.load_factor),
+        })
     }
 }
 
@@ -298,7 +342,9 @@ impl<'a> ModelPoints<'a> {
                 ScatterFactors => (fixed.scatter.iter())
                     .map(|it| (it.of.field(), &*it.at_points))
                     .collect(),
-                InState(_) | Probed(..) | Stress(_) | CrackSurface => Vec::new(),
+                InState(_) | Probed(..) | Stress(_) | MaterialStress(..) | CrackSurface => {
+                    Vec::new()
+                }
             }
         };
         let all = FIELDS.iter().flat_map(values);
@@ -411,4 +457,16 @@ fn stresses(view: &View<'_>, reading: StressReading) -> Vec<f64> {
     let mut stresses = system.stresses(reading, view.state.bonds(), &balanced.deformations);
     system.add_contact_stresses(reading, &balanced.closed, &mut stresses);
     stresses.values
+}
+
+/// Values at all points, `count` at each, of a function of their stresses by the laws of their materials; not a number where a point has
+/// no stress.
+fn material_stresses(it: Solution<'_>, read: fn(&[f64]) -> Vec<f64>, count: usize) -> Vec<f64> {
+    let stresses = it.with_motion(|motion| it.system.stresses_by_material(motion));
+    let of_points = stresses.values.chunks_exact(stresses.names.len());
+    let of_point = |stress: &[f64]| match stress[0].is_nan() {
+        true => vec![f64::NAN; count],
+        false => read(stress),
+    };
+    of_points.flat_map(of_point).collect()
 }

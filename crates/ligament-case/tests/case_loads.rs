@@ -136,7 +136,7 @@ fn stresses_are_asked_for_by_name() {
     assert_eq!(
         message("[\"tractions\"]"),
         "--set output.stress=[\"tractions\"]: output.stress.0: unknown value \"tractions\"; did you mean \"traction\"? \
-         valid values: \"virial\", \"traction\""
+         valid values: \"material\", \"virial\", \"traction\""
     );
     assert_eq!(
         message("[\"virial\", \"virial\"]"),
@@ -152,6 +152,12 @@ fn stresses_are_asked_for_by_name() {
     let field = Word(PointField::named("stress_xy").unwrap());
     let probe = case.case.probes.last().unwrap();
     assert_eq!((probe.at, probe.field), (Some(at), Some(field)));
+    let of_solids = "\n[[probe]]\nname = \"s\"\nat = [0.0, 0.0]\nfield = \"stress_principal.3\"\n";
+    let error = error_of(&format!("{TEXT}{of_solids}"));
+    assert!(
+        error.ends_with("a body in the plane has no such component of the stress"),
+        "{error}"
+    );
 }
 
 #[test]

@@ -13,7 +13,6 @@ use crate::element::{BondDeformation, Rigidities, StiffnessFactors, Term};
 use crate::failure::Criterion;
 use crate::failure::starting::Starting;
 use crate::layout::{Component, Layout};
-use crate::material::Stiffness;
 use crate::rigid_motions::FreeMotion;
 use crate::failure::hooke::{Moduli, StressAcross};
 use crate::stress::point_strain::Motion;
@@ -255,17 +254,12 @@ pub trait BondReadings: BondTopology {
         deformations: &Deformations,
     ) -> Stresses;
 
-    /// Stress of every point by the stiffnesses of the materials (n_materials) in the space of the body, Pa, in a motion of which some
-    /// bonds are left; not a number where the bonds of a point do not span the space.
-    fn stresses_by_material(&self, motion: Motion<'_>, materials: &[Stiffness]) -> Stresses;
+    /// Stresses of all points by the stiffnesses of their materials, Pa, in a motion of which some bonds are left; not a number where the
+    /// bonds of a point do not span the space. Collective.
+    fn stresses_by_material(&self, motion: Motion<'_>) -> Stresses;
 
-    /// Components of that stress of one point, Pa; None where its bonds do not span the space.
-    fn stress_by_material(
-        &self,
-        motion: Motion<'_>,
-        materials: &[Stiffness],
-        point: u32,
-    ) -> Option<Vec<f64>>;
+    /// Components of the stress of one point by the stiffness of its material, Pa; not a number where its bonds do not span the space.
+    fn stress_by_material(&self, motion: Motion<'_>, point: u32) -> Vec<f64>;
 
     /// Stress on the plane across each bond in a motion with its deformations (n_bonds), from the moduli of a bond by its number, shape
     /// (n_bonds); of a bar where the bonds of neither end span the space.

@@ -16,6 +16,7 @@ use crate::deformation::DeformationPool;
 use crate::element::strain_stiffness::StrainStiffness;
 use crate::element::{Element, ElementKind, Elements, Rigidities, StiffnessFactors};
 use crate::law::BondStiffness;
+use crate::material::Stiffness;
 
 /// Points and bonds in D dimensions with their rigidities; constant after construction.
 #[derive(Debug, Clone)]
@@ -33,6 +34,9 @@ pub struct BondSystem<const D: usize = 2> {
     /// Part of the rigidities of each bond that corrections do not apply to ([`BondStiffness`] at interfaces), shape (n_bonds); empty where
     /// no bond has such a part.
     pub beyond_correction: Vec<StiffnessFactors>,
+    /// Stiffness of each material with the effective constants of the law, shape (n_materials), Pa; empty where no stress is
+    /// evaluated from it.
+    pub materials: Vec<Stiffness>,
     /// Crack faces.
     pub faces: Faces<D>,
     /// Reusable memory for deformations.
@@ -95,10 +99,16 @@ impl<const D: usize> BondSystem<D> {
             beyond_correction,
             bonds,
             cloud,
+            materials: Vec::new(),
             faces: Faces::default(),
             room: DeformationPool::default(),
             closeness: OnceLock::new(),
         }
+    }
+
+    /// The system with the stiffnesses of its materials (n_materials), Pa.
+    pub fn with_materials(self, materials: Vec<Stiffness>) -> Self {
+        Self { materials, ..self }
     }
 
     /// The system with crack faces.

@@ -1,5 +1,7 @@
 //! Vectors and symmetric tensors in D dimensions.
 
+use nalgebra::{DMatrix, Dyn, SymmetricEigen};
+
 /// Components of a symmetric tensor as row and column, in the order of all files and names: those of the plane come first, so that the plane
 /// is a part of space.
 pub(crate) const ORDER: [[usize; 2]; 6] = [[0, 0], [1, 1], [0, 1], [2, 2], [0, 2], [1, 2]];
@@ -206,6 +208,44 @@ impl<const D: usize> SymTensor<D> {
         Self::from_fn(|row, column| dot(axes[row], columns[column]))
     }
 
+    /// The principal values, the largest first.
+    pub fn principal_values(&self) -> [f64; D] {
+        if D == 2 {
+            let [xx, yy, xy] = [self.rows[0][0], self.rows[1][1], self.rows[0][1]];
+            let (mean, radius) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
+            return std::array::from_fn(|it| {
+                if it == 0 {
+                    mean + radius
+                } else {
+                    mean - radius
+                }
+            });
+        }
+        let mut values = self.eigen().eigenvalues;
+        values
+            .as_mut_slice()
+            .sort_by(|one, other| other.total_cmp(one));
+        std::array::from_fn(|it| values[it])
+    }
+
+    /// Unit vector along which the principal value is largest; of the two the one whose first component other than zero is positive.
+    pub fn principal_direction(&self) -> [f64; D] {
+        if D == 2 {
+            let [xx, yy, xy] = [self.rows[0][0], self.rows[1][1], self.rows[0][1]];
+            let (sine, cosine) = (0.5 * (2.0 * xy).atan2(xx - yy)).sin_cos();
+            return std::array::from_fn(|axis| if axis == 0 { cosine } else { sine });
+        }
+        let eigen = self.eigen();
+        let vector = eigen.eigenvectors.column(eigen.eigenvalues.imax());
+        let first = vector.iter().find(|it| **it != 0.0);
+        let sign = first.map_or(1.0, |it| it.signum());
+        std::array::from_fn(|axis| sign * vector[axis])
+    }
+
+    fn eigen(&self) -> SymmetricEigen<f64, Dyn> {
+        SymmetricEigen::new(DMatrix::from_fn(D, D, |row, column| self.rows[row][column]))
+    }
+
     /// The part of the tensor in the first E dimensions; for E > D with zeros beyond the D dimensions.
     #[inline]
     pub fn resized<const E: usize>(&self) -> SymTensor<E> {
@@ -251,6 +291,34 @@ mod tests {
         let doubled = tensor.plus(&tensor);
         assert_eq!(doubled, tensor.scaled(2.0));
         assert_eq!(SymTensor::isotropic(3.0).times(x), x.map(|it| 3.0 * it));
+    }
+
+    /// Values and directions of tensors made from them: the axes of two rotations, and a plane turned by -70 degrees, whose direction is
+    /// the one with a positive x.
+    #[test]
+    fn principal_values_and_directions_are_those_a_tensor_is_made_of() {
+        let axes =
+            [[2.0, -1.0, 2.0], [2.0, 2.0, -1.0], [-1.0, 2.0, 2.0]].map(|it| it.map(|it| it / 3.0));
+        let sum = |values: [f64; 3]| {
+            let parts = (0..3).map(|it| SymTensor::dyad(axes[it], axes[it]).scaled(values[it]));
+            parts.fold(SymTensor::<3>::ZERO, |sum, part| sum.plus(&part))
+        };
+        let is_close = |found: &[f64], expected: &[f64]| {
+            (found.iter().zip(expected)).all(|(one, other)| (one - other).abs() < 1e-14)
+        };
+        for (values, largest) in [([-4.0, 5.0, 1.0], 1), ([-1.0, -7.0, -3.0], 0)] {
+            let (tensor, mut sorted) = (sum(values), values);
+            sorted.sort_by(|one, other| other.total_cmp(one));
+            let found = (tensor.principal_values(), tensor.principal_direction());
+            assert!(is_close(&found.0, &sorted), "{found:?}");
+            assert!(is_close(&found.1, &axes[largest]), "{found:?}");
+        }
+        let (sine, cosine) = (-70.0_f64).to_radians().sin_cos();
+        let [along, across] = [[-cosine, -sine], [sine, -cosine]];
+        let plane = SymTensor::dyad(along, along).scaled(3.0);
+        let plane = plane.plus(&SymTensor::dyad(across, across).scaled(-2.0));
+        assert!(is_close(&plane.principal_values(), &[3.0, -2.0]));
+        assert!(is_close(&plane.principal_direction(), &[cosine, sine]));
     }
 
     #[test]

@@ -49,7 +49,7 @@ mod native {
     #[pymodule_export]
     use crate::program::execute;
     #[pymodule_export]
-    use crate::run::{Run, run};
+    use crate::run::{Run, component_names, run};
 
     /// Version of the package.
     #[pymodule_export]

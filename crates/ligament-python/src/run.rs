@@ -6,7 +6,7 @@ use ligament_model::{Absence, BodyGrid, Canvas, ConstantFields, box_corners};
 use ligament_output::results::PointFields;
 use ligament_output::results::cracks::{SeparatedPairs, StoredCracks};
 use ligament_output::results::fields::{
-    FieldValues, HORIZON, NEAREST_DISTANCE, PATCH_RESIDUAL, PRECRACK_SHARE, VOLUME,
+    FieldValues, HORIZON, NEAREST_DISTANCE, PATCH_RESIDUAL, PRECRACK_SHARE, ResultField, VOLUME,
 };
 use numpy::PyReadonlyArray1;
 use numpy::PyReadonlyArray2;
@@ -68,6 +68,12 @@ pub(crate) fn run(
     let (solved, stopped) = watched(py, report, |sender, stop| solve(case, sender, stop))?;
     let solved = solved.map_err(|failure| failure.exception(py))?;
     Ok((Run::new(py, in_order_of_file(solved))?, stopped))
+}
+
+/// Names of the components of a field in the plane or in space; none of other fields than tensors.
+#[pyfunction]
+pub(crate) fn component_names(field: &str, in_space: bool) -> Vec<&'static str> {
+    ResultField::named(field).map_or_else(Vec::new, |it| it.components(in_space).names().to_vec())
 }
 
 #[pymethods]

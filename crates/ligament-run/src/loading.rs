@@ -131,6 +131,7 @@ pub fn write_rule(case: &CaseFile, analysis: &Analysis) -> WriteRule {
         fields_every: output.fields_every.unwrap_or_default() as usize,
         bonds: output.bonds,
         model: output.model,
+        material_stress: output.stress.contains(&StressField::Material),
         virial: output.stress.contains(&StressField::Virial),
         traction: output.stress.contains(&StressField::Traction),
         time: match analysis {

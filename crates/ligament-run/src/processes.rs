@@ -24,8 +24,8 @@ pub(crate) fn loading(case: &CaseFile, model: &Model) -> anyhow::Result<Loading>
     );
     ensure!(
         !case.case.output.stress.contains(&StressField::Traction) || is_whole,
-        "output.stress: of \"traction\" several processes do not know all bonds that cross a plane; run the case with one process, or take \
-         \"virial\" alone"
+        "output.stress: of \"traction\" several processes do not know all bonds that cross a plane; run the case with one process, or \
+         take \"material\" or \"virial\""
     );
     let loading = Loading::new(model);
     let mut loading = loading.map_err(|it| case.located(it))?;

@@ -251,7 +251,8 @@ fn bond_system<const D: usize>(
     require_factors(&*setup.body, &cloud, factors, &bonds.ends)?;
     let system = BondSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega);
     require_finite_rigidities(&*setup.body, &system)?;
-    Ok(system.with_faces(faces))
+    let materials = formulation::stiffness_of_materials(setup);
+    Ok(system.with_faces(faces).with_materials(materials))
 }
 
 /// The bonds, in a body of several materials with their composition from the cells that they cross.

@@ -128,7 +128,7 @@ pub enum Warning {
     #[error(
         "virial stresses (output.stress, probes of stress_xx and so on) are those of the body in the mean alone: at single points of an \
          irregular mesh they are off by a tenth to a quarter inside the body, and by a third and more at its edges, also with the patch \
-         correction; take means over many points, or the force through a section (probes with `section`)"
+         correction; take output.stress = [\"material\"] and probes of stress.xx, which are those of the points"
     )]
     PointStress,
     /// Random factors with a correlation length below the distance between points.

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-
 use super::path::Path;
 use crate::balanced::Balanced;
 

@@ -275,6 +275,7 @@ pub(super) fn step_record(
                 criteria: &problem.criteria,
                 state,
                 balanced,
+                loads: &**loads,
             },
         ),
     }

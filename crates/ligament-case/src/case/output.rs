@@ -35,6 +35,8 @@ pub struct Output {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum StressField {
+    /// The law of the material for the strain of the point, with principal values and the direction of the largest.
+    Material,
     /// The mean of the force dyads of a point's bonds.
     Virial,
     /// The force through small planes at the point.

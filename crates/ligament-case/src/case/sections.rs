@@ -332,7 +332,7 @@ impl Case {
         let has_traction = self.output.stress.contains(&StressField::Traction);
         if !law.couples_ends_alone && has_traction && self.modal.is_none() {
             let reason = format!(
-                "the elements of {} couple up to six points, so that their forces go through no line: take \"virial\"",
+                "the elements of {} couple up to six points, so that their forces go through no line: take \"material\" or \"virial\"",
                 law.quoted()
             );
             return Err(KeyFault::new(

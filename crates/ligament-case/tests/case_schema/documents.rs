@@ -88,7 +88,7 @@ stop = { load_fraction = 0.5 }
 scatter = { of = "strength", modulus = 12 }
 criterion = [{ kind = "frictional" }, { kind = "tension", limit = 1e-4 }]
 [output]
-stress = ["virial"]
+stress = ["material", "virial"]
 "#;
 
 const LATTICE: &str = r#"

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use roxmltree::Document;
 
 use super::{LATTICE, call, pixels, plot, refusal, run, steps, text, texts};
+use crate::support;
 
 #[test]
 fn a_field_has_title_scale_and_colour_bar_and_is_the_same_twice() {
@@ -181,6 +182,54 @@ fn fields_have_units_and_signs_their_colours() {
     let labels = texts(&svg);
     for label in ["0.0", "0.1", "0.2", "0.3", "0.4"] {
         assert!(labels.contains(&label.to_owned()), "{labels:?}");
+    }
+}
+
+/// A point whose bonds pre-cracks cut has no stress: pictures leave its square bare, and the page, a profile and a probe are written.
+#[test]
+fn points_without_a_stress_are_bare() {
+    let folder = tempfile::tempdir().unwrap();
+    let box_of_one = "precrack=[{ points = [[0.0501, 0.0601], [0.0599, 0.0601], [0.0599, 0.0699], [0.0501, 0.0699], [0.0501, 0.0601]] }]";
+    let probe = "probe=[{ name = \"alone\", at = [0.055, 0.065], field = \"stress.yy\" }]";
+    let settings = ["output.stress=[\"material\"]", box_of_one, probe];
+    let results = run(folder.path(), LATTICE, "plate", &settings);
+    let path = results.to_str().unwrap();
+    let history = fs::read_to_string(results.join("history.csv")).unwrap();
+    assert!(
+        history.starts_with("step,") && history.trim_end().ends_with("nan"),
+        "{history}"
+    );
+    let out = folder.path().join("a.svg");
+    let out = out.to_str().unwrap();
+    // Outlines of the body, of which the square is one, beyond those of the lowest band, which is drawn over it.
+    let bare = |field: &str| {
+        let svg = plot(&[path, "--step", "2", "--field", field, "--out", out]);
+        assert!(texts(&svg).iter().any(|it| it.starts_with(field)));
+        let svg = text(&svg);
+        let document = Document::parse(&svg).unwrap();
+        let paths: Vec<(Option<&str>, usize)> = (document.descendants())
+            .filter_map(|it| {
+                Some((
+                    it.attribute("fill"),
+                    it.attribute("d")?.matches('m').count(),
+                ))
+            })
+            .collect();
+        let body = paths.iter().position(|it| it.0 == Some("#dcdcdc")).unwrap();
+        paths[body].1 - paths[body + 1].1
+    };
+    let found = ["stress_principal.1", "stress.xy", "damage"].map(bare);
+    assert_eq!(found, [1, 1, 0]);
+    let line = ["profile", path, "--from", "0,0.065", "--to", "0.12,0.065"];
+    let profile = support::ligament([&line[..], &["--field", "stress.yy", "--step", "2"]].concat());
+    assert!(
+        text(&profile.stdout).contains(",nan"),
+        "{}",
+        text(&profile.stderr)
+    );
+    for words in [["report", path], ["repeat", path]] {
+        let output = support::ligament(words);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     }
 }
 

@@ -12,35 +12,30 @@
 use rayon::prelude::*;
 
 use crate::layout::Layout;
-use crate::material::Stiffness;
 use crate::system::BondSystem;
 use crate::tensor::SymTensor;
 
 use super::point_strain::Motion;
 
 impl<const D: usize> BondSystem<D> {
-    /// Stress of each point in a motion, from the stiffnesses of the materials (n_materials) in the space of the body, shape (n_points), Pa;
-    /// None where the bonds of a point do not span the space.
+    /// Stress of each point in a motion, shape (n_points), Pa; None where the bonds of a point do not span the space.
     pub(crate) fn stresses_by_material(
         &self,
         layout: Layout,
         motion: Motion<'_>,
-        materials: &[Stiffness],
     ) -> Vec<Option<SymTensor<D>>> {
         let strains = self.point_strains(layout, motion);
         let numbered = strains.into_par_iter().enumerate();
         numbered
-            .map(|(point, strain)| Some(self.stress_of(point as u32, &strain?, materials)))
+            .map(|(point, strain)| self.stress_of(point as u32, &strain?))
             .collect()
     }
 
-    /// Stress of a point with a strain, Pa.
-    pub(crate) fn stress_of(
-        &self,
-        point: u32,
-        strain: &SymTensor<D>,
-        materials: &[Stiffness],
-    ) -> SymTensor<D> {
+    /// Stress of a point with a strain, Pa; None where the system does not have the stiffnesses of its materials.
+    pub(crate) fn stress_of(&self, point: u32, strain: &SymTensor<D>) -> Option<SymTensor<D>> {
+        if self.materials.is_empty() {
+            return None;
+        }
         let places = SymTensor::<D>::COMPONENTS;
         let engineering = places.iter().map(|&[row, column]| match row == column {
             true => strain.at(row, column),
@@ -48,7 +43,11 @@ impl<const D: usize> BondSystem<D> {
         });
         let engineering: Vec<f64> = engineering.collect();
         let mut stress = vec![0.0; places.len()];
-        let shares = self.cloud.shares(point as usize).iter().zip(materials);
+        let shares = self
+            .cloud
+            .shares(point as usize)
+            .iter()
+            .zip(&self.materials);
         for (share, stiffness) in shares.filter(|(share, _)| **share > 0.0) {
             for (row, sum) in stress.iter_mut().enumerate() {
                 let of_strain = engineering.iter().enumerate();
@@ -56,7 +55,7 @@ impl<const D: usize> BondSystem<D> {
                 *sum += share * of_strain.sum::<f64>();
             }
         }
-        SymTensor::from_components(&stress)
+        Some(SymTensor::from_components(&stress))
     }
 }
 

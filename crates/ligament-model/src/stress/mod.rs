@@ -11,6 +11,6 @@
 
 mod by_material;
 pub mod point_strain;
-mod principal;
+pub mod principal;
 pub mod traction;
 pub mod virial;

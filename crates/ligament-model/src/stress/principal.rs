@@ -1,6 +1,5 @@
-//! Principal stresses around a bond, and the surfaces at which it begins to soften.
+//! Principal stresses: of a point, and those around a bond at which it begins to soften.
 
-use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
 
 use super::point_strain::{Motion, StrainAround, mean_strain};
@@ -77,17 +76,31 @@ fn own_strain<const D: usize>(mean: &SymTensor<D>, stretch: f64, n: [f64; D]) ->
 /// The largest and the smallest principal stress of a strain over E'.
 fn principal<const D: usize>(strain: &SymTensor<D>, moduli: &Moduli) -> [f64; 2] {
     let trace: f64 = (0..D).map(|axis| strain.at(axis, axis)).sum();
-    extremes(strain).map(|it| moduli.shear * it + moduli.lateral * trace)
+    let values = strain.principal_values();
+    [values[0], values[D - 1]].map(|it| moduli.shear * it + moduli.lateral * trace)
 }
 
-/// The largest and the smallest principal value of a tensor.
-fn extremes<const D: usize>(tensor: &SymTensor<D>) -> [f64; 2] {
-    if D == 2 {
-        let [xx, yy, xy] = [[0, 0], [1, 1], [0, 1]].map(|[row, column]| tensor.at(row, column));
-        let (mean, radius) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
-        return [mean + radius, mean - radius];
+/// Principal values of a stress with these components, the largest first: two in the plane, three in space.
+pub fn values(stress: &[f64]) -> Vec<f64> {
+    match stress.len() == SymTensor::<2>::COMPONENTS.len() {
+        true => SymTensor::<2>::from_components(stress)
+            .principal_values()
+            .to_vec(),
+        false => SymTensor::<3>::from_components(stress)
+            .principal_values()
+            .to_vec(),
     }
-    let matrix = DMatrix::from_fn(D, D, |row, column| tensor.at(row, column));
-    let values = SymmetricEigen::new(matrix).eigenvalues;
-    [values.max(), values.min()]
+}
+
+/// Unit vector (x, y, z) along the largest principal stress of a stress with these components.
+pub fn direction_of_largest(stress: &[f64]) -> Vec<f64> {
+    match stress.len() == SymTensor::<2>::COMPONENTS.len() {
+        true => {
+            let [x, y] = SymTensor::<2>::from_components(stress).principal_direction();
+            vec![x, y, 0.0]
+        }
+        false => SymTensor::<3>::from_components(stress)
+            .principal_direction()
+            .to_vec(),
+    }
 }

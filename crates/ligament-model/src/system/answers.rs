@@ -16,7 +16,6 @@ use crate::interface::{
     PointStiffness, StressReading, Stresses,
 };
 use crate::layout::Component;
-use crate::material::Stiffness;
 use crate::rigid_motions::{self, FreeMotion, RigidMotions, Turn};
 use crate::failure::hooke::{Moduli, StressAcross};
 use crate::stress::point_strain::Motion;
@@ -345,29 +344,18 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
         }
     }
 
-    fn stresses_by_material(&self, motion: Motion<'_>, materials: &[Stiffness]) -> Stresses {
-        let stresses = self
-            .system
-            .stresses_by_material(self.layout(), motion, materials);
-        let unknown = SymTensor::from_fn(|_, _| f64::NAN);
-        let of_points = stresses.iter().map(|it| it.unwrap_or(unknown));
+    fn stresses_by_material(&self, motion: Motion<'_>) -> Stresses {
+        let stresses = self.system.stresses_by_material(self.layout(), motion);
         Stresses {
             names: SymTensor::<D>::NAMES,
-            values: of_points
-                .flat_map(|it| it.components().collect::<Vec<_>>())
-                .collect(),
+            values: stresses.iter().flat_map(components_or_nan).collect(),
         }
     }
 
-    fn stress_by_material(
-        &self,
-        motion: Motion<'_>,
-        materials: &[Stiffness],
-        point: u32,
-    ) -> Option<Vec<f64>> {
-        let strain = self.system.point_strain(self.layout(), motion, point)?;
-        let stress = self.system.stress_of(point, &strain, materials);
-        Some(stress.components().collect())
+    fn stress_by_material(&self, motion: Motion<'_>, point: u32) -> Vec<f64> {
+        let strain = self.system.point_strain(self.layout(), motion, point);
+        let stress = strain.and_then(|it| self.system.stress_of(point, &it));
+        components_or_nan(&stress)
     }
 
     fn stresses_across(
@@ -452,6 +440,12 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondContact for ElementS
         self.system
             .add_stresses_of_contact(reading, closed, &mut stresses.values);
     }
+}
+
+/// Components of a tensor; not a number without one.
+fn components_or_nan<const D: usize>(tensor: &Option<SymTensor<D>>) -> Vec<f64> {
+    let unknown = SymTensor::from_fn(|_, _| f64::NAN);
+    tensor.unwrap_or(unknown).components().collect()
 }
 
 /// Deformations of all bonds in the type of their elements, shape (n_bonds).

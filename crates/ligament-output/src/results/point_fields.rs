@@ -4,7 +4,7 @@ use std::path::Path;
 
 use ligament_analysis::history::View;
 use ligament_analysis::result_fields::{
-    FIELDS, FieldReading, FieldValues, HELD, HORIZON, ModelPoints, ResultField,
+    FIELDS, FieldValues, HELD, HORIZON, ModelPoints, ResultField,
 };
 use ligament_model::ghosts::Ghosts;
 use ligament_model::subdomain::Subdomain;
@@ -55,11 +55,7 @@ pub(super) fn write(
 /// The fields of a state in the order of the files, with the stresses demanded by the rule; where the body is divided, values are right at
 /// owned points only.
 pub fn point_fields(rule: WriteRule, view: &View<'_>) -> PointFields {
-    let is_wanted = |field: &&&ResultField| match field.reading {
-        FieldReading::Stress(reading) => rule.has(reading),
-        _ => true,
-    };
-    let fields = FIELDS.iter().filter(is_wanted);
+    let fields = FIELDS.iter().filter(|it| rule.has(&it.reading));
     fields
         .filter_map(|field| Some((*field, field.values(view)?)))
         .collect()

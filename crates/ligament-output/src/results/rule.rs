@@ -3,6 +3,7 @@
 use ligament_analysis::ControlKind;
 use ligament_analysis::history::{StepRecord, View};
 use ligament_analysis::interface::StressReading;
+use ligament_analysis::result_fields::FieldReading;
 
 /// Rule for the contents and the frequency of the output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,6 +14,8 @@ pub struct WriteRule {
     pub bonds: bool,
     /// Whether to write the model, by which a bond can be explained later.
     pub model: bool,
+    /// Whether the fields have the stress by the laws of the materials, with its principal values.
+    pub material_stress: bool,
     /// Whether the fields have the virial stress.
     pub virial: bool,
     /// Whether the fields have the traction on planes through the points.
@@ -31,11 +34,13 @@ pub enum Time {
 }
 
 impl WriteRule {
-    /// Whether the fields have a stress.
-    pub(super) fn has(&self, stress: StressReading) -> bool {
-        match stress {
-            StressReading::Virial => self.virial,
-            StressReading::Traction => self.traction,
+    /// Whether a field with a reading is written.
+    pub(super) fn has(&self, reading: &FieldReading) -> bool {
+        match reading {
+            FieldReading::MaterialStress(..) => self.material_stress,
+            FieldReading::Stress(StressReading::Virial) => self.virial,
+            FieldReading::Stress(StressReading::Traction) => self.traction,
+            _ => true,
         }
     }
 

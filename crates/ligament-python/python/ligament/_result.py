@@ -118,6 +118,7 @@ class Result:
     def field(self, name: str, step: int | None = None) -> NDArray[Any]:
         """The values of a field over the points in a step, the last one where none is said; the same array each time.
 
+        ``stress`` is the stress of each point (``output__stress=["material"]``), without a value where its bonds do not span the space.
         ``stress_virial`` at single points of an irregular mesh is off by a tenth to a quarter inside the body and by a third and more
         at its edges; its mean over many points is right.
         """
@@ -142,7 +143,7 @@ class Result:
         return [CrackLine(points, (ends[0], ends[1]), length) for points, ends, length in lines]
 
     def plot(self, field: str | None = None, step: int | None = None, *, width: float = WIDTH) -> Picture:
-        """A picture of a field on the deformed body; of a vector its length, or ``displacement_x`` for a component.
+        """A picture of a field on the deformed body; of a vector its length, or ``displacement_x`` and ``stress.xx`` for components.
 
         Without a field the damage, or the displacement where no bond broke. The width is in mm.
         """
@@ -166,6 +167,10 @@ class Result:
         stem, _, component = field.rpartition("_")
         if field not in self._run.fields[step] and component in ("x", "y", "z") and stem in self._run.fields[step]:
             return self.field(stem, step)[:, "xyz".index(component)], stem
+        stem, _, component = field.rpartition(".")
+        names = _native.component_names(stem, self.is_solid)
+        if component in names and stem in self._run.fields[step]:
+            return self.field(stem, step)[:, names.index(component)], stem
         values = self.field(field, step)
         return (np.linalg.norm(values, axis=1), field) if values.ndim == 2 else (values, field)
 

@@ -20,6 +20,9 @@ use crate::error::Field;
 /// Message about a z axis in the plane.
 const NO_Z: &str = "a body in the plane has no z: give \"x\" or \"y\"";
 
+/// Message about a component of the stress that bodies in the plane do not have.
+const ONLY_OF_SOLIDS: &str = "a body in the plane has no such component of the stress";
+
 /// Message about a component of motion that points in a space do not have.
 fn no_motion(space: Space) -> &'static str {
     match space {
@@ -121,6 +124,19 @@ impl Setup {
                         },
                     ..
                 } => (component, "field"),
+                Reading::At {
+                    field:
+                        PointField {
+                            reading:
+                                PointReading::MaterialStress {
+                                    in_plane: false, ..
+                                },
+                            ..
+                        },
+                    ..
+                } if self.dimensions() == 2 => {
+                    return contradiction(probed.part("field"), ONLY_OF_SOLIDS);
+                }
                 Reading::At { .. } | Reading::Section { .. } => continue,
             };
             if !components.contains(&component) {

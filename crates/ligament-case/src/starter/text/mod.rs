@@ -348,7 +348,7 @@ fn records<const D: usize>(body: &Body<D>, ends: &Ends<D>) -> String {
 #[output]
 #fields_every = 5 # load steps between two field files for ParaView (default 10)
 #bonds = true # the bonds as lines, too
-#stress = [\"virial\"] # stresses at the points
+#stress = [\"material\"] # stresses of the points
 ",
         point(body.opening[0]),
         point(body.opening[1]),
