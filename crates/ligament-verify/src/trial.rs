@@ -30,7 +30,7 @@ macro_rules! template {
     ($path:literal) => {
         $crate::trial::Template {
             path: concat!("cases/", $path),
-            text: include_str!(concat!("../../../cases/", $path)),
+            text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/", $path)),
         }
     };
 }
@@ -40,7 +40,7 @@ macro_rules! stored_mesh {
     ($name:literal) => {
         $crate::trial::StoredMesh {
             path: concat!("../../meshes/", $name),
-            bytes: include_bytes!(concat!("../../../meshes/", $name)),
+            bytes: include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../meshes/", $name)),
         }
     };
 }
@@ -77,6 +77,12 @@ impl Trial {
     /// The trial with one more setting.
     pub(super) fn set(mut self, key: &str, value: impl std::fmt::Debug) -> Self {
         self.settings.push(format!("{key}={value:?}"));
+        self
+    }
+
+    /// The trial with a setting whose value is a text in TOML, such as an array of tables.
+    pub(super) fn set_toml(mut self, key: &str, value: &str) -> Self {
+        self.settings.push(format!("{key}={value}"));
         self
     }
 
