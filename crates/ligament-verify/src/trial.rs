@@ -4,15 +4,16 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::Context;
-use ligament::body::{AnyBody, MeshBody};
+use ligament::body::{AnyBody, MeshBody, SolidMeshBody};
 use ligament::run::{NoObserver, Solution};
 use ligament::{Model, Setup};
 use ligament_analysis::history::BreakRecord;
 use ligament_analysis::modal::Mode;
 use ligament_analysis::{Component, Observer, Termination};
-use ligament_mesh::gmsh;
+use ligament_mesh::{AnyMesh, gmsh};
 
-use ligament_case::case::CaseFile;
+use ligament_case::case::document::Node;
+use ligament_case::case::{BodyKind, CaseFile};
 
 use super::crack_path::Breakages;
 
@@ -60,6 +61,15 @@ pub(super) struct Trial {
     template: &'static Template,
     settings: Vec<String>,
     mesh: Option<&'static StoredMesh>,
+}
+
+impl StoredMesh {
+    fn body(&self) -> anyhow::Result<(BodyKind, AnyBody)> {
+        Ok(match gmsh::parse_any(self.bytes)? {
+            AnyMesh::Plane(mesh) => (BodyKind::Plane, AnyBody::new(MeshBody::from(mesh))),
+            AnyMesh::Solid(mesh) => (BodyKind::Solid, AnyBody::new(SolidMeshBody::from(mesh))),
+        })
+    }
 }
 
 impl Template {
@@ -142,14 +152,17 @@ impl Trial {
         work: impl FnOnce(&CaseFile, Setup) -> anyhow::Result<T>,
     ) -> anyhow::Result<T> {
         let attempt = || {
-            let text = self.template.text.to_owned();
-            let case = CaseFile::parse(Path::new(self.template.path), text, &self.settings)?;
-            let setup = match self.mesh {
-                Some(mesh) => {
-                    case.setup_on(AnyBody::new(MeshBody::from(gmsh::parse(mesh.bytes)?)))?
-                }
-                None => case.setup(&mut ())?,
+            let path = Path::new(self.template.path);
+            let (text, settings) = (self.template.text, &self.settings);
+            let Some(mesh) = self.mesh else {
+                let case = CaseFile::parse(path, text.to_owned(), settings)?;
+                let setup = case.setup(&mut ())?;
+                return work(&case, setup);
             };
+            let (kind, body) = mesh.body()?;
+            let document = Node::parse_document(text)?;
+            let case = CaseFile::on_body(path, document, settings, kind)?;
+            let setup = case.setup_on(body)?;
             work(&case, setup)
         };
         attempt().with_context(|| self.command())

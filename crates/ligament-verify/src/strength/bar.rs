@@ -5,7 +5,7 @@ use anyhow::Context;
 use crate::experiment::{Experiment, Findings};
 use crate::published::published;
 use crate::table::Extent;
-use crate::trial::{Memory, Template, template};
+use crate::trial::{Memory, StoredMesh, Template, stored_mesh, template};
 
 /// The experiment.
 pub(crate) const EXPERIMENT: Experiment = Experiment {
@@ -19,6 +19,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
 };
 
 static CASE: Template = template!("verification/strength-bar.toml");
+static MESH: StoredMesh = stored_mesh!("bar-5mm.msh");
 
 /// F_t times the section, N.
 const STRENGTH: f64 = 3.81e6 * 0.05;
@@ -27,6 +28,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut memory = Memory::default();
     let table = published!("strength-bar").judge(extent, |labels| {
         let trial = (CASE.trial())
+            .on_mesh(&MESH)
             .set("model.horizon_factor", labels.number("lambda")?)
             .set("material.fracture_energy", labels.number("G_c, J/m^2")?);
         memory.reading(&trial, |solution| {

@@ -14,7 +14,8 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
     setup: "Cube of 60 mm on 357 points under the tractions of a uniform stress, principal axes along the edges or turned by 23 degrees about z and then \
             about x: stress at the first breakage over that of the surface; E = 15 GPa, nu = 0.21, F_t = 3.81 MPa, F_c = 10 F_t. And an eighth of a cube \
             with a cavity of a tenth of its edge on 1,116 points, E = 30 GPa, criterion `bond-rankine`: F_t over the far stress at the first breakage. \
-            NHPD, lambda = 3. Not run: the penny-shaped crack with `rankine`, whose horizon would have to be below l_ch on ten times as many points.",
+            NHPD, lambda = 3 (of the cavity also 2.5). Not run: the penny-shaped crack of `cases/penny-crack` with `rankine`, whose horizon there is six tenths of the \
+            crack's radius, and which had not got to its largest load after five minutes.",
     cases: &[&CUBE, &CAVITY],
     compute,
 };
