@@ -134,6 +134,6 @@ experiments!(
     strength_disk,
     strength_crack,
     strength_bar,
-    strength_space,
+    strength_cube,
     strength_glass
 );

@@ -106,7 +106,7 @@ pub static EXPERIMENTS: [Experiment; 32] = [
     strength::disk::EXPERIMENT,
     strength::crack::EXPERIMENT,
     strength::bar::EXPERIMENT,
-    strength::space::EXPERIMENT,
+    strength::cube::EXPERIMENT,
     strength::glass::EXPERIMENT,
 ];
 

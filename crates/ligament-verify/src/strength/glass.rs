@@ -7,7 +7,7 @@ use ligament::run::Solution;
 use ligament_analysis::driver::LoadPoint;
 use ligament_run::summary::DROP;
 
-use super::space::cube;
+use super::cube::cube;
 use super::uniform::{SQUARE, extremes, of_cube};
 use crate::experiment::{Experiment, Findings};
 use crate::published::published;
@@ -23,7 +23,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
     setup: "Soda-lime glass: E = 70 GPa, nu = 0.22, G_c = 10 N/m, strengths of 40 MPa under uniaxial, 27 under equibiaxial and 27.8 under hydrostatic \
             tension and 1000 under uniaxial compression; l_ch = E G_c/F_t^2 = 0.44 mm. NHPD, lambda = 3. Uniaxial tension, biaxial tension and torsion of a \
             thin tube are states of plane stress and run as the squares of `strength_squares`, hydrostatic tension as the cube of \
-            `strength_space`, by first failure. Single edge notch: strip 5 x 25 mm, horizon 0.15 mm at the tip; pure shear: strip 50 x 5 mm between \
+            `strength_cube`, by first failure. Single edge notch: strip 5 x 25 mm, horizon 0.15 mm at the tip; pure shear: strip 50 x 5 mm between \
             grips with a crack of 10 mm; double cantilever beam: arms of 10 x 2.5 mm, crack of 25 mm; these three in plane stress with `rankine` and \
             straight softening. Not run: indentation (contact with a ball, in space, on a horizon below 0.4 mm: some million points), and \
             what needs large strains of a nearly incompressible elastomer, which the laws here do not have (poker chip, trousers, and all \

@@ -2,9 +2,9 @@
 
 pub(super) mod bar;
 pub(super) mod crack;
+pub(super) mod cube;
 pub(super) mod disk;
 pub(super) mod glass;
 pub(super) mod hole;
-pub(super) mod space;
 pub(super) mod squares;
 mod uniform;

@@ -8,7 +8,7 @@ use crate::trial::{StoredMesh, Template, Trial, stored_mesh, template};
 
 /// The experiment.
 pub(crate) const EXPERIMENT: Experiment = Experiment {
-    name: "strength_space",
+    name: "strength_cube",
     title: "First failure in space",
     source: "definition of the criteria; closed form for a cavity (Goodier 1933): (27 - 15 nu)/(14 - 10 nu) of the far stress",
     setup: "Cube of 60 mm on 357 points under the tractions of a uniform stress, principal axes along the edges or turned by 23 degrees about z and then \
