@@ -5,6 +5,7 @@ DefineConstant[ growth = 0.1 ];      // by how much the size grows with the dist
 DefineConstant[ radius = 0.005 ];    // of the hole
 DefineConstant[ half_width = 0.05 ]; // along x
 DefineConstant[ half_height = 0.1 ]; // along y, the load
+DefineConstant[ algorithm = 5 ];     // 5: Delaunay; 6: frontal
 
 Point(1) = {0, 0, 0};
 Point(2) = {radius, 0, 0};
@@ -41,5 +42,5 @@ Field[3].FieldsList = {1, 2};
 Background Field = 3;
 Mesh.MeshSizeFromPoints = 0;
 Mesh.MeshSizeExtendFromBoundary = 0;
-Mesh.Algorithm = 5;                  // Delaunay
+Mesh.Algorithm = algorithm;
 Mesh.MshFileVersion = 4.1;

@@ -2,6 +2,7 @@
 DefineConstant[ size = 0.004 ];      // mesh size
 DefineConstant[ length = 0.2 ];      // along x
 DefineConstant[ height = 0.1 ];      // along y
+DefineConstant[ algorithm = 6 ];     // 6: frontal; 5: Delaunay
 
 Point(1) = {0, 0, 0, size};
 Point(2) = {length, 0, 0, size};
@@ -21,5 +22,5 @@ Physical Curve("bottom", 4) = {1};
 Physical Curve("top", 5) = {3};
 Physical Surface("plate", 6) = {1};
 
-Mesh.Algorithm = 6;                  // Frontal-Delaunay
+Mesh.Algorithm = algorithm;
 Mesh.MshFileVersion = 4.1;

@@ -190,6 +190,20 @@ mod tests {
         }
     }
 
+    /// A band may reach further to one side; a missed value has it around what the method gives.
+    #[test]
+    fn a_band_is_about_the_value_it_belongs_to() {
+        use Verdict::{Failed, Missed, Within};
+        let band = Allowed::Between(-0.05, 0.01);
+        let sound = entry("1.00", band, Reliability::Sound);
+        let found = verdicts(&sound, &[0.96, 1.008, 1.02, 0.94]);
+        assert_eq!(found, [Within, Within, Failed, Failed]);
+        let (instead, reason) = (Printed::parse("0.80").unwrap(), String::from("few bonds"));
+        let missed = entry("1.00", band, Reliability::Missed { instead, reason });
+        let found = verdicts(&missed, &[0.96, 0.76, 0.82]);
+        assert_eq!(found, [Within, Missed, Failed]);
+    }
+
     #[test]
     fn a_truncated_value_is_met_by_what_was_cut() {
         use Verdict::{Failed, Truncated};

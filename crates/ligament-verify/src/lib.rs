@@ -59,6 +59,7 @@ mod softening;
 mod spread;
 mod square_elements;
 mod statics;
+mod strength;
 pub mod table;
 pub mod tally;
 mod tension;
@@ -74,7 +75,7 @@ use table::Extent;
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 25] = [
+pub static EXPERIMENTS: [Experiment; 32] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     readings::EXPERIMENT,
@@ -100,12 +101,20 @@ pub static EXPERIMENTS: [Experiment; 25] = [
     ring::EXPERIMENT,
     hole::EXPERIMENT,
     disk_modes::EXPERIMENT,
+    strength::squares::EXPERIMENT,
+    strength::hole::EXPERIMENT,
+    strength::disk::EXPERIMENT,
+    strength::crack::EXPERIMENT,
+    strength::bar::EXPERIMENT,
+    strength::cube::EXPERIMENT,
+    strength::glass::EXPERIMENT,
 ];
 
 const EXAMPLES: &str = "\
 Examples:
   ligament-verify                    everything: results/verification/README.md
   ligament-verify disk --fast        one experiment, and of it what the tests run
+  ligament-verify strength           all whose names begin with strength_
   ligament-verify --list             the experiments
 
 The exit code is 1 if a value that should agree does not.";
@@ -213,7 +222,8 @@ fn conclude(all: &Tally) -> Result<(), VerifyError> {
     }
 }
 
-/// The experiments of these names, in the order of the report; all without names.
+/// The experiments of these names, in the order of the report; all without names. A name that no experiment has is that of a group: of all
+/// experiments whose names begin with it and an underscore.
 ///
 /// # Errors
 ///
@@ -224,14 +234,20 @@ pub fn select(names: &[String]) -> Result<Vec<&'static Experiment>, VerifyError>
             .iter()
             .map(|experiment| experiment.name.to_owned())
     };
-    if let Some(name) = names.iter().find(|name| !known().any(|it| it == **name)) {
+    let is_of = |experiment: &Experiment, name: &str| {
+        let is_group = known().all(|it| it != name);
+        let rest = experiment.name.strip_prefix(name);
+        rest.is_some_and(|rest| rest.is_empty() || is_group && rest.starts_with('_'))
+    };
+    let is_known = |name: &str| EXPERIMENTS.iter().any(|it| is_of(it, name));
+    if let Some(name) = names.iter().find(|name| !is_known(name)) {
         return Err(VerifyError::UnknownExperiment {
             name: name.clone(),
             known: known().collect(),
         });
     }
     let is_chosen = |experiment: &&Experiment| {
-        names.is_empty() || names.iter().any(|name| name == experiment.name)
+        names.is_empty() || names.iter().any(|name| is_of(experiment, name))
     };
     Ok(EXPERIMENTS.iter().filter(is_chosen).collect())
 }
@@ -265,6 +281,9 @@ mod tests {
         };
         assert_eq!(names(&[]).unwrap().len(), EXPERIMENTS.len());
         assert_eq!(names(&["disk", "poisson"]), Ok(vec!["poisson", "disk"]));
+        let group = names(&["strength"]).unwrap();
+        assert_eq!((group.len(), group[0]), (7, "strength_squares"));
+        assert!(names(&["stren"]).is_err());
         let error = names(&["poison"]).unwrap_err().to_string();
         assert!(
             error.starts_with("no experiment `poison`; did you mean `poisson`?"),

@@ -18,6 +18,8 @@ pub enum Allowed {
     Relative(f64),
     /// Tolerance in the unit of the table.
     Absolute(f64),
+    /// Smallest and largest difference in the unit of the table.
+    Between(f64, f64),
     /// Any difference: the value is shown and not judged.
     Any,
 }
@@ -95,6 +97,7 @@ impl Allowed {
             Self::Digits => known.is_rounded_from(computed),
             Self::Relative(share) => distance <= share * known.value.abs(),
             Self::Absolute(amount) => distance <= amount,
+            Self::Between(least, most) => (least..=most).contains(&(computed - known.value)),
             Self::Any => true,
         }
     }
@@ -134,6 +137,7 @@ impl fmt::Display for Allowed {
             Self::Digits => f.write_str("digits"),
             Self::Relative(share) => write!(f, "{} %", (1e8 * share).round() / 1e6),
             Self::Absolute(amount) => write!(f, "{amount}"),
+            Self::Between(least, most) => write!(f, "{least} to {most:+}"),
             Self::Any => f.write_str("-"),
         }
     }
@@ -179,6 +183,10 @@ mod tests {
         assert_eq!(Allowed::Relative(0.003).to_string(), "0.3 %");
         assert_eq!(Allowed::Relative(0.001).to_string(), "0.1 %");
         assert_eq!(Allowed::Absolute(0.04).to_string(), "0.04");
+        assert_eq!(
+            Allowed::Between(-0.02, 0.005).to_string(),
+            "-0.02 to +0.005"
+        );
         let known = Printed::parse("0.3800").unwrap();
         assert_eq!(Difference::Share(-0.01234).words(&known), "-1.23 %");
         assert_eq!(Difference::Share(-1e-6).words(&known), "0.00 %");

@@ -12,7 +12,7 @@
 //! ```
 //!
 //! The columns before `known` are the labels of an entry. `allowed` is `digits`, a share such as `3 %`, an amount in the unit of the table,
-//! or `any`; `subset` is `fast` or `full`; `standing` is empty, `truncated`, `misprint`, `open` or `missed`.
+//! two differences such as `-0.02 to 0.005`, or `any`; `subset` is `fast` or `full`; `standing` is empty, `truncated`, `misprint`, `open` or `missed`.
 
 use ligament_output::csv::read::{StringRecord, records};
 
@@ -150,7 +150,16 @@ fn entry(cells: &StringRecord, n_keys: usize) -> Result<Entry, String> {
 }
 
 fn read_allowed(text: &str) -> Result<Allowed, String> {
-    let expected = "digits, a share such as 3 %, an amount, or any";
+    let expected =
+        "digits, a share such as 3 %, an amount, two differences such as -0.02 to 0.005, or any";
+    let difference = |text: &str| text.trim().parse().ok().filter(|it: &f64| it.is_finite());
+    if let Some((least, most)) = text.split_once(" to ") {
+        let both = difference(least).zip(difference(most));
+        let both = both.filter(|(least, most)| least < most);
+        return both
+            .map(|(least, most)| Allowed::Between(least, most))
+            .ok_or_else(|| fault("allowed", text, expected));
+    }
     let positive = |text: &str| text.trim().parse().ok().filter(|value: &f64| *value > 0.0);
     let read = match (text, text.strip_suffix('%')) {
         ("digits", _) => Some(Allowed::Digits),
@@ -273,6 +282,10 @@ nu,law,known,allowed,subset,standing,instead,reason
                 "line 7: `one` in column `known`, expected a number",
             ),
             ("0,pds,1,-2 %,fast,,,", "line 7: `-2 %` in column `allowed`"),
+            (
+                "0,pds,1,0.1 to -0.1,fast,,,",
+                "line 7: `0.1 to -0.1` in column `allowed`",
+            ),
             (
                 "0,pds,1,digits,slow,,,",
                 "line 7: `slow` in column `subset`, expected fast or full",

@@ -161,7 +161,12 @@ impl Table {
     /// Computed minus known value of a row: an amount in a table with absolute tolerances or where the known value is 0, otherwise a share
     /// of the known value.
     pub(super) fn difference(&self, row: &Row) -> Difference {
-        let is_amount = |row: &Row| matches!(row.entry.allowed, Allowed::Absolute(_));
+        let is_amount = |row: &Row| {
+            matches!(
+                row.entry.allowed,
+                Allowed::Absolute(_) | Allowed::Between(..)
+            )
+        };
         let known = row.entry.known.value();
         let amount = row.computed - known;
         if known == 0.0 || self.rows.iter().any(is_amount) {

@@ -4,15 +4,16 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::Context;
-use ligament::body::{AnyBody, MeshBody};
+use ligament::body::{AnyBody, MeshBody, SolidMeshBody};
 use ligament::run::{NoObserver, Solution};
 use ligament::{Model, Setup};
 use ligament_analysis::history::BreakRecord;
 use ligament_analysis::modal::Mode;
 use ligament_analysis::{Component, Observer, Termination};
-use ligament_mesh::gmsh;
+use ligament_mesh::{AnyMesh, gmsh};
 
-use ligament_case::case::CaseFile;
+use ligament_case::case::document::Node;
+use ligament_case::case::{BodyKind, CaseFile};
 
 use super::crack_path::Breakages;
 
@@ -30,7 +31,7 @@ macro_rules! template {
     ($path:literal) => {
         $crate::trial::Template {
             path: concat!("cases/", $path),
-            text: include_str!(concat!("../../../cases/", $path)),
+            text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/", $path)),
         }
     };
 }
@@ -40,7 +41,7 @@ macro_rules! stored_mesh {
     ($name:literal) => {
         $crate::trial::StoredMesh {
             path: concat!("../../meshes/", $name),
-            bytes: include_bytes!(concat!("../../../meshes/", $name)),
+            bytes: include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../meshes/", $name)),
         }
     };
 }
@@ -62,6 +63,15 @@ pub(super) struct Trial {
     mesh: Option<&'static StoredMesh>,
 }
 
+impl StoredMesh {
+    fn body(&self) -> anyhow::Result<(BodyKind, AnyBody)> {
+        Ok(match gmsh::parse_any(self.bytes)? {
+            AnyMesh::Plane(mesh) => (BodyKind::Plane, AnyBody::new(MeshBody::from(mesh))),
+            AnyMesh::Solid(mesh) => (BodyKind::Solid, AnyBody::new(SolidMeshBody::from(mesh))),
+        })
+    }
+}
+
 impl Template {
     /// A trial of the case without settings.
     pub(super) fn trial(&'static self) -> Trial {
@@ -77,6 +87,12 @@ impl Trial {
     /// The trial with one more setting.
     pub(super) fn set(mut self, key: &str, value: impl std::fmt::Debug) -> Self {
         self.settings.push(format!("{key}={value:?}"));
+        self
+    }
+
+    /// The trial with a setting whose value is a text in TOML, such as an array of tables.
+    pub(super) fn set_toml(mut self, key: &str, value: &str) -> Self {
+        self.settings.push(format!("{key}={value}"));
         self
     }
 
@@ -136,14 +152,17 @@ impl Trial {
         work: impl FnOnce(&CaseFile, Setup) -> anyhow::Result<T>,
     ) -> anyhow::Result<T> {
         let attempt = || {
-            let text = self.template.text.to_owned();
-            let case = CaseFile::parse(Path::new(self.template.path), text, &self.settings)?;
-            let setup = match self.mesh {
-                Some(mesh) => {
-                    case.setup_on(AnyBody::new(MeshBody::from(gmsh::parse(mesh.bytes)?)))?
-                }
-                None => case.setup(&mut ())?,
+            let path = Path::new(self.template.path);
+            let (text, settings) = (self.template.text, &self.settings);
+            let Some(mesh) = self.mesh else {
+                let case = CaseFile::parse(path, text.to_owned(), settings)?;
+                let setup = case.setup(&mut ())?;
+                return work(&case, setup);
             };
+            let (kind, body) = mesh.body()?;
+            let document = Node::parse_document(text)?;
+            let case = CaseFile::on_body(path, document, settings, kind)?;
+            let setup = case.setup_on(body)?;
             work(&case, setup)
         };
         attempt().with_context(|| self.command())

@@ -16,7 +16,7 @@ pub(crate) fn list(console: &mut dyn Write, experiments: &[Experiment]) -> io::R
         ..
     } in experiments
     {
-        writeln!(console, "{name:<14}{title} ({source})")?;
+        writeln!(console, "{name:<18}{title} ({source})")?;
     }
     Ok(())
 }
