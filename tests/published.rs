@@ -55,7 +55,8 @@ fn is_stored(experiment: &Experiment, table: &Table) {
         "strength_crack",
         "strength_glass",
     ]
-    .contains(&experiment.name) {
+    .contains(&experiment.name)
+    {
         1e-2
     } else {
         1e-6

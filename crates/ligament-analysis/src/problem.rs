@@ -37,7 +37,8 @@ impl Problem {
             let motion = self.motion(state, &sound);
             self.criteria.stresses(&*self.system, motion, deformations)
         });
-        self.criteria.in_state(stresses, &state.intact, deformations)
+        self.criteria
+            .in_state(stresses, &state.intact, deformations)
     }
 
     /// The deformations at which bonds began to soften by the stress around them, with those that begin in an equilibrium; None where

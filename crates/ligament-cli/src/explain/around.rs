@@ -96,7 +96,12 @@ impl<'a> Around<'a> {
             let weight_per_length =
                 model.volumes[there] * closeness(length, model.bonds.horizon[bond]);
             let moved = difference(&motions.displacement);
-            fit.add(along.map(|it| it / length), moved, length, weight_per_length);
+            fit.add(
+                along.map(|it| it / length),
+                moved,
+                length,
+                weight_per_length,
+            );
         }
         let strain = fit.strain()?;
         if motions.thermal_strain.is_empty() {

@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::criterion::{Criteria, Criterion};
 use super::criterion::Stresses;
+use super::criterion::{Criteria, Criterion};
 use super::hooke::Moduli;
 use super::softening::AfterLimit;
 use super::surroundings::Surroundings;

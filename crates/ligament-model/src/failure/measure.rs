@@ -400,7 +400,13 @@ mod tests {
     #[test]
     fn values_by_hand() {
         let of = |stretch, shear| {
-            let value = |it: &Measure| it.value(&deformation(*it, stretch, shear), &[0.25], StressAcross::default);
+            let value = |it: &Measure| {
+                it.value(
+                    &deformation(*it, stretch, shear),
+                    &[0.25],
+                    StressAcross::default,
+                )
+            };
             let measures = Measure::ALL[..8].iter();
             measures.map(value).collect::<Vec<f64>>()
         };

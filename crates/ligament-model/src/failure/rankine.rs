@@ -72,7 +72,10 @@ pub(super) fn of_tension<const D: usize>(
     let starting = starting(basis, Surface::Tension, (&of_stress, &energy), never_began);
     // Bonds that never fail have an infinite limit.
     let largest = critical_stretches_for(basis, &energy).into_iter();
-    let both = of_stress.limit.iter_mut().zip(largest.zip(&starting.moduli));
+    let both = of_stress
+        .limit
+        .iter_mut()
+        .zip(largest.zip(&starting.moduli));
     for (limit, (largest, moduli)) in both.filter(|(limit, _)| limit.is_finite()) {
         *limit = largest * moduli.bar;
     }

@@ -68,9 +68,7 @@ impl<const D: usize> BondSystem<D> {
 /// Strain around a bond with the direction n, from that of its ends and its own stretch.
 fn own_strain<const D: usize>(mean: &SymTensor<D>, stretch: f64, n: [f64; D]) -> SymTensor<D> {
     let along = dot(n, mean.times(n));
-    SymTensor::from_fn(|row, column| {
-        mean.at(row, column) + (stretch - along) * n[row] * n[column]
-    })
+    SymTensor::from_fn(|row, column| mean.at(row, column) + (stretch - along) * n[row] * n[column])
 }
 
 /// The largest and the smallest principal stress of a strain over E'.

@@ -10,6 +10,7 @@ use crate::contact::{ClosedPair, ContactPair, Overlap};
 use crate::deformation::{Deformation, Deformations};
 use crate::element::{BondDeformation, DeformationOf, Element, Elements, StiffnessFactors, Term};
 use crate::failure::Criterion;
+use crate::failure::hooke::{Moduli, StressAcross};
 use crate::failure::starting::Starting;
 use crate::interface::{
     BondContact, BondKinetics, BondReadings, BondTopology, CentralMotions, CoupledPoints,
@@ -17,7 +18,6 @@ use crate::interface::{
 };
 use crate::layout::Component;
 use crate::rigid_motions::{self, FreeMotion, RigidMotions, Turn};
-use crate::failure::hooke::{Moduli, StressAcross};
 use crate::stress::point_strain::Motion;
 use crate::stress::traction;
 use crate::subdomain::Subdomain;

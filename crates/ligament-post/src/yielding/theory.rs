@@ -23,7 +23,9 @@ pub fn critical_deformation(
         let shear = deviator * (1.0 - cosine * cosine).sqrt();
         BondDeformation::new([mean + deviator * cosine, shear, 0.0])
     };
-    let value = |deformation: &BondDeformation| measure.value(deformation, &[coefficient], StressAcross::default);
+    let value = |deformation: &BondDeformation| {
+        measure.value(deformation, &[coefficient], StressAcross::default)
+    };
     let [first, others @ ..] = measure.worst_directions(coefficient, mean, deviator);
     let finite = others.into_iter().filter(|cosine| cosine.is_finite());
     finite.map(at).fold(at(first), |worst, it| {
