@@ -534,6 +534,7 @@ fn mohr_coulomb_has_the_compressive_strength_whatever_the_fracture_energy() {
     for energy in ["1000.0", "4000.0"] {
         let material = [
             "material.compressive_strength=38.1e6".to_owned(),
+            "material.fracture_energy=60.0".to_owned(),
             format!("material.fracture_energy_sliding={energy}"),
             "load.0.displacement.x=-5.08e-4".to_owned(),
             r#"fracture.criterion=[{ kind = "mohr-coulomb", after = "linear" }]"#.to_owned(),

@@ -415,6 +415,7 @@ fn warnings<const D: usize>(
     implausible
         .map(Warning::Implausible)
         .chain(of_model)
+        .chain(warning::of_criteria(criteria))
         .collect()
 }
 

@@ -1,17 +1,20 @@
 //! Warnings about a model that concern the trust in its results.
 
+mod criteria;
+
 use ligament_model::correction::{CorrectionReport, DomainReport, patch};
-use ligament_model::failure::Measure;
 use ligament_model::failure::softening::linear;
 use ligament_model::law::stability::NegativeShear;
 use ligament_model::material::Space;
 use ligament_model::{ConstantFields, ElementKind, Isotropic};
 use thiserror::Error;
 
+pub(crate) use self::criteria::of_criteria;
+use self::criteria::{rotation_as_sliding, stress_without_patch};
 use crate::body::{Body, Origin};
 use crate::implausible::Implausible;
 use crate::plausibility::corners;
-use crate::setup::{Horizon, Setup, Surface};
+use crate::setup::{Horizon, Setup};
 
 /// Horizon factor below which the domain correction is not known to have a fixed point.
 const SMALLEST_SAFE_FACTOR: f64 = 2.0;
@@ -205,6 +208,18 @@ pub enum Warning {
     StressWithoutPatch {
         /// The criterion.
         criterion: &'static str,
+    },
+    /// Bonds that break before the stress comes to the strength at which others begin to soften.
+    #[error(
+        "{:.0} % of the bonds break before the stress comes to the strength, the first at {least:.2} of it: their horizon is several times E \
+         G_c/F_t^2, so that they spend the fracture energy before; take a finer mesh there, or `no_fail` where nothing cracks",
+        100.0 * share
+    )]
+    BelowStrength {
+        /// Share of the bonds.
+        share: f64,
+        /// Smallest stress at which one breaks over the strength.
+        least: f64,
     },
     /// A criterion of energy with a negative shear stiffness, so that bonds nearly along a crack never reach a limit.
     #[error(
@@ -409,32 +424,6 @@ fn rotation_resisted(setup: &Setup, material: &Isotropic) -> Option<Warning> {
     let resists = setup.law.row.resists_rotations() && poisson < limit - POISSON_TOLERANCE;
     let law = setup.law.name();
     resists.then_some(Warning::RotationResisted { law })
-}
-
-/// Warning about criteria of shear between points without rotations, where the shear of a bond includes the rotation of the body.
-fn rotation_as_sliding(setup: &Setup) -> Option<Warning> {
-    let law = &setup.law;
-    if law.element() != ElementKind::Spring {
-        return None;
-    }
-    // Bonds without a shear stiffness have no energy of shear.
-    let counts = |it: &Measure| !(it.needs_shear_stiffness() && law.row.fixes_poisson);
-    let sees_rotations = |it: &Measure| it.takes_sliding() && counts(it);
-    let mut kinds = setup.criteria.iter().map(|it| it.kind);
-    let kind = kinds.find(|it| it.measures.iter().any(sees_rotations));
-    kind.map(|kind| Warning::RotationAsSliding {
-        criterion: kind.word,
-        law: law.name(),
-    })
-}
-
-fn stress_without_patch(setup: &Setup) -> Option<Warning> {
-    let mut kinds = setup.criteria.iter().map(|it| it.kind);
-    let kind = kinds.find(|it| it.measures.iter().any(|it| it.takes_stress()))?;
-    let is_patch = matches!(setup.correction.surface, Surface::Patch(_));
-    (!is_patch).then_some(Warning::StressWithoutPatch {
-        criterion: kind.word,
-    })
 }
 
 fn energy_given_back(setup: &Setup, material: &Isotropic) -> Option<Warning> {

@@ -6,10 +6,11 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::hooke::StressAcross;
-use super::measure::{Measure, Weakened};
+use super::measure::Measure;
 use super::softening::{AfterLimit, brittle};
 use super::starting::Starting;
 use super::surroundings::Surroundings;
+use super::weakened::Weakened;
 use crate::element::{BondDeformation, Rigidities};
 
 /// A failure criterion with its limits.

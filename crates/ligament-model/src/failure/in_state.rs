@@ -126,6 +126,20 @@ impl Criteria {
         criteria
     }
 
+    /// Stresses across bonds that never begin to soften at which these break, over the strength, of those bonds for which that is less than one;
+    /// their horizon is several times E G_c/F_t^2.
+    pub fn below_strength(&self) -> Vec<f64> {
+        let of = |(place, criterion): (usize, &Criterion)| {
+            let starting = criterion.starting()?;
+            let of_stress = &self.list[place - starting.never_began[0]];
+            let both = of_stress.limit.iter().zip(&starting.strength);
+            let shares = both.map(|(limit, strength)| limit / strength);
+            Some(shares.filter(|it| *it < 1.0).collect())
+        };
+        let first: Option<Vec<f64>> = self.list.iter().enumerate().find_map(of);
+        first.unwrap_or_default()
+    }
+
     /// Deformations at which bonds began to soften where none did yet, shape (n_bonds) for each criterion by which they begin.
     pub fn none_begun(&self) -> Vec<Vec<f64>> {
         let of = |it: &Criterion| match it.starting() {

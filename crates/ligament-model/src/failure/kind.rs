@@ -287,10 +287,15 @@ impl Choice {
         can && self.limit.is_none() && self.after.parameter.is_none()
     }
 
+    /// Whether bonds begin to soften where the stress around them says so.
+    fn begins_by_stress(&self) -> bool {
+        self.after.law.softens && self.kind.measures.iter().any(|it| it.takes_stress())
+    }
+
     /// The property whose random factor is that of the limits: given ones stand in the place of a strength.
     pub fn limits_from(&self) -> Scattered {
         let mut takes = self.takes().iter();
-        match takes.any(|it| it.key == FRACTURE_ENERGY.key) {
+        match takes.any(|it| it.key == FRACTURE_ENERGY.key) || self.begins_by_stress() {
             true => Scattered::FractureEnergy,
             false => Scattered::Strength,
         }
@@ -301,7 +306,7 @@ impl Choice {
         let of_softening =
             of == Scattered::FractureEnergy && self.parameter_from_energy().is_some();
         // What lets bonds begin to soften is a strength, and what lets them end an energy.
-        let of_beginning = of == Scattered::Strength && self.kind.softens_because.is_some();
+        let of_beginning = of == Scattered::Strength && self.begins_by_stress();
         self.limits_from() == of || of_softening || of_beginning
     }
 
@@ -328,7 +333,9 @@ impl Choice {
         let kind = &self.kind;
         let of_limits = self.takes().iter().map(|it| (it, kind.instead_of(it)));
         let of_softening = self.parameter_from_energy();
-        let of_softening = of_softening.map(|key| (&FRACTURE_ENERGY, Some(key)));
+        // A parameter stands in the place of the energy where all bonds may have the same one.
+        let instead = |key| (!self.begins_by_stress()).then_some(key);
+        let of_softening = of_softening.map(|key| (&FRACTURE_ENERGY, instead(key)));
         for (property, instead) in of_limits.chain(of_softening) {
             let is_isotropic = matches!(material.elasticity, Elasticity::Isotropic(_));
             if !is_isotropic && !kind.takes_strains() {

@@ -1,6 +1,7 @@
 //! How a criterion looks at the deformation of a bond.
 
 use super::hooke::StressAcross;
+use super::weakened::Weakened;
 use crate::element::BondDeformation;
 use crate::tensor::norm;
 
@@ -53,19 +54,6 @@ pub enum Measure {
     PrintedMixed,
 }
 
-/// Resistance that a criterion weakens in a bond once its limit is passed and before it breaks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Weakened {
-    /// Resistance to stretch, shear and rotation; not to shortening, because the faces of the crack touch.
-    Opening,
-    /// Resistance to shortening, shear and rotation.
-    Crushing,
-    /// Resistance to shear.
-    Sliding,
-    /// All resistance, where shear under pressure crushes the material.
-    Whole,
-}
-
 /// What a measure looks at.
 #[derive(PartialEq)]
 enum Sight {
@@ -75,13 +63,6 @@ enum Sight {
     Energy,
     Stress,
     OwnStrains,
-}
-
-impl Weakened {
-    /// Whether damage of this kind shows in the field of another one: what takes all resistance is a shear failure.
-    pub fn shows_as(self, way: Self) -> bool {
-        self == way || (self == Self::Whole && way == Self::Sliding)
-    }
 }
 
 impl Measure {
@@ -456,8 +437,9 @@ mod tests {
 
     #[test]
     fn a_negative_shear_stiffness_never_gives_less_than_nothing() {
+        let deformation = BondDeformation::new([1.0, 10.0, 0.3]);
         assert_eq!(
-            Measure::Energy.value(&BondDeformation::new([1.0, 10.0, 0.3]), &[-0.5]),
+            Measure::Energy.value(&deformation, &[-0.5], StressAcross::default),
             0.0
         );
     }
@@ -465,15 +447,15 @@ mod tests {
     #[test]
     fn measures_grow_with_the_load() {
         for measure in Measure::ALL {
-            let of_coulomb = [0.5, 0.2, -0.3, 0.1, 0.2, 0.8, 1.0, 9.0, 0.7];
+            let of_coulomb = [0.2, 0.8, 1.0, 9.0, 0.7];
+            let stress = StressAcross {
+                normal: 0.5,
+                shear: [0.2, -0.3, 0.1],
+            };
             for coefficients in [&[0.5] as &[f64], &[0.5, 3.0, 1.75], &of_coulomb] {
                 let [once, twice] = [1.0, 2.0].map(|load| {
                     let deformation = deformation(measure, 0.3, -0.7).scaled(load);
-                    // The stress around a bond grows with the load as well.
-                    let mut coefficients = coefficients.to_vec();
-                    let of_stress = coefficients.iter_mut().take(measure.n_of_stress());
-                    of_stress.for_each(|it| *it *= load);
-                    measure.value(&deformation, &coefficients)
+                    measure.value(&deformation, coefficients, || stress.scaled(load))
                 });
                 assert!((twice - 2.0 * once).abs() < 1e-15, "{measure:?}");
             }

@@ -47,15 +47,17 @@ pub mod strength;
 pub mod stretch;
 pub mod surroundings;
 mod unfit;
+mod weakened;
 
 pub use basis::Basis;
 pub use choosing::criteria;
 pub use criterion::{Criteria, Criterion, Stresses, Verdict};
 pub use kind::{After, Calibration, Choice, Kind, Limits, MakeLimits, PerSpace, Property};
-pub use measure::{Measure, Weakened};
+pub use measure::Measure;
 pub use setting::Setting;
 pub use softening::{AfterLimit, Softened};
 pub use unfit::{NoLimit, Unfit};
+pub use weakened::Weakened;
 
 /// All kinds of criteria.
 pub const KINDS: [&Kind; 15] = [

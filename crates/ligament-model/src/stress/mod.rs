@@ -9,6 +9,7 @@
 //! In a uniform strain the first two are the stress of the continuum whose energy the bonds have, inside a body whose bonds nothing
 //! corrects; the third one is the stress of the material everywhere. Tension is positive.
 
+mod across;
 mod by_material;
 pub mod point_strain;
 pub mod principal;

@@ -12,8 +12,6 @@
 use nalgebra::SMatrix;
 use rayon::prelude::*;
 
-use crate::element::BondDeformation;
-use crate::failure::hooke::{Moduli, StressAcross};
 use crate::layout::Layout;
 use crate::system::BondSystem;
 use crate::tensor::{SymTensor, dot, minus};
@@ -182,25 +180,6 @@ impl<const D: usize> BondSystem<D> {
             both.map(|(length, horizon)| closeness(*length, *horizon))
                 .collect()
         })
-    }
-
-    /// Stress across each bond, with the means of the strains of its ends as far as these are known, shape (n_bonds).
-    pub(crate) fn stresses_across(
-        &self,
-        layout: Layout,
-        motion: Motion<'_>,
-        deformations: &[BondDeformation],
-        moduli: impl Fn(usize) -> Moduli + Sync,
-    ) -> Vec<StressAcross> {
-        let of_points = self.point_strains(layout, motion);
-        let bonds = &self.bonds;
-        let of_bond = |(bond, deformation): (usize, &BondDeformation)| {
-            let [a, b] = bonds.ends[bond].map(|end| end as usize);
-            let mean = mean_strain([of_points[a], of_points[b]]);
-            let around = mean.map(|it| StrainAround::new(&it, bonds.direction[bond]));
-            moduli(bond).stress_across(deformation.stretch(), around)
-        };
-        deformations.par_iter().enumerate().map(of_bond).collect()
     }
 }
 
