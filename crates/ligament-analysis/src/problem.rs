@@ -54,6 +54,14 @@ impl Problem {
         self.criteria.beginning(begun, system, motion, deformations)
     }
 
+    /// Largest stress around a bond of the intact body over the strength at which it begins to soften, in an equilibrium; 0 where none begins so.
+    pub(crate) fn largest_at_start(&self, state: &State, balanced: &Balanced) -> f64 {
+        let motion = self.motion(state, &state.intact);
+        let deformations = &balanced.deformations;
+        self.criteria
+            .largest_at_start(&*self.system, motion, deformations)
+    }
+
     fn motion<'a>(&'a self, state: &'a State, intact: &'a [bool]) -> Motion<'a> {
         Motion {
             intact,

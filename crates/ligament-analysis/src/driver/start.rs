@@ -132,7 +132,8 @@ impl Start {
             StepCounters::default(),
         );
         self.elastic.stiffness = record.reaction / record.displacement;
-        let ratio = largest_ratio(problem, at_one, balanced);
+        let ratio = largest_ratio(problem, at_one, balanced)
+            .max(problem.largest_at_start(at_one, balanced));
         let is_predicted = ratio > 0.0 && problem.system.is_linear();
         self.elastic.first_break = is_predicted.then(|| LoadPoint {
             load_factor: 1.0 / ratio,

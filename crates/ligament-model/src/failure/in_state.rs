@@ -66,11 +66,7 @@ impl Criteria {
         motion: Motion<'_>,
         deformations: &[BondDeformation],
     ) -> Option<Vec<Vec<f64>>> {
-        let utilisations = |criterion: &Criterion| {
-            let starting = criterion.starting()?;
-            Some(system.utilisations(motion, deformations, starting))
-        };
-        let of_criteria: Vec<Option<Vec<f64>>> = self.list.iter().map(utilisations).collect();
+        let of_criteria = self.utilisations_at_start(system, motion, deformations);
         let mut begun = begun.to_vec();
         let mut some = false;
         for bond in (0..deformations.len()).filter(|bond| motion.intact[*bond]) {
@@ -92,6 +88,35 @@ impl Criteria {
             }
         }
         some.then_some(begun)
+    }
+
+    /// Stress around each bond over the strength at which it begins to soften, for each criterion by which bonds begin.
+    fn utilisations_at_start(
+        &self,
+        system: &dyn Bonds,
+        motion: Motion<'_>,
+        deformations: &[BondDeformation],
+    ) -> Vec<Option<Vec<f64>>> {
+        let of = |criterion: &Criterion| {
+            let starting = criterion.starting()?;
+            Some(system.utilisations(motion, deformations, starting))
+        };
+        self.list.iter().map(of).collect()
+    }
+
+    /// Largest stress around an intact bond over the strength at which it begins to soften; 0 where none begins so. In proportion to the load
+    /// it is proportional too.
+    pub fn largest_at_start(
+        &self,
+        system: &dyn Bonds,
+        motion: Motion<'_>,
+        deformations: &[BondDeformation],
+    ) -> f64 {
+        let of_criteria = self.utilisations_at_start(system, motion, deformations);
+        let of_bonds = of_criteria.iter().flatten();
+        let intact = of_bonds.flat_map(|of_bonds| of_bonds.iter().zip(motion.intact));
+        let utilisations = intact.filter(|(_, intact)| **intact).map(|(it, _)| *it);
+        system.subdomain().max(utilisations.fold(0.0, f64::max))
     }
 
     /// The criteria of bonds that began to soften at these deformations, as [`beginning`](Self::beginning) gives them.

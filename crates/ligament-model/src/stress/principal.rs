@@ -43,7 +43,7 @@ impl<const D: usize> BondSystem<D> {
                 Surface::Tension => {
                     let around = StrainAround::new(&mean, n);
                     let normal = moduli.stress_across(stretch, Some(around)).normal;
-                    if normal < SHARE * strength {
+                    if normal <= 0.0 {
                         return 0.0;
                     }
                     let [largest, _] = principal();
