@@ -341,6 +341,24 @@ fn softening_goes_on_to_the_same_bits() {
     assert_resumes("two criteria, unloaded in between", &plate(&two), 3);
 }
 
+/// Criteria of stress: along the exact path, in load steps, and with bonds that began to soften by tension and by shear.
+#[test]
+fn criteria_of_stress_go_on_to_the_same_bits() {
+    const PATCH: &str = "correction.surface=patch";
+    let exact = "fracture={ control = \"event\", criterion = [{ kind = \"bond-rankine\" }], stop = { bonds = 60 } }";
+    assert_resumes("bond-rankine, exact path", &plate(&[PATCH, exact]), 4);
+    for kind in ["rankine", "mohr-coulomb"] {
+        let criterion = format!("fracture.criterion=[{{ kind = \"{kind}\", after = \"linear\" }}]");
+        let settings = [
+            PATCH,
+            &criterion,
+            "material.compressive_strength=30e6",
+            FURTHER,
+        ];
+        assert_resumes(kind, &plate(&settings), 3);
+    }
+}
+
 /// A run that goes on from the moment where a rule ended it is one with the later rule from the start.
 #[test]
 fn a_run_that_a_rule_ended_can_be_prolonged() {

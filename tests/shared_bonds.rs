@@ -318,6 +318,19 @@ fn bonds_soften() {
     compare((SOFTENING, &[]), one.into_iter().next().unwrap(), 60);
 }
 
+/// Strains of points come from bonds whose other ends lie on other ranks: along the exact path by the stress across the bonds, and with
+/// bonds that begin to soften by the stress around them. 1 and 3 ranks as for the others that soften.
+#[test]
+fn criteria_of_stress_see_the_bonds_of_all_ranks() {
+    let event = "fracture={ control = \"event\", tie_tolerance = 1e-6, stop = { bonds = 60 }, criterion = [{ kind = \"bond-rankine\" }] }";
+    against_one_process(SQUARE, &[event], 60);
+    let rankine = ["fracture.criterion=[{ kind = \"rankine\", after = \"linear\" }]"];
+    let one = on_ranks(1, |ranks| {
+        followed((SOFTENING, &rankine), ranks, None, Seen::default())
+    });
+    compare((SOFTENING, &rankine), one.into_iter().next().unwrap(), 20);
+}
+
 /// What several ranks have written others go on with, also one process, and so they do with what they have written themselves.
 #[test]
 fn any_number_goes_on_from_a_checkpoint() {

@@ -3,14 +3,14 @@
 mod criteria;
 
 use ligament_model::correction::{CorrectionReport, DomainReport, patch};
+use ligament_model::failure::Criteria;
 use ligament_model::failure::softening::linear;
 use ligament_model::law::stability::NegativeShear;
 use ligament_model::material::Space;
 use ligament_model::{ConstantFields, ElementKind, Isotropic};
 use thiserror::Error;
 
-pub(crate) use self::criteria::of_criteria;
-use self::criteria::{rotation_as_sliding, stress_without_patch};
+use self::criteria::{below_strength, rotation_as_sliding, stress_without_patch};
 use crate::body::{Body, Origin};
 use crate::implausible::Implausible;
 use crate::plausibility::corners;
@@ -291,8 +291,11 @@ pub(crate) fn of_model(
         .collect();
     warnings.extend(constants.iter().filter_map(|it| of_poisson(setup, it)));
     warnings.extend(constants.iter().find_map(|it| rotation_resisted(setup, it)));
-    warnings.extend(rotation_as_sliding(setup));
-    warnings.extend(stress_without_patch(setup));
+    let as_sliding = rotation_as_sliding(setup);
+    warnings
+        .extend(as_sliding.map(|[criterion, law]| Warning::RotationAsSliding { criterion, law }));
+    let without_patch = stress_without_patch(setup);
+    warnings.extend(without_patch.map(|criterion| Warning::StressWithoutPatch { criterion }));
     warnings.extend(
         constants
             .iter()
@@ -467,4 +470,9 @@ fn of_poisson(setup: &Setup, material: &Isotropic) -> Option<Warning> {
 fn poisson_and_limit(setup: &Setup, material: &Isotropic) -> (f64, f64) {
     let limit = Isotropic::central_force_poisson(setup.space());
     (material.poisson, limit)
+}
+
+/// Warning about bonds that break below the strength at which others begin to soften.
+pub(crate) fn of_criteria(criteria: &Criteria) -> Option<Warning> {
+    below_strength(criteria).map(|[share, least]| Warning::BelowStrength { share, least })
 }
