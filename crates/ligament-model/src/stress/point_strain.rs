@@ -60,11 +60,11 @@ impl<const D: usize> Fit<D> {
         for column in 0..D {
             let along = weight_per_length * n[column];
             let spread = length * along;
-            for row in 0..D {
-                self.slopes[(row, column)] += along * moved[row];
+            for (row, moved) in moved.iter().enumerate() {
+                self.slopes[(row, column)] += along * moved;
             }
-            for row in column..D {
-                self.spread[(row, column)] += spread * n[row];
+            for (row, n) in n.iter().enumerate().skip(column) {
+                self.spread[(row, column)] += spread * n;
             }
         }
     }
