@@ -493,8 +493,8 @@ steps = [0.5, 0.9, 0.95, 0.96, 0.97, 0.98, 0.985, 0.99, 0.995, 1.0, 1.005, 1.01,
 "#;
 
 /// The strength of a bar is F_t whatever the fracture energy, because all bonds that are pulled begin to soften at it: with G_c = 60 J/m^2, of which
-/// l_ch = E G_c/F_t^2 is a horizon, and 16 times as much. 0.97 to 1.01: load steps of 0.5 %, and what the patch correction leaves. Each bond
-/// that began takes what one of `bond-energy` takes up to its limit e_c, e_i e_f = e_c^2; 1e-12: rounding.
+/// l_ch = E G_c/F_t^2 is a horizon, and 16 times as much. 0.97 to 1.01: load steps of 0.5 %, and what the patch correction leaves. The first
+/// softening is told from the elastic solution. Each bond that began takes what one of `bond-energy` takes up to its limit e_c, e_i e_f = e_c^2; 1e-12: rounding.
 #[test]
 fn rankine_has_its_strength_whatever_the_fracture_energy() {
     for energy in ["60.0", "960.0"] {
@@ -508,6 +508,8 @@ fn rankine_has_its_strength_whatever_the_fracture_energy() {
         let outcome = bench.break_up().outcome;
         let strength = outcome.peak().unwrap().reaction / (0.1 * 3.81e6);
         println!("G_c = {energy} J/m^2: {strength:.4} F_t");
+        let first = outcome.first_break.unwrap().reaction / (0.1 * 3.81e6);
+        assert!((0.97..1.01).contains(&first), "{energy}: {first}");
         assert!((0.97..1.01).contains(&strength), "{energy}: {strength}");
         let begun = &outcome.state.softening.begun;
         let criterion = &bench.model.criteria.begun_at(begun).list[1];
@@ -546,6 +548,8 @@ fn mohr_coulomb_has_the_compressive_strength_whatever_the_fracture_energy() {
         let peak = outcome.history.iter().map(|it| it.reaction.abs());
         let strength = peak.fold(0.0, f64::max) / (0.1 * 38.1e6);
         println!("G_fII = {energy} J/m^2: {strength:.4} F_c");
+        let first = -outcome.first_break.unwrap().reaction / (0.1 * 38.1e6);
+        assert!((0.97..1.01).contains(&first), "{energy}: {first}");
         assert!((0.97..1.01).contains(&strength), "{energy}: {strength}");
         assert!(last.abs() < 0.97 * strength * 0.1 * 38.1e6);
         let of_shear = outcome.state.softening.begun.last().unwrap();

@@ -54,12 +54,12 @@ impl Problem {
         self.criteria.beginning(begun, system, motion, deformations)
     }
 
-    /// Largest stress around a bond of the intact body over the strength at which it begins to soften, in an equilibrium; 0 where none begins so.
-    pub(crate) fn largest_at_start(&self, state: &State, balanced: &Balanced) -> f64 {
+    /// The criteria in an equilibrium of the body before any bond began to soften.
+    pub(crate) fn criteria_at_start(&self, state: &State, balanced: &Balanced) -> Criteria {
         let motion = self.motion(state, &state.intact);
-        let deformations = &balanced.deformations;
-        self.criteria
-            .largest_at_start(&*self.system, motion, deformations)
+        let (system, deformations) = (&*self.system, &balanced.deformations);
+        let criteria = self.criteria_in(state, balanced);
+        criteria.at_start(system, motion, deformations).into_owned()
     }
 
     fn motion<'a>(&'a self, state: &'a State, intact: &'a [bool]) -> Motion<'a> {

@@ -278,11 +278,8 @@ pub(crate) fn of_model(
         warnings.extend(of_virial_stress(&setup.body.origin()));
     }
     warnings.extend(scatter_below_spacing(setup, spacing));
-    if setup
-        .criteria
-        .iter()
-        .any(|it| it.after.law == linear::BILINEAR)
-    {
+    let mut laws = setup.criteria.iter().map(|it| it.after.law);
+    if laws.any(|law| law == linear::BILINEAR) {
         warnings.push(Warning::OneLine);
     }
     let materials = setup.materials.iter();

@@ -116,7 +116,7 @@ impl Path<'_> {
         if !(0.0..AT_ONCE).contains(&share) {
             return Ok(());
         }
-        let criteria = self.criteria(&balanced);
+        let criteria = self.problem.criteria_at_start(&self.state, &balanced);
         let criteria = criteria.on_line(None, times);
         let deformations = balanced.deformations.scaled(times);
         let is_beyond = |(bond, deformation)| criteria.utilisation(bond, deformation) >= AT_LIMIT;
@@ -168,14 +168,15 @@ pub(super) fn predict(
     steps: Option<&[f64]>,
 ) -> Result<Prediction, SetupError> {
     let system = &path.problem.system;
-    let criteria = &path.problem.criteria.list;
-    let begins_by_stress = criteria.iter().any(|it| it.starting().is_some());
-    if !system.is_linear() || begins_by_stress {
-        return Ok(Prediction::Nonlinear);
-    }
+    // The stress at which bonds begin to soften is proportional to a load that grows, and to no other.
+    let list = &path.problem.criteria.list;
+    let begins_by_stress = list.iter().any(|it| it.starting().is_some());
+    let turns_back = steps.is_some_and(|it| it.iter().any(|factor| *factor < 0.0));
+    let is_linear = system.is_linear() && !(begins_by_stress && turns_back);
     match path.problem.loads.course() {
+        _ if !is_linear => Ok(Prediction::Nonlinear),
         None => in_proportion(path, at_one, steps),
-        Some(_) if system.faces_close() => Ok(Prediction::Nonlinear),
+        Some(_) if system.faces_close() || begins_by_stress => Ok(Prediction::Nonlinear),
         Some(course) => {
             let programme = course.programme.clone();
             in_stages(path, &programme, steps.is_some())
@@ -194,7 +195,7 @@ fn in_proportion(
         Attempt::Unbalanced(reason) => return Ok(Prediction::NoEquilibrium { part: 0, reason }),
     };
     let factors = steps.unwrap_or(&[1.0]);
-    let criteria = path.criteria(&balanced).into_owned();
+    let criteria = path.problem.criteria_at_start(&path.state, &balanced);
     let (displacement, reaction) = path.control(&balanced);
     let along = balanced.deformations;
     // Faces that close under a load are open under the opposite one.

@@ -2,6 +2,7 @@
 
 use ligament_model::deformation::Deformations;
 use ligament_model::element::StiffnessFactors;
+use ligament_model::failure::Criteria;
 use rayon::prelude::*;
 
 use crate::balanced::Balanced;
@@ -300,7 +301,21 @@ fn group_forces(problem: &Problem, load_factor: f64, reactions: &[f64]) -> Vec<V
 
 /// Largest utilisation of the intact bonds; 0 without criteria.
 pub(super) fn largest_ratio(problem: &Problem, state: &State, balanced: &Balanced) -> f64 {
-    let criteria = problem.criteria_in(state, balanced);
+    largest_ratio_by(
+        &problem.criteria_in(state, balanced),
+        problem,
+        state,
+        balanced,
+    )
+}
+
+/// Largest utilisation of the intact bonds by some criteria.
+pub(super) fn largest_ratio_by(
+    criteria: &Criteria,
+    problem: &Problem,
+    state: &State,
+    balanced: &Balanced,
+) -> f64 {
     let ratio = (&state.intact, balanced.deformations.measured())
         .into_par_iter()
         .enumerate()

@@ -1,7 +1,7 @@
 //! First step of every driver: fixes detached parts and solves the elastic problem.
 
 use super::outcome::LoadPoint;
-use super::recorder::{Energies, StepCounters, largest_ratio, step_record};
+use super::recorder::{Energies, StepCounters, largest_ratio_by, step_record};
 use crate::balanced::{Attempt, Balanced, Stability};
 use crate::connectivity::{AddedSupport, Fragments};
 use crate::equilibrium::Equilibrium;
@@ -132,8 +132,8 @@ impl Start {
             StepCounters::default(),
         );
         self.elastic.stiffness = record.reaction / record.displacement;
-        let ratio = largest_ratio(problem, at_one, balanced)
-            .max(problem.largest_at_start(at_one, balanced));
+        let criteria = problem.criteria_at_start(at_one, balanced);
+        let ratio = largest_ratio_by(&criteria, problem, at_one, balanced);
         let is_predicted = ratio > 0.0 && problem.system.is_linear();
         self.elastic.first_break = is_predicted.then(|| LoadPoint {
             load_factor: 1.0 / ratio,

@@ -132,7 +132,8 @@ fn write_prediction(
         Prediction::Nonlinear => entry(
             out,
             name,
-            "not told: strains are in no proportion to the loads (faces of cracks close, or strains are true ones)",
+            "not told: strains are in no proportion to the loads (faces of cracks close, strains are true ones, or bonds begin to soften by a \
+             stress in stages)",
         ),
     }
 }

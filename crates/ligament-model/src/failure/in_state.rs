@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use super::criterion::Stresses;
 use super::criterion::{Criteria, Criterion};
-use super::hooke::Moduli;
+use super::hooke::{Moduli, StressAcross};
+use super::measure::Measure;
 use super::softening::AfterLimit;
 use super::surroundings::Surroundings;
 use crate::element::BondDeformation;
@@ -104,19 +105,35 @@ impl Criteria {
         self.list.iter().map(of).collect()
     }
 
-    /// Largest stress around an intact bond over the strength at which it begins to soften; 0 where none begins so. In proportion to the load
-    /// it is proportional too.
-    pub fn largest_at_start(
+    /// The criteria of a body of which no bond began to soften, in a motion: those by which bonds begin see the stress around each bond over the
+    /// strength, with the limit 1. In proportion to the load that is proportional too.
+    pub fn at_start(
         &self,
         system: &dyn Bonds,
         motion: Motion<'_>,
         deformations: &[BondDeformation],
-    ) -> f64 {
+    ) -> Cow<'_, Self> {
         let of_criteria = self.utilisations_at_start(system, motion, deformations);
-        let of_bonds = of_criteria.iter().flatten();
-        let intact = of_bonds.flat_map(|of_bonds| of_bonds.iter().zip(motion.intact));
-        let utilisations = intact.filter(|(_, intact)| **intact).map(|(it, _)| *it);
-        system.subdomain().max(utilisations.fold(0.0, f64::max))
+        if of_criteria.iter().all(Option::is_none) {
+            return Cow::Borrowed(self);
+        }
+        let mut criteria = self.clone();
+        for (criterion, utilisations) in criteria.list.iter_mut().zip(of_criteria) {
+            let Some(utilisations) = utilisations else {
+                continue;
+            };
+            let stress = |&normal: &f64| StressAcross {
+                normal,
+                ..Default::default()
+            };
+            let limit = vec![1.0; utilisations.len()];
+            *criterion = Criterion {
+                stress: Stresses::new(utilisations.iter().map(stress).collect()),
+                surroundings: Some(Arc::new(Surroundings::Stress)),
+                ..Criterion::brittle(criterion.name, Measure::NormalStress, limit)
+            };
+        }
+        Cow::Owned(criteria)
     }
 
     /// The criteria of bonds that began to soften at these deformations, as [`beginning`](Self::beginning) gives them.
