@@ -10,7 +10,7 @@
 //! corrects; the third one is the stress of the material everywhere. Tension is positive.
 
 mod across;
-mod by_material;
+pub mod by_material;
 pub mod point_strain;
 pub mod principal;
 pub mod traction;
