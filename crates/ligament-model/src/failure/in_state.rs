@@ -3,8 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::criterion::Stresses;
-use super::criterion::{Criteria, Criterion};
+use super::criterion::{Criteria, Criterion, Stresses};
 use super::hooke::{Moduli, StressAcross};
 use super::measure::Measure;
 use super::softening::AfterLimit;
@@ -12,6 +11,9 @@ use super::surroundings::Surroundings;
 use crate::element::BondDeformation;
 use crate::interface::Bonds;
 use crate::stress::point_strain::Motion;
+
+/// Relative difference below which a stress is as far beyond two surfaces: a bar under tension is on both of Mohr and Coulomb.
+const SAME: f64 = 1e-9;
 
 impl Criteria {
     /// Stresses across the bonds in a motion of a body of which some bonds are left, with the deformations (n_bonds) in it, for each
@@ -74,7 +76,8 @@ impl Criteria {
             let mut farthest = None;
             for (place, of_bonds) in of_criteria.iter().enumerate() {
                 let utilisation = of_bonds.as_ref().map_or(0.0, |it| it[bond]);
-                if utilisation >= farthest.map_or(1.0, |(_, it)| it) {
+                // Of surfaces that the stress is as far beyond the first one decides, tension before shear.
+                if utilisation >= farthest.map_or(1.0, |(_, it)| it * (1.0 + SAME)) {
                     farthest = Some((place, utilisation));
                 }
             }

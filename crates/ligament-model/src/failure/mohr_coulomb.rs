@@ -8,9 +8,10 @@
 //!
 //! (sigma_1 - sigma_3)/(2 cos(phi)) + (sigma_1 + sigma_3)/2 tan(phi) = c,
 //!
-//! in the plane with the principal stresses in it. Of both surfaces it begins by the one that the stress is farther beyond. Pulled bonds take
-//! what `bond-energy` takes. Sheared ones have a fracture energy of their own, and lose their resistance to pressure as well, by the
-//! deformation sqrt(s^2 + gamma^2 k_t/k_n): bonds that stay stiff when pressed are struts across the slip, and the body does not fail.
+//! in the plane with the principal stresses in it. Of both surfaces it begins by the one that the stress is farther beyond, and by tension
+//! where it is as far beyond both. Pulled bonds take what `bond-energy` takes. Sheared ones have a fracture energy of their own, and lose
+//! their resistance to pressure as well, by the deformation sqrt(s^2 + gamma^2 k_t/k_n): bonds that stay stiff when pressed are struts across
+//! the slip, and the body does not fail.
 
 use std::f64::consts::FRAC_PI_2;
 
