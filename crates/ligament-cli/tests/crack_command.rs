@@ -153,10 +153,25 @@ fn a_bar_that_softens_tells_where_that_began() {
         summary["broken_bonds"], 0,
         "the load fell to a fifth, and no bond has lost all its force"
     );
+    let count = |event: &str| rows.iter().filter(|row| row[4] == event).count();
+    assert!(count("begins") >= count("half") && count("half") >= count("quarter"));
+    assert!(count("quarter") >= opened.len());
     assert!(place.call(&["crack", "out"]).status.success());
     let growth = place.table("crack_growth.csv");
     let length = number(&growth[growth.len() - 1][6]);
     assert!((length - 0.04).abs() < 1e-9, "{growth:?}");
+    // Earlier a crack at half of the force is longer than one at a tenth.
+    let step = opened[0].to_string();
+    let length_below = |share: &str| {
+        let output = place.call(&["crack", "out", "--step", &step, "--force-left", share]);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        let lines = place.table("crack.csv");
+        lines.iter().map(|row| number(&row[4])).fold(0.0, f64::max)
+    };
+    assert!(length_below("0.5") > length_below("0.1"));
+    let wrong = place.call(&["crack", "out", "--force-left", "0.3"]);
+    assert_eq!(wrong.status.code(), Some(2));
+    assert!(text(&wrong.stderr).contains("0.5, 0.25, 0.1"));
 }
 
 /// A bar without a slit that carries 1e-3 all over, read along its axis: u = 1e-3 (x - x_0) in each cell, nothing beyond the body.

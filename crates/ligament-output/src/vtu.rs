@@ -38,7 +38,31 @@ pub enum Cell {
     Solid(SolidCell),
 }
 
+impl From<ligament_mesh::Cell> for Cell {
+    fn from(cell: ligament_mesh::Cell) -> Self {
+        match cell {
+            ligament_mesh::Cell::Triangle(points) => Self::Triangle(points),
+            ligament_mesh::Cell::Quadrangle(points) => Self::Quad(points),
+        }
+    }
+}
+
+impl From<SolidCell> for Cell {
+    fn from(cell: SolidCell) -> Self {
+        Self::Solid(cell)
+    }
+}
+
 impl Cell {
+    /// The cell of a body in the plane; `None` for other kinds of cells.
+    pub fn planar(&self) -> Option<ligament_mesh::Cell> {
+        match *self {
+            Self::Triangle(points) => Some(ligament_mesh::Cell::Triangle(points)),
+            Self::Quad(points) => Some(ligament_mesh::Cell::Quadrangle(points)),
+            Self::Vertex(_) | Self::Line(_) | Self::Solid(_) => None,
+        }
+    }
+
     /// The points of the cell.
     pub fn points(&self) -> &[u32] {
         match self {

@@ -11,5 +11,8 @@
 //! All quantities are in SI units. The crate has no files and no printing.
 
 pub mod crack;
+mod opened;
 pub mod surfaces;
 pub mod yielding;
+
+pub use opened::OpenedCells;

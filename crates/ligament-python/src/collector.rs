@@ -154,7 +154,7 @@ impl Observer for Collector<'_> {
         kept.first.step(record, view)?;
         kept.history.append(&history_row(record, view));
         for it in self.told.iter_mut().flat_map(|told| told.step(view)) {
-            if it.now == 2 {
+            if it.opens() {
                 kept.opened.push((self.ends[it.bond], record.step));
             }
         }

@@ -28,8 +28,12 @@ const LARGEST_FOLLOWING: f64 = 2e-9;
 /// is then no measure.
 const LARGEST_AHEAD: f64 = 0.2;
 
-/// Relative residual that an iterative solver may leave, so that the recorded curvature refers to one stiffness.
-const SOLVED: f64 = 1e-6;
+/// Relative residual that an iterative solver may leave. The stiffness of the secants is only near the tangent, and the recorded curvature
+/// belongs to the steps that are taken: with 1e-6 a run needs nearly as many corrections, and three times as long.
+const SOLVED: f64 = 0.3;
+
+/// Number of corrections for which an iterative solver solves for the growth with the load once.
+const GROWTH_EVERY: usize = 5;
 
 /// Largest number of iterations of a solve.
 const ITERATION_LIMIT: usize = 1000;
@@ -85,6 +89,7 @@ fn sought(
 ) -> Result<Attempt, ObserverError> {
     let mut earlier = applicable_precedents(equations, breakage);
     let (mut iterate, mut iterations) = begun(equations, state, breakage, target, &earlier);
+    let mut grown = None;
     let mut mechanisms = Vec::new();
     let mut previous_energy = f64::NAN;
     let faces_close = equations.problem.system.faces_close();
@@ -125,7 +130,8 @@ fn sought(
                 curvature.discard();
             }
             mechanisms.extend(held);
-            next(equations, state, &iterate, curvature, target, is_one_way)
+            let with = (&mut grown, is_one_way);
+            next(equations, state, &iterate, curvature, target, with)
         });
         iterate = match next {
             Ok(next) => next,
@@ -189,37 +195,87 @@ struct Correction {
     load_change: f64,
 }
 
-/// Correction by the stiffness with the recorded curvature.
+/// Growth of a state with the load factor.
+struct Growth {
+    /// Residual force that the loads cause at load factor 1, shape (n_unknowns), N.
+    rate: Vec<f64>,
+    /// Rate of the displacements, shape (n_degrees_of_freedom).
+    growth: Vec<f64>,
+    /// Number of corrections made with it.
+    used: usize,
+}
+
+/// Correction by the stiffness with the recorded curvature. The growth with the load of an earlier correction is near enough for an
+/// iterative solver: the motion reaches its value along any growth.
 fn correction(
     equations: &mut Equations,
     state: &State,
     force: &[f64],
     curvature: &Curvature,
     target: Option<&Target>,
+    last: &mut Option<Growth>,
 ) -> Result<Correction, Unbalanced> {
-    let subdomain = equations.subdomain().clone();
-    let dot = |one: &[f64], other: &[f64]| dot_of_all(&subdomain, one, other);
-    let mut solve = |it| equations.solve(state, it, AllowedResidual::Share(SOLVED));
-    let mut step = curvature.correction(force, &dot, &mut solve)?;
+    let mut step = solved(equations, state, force, curvature)?;
     let mut force = force.to_vec();
     let mut load_change = 0.0;
     if let Some(target) = target {
-        let (mut growth, rate) = line::rate(equations, state, &*target.rate);
-        let solve = |it| equations.solve(state, it, AllowedResidual::Share(SOLVED));
-        let grown = curvature.correction(&rate, &dot, solve)?;
-        for (&dof, value) in equations.degrees_of_freedom().iter().zip(&grown) {
-            growth[dof as usize] = *value;
-        }
+        let is_iterative = equations.solver.tolerance().is_some();
+        let recent = last
+            .take()
+            .filter(|it| is_iterative && it.used < GROWTH_EVERY);
+        let mut grown = match recent {
+            Some(grown) => grown,
+            None => growth(equations, state, curvature, target)?,
+        };
+        grown.used += 1;
         let moved = equations.at_degrees_of_freedom(&step);
-        load_change = target.load_change(&state.displacement, &moved, &growth)?;
-        add(&mut step, load_change, &grown);
-        add(&mut force, load_change, &rate);
+        load_change = target.load_change(&state.displacement, &moved, &grown.growth)?;
+        let dofs = equations.degrees_of_freedom();
+        for (value, &dof) in step.iter_mut().zip(dofs) {
+            *value += load_change * grown.growth[dof as usize];
+        }
+        for (value, rate) in force.iter_mut().zip(&grown.rate) {
+            *value += load_change * rate;
+        }
+        *last = Some(grown);
     }
     Ok(Correction {
         force,
         step,
         load_change,
     })
+}
+
+/// Growth of a state with the load factor, for the bonds of the state.
+fn growth(
+    equations: &mut Equations,
+    state: &State,
+    curvature: &Curvature,
+    target: &Target,
+) -> Result<Growth, Unbalanced> {
+    let (mut growth, rate) = line::rate(equations, state, &*target.rate);
+    let grown = solved(equations, state, &rate, curvature)?;
+    for (&dof, value) in equations.degrees_of_freedom().iter().zip(&grown) {
+        growth[dof as usize] = *value;
+    }
+    Ok(Growth {
+        rate,
+        growth,
+        used: 0,
+    })
+}
+
+/// Change of the unknowns for a residual force, both of shape (n_unknowns).
+fn solved(
+    equations: &mut Equations,
+    state: &State,
+    force: &[f64],
+    curvature: &Curvature,
+) -> Result<Vec<f64>, Unbalanced> {
+    let subdomain = equations.subdomain().clone();
+    let dot = |one: &[f64], other: &[f64]| dot_of_all(&subdomain, one, other);
+    let solve = |it| equations.solve(state, it, AllowedResidual::Share(SOLVED));
+    curvature.correction(force, &dot, solve)
 }
 
 /// Computes the next iterate: corrects the load factor and moves the state along the correction as far as that lowers the energy.
@@ -229,7 +285,7 @@ fn next(
     iterate: &Iterate,
     curvature: &mut Curvature,
     target: Option<&Target>,
-    is_one_way: bool,
+    (last, is_one_way): (&mut Option<Growth>, bool),
 ) -> Result<Iterate, Unbalanced> {
     let force = equations.out_of_balance(state, iterate);
     // A motion reaches its value by a whole correction, for which curvature recorded elsewhere may be wrong.
@@ -237,10 +293,11 @@ fn next(
     if !is_searched {
         curvature.discard();
     }
-    let mut found = correction(equations, state, &force, curvature, target)?;
+    let mut found = correction(equations, state, &force, curvature, target, last)?;
     if equations.dot(&found.force, &found.step) <= 0.0 {
         curvature.discard();
-        found = correction(equations, state, &force, curvature, target)?;
+        *last = None;
+        found = correction(equations, state, &force, curvature, target, last)?;
     }
     let Correction { force, step, .. } = &found;
     state.load_factor += found.load_change;
@@ -268,12 +325,6 @@ fn next(
     let work = equations.dot(&taken, &change);
     curvature.learn(taken, change, work);
     Ok(iterate)
-}
-
-fn add(to: &mut [f64], factor: f64, values: &[f64]) {
-    for (to, value) in to.iter_mut().zip(values) {
-        *to += factor * value;
-    }
 }
 
 /// Softens the bonds of an iterate and measures it.

@@ -4,12 +4,13 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use ligament_output::quantity::{place, quantity};
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::solid_cracks::{SolidCracks, has_solid};
 use ligament_output::results::steps::{StepChoice, StepName};
 use ligament_output::results::{
-    CRACK_FILES, SURFACE_FILES, write_cracks, write_series, write_surface,
+    CRACK_FILES, CrackedBelow, SURFACE_FILES, write_cracks, write_series, write_surface,
 };
 use ligament_post::surfaces::CrackSurface;
 
@@ -22,14 +23,15 @@ pub(super) const EXAMPLES: &str = "\
 Examples:
   ligament crack results/plate                the cracks of the last state
   ligament crack results/plate --step peak
+  ligament crack results/beam --force-left 0.5  bonds that soften are cracked at half of their force
   ligament crack results/beam --iso 0.3       of a solid, the surface on which the damage is 0.3
 
-Writes crack.csv and crack.vtu (the lines of the step), crack_tips.csv (the tips over the load) and crack_growth.csv (length,
-area and energy release rate over the load) into the folder. A crack runs along the faces between the cells of points
+Writes crack.csv and crack.vtu (the lines of the step), opened.vtu (the cells of a mesh, opened along them), crack_tips.csv (the
+tips over the load) and crack_growth.csv (length, area and energy release rate over the load) into the folder. A crack runs along the faces between the cells of points
 whose bond broke; what is nearer than a horizon is one crack, and what stays shorter is none.
 
-Of a solid the crack is a surface of triangles: crack.vtu and crack.stl have it with its opening, opened.vtu has the cells of
-a mesh opened along it, and crack_growth.csv its area over the load. --step all writes the surface and the opened cells of all
+Of a solid the crack is a surface of triangles: crack.vtu and crack.stl have it with its opening, and crack_growth.csv its area
+over the load. --step all writes the surface and the opened cells of all
 stored steps, crack.pvd and opened.pvd. --iso writes another surface, where a field has a value, and nothing else: iso.vtu has its
 triangles with all fields of the points; with --step all iso_NNNN.vtu and iso.pvd.";
 
@@ -42,6 +44,9 @@ pub struct CrackArgs {
     /// Step of the crack: a number, first (breakage), peak or last; of a solid also all
     #[arg(long, value_name = "STEP", default_value = "last")]
     pub step: StepChoice,
+    /// Share of the force that bonds which soften have left when they count as cracked
+    #[arg(long, value_name = "SHARE", default_value = "0.1", value_parser = cracked_below(), conflicts_with = "iso")]
+    pub force_left: CrackedBelow,
     /// Write the surface in a solid on which a field has this value, in SI units, into iso.vtu
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true, value_parser = number)]
     pub iso: Option<f64>,
@@ -65,7 +70,7 @@ impl CrackArgs {
             CRACK_FILES[2],
             CRACK_FILES[3]
         );
-        let cracks = StoredCracks::open(&self.results)?;
+        let cracks = StoredCracks::open_below(&self.results, self.force_left)?;
         let steps = self.step.steps(&self.results, &cracks.steps())?;
         let step = steps.first().map_or(0, |it| it.step);
         let lines = write_cracks(&self.results, &cracks, step)?;
@@ -99,13 +104,23 @@ impl CrackArgs {
     }
 }
 
+/// Reads the share of a force from those that `softening.csv` has.
+fn cracked_below() -> impl TypedValueParser<Value = CrackedBelow> {
+    let names = PossibleValuesParser::new(["0.5", "0.25", "0.1"]);
+    names.map(|name| match name.as_str() {
+        "0.5" => CrackedBelow::Half,
+        "0.25" => CrackedBelow::Quarter,
+        _ => CrackedBelow::Tenth,
+    })
+}
+
 /// Parts of a surface that are listed one by one.
 const TOLD: usize = 10;
 
 impl CrackArgs {
     /// The crack of a solid.
     fn surface(self) -> anyhow::Result<()> {
-        let cracks = SolidCracks::open(&self.results)?;
+        let cracks = SolidCracks::open_below(&self.results, self.force_left)?;
         let mut out = terminal::stdout();
         let choice = match self.step {
             StepChoice::All => {

@@ -83,7 +83,7 @@ pub struct PlotArgs {
     /// Values at the ends of the colour bar, in SI units [default: those of the outputs drawn]
     #[arg(long, value_name = "MIN,MAX", allow_hyphen_values = true, value_parser = range)]
     pub range: Option<[f64; 2]>,
-    /// Colours [default: viridis; diverging for values of both signs]
+    /// Colours [default: viridis; orange for damage, diverging for values of both signs]
     #[arg(long, value_parser = maps())]
     pub map: Option<ColourMap>,
     /// Bodies in a row

@@ -149,7 +149,7 @@ columns! { "First columns of the table of bonds that soften."
     "load_factor" "-" ANY "load factor of the step";
     "displacement" "m" ANY "displacement of the load";
     "reaction" "N" ANY "force of the load";
-    "event" "" ANY "`begins` or `opens`";
+    "event" "" ANY "`begins`, `half`, `quarter` or `opens`";
 }
 
 columns! { "The last column of the table of bonds that soften."

@@ -3,6 +3,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `crack.csv`, `crack.vtu` | the lines of a step |
+//! | `opened.vtu` | the cells of a mesh, opened along the lines, with the displacement and the damage of the step |
 //! | `crack_tips.csv` | the tips in every record of the history in which cracks grew |
 //! | `crack_growth.csv` | length and area of all cracks there, and energies over the new area |
 
@@ -14,17 +15,20 @@ use ligament_post::crack::CrackLine;
 use super::columns::{CRACK, CRACK_TIPS, names};
 use super::crack_growth::{CrackSize, write_growth};
 use super::cracks::{CrackRecord, StoredCracks};
+use super::opened_files::{OPENED, write_opened_plane};
+use super::surface_files::fields_until;
 use crate::Error;
 use crate::atomic::remove_file;
 use crate::csv::{Table, Value};
 use crate::vtu::{self, Cell, Field, UnstructuredGrid};
 
 /// Names of the files of cracks beside the results of a run.
-pub const CRACK_FILES: [&str; 4] = [
+pub const CRACK_FILES: [&str; 5] = [
     "crack.csv",
     "crack.vtu",
     "crack_tips.csv",
     "crack_growth.csv",
+    OPENED,
 ];
 
 /// A record of the history with its cracks.
@@ -46,6 +50,14 @@ pub fn write_cracks(
     let lines = cracks.lines(step);
     write_lines(&folder.join(CRACK_FILES[0]), step, &lines)?;
     write_grid(&folder.join(CRACK_FILES[1]), &lines)?;
+    let opened = folder.join(CRACK_FILES[4]);
+    let has_cells = match fields_until(folder, step)? {
+        Some(fields) => write_opened_plane(&opened, cracks, step, &fields)?,
+        None => false,
+    };
+    if !has_cells {
+        remove_file(&opened)?;
+    }
     let grown: Vec<WithLines<'_>> = (cracks.grown_records().into_iter())
         .map(|record| WithLines {
             lines: cracks.lines_at(record),

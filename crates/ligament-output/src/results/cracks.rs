@@ -7,11 +7,12 @@ use ligament_analysis::history::StepRecord;
 use ligament_analysis::result_fields::{HORIZON, VOLUME};
 use ligament_mesh::Cell;
 use ligament_model::{BodyGrid, Canvas};
-use ligament_post::crack::{CrackLine, Faces, Part, crack_lines};
+use ligament_post::OpenedCells;
+use ligament_post::crack::{CrackLine, Faces, Part, crack_lines, opened_cells};
 
 use super::outputs::{OutputKind, Outputs, cut_pairs};
 use super::point_fields::location;
-use super::softening_table;
+use super::softening_table::{self, CrackedBelow};
 use crate::csv::read::{Row, Sheet};
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation, vtu};
@@ -74,12 +75,21 @@ pub struct CrackRecord {
 const MOST_RECORDS: usize = 500;
 
 impl StoredCracks {
-    /// Reads the cracks from the folder of a run.
+    /// Reads the cracks from the folder of a run; bonds that soften are cracked below a tenth of their force.
+    ///
+    /// # Errors
+    ///
+    /// As for [`open_below`](Self::open_below).
+    pub fn open(folder: &Path) -> Result<Self, Error> {
+        Self::open_below(folder, CrackedBelow::default())
+    }
+
+    /// Reads the cracks from the folder of a run; bonds that soften are cracked below a share of their force.
     ///
     /// # Errors
     ///
     /// If the folder has no results of a run under loads, or a file cannot be used.
-    pub fn open(folder: &Path) -> Result<Self, Error> {
+    pub fn open_below(folder: &Path, cracked: CrackedBelow) -> Result<Self, Error> {
         let outputs = Outputs::list(folder)?;
         let first = outputs.files.first_key_value();
         let Some((_, path)) = first.filter(|_| outputs.kind == OutputKind::Steps) else {
@@ -97,7 +107,7 @@ impl StoredCracks {
         let cut = cut_pairs(folder)?.unwrap_or_default();
         let breaks = (1..).zip(broken_pairs(folder)?);
         let breaks = breaks.map(|(order, tags)| (tags, Moment::Breakage(order)));
-        let all = breaks.chain(softened_pairs(folder)?);
+        let all = breaks.chain(softened_pairs(folder, cracked)?);
         let opened = all.filter_map(|(tags, moment)| Some((place(tags)?, moment)));
         let history = Sheet::read(folder.join("history.csv"))?;
         Ok(Self {
@@ -150,16 +160,37 @@ impl StoredCracks {
 
     /// The cracks in the state of a record.
     pub fn lines_at(&self, record: &CrackRecord) -> Vec<CrackLine> {
+        crack_lines(&self.faces, &self.parts(Some(record)), &self.horizon)
+    }
+
+    /// Cells between the points (n_points, m) of the body, opened along the cracks and the pre-cracks in the state of a step, or of the last
+    /// step before it.
+    pub fn opened_cells(
+        &self,
+        positions: &[[f64; 2]],
+        cells: &[Cell],
+        step: usize,
+    ) -> OpenedCells<2, Cell> {
+        let record = self.records.iter().take_while(|it| it.step <= step).last();
+        let parts = self.parts(record);
+        opened_cells((positions, cells), |pair| {
+            let face = self.faces.between(pair);
+            face.is_some_and(|it| parts[it] != Part::Whole)
+        })
+    }
+
+    /// State of the faces (n_faces) in that of a record; before the first load without one.
+    fn parts(&self, record: Option<&CrackRecord>) -> Vec<Part> {
         let mut parts = vec![Part::Whole; self.faces.len()];
         for &face in &self.cut {
             parts[face] = Part::PreCrack;
         }
         for (face, moment) in &self.opened {
-            if record.is_after(*moment) {
+            if record.is_some_and(|it| it.is_after(*moment)) {
                 parts[*face] = Part::Open;
             }
         }
-        crack_lines(&self.faces, &parts, &self.horizon)
+        parts
     }
 
     /// The records with newly opened faces; of very many an even selection with the last.
@@ -248,13 +279,16 @@ pub(super) fn broken_pairs(folder: &Path) -> Result<Vec<[i64; 2]>, Error> {
     sheet.rows(|row| ends(&sheet, row))
 }
 
-/// Tags of the ends of the softening bonds that opened, with the moment of opening.
-pub(super) fn softened_pairs(folder: &Path) -> Result<Vec<([i64; 2], Moment)>, Error> {
+/// Tags of the ends of the softening bonds whose force fell below a share, with the moment in which it did.
+pub(super) fn softened_pairs(
+    folder: &Path,
+    cracked: CrackedBelow,
+) -> Result<Vec<([i64; 2], Moment)>, Error> {
     let Some(sheet) = table(&folder.join(softening_table::FILE))? else {
         return Ok(Vec::new());
     };
     let rows = sheet.rows(|row| {
-        let opens = row.value::<String>("event")? == softening_table::EVENTS[1];
+        let opens = row.value::<String>("event")? == cracked.event();
         let moment = Moment::Step(row.value("step")?);
         Ok(opens.then_some((ends(&sheet, row)?, moment)))
     })?;
@@ -290,7 +324,7 @@ impl StoredBody {
     fn read(path: &Path) -> Result<Self, Error> {
         let file = VtuFile::open(path)?;
         let corners = file.points_in_plane()?;
-        let cells: Option<Vec<Cell>> = file.cells()?.iter().map(planar).collect();
+        let cells: Option<Vec<Cell>> = file.cells()?.iter().map(vtu::Cell::planar).collect();
         let cells =
             cells.ok_or_else(|| file.strange("its cells are no triangles or quadrangles"))?;
         let area: f64 = cells.iter().map(|cell| cell.area(&corners).abs()).sum();
@@ -310,14 +344,6 @@ impl StoredBody {
             thickness: volumes.iter().sum::<f64>() / area,
             places: tags.into_iter().zip(0..).collect(),
         })
-    }
-}
-
-fn planar(cell: &vtu::Cell) -> Option<Cell> {
-    match *cell {
-        vtu::Cell::Triangle(corners) => Some(Cell::Triangle(corners)),
-        vtu::Cell::Quad(corners) => Some(Cell::Quadrangle(corners)),
-        vtu::Cell::Vertex(_) | vtu::Cell::Line(_) | vtu::Cell::Solid(_) => None,
     }
 }
 

@@ -4,7 +4,7 @@ use std::iter::repeat_n;
 use std::path::Path;
 
 use ligament_analysis::result_fields::{DISPLACEMENT, ModelPoints};
-use ligament_mesh::{Cell, SolidCell};
+use ligament_mesh::SolidCell;
 use ligament_model::subdomain::Subdomain;
 use ligament_model::{BodyGrid, Canvas, box_corners, raised};
 
@@ -185,13 +185,9 @@ fn at<T: Copy>(values: &[T], points: &[u32]) -> Vec<T> {
 
 /// The cells of a canvas; cells around points have corners of their own, in the order of the points.
 fn cells(canvas: &Canvas) -> Vec<vtu::Cell> {
-    let planar = |cell: &Cell| match *cell {
-        Cell::Triangle(corners) => vtu::Cell::Triangle(corners),
-        Cell::Quadrangle(corners) => vtu::Cell::Quad(corners),
-    };
     match canvas {
-        Canvas::Between(cells) => cells.iter().map(planar).collect(),
-        Canvas::Solid(cells) => cells.iter().copied().map(vtu::Cell::Solid).collect(),
+        Canvas::Between(cells) => cells.iter().copied().map(vtu::Cell::from).collect(),
+        Canvas::Solid(cells) => cells.iter().copied().map(vtu::Cell::from).collect(),
         Canvas::Around(squares) => (0..squares.len() as u32)
             .map(|cell| vtu::Cell::Quad(std::array::from_fn(|it| 4 * cell + it as u32)))
             .collect(),

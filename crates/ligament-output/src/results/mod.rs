@@ -5,7 +5,7 @@
 //! | `history.csv` | one row per load step, or event of the exact path |
 //! | `iterations.csv` | one row per Newton-Raphson iteration |
 //! | `breaks.csv` | one row per broken bond, in the order of breaking |
-//! | `softening.csv` | one row when a bond begins to soften, and one when a crack is open at it; only where bonds soften |
+//! | `softening.csv` | one row when a bond begins to soften, and one when its force falls below each of three shares; only where bonds soften |
 //! | `criteria.csv` | one row per failure criterion: its measure and its law after the limit |
 //! | `model.vtu` | points and bonds at the start, limits of the bonds; at the end their largest utilisations |
 //! | `timings.csv` | the time of each load step, in a file of its own, so that histories can be compared bitwise |
@@ -65,7 +65,7 @@ pub use point_fields::{PointFields, location, point_fields};
 pub use rule::{Time, WriteRule};
 pub use so_far::OutputState;
 use softening_table::SofteningTable;
-pub use softening_table::{OPEN, SoftenedBond, SoftenedBonds};
+pub use softening_table::{CrackedBelow, SoftenedBond, SoftenedBonds};
 pub use surface_files::{SURFACE_FILES, write_series, write_surface};
 use tables::{CRITERIA_FILE, Tables};
 pub use tables::{

@@ -1,15 +1,20 @@
-//! File of the cells of a solid, opened along its cracks.
+//! File of the cells of a body, opened along its cracks.
 
 use std::path::Path;
 
 use ligament_analysis::result_fields::{DAMAGE, DISPLACEMENT, ResultField, STRAIN_ENERGY_DENSITY};
-use ligament_model::Canvas;
+use ligament_model::{Canvas, raised};
+use ligament_post::OpenedCells;
 use ligament_post::surfaces::opened_cells;
 
+use super::cracks::StoredCracks;
 use super::solid_cracks::SolidCracks;
 use crate::vtu::read::VtuFile;
 use crate::vtu::{self, Cell, Field, UnstructuredGrid};
 use crate::{Error, FieldLocation};
+
+/// Name of the file of a step.
+pub(super) const OPENED: &str = "opened.vtu";
 
 /// Fields of the points in the file, beside the displacement.
 const FIELDS: [&ResultField; 2] = [&DAMAGE, &STRAIN_ENERGY_DENSITY];
@@ -19,7 +24,7 @@ pub(super) fn has_cells(cracks: &SolidCracks) -> bool {
     matches!(cracks.body.grid.canvas, Canvas::Solid(_))
 }
 
-/// Writes the cells cut by the crack of a step, with stored fields: corners on the crack have the mean of the points on their side.
+/// Writes the cells of a solid, cut by the crack of a step, with stored fields.
 pub(super) fn write_opened(
     path: &Path,
     cracks: &SolidCracks,
@@ -32,26 +37,46 @@ pub(super) fn write_opened(
     };
     let links = cracks.links(step);
     let opened = opened_cells((&grid.positions, cells), &cracks.tetrahedra, &links);
-    let mean = |points: &Vec<u32>, value: &dyn Fn(usize) -> f64| {
-        let sum: f64 = points.iter().map(|it| value(*it as usize)).sum();
-        sum / points.len() as f64
+    let places = opened.positions.clone();
+    write(path, opened, &places, fields)
+}
+
+/// Writes the cells of a body in the plane, cut by the cracks of a step, with stored fields; returns whether it has cells between points.
+pub(super) fn write_opened_plane(
+    path: &Path,
+    cracks: &StoredCracks,
+    step: usize,
+    fields: &VtuFile,
+) -> Result<bool, Error> {
+    let cells: Option<Vec<_>> = fields.cells()?.iter().map(Cell::planar).collect();
+    let (Some(cells), Some(_)) = (cells, fields.integers(FieldLocation::Point, "node")?) else {
+        return Ok(false);
     };
-    let displacement = cracks.body.vectors(fields, DISPLACEMENT.name)?;
-    let follows = opened.follows.iter();
-    let moved: Vec<[f64; 3]> = follows
-        .map(|points| [0, 1, 2].map(|axis| mean(points, &|it| displacement[it][axis])))
+    let opened = cracks.opened_cells(&fields.points_in_plane()?, &cells, step);
+    let places = raised(&opened.positions);
+    write(path, opened, &places, fields)?;
+    Ok(true)
+}
+
+/// Writes opened cells with their corners at places (n_corners, m): corners on the crack have the mean of the points on their side.
+fn write<const D: usize, C: Into<Cell>>(
+    path: &Path,
+    opened: OpenedCells<D, C>,
+    places: &[[f64; 3]],
+    fields: &VtuFile,
+) -> Result<(), Error> {
+    let displacement = fields.finite_numbers(FieldLocation::Point, DISPLACEMENT.name)?;
+    let along = [0, 1, 2].map(|axis| opened.means(|point| displacement[3 * point + axis]));
+    let moved: Vec<[f64; 3]> = (0..places.len())
+        .map(|corner| [0, 1, 2].map(|axis| along[axis][corner]))
         .collect();
     let mut named = Vec::new();
     for ResultField { name, .. } in FIELDS {
         if let Some(values) = fields.numbers(FieldLocation::Point, name)? {
-            let follows = opened.follows.iter();
-            let values: Vec<f64> = follows
-                .map(|points| mean(points, &|it| values[it]))
-                .collect();
-            named.push((*name, values));
+            named.push((*name, opened.means(|point| values[point])));
         }
     }
-    let cells: Vec<Cell> = opened.cells.iter().copied().map(Cell::Solid).collect();
+    let cells: Vec<Cell> = opened.cells.into_iter().map(Into::into).collect();
     let of: Vec<i64> = opened.of.iter().map(|it| i64::from(*it)).collect();
     let mut point_fields = vec![Field::vector(DISPLACEMENT.name, &moved)];
     point_fields.extend(
@@ -60,7 +85,7 @@ pub(super) fn write_opened(
             .map(|(name, values)| Field::scalar(name, values)),
     );
     let grid = UnstructuredGrid {
-        points: &opened.positions,
+        points: places,
         cells: &cells,
         point_fields: &point_fields,
         cell_fields: &[Field::integer("cell_of_mesh", &of)],

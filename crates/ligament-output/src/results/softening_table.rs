@@ -1,4 +1,4 @@
-//! `softening.csv`: one row when a bond begins to soften, and one when its force has fallen so far that a crack is open.
+//! `softening.csv`: one row when a bond begins to soften, and one when its force has fallen below each of three shares of that at the limit.
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{StepRecord, View};
@@ -16,11 +16,44 @@ use crate::written::Written;
 /// Name of the file.
 pub(super) const FILE: &str = "softening.csv";
 
-/// Share of the force at the limit below which a crack is open at a bond that softens in opening.
-pub const OPEN: f64 = 0.1;
+/// Words for the events of a row.
+const EVENTS: [&str; 4] = ["begins", "half", "quarter", "opens"];
 
-/// Words for the two events of a row.
-pub(super) const EVENTS: [&str; 2] = ["begins", "opens"];
+/// Share of the force at the limit below which a bond that softens in opening counts as cracked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum CrackedBelow {
+    /// Half of the force.
+    Half,
+    /// A quarter of the force.
+    Quarter,
+    /// A tenth of the force, below which a crack is called open.
+    #[default]
+    Tenth,
+}
+
+impl CrackedBelow {
+    /// All shares, in the order of their events.
+    pub const ALL: [Self; 3] = [Self::Half, Self::Quarter, Self::Tenth];
+
+    /// The share.
+    pub fn share(self) -> f64 {
+        match self {
+            Self::Half => 0.5,
+            Self::Quarter => 0.25,
+            Self::Tenth => 0.1,
+        }
+    }
+
+    /// Number of events of a bond whose force has fallen below the share.
+    fn n_events(self) -> u8 {
+        2 + self as u8
+    }
+
+    /// Word of the event.
+    pub(super) fn event(self) -> &'static str {
+        EVENTS[usize::from(self.n_events() - 1)]
+    }
+}
 
 /// The table of a run whose bonds soften.
 pub(super) struct SofteningTable {
@@ -29,7 +62,7 @@ pub(super) struct SofteningTable {
     softened: SoftenedBonds,
 }
 
-/// Events of the softening bonds that were reported: none, the beginning of softening, or an open crack.
+/// Events of the softening bonds that were reported: the beginning of softening, and the shares below which the force fell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SoftenedBonds {
     /// Number of reported events of each bond, shape (n_bonds).
@@ -43,10 +76,17 @@ pub struct SoftenedBond {
     pub bond: usize,
     /// Number of the criterion.
     pub criterion: usize,
-    /// Number of events reported before, 0 or 1.
-    pub before: u8,
-    /// Number of events now: 1 for the beginning of softening, 2 with an open crack.
-    pub now: u8,
+    /// Number of events reported before.
+    before: u8,
+    /// Number of events now: 1 for the beginning of softening, more below the shares of the force.
+    now: u8,
+}
+
+impl SoftenedBond {
+    /// Whether the force of the bond has fallen below a tenth now: a crack is open.
+    pub fn opens(&self) -> bool {
+        self.now == CrackedBelow::Tenth.n_events()
+    }
 }
 
 /// State of the table in a checkpoint.
@@ -157,11 +197,14 @@ impl SoftenedBonds {
             let weakened = view.criteria.list[criterion].measure.weakens();
             let opens = matches!(weakened, Weakened::Opening | Weakened::Whole);
             for (bond, &largest) in largest.iter().enumerate() {
-                if largest <= 1.0 || self.told[bond] == 2 {
+                if largest <= 1.0 || usize::from(self.told[bond]) == EVENTS.len() {
                     continue;
                 }
                 let force = softening.bond(view.criteria, criterion, bond).force;
-                let now = 1 + u8::from(opens && force < OPEN);
+                let below = CrackedBelow::ALL
+                    .iter()
+                    .filter(|it| opens && force < it.share());
+                let now = 1 + below.count() as u8;
                 if now > self.told[bond] {
                     changed.push((largest, bond, criterion, now));
                 }

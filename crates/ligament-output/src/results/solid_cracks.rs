@@ -8,6 +8,7 @@ use ligament_post::surfaces::{CrackSurface, Link, Links, Tetrahedra, crack_surfa
 
 use super::cracks::{CrackRecord, Moment, broken_pairs, grown, softened_pairs};
 use super::outputs::{OutputKind, Outputs, bonded_pairs, cut_pairs};
+use super::softening_table::CrackedBelow;
 use super::solid_body::{SolidBody, is_solid};
 use crate::Error;
 use crate::csv::read::Sheet;
@@ -47,12 +48,21 @@ pub fn has_solid(folder: &Path) -> Result<bool, Error> {
 }
 
 impl SolidCracks {
-    /// Reads the cracks from the folder of a run.
+    /// Reads the cracks from the folder of a run; bonds that soften are cracked below a tenth of their force.
+    ///
+    /// # Errors
+    ///
+    /// As for [`open_below`](Self::open_below).
+    pub fn open(folder: &Path) -> Result<Self, Error> {
+        Self::open_below(folder, CrackedBelow::default())
+    }
+
+    /// Reads the cracks from the folder of a run; bonds that soften are cracked below a share of their force.
     ///
     /// # Errors
     ///
     /// If the folder has no results of a solid under loads, or a file cannot be used.
-    pub fn open(folder: &Path) -> Result<Self, Error> {
+    pub fn open_below(folder: &Path, cracked: CrackedBelow) -> Result<Self, Error> {
         let outputs = Outputs::list(folder)?;
         let first = outputs.files.first_key_value();
         let Some((_, path)) = first.filter(|_| outputs.kind == OutputKind::Steps) else {
@@ -65,7 +75,7 @@ impl SolidCracks {
         let body = SolidBody::read(&file)?;
         let horizon = file.finite_numbers(body.location, HORIZON.name)?;
         let records = Sheet::read(folder.join("history.csv"))?.rows(CrackRecord::read)?;
-        let opened = opened(folder, &body, &records)?;
+        let opened = opened((folder, cracked), &body, &records)?;
         let cut = cut_pairs(folder)?.unwrap_or_default();
         let cut: Vec<[u32; 2]> = cut.into_iter().filter_map(|it| body.points(it)).collect();
         let parted: HashSet<[u32; 2]> = (opened.iter().map(|it| it.0))
@@ -159,14 +169,14 @@ impl SolidCracks {
 
 /// Separated pairs in their order, with the moment and the step of separation.
 fn opened(
-    folder: &Path,
+    (folder, cracked): (&Path, CrackedBelow),
     body: &SolidBody,
     records: &[CrackRecord],
 ) -> Result<Vec<([u32; 2], Moment, usize)>, Error> {
     let breaks = (1..).zip(broken_pairs(folder)?);
     let breaks = breaks.map(|(order, tags)| (tags, Moment::Breakage(order)));
     let mut opened = Vec::new();
-    for (tags, moment) in breaks.chain(softened_pairs(folder)?) {
+    for (tags, moment) in breaks.chain(softened_pairs(folder, cracked)?) {
         let step = match moment {
             Moment::Step(step) => step,
             // During a run, broken bonds of a step may be written before the step's row.

@@ -84,7 +84,7 @@ pub fn write_series(folder: &Path, cracks: &SolidCracks) -> Result<usize, Error>
 }
 
 /// The stored fields of a step, or of the last step before it with fields.
-fn fields_until(folder: &Path, step: usize) -> Result<Option<VtuFile>, Error> {
+pub(super) fn fields_until(folder: &Path, step: usize) -> Result<Option<VtuFile>, Error> {
     let outputs = Outputs::list(folder)?;
     let path = outputs.files.range(..=step).next_back();
     path.map(|(_, path)| VtuFile::open(path)).transpose()

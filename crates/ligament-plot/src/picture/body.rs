@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::fields::DISPLACEMENT;
 use ligament_output::vtu::Cell;
 use ligament_output::vtu::read::VtuFile;
@@ -66,7 +67,33 @@ impl Body {
         })
     }
 
-    /// Whether the cells of the body share their corners: then cracks do not open between them.
+    /// Cuts the cells of a mesh along the cracks in the state of a step, so that they open with the displacement, and gives the new
+    /// corners the means of `values` (n_points); other bodies stay as they are.
+    pub(super) fn open(
+        &mut self,
+        cracks: &StoredCracks,
+        step: usize,
+        values: Option<&mut Vec<f64>>,
+    ) {
+        let cells: Option<Vec<_>> = self.cells.iter().map(Cell::planar).collect();
+        let Some(cells) = cells.filter(|_| self.is_mesh()) else {
+            return;
+        };
+        let opened = cracks.opened_cells(&self.reference, &cells, step);
+        let moved = [0, 1].map(|axis| opened.means(|point| self.displacement[point][axis]));
+        self.displacement = moved[0]
+            .iter()
+            .zip(&moved[1])
+            .map(|(&x, &y)| [x, y])
+            .collect();
+        if let Some(values) = values {
+            *values = opened.means(|point| values[point]);
+        }
+        self.cells = opened.cells.into_iter().map(Cell::from).collect();
+        self.reference = opened.positions;
+    }
+
+    /// Whether the cells of the body share their corners.
     pub(super) fn is_mesh(&self) -> bool {
         self.tagged == FieldLocation::Point
     }

@@ -1,6 +1,7 @@
 //! Colours of the bands.
 
-use colorous::{CIVIDIS, Color, GREYS, RED_BLUE, VIRIDIS};
+use colorous::{CIVIDIS, Color, GREYS, ORANGE_RED, RED_BLUE, VIRIDIS};
+use ligament_output::results::fields::DAMAGE;
 
 use crate::drawing::Rgb;
 
@@ -13,13 +14,26 @@ pub enum ColourMap {
     Cividis,
     /// Light to dark grey.
     Grey,
+    /// Nearly white over orange to dark red.
+    Orange,
     /// Blue over white to red, with white at zero.
     Diverging,
 }
 
 impl ColourMap {
     /// All maps.
-    pub const ALL: [Self; 4] = [Self::Viridis, Self::Cividis, Self::Grey, Self::Diverging];
+    pub const ALL: [Self; 5] = [
+        Self::Viridis,
+        Self::Cividis,
+        Self::Grey,
+        Self::Orange,
+        Self::Diverging,
+    ];
+
+    /// The usual map of a field by its name, on which sound material is light; None where the map follows from the values.
+    pub(super) fn usual(field: &str) -> Option<Self> {
+        field.starts_with(DAMAGE.name).then_some(Self::Orange)
+    }
 
     /// The name of the map on the command line, and its colours in words.
     pub fn words(self) -> [&'static str; 2] {
@@ -27,6 +41,7 @@ impl ColourMap {
             Self::Viridis => ["viridis", "Dark blue over green to yellow"],
             Self::Cividis => ["cividis", "Dark blue over grey to yellow"],
             Self::Grey => ["grey", "Light to dark grey"],
+            Self::Orange => ["orange", "Nearly white over orange to dark red"],
             Self::Diverging => ["diverging", "Blue over white to red, with white at zero"],
         }
     }
@@ -38,6 +53,7 @@ impl ColourMap {
             Self::Cividis => CIVIDIS.eval_continuous(share),
             // White would be taken for what is outside the body.
             Self::Grey => GREYS.eval_continuous(0.1 + 0.9 * share),
+            Self::Orange => ORANGE_RED.eval_continuous(share),
             Self::Diverging => RED_BLUE.eval_continuous(1.0 - share),
         };
         [r, g, b]

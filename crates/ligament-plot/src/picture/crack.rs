@@ -37,23 +37,15 @@ pub(super) struct Crack {
 }
 
 impl Crack {
-    /// Reads what a pre-crack cut in a run, and what broke if that is drawn.
-    pub(super) fn read(
-        folder: &Path,
-        follows_path: bool,
-        with_broken: bool,
-    ) -> Result<Self, PictureError> {
+    /// Reads what a pre-crack cut in a run, and what broke.
+    pub(super) fn read(folder: &Path, follows_path: bool) -> Result<Self, PictureError> {
         let cut = cut_pairs(folder)?.unwrap_or_default();
         let cut = (!cut.is_empty()).then(|| Broken {
             name: "pre-crack".to_owned(),
             colour: CUT,
             bonds: cut.into_iter().map(|ends| (ends, 0)).collect(),
         });
-        let broken = if with_broken {
-            broken(&Sheet::read(folder.join("breaks.csv"))?)?
-        } else {
-            Vec::new()
-        };
+        let broken = broken(&Sheet::read(folder.join("breaks.csv"))?)?;
         Ok(Self {
             kinds: cut.into_iter().chain(broken).collect(),
             breaks_after_output: follows_path,
@@ -119,7 +111,7 @@ mod tests {
     fn crack(text: &str, follows_path: bool) -> Crack {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("breaks.csv"), text).unwrap();
-        let mut crack = Crack::read(folder.path(), follows_path, true).unwrap();
+        let mut crack = Crack::read(folder.path(), follows_path).unwrap();
         paint(vec![&mut crack], false);
         crack
     }

@@ -6,6 +6,7 @@ use ligament_output::vtu::Cell;
 use super::PictureError;
 use super::body::{Body, MODE_SHARE, common_scale};
 use super::colour_bar::ColourBar;
+use super::colour_map::ColourMap;
 use super::field::{Field, relate_to_largest};
 use super::panel::{Panel, Scale};
 use super::strip::{Entry, Strip};
@@ -140,7 +141,8 @@ impl Maps {
             .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
             .ok_or_else(|| PictureError::NoValues(self.quantity.clone()))?;
         let asked = self.are_modes.then_some([range[0].signum().min(0.0), 1.0]);
-        let scale = Scale::new(range, asked, None, None);
+        let map = ColourMap::usual(&self.quantity);
+        let scale = Scale::new(range, asked, None, map);
         let unit = if self.are_modes { "-" } else { self.unit };
         let strip = Strip {
             scale: Some(&scale),

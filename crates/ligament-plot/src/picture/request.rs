@@ -38,7 +38,7 @@ impl FieldRequest {
 /// What is drawn of solids, and from where.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SolidRequest {
-    /// The side from which they are seen; None: obliquely, a section from its normal.
+    /// The side from which they are seen; None: obliquely, a section from its normal, across y from in front.
     pub view: Option<View>,
     /// A plane, of which the section is drawn.
     pub section: Option<Section>,
@@ -49,7 +49,12 @@ pub struct SolidRequest {
 impl SolidRequest {
     /// The side from which solids are seen.
     pub(super) fn seen_from(&self) -> View {
-        let of_section = || self.section.map(|it| View::along(it.normal));
+        // A plane across y is seen from in front, with x to the right.
+        let from = |[x, y, z]: [f64; 3]| match x == 0.0 && z == 0.0 {
+            true => [0.0, -y.abs(), 0.0],
+            false => [x, y, z],
+        };
+        let of_section = || self.section.map(|it| View::along(from(it.normal)));
         self.view.or_else(of_section).unwrap_or(View::OBLIQUE)
     }
 

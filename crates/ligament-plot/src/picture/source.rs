@@ -38,7 +38,7 @@ pub(super) struct Source {
     pub(super) crack: Option<Crack>,
     /// Lines that are drawn over the body in all steps.
     lines: Vec<Lines>,
-    /// Cracks that are drawn as lines.
+    /// Cracks of a body in the plane under loads.
     cracks: Option<StoredCracks>,
     /// Cracks of a solid that are drawn.
     solid_cracks: Option<SolidCracks>,
@@ -46,8 +46,6 @@ pub(super) struct Source {
     drawing: Option<CrackDrawing>,
     /// What is drawn of solids.
     solid: SolidRequest,
-    /// Whether broken bonds are drawn. A pre-crack in a mesh, whose cells hide it, is drawn in any case.
-    shows_broken: bool,
     /// Frequencies of modes by number, Hz.
     frequencies: BTreeMap<usize, f64>,
 }
@@ -154,7 +152,6 @@ impl Source {
             solid_cracks: None,
             drawing: request.crack,
             solid: request.solid,
-            shows_broken: request.crack == Some(CrackDrawing::Bonds),
             frequencies: BTreeMap::new(),
         };
         if source.outputs.kind == OutputKind::Modes {
@@ -187,9 +184,12 @@ impl Source {
             return Ok(source);
         }
         let follows_path = loading.is_some_and(|it| it.follows_path);
-        source.crack = Some(Crack::read(folder, follows_path, source.shows_broken)?);
-        if request.crack == Some(CrackDrawing::Lines) {
-            source.lines.push(Lines::of_precracks(folder)?);
+        match request.crack {
+            Some(CrackDrawing::Lines) => source.lines.push(Lines::of_precracks(folder)?),
+            Some(CrackDrawing::Bonds) => source.crack = Some(Crack::read(folder, follows_path)?),
+            None => {}
+        }
+        if !has_solid(folder)? {
             source.cracks = Some(StoredCracks::open(folder)?);
         }
         for (place, table) in request.lines.iter().enumerate() {
@@ -283,10 +283,15 @@ impl Output<'_> {
         if self.source.outputs.kind == OutputKind::Modes {
             field.iter_mut().for_each(relate_to_largest);
         }
+        let mut body = Body::read(&file)?;
+        if let Some(cracks) = self.source.cracks.as_ref().filter(|_| !self.draws_lines()) {
+            let values = field.as_mut().map(|it| &mut it.values);
+            body.open(cracks, self.chosen.number, values);
+        }
         Ok(Panel {
             title: self.title(),
             positions: Vec::new(),
-            body: Body::read(&file)?,
+            body,
             field,
             broken: Vec::new(),
             lines: self.lines(),
@@ -324,9 +329,14 @@ impl Output<'_> {
         })
     }
 
+    /// Whether cracks are drawn as lines.
+    fn draws_lines(&self) -> bool {
+        self.source.drawing == Some(CrackDrawing::Lines)
+    }
+
     /// Lines over the body, its cracks above all others.
     fn lines(&self) -> Vec<Lines> {
-        let cracks = self.source.cracks.as_ref();
+        let cracks = self.source.cracks.as_ref().filter(|_| self.draws_lines());
         let cracks = cracks.map(|it| Lines::of_cracks(it, self.chosen.number));
         self.source.lines.iter().cloned().chain(cracks).collect()
     }
@@ -347,8 +357,8 @@ impl Output<'_> {
             .crack
             .iter()
             .flat_map(|crack| crack.kinds.iter().map(move |it| (crack, it)));
-        let shows_cut = source.shows_broken || panel.body.is_mesh() && source.cracks.is_none();
-        let kinds = kinds.filter(|(_, kind)| shows_cut || !kind.is_cut());
+        // In a mesh a pre-crack is a line, along which the body opens.
+        let kinds = kinds.filter(|(_, kind)| !(kind.is_cut() && panel.body.is_mesh()));
         panel.broken = kinds
             .map(|(crack, kind)| {
                 let bonds = crack.until(kind, self.chosen.number).into_iter();

@@ -5,6 +5,7 @@ use ligament_output::results::fields::STRESS_VIRIAL;
 use super::PictureError;
 use super::body::MODE_SHARE;
 use super::colour_bar::ColourBar;
+use super::colour_map::ColourMap;
 use super::field::NONE;
 
 use super::panel::{Panel, Scale};
@@ -48,7 +49,8 @@ impl<'a> Style<'a> {
                 .has_modes
                 .then_some([range[0].signum().min(0.0), 1.0]);
             let asked = request.range.or(of_modes);
-            (Scale::new(range, asked, request.bands, request.map), range)
+            let map = request.map.or_else(|| ColourMap::usual(name));
+            (Scale::new(range, asked, request.bands, map), range)
         };
         if name != NONE && range.is_none() {
             return Err(PictureError::NoValues(name.clone()));

@@ -34,7 +34,7 @@ mod tetrahedra;
 pub use crack::crack_surface;
 pub use level_set::{LevelSet, level_set};
 pub use measures::{BestPlane, SurfacePart};
-pub use opened::{OpenedCells, opened_cells};
+pub use opened::opened_cells;
 pub use sides::{Link, Links};
 pub use surface::CrackSurface;
 pub use tetrahedra::Tetrahedra;

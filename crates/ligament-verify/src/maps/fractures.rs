@@ -5,7 +5,6 @@ use ligament::body::Origin;
 use ligament::run::Solution;
 use ligament_analysis::fields::damage;
 use ligament_analysis::history::BreakRecord;
-use ligament_mesh::Cell as MeshCell;
 use ligament_output::vtu::Cell;
 use ligament_plot::picture::maps::{MappedBody, Maps};
 
@@ -131,10 +130,7 @@ fn stages(
                 title, positions, spacing, &unmoved, values,
             ));
         }
-        let cells = cells.iter().map(|cell| match *cell {
-            MeshCell::Triangle(corners) => Cell::Triangle(corners),
-            MeshCell::Quadrangle(corners) => Cell::Quad(corners),
-        });
+        let cells = cells.iter().map(|cell| Cell::from(*cell));
         let (positions, unmoved) = (positions.clone(), unmoved.clone());
         Ok(MappedBody::of_mesh(
             title,

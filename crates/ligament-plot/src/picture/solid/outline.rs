@@ -55,6 +55,19 @@ pub(super) fn sharp_edges(places: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<[u
     sharp.map(|(ends, _)| ends).collect()
 }
 
+/// Edges of one triangle alone, ascending: the rim of a section. Triangles may have no area, where a plane passes through nodes.
+pub(super) fn rim(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
+    let sides = triangles
+        .iter()
+        .flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let mut count: BTreeMap<[u32; 2], usize> = BTreeMap::new();
+    for [p, q] in sides {
+        *count.entry([*p.min(q), *p.max(q)]).or_default() += 1;
+    }
+    let alone = count.into_iter().filter(|(_, count)| *count == 1);
+    alone.map(|(ends, _)| ends).collect()
+}
+
 /// Unit normal of a triangle, zero where it has no area.
 pub(super) fn unit_normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
     let [p, q] = [b, c].map(|it| [0, 1, 2].map(|axis| it[axis] - a[axis]));

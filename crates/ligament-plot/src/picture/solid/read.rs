@@ -11,7 +11,7 @@ use ligament_output::results::solid_cracks::SolidCracks;
 use ligament_output::vtu::read::VtuFile;
 use ligament_post::surfaces::{Links, Tetrahedra, level_set, opened_cells};
 
-use super::outline::{outer_faces, sharp_edges};
+use super::outline::{outer_faces, rim, sharp_edges};
 use super::{Scene, Section};
 use crate::picture::PictureError;
 use crate::picture::field::{Field, NONE};
@@ -197,7 +197,7 @@ impl Solid<'_> {
         let nodes = tetrahedra.nodes.iter();
         let distances: Vec<f64> = nodes.map(|it| section.distance(*it)).collect();
         let mut scene = self.on_level(&tetrahedra, &distances, 0.0);
-        scene.edges = sharp_edges(&scene.places, &scene.triangles);
+        scene.edges = rim(&scene.triangles);
         if with_edges {
             self.add_edges(&mut scene);
         }

@@ -1,0 +1,60 @@
+//! Cells of a body that are cut into pieces along its cracks.
+
+use std::collections::HashMap;
+
+/// Cells without a crack, and pieces of the cells cut by a crack, which move apart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OpenedCells<const D: usize, C> {
+    /// Points whose mean displacement each corner of the cells has, shape (n_corners).
+    pub follows: Vec<Vec<u32>>,
+    /// Positions of the corners, shape (n_corners), m.
+    pub positions: Vec<[f64; D]>,
+    /// Cells between the corners.
+    pub cells: Vec<C>,
+    /// Cell of the mesh that contains each cell or piece, shape (n_cells).
+    pub of: Vec<u32>,
+}
+
+/// Numbers of the corners of pieces by the points between which they lie, and by those of them on their side.
+pub(crate) type Found = HashMap<(Vec<u32>, Vec<u32>), u32>;
+
+impl<const D: usize, C> OpenedCells<D, C> {
+    /// No cells, with a corner at each point (n_points, m).
+    pub(crate) fn at_points(positions: &[[f64; D]]) -> Self {
+        let points = 0..positions.len() as u32;
+        Self {
+            follows: points.map(|point| vec![point]).collect(),
+            positions: positions.to_vec(),
+            cells: Vec::new(),
+            of: Vec::new(),
+        }
+    }
+
+    /// The corner in the middle of some points that follows `own` of them, both ascending: a new one, or one that is there already.
+    pub(crate) fn corner(&mut self, between: Vec<u32>, own: Vec<u32>, found: &mut Found) -> u32 {
+        if let &[point] = between.as_slice() {
+            return point;
+        }
+        *found
+            .entry((between, own))
+            .or_insert_with_key(|(between, own)| {
+                let mean = |axis: usize| {
+                    let all = between.iter().map(|it| self.positions[*it as usize][axis]);
+                    all.sum::<f64>() / between.len() as f64
+                };
+                let middle = std::array::from_fn(mean);
+                self.positions.push(middle);
+                self.follows.push(own.clone());
+                self.positions.len() as u32 - 1
+            })
+    }
+
+    /// Mean over the points that each corner follows, shape (n_corners), of a value of the points.
+    pub fn means(&self, value: impl Fn(usize) -> f64) -> Vec<f64> {
+        let mean = |points: &Vec<u32>| {
+            let sum: f64 = points.iter().map(|it| value(*it as usize)).sum();
+            sum / points.len() as f64
+        };
+        self.follows.iter().map(mean).collect()
+    }
+}
