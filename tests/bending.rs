@@ -389,7 +389,7 @@ fn the_check_warns_of_thin_bodies_and_of_no_others() {
         assert!(report.contains(line), "{line}\n{report}");
     }
     let by_the_paper = checked(2, Extent::Matrix, &["correction.surface=\"domain\""]);
-    let cure = "more of them and correction.surface = \"patch\" bring it down";
+    let cure = "a finer mesh and correction.surface = \"patch\" reduce this";
     assert!(by_the_paper.contains(cure), "{by_the_paper}");
     for (across, line) in [
         (8, "  in bending            1.0"),
@@ -410,7 +410,7 @@ fn the_check_warns_of_thin_bodies_and_of_no_others() {
         Extent::Matrix,
         &["model.law=\"pds\"", "support.0.displacement={x=0.0, y=0.0}"],
     );
-    assert!(pds.contains("finer points do not cure this"), "{pds}");
+    assert!(pds.contains("a finer mesh does not help"), "{pds}");
     assert!(
         pds.contains("warning: law = \"pds\": points have no rotations"),
         "{pds}"

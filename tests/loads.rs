@@ -392,7 +392,8 @@ fn check_and_summary_tell_of_gauges() {
     };
     assert!(report.contains(warning), "{report}\n{warning}");
     assert!(
-        warning.starts_with("supports and loads do not hold the body against translation along x, translation along y, rotation; held at zero instead: "),
+        warning.starts_with("the supports leave the body free in translation along x, translation along y, rotation; fixed automatically: \
+            "),
         "{warning}"
     );
     let told = "; the loads on it are NOT in equilibrium (along x 2.000e3 N, moment ";

@@ -225,6 +225,6 @@ fn several_materials_have_no_modulus_but_strains() {
 fn the_check_says_that_large_bodies_are_left_out() {
     let large = ["lattice.cells=[150, 150]", "model.horizon_factor=1.5"];
     let report = checked("cases/verification/lattice.toml", &large, Extent::Matrix);
-    let line = "not computed          it takes a factor of the matrix, and the body has more than 20000 points; ask with --patch-test";
+    let line = "not computed          it takes a factor of the matrix, and the body has more than 20000 points; use --patch-test";
     assert!(report.contains(line), "{report}");
 }

@@ -55,7 +55,7 @@ pub enum SetupError {
     )]
     ClosingFaces,
     /// A run cannot continue from its checkpoint.
-    #[error("the run cannot go on from its checkpoint: {0}")]
+    #[error("cannot resume from the checkpoint: {0}")]
     Checkpoint(#[from] CheckpointError),
     /// An observer failed.
     #[error(transparent)]

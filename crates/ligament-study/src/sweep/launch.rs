@@ -260,7 +260,7 @@ impl Launcher<'_> {
         }
         let status = match Status::in_folder(run, self.folder) {
             Status::Missing | Status::Changed(_) => {
-                Status::Failed("it ended well, but left no summary.json".to_owned())
+                Status::Failed("it ended without an error, but wrote no summary.json".to_owned())
             }
             status => status,
         };
