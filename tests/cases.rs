@@ -128,7 +128,7 @@ fn every_case_passes_the_check() {
             path.display()
         );
         assert!(
-            !report.contains("parts that no bond connects"),
+            !report.contains("with no bond between them"),
             "{}:\n{report}",
             path.display()
         );

@@ -396,7 +396,7 @@ fn check_and_summary_tell_of_gauges() {
             "),
         "{warning}"
     );
-    let told = "; the loads on it are NOT in equilibrium (along x 2.000e3 N, moment ";
+    let told = "; the loads do NOT balance (along x 2.000e3 N, moment ";
     assert!(
         warning.contains(told) && warning.contains("of node 1 at (0.000000, 0.000000)"),
         "{warning}"

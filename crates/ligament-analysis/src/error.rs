@@ -19,11 +19,11 @@ pub enum SetupError {
     Analysis(#[from] FactorError),
     /// Conjugate gradients were required where they cannot solve the equations.
     #[error(
-        "conjugate gradients cannot solve these equations: {0}; let solver.method be direct, or leave it open"
+        "conjugate gradients cannot solve these equations: {0}; set solver.method = \"direct\", or remove the key"
     )]
     NotIterative(#[from] Unfit),
     /// Several processes cannot solve the equations.
-    #[error("several processes cannot solve these equations: {0}; run it with one process")]
+    #[error("several processes cannot solve these equations: {0}; use one process")]
     NotDistributed(Unfit),
     /// A process has no bonds of a divided body.
     #[error(transparent)]

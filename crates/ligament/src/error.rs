@@ -179,7 +179,7 @@ pub enum Fault {
         distance: f64,
     },
     /// A line that no bond crosses.
-    #[error("no bond crosses this line: a force through it would be 0 N whatever the load")]
+    #[error("no bond crosses this line, so the force through it would always be 0 N")]
     NothingCrossed,
     /// Cells of a mesh that overlap.
     #[error(
@@ -318,7 +318,7 @@ pub enum Fault {
     #[error("{0}")]
     NoSuchField(String),
     /// A setup with another analysis than the requested one.
-    #[error("the setup has {found}, but {wanted} was called: change one of the two")]
+    #[error("the setup says {found}, but the call computes {wanted}: change one of the two")]
     OtherAnalysis {
         /// The analysis of the setup.
         found: &'static str,

@@ -25,7 +25,7 @@ fn supports_and_loads_that_make_no_sense_are_refused() {
     );
     assert_eq!(
         error_with(load, "at = [0, 0]\nforce = {}"),
-        "33:9: load.0.force: this load does nothing: neither `x` nor `y` is given a value"
+        "33:9: load.0.force: this load does nothing: give `x` or `y` a value"
     );
 }
 

@@ -174,7 +174,7 @@ fn a_disk_that_is_full_of_checkpoints() {
         assert_ended_well(&place, "later");
         let (said, _) = said(&place, "later");
         assert!(
-            said.contains("going on at load factor") && !said.contains("checkpoint before"),
+            said.contains("resuming at load factor") && !said.contains("checkpoint before"),
             "{said}"
         );
         assert_same_results(&place, "whole", "out");
@@ -197,7 +197,7 @@ fn a_disk_that_is_full_of_earlier_results() {
     );
     if with_disk(&place, room, &script) {
         let words = [
-            "the results in disk/out are the earlier ones",
+            "disk/out has the earlier results",
             "cannot write disk/out.new/",
             "make room on its disk",
             "ligament resume disk/out.new",

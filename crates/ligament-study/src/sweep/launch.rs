@@ -278,7 +278,7 @@ impl Launcher<'_> {
             (now, "free some, allow more by --memory")
         };
         format!(
-            "it would take {:.2} GB of memory, and there are {:.2} GB for it; {advice}, or run it on a larger machine by --shard",
+            "it needs {:.2} GB of memory, and {:.2} GB are available; {advice}, or run it on a larger machine by --shard",
             gigabytes(bytes),
             gigabytes(what)
         )

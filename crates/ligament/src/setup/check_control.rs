@@ -31,7 +31,8 @@ impl Setup {
     /// Refuses control by probes in other analyses than load steps, by unknown probes or ones that read no motion, and with weights of 0.
     fn check_probes_that_control(&self, part: Field, probes: &[(String, f64)]) -> Checked {
         if !matches!(self.analysis, Analysis::Stepped(_)) {
-            let reason = "a probe controls load steps: the exact path passes peaks and snap-backs by itself, and an elastic answer has none";
+            let reason = "a probe controls load steps: the exact path passes peaks and snap-backs by itself, and an elastic solution has \
+                none";
             return contradiction(part, reason);
         }
         for (name, weight) in probes {
@@ -60,7 +61,8 @@ impl Setup {
             Analysis::Event(_) => Ok(()),
             Analysis::Stepped(_) if self.criteria.iter().any(|it| it.after.law.softens) => Ok(()),
             Analysis::Stepped(_) => {
-                let reason = "brittle bonds take their energy all at once, so that load steps cannot follow it: let bonds soften (`after`), \
+                let reason = "brittle bonds take their energy all at once, so that load steps cannot follow it: let bonds soften \
+                    (`after`), \
                               or take the exact path, which goes from breakage to breakage";
                 contradiction(part, reason)
             }
