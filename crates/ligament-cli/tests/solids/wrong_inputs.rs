@@ -154,7 +154,7 @@ fn a_mesh_that_cannot_be_read_is_named_first() {
         &[
             "case.toml:2:8: mesh.file: cannot read the mesh",
             "nowhere.msh",
-            "from the folder of the case file",
+            "relative to the folder of the case file",
         ],
     );
     let itself = case(SOLID).replace("block.msh", "case.toml");

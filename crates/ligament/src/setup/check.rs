@@ -156,7 +156,7 @@ impl Setup {
         let is_discrete = self.law.options.calibration == Some(Calibration::Discrete);
         if is_discrete && surface == Surface::Volume {
             let reason = Advice::new(
-                "the discrete calibration has the surfaces in its sums: take {}, or {}",
+                "the discrete calibration already accounts for surfaces: take {}, or {}",
                 [
                     Setting::Surface(Surface::None),
                     Setting::Calibration(Calibration::Integral),
@@ -189,7 +189,7 @@ impl Setup {
             return contradiction(field, Advice::new(text, [volume]));
         }
         if self.correction.domain == CorrectionDomain::Cracked {
-            let text = "the cells of the body know nothing of its pre-cracks: take {}";
+            let text = "the cells of the body do not contain its pre-cracks: take {}";
             let whole = Setting::Domain(CorrectionDomain::Whole);
             let field = Field::whole("correction").part("domain");
             return contradiction(field, Advice::new(text, [whole]));

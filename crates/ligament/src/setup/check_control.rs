@@ -21,8 +21,8 @@ impl Setup {
         let goes_straight = |(_, course): &(String, Course)| course.points.len() == 1;
         let ends = |(_, course): &(String, Course)| course.points[0][0] == 1.0;
         if !stage.loads.iter().all(|it| goes_straight(it) && ends(it)) {
-            let reason = "with `control` something else says how far the loads go: give each one factor, whose difference to what it is \
-                          says in what proportion they grow";
+            let reason = "with `control` the loads have only a proportion: give each load one factor; its difference to the present factor \
+                is its part";
             return contradiction(field.part("loads"), reason);
         }
         Ok(())

@@ -17,7 +17,7 @@ impl Setup {
             return Ok(());
         }
         if matches!(self.analysis, Analysis::Modal(_)) {
-            let reason = "modes are free vibrations without loads: stages mean nothing to them";
+            let reason = "modes are free vibrations without loads, so there are no stages";
             return contradiction(Field::whole("stages"), reason);
         }
         let is_temperature = |name: &str| name == TEMPERATURE;
