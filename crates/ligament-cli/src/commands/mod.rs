@@ -77,9 +77,14 @@ Examples:
   ligament explain results/disk --point 12  why its bonds broke, or did not
 
 All values are in SI units: m, N, Pa, s, rad.
-Exit codes: 0 done, 1 error in the input or the run, 2 wrong usage, 3 no equilibrium under load, 4 stopped by a signal \
-(`ligament resume` goes on), 5 `ligament repeat` found other results, 6 ended while bonds were breaking: ignore the last state.
-\
+Exit codes:
+  0  done
+  1  error in the input or the run
+  2  wrong usage
+  3  no equilibrium under load
+  4  stopped by a signal (`ligament resume` continues)
+  5  `ligament repeat` found other results
+  6  the run ended while bonds were breaking: ignore the last state
 A command overwrites a file only with --force; it always writes to a pipe or a device.";
 
 /// The commands.

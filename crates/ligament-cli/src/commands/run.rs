@@ -30,8 +30,13 @@ Examples:
 The value is TOML; a bare word is a string. Values are in SI units: m, N, Pa, s, rad.
 Paths, also in --set mesh.file=..., are relative to the folder of the case file.
 
-Exit codes: 0 done, 1 error, 2 wrong usage, 3 no equilibrium (under any load, or beyond some), 4 stopped by a signal,
-6 collapsed, or ended while bonds were breaking.";
+Exit codes:
+  0  done
+  1  error
+  2  wrong usage
+  3  no equilibrium under any load, or beyond some load
+  4  stopped by a signal
+  6  collapsed, or ended while bonds were breaking: ignore the last state";
 
 /// `ligament run`.
 #[derive(Debug, Args)]
