@@ -28,20 +28,19 @@ pub enum CheckpointError {
     },
     /// One process wrote the checkpoint, and several are to continue.
     #[error(
-        "one process wrote it: resume with one process, or run the case again with several; any number of processes can resume what \
+        "one process wrote it: resume with one process, or start anew with several; any number of processes can resume what \
          several wrote"
     )]
     OfOneProcess,
     /// The checkpoint was written with a direct solver and the present one is iterative, or the reverse.
     #[error(
         "the other solver method was in use when it was written: without solver.method the available memory decides, so resume on a \
-         machine with as much memory, or run the case again"
+         machine with as much memory, or start anew"
     )]
     OtherMethod,
     /// Restored numbers differ in their bits.
     #[error(
-        "this machine or version of the program does not compute the same bits as the one that wrote it; resume there, or run the case \
-         again"
+        "this machine or version of the program does not compute the same bits as the one that wrote it; resume there, or start anew"
     )]
     OtherArithmetic,
     /// The analysis breaks no bonds.

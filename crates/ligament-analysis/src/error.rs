@@ -19,7 +19,7 @@ pub enum SetupError {
     Analysis(#[from] FactorError),
     /// Conjugate gradients were required where they cannot solve the equations.
     #[error(
-        "conjugate gradients cannot solve these equations: {0}; set solver.method = \"direct\", or remove the key"
+        "conjugate gradients cannot solve these equations: {0}; let solver.method be direct, or leave it open"
     )]
     NotIterative(#[from] Unfit),
     /// Several processes cannot solve the equations.

@@ -150,8 +150,7 @@ impl Unbalanced {
                  (large Poisson's ratio); let the factorisation be \"auto\" or \"ldlt\"",
                 place.words(name)
             ),
-            Self::NegativeCurvature => "the stiffness is not positive definite, as conjugate gradients need: some motion costs no energy; \
-                let \
+            Self::NegativeCurvature => "the stiffness is not positive definite, as conjugate gradients need: some motion costs no energy; let \
                                         solver.method be direct, which tells where"
                 .to_owned(),
             Self::NegativeEnergy { energy } => {
@@ -159,8 +158,7 @@ impl Unbalanced {
             }
             Self::Unmoved => "the loads of the stage do not move the probe that controls it: let another probe control it, or another load \
                               grow".to_owned(),
-            Self::NothingDissipates => "no bond softens farther however far the loads of the stage go, so that they dissipate no energy: \
-                give \
+            Self::NothingDissipates => "no bond softens farther however far the loads of the stage go, so that they dissipate no energy: give \
                                         the stage other loads, or less to dissipate"
                 .to_owned(),
             Self::RanksDisagree => RANKS_DISAGREE.to_owned(),

@@ -119,9 +119,8 @@ pub enum Fault {
     },
     /// Two points that nearly coincide.
     #[error(
-        "{} and {} are only {distance:.1e} m apart, where points are {size:.1e} m in size: their bond would be far stiffer than all \
-         others. If they \
-         are one, merge them (`Coherence Mesh;`, or a larger Geometry.Tolerance); if they are the faces of a slit, move these apart",
+        "{} and {} are only {distance:.1e} m apart, where points are {size:.1e} m in size: their bond would be far stiffer than all others. \
+         If they are one, merge them (`Coherence Mesh;`, or a larger Geometry.Tolerance); if they are the faces of a slit, move these apart",
         places[0], places[1]
     )]
     NearPoints {
@@ -255,8 +254,7 @@ pub enum Fault {
     /// A platen on points that all have one position across the load.
     #[error(
         "a platen tilts about points that lie beside each other across the load, and its group has {points} in one place: give a group \
-         that \
-         is wider, or leave `tilts` out"
+         that is wider, or leave `tilts` out"
     )]
     NoPlaten {
         /// Number of points of the group.

@@ -30,8 +30,7 @@ pub enum Implausible {
     /// A strength that is implausibly large for the stiffness.
     #[error(
         "the {property} of {material} is {:.4} of its Young's modulus, and no material is as strong as a tenth: strengths and moduli are \
-         in Pa \
-         (3 MPa is 3e6)", strength / young
+         in Pa (3 MPa is 3e6)", strength / young
     )]
     Strong {
         /// Description of the material.
@@ -46,8 +45,7 @@ pub enum Implausible {
     /// A limit of a bond beyond small strains.
     #[error(
         "by the criterion \"{criterion}\" bonds reach their limits at {limit:.4}, and strains of more than {LARGEST_STRAIN} are not small: \
-         a limit is a \
-         strain, strengths are in Pa, a fracture energy is in J/m^2 (0.1 N/mm is 100 J/m^2)"
+         a limit is a strain, strengths are in Pa, a fracture energy is in J/m^2 (0.1 N/mm is 100 J/m^2)"
     )]
     LargeLimit {
         /// Name of the criterion.
@@ -58,8 +56,7 @@ pub enum Implausible {
     /// A fracture energy below the energy of two surfaces.
     #[error(
         "the fracture energy of {material} is {energy} J/m^2, less than new surfaces cost in any solid as stiff (E times 0.01 nm, {:.4} \
-         J/m^2): it \
-         is in J/m^2 (0.1 N/mm is 100 J/m^2)", LEAST_ENERGY * young
+         J/m^2): it is in J/m^2 (0.1 N/mm is 100 J/m^2)", LEAST_ENERGY * young
     )]
     LowEnergy {
         /// Description of the material.

@@ -211,8 +211,7 @@ pub enum Warning {
     /// Bonds that break before the stress comes to the strength at which others begin to soften.
     #[error(
         "{:.0} % of the bonds break before the stress comes to the strength, the first at {least:.2} of it: their horizon is several times \
-         E \
-         G_c/F_t^2, so that they spend the fracture energy before; take a finer mesh there, or `no_fail` where nothing cracks",
+         E G_c/F_t^2, so that they spend the fracture energy before; take a finer mesh there, or `no_fail` where nothing cracks",
         100.0 * share
     )]
     BelowStrength {

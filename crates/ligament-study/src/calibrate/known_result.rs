@@ -20,8 +20,8 @@ pub(super) fn check(name: &str, is_modal: bool) -> Result<(), QuantityError> {
         return Ok(());
     }
     let complete = match is_modal {
-        true => of(&complete_modal_summary()),
-        false => of(&complete_summary()),
+        true => quantities(&complete_modal_summary()),
+        false => quantities(&complete_summary()),
     };
     // Lists of the sample have one entry.
     let is_index = |part: &str| part.bytes().all(|it| it.is_ascii_digit());
@@ -33,7 +33,7 @@ pub(super) fn check(name: &str, is_modal: bool) -> Result<(), QuantityError> {
     complete.number(&sample).map(drop)
 }
 
-fn of(summary: &impl Serialize) -> Quantities {
+fn quantities(summary: &impl Serialize) -> Quantities {
     let value = serde_json::to_value(summary).unwrap_or_default();
     Quantities::of_summary(&value)
 }

@@ -121,10 +121,8 @@ fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> 
         ));
     }
     if before > 0 {
-        progress.print(&format!(
-            "{before} of {} runs were done already",
-            mine.len()
-        ));
+        let all = mine.len();
+        progress.print(&format!("{before} of {all} runs were done already"));
     }
     notes.iter().for_each(|note| progress.print(note));
     let unmeshed = made_meshes(&todo, &folder, &settings.gmsh, &mut progress)?;

@@ -247,8 +247,7 @@ impl Setup {
             if matches!(probe.reading, Reading::Section { .. }) && !self.law.row.couples_ends_alone
             {
                 let text = "the elements of {} couple up to six points, so that their forces go through no line: the forces of supports \
-                    and \
-                            loads are in the history";
+                    and loads are in the history";
                 let law = Setting::Law(vec![self.law.row]);
                 return contradiction(field, Advice::new(text, [law]));
             }

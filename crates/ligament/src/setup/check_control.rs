@@ -62,8 +62,7 @@ impl Setup {
             Analysis::Stepped(_) if self.criteria.iter().any(|it| it.after.law.softens) => Ok(()),
             Analysis::Stepped(_) => {
                 let reason = "brittle bonds take their energy all at once, so that load steps cannot follow it: let bonds soften \
-                    (`after`), \
-                              or take the exact path, which goes from breakage to breakage";
+                    (`after`), or take the exact path, which goes from breakage to breakage";
                 contradiction(part, reason)
             }
             Analysis::Elastic { .. } | Analysis::Modal(_) => {

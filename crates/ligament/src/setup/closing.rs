@@ -34,8 +34,7 @@ impl Setup {
         }
         if matches!(self.analysis, Analysis::Event(_)) && !self.stages.is_empty() {
             let reason = "with a part of the load that stays, faces open and close between two breakages, and the exact path does not \
-                follow \
-                          that: take load steps, or let all loads grow with one factor";
+                follow that: take load steps, or let all loads grow with one factor";
             return contradiction(field, reason);
         }
         Ok(())
