@@ -108,7 +108,7 @@ fn keys_that_a_law_or_a_correction_does_not_leave_open_are_refused() {
         .replace("rule = \"sum\"", "surface = \"volume\"");
     assert_eq!(
         error_of(&beam),
-        "17:11: correction.surface: the discrete calibration has the surfaces in its sums: take \"none\", or \
+        "17:11: correction.surface: the discrete calibration already accounts for surfaces: take \"none\", or \
          model.calibration = \"integral\""
     );
 }

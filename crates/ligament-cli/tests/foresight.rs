@@ -212,7 +212,7 @@ fn loads_out_of_proportion_are_told() {
         )
     };
     let (code, said, _) = check(folder.path(), &of_size(0.25), &[]);
-    let times = number(foretold(&said), "at ");
+    let times = number(foretold(&said), "it takes ");
     assert_eq!(code, Some(0));
     assert!(
         said.contains("not reached at full load") && (times / 4.0 - 1.0).abs() < 0.06,

@@ -58,7 +58,7 @@ fn every_mesh_has_a_case_that_checks() {
             starter.warnings
         );
         let report = checked(&case(&starter, folder.path()), Extent::Model);
-        assert!(report.contains("patch correction"), "{report}");
+        assert!(report.contains("surface correction: patch"), "{report}");
         starter.text = with_all_settings(&starter.text);
         let report = checked(&case(&starter, folder.path()), Extent::Model);
         assert!(

@@ -52,7 +52,7 @@ fn a_run_without_a_result_has_its_own_exit_code() {
             "{error}"
         );
         assert!(
-            error.contains("no bond") && error.contains(" cell "),
+            error.contains("no remaining bond") && error.contains(" cell "),
             "{error}"
         );
         let summary = fs::read_to_string(folder.path().join("out/summary.json")).unwrap();

@@ -52,7 +52,7 @@ fn units_and_missing_volume_groups_are_told() {
     block.group = 0;
     let said = inspected(&block);
     assert!(
-        said.contains("there is no volume group, and none is needed"),
+        said.contains("there is no volume group, and none is necessary"),
         "{said}"
     );
 }
