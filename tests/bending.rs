@@ -384,19 +384,16 @@ fn the_check_warns_of_thin_bodies_and_of_no_others() {
         "2.0 distances of points across, 0.7 horizons",
         "  in bending            1.4",
         "warning: the body is 1.4",
-        "of them keep it within 5 %",
+        "distances keep the error within 5 %",
     ] {
         assert!(report.contains(line), "{line}\n{report}");
     }
     let by_the_paper = checked(2, Extent::Matrix, &["correction.surface=\"domain\""]);
-    let cure = "more of them and correction.surface = \"patch\" bring it down";
+    let cure = "a finer mesh and correction.surface = \"patch\" reduce this";
     assert!(by_the_paper.contains(cure), "{by_the_paper}");
     for (across, line) in [
         (8, "  in bending            1.0"),
-        (
-            20,
-            "not tested            it has more than 6 horizons across",
-        ),
+        (20, "not tested            more than 6 horizons across"),
     ] {
         let report = checked(across, Extent::Matrix, &[]);
         assert!(
@@ -410,7 +407,7 @@ fn the_check_warns_of_thin_bodies_and_of_no_others() {
         Extent::Matrix,
         &["model.law=\"pds\"", "support.0.displacement={x=0.0, y=0.0}"],
     );
-    assert!(pds.contains("finer points do not cure this"), "{pds}");
+    assert!(pds.contains("a finer mesh does not help"), "{pds}");
     assert!(
         pds.contains("warning: law = \"pds\": points have no rotations"),
         "{pds}"

@@ -771,7 +771,7 @@ fn the_check_lists_criteria_and_limits() {
             quantity(limit, "-")
         ),
         format!(
-            "a bar without a crack fails at E s_0 = {}, which changes with the horizon\n",
+            "a bar without a crack fails at E s_0 = {}, which depends on the horizon\n",
             quantity(YOUNG * limit, "Pa")
         ),
         ", F_t = 5.000 MPa, F_c = 15.00 MPa, G_c = 40.00 J/m^2".to_owned(),

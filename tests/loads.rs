@@ -392,10 +392,11 @@ fn check_and_summary_tell_of_gauges() {
     };
     assert!(report.contains(warning), "{report}\n{warning}");
     assert!(
-        warning.starts_with("supports and loads do not hold the body against translation along x, translation along y, rotation; held at zero instead: "),
+        warning.starts_with("the supports leave the body free in translation along x, translation along y, rotation; fixed automatically: \
+            "),
         "{warning}"
     );
-    let told = "; the loads on it are NOT in equilibrium (along x 2.000e3 N, moment ";
+    let told = "; the loads do NOT balance (along x 2.000e3 N, moment ";
     assert!(
         warning.contains(told) && warning.contains("of node 1 at (0.000000, 0.000000)"),
         "{warning}"

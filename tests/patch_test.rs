@@ -192,7 +192,7 @@ fn the_check_tells_how_stiff_the_body_is() {
         "Young's modulus       15.00 GPa (",
         " %) along x, ",
         " for 0.2100",
-        "strains of the bonds  off the mean strain by 0.",
+        "strains of the bonds  differ from the mean strain by 0.",
         " % rms (along x, along y, in shear), at most ",
         "time, patch test",
     ] {
@@ -211,9 +211,12 @@ fn several_materials_have_no_modulus_but_strains() {
             &[&setting],
             Extent::Matrix,
         );
-        let none = "E, nu                 none: several materials do not strain uniformly";
+        let none =
+            "E, nu                 none: a body of several materials does not strain uniformly";
         assert!(report.contains(none), "{report}");
-        let (_, rest) = report.split_once("off the mean strain by ").unwrap();
+        let (_, rest) = report
+            .split_once("differ from the mean strain by ")
+            .unwrap();
         let (first, _) = rest.split_once(',').unwrap();
         first.parse::<f64>().unwrap()
     };
@@ -225,6 +228,6 @@ fn several_materials_have_no_modulus_but_strains() {
 fn the_check_says_that_large_bodies_are_left_out() {
     let large = ["lattice.cells=[150, 150]", "model.horizon_factor=1.5"];
     let report = checked("cases/verification/lattice.toml", &large, Extent::Matrix);
-    let line = "not computed          it takes a factor of the matrix, and the body has more than 20000 points; ask with --patch-test";
+    let line = "not computed          it needs a factor of the matrix, and the body has more than 20000 points; use --patch-test";
     assert!(report.contains(line), "{report}");
 }

@@ -11,16 +11,14 @@ pub enum CheckpointError {
     #[error(transparent)]
     Damaged(#[from] Damaged),
     /// Points, bonds or unknowns differ from those of the problem.
-    #[error("it is of another model: points, bonds or what holds them differ")]
+    #[error("it belongs to another model: points, bonds or supports differ")]
     OtherModel,
     /// The run belongs to another driver.
-    #[error(
-        "it is of a run along the exact path where this one takes load steps, or the other way round"
-    )]
+    #[error("one of the two runs follows the exact path, and the other takes load steps")]
     OtherDriver,
     /// The loading up to the checkpoint differs.
     #[error(
-        "load step {step} was at load factor {was}: the load steps that were done must stay as they are, others may only follow"
+        "load step {step} was at load factor {was}: completed load steps cannot change, new ones can only follow"
     )]
     OtherLoading {
         /// First step that differs.
@@ -30,22 +28,22 @@ pub enum CheckpointError {
     },
     /// One process wrote the checkpoint, and several are to continue.
     #[error(
-        "one process wrote it: go on with one, or begin the run anew with several; what several wrote any number can go on with"
+        "one process wrote it: resume with one process, or start anew with several; any number of processes can resume what \
+         several wrote"
     )]
     OfOneProcess,
     /// The checkpoint was written with a direct solver and the present one is iterative, or the reverse.
     #[error(
-        "the equations were solved by the other method when it was written: where solver.method is open the memory that there is \
-         decides, so go on where there is as much, or begin the run anew"
+        "the other solver method was in use when it was written: without solver.method the available memory decides, so resume on a \
+         machine with as much memory, or start anew"
     )]
     OtherMethod,
     /// Restored numbers differ in their bits.
     #[error(
-        "this machine, or this version of the program, does not compute the same bits as the one that wrote it; go on there, or begin \
-         the run anew"
+        "this machine or version of the program does not compute the same bits as the one that wrote it; resume there, or start anew"
     )]
     OtherArithmetic,
     /// The analysis breaks no bonds.
-    #[error("the analysis breaks no bonds: it has nothing to go on with")]
+    #[error("the analysis breaks no bonds, so there is nothing to resume")]
     NoFracture,
 }

@@ -23,7 +23,7 @@ pub enum SetupError {
     )]
     NotIterative(#[from] Unfit),
     /// Several processes cannot solve the equations.
-    #[error("several processes cannot solve these equations: {0}; run it with one process")]
+    #[error("several processes cannot solve these equations: {0}; use one process")]
     NotDistributed(Unfit),
     /// A process has no bonds of a divided body.
     #[error(transparent)]
@@ -55,7 +55,7 @@ pub enum SetupError {
     )]
     ClosingFaces,
     /// A run cannot continue from its checkpoint.
-    #[error("the run cannot go on from its checkpoint: {0}")]
+    #[error("cannot resume from the checkpoint: {0}")]
     Checkpoint(#[from] CheckpointError),
     /// An observer failed.
     #[error(transparent)]

@@ -161,13 +161,13 @@ serial!(LargestOverlap { depth, ends, step });
 pub enum Notice {
     /// Supports and loads do not fix the intact body or a part of it, so that gauges do.
     #[error(
-        "{} points are not held by supports and loads: {} rigid motions of theirs are free (first at point {})",
+        "the supports leave a part of {} points free: {} rigid motions (first at point {})",
         .0.points, .0.motions.len(), .0.first
     )]
     FreeBody(FreeBody),
     /// Points became detached, and their rigid motions are fixed.
     #[error(
-        "step {step}: {points} points came loose ({motions} rigid motions held from now on, first at point {first})"
+        "step {step}: {points} points (around point {first}) broke off; {motions} rigid motions are fixed"
     )]
     PartsDetached {
         /// Load step.
@@ -180,7 +180,7 @@ pub enum Notice {
         first: u32,
     },
     /// Points without stiffness in some direction are fixed there.
-    #[error("step {step}: {} mechanism(s) held, first at point {}", points.len(), points[0])]
+    #[error("step {step}: fixed {} mechanism(s), first at point {}", points.len(), points[0])]
     Mechanisms {
         /// Load step.
         step: usize,
@@ -189,7 +189,7 @@ pub enum Notice {
     },
     /// The stored energy became negative, and the stop rules let the run continue.
     #[error(
-        "step {step}: the stored energy became negative: results from here on are not those of a stable body"
+        "step {step}: the stored energy is negative: from here on the body is unstable and the results are not valid"
     )]
     NegativeEnergy {
         /// Load step.
@@ -197,8 +197,7 @@ pub enum Notice {
     },
     /// Work and energies do not balance.
     #[error(
-        "step {step}: work, stored and released energy miss each other by {error:.1e} of the work: results from here on are not to be \
-         trusted"
+        "step {step}: work, stored and released energy differ by {error:.1e} of the work: do not trust the results from here on"
     )]
     EnergyUnbalanced {
         /// Load step.
@@ -208,8 +207,8 @@ pub enum Notice {
     },
     /// Bonds have dissipated more than the work on the body minus its stored energy.
     #[error(
-        "step {step}: bonds have dissipated more than the work that was done on the body less what it stores, by {share:.1e} of the work: \
-         the load steps are too coarse for the way that bonds soften, take smaller ones"
+        "step {step}: bonds have dissipated more than the work minus the stored energy, by {share:.1e} of the work: the load steps are too \
+         coarse for the softening; take smaller steps"
     )]
     DissipatedBeyondWork {
         /// Load step.
@@ -219,7 +218,7 @@ pub enum Notice {
     },
     /// A force has exceeded the peak load of the body.
     #[error(
-        "step {step}: no larger force has an equilibrium any more; to follow the body past its peak, let a probe control a stage (its \
+        "step {step}: there is no equilibrium at a larger force; to follow the body past its peak, let a probe control a stage (its \
          `control`), or follow the exact path"
     )]
     PastPeak {
@@ -239,8 +238,8 @@ pub enum Notice {
     },
     /// Faces of cracks pass through each other.
     #[error(
-        "step {}: the faces of a crack pass through each other, by {:.2e} m between points {} and {}, and nothing keeps them from \
-         it; `closing` lets them carry pressure", .0.step, .0.depth, .0.ends[0], .0.ends[1]
+        "step {}: the faces of a crack overlap by {:.2e} m between points {} and {}, because they carry no pressure; `closing` lets \
+         them", .0.step, .0.depth, .0.ends[0], .0.ends[1]
     )]
     Overlap(LargestOverlap),
     /// The body breaks in the first load step.

@@ -87,13 +87,13 @@ impl Display for Reason {
                 };
                 write!(
                     f,
-                    "a factor {whether} into memory: {needed:.2} GB of {available:.2} GB that there are for it"
+                    "the factor {whether} into memory: {needed:.2} GB of {available:.2} GB"
                 )
             }
             Self::Definite => f.write_str("no bond has a negative stiffness"),
             Self::Points(limit) => write!(
                 f,
-                "a factor costs less below {limit} points, and more from there on"
+                "the direct solver is faster below {limit} points, the iterative one from there on"
             ),
         }
     }
@@ -103,9 +103,7 @@ impl Display for Reason {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum Unfit {
     /// Some bond has a negative stiffness.
-    #[error(
-        "some bonds have a negative stiffness, so that the stiffness of the body may be indefinite"
-    )]
+    #[error("some bonds have a negative stiffness, so the stiffness of the body may be indefinite")]
     Indefinite,
     /// The forces have no energy.
     #[error(

@@ -8,7 +8,7 @@ use crate::unbalanced::{Place, Unbalanced};
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Termination {
     /// All load steps were completed.
-    #[error("all load steps were done")]
+    #[error("all load steps are done")]
     StepsDone,
     /// The exact path reached load factor one.
     #[error("the full load was reached")]
@@ -20,7 +20,7 @@ pub enum Termination {
         energy: f64,
     },
     /// No bond is stretched, so that no load of this kind breaks another one.
-    #[error("no bond is stretched any more: nothing breaks, whatever the load")]
+    #[error("no bond is stretched any more, so no load breaks another one")]
     NothingBreaks,
     /// The load fell to the given fraction of its peak.
     #[error("the load fell to {fraction} of its peak")]
@@ -41,19 +41,19 @@ pub enum Termination {
         bonds: usize,
     },
     /// The allowed wall time was used up.
-    #[error("the time of {seconds} s was used up")]
+    #[error("the time limit of {seconds} s was reached")]
     WallTime {
         /// Allowed wall time, s.
         seconds: f64,
     },
     /// The observer stopped the run.
-    #[error("it was stopped")]
+    #[error("the run was stopped")]
     Stopped,
     /// The body fell apart and no longer carries the load.
-    #[error("the body fell apart: it carries no load any more")]
+    #[error("the body fell apart and carries no load")]
     FellApart,
     /// The loaded part became detached.
-    #[error("the body collapsed: the loaded part came loose")]
+    #[error("the body collapsed: the loaded part broke off")]
     Collapsed,
     /// The loaded part lost its stiffness, so that no bond carries the load.
     #[error("{}", self.words(&|point| format!("point {point}")))]
@@ -66,7 +66,7 @@ pub enum Termination {
         force: f64,
     },
     /// A load step needed more rounds of breaking than allowed.
-    #[error("load step {step} did not come to rest in {rounds} rounds of breaking")]
+    #[error("bonds were still breaking after {rounds} rounds of load step {step}")]
     NotAtRest {
         /// Load step.
         step: usize,
@@ -91,7 +91,7 @@ impl Termination {
                 format!("no equilibrium in load step {step}: {}", reason.words(name))
             }
             Self::LostStiffness { step, place, force } => format!(
-                "the body collapsed in step {step}: no bond is left that resists the motion of {}, on which {force:.3e} {} act",
+                "the body collapsed in step {step}: no remaining bond resists the motion of {} under {force:.3e} {}",
                 place.words(name),
                 place.unit()
             ),

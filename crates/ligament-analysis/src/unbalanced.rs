@@ -117,8 +117,7 @@ impl Unbalanced {
                 place.words(name)
             ),
             Self::LoadOnAddedSupport { place, force } => format!(
-                "no bond resists the motion of {}, on which {force:.3e} {} act; give it a support, or loads that are in \
-                 equilibrium with themselves",
+                "no bond resists the motion of {} under {force:.3e} {}; add a support, or balance the loads",
                 place.words(name),
                 place.unit()
             ),

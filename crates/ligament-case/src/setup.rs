@@ -34,8 +34,7 @@ impl CaseFile {
             Some(_) => "mesh.file",
             None => "solid_lattice",
         };
-        let reason =
-            "the body is a solid, and what is asked for is known of bodies in the plane alone";
+        let reason = "the body is a solid, and this is available only for bodies in the plane";
         Err(self.error(key, reason))
     }
 

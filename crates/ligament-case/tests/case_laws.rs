@@ -81,7 +81,7 @@ fn keys_that_a_law_or_a_correction_does_not_leave_open_are_refused() {
             "law = \"nhpd\"",
             "law = \"pds\"\nrotational_stiffness = \"beam\""
         ),
-        "14:24: model.rotational_stiffness: `rotational_stiffness` does not apply with law = \"pds\": the law says what it is; \
+        "14:24: model.rotational_stiffness: `rotational_stiffness` does not apply with law = \"pds\": the law determines it; \
          remove it"
     );
     assert_eq!(
@@ -101,14 +101,14 @@ fn keys_that_a_law_or_a_correction_does_not_leave_open_are_refused() {
     let cracked = "surface = \"patch\"\ndomain = \"cracked\"";
     assert_eq!(
         error_with("rule = \"sum\"", cracked),
-        "18:10: correction.domain: the cells of the body know nothing of its pre-cracks: take \"whole\""
+        "18:10: correction.domain: the cells of the body do not contain its pre-cracks: take \"whole\""
     );
     let beam = TEXT
         .replace("law = \"nhpd\"", "law = \"mppd-beam\"")
         .replace("rule = \"sum\"", "surface = \"volume\"");
     assert_eq!(
         error_of(&beam),
-        "17:11: correction.surface: the discrete calibration has the surfaces in its sums: take \"none\", or \
+        "17:11: correction.surface: the discrete calibration already accounts for surfaces: take \"none\", or \
          model.calibration = \"integral\""
     );
 }
@@ -136,13 +136,13 @@ fn the_size_of_the_rotational_stiffness_is_refused_by_name() {
             "mppd",
             "rotational_stiffness = \"none\"\nrotational_factor = 2.0"
         ),
-        "15:21: model.rotational_factor: `rotational_factor` does not apply with rotational_stiffness = \"none\": there is no \
-         stiffness to give a size to; remove it"
+        "15:21: model.rotational_factor: `rotational_factor` does not apply with rotational_stiffness = \"none\": there is no rotational \
+         stiffness to scale; remove it"
     );
     assert_eq!(
         of_law("nhpd", "rotational_factor = 2.0\ncosserat_length = 1e-3"),
-        "15:19: model.cosserat_length: `cosserat_length` does not apply with rotational_factor: both give the rotational stiffness its \
-         size; remove it"
+        "15:19: model.cosserat_length: `cosserat_length` does not apply with rotational_factor: both scale the rotational stiffness; \
+         remove it"
     );
     assert_eq!(
         of_law("nhpd", "rotational_factor = -1.0"),

@@ -47,7 +47,7 @@ fn check_shows_the_lattice() {
         "  set tip               6 points\n",
         "  pairs across voids    134\n",
         "  horizon               30.00 mm\n",
-        "warning: the body consists of 2 parts that no bond connects\n",
+        "warning: the body consists of 2 parts with no bond between them\n",
     ] {
         assert!(said.contains(line), "{line}\n{said}");
     }

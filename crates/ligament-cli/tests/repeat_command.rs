@@ -148,7 +148,7 @@ fn equal_runs_have_equal_bits() {
     assert!(bench.path("again/summary.json").is_file() && words.contains("again"));
     let (code, words) = bench.repeat(&["--out", "again"]);
     assert!(
-        code == Some(1) && words.contains("is there already"),
+        code == Some(1) && words.contains("exists already"),
         "{words}"
     );
 }
@@ -198,12 +198,12 @@ fn a_changed_number_is_found() {
         "NOT THE SAME in 1 of",
         place,
         " then, ",
-        " now, 1.0e-12 of it apart",
+        " now, relative difference 1.0e-12",
     ] {
         assert!(words.contains(part), "{part}: {words}");
     }
     assert!(
-        words.contains("program and processor are as they were"),
+        words.contains("program and processor are the same"),
         "{words}"
     );
     fs::write(bench.path("out/history.csv"), &history).unwrap();
@@ -299,12 +299,12 @@ fn folders_that_are_not_as_they_should_be() {
     fs::create_dir(bench.path("out.repeat")).unwrap();
     let (code, words) = bench.repeat(&[]);
     assert!(
-        code == Some(1) && words.contains("is there already"),
+        code == Some(1) && words.contains("exists already"),
         "{words}"
     );
     fs::remove_dir(bench.path("out.repeat")).unwrap();
     fs::remove_file(bench.path("out/summary.json")).unwrap();
-    assert!(bench.refused(&[]).contains("has not come to its end"));
+    assert!(bench.refused(&[]).contains("is incomplete"));
 }
 
 /// A run that a signal or its time cut short is followed up to there, and is the same; so is one that went on later.

@@ -58,7 +58,7 @@ fn every_mesh_has_a_case_that_checks() {
             starter.warnings
         );
         let report = checked(&case(&starter, folder.path()), Extent::Model);
-        assert!(report.contains("patch correction"), "{report}");
+        assert!(report.contains("surface correction: patch"), "{report}");
         starter.text = with_all_settings(&starter.text);
         let report = checked(&case(&starter, folder.path()), Extent::Model);
         assert!(
@@ -429,7 +429,7 @@ fn cases_are_not_overwritten() {
     assert_eq!(again.status.code(), Some(1));
     let said = String::from_utf8(again.stderr).unwrap();
     assert!(
-        said.contains("case.toml is there already") && said.contains("--force"),
+        said.contains("case.toml exists already") && said.contains("--force"),
         "{said}"
     );
     let kept = std::fs::read_to_string(folder.path().join("case.toml")).unwrap();

@@ -52,7 +52,7 @@ fn a_run_without_a_result_has_its_own_exit_code() {
             "{error}"
         );
         assert!(
-            error.contains("no bond") && error.contains(" cell "),
+            error.contains("no remaining bond") && error.contains(" cell "),
             "{error}"
         );
         let summary = fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
@@ -73,7 +73,7 @@ fn a_last_state_that_is_not_at_rest_is_marked() {
     let (code, shown, _) = run(folder, &format!("{STRIP}{event}"));
     assert_eq!(code, Some(6), "{shown}");
     assert!(
-        shown.contains("NOT AT REST") && shown.contains("largest load"),
+        shown.contains("NOT CONVERGED") && shown.contains("largest load"),
         "{shown}"
     );
     let summary = fs::read_to_string(folder.join("out/summary.json")).unwrap();
@@ -82,7 +82,7 @@ fn a_last_state_that_is_not_at_rest_is_marked() {
     assert_eq!(summary["termination"], "collapsed");
     let told = ligament_in(folder, &["explain", "out", "--point", "30"]);
     let told = String::from_utf8(told.stdout).unwrap();
-    assert!(told.contains("4 (not at rest)"), "{told}");
+    assert!(told.contains("4 (not converged)"), "{told}");
     for (file, more) in [("fields.svg", None), ("curve.svg", Some("--curve"))] {
         let arguments = ["plot", "out", "--out", file].into_iter().chain(more);
         let drawn = ligament_in(folder, &arguments.collect::<Vec<_>>());
@@ -93,7 +93,7 @@ fn a_last_state_that_is_not_at_rest_is_marked() {
             String::from_utf8_lossy(&drawn.stderr)
         );
         let picture = fs::read_to_string(folder.join(file)).unwrap();
-        assert!(picture.contains("not at rest"), "{file}");
+        assert!(picture.contains("not converged"), "{file}");
     }
 }
 
@@ -123,7 +123,8 @@ load = [{ name = "pull", group = "right", force = { x = 500.0 } }, { name = "lif
 "#;
     let stages = |steps: &str| {
         format!(
-            "stage = [{{ name = \"pull\", loads = {{ pull = [0.0, 1.0] }}{steps} }}, {{ name = \"lift\", loads = {{ lift = [0.0, 1.0] }}{steps} }}]\n"
+            "stage = [{{ name = \"pull\", loads = {{ pull = [0.0, 1.0] }}{steps} }}, {{ name = \"lift\", loads = {{ lift = [0.0, 1.0] \
+             }}{steps} }}]\n"
         )
     };
     let criterion = "[[fracture.criterion]]\nkind = \"critical-stretch\"\n";
@@ -201,11 +202,11 @@ fn studies_and_calibrations_mark_such_runs() {
     let (code, shown, table) = study("event", "[1e3, 1e6]");
     assert_eq!(code, Some(0), "{shown}");
     assert!(
-        shown.contains("not at rest at its end: force.x=1e6"),
+        shown.contains("not converged at the end: force.x=1e6"),
         "{shown}"
     );
     assert!(
-        !shown.contains("not at rest at its end: force.x=1000"),
+        !shown.contains("not converged at the end: force.x=1000"),
         "{shown}"
     );
     assert!(
@@ -248,8 +249,8 @@ fn studies_and_calibrations_mark_such_runs() {
     );
     let (code, shown, error) = calibrate("event", "peak.reaction");
     assert_eq!(code, Some(0), "{error}");
-    assert!(shown.contains("NOT AT REST"), "{shown}");
-    assert!(error.contains("its last state is not at rest"), "{error}");
+    assert!(shown.contains("NOT CONVERGED"), "{shown}");
+    assert!(error.contains("not converged"), "{error}");
     let record = fs::read_to_string(folder.join("event-found/calibration.json")).unwrap();
     assert!(
         record.contains("\"last_state_not_at_rest\": true"),

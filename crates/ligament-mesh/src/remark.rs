@@ -44,8 +44,7 @@ impl fmt::Display for Remark {
             }
             Remark::EmptyGroup { name, dimension } => write!(
                 f,
-                "the physical group \"{name}\" of dimension {dimension} has no node of a cell \
-                 and was left out"
+                "the physical group \"{name}\" of dimension {dimension} contains no node of a cell and was ignored"
             ),
             Remark::UndescribedEntities { elements } => write!(
                 f,

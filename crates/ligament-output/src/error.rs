@@ -87,7 +87,7 @@ pub enum Error {
         marker: &'static str,
     },
     /// The file to be written exists.
-    #[error("{0} is there already: write to another file with --out, or replace it with --force")]
+    #[error("{0} exists already: write to another file with --out, or replace it with --force")]
     FileExists(PathBuf),
     /// The path of a file to be written is a folder, a disk or the like.
     #[error(
@@ -119,16 +119,16 @@ pub enum Error {
 fn remedy(action: &str, source: &io::Error) -> &'static str {
     match source.kind() {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
-            ": make room on its disk, or take a folder on another one"
+            ": free space on its disk, or choose a folder on another one"
         }
         io::ErrorKind::FileTooLarge => {
-            ": its disk, or a limit such as `ulimit -f`, takes no file of that size; take a folder on another one, or a higher limit"
+            ": its disk, or a limit such as `ulimit -f`, allows no file of that size; choose a folder on another one, or a higher limit"
         }
         io::ErrorKind::ReadOnlyFilesystem => {
-            ": its disk cannot be written to; take a folder on another one"
+            ": its disk cannot be written to; choose a folder on another one"
         }
         io::ErrorKind::PermissionDenied if matches!(action, "create" | "write") => {
-            ": take a folder that you may write to"
+            ": choose a folder with permission to write"
         }
         _ => "",
     }

@@ -77,7 +77,7 @@ def test_stubs_are_those_of_the_module() -> None:
 
 def test_examples_of_the_documentation() -> None:
     failed = 0
-    for name in ("ligament", "ligament._case"):
+    for name in ("ligament", "ligament._case", "ligament.examples"):
         failed += doctest.testmod(importlib.import_module(name)).failed
     assert failed == 0
 

@@ -14,7 +14,9 @@ pub enum ReportError {
     #[error(transparent)]
     Picture(#[from] PictureError),
     /// The number of labels differs from that of the results.
-    #[error("{n_labels} labels for {n_results} results; give one for each, in their order")]
+    #[error(
+        "{n_labels} labels for {n_results} results; give one label for each result, in the same order"
+    )]
     Labels {
         /// Number of labels.
         n_labels: usize,

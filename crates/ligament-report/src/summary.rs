@@ -64,10 +64,9 @@ pub(crate) fn case_html(case: &str) -> String {
 fn of_steps(summary: Summary) -> InWords {
     let mut texts = Vec::new();
     if summary.without_equilibrium {
-        texts.push("No state under load is in equilibrium: there are no results.");
+        texts.push("There is no equilibrium under any load, so there are no results.");
     } else if summary.last_state_not_at_rest {
-        texts
-            .push("The last state is no answer: its bonds were still breaking when the run ended.");
+        texts.push("Not converged: bonds were still breaking in the last state. Ignore it.");
     }
     texts.extend(summary.warnings.iter().map(String::as_str));
     let computed = provenance(&summary.model, summary.provenance.as_ref(), &summary.stages);

@@ -39,12 +39,14 @@ fn failed_run_message(folder: &ResultFolder, error: &anyhow::Error) -> Option<St
     let can_go_on = was_not_written && folder.file(RESOLVED_CASE).is_file();
     let onward = can_go_on.then(|| {
         format!(
-            "when the reason is mended, `ligament resume {place}` goes on from its last checkpoint"
+            "once the cause is fixed, `ligament resume {place}` continues from the last checkpoint"
         )
     });
     let earlier = folder.replaces().map(|earlier| {
         let earlier = earlier.display();
-        format!("the results in {earlier} are the earlier ones; those of this run are unfinished, in {place}")
+        format!(
+            "{earlier} has the earlier results; the unfinished results of this run are in {place}"
+        )
     });
     match (earlier, onward) {
         (Some(earlier), Some(onward)) => Some(format!("{earlier}: {onward}")),
@@ -58,6 +60,6 @@ pub(crate) fn words(folder: &ResultFolder) -> Option<String> {
     let earlier = folder.replaces()?.display();
     let place = folder.path().display();
     Some(format!(
-        "results are made in {place}; they take the place of {earlier} when they are complete"
+        "results are written to {place} and replace {earlier} when they are complete"
     ))
 }

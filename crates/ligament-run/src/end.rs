@@ -76,4 +76,4 @@ pub const NO_EQUILIBRIUM: &str = "no-equilibrium";
 
 /// Message about a run that ended without equilibrium after other states.
 pub(crate) const UP_TO_THERE: &str =
-    "the run ended at a load for which no equilibrium was found: its results reach up to there";
+    "no equilibrium was found at the load where the run ended; the results reach up to there";

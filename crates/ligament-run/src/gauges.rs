@@ -11,7 +11,7 @@ pub fn words(free: &FreeBody, body: &dyn Body, closing: bool) -> String {
         "the body".to_owned()
     } else {
         let first = body.label(free.first);
-        format!("{} points, the first of them {first},", free.points)
+        format!("{} points (around {first})", free.points)
     };
     let motions: Vec<&str> = free.motions.iter().map(|it| motion(it.component)).collect();
     let gauges = free.gauges.iter();
@@ -19,7 +19,7 @@ pub fn words(free: &FreeBody, body: &dyn Body, closing: bool) -> String {
         .map(|&(point, component)| format!("{} of {}", component.name(), body.place(point)))
         .collect();
     let loads = if free.is_balanced() {
-        "the loads on it are in equilibrium, so that these gauges carry no force".to_owned()
+        "this changes nothing, because the loads balance".to_owned()
     } else {
         let loads: Vec<String> = (free.motions.iter())
             .filter(|it| !it.is_balanced())
@@ -27,16 +27,15 @@ pub fn words(free: &FreeBody, body: &dyn Body, closing: bool) -> String {
             .collect();
         let loads = loads.join(", ");
         if closing && !free.is_whole {
-            format!("the loads on it ({loads}) must be carried by faces that close")
+            format!("crack faces that close must carry the loads ({loads})")
         } else {
             format!(
-                "the loads on it are NOT in equilibrium ({loads}), which leaves the body without equilibrium: support it, or \
-                 balance the loads"
+                "the loads do NOT balance ({loads}), so there is no equilibrium: add a support, or balance the loads"
             )
         }
     };
     format!(
-        "supports and loads do not hold {what} against {}; held at zero instead: {}; {loads}",
+        "the supports leave {what} free in {}; fixed automatically: {}; {loads}",
         motions.join(", "),
         gauges.join(", ")
     )

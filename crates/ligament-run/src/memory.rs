@@ -49,8 +49,8 @@ const MARGIN: f64 = 1.5;
 /// Error of a run that would need more than the available memory.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
-    "the run would take {:.1} GB of memory{}, and there are {:.1} GB for it; take fewer points or a smaller horizon, run it on a \
-     larger machine, or say by solver.memory how many GB it may take",
+    "the run needs {:.1} GB of memory{}, and {:.1} GB are available; take fewer points, a smaller horizon or a larger machine, or set \
+     solver.memory to the number of GB that it may use",
     gigabytes(*needed),
     if *is_bound { " or more" } else { "" },
     gigabytes(*available)

@@ -15,11 +15,10 @@ pub fn words(notice: &Notice, body: &dyn Body, closing: bool) -> String {
         Notice::PartsDetached {
             step,
             points,
-            motions,
             first,
+            ..
         } => format!(
-            "step {step}: {points} points came loose, {motions} rigid motions of theirs are held from now on \
-             (first at {})",
+            "step {step}: a part of {points} points (around {}) broke off; its rigid motion is fixed so that the equations stay solvable",
             body.label(*first)
         ),
         Notice::Mechanisms { step, points } => {
@@ -27,7 +26,7 @@ pub fn words(notice: &Notice, body: &dyn Body, closing: bool) -> String {
             let shown = in_file.iter().take(SHOWN);
             let tags: Vec<String> = shown.map(|&point| body.tag(point).to_string()).collect();
             format!(
-                "step {step}: {} mechanism(s) without stiffness held, at {}(s) {}",
+                "step {step}: fixed {} mechanism(s), motions that no bond resists, at {}(s) {}",
                 points.len(),
                 body.tagged(),
                 tags.join(", ")
@@ -37,8 +36,8 @@ pub fn words(notice: &Notice, body: &dyn Body, closing: bool) -> String {
             let ends = body.numbering().ordered(*ends);
             let [a, b] = ends.map(|end| body.label(end));
             format!(
-                "step {step}: the faces of a crack pass through each other, by {depth:.2e} m between {a} and {b}, and nothing \
-                 keeps them from it; `closing = true` in [model] lets them carry pressure"
+                "step {step}: the faces of a crack overlap by {depth:.2e} m between {a} and {b}, because they carry no pressure; `closing \
+                 = true` in [model] lets them"
             )
         }
         Notice::PastPeak { .. } => format!("{notice} (fracture.control = \"event\")"),

@@ -20,12 +20,12 @@ pub(crate) fn loading(case: &CaseFile, model: &Model) -> anyhow::Result<Loading>
     let is_whole = model.system.subdomain().is_whole();
     ensure!(
         !case.case.output.bonds || is_whole,
-        "output.bonds: several processes write no file of the bonds as lines; run the case with one process, or leave the key out"
+        "output.bonds: several processes cannot write files of bonds; run the case with one process, or remove the key"
     );
     ensure!(
         !case.case.output.stress.contains(&StressField::Traction) || is_whole,
-        "output.stress: of \"traction\" several processes do not know all bonds that cross a plane; run the case with one process, or \
-         take \"material\" or \"virial\""
+        "output.stress: several processes cannot compute \"traction\", which needs all bonds that cross a plane; run the case with one \
+         process, or take \"material\" or \"virial\""
     );
     let loading = Loading::new(model);
     let mut loading = loading.map_err(|it| case.located(it))?;

@@ -131,7 +131,7 @@ impl Request<'_> {
         };
         ensure!(
             fs::symlink_metadata(&place).is_err(),
-            "{} is there already, perhaps from an earlier repetition: remove it, or choose another folder with --out",
+            "{} exists already, perhaps from an earlier repetition: remove it, or choose another folder with --out",
             place.display()
         );
         Ok(place)
@@ -181,7 +181,7 @@ const TOLD: [&str; 2] = ["iterations.csv", "breaks.csv"];
 fn in_use(error: ligament_output::Error) -> anyhow::Error {
     match error {
         ligament_output::Error::Busy { path, .. } => anyhow::anyhow!(
-            "{} is in use: a run writes its results there; repeat it when it has come to its end",
+            "{} is in use: a run writes its results there; repeat it when that run has ended",
             path.display()
         ),
         other => other.into(),
@@ -197,7 +197,7 @@ fn summary_of(folder: &Path) -> anyhow::Result<Summary> {
     let summary = summary::read(folder)?;
     summary.with_context(|| {
         format!(
-            "the run in {0} has not come to its end, for it has no {SUMMARY}: `ligament resume {0}` goes on with it",
+            "the run in {0} is incomplete, because it has no {SUMMARY}; complete it by `ligament resume {0}`",
             folder.display()
         )
     })
@@ -223,7 +223,7 @@ fn check_inputs(
         };
         let found = contents.identity(&path).map_err(|error| {
             let hint = match key.as_deref() {
-                Some("mesh.file") => "; if the mesh lies elsewhere now, give its place by --mesh",
+                Some("mesh.file") => "; if the mesh has moved, give its new place with --mesh",
                 _ => "",
             };
             unread((path.clone(), error)).context(format!("{what} cannot be read{hint}"))
@@ -235,7 +235,7 @@ fn check_inputs(
     }
     ensure!(
         changed.is_empty(),
-        "the run in {} cannot be repeated, for what it read has changed since: {}",
+        "the run in {} cannot be repeated, because its inputs have changed: {}",
         folder.display(),
         changed.join("; ")
     );
@@ -250,20 +250,20 @@ fn notes(summary: &Summary) -> Vec<String> {
     let all = [
         (
             record.is_none(),
-            "the results have no record of commit and inputs, for they are of an earlier version; the files that the case names were \
-             taken as they are now",
+            "the results have no record of commit and inputs, because an earlier version wrote them; the files of the case were taken as \
+             they are now",
         ),
         (
             record.is_some_and(|it| it.resumed),
-            "the run was resumed: what came before may be from other settings of its output, or another build",
+            "the run was resumed: its first part may come from other output settings or another build",
         ),
         (
             summary.without_equilibrium,
-            "the run has no equilibrium under load: only the way there was compared",
+            "the run has no equilibrium under load: only the steps up to there were compared",
         ),
         (
             is_cut_short,
-            "the run was cut short: it was compared up to there",
+            "the run was cut short: only its steps were compared",
         ),
     ];
     let said = all.into_iter().filter(|(applies, _)| *applies);
@@ -342,7 +342,7 @@ impl Repetition {
             writeln!(out, "  {what:<18} {then} then, {now} now")?;
         }
         if !self.is_same() && !self.is_explained && self.circumstances.is_empty() {
-            let alike = "program and processor are as they were: were results changed since? If not, please report it";
+            let alike = "program and processor are the same: were the results edited? If not, please report this";
             writeln!(out, "  {:<18} {alike}", "explanation")?;
         }
         for note in &self.notes {

@@ -84,7 +84,7 @@ impl Request<'_> {
         };
         if let (Some(folder), None) = (&folder, &found) {
             ensure_unfinished(folder)?;
-            progress.stage("the run has no checkpoint yet: it starts anew");
+            progress.stage("the run has no checkpoint yet, so it starts from the beginning");
         }
         self.go_on(case, folder, found, progress)
     }
@@ -125,7 +125,7 @@ impl Request<'_> {
             .map(|((checkpoint, results), restored)| {
                 let kept = kept(checkpoint, results, restored, &problem)?;
                 progress.stage(&format!(
-                    "going on at load factor {:.4}, {} broken",
+                    "resuming at load factor {:.4} with {} broken",
                     kept.restored.load_factor(),
                     kept.restored.broken_bonds()
                 ));
@@ -157,8 +157,8 @@ fn check_setting(setting: &str) -> anyhow::Result<()> {
     let key = setting.split_once('=').map_or(setting, |it| it.0).trim();
     ensure!(
         MAY_CHANGE.contains(&key),
-        "--set {setting}: a run that goes on keeps all that decides about its results so far; it may only take other values of {}. \
-         For anything else run the case anew, with `ligament run`",
+        "--set {setting}: a resumed run can only change {}; any other key would change its earlier results. For that, run the case again \
+         with `ligament run`",
         MAY_CHANGE.join(", ")
     );
     Ok(())
@@ -183,7 +183,9 @@ fn find_checkpoint(
         match usable {
             Ok(found) => {
                 for reason in reasons {
-                    progress.stage(&format!("{reason:#}; going on from the checkpoint before"));
+                    progress.stage(&format!(
+                        "{reason:#}; resuming from the checkpoint before it"
+                    ));
                 }
                 return Ok(Some(found));
             }
@@ -193,7 +195,7 @@ fn find_checkpoint(
     match reasons.into_iter().next() {
         None => Ok(None),
         Some(first) => Err(first.context(format!(
-            "the run in {} cannot go on; its results so far are as they were",
+            "cannot resume the run in {}; its results are unchanged",
             folder.path().display()
         ))),
     }
@@ -204,13 +206,13 @@ fn check_inputs(checkpoint: &Checkpoint, case: &CaseFile) -> anyhow::Result<()> 
     let version = &checkpoint.version;
     ensure!(
         version == VERSION,
-        "its checkpoint was written by version {version} of the program and this is version {VERSION}: go on with that one, or run \
-         the case anew"
+        "version {version} of the program wrote its checkpoint, and this is version {VERSION}: resume with that version, or run the case \
+         again"
     );
     let inputs = Inputs::of_course(case, &mut Contents::default()).map_err(unread)?;
     ensure!(
         inputs.text() == checkpoint.inputs,
-        "its checkpoint is of other inputs ({}): go on with the case and the mesh that it was begun with, or run the case anew",
+        "its checkpoint belongs to other inputs ({}): resume with the case and the mesh of the first run, or run the case again",
         inputs.difference(&checkpoint.inputs)
     );
     Ok(())
@@ -225,7 +227,7 @@ fn kept(
 ) -> anyhow::Result<Kept> {
     ensure!(
         results.fits(problem),
-        "the checkpoint is of another model: points or bonds differ"
+        "the checkpoint belongs to another model: points or bonds differ"
     );
     Ok(Kept {
         restored,
@@ -241,7 +243,7 @@ fn ensure_unfinished(folder: &ResultFolder) -> anyhow::Result<()> {
     };
     let end = Some(&*summary.termination_message).filter(|it| !it.is_empty());
     bail!(
-        "the run in {} has come to its end ({}): there is nothing to go on with",
+        "the run in {} is complete ({}), so there is nothing to resume",
         folder.path().display(),
         end.unwrap_or("an analysis without load steps")
     );

@@ -153,13 +153,13 @@ pub fn write(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
     )?;
     writeln!(out, "  ended because      {}", summary.termination_message)?;
     if summary.without_equilibrium {
-        let none = "no state under load is in equilibrium: there are no results";
+        let none = "there is no equilibrium under any load, so there are no results";
         writeln!(out, "  NO EQUILIBRIUM     {none}")?;
     } else if End::from_summary(summary) == End::NoEquilibrium {
         writeln!(out, "  NO EQUILIBRIUM     {UP_TO_THERE}")?;
     } else if summary.last_state_not_at_rest {
-        let last = "the last state is no answer: its bonds were still breaking when the run ended";
-        writeln!(out, "  NOT AT REST        {last}")?;
+        let last = "bonds were still breaking in the last state; ignore it";
+        writeln!(out, "  NOT CONVERGED      {last}")?;
     }
     for warning in summary.warnings.iter().take(WARNINGS_SHOWN) {
         writeln!(out, "  warning: {warning}")?;

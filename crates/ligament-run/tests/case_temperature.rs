@@ -372,8 +372,8 @@ fn tables_give_each_point_the_row_beside_it() {
     wrong("x,y,change\n1,2,nan\n", "heat.csv:2: `nan` is no number");
     wrong(
         "x,y,change\n0.5,0.5,1\n0.5,1.5,1\n0.7,1.5,1\n",
-        "2 points get no temperature: the table has no row within a tenth of the distance to the nearest other point; the \
-         first is cell 2 at (1.500000, 0.500000)",
+        "2 points have no temperature (the first is cell 2 at (1.500000, 0.500000)): the table has no row within a tenth of the distance \
+         to the nearest other point",
     );
     wrong(
         "x,y,change\n0.5,0.5,1\n0.5,0.52,1\n",
@@ -411,7 +411,7 @@ fn fields_of_the_mesh_file_stand_at_its_nodes() {
         ),
         (
             "mesh_field = \"heat\"\ntime_step = 1",
-            "1 points get no temperature: the field has no value; the first is node 14 at (0.000000, 1.000000)",
+            "1 points have no temperature (the first is node 14 at (0.000000, 1.000000)): the field has no value",
         ),
     ] {
         let error = of_field(keys).unwrap_err();

@@ -106,8 +106,8 @@ pub enum Fault {
     },
     /// Points without a neighbour, which have no stiffness under any correction.
     #[error(
-        "{count} of {n_points} points have no neighbour in their horizon (the first is {first}): they need a larger horizon, or \
-         must go"
+        "{count} of {n_points} points have no neighbour in their horizon (the first is {first}): enlarge the horizon, or remove these \
+         points"
     )]
     LonePoints {
         /// Number of such points.
@@ -119,8 +119,8 @@ pub enum Fault {
     },
     /// Two points that nearly coincide.
     #[error(
-        "{} and {} are only {distance:.1e} m apart, where points are {size:.1e} m in size: their bond would outdo all others. If they \
-         are one, merge them (`Coherence Mesh;`, or a larger Geometry.Tolerance); if they are the faces of a slit, move these apart",
+        "{} and {} are only {distance:.1e} m apart, where points are {size:.1e} m in size: their bond would be far stiffer than all others. \
+         If they are one, merge them (`Coherence Mesh;`, or a larger Geometry.Tolerance); if they are the faces of a slit, move these apart",
         places[0], places[1]
     )]
     NearPoints {
@@ -145,9 +145,9 @@ pub enum Fault {
     },
     /// A factor of a correction that is not a finite number.
     #[error(
-        "the surface correction has gone astray: its factor for the bond from {} to {} is not a number. Its equations bear no cells that are much \
-         longer than wide, nor sizes that change this steeply (the nearest neighbours of points are {:.1e} to {:.1e} m away): take cells \
-         of about equal sides, or the correction by volume (correction.surface)", places[0], places[1], spacing[0], spacing[1]
+        "the surface correction failed: its factor for the bond from {} to {} is not a number. Its equations have no solution for cells \
+         that are much longer than wide, or for sizes that change too steeply (the nearest neighbours of points are {:.1e} to {:.1e} m \
+         away): take cells with about equal sides, or correction.surface = \"volume\"", places[0], places[1], spacing[0], spacing[1]
     )]
     NoCorrection {
         /// Descriptions of the bond's ends.
@@ -178,7 +178,7 @@ pub enum Fault {
         distance: f64,
     },
     /// A line that no bond crosses.
-    #[error("no bond crosses this line: a force through it would be 0 N whatever the load")]
+    #[error("no bond crosses this line, so the force through it would always be 0 N")]
     NothingCrossed,
     /// Cells of a mesh that overlap.
     #[error(
@@ -244,7 +244,7 @@ pub enum Fault {
         other: String,
     },
     /// A setup without a load and without a change of temperature.
-    #[error("there is no load and no point whose temperature changes: nothing would happen")]
+    #[error("there is no load and no change of temperature, so nothing would happen")]
     NothingHappens,
     /// A first load of zero.
     #[error(
@@ -253,8 +253,8 @@ pub enum Fault {
     ZeroControl,
     /// A platen on points that all have one position across the load.
     #[error(
-        "a platen tilts about points that lie beside each other across the load, and its group has {points} in one place: give a group that \
-         is wider, or leave `tilts` out"
+        "a platen tilts about points that lie beside each other across the load, and its group has {points} in one place: give a group \
+         that is wider, or leave `tilts` out"
     )]
     NoPlaten {
         /// Number of points of the group.
@@ -303,7 +303,7 @@ pub enum Fault {
         second: usize,
     },
     /// Points within the place of a table or a field of temperatures that get no temperature from it.
-    #[error("{points} points get no temperature: {reason}; the first is {first}")]
+    #[error("{points} points have no temperature (the first is {first}): {reason}")]
     NoTemperature {
         /// Number of such points.
         points: usize,
@@ -316,7 +316,7 @@ pub enum Fault {
     #[error("{0}")]
     NoSuchField(String),
     /// A setup with another analysis than the requested one.
-    #[error("it says {found}, and {wanted} was asked for: set it, or ask for the other")]
+    #[error("the setup says {found}, but the call computes {wanted}: change one of the two")]
     OtherAnalysis {
         /// The analysis of the setup.
         found: &'static str,
@@ -331,9 +331,9 @@ pub enum Fault {
 /// Error of a body with connected cells that its bonds do not connect, because sides of cells are longer than the horizon.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
-    "the body falls into {parts} parts that no bond connects, where its cells make {of_body}: from {} to {} it is {length:.4e} m \
-     (direction {}), and their horizon is {horizon:.4e} m. Cells this long need {remedy}; cells of equal sides do with \
-     a horizon factor of 3", places[0], places[1], direction(along)
+    "the bonds connect {parts} separate parts, but the cells form {of_body}: from {} to {} the distance is {length:.4e} m (direction {}), \
+     and their horizon is {horizon:.4e} m. Cells this long need {remedy}; for cells with equal sides a horizon factor of 3 is enough",
+    places[0], places[1], direction(along)
 )]
 pub struct Torn {
     /// Number of parts that the bonds connect.

@@ -29,8 +29,8 @@ pub enum Implausible {
     },
     /// A strength that is implausibly large for the stiffness.
     #[error(
-        "the {property} of {material} is {:.4} of its Young's modulus, and no material is as strong as a tenth: strengths and moduli are in Pa \
-         (3 MPa is 3e6)", strength / young
+        "the {property} of {material} is {:.4} of its Young's modulus, and no material is as strong as a tenth: strengths and moduli are \
+         in Pa (3 MPa is 3e6)", strength / young
     )]
     Strong {
         /// Description of the material.
@@ -44,8 +44,8 @@ pub enum Implausible {
     },
     /// A limit of a bond beyond small strains.
     #[error(
-        "by the criterion \"{criterion}\" bonds reach their limits at {limit:.4}, and strains of more than {LARGEST_STRAIN} are not small: a limit is a \
-         strain, strengths are in Pa, a fracture energy is in J/m^2 (0.1 N/mm is 100 J/m^2)"
+        "by the criterion \"{criterion}\" bonds reach their limits at {limit:.4}, and strains of more than {LARGEST_STRAIN} are not small: \
+         a limit is a strain, strengths are in Pa, a fracture energy is in J/m^2 (0.1 N/mm is 100 J/m^2)"
     )]
     LargeLimit {
         /// Name of the criterion.
@@ -55,8 +55,8 @@ pub enum Implausible {
     },
     /// A fracture energy below the energy of two surfaces.
     #[error(
-        "the fracture energy of {material} is {energy} J/m^2, less than new surfaces cost in any solid as stiff (E times 0.01 nm, {:.4} J/m^2): it \
-         is in J/m^2 (0.1 N/mm is 100 J/m^2)", LEAST_ENERGY * young
+        "the fracture energy of {material} is {energy} J/m^2, less than new surfaces cost in any solid as stiff (E times 0.01 nm, {:.4} \
+         J/m^2): it is in J/m^2 (0.1 N/mm is 100 J/m^2)", LEAST_ENERGY * young
     )]
     LowEnergy {
         /// Description of the material.
@@ -68,8 +68,8 @@ pub enum Implausible {
     },
     /// A softening zone shorter than the distance between points.
     #[error(
-        "the characteristic length of {material}, E G_c/F_t^2, is {length:.3e} m, less than the distance of points, {spacing:.3e} m: no zone of \
-         softening fits between them; look at the units of fracture_energy (J/m^2) and strength (Pa), or take a finer body"
+        "the characteristic length of {material}, E G_c/F_t^2, is {length:.3e} m, less than the distance of points, {spacing:.3e} m: the \
+         softening zone is smaller than the spacing; check the units of fracture_energy (J/m^2) and strength (Pa), or take a finer body"
     )]
     ShortLength {
         /// Description of the material.
@@ -81,8 +81,8 @@ pub enum Implausible {
     },
     /// A softening zone far longer than the body.
     #[error(
-        "the characteristic length of {material}, E G_c/F_t^2, is {length:.3e} m, more than ten times the body ({body:.3e} m): no crack in it comes to \
-         its end of softening; look at the units of fracture_energy (J/m^2) and strength (Pa)"
+        "the characteristic length of {material}, E G_c/F_t^2, is {length:.3e} m, more than ten times the body ({body:.3e} m): no crack in \
+         it can soften completely; check the units of fracture_energy (J/m^2) and strength (Pa)"
     )]
     LongLength {
         /// Description of the material.
@@ -104,13 +104,13 @@ pub enum Implausible {
     },
     /// A thickness that is not given.
     #[error(
-        "the thickness of the body is not given: 1 m is taken, and forces are those of a body 1 m thick; give it `thickness`, in m"
+        "the thickness of the body is not given, so the forces are those of a body 1 m thick; set `thickness`, in m"
     )]
     NoThickness,
     /// Pre-cracks that cut no bond.
     #[error(
-        "{} no bond: nothing of the body lies on both sides of what was given, and the body reaches from ({}) to ({}) m; are the coordinates \
-         in m?", numbered(cracks), coordinates(&corners[0]), coordinates(&corners[1])
+        "{} no bond: the body, which reaches from ({}) to ({}) m, does not lie on both sides of it; are the coordinates in \
+         m?", numbered(cracks), coordinates(&corners[0]), coordinates(&corners[1])
     )]
     CutsNothing {
         /// Indices of the pre-cracks, one or more, ascending.
@@ -120,8 +120,7 @@ pub enum Implausible {
     },
     /// Criteria without a bond that may fail.
     #[error(
-        "no bond may fail: all of them have an end in a part where bonds never do ([[no_fail]]), so that nothing will ever break; are its \
-         coordinates in m?"
+        "no bond can fail, because every bond has an end in a [[no_fail]] part; are its coordinates in m?"
     )]
     NothingFails,
 }

@@ -79,14 +79,14 @@ pub enum Untested {
     NoSection,
     /// The outline has too many sides for the search of the thinnest section.
     #[error(
-        "the outline of the body has {sides} sides, and among so many its thinnest section takes long to find; ask with --patch-test"
+        "the outline of the body has {sides} sides, and among so many its thinnest section takes long to find; use --patch-test"
     )]
     ManySides {
         /// Number of the sides.
         sides: usize,
     },
     /// The strip of the bending test has too many points.
-    #[error("the strip at the thinnest section has {points} points; ask with --patch-test")]
+    #[error("the strip at the thinnest section has {points} points; use --patch-test")]
     TooLarge {
         /// Number of points of the strip.
         points: usize,

@@ -81,7 +81,7 @@ pub fn follow(
         }
         Analysis::Stepped(settings) => driver::stepped::run(problem, settings, observer)?,
         Analysis::Event(settings) => driver::event::run(problem, settings, observer)?,
-        Analysis::Modal(_) => return Err(other_analysis(analysis, "the answer to loads")),
+        Analysis::Modal(_) => return Err(other_analysis(analysis, "the response to loads")),
     })
 }
 

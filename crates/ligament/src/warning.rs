@@ -42,8 +42,7 @@ pub enum Warning {
     Implausible(Implausible),
     /// A body whose coordinates are probably in millimetres.
     #[error(
-        "the body is {length:.1} m across, if its lengths are in m as they should be: a mesh in mm must be scaled by 0.001 (in Gmsh: \
-         Mesh.ScalingFactor = 0.001)"
+        "the body is {length:.1} m across: is the mesh in mm? Lengths are in m, so scale it by 0.001 (in Gmsh: Mesh.ScalingFactor = 0.001)"
     )]
     LargeBody {
         /// Longer side of the box around the body, m.
@@ -120,8 +119,8 @@ pub enum Warning {
     },
     /// Bonds that only touch an end of a pre-crack.
     #[error(
-        "{bonds} bonds only touch an end of a pre-crack and stay whole: if the crack begins at the outline, let it begin a little \
-         outside, or give it `ends = \"included\"`"
+        "{bonds} bonds only touch an end of a pre-crack and stay whole: if the crack begins at the outline, start it a little outside, or \
+         set `ends = \"included\"`"
     )]
     Touched {
         /// Number of such bonds.
@@ -129,15 +128,15 @@ pub enum Warning {
     },
     /// Virial stresses at irregular points.
     #[error(
-        "virial stresses (output.stress, probes of stress_xx and so on) are those of the body in the mean alone: at single points of an \
-         irregular mesh they are off by a tenth to a quarter inside the body, and by a third and more at its edges, also with the patch \
-         correction; take output.stress = [\"material\"] and probes of stress.xx, which are those of the points"
+        "virial stresses (output.stress, probes of stress_xx and so on) are right only in the mean over the body: at single points of an \
+         irregular mesh their error is 10 to 25 % inside the body and 30 % or more at its edges, also with the patch correction; take \
+         output.stress = [\"material\"] and probes of stress.xx instead"
     )]
     PointStress,
     /// Random factors with a correlation length below the distance between points.
     #[error(
         "fracture.scatter.correlation_length = {length:.4e} m is less than the largest distance between points, {spacing:.4e} m: there the \
-         points decide over how far strengths go together; take a finer body or a greater length (0: each point for itself)"
+         spacing of the points limits the correlation; take a finer body or a greater length (0: each point independent)"
     )]
     ScatterBelowSpacing {
         /// Correlation length, m.
@@ -153,7 +152,7 @@ pub enum Warning {
     OneLine,
     /// A Poisson's ratio that the law does not use.
     #[error(
-        "Poisson's ratio {poisson} is not used: bonds that only resist stretch have {limit:.4}"
+        "Poisson's ratio {poisson} has no effect: bonds that resist stretch alone have {limit:.4}"
     )]
     PoissonNotUsed {
         /// Poisson's ratio of the material.
@@ -182,8 +181,8 @@ pub enum Warning {
     NegativeShearInSpace(NegativeShear),
     /// A law without rotations of points, whose bonds resist rotations of the body.
     #[error(
-        "law = \"{law}\": points have no rotations, so that every rotation of the body costs energy that it should not: where the body \
-         bends, twists or shears it is up to tens of times too stiff, although its Young's modulus is right; \"mppd\" and \"nhpd\" have rotations"
+        "law = \"{law}\": points have no rotations, so every rotation of the body costs energy: in bending, torsion and shear the body is \
+         up to tens of times too stiff, although Young's modulus is right; take \"mppd\" or \"nhpd\", which have rotations"
     )]
     RotationResisted {
         /// The law.
@@ -191,8 +190,8 @@ pub enum Warning {
     },
     /// A criterion that takes the rotation of the body for sliding.
     #[error(
-        "criterion \"{criterion}\": under law = \"{law}\" points have no rotations, so that where the body turns its rotation counts \
-         as sliding of the bonds; \"mppd\" tells them apart"
+        "criterion \"{criterion}\": under law = \"{law}\" points have no rotations, so a rotation of the body counts as sliding of the \
+         bonds; take \"mppd\", which separates the two"
     )]
     RotationAsSliding {
         /// The criterion.
@@ -202,8 +201,8 @@ pub enum Warning {
     },
     /// A criterion of stress where a uniform stress is no equilibrium.
     #[error(
-        "criterion \"{criterion}\": without correction.surface = \"patch\" a uniform stress is no equilibrium of the bonds, and the first of \
-         them fails at about half of the strength"
+        "criterion \"{criterion}\": without correction.surface = \"patch\" the bonds are not in equilibrium under a uniform stress, and \
+         the first one fails at about half of the strength"
     )]
     StressWithoutPatch {
         /// The criterion.
@@ -211,8 +210,8 @@ pub enum Warning {
     },
     /// Bonds that break before the stress comes to the strength at which others begin to soften.
     #[error(
-        "{:.0} % of the bonds break before the stress comes to the strength, the first at {least:.2} of it: their horizon is several times E \
-         G_c/F_t^2, so that they spend the fracture energy before; take a finer mesh there, or `no_fail` where nothing cracks",
+        "{:.0} % of the bonds break before the stress comes to the strength, the first at {least:.2} of it: their horizon is several times \
+         E G_c/F_t^2, so that they spend the fracture energy before; take a finer mesh there, or `no_fail` where nothing cracks",
         100.0 * share
     )]
     BelowStrength {
@@ -387,7 +386,7 @@ fn not_met(body: &dyn Body, report: &patch::Report, factor: Option<f64>) -> Warn
 /// Advice for a body that does not satisfy the equations of the patch correction.
 fn more_bonds(factor: Option<f64>) -> String {
     match factor {
-        Some(factor) => format!("more bonds a point help (model.horizon_factor = {factor})"),
+        Some(factor) => format!("more bonds per point help (model.horizon_factor = {factor})"),
         None => "smaller cells help where the body is thin or edges are sharp".to_owned(),
     }
 }

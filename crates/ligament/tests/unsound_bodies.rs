@@ -64,7 +64,9 @@ fn points_that_nearly_coincide_are_named() {
 fn cells_longer_than_the_horizon_are_refused() {
     let found = error(plate([0.035, 0.01], |_| ()));
     assert!(
-        found.starts_with("horizon: the body falls into 7 parts that no bond connects, where its cells make 1: from node "),
+        found.starts_with(
+            "horizon: the bonds connect 7 separate parts, but the cells form 1: from node "
+        ),
         "{found}"
     );
     assert!(
@@ -107,7 +109,7 @@ fn a_section_that_no_bond_crosses_is_refused() {
     };
     assert_eq!(
         error(with_section([[0.2, 0.0], [0.2, 0.1]])),
-        "probes[0].reading: no bond crosses this line: a force through it would be 0 N whatever the load"
+        "probes[0].reading: no bond crosses this line, so the force through it would always be 0 N"
     );
     let crossed = with_section([[0.025, -0.01], [0.025, 0.07]]);
     crossed.solve(&mut NoObserver).unwrap();

@@ -242,7 +242,7 @@ fn what_does_not_go_together_is_refused_with_a_remedy() {
         (
             error(|it| it.horizon = Horizon::Length(1e-3)),
             "horizon:",
-            "larger horizon",
+            "enlarge the horizon",
         ),
         (error(|it| it.analysis = steps()), "criteria:", "give one"),
         (
@@ -276,7 +276,10 @@ fn what_does_not_go_together_is_refused_with_a_remedy() {
 #[test]
 fn modes_are_asked_for_by_the_analysis() {
     let error = plate().modes().unwrap_err().to_string();
-    assert!(error.starts_with("analysis: it says static"), "{error}");
+    assert!(
+        error.starts_with("analysis: the setup says static"),
+        "{error}"
+    );
 }
 
 #[test]

@@ -23,7 +23,7 @@ impl Case {
         }
         Err(match (&mesh.unread, read_any_mesh(&mesh.file)) {
             (Some(reason), _) => {
-                let reason = format!("{reason}; a path is from the folder of the case file");
+                let reason = format!("{reason}; paths are relative to the folder of the case file");
                 of_mesh(source, "read", mesh, &reason)
             }
             (None, Err(MeshFileError::Parse { source: reason, .. })) => {

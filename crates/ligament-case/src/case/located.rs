@@ -38,8 +38,7 @@ impl Case {
             },
             SetupFault::Contradiction(reason) => Fault::Other(reason.said(setting::of_setup)),
             SetupFault::NothingHappens => {
-                "there is no [[load]] and no point whose temperature changes: nothing would happen"
-                    .into()
+                "there is no [[load]] and no change of temperature, so nothing would happen".into()
             }
             SetupFault::SampledTwice {
                 place,

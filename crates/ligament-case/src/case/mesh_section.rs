@@ -55,7 +55,7 @@ impl MeshSection {
                 ("thickness", self.thickness.is_some()),
                 ("plane", self.plane.is_some()),
             ];
-            let reason = "they belong to bodies in the plane";
+            let reason = "only bodies in the plane have it";
             return refuse(key, given, "a mesh of solid cells", reason);
         }
         self.plane.get_or_insert_default();

@@ -38,7 +38,8 @@ pub struct ModelSection {
     #[schemars(extend("description" = of_laws("Stiffness against relative rotation", |it| it.options.rotational_stiffness.is_some())))]
     pub rotational_stiffness: Option<Word<RotationalStiffness>>,
     /// Stiffness against relative rotation over that of the law; 1 without the key.
-    #[schemars(range(min = 0), extend("description" = of_laws("Stiffness against relative rotation over that of the law; 1 without the key", |it| it.shear_form.is_some())))]
+    #[schemars(range(min = 0), extend("description" = of_laws("Stiffness against relative rotation over that of the law; 1 without the \
+        key", |it| it.shear_form.is_some())))]
     pub rotational_factor: Option<f64>,
     /// Stiffness against relative rotation of a Cosserat continuum with this characteristic length in bending, m; in the place of
     /// `rotational_factor`.
@@ -61,7 +62,7 @@ impl ModelSection {
         });
         let reasons = [
             ("calibration", "its constants are those of the paper"),
-            ("rotational_stiffness", "the law says what it is"),
+            ("rotational_stiffness", "the law determines it"),
             ("form", "only \"mbb-pd\" has several"),
             ("strains", "only \"mbb-pd\" has true strains"),
         ];
@@ -94,10 +95,10 @@ impl ModelSection {
             return refuse(key, given, &setting, "its points have no rotations");
         };
         if profile.rotational == RotationalStiffness::Zero {
-            let reason = "there is no stiffness to give a size to";
+            let reason = "there is no rotational stiffness to scale";
             return refuse(key, given, "rotational_stiffness = \"none\"", reason);
         }
-        let reason = "both give the rotational stiffness its size";
+        let reason = "both scale the rotational stiffness";
         let length = [given[1]];
         match self.rotational_factor {
             Some(_) => refuse(key, length, "rotational_factor", reason),

@@ -70,7 +70,7 @@ impl Precrack {
             ("radius", self.radius.is_some()),
             ("group", self.group.is_some()),
         ];
-        let reason = "it belongs to pre-cracks of solids, which are surfaces";
+        let reason = "only pre-cracks of solids, which are surfaces, have it";
         refuse(key, of_solids, "a body in the plane", reason)?;
         let straight = [
             ("centre", self.centre.is_some()),
@@ -106,7 +106,7 @@ impl Precrack {
             key,
             of_lines,
             "a solid",
-            "it belongs to pre-cracks in the plane, which are lines",
+            "only pre-cracks in the plane, which are lines, have it",
         )?;
         let points = self.points.as_ref().map(|points| {
             let key = key.child("points");

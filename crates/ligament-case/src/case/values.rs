@@ -113,7 +113,7 @@ pub(super) fn metre() -> f64 {
 pub fn require_column_name(key: impl Fn() -> KeyPath, name: &str) -> Result<(), KeyFault> {
     require_no_formula(&key, "name", name)?;
     let is_seen = !name.contains(is_unseen);
-    let expected = "a name without characters that are not seen, as control characters are";
+    let expected = "a name without invisible characters, such as control characters";
     require(is_seen, &key, expected, name)?;
     let fits = !name.is_empty() && name.trim() == name && !name.contains([',', '"']);
     let expected = "a name without commas, quotes or surrounding blanks";

@@ -25,7 +25,7 @@ fn supports_and_loads_that_make_no_sense_are_refused() {
     );
     assert_eq!(
         error_with(load, "at = [0, 0]\nforce = {}"),
-        "33:9: load.0.force: this load does nothing: neither `x` nor `y` is given a value"
+        "33:9: load.0.force: this load does nothing: give `x` or `y` a value"
     );
 }
 
@@ -50,7 +50,7 @@ fn names_are_unique_and_fit_for_columns() {
     }
     for unseen in ["a\\u0007", "a\\u2028b", "\\u202Egnp", "\\uFEFFa"] {
         let error = error_with("\"cmod\"", &format!("\"{unseen}\""));
-        assert!(error.contains("characters that are not seen"), "{error}");
+        assert!(error.contains("invisible characters"), "{error}");
     }
     let again = "[[load]]\ngroup = \"top\"\nforce = { x = 1 }\n\n[[no_fail]]";
     assert_eq!(

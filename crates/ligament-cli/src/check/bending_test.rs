@@ -41,7 +41,7 @@ pub(super) fn write(
     );
     entry(out, "thinnest section", words)?;
     if section.horizons() > THICK && !model.setup.law.row.resists_rotations() {
-        let words = format!("it has more than {THICK} horizons across, enough to bend");
+        let words = format!("more than {THICK} horizons across, which is enough for bending");
         entry(out, "not tested", words)?;
         return Ok(None);
     }
@@ -90,12 +90,12 @@ fn warning(model: &Model, section: &Section, test: &BendingTest) -> String {
     let cure = match test.refinement() {
         Some(factor) if is_patched => {
             format!(
-                "about {:.0} of them keep it within 5 %",
+                "about {:.0} distances keep the error within 5 %",
                 (across / factor).ceil()
             )
         }
-        Some(_) => "more of them and correction.surface = \"patch\" bring it down".to_owned(),
-        None => "finer points do not cure this".to_owned(),
+        Some(_) => "a finer mesh and correction.surface = \"patch\" reduce this".to_owned(),
+        None => "a finer mesh does not help".to_owned(),
     };
     format!(
         "the body is {} as stiff as its material in bending{} where it is thinnest, {} with {across:.1} distances of points across at \

@@ -31,8 +31,8 @@ pub(super) fn write(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     let breaks_by_stress = |it: &&Criterion| it.follows_stress() && it.after.is_brittle();
     let starts = list.iter().any(|it| it.starting().is_some());
     if list.iter().any(|it| breaks_by_stress(&it)) && !starts {
-        let words = "bonds that break at once by a stress: the strength does not hang on the mesh, but the toughness does, K_Ic ~ sqrt(H); \
-                     `rankine` softens by the fracture energy";
+        let words = "brittle bonds with a limit of stress: the strength does not depend on the mesh, but the toughness does (K_Ic grows \
+            with sqrt(H)); `rankine` softens according to the fracture energy";
         entry(out, "cracks", words)?;
     }
     Ok(())
@@ -55,7 +55,7 @@ fn words(model: &Model, material: &Material, length: f64) -> String {
     let shares = between([smallest / length, largest / length], "-");
     let finer = match largest > length {
         true => format!(
-            "; for a horizon of at most that the mesh must be {} times as fine",
+            "; a horizon no larger than that takes a mesh {} times finer",
             four_digits(largest / length)
         ),
         false => String::new(),

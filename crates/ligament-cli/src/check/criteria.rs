@@ -56,7 +56,7 @@ fn write_crack(
         name => format!("{name}: "),
     };
     words += &match energies.map(|it| it.per_area) {
-        [0.0, 0.0] => "nothing: no bond breaks by the opening of a crack".to_owned(),
+        [0.0, 0.0] => "nothing: opening a crack breaks no bond".to_owned(),
         spent => spent_words(spent, material.fracture_energy),
     };
     let from_energy = |it: &Choice| {
@@ -64,13 +64,13 @@ fn write_crack(
         it.spends_fracture_energy() || of_softening
     };
     if !model.setup.criteria.iter().any(from_energy) {
-        words += ", which changes with the horizon";
+        words += ", which depends on the horizon";
     }
     let criteria = model.criteria.list.iter();
     let by_stretch = criteria.filter(|it| it.measure.opens() && !it.measure.takes_sliding());
     let has_shear = model.has_shear();
     if has_shear && by_stretch.count() > 0 {
-        words += "; more where its faces slide, which this criterion does not count";
+        words += "; more where the faces slide, because this criterion ignores sliding";
     }
     let unbroken = energies
         .map(|it| it.unbroken)
@@ -118,7 +118,7 @@ fn write_scatter(out: &mut dyn Write, model: &Model) -> io::Result<()> {
         Distribution::Normal { deviation } => format!("normal by {} %", 100.0 * deviation),
     };
     let correlation = match scatter.correlation_length {
-        0.0 => "each point for itself".to_owned(),
+        0.0 => "each point independent".to_owned(),
         length => format!("correlation length {}", quantity(length, "m")),
     };
     let Spread { min, max, .. } = summary.factor;
@@ -142,7 +142,7 @@ fn write_limits(out: &mut dyn Write, criterion: &Criterion) -> io::Result<()> {
     let of_bonds =
         |value: &dyn Fn(usize) -> f64| Range::over(bonds.iter().map(|&bond| value(bond)));
     let Some(limits) = of_bonds(&|bond| criterion.limit[bond]) else {
-        return writeln!(out, "no limit: no bond may fail");
+        return writeln!(out, "no limit: no bond can fail");
     };
     write!(out, "{limits}")?;
     let stored = criterion.coefficients(0).len();
@@ -184,7 +184,7 @@ fn write_energy(out: &mut dyn Write, model: &Model, criterion: &Criterion) -> io
     {
         writeln!(
             out,
-            "{:<24}a bar without a crack fails at {at_most}E s_0 = {}, which changes with the horizon",
+            "{:<24}a bar without a crack fails at {at_most}E s_0 = {}, which depends on the horizon",
             "",
             limits.times(young).text("Pa")
         )?;

@@ -48,7 +48,7 @@ pub(super) fn write_with_matrix(
     entry(out, "entries", entries)?;
     write_memory(out, case, model, Some(stiffness))?;
     let choice = stiffness.choice();
-    entry(out, "method", format!("with a factor: {}", choice.reason))?;
+    entry(out, "method", format!("direct: {}", choice.reason))?;
     write_choice(out, &model.setup, choice)?;
     entry(out, "ordering", ordering_reason(model))?;
     for ordering in [Ordering::NestedDissection, Ordering::MinimumDegree] {
@@ -72,7 +72,7 @@ fn write_iteration(
     writeln!(out, "equations")?;
     entry(out, "unknowns", unknowns)?;
     write_memory(out, case, model, None)?;
-    let method = format!("conjugate gradients without a matrix: {reason}");
+    let method = format!("iterative, by conjugate gradients without a matrix: {reason}");
     entry(out, "method", method)?;
     let aggregates = format!("rigid motions of at most {aggregate} points each");
     entry(out, "coarse space", aggregates)?;
@@ -80,7 +80,7 @@ fn write_iteration(
     let left = format!(
         "{tolerance:e} of the forces after a breakage; bonds within {tied:e} break together"
     );
-    entry(out, "left out of balance", left)?;
+    entry(out, "tolerance", left)?;
     Ok(entry(out, "threads", rayon::current_num_threads())?)
 }
 
@@ -93,7 +93,7 @@ fn write_memory(
     let bytes = memory::of_equations(&*model.system, stiffness);
     entry(out, "estimated memory", megabytes(bytes as f64))?;
     if let Some(there) = memory::allowed(case) {
-        entry(out, "memory there is", megabytes(there as f64))?;
+        entry(out, "available memory", megabytes(there as f64))?;
     }
     match memory::foresee(case, &*model.system, stiffness) {
         Ok(()) => Ok(()),
@@ -106,14 +106,14 @@ fn write_choice(out: &mut dyn Write, setup: &Setup, choice: &DirectChoice) -> io
         return entry(
             out,
             "factorisation",
-            "L U: the printed forces are not those of an energy; entries and order are those of its energy form",
+            "L U, because the printed forces derive from no energy; entries and ordering are those of the energy form",
         );
     }
     let is_named = setup.solver.factorisation.is_some();
     let why = match (is_named, choice.factorisation) {
-        (true, _) => "as the case says",
+        (true, _) => "set in the case",
         (false, FactorKind::Llt) => {
-            "the axial and shear stiffness of every bond is positive, and so is the stiffness of the body"
+            "every bond has a positive axial and shear stiffness, so the stiffness of the body is positive definite"
         }
         (false, FactorKind::Ldlt) => {
             "not every bond has a positive shear stiffness: the stiffness may be indefinite"
@@ -125,10 +125,10 @@ fn write_choice(out: &mut dyn Write, setup: &Setup, choice: &DirectChoice) -> io
     };
     entry(out, "factorisation", format!("{name}: {why}"))?;
     let when_broken = match (setup.analysis.is_fracture(), choice.update) {
-        (false, _) => "none breaks".to_owned(),
-        (true, Update::Refactor) => "the factor is made anew".to_owned(),
+        (false, _) => "no bond breaks".to_owned(),
+        (true, Update::Refactor) => "the factor is recomputed".to_owned(),
         (true, Update::Incremental) => format!(
-            "the factor is changed in place, up to {} bonds at once (more cost less anew); made anew every {} bonds",
+            "the factor is updated in place for up to {} bonds at once (for more, a new one is faster); recomputed every {} bonds",
             choice.most_bonds_in_place, choice.rebuild_every
         ),
     };
@@ -138,7 +138,7 @@ fn write_choice(out: &mut dyn Write, setup: &Setup, choice: &DirectChoice) -> io
 
 fn ordering_reason(model: &Model) -> String {
     if model.setup.solver.ordering.is_some() {
-        return "as the case says".to_owned();
+        return "set in the case".to_owned();
     }
     let side = if model.system.n_points() < POINTS_FOR_DISSECTION {
         "minimum degree, because there are fewer"
@@ -162,7 +162,7 @@ fn write_ordering(
     };
     let (values, multiplications) = (symbolic.n_factor_values(), symbolic.n_multiplications());
     let is_chosen = ordering == stiffness.choice().ordering;
-    let taken = if is_chosen { " (taken)" } else { "" };
+    let taken = if is_chosen { " (chosen)" } else { "" };
     let costs = format!(
         "{values} values in the factor, {multiplications:.2e} multiplications, analysed in {seconds:.3} s{taken}"
     );

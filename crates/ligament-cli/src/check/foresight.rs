@@ -44,7 +44,7 @@ pub(super) fn write(
             true => "first breakage",
             false => "first solution",
         };
-        entry(out, name, format!("not done: {reason}"))?;
+        entry(out, name, format!("not computed: {reason}"))?;
         return Ok(Vec::new());
     }
     let mut notices = Notices::default();
@@ -72,7 +72,7 @@ pub(super) fn too_costly(
 ) -> Option<String> {
     let stiffness = equilibrium.stiffness();
     if memory::foresee(case, &*problem.system, stiffness).is_err() {
-        return Some("the equations need more memory than there is".to_owned());
+        return Some("the equations need more memory than is available".to_owned());
     }
     if extent == Extent::PatchTest {
         return None;
@@ -80,10 +80,10 @@ pub(super) fn too_costly(
     let unknowns = equilibrium.unknowns().len();
     match stiffness.map(|it| it.symbolic().n_multiplications()) {
         Some(cost) if cost > MOST_MULTIPLICATIONS => Some(format!(
-            "a solution takes {cost:.1e} multiplications, more than {MOST_MULTIPLICATIONS:.0e}; ask with --patch-test"
+            "a solution takes {cost:.1e} multiplications, more than {MOST_MULTIPLICATIONS:.0e}; use --patch-test"
         )),
         None if unknowns > MOST_UNKNOWNS => Some(format!(
-            "a solution has {unknowns} unknowns, more than {MOST_UNKNOWNS}; ask with --patch-test"
+            "a solution has {unknowns} unknowns, more than {MOST_UNKNOWNS}; use --patch-test"
         )),
         _ => None,
     }
@@ -103,18 +103,16 @@ fn write_prediction(
     match prediction {
         Prediction::FirstFailure(first) => write_first(out, model, first, stage(first.part)),
         Prediction::NoFailure { utilisation } if *utilisation < ROUNDING => {
-            entry(out, name, "none: no bond is strained towards a limit")
+            entry(out, name, "none: no bond is strained towards its limit")
         }
         Prediction::NoFailure { utilisation } => {
             let words = match stage(0) {
                 None => {
                     let times = four_digits(1.0 / utilisation);
-                    format!(
-                        "not within the load: it comes at {times} times the load, so raise it {times}-fold"
-                    )
+                    format!("not reached at full load: it takes {times} times the load")
                 }
                 Some(_) => format!(
-                    "not within the stages: the bond nearest to its limit comes to {} of it",
+                    "not reached in the stages: the highest utilisation of a bond is {}",
                     four_digits(*utilisation)
                 ),
             };
@@ -126,14 +124,14 @@ fn write_prediction(
             let reason = reason.words(&|point| body.place(point));
             writeln!(
                 out,
-                "warning: the whole body has no equilibrium under the loads{at}: {reason}"
+                "warning: the intact body has no equilibrium under the loads{at}: {reason}"
             )
         }
         Prediction::Nonlinear => entry(
             out,
             name,
-            "not told: strains are in no proportion to the loads (faces of cracks close, strains are true ones, or bonds begin to soften by a \
-             stress in stages)",
+            "not predicted, because strains are not proportional to the loads (crack faces close, strains are true strains, or bonds \
+             soften by a stress in stages)",
         ),
     }
 }

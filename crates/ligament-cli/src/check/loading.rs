@@ -81,7 +81,7 @@ fn write_room(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result
     match disk::free(Path::new(".")) {
         Some(free) if all > free => writeln!(
             out,
-            "warning: the fields may take {} on a disk that has {} left: set a larger output.fields_every, or output.bonds = false",
+            "warning: the fields may need {}, and the disk has {} free: set a larger output.fields_every, or output.bonds = false",
             megabytes(all),
             megabytes(free)
         ),
@@ -111,7 +111,8 @@ fn write_boundary(out: &mut dyn Write, model: &Model, loading: &Loading) -> io::
     let words = format!("{what} {}", quantity(control.magnitude, unit));
     entry(out, "controlled by", words)?;
     if control.kind == ControlKind::Force && units == Units::COUPLE {
-        let words = "the mean turn of the loaded points themselves, rad, more than a section turns";
+        let words =
+            "mean rotation of the loaded points, rad, which is larger than that of the section";
         entry(out, "displacement is", words)?;
     }
     for (probe, given) in loading.probes.iter().zip(&model.setup.probes) {

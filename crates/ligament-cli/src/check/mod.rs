@@ -84,7 +84,7 @@ fn write_report(
     if loose > 1 {
         writeln!(
             out,
-            "warning: the body consists of {loose} parts that no bond connects"
+            "warning: the body consists of {loose} parts with no bond between them"
         )?;
     }
     let warnings = model.warnings.iter().map(ToString::to_string);

@@ -42,7 +42,7 @@ pub(super) fn check(
     entry(out, "wanted", settings.modes)?;
     if let Some(analysis) = &analysis {
         let why = match settings.rotations {
-            Some(_) => "as the case says",
+            Some(_) => "set in the case",
             None if analysis.rotations() == Rotations::Massless => {
                 "because bonds have a negative shear stiffness"
             }

@@ -35,13 +35,12 @@ pub(super) fn write(
     let kind = model.setup.body.dimensions() - 2;
     let (most, cost) = (MOST_POINTS[kind], COST[kind]);
     if extent == Extent::Matrix && model.system.n_points() > most {
-        let words = format!(
-            "it takes {cost}, and the body has more than {most} points; ask with --patch-test"
-        );
+        let words =
+            format!("it needs {cost}, and the body has more than {most} points; use --patch-test");
         return entry(out, "not computed", words);
     }
     if model.cut_bonds() > 0 {
-        entry(out, "pre-cracks", "left out: the whole body is tested")?;
+        entry(out, "pre-cracks", "ignored: the test uses the intact body")?;
     }
     match stages.time("patch test", || patch_test(model)) {
         Ok(test) => write_test(out, &test),
@@ -56,7 +55,7 @@ fn write_test(out: &mut dyn Write, test: &PatchTest) -> io::Result<()> {
         None => entry(
             out,
             "E, nu",
-            "none: several materials do not strain uniformly under a uniform stress",
+            "none: a body of several materials does not strain uniformly under a uniform stress",
         )?,
     }
     // Order: along the axes, then in shear.
@@ -69,7 +68,7 @@ fn write_test(out: &mut dyn Write, test: &PatchTest) -> io::Result<()> {
         _ => "along x, y, z, in shear xy, xz, yz",
     };
     let words = format!(
-        "off the mean strain by {} % rms ({strains}), at most {:.1} % at {}",
+        "differ from the mean strain by {} % rms ({strains}), at most {:.1} % at {}",
         percent.join(", "),
         100.0 * test.largest,
         place(&test.place)

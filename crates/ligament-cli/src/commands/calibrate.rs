@@ -20,13 +20,14 @@ Examples:
   ligament calibrate results/horizon-study --key material.tensile_strength --target 598.47e3 \\
       --by mesh.file --over 2, --at 2.5,3.5
 
-A case is run with one value after the other, beginning at its own, until the result is within 1 %
-(--within). Names of results are those of summary.json, parts joined by dots. If the target cannot
-be met, as where the result jumps over it, the exit code is 1 and the record is kept.
+The case runs with different values of the key, starting from its own, until the result is within 1 %
+of the target (--within). Names of results are those of summary.json, with their parts joined by dots.
+If no value meets the target, because the result jumps over it for example, the exit code is 1 and the
+record is kept.
 
-With the folder of a sweep nothing is run: the result over the target has a line over --x (NHPD
-eq. 22 is one), and a key to which the result is proportional, as a peak load is to the strength, is
-that of the runs over the line.";
+The folder of a sweep needs no runs: the result over the target is fitted by a line over --x (such as
+NHPD eq. 22). A key to which the result is proportional, as the peak load is to the strength, is its
+value in the runs over the line.";
 
 /// `ligament calibrate`.
 #[derive(Debug, Args)]
@@ -37,7 +38,7 @@ pub struct CalibrateArgs {
     /// The key whose value is sought, e.g. material.tensile_strength
     #[arg(long, value_name = "KEY")]
     pub key: String,
-    /// What the result is to be, in its unit
+    /// Target of the result, in its unit
     #[arg(long, value_name = "VALUE", allow_negative_numbers = true)]
     pub target: f64,
     /// The result, by its name in summary.json
@@ -74,7 +75,7 @@ pub struct RunsArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_THREADS)))]
     pub threads: Option<u32>,
     /// Folder for the record and the runs [default: results/NAME-calibration with the name of the case's folder]
-    #[arg(long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
+    #[arg(short, long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace an earlier calibration in the folder instead of going on with it
     #[arg(long)]

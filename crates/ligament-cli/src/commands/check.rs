@@ -23,15 +23,15 @@ pub struct CheckArgs {
     /// The case file and changes to it.
     #[command(flatten)]
     pub case: CaseArgs,
-    /// Prepare points, bonds and their correction only, and leave the matrix out
+    /// Prepare only the points, the bonds and their correction, without the matrix
     #[arg(long)]
     pub model_only: bool,
-    /// Solve also where it takes long: for the first breakage, and for Young's modulus and Poisson's ratio of a body of more than 20000
-    /// points, as a solid more than 2000
+    /// Predict the first breakage and Young's modulus and Poisson's ratio of the body even where that takes long: above 20000 points,
+    /// in a solid above 2000
     #[arg(long, conflicts_with = "model_only")]
     pub patch_test: bool,
     /// Write horizons, volumes and energy ratios of the points to points.vtu in this folder
-    #[arg(long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
+    #[arg(short, long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace points.vtu in the folder of --out if there is one
     #[arg(long)]

@@ -22,7 +22,7 @@ pub struct CompletionsArgs {
     #[arg(value_name = "SHELL")]
     pub shell: Shell,
     /// The file to write [default: standard output]
-    #[arg(long, alias = "output", value_parser = output::file(), value_name = "FILE")]
+    #[arg(short, long, alias = "output", value_parser = output::file(), value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Replace the file if there is one
     #[arg(long)]

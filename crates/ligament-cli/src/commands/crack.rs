@@ -23,17 +23,18 @@ pub(super) const EXAMPLES: &str = "\
 Examples:
   ligament crack results/plate                the cracks of the last state
   ligament crack results/plate --step peak
-  ligament crack results/beam --force-left 0.5  bonds that soften are cracked at half of their force
-  ligament crack results/beam --iso 0.3       of a solid, the surface on which the damage is 0.3
+  ligament crack results/beam --force-left 0.5  softening bonds count from half of their force
+  ligament crack results/beam --iso 0.3       in a solid: the surface of damage 0.3
 
-Writes crack.csv and crack.vtu (the lines of the step), opened.vtu (the cells of a mesh, opened along them), crack_tips.csv (the
-tips over the load) and crack_growth.csv (length, area and energy release rate over the load) into the folder. A crack runs along the faces between the cells of points
-whose bond broke; what is nearer than a horizon is one crack, and what stays shorter is none.
+Writes crack.csv and crack.vtu (the lines of the step), opened.vtu (the cells of a mesh, opened along them),
+crack_tips.csv (the tips over the load) and crack_growth.csv (length, area and energy release rate over the load) into the
+folder. A crack runs along the faces between the cells of points whose bond broke. Cracks closer than a horizon count as
+one, and shorter ones are ignored.
 
-Of a solid the crack is a surface of triangles: crack.vtu and crack.stl have it with its opening, and crack_growth.csv its area
-over the load. --step all writes the surface and the opened cells of all
-stored steps, crack.pvd and opened.pvd. --iso writes another surface, where a field has a value, and nothing else: iso.vtu has its
-triangles with all fields of the points; with --step all iso_NNNN.vtu and iso.pvd.";
+In a solid the crack is a surface of triangles: crack.vtu and crack.stl have it with its opening, and crack_growth.csv its
+area over the load. --step all writes the surface and the opened cells of all stored steps, crack.pvd and opened.pvd.
+--iso writes only the surface on which a field has a value: iso.vtu has its triangles with all fields of the points, and
+with --step all iso_NNNN.vtu and iso.pvd.";
 
 /// `ligament crack`.
 #[derive(Debug, Args)]
@@ -41,16 +42,16 @@ pub struct CrackArgs {
     /// The folder with the results of a run
     #[arg(value_name = "RESULT")]
     pub results: PathBuf,
-    /// Step of the crack: a number, first (breakage), peak or last; of a solid also all
+    /// Step of the crack: a number, first (breakage), peak or last; in a solid also all
     #[arg(long, value_name = "STEP", default_value = "last")]
     pub step: StepChoice,
-    /// Share of the force that bonds which soften have left when they count as cracked
+    /// Share of its force below which a softening bond counts as cracked
     #[arg(long, value_name = "SHARE", default_value = "0.1", value_parser = cracked_below(), conflicts_with = "iso")]
     pub force_left: CrackedBelow,
     /// Write the surface in a solid on which a field has this value, in SI units, into iso.vtu
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true, value_parser = number)]
     pub iso: Option<f64>,
-    /// Field of the surface: of a vector the norm, or NAME.x and so on, of a stress NAME.xx and so on
+    /// Field of the surface: NAME (the norm of a vector), NAME.x, or NAME.xx of a stress
     #[arg(long, value_name = "NAME", default_value = "damage", requires = "iso")]
     pub field: String,
 }

@@ -13,13 +13,13 @@ use crate::terminal;
 pub(super) const EXAMPLES: &str = "\
 Examples:
   ligament explain results/disk --point 812         all bonds of node 812
-  ligament explain results/disk --at 0.01,-0.02     of the point nearest to x, y (m), of a solid x, y, z
+  ligament explain results/disk --at 0.01,-0.02     the point nearest to x, y (m), in a solid x, y, z
   ligament explain results/disk --bond 812 815      the bond between two nodes
   ligament explain results/disk --bond 812 815 --csv bond.csv
 
-Nodes have the tags of the mesh file, cells of a lattice count from 1 row by row: both as in the
-result files. Bonds are seen in the steps that have fields (output.fields_every); the largest
-utilisation and the breakages are those of all steps.";
+Nodes have the tags of the mesh file, and cells of a lattice count from 1 row by row, as in the result
+files. The history of a bond has the steps with fields (output.fields_every); its largest utilisation
+and its breakage are those of all steps.";
 
 /// `ligament explain`.
 #[derive(Debug, Args)]
@@ -30,7 +30,7 @@ pub struct ExplainArgs {
     /// What to explain.
     #[command(flatten)]
     pub subject: SubjectArgs,
-    /// Write a table with a row a bond and step
+    /// Write a table with a row per bond and step
     #[arg(long, value_name = "FILE", value_parser = output::file())]
     pub csv: Option<PathBuf>,
     /// Write limits, breakages and paths as JSON

@@ -20,8 +20,8 @@ Examples:
   ligament mesh --via-meshio plate.inp                 Abaqus, with its sets: writes plate.msh
   ligament mesh --via-meshio plate.med --python ~/venv/bin/python
 
-A geometry with volumes makes a solid mesh, if a physical volume holds them (or no group holds anything).
-A --set gives a number that the geometry declares by DefineConstant[ h = ... ].
+A geometry with volumes becomes a solid mesh if a physical volume contains them, or if there are no groups.
+--set changes a number that the geometry declares by DefineConstant[ h = ... ].
 Lengths of the geometry, or of the mesh, are in m.";
 
 /// `ligament mesh`.
@@ -33,7 +33,7 @@ pub struct MeshArgs {
     /// Convert a mesh of another program instead, with its groups (needs Python with meshio)
     #[arg(long, value_name = "FILE", conflicts_with_all = ["geometry", "numbers", "gmsh"])]
     pub via_meshio: Option<PathBuf>,
-    /// The format of that mesh as meshio calls it, if the ending of its name does not tell
+    /// The meshio name of the format, if the extension of the file is not enough
     #[arg(long, value_name = "NAME", requires = "via_meshio")]
     pub format: Option<String>,
     /// The Python that has meshio, if it is not `python3` on the PATH
@@ -46,7 +46,7 @@ pub struct MeshArgs {
     )]
     pub python: PathBuf,
     /// The mesh to write [default: FILE.msh next to the file]
-    #[arg(long, alias = "output", value_parser = output::file(), value_name = "FILE.msh")]
+    #[arg(short, long, alias = "output", value_parser = output::file(), value_name = "FILE.msh")]
     pub out: Option<PathBuf>,
     /// Replace the mesh if there is one
     #[arg(long)]

@@ -68,19 +68,24 @@ Examples:
   ligament new disk.msh                     a case to start from: writes case.toml
   ligament check cases/disk/case.toml       is the case consistent with its mesh?
   ligament run cases/disk/case.toml         results in results/disk
-  ligament resume results/disk              go on with a run that was stopped
-  ligament repeat results/disk              run it again: are all bits the same?
+  ligament resume results/disk              continue a run that was stopped
+  ligament repeat results/disk              run it again and compare all bits
   ligament sweep study.toml                 a case over horizons, meshes, strengths
   ligament plot results/disk                a picture of its damage
-  ligament report results/disk              a page of it for a browser: fields, curves, bonds
+  ligament report results/disk              a page for a browser: fields, curves, bonds
   ligament crack results/disk               its cracks: path, tips, length, energy release rate
   ligament explain results/disk --point 12  why its bonds broke, or did not
 
 All values are in SI units: m, N, Pa, s, rad.
-Exit codes: 0 done, 1 error in the input or the run, 2 wrong usage, 3 no equilibrium under load, 4 stopped by a signal \
-(`ligament resume` goes on), 5 `ligament repeat` found other results, 6 ended while bonds were breaking: the last state is no answer.
-\
-A file that a command writes replaces another only with --force; a pipe or a device is written to.";
+Exit codes:
+  0  done
+  1  error in the input or the run
+  2  wrong usage
+  3  no equilibrium under load
+  4  stopped by a signal (`ligament resume` continues)
+  5  `ligament repeat` found other results
+  6  the run ended while bonds were breaking: ignore the last state
+A command overwrites a file only with --force; it always writes to a pipe or a device.";
 
 /// The commands.
 #[derive(Debug, Subcommand)]
@@ -88,25 +93,24 @@ pub enum Command {
     /// Run a case: solve it, break bonds, write fields and history
     #[command(after_help = run::EXAMPLES)]
     Run(RunArgs),
-    /// Go on with a run that was stopped, killed or ended by a rule
+    /// Continue a run that was stopped, killed or ended by a stop rule
     ///
-    /// Takes up the last good checkpoint in the folder of its results and goes on, to the same results to
-    /// the last bit as if the run had never stopped. A run that ended because a stop rule was met goes on
-    /// with another one.
+    /// Continues from the last good checkpoint in the folder of the results. The results are the same to the
+    /// last bit as if the run had never stopped. A run that ended by a stop rule continues with a new one.
     #[command(after_help = resume::EXAMPLES)]
     Resume(ResumeArgs),
     /// Repeat a run and compare: are its results the same to the last bit?
     ///
-    /// Takes case and mesh from the record in the folder of the results, runs them again and compares all
-    /// tables, fields and the summary bit by bit. Says where the first difference is and how large, and
-    /// whether another version, commit or processor may explain it.
+    /// Runs the case and the mesh that the folder of the results records, and compares all tables, fields and
+    /// the summary bit by bit. Shows the first difference and its size, and whether another version, commit
+    /// or processor may explain it.
     #[command(after_help = repeat::EXAMPLES)]
     Repeat(RepeatArgs),
     /// Run a case over all combinations of some settings: a table, plots, fitted lines
     ///
     /// A study file names a case and axes: keys of the case with their values. Runs all combinations in
-    /// parallel, as cores and memory allow, each in a process of its own; one that fails harms no other.
-    /// Writes a table of all runs (CSV), plots (SVG) and lines of least squares.
+    /// parallel, as cores and memory allow, each in its own process; a failed run does not affect the others.
+    /// Writes a table of all runs (CSV), plots (SVG) and least-squares lines.
     #[command(after_help = sweep::EXAMPLES)]
     Sweep(SweepArgs),
     /// Check a case and its mesh without running it
@@ -118,39 +122,39 @@ pub enum Command {
     Check(CheckArgs),
     /// Find the value of a key with which a result meets a target
     ///
-    /// Runs the case with one value after the other, of the tensile strength say, until the peak load is that of a
-    /// test: first in proportion, then between values on both sides of the target. Keeps a record of its runs.
+    /// Runs the case with different values, of the tensile strength for example, until the peak load equals that of
+    /// a test: first in proportion, then between values on both sides of the target. Keeps a record of its runs.
     #[command(after_help = calibrate::EXAMPLES)]
     Calibrate(CalibrateArgs),
-    /// Tell why a bond broke or did not, from the results of a run
+    /// Explain why a bond broke or did not, from the results of a run
     ///
-    /// Prints the life of a bond, or of all bonds of a point: horizon, factors, limits, how near it came
-    /// to them along the path, and when, in which order and by which criterion bonds broke. Reads the
-    /// folder of the results alone.
+    /// Prints the history of a bond, or of all bonds of a point: horizon, factors, limits, the utilisation
+    /// along the path, and when, in which order and by which criterion bonds broke. Needs only the folder
+    /// of the results.
     #[command(after_help = explain::EXAMPLES)]
     Explain(ExplainArgs),
     /// Draw fields, cracks, curves and modes from the results of runs (PNG, SVG)
     ///
     /// Draws a field on the deformed body as filled contours with a colour bar, the crack as broken
-    /// bonds, force-displacement curves, or the shapes of modes, at the size and fineness that a paper
-    /// asks for. Reads the folders of the results alone, also of a run that was cut short.
+    /// bonds, force-displacement curves, or the shapes of modes, at the size and resolution of a
+    /// publication. Needs only the folders of the results, also of a run that was cut short.
     #[command(after_help = plot::EXAMPLES)]
     Plot(PlotArgs),
-    /// One page of the results of runs for a browser, to look at, send and print (HTML)
+    /// Write a report of runs as one page for a browser, to look at, send and print (HTML)
     ///
     /// Writes a single file that needs no network: summary, warnings, curves linked to the steps, and the
     /// deformed body with any field and its cracks, whose points and bonds tell their values.
     #[command(after_help = report::EXAMPLES)]
     Report(ReportArgs),
-    /// Cracks of a run as lines, of a solid as surfaces: path, tips, length, area, energy release rate
+    /// Measure the cracks of a run, lines in the plane and surfaces in solids: path, tips, length, area, energy release rate
     ///
-    /// Finds the cracks in stored results, writes their lines as a table and for ParaView, and how their
-    /// tips, length and area grew over the load, with the energy release rate.
+    /// Finds the cracks in stored results. Writes them as tables and for ParaView, and the growth of their
+    /// tips, length and area over the load, with the energy release rate.
     #[command(after_help = crack::EXAMPLES)]
     Crack(CrackArgs),
-    /// Fields of a run along a straight line, as a table
+    /// Sample fields of a run along a straight line, as a table
     ///
-    /// Reads the fields of a stored step at places on a line and writes them as CSV.
+    /// Samples the fields of a stored step at equally spaced points of a line and writes them as CSV.
     #[command(after_help = profile::EXAMPLES)]
     Profile(ProfileArgs),
     /// Show what is in a mesh: cells, size, edge lengths, groups
@@ -158,37 +162,36 @@ pub enum Command {
     Inspect(InspectArgs),
     /// Mesh a Gmsh geometry (needs the program gmsh), or convert a mesh of another program
     ///
-    /// Calls gmsh to mesh the surfaces or volumes of the geometry, reads the mesh back and shows what is in it. With --via-meshio reads
-    /// a mesh of Abaqus, Nastran, Exodus, MED, VTK and others by the Python package meshio, and writes it
-    /// for Gmsh with its groups. An existing mesh is replaced only with --force, and by one that could be read.
+    /// Calls gmsh to mesh the surfaces or volumes of the geometry, reads the mesh back and shows its contents. --via-meshio
+    /// converts a mesh of Abaqus, Nastran, Exodus, MED, VTK and others with the Python package meshio, and keeps
+    /// its groups. An existing mesh is replaced only with --force, and only by a mesh that can be read.
     #[command(after_help = mesh::EXAMPLES)]
     Mesh(MeshArgs),
     /// Write a commented case to start from, for a mesh or a lattice
     ///
-    /// Picks what to hold and what to load by the names of the groups, or by where they lie, and writes a
-    /// case that runs as it is: material and loading are marked as examples, what else a case may have
-    /// stands beside them as comments.
+    /// Chooses supports and loads by the names of the groups, or by their positions, and writes a case that
+    /// runs as it is: material and loading are marked as examples, other settings are there as comments.
     #[command(after_help = new::EXAMPLES)]
     New(NewArgs),
-    /// How stiff bonds are over their direction
+    /// Tabulate the stiffness of bonds over their direction
     ///
-    /// Takes k_n, k_t and k_theta of the law of a case for every material and direction. Writes a table (CSV)
-    /// beside the off-axis moduli of the continuum, and polar diagrams (SVG); tells values along x and y and
+    /// Computes k_n, k_t and k_theta of the law of a case for every material and direction. Writes a table (CSV)
+    /// with the off-axis moduli of the continuum, and polar diagrams (SVG); prints the values along x and y and
     /// the extremes.
     #[command(after_help = stiffness::EXAMPLES)]
     Stiffness(StiffnessArgs),
-    /// When bonds yield first, and how the directions of the bonds distort that
+    /// Compute the first yield of bonds, and its error from their few directions
     ///
-    /// Turns a uniform strain through all orientations to a family of bonds and finds the load at which
-    /// the first bond meets a failure criterion: for square lattices with horizons of m spacings, for a
-    /// point of a case, or as a field over all points of a case. Writes tables (CSV), polar diagrams
-    /// of the error and loci (SVG), or fields (VTU).
+    /// Applies a uniform strain in all orientations to a family of bonds and finds the load at which the first
+    /// bond meets a failure criterion: for square lattices with horizons of m spacings, for a point of a
+    /// case, or as a field over all points of a case. Writes tables (CSV), polar diagrams of the error and
+    /// loci (SVG), or fields (VTU).
     #[command(after_help = yielding::EXAMPLES)]
     Yield(YieldArgs),
     /// Print the JSON schema of a case file, for editors
     ///
-    /// With it an editor completes keys and words, shows their descriptions, units and defaults, and marks
-    /// what is wrong.
+    /// With the schema an editor completes keys and values, shows descriptions, units and defaults, and marks
+    /// errors.
     #[command(after_help = schema::EXAMPLES)]
     Schema(SchemaArgs),
     /// Print a completion script for a shell

@@ -22,7 +22,7 @@ Examples:
   ligament new --lattice 60,120,0.001                a lattice in place of a mesh
   ligament new --lattice 10,10,40,0.001              a lattice of a solid
 
-The case runs as it is; its material and loading are examples to replace by your own.";
+The case runs as it is; replace its example material and loading with your own.";
 
 /// `ligament new`.
 #[derive(Debug, Args)]
@@ -30,13 +30,13 @@ pub struct NewArgs {
     /// The mesh (Gmsh .msh)
     #[arg(value_name = "MESH", required_unless_present = "lattice")]
     pub mesh: Option<PathBuf>,
-    /// A lattice in the place of a mesh: cells along x and y, and their side in m; of a solid along x, y and z
+    /// A lattice in place of a mesh: numbers of cells along x and y, in a solid x, y and z, and their side in m
     #[arg(long, value_name = "NX,NY[,NZ],SPACING", value_parser = lattice, conflicts_with = "mesh")]
     pub lattice: Option<Lattice>,
     /// The case file to write
     #[arg(
         long,
-        alias = "output", value_parser = output::file(),
+        short, alias = "output", value_parser = output::file(),
         value_name = "CASE.toml",
         default_value = "case.toml"
     )]

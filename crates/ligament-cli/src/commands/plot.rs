@@ -22,7 +22,7 @@ Examples:
   ligament plot results/disk                                damage of the last output
   ligament plot results/disk --strip 4 --scale 20           four outputs, displacements 20 times larger
   ligament plot results/disk --field displacement.x --step 40 --out ux.svg
-  ligament plot results/disk --step first peak last         three steps by what happened in them
+  ligament plot results/disk --step first peak last         three steps by name
   ligament plot results/disk --field none --crack --box -0.01,-0.02,0.01,0.02
   ligament plot results/disk --crack=lines --with-lines experiment.csv --out path.pdf
   ligament plot --curve results/coarse results/fine --labels '4 mm' '2 mm' --out curves.svg
@@ -32,8 +32,8 @@ Examples:
   ligament plot results/beam --crack=lines --out crack.png  the crack of a solid as a surface, by its opening
   ligament plot results/beam --section z=0.05 --field stress_virial.xx
 
-Fields are those of the VTU files: of a vector the norm, or NAME.x and NAME.y; of a stress NAME.xx
-and so on. A name that does not exist lists those that do. Values are in SI units.";
+Fields are those of the VTU files: NAME (the norm of a vector), NAME.x and NAME.y, and NAME.xx and so on
+of a stress. An unknown name lists the known ones. Values are in SI units.";
 
 /// `ligament plot`.
 #[derive(Debug, Args)]
@@ -48,7 +48,7 @@ pub struct PlotArgs {
     /// last step, the first six modes]
     #[arg(long, visible_alias = "mode", value_name = "STEP", num_args = 1.., value_delimiter = ',')]
     pub step: Vec<StepChoice>,
-    /// Draw so many outputs, evenly spread, side by side
+    /// Draw this number of outputs, evenly spaced, side by side
     #[arg(long, value_name = "COUNT", conflicts_with = "step", value_parser = clap::value_parser!(u32).range(1..=100))]
     pub strip: Option<u32>,
     /// Draw the outputs nearest to these displacements of the load
@@ -65,7 +65,7 @@ pub struct PlotArgs {
     /// Draw the lines of a CSV file x,y in m over the undeformed body; empty rows part lines
     #[arg(long = "with-lines", value_name = "FILE")]
     pub lines: Vec<PathBuf>,
-    /// Draw this part of the deformed body alone, m
+    /// Draw only this part of the deformed body, m
     #[arg(long = "box", value_name = "X0,Y0,X1,Y1", allow_hyphen_values = true, value_parser = window)]
     pub window: Option<[[f64; 2]; 2]>,
     /// See a solid from x, y, z, iso, or AZIMUTH,ELEVATION in degrees [default: iso; a section from its normal]
@@ -108,24 +108,24 @@ pub struct PlotArgs {
         requires = "curve"
     )]
     pub y: String,
-    /// What the results are called [default: the names of their folders]
+    /// Names of the results [default: the names of their folders]
     #[arg(long, value_name = "TEXT", num_args = 1..)]
     pub labels: Vec<String>,
     /// The picture, .png, .svg or .pdf [default: picture-NAME.png in the folder of the results, which takes the place of an
     /// earlier one; of the curves of several results, in this one]
-    #[arg(long, alias = "output", value_parser = output::file(), value_name = "FILE")]
+    #[arg(short, long, alias = "output", value_parser = output::file(), value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Replace the files of --out and --animate if there are some
     #[arg(long)]
     pub force: bool,
-    /// Kind of the picture [default: as the file ends, png without one]
+    /// Format of the picture [default: by the extension of the file, else png]
     #[arg(long, value_parser = formats())]
     pub format: Option<Format>,
     /// An animation of the body over the steps, .gif, with fixed colours and one scale of the displacement [default steps: all, or 120
     /// evenly spread]
     #[arg(long, value_name = "FILE", value_parser = output::file(), conflicts_with_all = ["out", "format", "curve"])]
     pub animate: Option<PathBuf>,
-    /// Pictures of the animation a second
+    /// Pictures of the animation per second
     #[arg(long, value_name = "N", default_value = "10", requires = "animate", value_parser = positive)]
     pub fps: f64,
     /// Width in mm [default: 90 for one body, 180 for several; 120 and 160 for curves]

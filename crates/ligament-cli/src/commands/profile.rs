@@ -32,17 +32,17 @@ pub struct ProfileArgs {
     /// Where the line ends, m
     #[arg(long, value_name = "X,Y", value_parser = position, allow_hyphen_values = true)]
     pub to: [f64; 2],
-    /// Fields, a column each: those of `ligament plot`
+    /// Fields, one column each: those of `ligament plot`
     #[arg(long, value_name = "NAME", num_args = 1.., required = true)]
     pub field: Vec<String>,
     /// Step: a number, first (breakage), peak, last or all
     #[arg(long, value_name = "STEP", default_value = "last")]
     pub step: StepChoice,
-    /// Places on the line, evenly spread
+    /// Number of equally spaced points on the line
     #[arg(long, value_name = "COUNT", default_value = "101", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     pub samples: u32,
     /// The table [default: standard output]
-    #[arg(long, alias = "output", value_parser = output::file(), value_name = "FILE")]
+    #[arg(short, long, alias = "output", value_parser = output::file(), value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Replace the table if there is one
     #[arg(long)]

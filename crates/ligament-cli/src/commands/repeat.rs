@@ -19,8 +19,8 @@ Examples:
   ligament repeat results/disk --threads 1 --out results/disk-again
   ligament repeat results/disk --mesh ~/meshes/disk.msh
 
-Case and mesh are those that the folder names; if they have changed since, the run is not repeated and the message says what is
-other. The exit code is 0 if all tables, fields and the summary are the same to the last bit, and 5 if not.";
+The folder names the case and the mesh. If these have changed since, nothing is run and the message names the change. The exit
+code is 0 if all tables, fields and the summary are the same to the last bit, and 5 if not.";
 
 /// Exit code of a repetition whose results are others.
 const DIFFERENT: u8 = 5;
@@ -32,9 +32,9 @@ pub struct RepeatArgs {
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
     /// Keep the results of the repetition in this folder [default: DIR.repeat, which stays only if they differ]
-    #[arg(long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
+    #[arg(short, long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// The mesh, where it no longer lies where the run found it
+    /// The mesh, if it has moved since the run
     #[arg(long, value_name = "FILE")]
     pub mesh: Option<PathBuf>,
     /// Threads to compute with [default: as the run did]

@@ -31,7 +31,7 @@ pub struct ReportArgs {
     #[arg(value_name = "RESULT", required = true)]
     pub results: Vec<PathBuf>,
     /// The page [default: report.html in the first folder, which takes the place of an earlier one]
-    #[arg(long, alias = "output", value_parser = output::file(), value_name = "FILE")]
+    #[arg(short, long, alias = "output", value_parser = output::file(), value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Replace the file of --out if there is one
     #[arg(long)]

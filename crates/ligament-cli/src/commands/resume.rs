@@ -19,8 +19,8 @@ Examples:
   ligament resume results/disk --set fracture.stop.bonds=400
   ligament resume results/disk --set fracture.steps=[0.1,0.2,0.3,0.4]
 
-A --set takes what does not change the results so far: fracture.stop.load_fraction, .displacement, .bonds and .wall_time,
-fracture.steps (those that were done must stay, others may follow), fracture.max_iterations, output.fields_every,
+--set can only change keys that leave earlier results unchanged: fracture.stop.load_fraction, .displacement, .bonds and .wall_time,
+fracture.steps (completed ones must stay, new ones can follow), fracture.max_iterations, output.fields_every,
 output.checkpoint_every and output.picture.";
 
 /// `ligament resume`.

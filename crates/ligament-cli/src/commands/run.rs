@@ -26,12 +26,17 @@ Examples:
   ligament run case.toml --set mesh.plane=strain --set load.0.displacement.y=-1e-4
   ligament run case.toml --set fracture.steps=10 --set fracture.stop.bonds=300
 
-A --set takes any key of the case file; the entries of a list such as [[load]] count from 0.
+--set changes any key of the case file; the entries of a list such as [[load]] count from 0.
 The value is TOML; a bare word is a string. Values are in SI units: m, N, Pa, s, rad.
 Paths, also in --set mesh.file=..., are relative to the folder of the case file.
 
-Exit codes: 0 done, 1 error, 2 wrong usage, 3 no equilibrium (under any load, or beyond some), 4 stopped by a signal,
-6 collapsed, or ended while bonds were breaking.";
+Exit codes:
+  0  done
+  1  error
+  2  wrong usage
+  3  no equilibrium under any load, or beyond some load
+  4  stopped by a signal
+  6  collapsed, or ended while bonds were breaking: ignore the last state";
 
 /// `ligament run`.
 #[derive(Debug, Args)]
@@ -41,12 +46,12 @@ pub struct RunArgs {
     pub case: CaseArgs,
     /// Folder for the results [default: results/NAME, with the name of the case file, or of its folder where the file is
     /// case.toml]
-    #[arg(long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
+    #[arg(short, long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace results of an earlier run in the folder
     #[arg(long)]
     pub force: bool,
-    /// Draw the last state and the curve of force over displacement into the folder of the results, as `output.picture = true`
+    /// Draw the last state and the force-displacement curve into the folder of the results, as `output.picture = true` does
     #[arg(long)]
     pub plot: bool,
     /// Show no progress, only the final result and errors

@@ -21,7 +21,7 @@ VS Code (extension Even Better TOML), Helix and Zed (language server taplo) a ca
 #[derive(Debug, Args)]
 pub struct SchemaArgs {
     /// The file to write [default: standard output]
-    #[arg(long, alias = "output", value_parser = output::file(), value_name = "FILE.json")]
+    #[arg(short, long, alias = "output", value_parser = output::file(), value_name = "FILE.json")]
     pub out: Option<PathBuf>,
     /// Replace the file if there is one
     #[arg(long)]

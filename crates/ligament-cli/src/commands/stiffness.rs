@@ -25,7 +25,7 @@ pub struct StiffnessArgs {
     #[arg(long, value_name = "SHARE", default_value_t = 0.5)]
     pub length: f64,
     /// Folder for the results [default: results/NAME-stiffness with the name of the case's folder]
-    #[arg(long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
+    #[arg(short, long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace earlier results in the folder
     #[arg(long)]

@@ -29,7 +29,7 @@ A study file names a case, axes and plots:
   x = \"model.horizon_factor\"
   y = \"first_peak.reaction\"
 
-The same command again goes on where the last one was stopped, and repeats what failed.
+The same command again continues a stopped study, and repeats failed runs.
 The exit code is 1 if a run failed.";
 
 /// `ligament sweep`.
@@ -40,7 +40,7 @@ pub struct SweepArgs {
     pub study: PathBuf,
     /// Folder of the study [default: results/NAME with the name of the study's folder if the file is called study.toml, else
     /// with that of the file]
-    #[arg(long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
+    #[arg(short, long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Runs at once [default: one per processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
@@ -48,16 +48,16 @@ pub struct SweepArgs {
     /// Memory for the runs in GB [default: what is available]
     #[arg(long, value_name = "GB", value_parser = gigabytes)]
     pub memory: Option<f64>,
-    /// Do every N-th run only, from the K-th on: a part of the study for each of several machines
+    /// Do only every N-th run, from the K-th on: a part of the study for one of several machines
     #[arg(long, value_name = "K/N", value_parser = shard)]
     pub shard: Option<Shard>,
-    /// Do also the runs that are done
+    /// Repeat completed runs as well
     #[arg(long)]
     pub force: bool,
     /// List the runs with the memory they take, and run none
     #[arg(long, conflicts_with_all = ["collect", "shard", "force"], visible_alias = "dry-run")]
     pub list: bool,
-    /// Make the table and the plots of what is done, and run none
+    /// Make the table and the plots of the completed runs, and run none
     #[arg(long, conflicts_with_all = ["shard", "force"])]
     pub collect: bool,
     /// With --collect: a folder of the study, such as another machine's (may be repeated) [default: --out]

@@ -69,7 +69,7 @@ pub struct YieldArgs {
     #[arg(long, value_name = "N", requires = "case", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_THREADS)))]
     pub threads: Option<u32>,
     /// Folder for the results [default: results/yield, or results/NAME-yield with the name of the case's folder]
-    #[arg(long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
+    #[arg(short, long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace earlier results in the folder
     #[arg(long)]

@@ -59,7 +59,7 @@ pub struct Request {
 #[derive(Debug, Error)]
 pub enum ExplainError {
     /// No point has the tag.
-    #[error("there is no {tagged} {tag}: the tags go from {} to {}, the nearest {}", .range[0], .range[1], nearest_words(.nearest))]
+    #[error("there is no {tagged} {tag}: the tags go from {} to {}, and the nearest {}", .range[0], .range[1], nearest_words(.nearest))]
     UnknownTag {
         /// Kind of the tags, `node` or `cell`.
         tagged: &'static str,

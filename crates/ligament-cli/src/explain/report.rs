@@ -37,7 +37,7 @@ pub(super) fn bond(
     let [h_a, h_b] = [a, b].map(|end| metres(run.model.horizon[end as usize]));
     let bonds = &run.model.bonds;
     let horizon = metres(bonds.horizon[life.pair]);
-    let horizons = format!("{horizon} (horizons of its ends {h_a} and {h_b})");
+    let horizons = format!("{horizon} (its ends have {h_a} and {h_b})");
     entry(out, "bond horizon H", horizons)?;
     let [alpha, omega] = [&bonds.length_factor, &bonds.domain_factor].map(|it| it[life.pair]);
     entry(out, "alpha, Omega", format!("{alpha:.5}, {omega:.5}"))?;
@@ -78,7 +78,7 @@ pub(super) fn family(
     missing(out, run, lives)?;
     writeln!(
         out,
-        "bonds, as they broke; then by their largest utilisation"
+        "bonds in the order of breaking, then by largest utilisation"
     )?;
     family_table(run, point, lives).write(out)?;
     write_path(out, lives, &family_path(run, point, lives))
@@ -143,14 +143,14 @@ fn missing(out: &mut dyn Write, run: &StoredRun, lives: &BondHistories) -> io::R
     if may_fail && run.model.largest.is_none() {
         writeln!(
             out,
-            "note: the run did not get to its end; largest utilisations are those of steps with fields alone"
+            "note: the run is incomplete; the largest utilisations are those of the steps with fields only"
         )?;
     }
     let (shown, all) = (lives.moments.len(), run.history.len());
     if shown < all {
         writeln!(
             out,
-            "note: {shown} of {all} steps have fields; for the others run again with --set output.fields_every=1"
+            "note: {shown} of {all} steps have fields; to see the others run again with --set output.fields_every=1"
         )?;
     }
     Ok(())
@@ -175,7 +175,7 @@ fn load(moment: &StoredStep, units: Units) -> Vec<String> {
         if moment.at_rest {
             moment.step.to_string()
         } else {
-            format!("{} (not at rest)", moment.step)
+            format!("{} (not converged)", moment.step)
         },
         format!("{:.6}", moment.load_factor),
         quantity(moment.displacement, units.displacement),

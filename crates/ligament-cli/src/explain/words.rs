@@ -112,7 +112,7 @@ pub(super) fn bond_description(
                 false => limit.measure(&deformation, None),
             };
             lines.push(format!(
-                "`{}` saw {} = {}, {:.4} of the {} at which it breaks.",
+                "`{}` measured {} = {}, {:.4} times the limit {}.",
                 limit.name,
                 limit.measure.words(),
                 number(seen),
@@ -121,7 +121,10 @@ pub(super) fn bond_description(
             ));
             lines.extend(plane_words(life, limit, broke.utilisation));
         }
-        lines.push(format!("Then {}.", deformed(lives, &deformation)));
+        lines.push(format!(
+            "Deformation at breakage: {}.",
+            deformed(lives, &deformation)
+        ));
         lines.push(format!(
             "Load factor {:.6}, displacement {}, reaction {}.",
             broke.at.load_factor,
@@ -139,7 +142,7 @@ pub(super) fn bond_description(
     let mut lines = Vec::new();
     match life.nearest.filter(|it| it.utilisation > 0.0) {
         Some(nearest) => lines.push(nearest_words(lives, life, nearest)),
-        None => lines.push("It is intact: its utilisation was 0 all along.".to_owned()),
+        None => lines.push("It is intact: its utilisation was 0 throughout.".to_owned()),
     }
     lines.extend(end_words(lives, life));
     lines.extend(softened_words(lives, life));
@@ -156,7 +159,8 @@ fn plane_words(life: &BondHistory, limit: &Limit, utilisation: f64) -> Option<St
     {
         let [stress, strength] = [utilisation, 1.0].map(|it| of_limit(it, modulus));
         return Some(format!(
-            "That is sigma_n = {stress} on the plane across it, whose normal is {normal}; the surface is sigma_n = {strength}."
+            "This is sigma_n = {stress} on the plane across the bond, with the normal {normal}; the failure surface is sigma_n = \
+             {strength}."
         ));
     }
     if sees(Measure::CoulombStress)
@@ -164,7 +168,8 @@ fn plane_words(life: &BondHistory, limit: &Limit, utilisation: f64) -> Option<St
     {
         let [stress, cohesion] = [utilisation, 1.0].map(|it| of_limit(it, modulus));
         return Some(format!(
-            "That is |tau| + {} sigma_n = {stress} on the plane across it, whose normal is {normal}; the surface is the cohesion {cohesion}.",
+            "This is |tau| + {} sigma_n = {stress} on the plane across the bond, with the normal {normal}; the failure surface is the \
+             cohesion {cohesion}.",
             number(slope)
         ));
     }
@@ -187,7 +192,7 @@ fn never_fails(run: &StoredRun, life: &BondHistory) -> String {
         .filter(|end| run.model.no_fail[**end as usize]);
     let marked: Vec<String> = marked.map(|end| label(run, *end)).collect();
     match marked.as_slice() {
-        [] => "its materials give no criterion a limit".to_owned(),
+        [] => "no criterion has a limit for its materials".to_owned(),
         [one] => format!("bonds of {one} never fail (`no_fail`)"),
         both => format!("bonds of {} never fail (`no_fail`)", both.join(" and ")),
     }
@@ -248,7 +253,7 @@ fn softened<'a>(lives: &BondHistories, life: &'a BondHistory) -> Vec<(&'a str, S
 fn softened_words(lives: &BondHistories, life: &BondHistory) -> Vec<String> {
     let words = |(name, softened): (&str, Softened)| {
         format!(
-            "Past the limit of `{name}`: mu = {:.4} of the force there is left, omega = {:.4} of the stiffness.",
+            "It has softened by `{name}`: {:.4} of its force (mu) and {:.4} of its stiffness (omega) are left.",
             softened.force, softened.secant
         )
     };
@@ -295,13 +300,14 @@ pub(super) fn no_bond(run: &StoredRun, [a, b]: [u32; 2], pair: Option<usize>) ->
     )];
     lines.push(match pair.and_then(|pair| model.bonds.absence[pair]) {
         Some(Absence::PreCrack) => {
-            "No bond: a pre-crack cut it before the first load. It counts as no damage.".to_owned()
+            "No bond: a pre-crack cut it before the first load. It does not count as damage."
+                .to_owned()
         }
         Some(Absence::Void) => {
             "No bond: a hole, slot or notch of the body lies between them.".to_owned()
         }
         None => format!(
-            "No bond: neither lies in the horizon of the other; bonds of these two reach {}.",
+            "No bond: neither point lies in the horizon of the other; their bonds reach {}.",
             metres(h_a.max(h_b))
         ),
     });

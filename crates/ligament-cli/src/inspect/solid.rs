@@ -125,7 +125,7 @@ impl Quality {
         (count > 0).then(|| {
             format!(
                 "{count} of {all} tetrahedra are slivers (radius ratio below {SLIVER}; the worst, {worst}, at {}): volumes and bonds are \
-                 right all the same, but points may lie much nearer to each other there; `gmsh -3 -optimize_netgen` mends most",
+                 right all the same, but points may lie much nearer to each other there; `gmsh -3 -optimize_netgen` repairs most of them",
                 place(&at)
             )
         })
@@ -146,8 +146,8 @@ fn volumes_note(mesh: &SolidMesh) -> Option<String> {
     let volumes: Vec<&Group> = mesh.groups.iter().filter(|it| it.dimension == 3).collect();
     if volumes.is_empty() {
         return Some(
-            "there is no volume group, and none is needed: a [material] without `group` fills the body; for several materials \
-             give each `Physical Volume` a name"
+            "there is no volume group, and none is necessary: a [material] without `group` fills the body; for several materials name each \
+             `Physical Volume`"
                 .to_owned(),
         );
     }
@@ -158,7 +158,7 @@ fn volumes_note(mesh: &SolidMesh) -> Option<String> {
     let outside = is_in_one.iter().filter(|it| !**it).count();
     (outside > 0).then(|| {
         format!(
-            "{outside} cells are in no volume group: where each group has a material of its own, they have none"
+            "{outside} cells are in no volume group, so they have no material if each group has its own"
         )
     })
 }

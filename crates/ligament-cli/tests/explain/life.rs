@@ -133,7 +133,7 @@ fn it_says_why_there_is_no_bond_or_no_breakage() {
         "{far}"
     );
     assert!(
-        far.contains("neither lies in the horizon of the other"),
+        far.contains("neither point lies in the horizon of the other"),
         "{far}"
     );
     assert!(far.contains("reach 30.00 mm"), "{far}");
@@ -143,7 +143,7 @@ fn it_says_why_there_is_no_bond_or_no_breakage() {
     assert!(held.contains(&why), "{held}");
     let upright = say(cell(4, 2), cell(4, 3));
     assert!(
-        upright.contains("its utilisation was 0 all along"),
+        upright.contains("its utilisation was 0 throughout"),
         "{upright}"
     );
     let slanted = say(cell(4, 2), cell(5, 3));

@@ -40,7 +40,7 @@ fn what_is_not_there_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let results = run(folder.path(), BAR, &["output.fields_every=0"]);
     let unknown = refusal(&results, &["--point", "46"]);
-    let expected = "error: there is no cell 46: the tags go from 1 to 45, the nearest is 45\n";
+    let expected = "error: there is no cell 46: the tags go from 1 to 45, and the nearest is 45\n";
     assert_eq!(unknown, expected);
     let unknown = refusal(&results, &["--bond", "1", "0"]);
     assert!(
@@ -110,8 +110,8 @@ fn a_run_without_an_end_is_told_as_such() {
     let settings = ["material.poisson=0.38", "solver.factorisation=llt"];
     let results = run(folder.path(), SHEARED, &settings);
     let said = explain(&results, &["--bond", "25", "26"]);
-    assert!(said.contains("the run did not get to its end"), "{said}");
-    assert!(said.contains("its utilisation was 0 all along"), "{said}");
+    assert!(said.contains("the run is incomplete"), "{said}");
+    assert!(said.contains("its utilisation was 0 throughout"), "{said}");
 }
 
 #[test]

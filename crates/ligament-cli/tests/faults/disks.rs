@@ -113,12 +113,12 @@ fn a_disk_that_is_full_of_results() {
     }
     let words = [
         "cannot write disk/out/",
-        "make room on its disk",
+        "free space on its disk",
         "No space left",
         "ligament resume disk/out",
     ];
     assert_failed(&place, "full", &words);
-    assert_failed(&place, "again", &["make room on its disk"]);
+    assert_failed(&place, "again", &["free space on its disk"]);
     assert!(!place.path("full-disk/summary.json").exists());
     assert_ended_well(&place, "later");
     assert_same_results(&place, "whole", "out");
@@ -136,7 +136,7 @@ fn a_disk_without_room_for_the_first_files() {
         assert_failed(
             &place,
             "full",
-            &["cannot write disk/out/", "make room on its disk"],
+            &["cannot write disk/out/", "free space on its disk"],
         );
         assert_ended_well(&place, "later");
         run_whole(&place, ON);
@@ -163,7 +163,7 @@ fn a_disk_that_is_full_of_checkpoints() {
     );
     if with_disk(&place, rest + two * 5 / 4, &script) {
         let words = [
-            "cannot write disk/out/checkpoint.bin: make room on its disk",
+            "cannot write disk/out/checkpoint.bin: free space on its disk",
             "ligament resume disk/out",
         ];
         assert_failed(&place, "full", &words);
@@ -174,7 +174,7 @@ fn a_disk_that_is_full_of_checkpoints() {
         assert_ended_well(&place, "later");
         let (said, _) = said(&place, "later");
         assert!(
-            said.contains("going on at load factor") && !said.contains("checkpoint before"),
+            said.contains("resuming at load factor") && !said.contains("checkpoint before"),
             "{said}"
         );
         assert_same_results(&place, "whole", "out");
@@ -197,9 +197,9 @@ fn a_disk_that_is_full_of_earlier_results() {
     );
     if with_disk(&place, room, &script) {
         let words = [
-            "the results in disk/out are the earlier ones",
+            "disk/out has the earlier results",
             "cannot write disk/out.new/",
-            "make room on its disk",
+            "free space on its disk",
             "ligament resume disk/out.new",
         ];
         assert_failed(&place, "full", &words);
@@ -255,7 +255,7 @@ fn a_disk_that_cannot_be_written_to() {
          if $L explain disk/out --point 5 2>read; then echo 0 >read.code; else echo $? >read.code; fi
          cp -r disk/out after";
     if with_disk(&place, 4_000_000, script) {
-        let words = ["its disk cannot be written to; take a folder on another one"];
+        let words = ["its disk cannot be written to; choose a folder on another one"];
         assert_failed(&place, "new", &["cannot create disk/new", words[0]]);
         assert_failed(&place, "forced", &words);
         assert_failed(&place, "resumed", &words);

@@ -160,7 +160,7 @@ fn a_full_disk_leaves_the_earlier_results() {
     assert_refused(
         &output,
         &[
-            "the results in out are the earlier ones",
+            "out has the earlier results",
             "out.new",
             "because: cannot write",
             "because: File too large",

@@ -37,7 +37,7 @@ fn memory_is_foreseen() {
         assert_refused(&output, &["GB of memory", "solver.memory"]);
     }
     let output = place.ligament(["run", "case.toml", "--set", "solver.memory=1e-3"]);
-    assert_refused(&output, &["there are 0.0 GB for it"]);
+    assert_refused(&output, &["0.0 GB are available"]);
     assert!(!place.path("results").exists());
     assert_success(&place.ligament(["run", "case.toml", "--set", "solver.memory=1"]));
 }
@@ -150,7 +150,7 @@ fn a_factor_that_does_not_fit_is_not_made() {
     }
     let words = format!("check case.toml {settings} --set solver.memory=0.12");
     let told = place.ligament(words.split_whitespace().collect::<Vec<_>>());
-    assert!(stdout(&told).contains("a factor does not fit into memory"));
+    assert!(stdout(&told).contains("the factor does not fit into memory"));
 }
 
 /// `check` tells what fields and bonds will take on the disk: not less than they take, and not twice as much.

@@ -67,7 +67,7 @@ fn files_that_are_there_are_replaced_only_if_asked() {
         let path = place.path(name);
         fs::write(&path, "mine").unwrap();
         let output = place.ligament(words(writer, name));
-        assert_refused(&output, &[name, "is there already", "--force"]);
+        assert_refused(&output, &[name, "exists already", "--force"]);
         assert_eq!(fs::read(&path).unwrap(), b"mine", "{writer}");
 
         let forced = words(writer, name).into_iter().chain(["--force"]);

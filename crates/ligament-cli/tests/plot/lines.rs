@@ -76,7 +76,7 @@ fn curves_mark_the_first_breakage_and_what_is_not_at_rest() {
     for label in ["first breakage", "first peak"] {
         assert!(all.contains(&label.to_owned()), "{label}: {all:?}");
     }
-    assert!(!all.contains(&"not at rest".to_owned()));
+    assert!(!all.contains(&"not converged".to_owned()));
     let table = results.join("history.csv");
     let history = fs::read_to_string(&table).unwrap();
     let names: Vec<&str> = history.lines().next().unwrap().split(',').collect();
@@ -92,12 +92,13 @@ fn curves_mark_the_first_breakage_and_what_is_not_at_rest() {
     };
     fs::write(&table, history.lines().map(unsettled).collect::<String>()).unwrap();
     let svg = plot(&["--curve", path, "--out", out]);
-    assert!(texts(&svg).contains(&"not at rest".to_owned()));
+    assert!(texts(&svg).contains(&"not converged".to_owned()));
     // A picture of such a step says so twice: in its title and in a sentence below.
     let all = texts(&plot(&[path, "--out", out]));
-    assert!(all.iter().any(|it| it.contains("not at rest")), "{all:?}");
+    assert!(all.iter().any(|it| it.contains("not converged")), "{all:?}");
     assert!(
-        all.iter().any(|it| it.contains("no answer to this load")),
+        all.iter()
+            .any(|it| it.contains("still breaking at this load")),
         "{all:?}"
     );
 }

@@ -40,7 +40,7 @@ fn a_damaged_checkpoint_falls_back_to_the_one_before() {
     let said = succeeded(bench.resume("out", &[]));
     assert!(said.contains("too early"), "{said}");
     assert!(
-        said.contains("going on from the checkpoint before"),
+        said.contains("resuming from the checkpoint before it"),
         "{said}"
     );
     assert_same(&bench.out("whole"), &out);
@@ -56,7 +56,7 @@ fn without_a_good_checkpoint_the_results_stay() {
     let before = results(&out);
     let said = refused(bench.resume("out", &[]));
     assert!(said.contains("no checkpoint of a run"), "{said}");
-    assert!(said.contains("as they were"), "{said}");
+    assert!(said.contains("results are unchanged"), "{said}");
     assert_eq!(results(&out), before);
 }
 
@@ -191,7 +191,7 @@ fn a_run_that_is_over_says_so() {
     assert_eq!(termination(&bench.out("out")), "fell-apart");
     let said = refused(bench.resume("out", &[]));
     assert!(
-        said.contains("come to its end") && said.contains("fell apart"),
+        said.contains("is complete") && said.contains("fell apart"),
         "{said}"
     );
     let said = refused(bench.resume("nowhere", &[]));
@@ -207,7 +207,10 @@ fn a_run_without_a_checkpoint_starts_anew() {
     child.kill().unwrap();
     child.wait().unwrap();
     let said = succeeded(bench.resume("out", &[]));
-    assert!(said.contains("no checkpoint yet: it starts anew"), "{said}");
+    assert!(
+        said.contains("no checkpoint yet, so it starts from the beginning"),
+        "{said}"
+    );
     assert_same(&bench.out("whole"), &bench.out("out"));
 }
 

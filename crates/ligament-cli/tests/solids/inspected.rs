@@ -45,14 +45,14 @@ fn sizes_groups_and_quality_are_told() {
 fn units_and_missing_volume_groups_are_told() {
     let large = inspected(&Block::new(1000.0));
     assert!(
-        large.contains("note: the body is 2000.0 m across") && large.contains("scaled by 0.001"),
+        large.contains("note: the body is 2000.0 m across") && large.contains("scale it by 0.001"),
         "{large}"
     );
     let mut block = Block::new(1.0);
     block.group = 0;
     let said = inspected(&block);
     assert!(
-        said.contains("there is no volume group, and none is needed"),
+        said.contains("there is no volume group, and none is necessary"),
         "{said}"
     );
 }

@@ -140,7 +140,7 @@ fn millimetres_are_warned_of() {
     assert!(is_good, "{said}");
     assert_contains(
         &said,
-        &["warning: the body is 2000.0 m across", "scaled by 0.001"],
+        &["warning: the body is 2000.0 m across", "scale it by 0.001"],
     );
 }
 
@@ -154,7 +154,7 @@ fn a_mesh_that_cannot_be_read_is_named_first() {
         &[
             "case.toml:2:8: mesh.file: cannot read the mesh",
             "nowhere.msh",
-            "from the folder of the case file",
+            "relative to the folder of the case file",
         ],
     );
     let itself = case(SOLID).replace("block.msh", "case.toml");

@@ -191,7 +191,7 @@ fn a_run_that_does_not_fit_is_refused() {
     assert_eq!(table.column("status"), ["done", "failed"]);
     let reason = table.column("error")[1];
     assert!(
-        reason.contains("there are 0.03 GB for it; allow more by --memory"),
+        reason.contains("0.03 GB are available; allow more by --memory"),
         "{reason}"
     );
     assert_eq!(place.summaries().len(), 1);

@@ -66,7 +66,7 @@ fn each_mesh_is_made_once() {
     let before = place.summaries();
     let output = place.sweep(&["--gmsh", "./gmsh"]);
     assert!(
-        stderr(&output).contains("done anew, its inputs changed"),
+        stderr(&output).contains("repeated, because its inputs changed"),
         "{}",
         stderr(&output)
     );

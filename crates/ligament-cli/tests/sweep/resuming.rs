@@ -57,7 +57,7 @@ fn a_killed_sweep_goes_on() {
     for (name, written) in &before {
         assert_eq!(after[name], *written, "{name} was computed again");
     }
-    let counted = format!("{} were done before", before.len());
+    let counted = format!("{} were done already", before.len());
     assert!(
         stdout(&output).contains(&counted),
         "{counted}: {}",
@@ -215,7 +215,7 @@ fn changed_inputs_are_computed_anew() {
     let output = place.sweep(&[]);
     assert_success(&output);
     assert!(
-        stderr(&output).contains("done anew, its inputs changed (now file = "),
+        stderr(&output).contains("repeated, because its inputs changed (now file = "),
         "{}",
         stderr(&output)
     );
@@ -246,7 +246,7 @@ fn changed_inputs_are_computed_anew() {
     assert_eq!(fourth.len(), 8);
     assert!(third.iter().all(|(name, written)| fourth[name] == *written));
     assert!(
-        stderr(&output).contains("6 of 8 runs were done before"),
+        stderr(&output).contains("6 of 8 runs were done already"),
         "{}",
         stderr(&output)
     );

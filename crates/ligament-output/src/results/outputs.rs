@@ -48,7 +48,7 @@ impl Outputs {
             return Err(Error::NoResults {
                 path: folder.to_path_buf(),
                 reason: format!(
-                    "it has no {stem}_NNNN.vtu; the run stopped before its first output, or the files were removed"
+                    "it has no {stem}_NNNN.vtu: the run stopped before its first output, or the files were removed"
                 ),
             });
         }

@@ -253,7 +253,7 @@ fn require_run(folder: &Path) -> Result<(), Error> {
     require_results(folder)?;
     if kind_of(folder) == OutputKind::Modes {
         return no_results(
-            "it has natural modes, in which no bond is loaded or breaks; explain needs a static analysis or one of fracture",
+            "it has natural modes, in which no bond breaks; explain needs a static or a fracture analysis",
         );
     }
     if model_file(folder).is_none() {

@@ -203,7 +203,7 @@ impl VtuFile {
         let points: Option<Vec<[f64; 2]>> = self.points()?.into_iter().map(in_plane).collect();
         points.ok_or_else(|| {
             self.strange(
-                "its points do not lie in the plane z = 0: the body is a solid, and what is asked for shows bodies in the plane alone",
+                "its points do not lie in the plane z = 0: the body is a solid, and this shows only bodies in the plane",
             )
         })
     }

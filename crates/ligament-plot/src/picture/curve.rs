@@ -128,7 +128,7 @@ fn landmarks(curves: &[Curve], place: &impl Fn([f64; 2]) -> [f64; 2]) -> Vec<Ser
         (Mark::Crosses, &|curve| {
             let all = curve.points.iter().zip(&curve.at_rest);
             let unsettled = all.filter(|it| !it.1);
-            unsettled.map(|it| ("not at rest", *it.0)).collect()
+            unsettled.map(|it| ("not converged", *it.0)).collect()
         }),
     ];
     let mut series: Vec<Series> = Vec::new();

@@ -130,7 +130,9 @@ pub enum PictureError {
         option: &'static str,
     },
     /// There are as many labels as results, or none.
-    #[error("{n_labels} labels for {n_results} results; give one for each, in their order")]
+    #[error(
+        "{n_labels} labels for {n_results} results; give one label for each result, in the same order"
+    )]
     Labels {
         /// Labels given.
         n_labels: usize,
@@ -151,7 +153,9 @@ pub enum PictureError {
         hint: String,
     },
     /// Curves in different units.
-    #[error("the results have {axis} in different units ({first} and {other}); draw them apart")]
+    #[error(
+        "the results have {axis} in different units ({first} and {other}); draw them separately"
+    )]
     Units {
         /// The column.
         axis: String,

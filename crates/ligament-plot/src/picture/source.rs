@@ -26,7 +26,7 @@ use super::{PictureError, labels_of, solid};
 use crate::stored_loading::stored_loading;
 
 /// What titles and legends call a step in which bonds were still failing.
-const NOT_AT_REST: &str = "not at rest";
+const NOT_CONVERGED: &str = "not converged";
 
 /// The results in a folder.
 pub(super) struct Source {
@@ -244,7 +244,7 @@ impl Output<'_> {
             };
             words.push([format!("{moves} {moved}"), moved]);
             if !moment.at_rest {
-                words.push(same(NOT_AT_REST.to_owned()));
+                words.push(same(NOT_CONVERGED.to_owned()));
             }
             if !is_heated {
                 let held = force.value(moment.reaction);
@@ -258,9 +258,9 @@ impl Output<'_> {
     pub(super) fn warning(outputs: &[Self]) -> Option<Entry> {
         let unsettled = |it: &Self| it.moment().is_some_and(|moment| !moment.at_rest);
         let words = match outputs {
-            [_] => format!("{NOT_AT_REST}: no answer to this load, bonds were still failing"),
+            [_] => format!("{NOT_CONVERGED}: bonds were still breaking at this load"),
             _ => {
-                format!("steps {NOT_AT_REST} are no answer to their load: bonds were still failing")
+                format!("steps {NOT_CONVERGED}: bonds were still breaking at their load")
             }
         };
         outputs.iter().any(unsettled).then_some(Entry {

@@ -19,6 +19,7 @@ table, points and bonds and fields as arrays, pictures and crack paths. All valu
 'steps-done'
 """
 
+from ligament import examples
 from ligament._case import Case, Setup
 from ligament._errors import BodyError, CaseError, Interrupted, LigamentError, NotCalibrated, SolutionError
 from ligament._native import VERSION as __version__
@@ -41,6 +42,7 @@ __all__ = [
     "Sweep",
     "__version__",
     "calibrate",
+    "examples",
     "modal",
     "run",
     "sweep",

@@ -145,7 +145,7 @@ class Page {
       if (column && row >= 0) words.push(withUnit(shortText(column.values[row] * 10 ** column.shift), column.unit));
     }
     const atRest = run.history.get("at_rest")?.values[row];
-    if (atRest === 0) words.push("not at rest");
+    if (atRest === 0) words.push("not converged");
     element("step-text").textContent = words.join(", ");
   }
 

@@ -23,7 +23,7 @@ pub(super) fn difference(then: &Path, now: &Path) -> Option<String> {
 fn difference_at(then: &VtuFile, now: &VtuFile, location: FieldLocation) -> Option<String> {
     let [fields, others] = [then, now].map(|file| file.fields(location).collect::<Vec<_>>());
     if fields != others {
-        return Some(format!("its fields on {location}s are others"));
+        return Some(format!("its fields on {location}s differ"));
     }
     fields.into_iter().find_map(|field| {
         let numbers = |file: &VtuFile| file.numbers(location, field).ok().flatten();

@@ -9,7 +9,7 @@ pub(super) fn difference(then: &[u8], now: &[u8]) -> Option<String> {
     let [then, now] = [then, now].map(|bytes| records(&String::from_utf8_lossy(bytes)));
     let (header, others) = (then.first()?, now.first()?);
     if header != others {
-        return Some("its columns are others".to_owned());
+        return Some("its columns differ".to_owned());
     }
     let mut pairs = then.iter().zip(&now).enumerate();
     let Some((line, (one, other))) = pairs.find(|(_, (one, other))| one != other) else {

@@ -96,18 +96,18 @@ pub fn formulation_line(setup: &Setup) -> String {
     let is_solid = setup.space() == Space::Solid;
     let (name, options) = (setup.law.name(), setup.law.options);
     let unknowns = match setup.law.element() {
-        ElementKind::Beam if is_solid => "three displacements and three rotations a point",
-        ElementKind::Spring if is_solid => "three displacements a point",
-        ElementKind::Beam => "two displacements and a rotation a point",
-        ElementKind::Spring => "two displacements a point",
+        ElementKind::Beam if is_solid => "three displacements and three rotations per point",
+        ElementKind::Spring if is_solid => "three displacements per point",
+        ElementKind::Beam => "two displacements and a rotation per point",
+        ElementKind::Spring => "two displacements per point",
         ElementKind::Imaginary => {
-            "two displacements a point, the strains of a rectangle around each bond"
+            "two displacements per point, the strains of a rectangle around each bond"
         }
         ElementKind::TrueStrain => {
-            "two displacements a point, the true strains of a rectangle around each bond"
+            "two displacements per point, the true strains of a rectangle around each bond"
         }
         ElementKind::Pairwise => {
-            "two displacements a point, the strains of a rectangle around each bond, the printed forces on its ends"
+            "two displacements per point, the strains of a rectangle around each bond, the printed forces on its ends"
         }
     };
     let constants = match options.calibration {
@@ -141,18 +141,18 @@ pub fn formulation_line(setup: &Setup) -> String {
 /// One-line description of the corrections of the bonds, and of the convergence of the iterated correction.
 pub fn correction_line(correction: &Correction, report: Option<&CorrectionReport>) -> String {
     let alpha = match correction.alpha {
-        Alpha::None => "no factor alpha",
-        Alpha::PartialVolume => "alpha by partial volume",
-        Alpha::Length => "alpha by length",
+        Alpha::None => "no length factor",
+        Alpha::PartialVolume => "length factor by partial volume",
+        Alpha::Length => "length factor by length",
     };
     let surface = match correction.surface {
-        Surface::None => "no surface correction".to_owned(),
-        Surface::Volume => "surface correction by volume".to_owned(),
+        Surface::None => "surface correction: none".to_owned(),
+        Surface::Volume => "surface correction: volume".to_owned(),
         Surface::Domain(_) | Surface::Patch(_) => match report {
             Some(CorrectionReport::Domain(report)) => domain_correction(report),
             Some(CorrectionReport::Patch(report)) => format!(
-                "patch correction in {} Newton steps, uniform strains are equilibria to {:.1e}",
-                report.steps, report.left
+                "surface correction: patch (patch-test error {:.1e})",
+                report.left
             ),
             None => String::new(),
         },
@@ -167,7 +167,7 @@ fn domain_correction(report: &DomainReport) -> String {
         "NOT converged"
     };
     format!(
-        "domain correction {verdict} in {} sweeps, energies right to {:.1e}",
+        "surface correction: domain ({verdict} in {} sweeps, energy error {:.1e})",
         report.sweeps, report.largest_residual
     )
 }

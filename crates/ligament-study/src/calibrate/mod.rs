@@ -4,6 +4,7 @@
 //! lambda (NHPD eq. 22: by (3 lambda - 1)/8 on the mesh of the paper). The peak load of a specimen of known strength calibrates it for a
 //! horizon and a mesh.
 
+mod known_result;
 pub mod line;
 mod record;
 mod request;
@@ -16,7 +17,7 @@ use anyhow::Context;
 
 use crate::quantities::Quantities;
 use ligament_analysis::distributed_matrix::Solo;
-use ligament_case::case::{CaseError, CaseFile, Fault};
+use ligament_case::case::{Analysis, CaseError, CaseFile, Fault};
 use ligament_run::inputs::{Contents, Inputs};
 use ligament_run::progress::ProgressMode;
 use ligament_run::run;
@@ -43,6 +44,8 @@ pub fn calibrate(
     let search = search_of(request)?;
     // Errors of the case and of the key are found before anything is written.
     let case = case_with(request, search.start)?;
+    known_result::check(&request.of, case.case.analysis == Some(Analysis::Modal))
+        .map_err(|source| CalibrationError::UnknownResult(request.of.clone(), source))?;
     let inputs = Inputs::from_case(&case, None, &mut Contents::default())
         .map_err(|(path, source)| CalibrationError::Unreadable { path, source })?;
     let mut record = Record::open(request, &inputs)?;

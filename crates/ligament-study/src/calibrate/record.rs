@@ -227,7 +227,7 @@ impl Record {
             ..
         } = &self.request;
         format!(
-            "calibrating {key}: {of} is to be {target:.6e} within {} %",
+            "calibrating {key}: the target is {of} = {target:.6e} within {} %",
             100.0 * within
         )
     }
@@ -249,10 +249,10 @@ impl Record {
             run.seconds,
         );
         if run.last_state_not_at_rest {
-            line.push_str("; its last state is not at rest");
+            line.push_str("; not converged: bonds were still breaking in its last state");
         }
         if of.contains("peak") && CUT_SHORT.contains(&run.termination.as_str()) {
-            line.push_str("; it ended before the load fell: its peak may lie beyond");
+            line.push_str("; it ended before the load fell, so the peak may lie beyond");
         }
         line
     }
@@ -263,8 +263,8 @@ impl Record {
         writeln!(out, "{key} = {}", self.words(trial))?;
         let is_it = |run: &&Run| run.trial == *trial;
         if (self.runs.iter().find(is_it)).is_some_and(|it| it.last_state_not_at_rest) {
-            let last = "the last state of its run is no answer: its bonds were still breaking when the run ended";
-            writeln!(out, "  NOT AT REST        {last}")?;
+            let last = "bonds were still breaking in the last state of its run";
+            writeln!(out, "  NOT CONVERGED      {last}")?;
         }
         writeln!(out, "  runs               {}", self.runs.len())?;
         writeln!(
@@ -285,8 +285,8 @@ impl Record {
         let nearest = best.map(|run| self.words(&run.trial)).unwrap_or_default();
         match verdict {
             Verdict::Jump([a, b]) => format!(
-                "{of} jumps over the target between {key} = {} and {} ({n_runs} runs, record in {record}); fewer bonds an \
-                 iteration or smaller load steps may make it smoother, a larger --within takes one of the two",
+                "{of} jumps over the target between {key} = {} and {} ({n_runs} runs, record in {record}); fewer bonds per iteration or \
+                 smaller load steps may make it smoother; a larger --within accepts one of the two",
                 self.words(a),
                 self.words(b)
             ),

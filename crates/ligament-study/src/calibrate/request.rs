@@ -54,13 +54,15 @@ pub enum CalibrationError {
     EmptyRange(f64, f64),
     /// The case has no start value at the key, or 0, which gives no size.
     #[error(
-        "the case has no number other than 0 at `{key}` to begin with: give it one by --set {key}=..., or say between which values to \
-         look by --from and --to"
+        "the case has no number other than 0 at `{key}` to start from: give one by --set {key}=..., or a range by --from and --to"
     )]
     NoStart {
         /// The key.
         key: String,
     },
+    /// No run of the case has this result.
+    #[error("--of {0}: {1}")]
+    UnknownResult(String, QuantityError),
     /// The result does not exist.
     #[error("run {run} ({setting}), results in {}", folder.display())]
     NoResult {
@@ -75,7 +77,7 @@ pub enum CalibrationError {
     },
     /// No state of a run under load is in equilibrium.
     #[error(
-        "run {run} ({setting}), results in {}: {reason}; a range by --from and --to may keep clear of such values", folder.display()
+        "run {run} ({setting}), results in {}: {reason}; a range by --from and --to can exclude such values", folder.display()
     )]
     NoEquilibrium {
         /// Number of the run.

@@ -260,7 +260,7 @@ impl Launcher<'_> {
         }
         let status = match Status::in_folder(run, self.folder) {
             Status::Missing | Status::Changed(_) => {
-                Status::Failed("it ended well, but left no summary.json".to_owned())
+                Status::Failed("it ended without an error, but wrote no summary.json".to_owned())
             }
             status => status,
         };
@@ -278,7 +278,7 @@ impl Launcher<'_> {
             (now, "free some, allow more by --memory")
         };
         format!(
-            "it would take {:.2} GB of memory, and there are {:.2} GB for it; {advice}, or run it on a larger machine by --shard",
+            "it needs {:.2} GB of memory, and {:.2} GB are available; {advice}, or run it on a larger machine by --shard",
             gigabytes(bytes),
             gigabytes(what)
         )

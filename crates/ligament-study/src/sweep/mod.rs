@@ -121,7 +121,8 @@ fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> 
         ));
     }
     if before > 0 {
-        progress.print(&format!("{before} of {} runs were done before", mine.len()));
+        let all = mine.len();
+        progress.print(&format!("{before} of {all} runs were done already"));
     }
     notes.iter().for_each(|note| progress.print(note));
     let unmeshed = made_meshes(&todo, &folder, &settings.gmsh, &mut progress)?;
@@ -138,7 +139,7 @@ fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> 
         writeln!(out, "  results in {}", path.display())?;
         if failed == 0 && !problems.is_empty() {
             anyhow::bail!(
-                "not all that the study names could be made; the runs are kept, so mend it and run it again"
+                "some tables or plots of the study could not be made; the runs are kept, so correct the study and run it again"
             );
         }
     } else {
@@ -179,7 +180,7 @@ fn not_done<'a>(
             Status::Done(_) => continue,
             Status::Changed(how) => {
                 notes.push(format!(
-                    "{}: done anew, its inputs changed ({how})",
+                    "{}: repeated, because its inputs changed ({how})",
                     run.words(study)
                 ));
             }
@@ -218,7 +219,7 @@ fn write_times(
 ) -> io::Result<()> {
     writeln!(
         out,
-        "  time {}, {} of all runs together; {before} were done before",
+        "  time {}, {} of all runs together; {before} were done already",
         seconds(wall),
         seconds(sum)
     )

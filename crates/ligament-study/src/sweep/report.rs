@@ -178,7 +178,7 @@ fn write_counts(rows: &[Row<'_>], out: &mut dyn Write) -> io::Result<()> {
     for (word, names) in [
         ("failed", failed),
         ("missing", missing),
-        ("not at rest at its end", unsettled),
+        ("not converged at the end", unsettled),
     ] {
         for name in names.iter().take(LISTED) {
             writeln!(out, "  {word}: {name}")?;

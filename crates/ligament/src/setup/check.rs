@@ -156,7 +156,7 @@ impl Setup {
         let is_discrete = self.law.options.calibration == Some(Calibration::Discrete);
         if is_discrete && surface == Surface::Volume {
             let reason = Advice::new(
-                "the discrete calibration has the surfaces in its sums: take {}, or {}",
+                "the discrete calibration already accounts for surfaces: take {}, or {}",
                 [
                     Setting::Surface(Surface::None),
                     Setting::Calibration(Calibration::Integral),
@@ -189,7 +189,7 @@ impl Setup {
             return contradiction(field, Advice::new(text, [volume]));
         }
         if self.correction.domain == CorrectionDomain::Cracked {
-            let text = "the cells of the body know nothing of its pre-cracks: take {}";
+            let text = "the cells of the body do not contain its pre-cracks: take {}";
             let whole = Setting::Domain(CorrectionDomain::Whole);
             let field = Field::whole("correction").part("domain");
             return contradiction(field, Advice::new(text, [whole]));
@@ -246,8 +246,8 @@ impl Setup {
             let field = Field::element("probes", index).part("reading");
             if matches!(probe.reading, Reading::Section { .. }) && !self.law.row.couples_ends_alone
             {
-                let text = "the elements of {} couple up to six points, so that their forces go through no line: the forces of supports and \
-                            loads are in the history";
+                let text = "the elements of {} couple up to six points, so that their forces go through no line: the forces of supports \
+                    and loads are in the history";
                 let law = Setting::Law(vec![self.law.row]);
                 return contradiction(field, Advice::new(text, [law]));
             }
@@ -389,8 +389,8 @@ fn require_couple(action: Field, Couple { about }: Couple, dimensions: usize) ->
 /// Message about a load whose vector is zero.
 fn idle_vector(dimensions: usize) -> &'static str {
     match dimensions {
-        2 => "this load does nothing: neither `x` nor `y` is given a value",
-        _ => "this load does nothing: none of `x`, `y` and `z` is given a value",
+        2 => "this load does nothing: give `x` or `y` a value",
+        _ => "this load does nothing: give `x`, `y` or `z` a value",
     }
 }
 

@@ -21,8 +21,8 @@ impl Setup {
         let goes_straight = |(_, course): &(String, Course)| course.points.len() == 1;
         let ends = |(_, course): &(String, Course)| course.points[0][0] == 1.0;
         if !stage.loads.iter().all(|it| goes_straight(it) && ends(it)) {
-            let reason = "with `control` something else says how far the loads go: give each one factor, whose difference to what it is \
-                          says in what proportion they grow";
+            let reason = "with `control` the loads have only a proportion: give each load one factor; its difference to the present factor \
+                is its part";
             return contradiction(field.part("loads"), reason);
         }
         Ok(())
@@ -31,7 +31,8 @@ impl Setup {
     /// Refuses control by probes in other analyses than load steps, by unknown probes or ones that read no motion, and with weights of 0.
     fn check_probes_that_control(&self, part: Field, probes: &[(String, f64)]) -> Checked {
         if !matches!(self.analysis, Analysis::Stepped(_)) {
-            let reason = "a probe controls load steps: the exact path passes peaks and snap-backs by itself, and an elastic answer has none";
+            let reason = "a probe controls load steps: the exact path passes peaks and snap-backs by itself, and an elastic solution has \
+                none";
             return contradiction(part, reason);
         }
         for (name, weight) in probes {
@@ -60,8 +61,8 @@ impl Setup {
             Analysis::Event(_) => Ok(()),
             Analysis::Stepped(_) if self.criteria.iter().any(|it| it.after.law.softens) => Ok(()),
             Analysis::Stepped(_) => {
-                let reason = "brittle bonds take their energy all at once, so that load steps cannot follow it: let bonds soften (`after`), \
-                              or take the exact path, which goes from breakage to breakage";
+                let reason = "brittle bonds take their energy all at once, so that load steps cannot follow it: let bonds soften \
+                    (`after`), or take the exact path, which goes from breakage to breakage";
                 contradiction(part, reason)
             }
             Analysis::Elastic { .. } | Analysis::Modal(_) => {

@@ -98,7 +98,7 @@ impl Setup {
         let mut materials = self.materials.iter();
         match materials.position(|it| axes(&it.material.elasticity)) {
             Some(index) => {
-                let reason = "solids are of isotropic materials: `young` and `poisson`";
+                let reason = "solids take isotropic materials only: `young` and `poisson`";
                 let field = Field::element("materials", index).part("elasticity");
                 contradiction(field, reason)
             }

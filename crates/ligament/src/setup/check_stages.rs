@@ -17,7 +17,7 @@ impl Setup {
             return Ok(());
         }
         if matches!(self.analysis, Analysis::Modal(_)) {
-            let reason = "modes are free vibrations without loads: stages mean nothing to them";
+            let reason = "modes are free vibrations without loads, so there are no stages";
             return contradiction(Field::whole("stages"), reason);
         }
         let is_temperature = |name: &str| name == TEMPERATURE;
@@ -92,7 +92,7 @@ impl Setup {
                 return contradiction(list, reason);
             }
             if settings.refine_first_break != 0 {
-                let reason = "no first breakage is foretold for stages: give more `steps` to the stage in which it comes";
+                let reason = "the first breakage is not predicted for stages: give more `steps` to the stage in which it comes";
                 return contradiction(Field::whole("analysis").part("refine_first_break"), reason);
             }
         }
@@ -105,8 +105,8 @@ impl Setup {
                     return contradiction(field, reason);
                 }
                 (None, Some(_)) => {
-                    let reason = "only load steps have a number: the exact path goes from breakage to breakage, and an elastic answer is \
-                                  solved at the end of each part of a stage; remove it";
+                    let reason = "only load steps have a number: the exact path goes from breakage to breakage, and an elastic solution is \
+                        taken at the end of each part of a stage; remove it";
                     return contradiction(field, reason);
                 }
                 (None, None) => {}

@@ -29,12 +29,12 @@ impl Setup {
             return contradiction(field, Advice::new(text, [whole]));
         }
         if matches!(self.analysis, Analysis::Modal(_)) {
-            let reason = "natural modes are of a body whose faces stay as they are: leave it out";
+            let reason = "natural modes assume that crack faces do not close: remove it";
             return contradiction(field, reason);
         }
         if matches!(self.analysis, Analysis::Event(_)) && !self.stages.is_empty() {
-            let reason = "with a part of the load that stays, faces open and close between two breakages, and the exact path does not follow \
-                          that: take load steps, or let all loads grow with one factor";
+            let reason = "with a part of the load that stays, faces open and close between two breakages, and the exact path does not \
+                follow that: take load steps, or let all loads grow with one factor";
             return contradiction(field, reason);
         }
         Ok(())

@@ -58,7 +58,7 @@ impl Setup {
 
     fn check_takes_restraints(&self, field: Field) -> Checked {
         if matches!(self.analysis, Analysis::Modal(_)) {
-            let reason = "natural modes know supports that hold alone, no springs, inclined rollers or platens: give a `displacement`";
+            let reason = "natural modes take only supports with a `displacement`, no springs, inclined rollers or platens";
             return contradiction(field, reason);
         }
         if self.law.options.form == Some(Form::Pairwise) {

@@ -24,7 +24,7 @@ impl Setup {
                 return contradiction(field, reason);
             }
             (Some(profile), _) if profile.rotational == RotationalStiffness::Zero => {
-                let text = "there is no rotational stiffness to give a size to: take {}";
+                let text = "there is no rotational stiffness to scale: take {}";
                 let decaying = Setting::RotationalStiffness(RotationalStiffness::Decaying);
                 return contradiction(field, Advice::new(text, [decaying]));
             }
