@@ -111,6 +111,18 @@ fn least(unit: &str) -> f64 {
     }
 }
 
+/// Share of the largest value of a column or curve below which a value is nothing but rounding.
+const NOTHING: f64 = 1e-12;
+
+/// A value beside the largest one of its column or curve: 0 where it is nothing but rounding.
+pub fn settled(value: f64, largest: f64) -> f64 {
+    if value.abs() < NOTHING * largest.abs() {
+        0.0
+    } else {
+        value
+    }
+}
+
 /// Formats a value in an SI unit: `quantity(6.4e5, "N")` is `640.0 kN`; `-` is no unit.
 pub fn quantity(value: f64, unit: &str) -> String {
     let value = if value.abs() < least(unit) {

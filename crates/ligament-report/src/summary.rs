@@ -110,13 +110,13 @@ fn tables(texts: &[&str], results: &[Entry], of: &ModelSummary, computed: &[Entr
 }
 
 /// A row of a table: name and text.
-type Entry = (String, String);
+pub(crate) type Entry = (String, String);
 
 fn entry(name: &str, text: impl Into<String>) -> Entry {
     (name.to_owned(), text.into())
 }
 
-fn table(title: &str, rows: &[Entry]) -> String {
+pub(crate) fn table(title: &str, rows: &[Entry]) -> String {
     if rows.is_empty() {
         return String::new();
     }
