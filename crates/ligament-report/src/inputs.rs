@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use ligament_output::{Error, quantity};
+use ligament_output::Error;
 use ligament_plot::stored_loading::resolved_case;
 use toml::{Table, Value};
 
 use crate::parts::UnitOf;
-use crate::summary::{Entry, table};
+use crate::summary::{Entry, quantity, table};
 
 /// Sections of single entries, and sections that are lists of entries with the noun of one.
 const SECTIONS: [&str; 5] = ["mesh", "lattice", "solid_lattice", "points", "material"];
@@ -102,7 +102,7 @@ impl Inputs {
     fn text(&self, value: &Value, path: &str) -> String {
         let unit = || (self.unit_of)(path).unwrap_or("-");
         match value {
-            Value::Float(number) => quantity::quantity(*number, unit()),
+            Value::Float(number) => quantity(*number, unit()),
             Value::Integer(number) => number.to_string(),
             Value::String(text) => text.rsplit(['/', '\\']).next().unwrap_or(text).to_owned(),
             Value::Array(all) => {

@@ -84,7 +84,7 @@ impl PageRun {
             "title": title,
             "kind": if is_modes { "modes" } else { "steps" },
             "steps": steps,
-            "opensAt": peak.map_or(0, |peak| steps.iter().position(|it| *it >= peak).unwrap_or(steps.len() - 1)),
+            "opensAt": steps.iter().position(|it| Some(*it) == peak).unwrap_or(0),
             "beforeBreakages": loading.follows_path,
             "history": history,
             "firstField": first_field_of(&outputs)?.name,
@@ -154,30 +154,27 @@ impl Drawn<'_> {
     }
 }
 
-/// The step of the largest load; none of modes and of a run without a history.
+/// The step with fields under the largest load; none of modes and of a run without a history.
 fn peak(outputs: &Outputs) -> Result<Option<usize>, Error> {
     let history = outputs.folder.join("history.csv");
     if outputs.kind == OutputKind::Modes || !history.is_file() {
         return Ok(None);
     }
     let rows = Sheet::read(history)?.numbers(["step", "reaction"])?;
-    let largest = rows.into_iter().reduce(|largest, it| {
-        if it[1].abs() > largest[1].abs() {
-            it
-        } else {
-            largest
-        }
-    });
-    Ok(largest.map(|it| it[0] as usize))
+    let rows = rows
+        .into_iter()
+        .map(|[step, reaction]| (step as usize, reaction.abs()));
+    let stored = rows.filter(|(step, _)| outputs.files.contains_key(step));
+    let largest = stored.reduce(|largest, it| if it.1 > largest.1 { it } else { largest });
+    Ok(largest.map(|it| it.0))
 }
 
-/// The files of the steps of a page: all, or an even selection with the first step, the first one from the peak on and the last step.
+/// The files of the steps of a page: all, or an even selection with the first step, the peak and the last step.
 fn chosen(outputs: &Outputs, most: usize, peak: Option<usize>) -> BTreeMap<usize, PathBuf> {
     let count = outputs.files.len();
     if count <= most || outputs.kind == OutputKind::Modes {
         return outputs.files.clone();
     }
-    let peak = peak.and_then(|peak| outputs.files.keys().copied().find(|it| *it >= peak));
     let last = most.max(2) - 1;
     let places: Vec<usize> = (0..=last).map(|it| it * (count - 1) / last).collect();
     let numbered = outputs.files.iter().enumerate();

@@ -100,7 +100,7 @@ class Chart {
       pen = isDrawn ? "L" : "M";
     });
     this.svg.append(svgElement("path", { class: `curve colour-${colour} ${style ?? ""}`, d: path }));
-    const few = steps && steps.length <= 80 && style !== "thin";
+    const few = steps && steps.length <= 80;
     if (!few && !dots) return;
     for (const place of steps ?? x.keys()) {
       if (!(place >= 0) || !Number.isFinite(y[place]) || (this.logarithmic && !(y[place] > 0))) continue;

@@ -169,6 +169,7 @@ class Charts {
       series.push({ label: "spent by the bonds", colour: 1, x, y: spent.map((it) => it * 10 ** energy.shift), steps: [...x.keys()] });
       if (given) series.push({ label: "fracture energy × area", colour: 2, style: "dashed", x: [0, x[last]], y: [0, given * areas[last] * 10 ** energy.shift] });
       text.textContent = `At the end ${shortText(spent[last] / areas[last])} J/m² of new crack${given ? `; the fracture energy is ${shortText(given)} J/m²` : ""}.`;
+      if (run.field("damage_tension") && run.description.firstField !== "damage") text.textContent += " Bonds that soften spend energy before the crack is open at them.";
     }
     this.spent.show({
       series, xLabel: labelWithUnit("crack area", run.area?.unit), yLabel: labelWithUnit("energy", energy?.unit), pick: (_, place) => this.go(number, place),

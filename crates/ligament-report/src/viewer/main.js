@@ -169,8 +169,8 @@ class Page {
     let range = scale === "all" ? ofSteps.map((it) => it * shift) : rangeOfValues(this.values, scale === "inner" ? 0.01 : 0);
     if (scene.isSurface) {
       const { unit, shift: power } = run.field("displacement");
-      Object.assign(shown, { values: scene.crack.values.map((it) => it * 10 ** power), label: "crack opening", unit });
-      range = rangeOfValues(shown.values, 0.01);
+      Object.assign(shown, { values: scene.crack.values.map((it) => it * 10 ** power), label: "crack opening", unit, map: "damage" });
+      range = [0, rangeOfValues(shown.values, 0.01)[1]];
     }
     this.range = colourRange(...range, shown.map);
     const bytes = colourTable(this.range.map);
