@@ -154,19 +154,26 @@ impl Drawn<'_> {
     }
 }
 
-/// The step with fields under the largest load; none of modes and of a run without a history.
+/// The step with fields under the largest load that the body carries; none of modes and of a run without a history.
 fn peak(outputs: &Outputs) -> Result<Option<usize>, Error> {
     let history = outputs.folder.join("history.csv");
     if outputs.kind == OutputKind::Modes || !history.is_file() {
         return Ok(None);
     }
-    let rows = Sheet::read(history)?.numbers(["step", "reaction"])?;
-    let rows = rows
+    let rows = Sheet::read(history)?.numbers(["step", "reaction", "at_rest"])?;
+    let stored = rows
         .into_iter()
-        .map(|[step, reaction]| (step as usize, reaction.abs()));
-    let stored = rows.filter(|(step, _)| outputs.files.contains_key(step));
-    let largest = stored.reduce(|largest, it| if it.1 > largest.1 { it } else { largest });
-    Ok(largest.map(|it| it.0))
+        .filter(|it| outputs.files.contains_key(&(it[0] as usize)));
+    // A state in which bonds were still breaking is no answer to its load.
+    let size = |[_, reaction, at_rest]: &[f64; 3]| (*at_rest, reaction.abs());
+    let largest = stored.reduce(|largest, it| {
+        if size(&it) > size(&largest) {
+            it
+        } else {
+            largest
+        }
+    });
+    Ok(largest.map(|it| it[0] as usize))
 }
 
 /// The files of the steps of a page: all, or an even selection with the first step, the peak and the last step.
