@@ -306,7 +306,6 @@ def check_solid(program, folder, plane, place):
         assert page.value("document.getElementById('section').offsetHeight") == 0, "a body in the plane has no sections"
         assert page.pdf().startswith(b"%PDF")
         assert not page.complaints(), page.complaints()
-    check_layouts(report)
     return counts
 
 
@@ -367,6 +366,8 @@ def main(program, *folders):
         for solid in solids:
             more_values, more_bonds = check_solid(program, solid, folders[-1], Path(place))
             n_values, n_bonds = n_values + more_values, n_bonds + more_bonds
+        if solids:
+            check_layouts(Path(place) / "solid.html")
     print(f"report: {n_values} values under the pointer and {n_bonds} bonds as in the files, first picture after {seconds:.1f} s")
 
 

@@ -9,6 +9,8 @@ class Charts {
     this.go = go;
     this.run = runs[0];
     this.measured = [];
+    // Numbers of the runs whose curves are shown.
+    this.shownRuns = [];
     const chart = (id, title) => new Chart(document.getElementById(id), title);
     this.curve = chart("curve", "Force over displacement");
     this.size = chart("size", "Size of the cracks");

@@ -42,7 +42,7 @@ class Scene {
     const { body } = this;
     Object.assign(this, { displacement, factor, section, isSurface: mode === "surface" && Boolean(cut.list.length) });
     const shown = mode === "open" ? cut : NO_CUT;
-    const key = `${shown.key}/${Boolean(section)}`;
+    const key = body.half ? "cells" : `${shown.key}/${Boolean(section)}`;
     if (key !== this.key) {
       this.key = key;
       this.shape = body.half ? shapeOfCells(body, this.beside(cut)) : shapeOfMesh(body, shown.list, Boolean(section));
