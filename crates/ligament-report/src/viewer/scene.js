@@ -42,10 +42,11 @@ class Scene {
     const { body } = this;
     Object.assign(this, { displacement, factor, section, isSurface: mode === "surface" && Boolean(cut.list.length) });
     const shown = mode === "open" ? cut : NO_CUT;
-    const key = body.half ? "cells" : `${shown.key}/${Boolean(section)}`;
+    const key = body.half ? `cells ${mode === "surface"}` : `${shown.key}/${Boolean(section)}`;
     if (key !== this.key) {
       this.key = key;
-      this.shape = body.half ? shapeOfCells(body, this.beside(cut)) : shapeOfMesh(body, shown.list, Boolean(section));
+      // Inner faces beside the crack may be seen.
+      this.shape = body.half ? shapeOfCells(body, new Set(mode === "surface" ? [] : cut.nodes?.points)) : shapeOfMesh(body, shown.list, Boolean(section));
     }
     this.vertices = this.shape.moved(displacement, factor);
     this.triangles = Uint32Array.from([...this.shape.outside, ...this.shape.crackTriangles()]);
@@ -61,11 +62,6 @@ class Scene {
       this.plane.vertices = inSection(this.plane, this.vertices, 3);
       this.plane.points = pointsOfSection(this.plane, this.shape);
     }
-  }
-
-  // Points at cells beside the crack, whose inner faces may be seen.
-  beside(cut) {
-    return new Set(cut.nodes?.points ?? []);
   }
 
   // Values of the points, or of the crack where its surface is drawn, in a range of colours.
