@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 """Checks in Chromium the page that `ligament report` makes of result folders: check_report.py PROGRAM FOLDER...
 
-The last of the folders in the plane must have broken bonds and several steps, and so must solids, whose pages have pictures: each must be
-the one that `ligament plot` draws. Values under the pointer must be those of the VTU files to half of
-the last digit shown, bonds those of model.vtu and breaks.csv. Nothing may be asked of a network or complained of in the console.
+The last of the folders in the plane must have broken bonds and several steps, and so must solids. Values under the pointer must be those of
+the VTU files to half of the last digit shown, bonds those of model.vtu and breaks.csv. Solids turn and are cut. Nothing may be asked of a network
+or complained of in the console.
 """
 
-import base64
 import csv
 import json
 import re
@@ -15,7 +14,6 @@ import subprocess
 import sys
 import tempfile
 import time
-import zlib
 from pathlib import Path
 
 import meshio
@@ -46,6 +44,10 @@ def number(text):
     return float(written), 0.5 * 10.0**-decimals
 
 
+def choose(page, control, value, event="change"):
+    page.value(f"{{ const it = document.getElementById('{control}'); it.value = {json.dumps(value)}; it.dispatchEvent(new Event('{event}')); }}")
+
+
 def check_value(text, value, factor, name):
     shown, half = number(text)
     # A value between two numbers may go either way by the rounding of the unit.
@@ -53,7 +55,7 @@ def check_value(text, value, factor, name):
 
 
 def go(page, step):
-    page.value(f"{{ const it = document.getElementById('step'); it.value = {step}; it.dispatchEvent(new Event('input')); }}")
+    choose(page, "step", step, "input")
 
 
 def drawn(page, number):
@@ -178,7 +180,7 @@ def check_controls(page, run):
     drawn(page, steps[last])
     assert page.value(mark) != first, "the mark on the curve follows"
     before = page.value(PICTURE)
-    page.value("{ const it = document.getElementById('field'); it.value = 'displacement.y'; it.dispatchEvent(new Event('change')); }")
+    choose(page, "field", "displacement.y")
     drawn(page, "displacement.y")
     assert page.value(PICTURE) != before, "the field changes the picture"
 
@@ -197,6 +199,8 @@ def check_layouts(report):
     with browser.Browser(width=390, height=844, mobile=True) as page:
         page.open(report, READY)
         assert page.value("document.documentElement.scrollWidth") <= 390
+        tops = [page.box(it)[1] for it in ("#body", "#curve", "#point", "#energies", ".summary", "#numerics")]
+        assert tops == sorted(tops), tops
         assert not page.complaints(), page.complaints()
 
 
@@ -206,73 +210,122 @@ def is_solid(folder):
     return bool(kinds & {"tetra", "hexahedron", "wedge", "pyramid"})
 
 
-def drawn_by_plot(program, folder, field, options, place):
-    """The pictures of all steps that `ligament plot` draws."""
-    words = [program, "plot", folder, "--field", field, "--step", "all", "--width", "100", *options, "--force", "--out", place / "plotted.svg"]
-    said = subprocess.run(words, check=True, capture_output=True, text=True).stdout
-    return [Path(line).read_text() for line in said.splitlines()]
+def check_opened_at_peak(page, folder, run):
+    """The page shows first the step with fields under the largest load that the body carries."""
+    with open(folder / "history.csv", newline="", encoding="utf-8") as file:
+        load = {int(row["step"]): (row["at_rest"], abs(float(row["reaction"]))) for row in csv.DictReader(file)}
+    assert run["steps"][page.value(STEP)] == max(run["steps"], key=lambda step: load[step])
 
 
-def check_pictures(page, program, folder, run, place):
-    """Compares pictures of the page with those of `ligament plot`, and shows each series; returns how many pictures it has."""
-    texts = page.value("Object.fromEntries([...document.querySelectorAll('script[id^=t]')].map((it) => [it.id, it.textContent]))")
-    options = {"outside": ["--view", "iso", "--crack"], "behind": ["--view", "120,28", "--crack"], "crack": ["--crack=lines"]}
-    series = run["pictures"]["series"]
-    compared = set()
-    for it in series:
-        view, field = it["view"], it["field"]
-        assert len(it["texts"]) == len(run["steps"]), it
-        if view in options and view not in compared:
-            compared.add(view)
-            unpacked = [zlib.decompress(base64.b64decode(texts[f"t{number}"]), -15).decode() for number in it["texts"]]
-            assert unpacked == drawn_by_plot(program, folder, field, options[view], place), (view, field)
-        page.value(
-            f"{{ const view = document.getElementById('view'); view.value = '{view}'; view.dispatchEvent(new Event('change'));"
-            f" const it = document.getElementById('solid-field'); it.value = '{field}'; it.dispatchEvent(new Event('change')); }}"
-        )
-        page.until(f"document.documentElement.dataset.drawn.endsWith(' {view} {field}')")
-        width, height = page.value("(({ naturalWidth, naturalHeight }) => [naturalWidth, naturalHeight])(document.getElementById('picture'))")
-        assert width > 200 and height > 50, (view, field, width, height)
-    assert compared == options.keys(), compared
-    return sum(len(it["texts"]) for it in series)
+def check_lost_graphics(page):
+    """Graphics that the browser takes away come back with the same picture."""
+    before = page.value(PICTURE)
+    page.value("window.taken = document.getElementById('body').getContext('webgl2').getExtension('WEBGL_lose_context'); window.taken.loseContext()")
+    page.until("!document.getElementById('no-view').hidden")
+    page.value("window.taken.restoreContext()")
+    page.until("document.getElementById('no-view').hidden")
+    page.until(f"{PICTURE} === {json.dumps(before)}")
+
+
+def picked(page, stored, run, x, y):
+    """The position of the point that is seen at a place of the window."""
+    page.mouse("mouseMoved", 2, 2)
+    page.mouse("mouseMoved", x, y)
+    page.until("document.querySelector('#point-values tr[data-key=tag]') !== null")
+    tag = int(panel(page)["tag"][0].split()[1])
+    return stored["places"][stored[run["body"]["tagged"]].ravel().tolist().index(tag)]
+
+
+def check_turning(page, folder, run):
+    """A drag turns a solid; seen along y, its front is under the pointer, and in a section the plane."""
+    before = page.value(PICTURE)
+    left, top, width, height = page.box("#body")
+    x, y = left + 0.45 * width, top + 0.5 * height
+    page.mouse("mouseMoved", x, y)
+    page.mouse("mousePressed", x, y)
+    for place in range(1, 9):
+        page.call("Input.dispatchMouseEvent", type="mouseMoved", x=x + 10 * place, y=y + 4 * place, button="left", buttons=1)
+    page.mouse("mouseReleased", x + 80, y + 32)
+    assert page.value(PICTURE) != before, "a drag turns the body"
+    page.value("document.getElementById('body').focus(); 0")
+    page.key("y", "y")
+    stored = fields(folder, run["steps"][0])
+    along = stored["places"][:, 1]
+    spacing = 1.5 * np.median(stored["nearest_distance"])
+    go(page, 0)
+    drawn(page, run["steps"][0])
+    front = picked(page, stored, run, x, y)
+    assert front[1] <= along.min() + spacing, front
+    before = page.value(PICTURE)
+    choose(page, "section", "1")
+    page.until("!document.getElementById('cut-label').hidden")
+    assert page.value(PICTURE) != before, "a section changes the picture"
+    half = 0.5 * (along.min() + along.max())
+    inside = picked(page, stored, run, x + 3, y + 3)
+    assert abs(inside[1] - half) <= spacing, (inside, half)
+    page.value("document.getElementById('zoom-fit').click(); 0")
+    before = page.value(PICTURE)
+    choose(page, "cut", 0.8, "input")
+    assert page.value(PICTURE) != before, "the slider moves the section"
+    choose(page, "section", "")
+
+
+def check_opening(page, run):
+    """The body opens along its crack, and the surface of the crack is shown."""
+    go(page, len(run["steps"]) - 1)
+    drawn(page, run["steps"][-1])
+    pictures = set()
+    for mode in page.value("[...document.getElementById('cracks').options].map((it) => it.value)"):
+        choose(page, "cracks", mode)
+        page.until("new Promise((done) => setTimeout(() => done(true), 150))")
+        pictures.add(page.value(PICTURE))
+        said = page.value("document.getElementById('legend-name').textContent")
+        assert ("crack opening" in said) == (mode == "surface"), (mode, said)
+    assert len(pictures) >= 3, len(pictures)
+    choose(page, "cracks", "none")
 
 
 def check_solid(program, folder, plane, place):
-    """The page of a solid beside a body in the plane; returns how many pictures it has."""
+    """The page of a solid beside a body in the plane; returns how many values and bonds it compared."""
     report = place / "solid.html"
     subprocess.run([program, "report", folder, plane, "--force", "--out", report], check=True, stdout=subprocess.DEVNULL)
-    shown = "({ picture: document.getElementById('picture').offsetHeight, body: document.getElementById('body').offsetHeight })"
+    folder = Path(folder)
     with browser.Browser() as page:
         page.open(report, READY)
         run = described(page)["runs"][0]
-        count = check_pictures(page, program, folder, run, place)
-        heights = page.value(shown)
-        assert heights["picture"] > 100 and heights["body"] == 0, heights
-        last = len(run["steps"]) - 1
-        go(page, last)
-        drawn(page, run["steps"][last])
-        source = "document.getElementById('picture').src"
-        before = page.value(source)
-        go(page, 0)
-        page.until(f"{source} !== {json.dumps(before)}")
-        page.key("ArrowRight")
-        drawn(page, run["steps"][1])
-        assert page.value(STEP) == 1, "an arrow goes to the next step"
-        choose = "{{ const it = document.getElementById('run'); it.value = {}; it.dispatchEvent(new Event('change')); }}"
-        page.value(choose.format(1))
+        check_opened_at_peak(page, folder, run)
+        check_turning(page, folder, run)
+        # Seen from above, x and y lie as they do in the plane.
+        page.value("document.getElementById('body').focus(); 0")
+        page.key("z", "z")
+        counts = check_values(page, folder, run), check_bonds(page, folder, run)
+        check_opening(page, run)
+        check_lost_graphics(page)
+        choose(page, "run", 1)
         drawn(page, Path(plane).name)
-        heights = page.value(shown)
-        assert heights["picture"] == 0 and heights["body"] > 100, heights
-        page.value(choose.format(0))
-        drawn(page, Path(folder).name)
-        assert page.value(shown)["body"] == 0
+        assert page.value("document.getElementById('section').offsetHeight") == 0, "a body in the plane has no sections"
         assert page.pdf().startswith(b"%PDF")
         assert not page.complaints(), page.complaints()
-    with browser.Browser(width=390, height=844, mobile=True) as page:
-        page.open(report, READY)
-        assert page.value("document.documentElement.scrollWidth") <= 390
-        assert not page.complaints(), page.complaints()
-    return count
+    return counts
+
+
+def check_measured(page):
+    """Measured curves of the command and of a file are drawn, and charts are saved."""
+    count = "document.querySelectorAll('#curve .curve.dashed').length"
+    assert page.value(count) == 1
+    page.value(
+        "{ const files = new DataTransfer(); files.items.add(new File(['displacement (um);force (N)\\n0;0\\n1;2\\n'], 'other.csv'));"
+        " const it = document.getElementById('measured'); it.files = files.files; it.dispatchEvent(new Event('change')); }"
+    )
+    page.until(f"{count} === 2")
+    page.value(
+        "{ const files = new DataTransfer(); files.items.add(new File(['a,b,c\\n0,0,0\\n'], 'wrong.csv'));"
+        " document.getElementById('curve-card').dispatchEvent(new DragEvent('drop', { dataTransfer: files })); }"
+    )
+    page.until("document.getElementById('measured-note').textContent.includes('two columns')")
+    for kind in ("svg", "png", "csv"):
+        page.value(f"[...document.querySelectorAll('#curve .exports button')].find((it) => it.textContent === '{kind.upper()}').click()")
+        page.until(f"document.documentElement.dataset.saved === 'force-over-displacement.{kind}'")
 
 
 def main(program, *folders):
@@ -288,24 +341,34 @@ def main(program, *folders):
         (copy / "summary.json").write_text(json.dumps(summary | {"title": TITLE}))
         report = Path(place) / "report.html"
         results = [copy, *map(Path, folders)]
-        subprocess.run([program, "report", *results, "--force", "--out", report], check=True, stdout=subprocess.DEVNULL)
+        measured = Path(place) / "measured.csv"
+        measured.write_text("displacement (mm),force (kN)\n0,0\n0.001,0.5\n")
+        words = [program, "report", *results, "--measured", measured, "--force", "--out", report]
+        subprocess.run(words, check=True, stdout=subprocess.DEVNULL)
         with browser.Browser() as page:
             begun = time.monotonic()
             page.open(report, READY)
             seconds = time.monotonic() - begun
             assert TITLE in page.value("document.querySelector('h1').textContent")
             run = described(page)["runs"][0]
+            check_opened_at_peak(page, copy, run)
+            check_lost_graphics(page)
             n_values = check_values(page, copy, run)
             n_bonds = check_bonds(page, copy, run)
             check_controls(page, run)
-            page.value("{ const it = document.getElementById('run'); it.value = 1; it.dispatchEvent(new Event('change')); }")
+            choose(page, "run", 1)
             drawn(page, Path(folders[0]).name)
-            assert page.value("document.querySelectorAll('#curve .curve').length") == len(results)
+            names = page.value("[...document.querySelectorAll('#curve .series span')].map((it) => it.textContent)")
+            assert {it.name for it in results} <= set(names), names
+            check_measured(page)
             assert not page.complaints(), page.complaints()
         check_layouts(report)
-        n_pictures = sum(check_solid(program, solid, folders[-1], Path(place)) for solid in solids)
+        for solid in solids:
+            more_values, more_bonds = check_solid(program, solid, folders[-1], Path(place))
+            n_values, n_bonds = n_values + more_values, n_bonds + more_bonds
+        if solids:
+            check_layouts(Path(place) / "solid.html")
     print(f"report: {n_values} values under the pointer and {n_bonds} bonds as in the files, first picture after {seconds:.1f} s")
-    print(f"report: {n_pictures} pictures of {len(solids)} solid(s)")
 
 
 main(*sys.argv[1:])

@@ -1,7 +1,7 @@
 //! Probes: quantities evaluated at every load step.
 
 use crate::contact;
-use crate::result_fields::{FIELDS, FieldReading, Solution};
+use crate::result_fields::{FIELDS, FieldReading, Solution, unit_of};
 use crate::unknowns::{Component, Layout};
 
 /// Probe, a column of the history.
@@ -124,6 +124,11 @@ const OF_VECTORS_AND_TENSORS: [PointField; 13] = [
     ),
 ];
 
+/// SI unit of a displacement, or of a rotation.
+pub fn motion_unit(is_rotation: bool) -> &'static str {
+    if is_rotation { "rad" } else { "m" }
+}
+
 const fn motion(word: &'static str, meaning: &'static str, component: Component) -> PointField {
     let reading = PointReading::Motion(component);
     PointField {
@@ -149,6 +154,15 @@ impl PartialEq for PointField {
 }
 
 impl PointField {
+    /// SI unit of the field.
+    pub fn unit(&self) -> &'static str {
+        match self.reading {
+            PointReading::Motion(component) => motion_unit(component.is_rotation()),
+            PointReading::Stress(_) | PointReading::MaterialStress { .. } => "Pa",
+            PointReading::Scalar(_) => unit_of(self.word),
+        }
+    }
+
     /// All fields: those of the [table of fields](FIELDS) that are read at a point, then the components of other vectors and
     /// tensors.
     pub const ALL: [Self; N_OF_TABLE + OF_VECTORS_AND_TENSORS.len()] = {

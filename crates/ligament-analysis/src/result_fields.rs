@@ -20,7 +20,7 @@ use FieldReading::{
     CrackSurface, EnergyRatios, MaterialStress, Model, Probed, ScatterFactors, State as InState,
     Stress,
 };
-use Interest::{Low, Main, Pictured};
+use Interest::{Low, Main};
 
 /// Point field in results.
 #[derive(Debug)]
@@ -55,9 +55,7 @@ pub enum Components {
 /// Priority of a field on a page: smaller numbers come first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Interest {
-    /// Main field, with pictures on the page of a solid.
-    Pictured(u8),
-    /// Main field, without pictures on the page of a solid.
+    /// Main field.
     Main(u8),
     /// Field that follows the others, in the order of the files.
     Low,
@@ -173,14 +171,14 @@ macro_rules! result_fields {
 }
 
 result_fields! {
-    DISPLACEMENT "displacement" ["m"] VECTOR Pictured(0), "Displacement of the point."
+    DISPLACEMENT "displacement" ["m"] VECTOR Main(0), "Displacement of the point."
         => InState(|view| numbers(displacements(view)));
     ROTATION "rotation" ["rad"] TURN Main(6),
         "Rotation of the point: in the plane counter-clockwise, in space about x, y and z, right-handed."
         => InState(|view| numbers(rotations(view.system.layout(), &view.state.displacement)));
-    DAMAGE "damage" ["-"] SCALAR Pictured(1), "Share of the point's bonds that are broken, weighted with volumes, 0 to 1."
+    DAMAGE "damage" ["-"] SCALAR Main(1), "Share of the point's bonds that are broken, weighted with volumes, 0 to 1."
         => Probed(|it| Some(fields::damage(it.system, &it.state.intact)), |it, point| fields::point_damage(it.system, &it.state.intact, point));
-    STRAIN_ENERGY_DENSITY "strain_energy_density" ["J/m^3"] SCALAR Pictured(3),
+    STRAIN_ENERGY_DENSITY "strain_energy_density" ["J/m^3"] SCALAR Main(3),
         "Strain energy density, J/m^3: energy stored in the point's bonds, half of each."
         => Probed(|it| Some(energy_density(it)), point_energy_density);
     REACTION "reaction" ["N"] VECTOR Low, "Force of supports and loads on the point."
@@ -198,22 +196,22 @@ result_fields! {
     DISSIPATED_ENERGY_DENSITY "dissipated_energy_density" ["J/m^3"] SCALAR Main(4),
         "Energy that the point's bonds took for good, per volume."
         => InState(dissipated_energy_density);
-    TEMPERATURE_CHANGE "temperature_change" ["K"] SCALAR Pictured(5), "Change of temperature, where there is one."
+    TEMPERATURE_CHANGE "temperature_change" ["K"] SCALAR Main(5), "Change of temperature, where there is one."
         => InState(|view| present(view.loads.temperature_change(view.state.load_factor)));
     THERMAL_STRAIN "thermal_strain" ["-"] STRAIN Low,
         "Strain that the temperature would make without stress, with engineering shears, where it changes."
         => InState(|view| present(thermal_strain(view)));
-    STRESS "stress" ["Pa"] SYMMETRIC Pictured(2),
+    STRESS "stress" ["Pa"] SYMMETRIC Main(2),
         "Stress of the point by the law of its material, from its strain by least squares over its bonds, if asked for."
         => MaterialStress(<[f64]>::to_vec, probed!("stress" "Stress by the law of the material": "xx" "yy" "xy" "zz" "xz" "yz"));
-    STRESS_PRINCIPAL "stress_principal" ["Pa"] PRINCIPAL Pictured(2), "Principal values of `stress`, the largest first."
+    STRESS_PRINCIPAL "stress_principal" ["Pa"] PRINCIPAL Main(2), "Principal values of `stress`, the largest first."
         => MaterialStress(principal::values, probed!("stress_principal" "Principal value of that stress": "1" "2" "3"));
     STRESS_DIRECTION "stress_direction" ["-"] VECTOR Low, "Unit vector along the largest principal value of `stress`."
         => MaterialStress(principal::direction_of_largest, &[]);
-    STRESS_VIRIAL "stress_virial" ["Pa"] SYMMETRIC Pictured(2),
+    STRESS_VIRIAL "stress_virial" ["Pa"] SYMMETRIC Main(2),
         "Symmetric part of the mean of the force dyads of the point's bonds, if asked for."
         => Stress(StressReading::Virial);
-    STRESS_TRACTION "stress_traction" ["Pa"] TRACTION Pictured(2),
+    STRESS_TRACTION "stress_traction" ["Pa"] TRACTION Main(2),
         "Force of the bonds through planes at the point, if asked for: direction of the force, then normal of the plane."
         => Stress(StressReading::Traction);
     VOLUME "volume" ["m^3"] SCALAR Low, "Volume of the point."
@@ -298,7 +296,7 @@ impl Interest {
     /// Rank of the field in the order of priority, from 0.
     pub fn rank(self) -> u8 {
         match self {
-            Pictured(rank) | Main(rank) => rank,
+            Main(rank) => rank,
             Low => u8::MAX,
         }
     }

@@ -108,11 +108,40 @@ fn a_page_has_a_run_and_no_markup_of_its_case() {
     assert!(n_steps > 4, "{n_steps}");
     assert_eq!(names(run)[..2], ["displacement", "damage"]);
     assert!(run["bonds"]["count"].as_u64().unwrap() > 2000);
-    assert_eq!(run["cracks"].as_array().unwrap().len(), n_steps);
+    assert_eq!(run["cracks"]["lines"].as_array().unwrap().len(), n_steps);
+    assert_eq!(run["firstField"], "damage");
+    let opened = run["opensAt"].as_u64().unwrap() as usize;
+    assert!(opened > 0 && opened < n_steps - 1, "{opened}");
+    assert!(page.contains("Supports and loads") && page.contains("1.000 GPa"));
     let history = run["history"].as_array().unwrap();
     assert!(history.iter().any(|it| it["name"] == "residual"));
     // A rerun of the same results gives the same bytes.
     assert_eq!(report(folder.path(), &["out"]).0, page);
+}
+
+#[test]
+fn measured_curves_stand_in_the_page() {
+    let folder = run(&bar(PULLED));
+    let write = |text: &str| fs::write(folder.path().join("curve.csv"), text).unwrap();
+    write("displacement (mm),force (kN)\n0,0\n0.1,2.5\n");
+    let words = ["out", "--measured", "curve.csv"];
+    let measured = &description(&report(folder.path(), &words).0)["measured"][0];
+    assert_eq!(measured["label"], "curve");
+    assert_eq!(measured["names"][1], "force (kN)");
+    assert_eq!(measured["values"][1][1], 2.5);
+    for (wrong, said) in [
+        ("a,b,c\n0,0,0\n", "has 3 columns; a measured curve has two"),
+        ("a,b\n0,x\n", "curve.csv"),
+    ] {
+        write(wrong);
+        let output = call(folder.path(), &["report", "out", "--measured", "curve.csv"]);
+        assert_eq!(output.status.code(), Some(1));
+        assert!(
+            text(&output.stderr).contains(said),
+            "{}",
+            text(&output.stderr)
+        );
+    }
 }
 
 #[test]

@@ -111,13 +111,30 @@ fn least(unit: &str) -> f64 {
     }
 }
 
-/// Formats a value in an SI unit: `quantity(6.4e5, "N")` is `640.0 kN`; `-` is no unit.
-pub fn quantity(value: f64, unit: &str) -> String {
-    let value = if value.abs() < least(unit) {
+/// Share of the largest value of a column or curve below which a value is nothing but rounding.
+const NOTHING: f64 = 1e-12;
+
+/// A value beside the largest one of its column or curve: 0 where it is nothing but rounding.
+pub fn settled(value: f64, largest: f64) -> f64 {
+    if value.abs() < NOTHING * largest.abs() {
         0.0
     } else {
         value
-    };
+    }
+}
+
+/// A value in an SI unit: 0 where it is so small that it is nothing but rounding.
+pub fn without_rounding(value: f64, unit: &str) -> f64 {
+    if value.abs() < least(unit) {
+        0.0
+    } else {
+        value
+    }
+}
+
+/// Formats a value in an SI unit: `quantity(6.4e5, "N")` is `640.0 kN`; `-` is no unit.
+pub fn quantity(value: f64, unit: &str) -> String {
+    let value = without_rounding(value, unit);
     Shown::new(unit, value.abs()).value(value)
 }
 
@@ -192,6 +209,13 @@ mod tests {
         ] {
             assert_eq!(quantity(value, unit), expected, "{value} {unit}");
         }
+    }
+
+    #[test]
+    fn what_is_nothing_beside_the_largest_is_zero() {
+        assert_eq!(settled(2.093e-31, 5.0), 0.0);
+        assert_eq!(settled(-3e-12, 2.0), -3e-12);
+        assert_eq!(settled(0.0, 0.0), 0.0);
     }
 
     #[test]

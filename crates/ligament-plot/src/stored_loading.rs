@@ -1,19 +1,34 @@
 //! What the loading of a stored run was like, from the case beside its results.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use ligament_output::folder::RESOLVED_CASE;
+use ligament_output::results::columns::{self, unit_of_probe};
 use ligament_output::{Error, read_text};
 
 use ligament::units::Units;
 
 /// What the loading of the run was like.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct StoredLoading {
     /// Whether the rows of the history are events, each just before its bonds break.
     pub follows_path: bool,
     /// Units of the first load.
     pub units: Units,
+    /// Units of the probes by their names.
+    pub probes: BTreeMap<String, &'static str>,
+}
+
+impl StoredLoading {
+    /// SI unit of a column of the history of the run; `-` for a number without a unit.
+    pub fn unit_of(&self, column: &str) -> &'static str {
+        match column {
+            "displacement" => self.units.displacement,
+            "reaction" => self.units.force,
+            name => (self.probes.get(name).copied()).unwrap_or_else(|| columns::unit_of(name)),
+        }
+    }
 }
 
 /// The loading, from the resolved case beside the results.
@@ -40,11 +55,24 @@ pub fn stored_loading(folder: &Path) -> Result<StoredLoading, Error> {
     Ok(StoredLoading {
         follows_path: control.and_then(toml::Value::as_str) == Some("event"),
         units,
+        probes: probes(&case),
     })
 }
 
+/// Units of the probes of a case.
+fn probes(case: &toml::Table) -> BTreeMap<String, &'static str> {
+    let all = case.get("probe").and_then(toml::Value::as_array);
+    let unit = |probe: &toml::Value| {
+        let word = |key: &str| probe.get(key).and_then(toml::Value::as_str);
+        let component = word("component").unwrap_or_default();
+        let unit = unit_of_probe(word("field"), component, probe.get("section").is_some());
+        Some((word("name")?.to_owned(), unit))
+    };
+    all.into_iter().flatten().filter_map(unit).collect()
+}
+
 /// The resolved case beside results.
-pub(crate) fn resolved_case(folder: &Path) -> Result<toml::Table, Error> {
+pub fn resolved_case(folder: &Path) -> Result<toml::Table, Error> {
     let path = folder.join(RESOLVED_CASE);
     read_text(&path)?
         .parse()

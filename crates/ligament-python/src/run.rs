@@ -3,11 +3,11 @@
 use ligament_analysis::driver::Outcome;
 use ligament_mesh::Cell;
 use ligament_model::{Absence, BodyGrid, Canvas, ConstantFields, box_corners};
-use ligament_output::results::PointFields;
 use ligament_output::results::cracks::{SeparatedPairs, StoredCracks};
 use ligament_output::results::fields::{
     FieldValues, HORIZON, NEAREST_DISTANCE, PATCH_RESIDUAL, PRECRACK_SHARE, ResultField, VOLUME,
 };
+use ligament_output::results::{Happened, PointFields, first_field};
 use numpy::PyReadonlyArray1;
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
@@ -48,6 +48,9 @@ pub(crate) struct Run {
     /// Kind of the points' tags, `node`, `cell` or `point`.
     #[pyo3(get)]
     tagged: &'static str,
+    /// Name of the field that shows best what happened.
+    #[pyo3(get)]
+    first_field: &'static str,
     grid: BodyGrid,
     /// Cracks; none for a solid.
     cracks: Option<StoredCracks>,
@@ -118,7 +121,7 @@ impl Run {
 
 impl Run {
     fn new(py: Python<'_>, solved: Solved) -> PyResult<Self> {
-        let cracks = cracks(&solved);
+        let (cracks, first_field) = (cracks(&solved), first_field_of(&solved));
         let Solved {
             fixed: of_points,
             arrays,
@@ -161,6 +164,7 @@ impl Run {
             cells: cells(py, &grid)?.unbind(),
             summary,
             tagged: grid.tagged,
+            first_field,
             grid,
             cracks,
         })
@@ -177,6 +181,27 @@ impl Run {
         }
         Ok(())
     }
+}
+
+/// Name of the field that shows best what happened in a run.
+fn first_field_of(solved: &Solved) -> &'static str {
+    let softened = &solved.outcome.state.softening.largest;
+    let happened = if softened.iter().flatten().any(|it| *it > 1.0) {
+        Happened::Softened
+    } else if !solved.kept.broken.is_empty() {
+        Happened::Broke
+    } else {
+        Happened::Nothing
+    };
+    let last = solved.kept.fields.last();
+    let largest = |name: &str| {
+        let field = last.and_then(|(_, fields)| fields.iter().find(|it| it.0.name == name));
+        match field {
+            Some((_, FieldValues::Numbers(values))) => values.iter().copied().fold(0.0, f64::max),
+            _ => 0.0,
+        }
+    };
+    first_field(happened, largest).name
 }
 
 /// The cracks of a body in the plane; `None` for a solid.

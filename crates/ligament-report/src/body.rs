@@ -1,28 +1,33 @@
-//! The body of a run: its points in the order of the page, and its triangles.
+//! The body of a run: its points in the order of the page, and its cells.
+
+use std::collections::HashMap;
 
 use ligament_output::results::location;
+use ligament_output::results::solid_body::is_solid;
 use ligament_output::vtu::Cell;
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::{Error, FieldLocation};
 
-/// Number of squares along a side of the raster for the order of the points.
-const RASTER: f64 = 65_535.0;
+/// Bits of the raster along a side for the order of the points.
+const BITS: u32 = 16;
 
-/// A body for drawing.
+/// A body for drawing, in the plane or a solid.
 #[derive(Debug)]
 pub(crate) struct Body {
+    /// Number of dimensions, 2 or 3.
+    pub(crate) dimension: usize,
     /// The noun that tags belong to: `node` or `cell`.
     pub(crate) tagged: &'static str,
     /// Location of the fields in the files, points or cells.
     pub(crate) location: FieldLocation,
     /// Tags of the points, in the order of the page.
     pub(crate) tags: Vec<i64>,
-    /// Positions of the points, in the order of the page, m.
-    pub(crate) positions: Vec<[f64; 2]>,
-    /// Corners of the cells around the points, four per point, m; empty where cells are between the points.
-    pub(crate) corners: Vec<[f64; 2]>,
-    /// Triangles between points of the page; empty where each point has a cell.
-    pub(crate) triangles: Vec<[u32; 3]>,
+    /// Positions of the points, in the order of the page, m; z = 0 in the plane.
+    pub(crate) positions: Vec<[f64; 3]>,
+    /// Halves of the sides of the square or box around each point, m; empty where cells are between the points.
+    pub(crate) halves: Vec<[f64; 3]>,
+    /// Triangles between points of the page, tetrahedra of a solid, by their corners one after the other; empty where each point has a cell.
+    pub(crate) simplices: Vec<u32>,
     /// Indices of the points in the files, in the order of the page.
     pub(crate) order: Vec<u32>,
 }
@@ -34,54 +39,50 @@ impl Body {
     ///
     /// If the file cannot be used.
     pub(crate) fn read(file: &VtuFile) -> Result<Self, Error> {
-        let (corners, cells) = (file.points_in_plane()?, file.cells()?);
+        let dimension = if is_solid(file)? { 3 } else { 2 };
+        let (corners, cells) = (file.points()?, file.cells()?);
         let location = location(file);
-        let is_mesh = location == FieldLocation::Point;
         let (tagged, tags) = file.tags(location)?;
-        let around = |cell: &Cell| {
-            cell.points()
-                .iter()
-                .map(|&it| corners[it as usize])
-                .collect()
+        let (positions, halves): (Vec<[f64; 3]>, Vec<[f64; 3]>) = match location {
+            FieldLocation::Point => (corners, Vec::new()),
+            FieldLocation::Cell => cells.iter().map(|it| around(it, &corners)).unzip(),
         };
-        let squares: Vec<Vec<[f64; 2]>> = match is_mesh {
-            true => Vec::new(),
-            false => cells.iter().map(around).collect(),
+        let order = order(&positions, dimension);
+        let places = places(&order);
+        let simplices = match location {
+            FieldLocation::Point => simplices(&cells, &places),
+            FieldLocation::Cell => Vec::new(),
         };
-        let positions = match is_mesh {
-            true => corners.clone(),
-            false => squares.iter().map(|it| middle(it)).collect(),
-        };
-        let order = order(&positions);
-        let mut place = vec![0_u32; order.len()];
-        for (new, old) in (0..).zip(&order) {
-            place[*old as usize] = new;
-        }
-        let triangles = match is_mesh {
-            true => triangles(&cells, &place),
-            false => Vec::new(),
+        let halves = match halves.is_empty() {
+            true => halves,
+            false => ordered(&halves, &order),
         };
         Ok(Self {
+            dimension,
             tagged,
             location,
             tags: ordered(&tags, &order),
             positions: ordered(&positions, &order),
-            corners: (order.iter())
-                .filter_map(|it| squares.get(*it as usize))
-                .flat_map(|square| (0..4).map(|it| square[it.min(square.len() - 1)]))
-                .collect(),
-            triangles,
+            halves,
+            simplices,
             order,
         })
     }
 
-    /// Larger side of the box around the points, m.
+    /// Largest side of the box around the points, m.
     pub(crate) fn size(&self) -> f64 {
         let side = |axis: usize| {
-            let along = || self.positions.iter().map(|it| it[axis]);
-            along().fold(f64::NEG_INFINITY, f64::max) - along().fold(f64::INFINITY, f64::min)
+            let [low, high] = range(&self.positions, axis);
+            high - low
         };
-        side(0).max(side(1)).max(0.0)
+        (0..3).map(side).fold(0.0, f64::max)
+    }
+
+    /// Indices of the tetrahedra of the page by their corners in the file.
+    pub(crate) fn tetrahedra(&self) -> HashMap<[u32; 4], u32> {
+        let (all, _) = self.simplices.as_chunks::<4>();
+        let in_file = |corners: &[u32; 4]| corners.map(|it| self.order[it as usize]);
+        all.iter().map(in_file).zip(0..).collect()
     }
 }
 
@@ -90,50 +91,81 @@ pub(crate) fn ordered<T: Copy>(values: &[T], order: &[u32]) -> Vec<T> {
     order.iter().map(|it| values[*it as usize]).collect()
 }
 
-fn middle(corners: &[[f64; 2]]) -> [f64; 2] {
-    [0, 1].map(|axis| corners.iter().map(|it| it[axis]).sum::<f64>() / corners.len() as f64)
+/// Place of each point of the files in the order of the page.
+pub(crate) fn places(order: &[u32]) -> Vec<u32> {
+    let mut places = vec![0_u32; order.len()];
+    for (new, old) in (0..).zip(order) {
+        places[*old as usize] = new;
+    }
+    places
 }
 
-/// Indices of the points along a curve through the squares of a raster, quadrant by quadrant (Z-order), so that neighbours are close in the
-/// order and predict each other's values.
-fn order(positions: &[[f64; 2]]) -> Vec<u32> {
-    let bound = |axis: usize, start: f64, of: fn(f64, f64) -> f64| {
-        positions.iter().map(|it| it[axis]).fold(start, of)
-    };
-    let low = [0, 1].map(|axis| bound(axis, f64::INFINITY, f64::min));
-    let high = [0, 1].map(|axis| bound(axis, f64::NEG_INFINITY, f64::max));
-    let size = (high[0] - low[0])
-        .max(high[1] - low[1])
-        .max(f64::MIN_POSITIVE);
+/// Middle of a square or box, and halves of its sides.
+fn around(cell: &Cell, corners: &[[f64; 3]]) -> ([f64; 3], [f64; 3]) {
+    let corners: Vec<[f64; 3]> = (cell.points().iter())
+        .map(|&it| corners[it as usize])
+        .collect();
+    let ranges = [0, 1, 2].map(|axis| range(&corners, axis));
+    (
+        ranges.map(|[low, high]| 0.5 * (low + high)),
+        ranges.map(|[low, high]| 0.5 * (high - low)),
+    )
+}
+
+/// Smallest and largest coordinate along an axis.
+fn range(positions: &[[f64; 3]], axis: usize) -> [f64; 2] {
+    let along = || positions.iter().map(|it| it[axis]);
+    [
+        along().fold(f64::INFINITY, f64::min),
+        along().fold(f64::NEG_INFINITY, f64::max),
+    ]
+}
+
+/// Indices of the points along a curve through the squares or cubes of a raster, one quadrant or octant after the other (Z-order), so that
+/// neighbours are close in the order and predict each other's values.
+fn order(positions: &[[f64; 3]], dimension: usize) -> Vec<u32> {
+    let ranges = [0, 1, 2].map(|axis| range(positions, axis));
+    let sides = ranges.map(|[low, high]| high - low);
+    let size = sides.into_iter().fold(f64::MIN_POSITIVE, f64::max);
+    let raster = f64::from((1_u32 << BITS) - 1);
     let code = |it: &u32| {
         let position = positions[*it as usize];
-        let [x, y] = [0, 1].map(|k| spread(((position[k] - low[k]) / size * RASTER) as u32));
-        (x | y << 1, *it)
+        let along = |axis: usize| ((position[axis] - ranges[axis][0]) / size * raster) as u32;
+        let bits = (0..dimension).map(|axis| spread(along(axis), dimension) << axis);
+        (bits.fold(0, |all, it| all | it), *it)
     };
     let mut order: Vec<u32> = (0..positions.len() as u32).collect();
     order.sort_by_cached_key(code);
     order
 }
 
-/// The bits of a number, interleaved with zeros.
-fn spread(number: u32) -> u64 {
-    (0..16).fold(0, |sum, bit| {
-        sum | u64::from(number >> bit & 1) << (2 * bit)
+/// The bits of a number, `apart` places from one to the next.
+fn spread(number: u32, apart: usize) -> u64 {
+    (0..BITS as usize).fold(0, |sum, bit| {
+        sum | u64::from(number >> bit & 1) << (apart * bit)
     })
 }
 
-fn triangles(cells: &[Cell], place: &[u32]) -> Vec<[u32; 3]> {
-    let mut triangles = Vec::new();
+/// Corners of the triangles or tetrahedra of cells, by their places in the page; the lowest ones first.
+fn simplices(cells: &[Cell], places: &[u32]) -> Vec<u32> {
+    let mut simplices: Vec<Vec<u32>> = Vec::new();
+    let placed =
+        |corners: &[u32]| -> Vec<u32> { corners.iter().map(|it| places[*it as usize]).collect() };
     for cell in cells {
-        let corners: Vec<u32> = (cell.points().iter())
-            .map(|it| place[*it as usize])
-            .collect();
-        for pair in corners.get(1..).unwrap_or_default().windows(2) {
-            triangles.push([corners[0], pair[0], pair[1]]);
+        match cell {
+            Cell::Solid(cell) => simplices.extend(cell.tetrahedra().map(|it| placed(&it))),
+            _ => {
+                let corners = placed(cell.points());
+                let pairs = corners.get(1..).unwrap_or_default().windows(2);
+                simplices.extend(pairs.map(|pair| vec![corners[0], pair[0], pair[1]]));
+            }
         }
     }
-    triangles.sort_unstable_by_key(|it| (it.iter().min().copied(), *it));
-    triangles
+    simplices.sort_unstable_by(|one, other| {
+        let lowest = |it: &Vec<u32>| it.iter().min().copied();
+        lowest(one).cmp(&lowest(other)).then_with(|| one.cmp(other))
+    });
+    simplices.concat()
 }
 
 #[cfg(test)]
@@ -142,18 +174,22 @@ mod tests {
 
     #[test]
     fn neighbours_stand_side_by_side() {
-        let square = |it: u32| [f64::from(it % 4), f64::from(it / 4)];
-        let positions: Vec<[f64; 2]> = (0..16).map(square).collect();
-        let order = order(&positions);
-        assert_eq!(order[..4], [0, 1, 4, 5]);
-        let mut all = order.clone();
+        let place = |it: u32| [f64::from(it % 4), f64::from(it / 4), 0.0];
+        let positions: Vec<[f64; 3]> = (0..16).map(place).collect();
+        let found = order(&positions, 2);
+        assert_eq!(found[..4], [0, 1, 4, 5]);
+        let mut all = found.clone();
         all.sort_unstable();
         assert_eq!(all, (0..16).collect::<Vec<u32>>());
+        assert_eq!(places(&found)[found[7] as usize], 7);
+        let place = |it: u32| [it % 4, it / 4 % 4, it / 16].map(f64::from);
+        let positions: Vec<[f64; 3]> = (0..64).map(place).collect();
+        assert_eq!(order(&positions, 3)[..8], [0, 1, 4, 5, 16, 17, 20, 21]);
     }
 
     #[test]
     fn quadrangles_are_two_triangles() {
-        let found = triangles(&[Cell::Quad([0, 1, 2, 3])], &[3, 2, 1, 0]);
-        assert_eq!(found, [[3, 1, 0], [3, 2, 1]]);
+        let found = simplices(&[Cell::Quad([0, 1, 2, 3])], &[3, 2, 1, 0]);
+        assert_eq!(found, [3, 1, 0, 3, 2, 1]);
     }
 }

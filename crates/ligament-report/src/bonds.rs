@@ -8,7 +8,7 @@ use crate::body::Body;
 use crate::columns::{Column, Digits};
 
 /// Digits of factors, limits and utilisations.
-const DIGITS: u32 = 5;
+const DIGITS: u32 = 4;
 
 /// Bonds as columns, in the order of their first and second ends.
 #[derive(Debug)]
@@ -84,9 +84,6 @@ fn columns(run: &StoredRun, order: &[usize]) -> Vec<(String, Column)> {
     for StoredCriterion { name, limit, .. } in &run.model.criteria {
         columns.push((format!("limit.{name}"), number(limit)));
     }
-    columns.push(("horizon".to_owned(), number(&bonds.horizon)));
-    columns.push(("alpha".to_owned(), number(&bonds.length_factor)));
-    columns.push(("Omega".to_owned(), number(&bonds.domain_factor)));
     columns
 }
 

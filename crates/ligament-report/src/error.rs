@@ -1,7 +1,8 @@
 //! Error of making a page.
 
+use std::path::PathBuf;
+
 use ligament_output::Error;
-use ligament_plot::picture::PictureError;
 use thiserror::Error as ThisError;
 
 /// Error of making a page.
@@ -10,9 +11,16 @@ pub enum ReportError {
     /// Results cannot be read, or the page cannot be written.
     #[error(transparent)]
     Results(#[from] Error),
-    /// A solid cannot be drawn.
-    #[error(transparent)]
-    Picture(#[from] PictureError),
+    /// A measured curve is not a table of two columns.
+    #[error(
+        "{path} has {found} columns; a measured curve has two, and a header that names them with their units: opening (mm),force (kN)"
+    )]
+    Measured {
+        /// The table.
+        path: PathBuf,
+        /// Number of its columns.
+        found: usize,
+    },
     /// The number of labels differs from that of the results.
     #[error(
         "{n_labels} labels for {n_results} results; give one label for each result, in the same order"

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use ligament_output::Error;
 use ligament_output::results::fields::{Components, Interest, ResultField, unit_of};
 use ligament_output::vtu::read::VtuFile;
-use ligament_output::{Error, FieldLocation};
 use rayon::prelude::*;
 
 use crate::body::{Body, ordered};
@@ -54,6 +54,8 @@ struct Growing {
     name: String,
     /// Number of values per point in the files.
     stride: usize,
+    /// Whether the values are vectors along the axes.
+    is_vector: bool,
     components: Vec<String>,
     encoders: Vec<Encoder>,
     ranges: Vec<[f64; 2]>,
@@ -75,7 +77,7 @@ pub(crate) fn read(
     for path in files.values() {
         let file = VtuFile::open(path)?;
         if growing.is_empty() {
-            growing = begin(&file, body.location, digits);
+            growing = begin(&file, body, digits);
         }
         growing
             .par_iter_mut()
@@ -86,7 +88,8 @@ pub(crate) fn read(
     Ok(fields)
 }
 
-fn begin(file: &VtuFile, location: FieldLocation, digits: u32) -> Vec<Growing> {
+fn begin(file: &VtuFile, body: &Body, digits: u32) -> Vec<Growing> {
+    let location = body.location;
     let names = file
         .fields(location)
         .filter(|it| !matches!(*it, "node" | "cell"));
@@ -95,12 +98,16 @@ fn begin(file: &VtuFile, location: FieldLocation, digits: u32) -> Vec<Growing> {
         let components: Vec<String> = match (stride, names) {
             (1, _) => Vec::new(),
             // The third component of a vector in the plane is zero.
-            (3, []) => ["x", "y"].map(str::to_owned).to_vec(),
+            (3, []) => ["x", "y", "z"][..body.dimension]
+                .iter()
+                .map(|it| (*it).to_owned())
+                .collect(),
             (_, []) => (0..stride).map(|it| it.to_string()).collect(),
             _ => names.to_vec(),
         };
         let known = ResultField::named(name);
-        let digits = match known.map(|it| it.components(false)) {
+        let in_space = body.dimension == 3;
+        let digits = match known.map(|it| it.components(in_space)) {
             Some(Components::Integer) => Digits::Whole,
             _ => Digits::OfLargest(digits),
         };
@@ -108,6 +115,7 @@ fn begin(file: &VtuFile, location: FieldLocation, digits: u32) -> Vec<Growing> {
         Growing {
             name: name.to_owned(),
             stride,
+            is_vector: stride == 3 && names.is_empty(),
             encoders: (0..count).map(|_| Encoder::new(digits)).collect(),
             ranges: vec![[f64::INFINITY, f64::NEG_INFINITY]; count],
             components,
@@ -151,9 +159,8 @@ impl Growing {
 
     /// Finite sizes of the values of the points.
     fn sizes(&self, all: &[f64]) -> Vec<f64> {
-        let is_vector = self.stride == 3 && self.components.len() == 2;
-        let size = |point: &[f64]| match is_vector {
-            true => point[0].hypot(point[1]),
+        let size = |point: &[f64]| match self.is_vector {
+            true => point[0].hypot(point[1]).hypot(point[2]),
             false => point.iter().fold(0.0_f64, |size, it| size.max(it.abs())),
         };
         let sizes = all.chunks_exact(self.stride).map(size);

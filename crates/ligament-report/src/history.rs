@@ -4,9 +4,9 @@ use std::path::Path;
 
 use ligament_output::Error;
 use ligament_output::csv::read::Sheet;
-use ligament_output::results::columns::unit_of;
+use ligament_output::quantity::settled;
 use ligament_plot::picture::units::Shown;
-use ligament_plot::stored_loading::stored_loading;
+use ligament_plot::stored_loading::StoredLoading;
 use serde_json::{Value, json};
 
 /// Digits of the numbers of the history.
@@ -17,39 +17,40 @@ const DIGITS: i32 = 7;
 /// # Errors
 ///
 /// If a table cannot be used.
-pub(crate) fn read(folder: &Path) -> Result<Value, Error> {
+pub(crate) fn read(folder: &Path, loading: &StoredLoading) -> Result<Value, Error> {
     let path = folder.join("history.csv");
     if !path.is_file() {
         return Ok(json!([]));
     }
     let sheet = Sheet::read(path)?;
-    let units = stored_loading(folder)?.units;
     let mut columns = Vec::new();
-    for name in sheet.columns() {
+    for (place, name) in sheet.columns().iter().enumerate() {
+        // A load may be called as another column begins.
+        if sheet.columns()[..place].contains(name) {
+            continue;
+        }
         let Ok(values) = sheet.values::<f64>(name) else {
             // The column has names of stages.
             continue;
         };
-        let unit = match name.as_str() {
-            "displacement" => units.displacement,
-            "reaction" => units.force,
-            name => unit_of(name),
-        };
-        columns.push(column(name, unit, &values));
+        let mut described = column(name, loading.unit_of(name), &values);
+        described["isProbe"] = json!(loading.probes.contains_key(name));
+        columns.push(described);
     }
     let steps = sheet.values::<usize>("step")?;
     columns.extend(iterations(folder, &steps)?);
     Ok(Value::Array(columns))
 }
 
-/// A column with its unit for display.
+/// A column with its unit for display; values that are nothing beside the largest are zero.
 pub(crate) fn column(name: &str, unit: &str, values: &[f64]) -> Value {
-    let shown = shown(
-        unit,
-        values.iter().fold(0.0, |largest, it| largest.max(it.abs())),
-    );
-    let rounded: Vec<f64> = values.iter().map(|&it| rounded(it)).collect();
-    json!({"name": name, "unit": shown.0, "shift": shown.1, "values": rounded})
+    let finite = values.iter().filter(|it| it.is_finite());
+    let largest = finite.fold(0.0_f64, |largest, it| largest.max(it.abs()));
+    let shown = shown(unit, largest);
+    let rounded: Vec<f64> = (values.iter())
+        .map(|it| rounded(settled(*it, largest)))
+        .collect();
+    json!({"name": name, "si": unit, "unit": shown.0, "shift": shown.1, "values": rounded})
 }
 
 /// A unit with its prefix, and the exponent of the power of ten that converts values from SI units.

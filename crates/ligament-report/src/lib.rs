@@ -4,13 +4,15 @@
 //! |---|---|
 //! | [`page`] | the request for a page, and the written file |
 //! | `run` | a result folder as data of the page |
-//! | `parts` | common parts of a page for bodies in the plane and solids |
+//! | `parts` | texts of columns, and the budget of a page's size |
 //! | [`ReportError`] | errors of making a page |
-//! | `solid` | pictures of a solid over the steps |
 //! | `body` | points, cells and the order of the points |
+//! | `crack` | cracks over the steps |
 //! | `fields` | fields over the steps |
 //! | `bonds` | bonds, their limits and their breakage |
 //! | `history` | the table of the steps |
+//! | `inputs` | mesh, material and loads as text |
+//! | `measured` | measured curves |
 //! | `summary` | title, warnings and results as text |
 //! | `columns` | encoding of numbers as compressed text |
 //! | `viewer/` | the program of the page: HTML, CSS and JavaScript, joined without changes |
@@ -22,14 +24,17 @@
 mod body;
 mod bonds;
 mod columns;
+mod crack;
 mod error;
 mod fields;
 mod history;
+mod inputs;
+mod measured;
 pub mod page;
 mod parts;
 mod run;
-mod solid;
 mod summary;
 
 pub use error::ReportError;
 pub use page::{Contents, Request, Written, write_report};
+pub use parts::UnitOf;

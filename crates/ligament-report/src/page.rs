@@ -8,25 +8,31 @@ use ligament_output::{check_file, write_file};
 use serde_json::{Value, json};
 
 use crate::error::ReportError;
-use crate::parts::{Choice, Texts};
+use crate::measured;
+use crate::parts::{Choice, Texts, UnitOf};
 use crate::run::PageRun;
 use crate::summary::escaped;
 
 /// Template of the page, and the parts of its program in the order in which they are joined.
 const PAGE: &str = include_str!("viewer/page.html");
 const STYLE: &str = include_str!("viewer/style.css");
-const PROGRAM: [&str; 12] = [
+const PROGRAM: [&str; 17] = [
     include_str!("viewer/columns.js"),
     include_str!("viewer/numbers.js"),
     include_str!("viewer/run.js"),
     include_str!("viewer/colours.js"),
     include_str!("viewer/places.js"),
     include_str!("viewer/camera.js"),
+    include_str!("viewer/shape.js"),
+    include_str!("viewer/section.js"),
     include_str!("viewer/drawing.js"),
+    include_str!("viewer/scene.js"),
+    include_str!("viewer/lines.js"),
     include_str!("viewer/chart.js"),
+    include_str!("viewer/measured.js"),
     include_str!("viewer/charts.js"),
     include_str!("viewer/panel.js"),
-    include_str!("viewer/pictures.js"),
+    include_str!("viewer/pointers.js"),
     include_str!("viewer/main.js"),
 ];
 
@@ -34,20 +40,24 @@ const PROGRAM: [&str; 12] = [
 const OTHER_LETTERS: usize = 400_000;
 
 /// Request for a page.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Request {
     /// Folders with results.
     pub folders: Vec<PathBuf>,
     /// Labels of the results; where empty, the names of their folders.
     pub labels: Vec<String>,
+    /// Tables of measured curves.
+    pub measured: Vec<PathBuf>,
+    /// Units of the keys of cases.
+    pub unit_of: UnitOf,
     /// Path of the page; by default `report.html` in the first folder.
     pub output: Option<PathBuf>,
     /// Whether an existing file may be replaced; the default page in the first folder always is.
     pub force: bool,
     /// Digits of the largest value of a field in each step.
     pub digits: u32,
-    /// Largest number of steps of each result; by default 60, and 12 for a solid, which has pictures of its steps.
-    pub steps: Option<usize>,
+    /// Largest number of steps of each result.
+    pub steps: usize,
     /// Size of the page up to which fields and bonds are included, bytes.
     pub size: usize,
 }
@@ -92,13 +102,16 @@ pub fn write_report(request: &Request) -> Result<Written, ReportError> {
         digits: request.digits,
         steps: request.steps,
         letters: share,
+        unit_of: request.unit_of,
     };
+    let measured = (request.measured.iter()).map(|it| measured::read(it));
+    let measured: Vec<Value> = measured.collect::<Result<_, ReportError>>()?;
     let mut texts = Texts::default();
     let mut runs = Vec::new();
     for (folder, label) in request.folders.iter().zip(&labels) {
         runs.push(PageRun::read(folder, label, choice, &mut texts)?);
     }
-    let page = page(&runs, &texts, request);
+    let page = page(&runs, &texts, &measured, request);
     if request.output.is_none() {
         remove_unfinished_pages(&first())?;
     }
@@ -135,7 +148,7 @@ fn labels(request: &Request) -> Result<Vec<String>, ReportError> {
     Ok(request.folders.iter().map(name).collect())
 }
 
-fn page(runs: &[PageRun], texts: &Texts, request: &Request) -> String {
+fn page(runs: &[PageRun], texts: &Texts, measured: &[Value], request: &Request) -> String {
     let titles: Vec<&str> = runs.iter().map(|it| it.title.as_str()).collect();
     let mut title = titles.first().copied().unwrap_or_default().to_owned();
     if titles.iter().any(|it| *it != title) {
@@ -144,6 +157,7 @@ fn page(runs: &[PageRun], texts: &Texts, request: &Request) -> String {
     let description = json!({
         "version": env!("CARGO_PKG_VERSION"),
         "digits": request.digits,
+        "measured": measured,
         "runs": runs.iter().map(|it| &it.description).collect::<Vec<&Value>>(),
     });
     let mut summaries = String::new();

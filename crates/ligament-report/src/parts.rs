@@ -1,22 +1,23 @@
-//! Common parts of a page for bodies in the plane and solids: texts of columns and pictures, and the budget of size.
+//! Texts of columns and the budget of a page's size.
 
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-
-use ligament_output::results::outputs::OutputKind;
 use serde_json::{Value, json};
 
 use crate::columns::Column;
+
+/// Function from the path of a key of a case, such as `material.young`, to its SI unit, if it has one.
+pub type UnitOf = fn(&str) -> Option<&'static str>;
 
 /// Choice of a run's contents in a page.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Choice {
     /// Digits of the largest value of a field in each step.
     pub(crate) digits: u32,
-    /// Largest number of steps; by default that of the body's kind.
-    pub(crate) steps: Option<usize>,
+    /// Largest number of steps.
+    pub(crate) steps: usize,
     /// Largest number of characters of body, fields and bonds.
     pub(crate) letters: usize,
+    /// Units of the keys of cases.
+    pub(crate) unit_of: UnitOf,
 }
 
 /// Texts of columns, referenced by index from the description of a run.
@@ -24,12 +25,6 @@ pub(crate) struct Choice {
 pub(crate) struct Texts(pub(crate) Vec<String>);
 
 impl Texts {
-    /// Adds a text, and returns its index.
-    pub(crate) fn push(&mut self, text: String) -> usize {
-        self.0.push(text);
-        self.0.len() - 1
-    }
-
     /// Number of characters of all texts.
     pub(crate) fn letters(&self) -> usize {
         self.0.iter().map(String::len).sum()
@@ -41,26 +36,11 @@ impl Texts {
         self.0.extend(column.groups);
         json!({"texts": [first, self.0.len()], "exponents": column.exponents})
     }
-}
 
-/// The outputs of a run in a page.
-pub(crate) struct Stored<'a> {
-    /// Folder of the results.
-    pub(crate) folder: &'a Path,
-    /// Files of the steps, or modes.
-    pub(crate) files: &'a BTreeMap<usize, PathBuf>,
-    /// Kind of the outputs.
-    pub(crate) kind: OutputKind,
-}
-
-/// Drawn contents of a run.
-pub(crate) struct Drawn {
-    /// Parts of the description that belong to the body.
-    pub(crate) parts: Value,
-    /// Number of points of the body.
-    pub(crate) points: usize,
-    /// Names of the contents that were left out for their size.
-    pub(crate) left_out: Vec<String>,
+    /// Adds a column of whole numbers of a single step.
+    pub(crate) fn add_whole<T: Into<i64>>(&mut self, values: impl IntoIterator<Item = T>) -> Value {
+        self.add(Column::whole(values.into_iter().map(Into::into)))
+    }
 }
 
 /// Remaining number of characters for columns.

@@ -5,10 +5,9 @@ use std::path::{Path, PathBuf};
 
 use ligament_output::csv::read::Sheet;
 use ligament_output::folder::RESOLVED_CASE;
-use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::fields::DISPLACEMENT;
+use ligament_output::results::first_field_of;
 use ligament_output::results::outputs::{OutputKind, Outputs};
-use ligament_output::results::solid_cracks::has_solid;
 use ligament_output::results::stored::StoredRun;
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::{Error, read_text};
@@ -19,20 +18,14 @@ use serde_json::{Value, json};
 use crate::body::Body;
 use crate::bonds::Bonds;
 use crate::columns::{Column, Digits};
-use crate::error::ReportError;
 use crate::fields::{self, Field};
 use crate::history::{self, shown};
-use crate::parts::{Budget, Choice, Drawn, Stored, Texts};
-use crate::{solid, summary};
+use crate::inputs::Inputs;
+use crate::parts::{Budget, Choice, Texts};
+use crate::{crack, summary};
 
 /// Digits of positions, relative to the largest coordinate.
 const PLACES: u32 = 6;
-
-/// Default number of steps of a body in the plane, which the page draws.
-const DRAWN: usize = 60;
-
-/// Default number of steps of a solid, with a picture for each step, view and field.
-const PICTURED: usize = 12;
 
 /// A run in a page.
 #[derive(Debug)]
@@ -62,119 +55,141 @@ impl PageRun {
         label: &str,
         choice: Choice,
         texts: &mut Texts,
-    ) -> Result<Self, ReportError> {
+    ) -> Result<Self, Error> {
         let outputs = Outputs::list(folder)?;
-        let is_solid = has_solid(folder)?;
-        let usual = if is_solid { PICTURED } else { DRAWN };
-        let files = chosen(&outputs, choice.steps.unwrap_or(usual))?;
+        let peak = peak(&outputs)?;
+        let files = chosen(&outputs, choice.steps, peak);
         let words = summary::in_words(folder, outputs.kind)?;
         let case = read_text(&folder.join(RESOLVED_CASE))?;
+        let loading = stored_loading(folder)?;
+        let inputs = Inputs::read(folder, choice.unit_of)?;
         let steps: Vec<usize> = files.keys().copied().collect();
         let first = VtuFile::open(first(&files, folder)?)?;
-        let of = Stored {
-            folder,
+        let body = Body::read(&first)?;
+        let mut budget = Budget::new(choice.letters);
+        let of = Drawn {
+            outputs: &outputs,
             files: &files,
-            kind: outputs.kind,
+            body: &body,
         };
-        let drawn = match is_solid {
-            true => solid::drawn(&of, &first, choice, texts)?,
-            false => drawn(&of, &first, choice, texts)?,
-        };
+        let mut description = of.describe(choice.digits, texts, &mut budget)?;
         let is_modes = outputs.kind == OutputKind::Modes;
         let history = match is_modes {
             true => modes(folder)?,
-            false => history::read(folder)?,
+            false => history::read(folder, &loading)?,
         };
         let title = words.title.unwrap_or_else(|| label.to_owned());
-        let follows_path = stored_loading(folder)?.follows_path;
-        let mut description = json!({
+        let own = json!({
             "label": label,
             "title": title,
             "kind": if is_modes { "modes" } else { "steps" },
             "steps": steps,
-            "beforeBreakages": follows_path,
+            "opensAt": steps.iter().position(|it| Some(*it) == peak).unwrap_or(0),
+            "beforeBreakages": loading.follows_path,
             "history": history,
+            "firstField": first_field_of(&outputs)?.name,
+            "fractureEnergy": inputs.fracture_energy(),
         });
-        if let (Value::Object(all), Value::Object(parts)) = (&mut description, drawn.parts) {
-            all.extend(parts);
+        if let (Value::Object(all), Value::Object(own)) = (&mut description, own) {
+            all.extend(own);
         }
         Ok(Self {
-            html: words.html + &summary::case_html(&case),
-            points: drawn.points,
+            html: words.html + &inputs.html() + &summary::case_html(&case),
+            points: body.tags.len(),
             steps: steps.len(),
-            left_out: drawn.left_out,
+            left_out: budget.left_out,
             description,
             title,
         })
     }
 }
 
-/// Contents for a body in the plane, which the page draws: fields, bonds and cracks.
-fn drawn(
-    of: &Stored<'_>,
-    first: &VtuFile,
-    choice: Choice,
-    texts: &mut Texts,
-) -> Result<Drawn, ReportError> {
-    let body = Body::read(first)?;
-    let bonds = stored(of.folder)?.map(|run| Bonds::new(&run, &body));
-    let fields = fields::read(of.files, &body, choice.digits)?;
-    let moved = fields.iter().find(|it| it.name == DISPLACEMENT.name);
-    let before = texts.letters();
-    let described = describe_body(&body, moved.map_or(0.0, |it| it.usual), texts);
-    let of_body = texts.letters() - before;
-    let mut budget = Budget::new(choice.letters.saturating_sub(of_body));
-    let fields: Vec<Value> = (fields.into_iter())
-        .filter(|it| budget.takes(&it.name, it.letters()))
-        .map(|it| describe_field(it, of.kind, texts))
-        .collect();
-    let bonds = bonds
-        .filter(|it| budget.takes("bonds", it.letters()))
-        .map_or(Value::Null, |it| describe_bonds(it, texts, &mut budget));
-    let steps: Vec<usize> = of.files.keys().copied().collect();
-    let cracks = match of.kind {
-        OutputKind::Modes => Value::Null,
-        OutputKind::Steps => cracks(of.folder, &steps)?,
-    };
-    let precracks = stored_precracks(of.folder)?;
-    let precracks: Vec<&[f64]> = precracks.iter().map(|it| it.as_flattened()).collect();
-    Ok(Drawn {
-        parts: json!({
+/// The drawn outputs of a run.
+struct Drawn<'a> {
+    outputs: &'a Outputs,
+    /// Files of the steps, or modes, of the page.
+    files: &'a BTreeMap<usize, PathBuf>,
+    body: &'a Body,
+}
+
+impl Drawn<'_> {
+    /// Body, cracks, fields and bonds, as far as the budget allows.
+    fn describe(
+        &self,
+        digits: u32,
+        texts: &mut Texts,
+        budget: &mut Budget,
+    ) -> Result<Value, Error> {
+        let (folder, body) = (&self.outputs.folder, self.body);
+        let bonds = stored(folder)?.map(|run| Bonds::new(&run, body));
+        let fields = fields::read(self.files, body, digits)?;
+        let moved = fields.iter().find(|it| it.name == DISPLACEMENT.name);
+        let before = texts.letters();
+        let described = describe_body(body, moved.map_or(0.0, |it| it.usual), texts);
+        let steps: Vec<usize> = self.files.keys().copied().collect();
+        let cracks = match self.outputs.kind {
+            OutputKind::Modes => Value::Null,
+            OutputKind::Steps => crack::describe(folder, &steps, body, texts)?,
+        };
+        budget.takes("body", texts.letters() - before);
+        let fields: Vec<Value> = (fields.into_iter())
+            .filter(|it| budget.takes(&it.name, it.letters()))
+            .map(|it| describe_field(it, self.outputs.kind, texts))
+            .collect();
+        let bonds = bonds
+            .filter(|it| budget.takes("bonds", it.letters()))
+            .map_or(Value::Null, |it| describe_bonds(it, texts, budget));
+        let precracks = match body.dimension {
+            2 => stored_precracks(folder)?,
+            _ => Vec::new(),
+        };
+        let precracks: Vec<&[f64]> = precracks.iter().map(|it| it.as_flattened()).collect();
+        Ok(json!({
             "body": described,
             "fields": fields,
             "bonds": bonds,
             "cracks": cracks,
             "precracks": precracks,
-            "pictures": Value::Null,
-        }),
-        points: body.tags.len(),
-        left_out: budget.left_out,
-    })
+        }))
+    }
+}
+
+/// The step with fields under the largest load that the body carries; none of modes and of a run without a history.
+fn peak(outputs: &Outputs) -> Result<Option<usize>, Error> {
+    let history = outputs.folder.join("history.csv");
+    if outputs.kind == OutputKind::Modes || !history.is_file() {
+        return Ok(None);
+    }
+    let rows = Sheet::read(history)?.numbers(["step", "reaction", "at_rest"])?;
+    let stored = rows
+        .into_iter()
+        .filter(|it| outputs.files.contains_key(&(it[0] as usize)));
+    // A state in which bonds were still breaking is no answer to its load.
+    let size = |[_, reaction, at_rest]: &[f64; 3]| (*at_rest, reaction.abs());
+    let largest = stored.reduce(|largest, it| {
+        if size(&it) > size(&largest) {
+            it
+        } else {
+            largest
+        }
+    });
+    Ok(largest.map(|it| it[0] as usize))
 }
 
 /// The files of the steps of a page: all, or an even selection with the first step, the peak and the last step.
-fn chosen(outputs: &Outputs, most: usize) -> Result<BTreeMap<usize, PathBuf>, Error> {
+fn chosen(outputs: &Outputs, most: usize, peak: Option<usize>) -> BTreeMap<usize, PathBuf> {
     let count = outputs.files.len();
     if count <= most || outputs.kind == OutputKind::Modes {
-        return Ok(outputs.files.clone());
+        return outputs.files.clone();
     }
-    let history = outputs.folder.join("history.csv");
-    let peak = match history.is_file() {
-        true => {
-            let rows = Sheet::read(history)?.numbers(["step", "reaction"])?;
-            let largest = rows.into_iter().max_by(|a, b| a[1].total_cmp(&b[1]));
-            largest.map(|it| it[0] as usize)
-        }
-        false => None,
-    };
     let last = most.max(2) - 1;
     let places: Vec<usize> = (0..=last).map(|it| it * (count - 1) / last).collect();
     let numbered = outputs.files.iter().enumerate();
     let of_choice = numbered
         .filter(|(place, (step, _))| places.binary_search(place).is_ok() || Some(**step) == peak);
-    Ok(of_choice
+    of_choice
         .map(|(_, (step, path))| (*step, path.clone()))
-        .collect())
+        .collect()
 }
 
 /// The first file.
@@ -194,28 +209,28 @@ fn stored(folder: &Path) -> Result<Option<StoredRun>, Error> {
 
 /// Data of the body; `usual` is the displacement that few points exceed, m.
 fn describe_body(body: &Body, usual: f64, texts: &mut Texts) -> Value {
-    let mut places = |positions: &[[f64; 2]]| {
-        [0, 1].map(|axis| {
-            let along: Vec<f64> = positions.iter().map(|it| it[axis]).collect();
-            texts.add(Column::single(&along, Digits::OfLargest(PLACES)))
-        })
+    let mut columns = |vectors: &[[f64; 3]]| -> Vec<Value> {
+        let along = |axis: usize| -> Vec<f64> { vectors.iter().map(|it| it[axis]).collect() };
+        (0..body.dimension)
+            .map(|axis| texts.add(Column::single(&along(axis), Digits::OfLargest(PLACES))))
+            .collect()
     };
-    let position = places(&body.positions);
-    let corner = match body.corners.is_empty() {
+    let position = columns(&body.positions);
+    let half = match body.halves.is_empty() {
         true => Value::Null,
-        false => json!(places(&body.corners)),
+        false => json!(columns(&body.halves)),
     };
-    let corners_of_triangles = body.triangles.as_flattened();
     json!({
+        "dimension": body.dimension,
         "tagged": body.tagged,
         "size": body.size(),
         "usualDisplacement": finite(usual),
         "count": body.tags.len(),
         "position": position,
-        "corner": corner,
-        "nTriangles": body.triangles.len(),
-        "triangles": texts.add(Column::whole(corners_of_triangles.iter().map(|&it| i64::from(it)))),
-        "tags": texts.add(Column::whole(body.tags.iter().copied())),
+        "half": half,
+        "nCorners": body.simplices.len(),
+        "simplices": texts.add_whole(body.simplices.iter().copied()),
+        "tags": texts.add_whole(body.tags.iter().copied()),
     })
 }
 
@@ -252,7 +267,7 @@ fn describe_bonds(bonds: Bonds, texts: &mut Texts, budget: &mut Budget) -> Value
         }
     }
     let n_broken = bonds.utilisation_at_break.len();
-    let [bond, step, round, criterion] = bonds.breaks.map(|it| texts.add(Column::whole(it)));
+    let [bond, step, round, criterion] = bonds.breaks.map(|it| texts.add_whole(it));
     let utilisation = Column::single(&bonds.utilisation_at_break, Digits::OfLargest(5));
     json!({
         "count": bonds.count,
@@ -278,31 +293,4 @@ fn modes(folder: &Path) -> Result<Value, Error> {
         history::column("step", "-", &mode),
         history::column("frequency", "Hz", &frequency),
     ]))
-}
-
-/// The crack lines of the steps, each a list of lines of coordinates x, y; `null` where unchanged from the step before.
-fn cracks(folder: &Path, steps: &[usize]) -> Result<Value, Error> {
-    let cracks = StoredCracks::open(folder)?;
-    let mut before = Value::Null;
-    let mut of_steps = Vec::new();
-    for &step in steps {
-        let lines = cracks.lines(step).into_iter();
-        let coordinate = |it: &f64| (it * 1e7).round() / 1e7;
-        let now: Value = lines
-            .map(|line| {
-                line.places
-                    .as_flattened()
-                    .iter()
-                    .map(coordinate)
-                    .collect::<Vec<f64>>()
-            })
-            .collect();
-        of_steps.push(if now == before {
-            Value::Null
-        } else {
-            now.clone()
-        });
-        before = now;
-    }
-    Ok(Value::Array(of_steps))
 }

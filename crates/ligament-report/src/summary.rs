@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use ligament_output::Error;
+use ligament_output::quantity::{settled, without_rounding};
 use ligament_output::results::outputs::OutputKind;
 use ligament_output::summary::{
     self, BondEvent, Input, ModalSummary, ModeSummary, ModelSummary, PathPoint, Provenance, Stage,
@@ -109,13 +110,13 @@ fn tables(texts: &[&str], results: &[Entry], of: &ModelSummary, computed: &[Entr
 }
 
 /// A row of a table: name and text.
-type Entry = (String, String);
+pub(crate) type Entry = (String, String);
 
 fn entry(name: &str, text: impl Into<String>) -> Entry {
     (name.to_owned(), text.into())
 }
 
-fn table(title: &str, rows: &[Entry]) -> String {
+pub(crate) fn table(title: &str, rows: &[Entry]) -> String {
     if rows.is_empty() {
         return String::new();
     }
@@ -138,8 +139,9 @@ fn warnings(texts: &[&str]) -> String {
     format!("<section class=\"card warnings\"><h3>Warnings</h3><ul>\n{items}</ul></section>\n")
 }
 
-/// A value with a suitable prefix of its unit.
-fn quantity(value: f64, unit: &str) -> String {
+/// A value with a suitable prefix of its unit; 0 for what is nothing but rounding.
+pub(crate) fn quantity(value: f64, unit: &str) -> String {
+    let value = without_rounding(value, unit);
     Shown::new(unit, value.abs()).value(value)
 }
 
@@ -148,10 +150,22 @@ fn results_of_steps(summary: &Summary) -> Vec<Entry> {
         displacement,
         force,
     } = &summary.units;
+    let points = [summary.peak, summary.first_peak, summary.first_break];
+    let largest = |of: fn(&PathPoint) -> f64| {
+        let sizes = points.iter().flatten().map(|it| of(it).abs());
+        sizes.filter(|it| it.is_finite()).fold(0.0, f64::max)
+    };
     let load_at = |name: &str, point: Option<PathPoint>| {
         let point = point.filter(|it| it.reaction.is_finite() && it.displacement.is_finite())?;
-        let load = quantity(point.reaction, force);
-        let at = quantity(point.displacement, displacement);
+        let [load, at] = [
+            (point.reaction, largest(|it| it.reaction), force),
+            (
+                point.displacement,
+                largest(|it| it.displacement),
+                displacement,
+            ),
+        ]
+        .map(|(value, largest, unit)| quantity(settled(value, largest), unit));
         Some(entry(name, format!("{load} at {at}")))
     };
     let bond =

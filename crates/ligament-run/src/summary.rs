@@ -11,7 +11,7 @@ use ligament_analysis::driver::{LoadPoint, Outcome, Rows};
 use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::history::StepRecord;
 use ligament_analysis::{ProportionalLoading, Termination};
-use ligament_output::quantity::{between, quantity};
+use ligament_output::quantity::{between, quantity, settled};
 use ligament_output::summary::{
     OverlapSummary, PathPoint, Provenance, Spread, StabilitySummary, Stage, Summary, UnitsSummary,
 };
@@ -227,18 +227,25 @@ fn write_loads(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
         )?;
         return Ok(());
     }
-    for (name, point) in [
+    let points = [
         (onset, summary.first_break),
         ("first peak", of_breaking(summary.first_peak)),
         ("largest load", summary.peak),
-    ] {
+    ];
+    let largest = |of: fn(PathPoint) -> f64| {
+        let sizes = points.iter().filter_map(|it| it.1).map(of);
+        sizes.fold(0.0_f64, |largest, it| largest.max(it.abs()))
+    };
+    let (most, farthest) = (largest(|it| it.reaction), largest(|it| it.displacement));
+    for (name, point) in points {
         if let Some(PathPoint {
             displacement,
             reaction,
             ..
         }) = point
         {
-            let (load, at) = (quantity(reaction, force), quantity(displacement, along));
+            let load = quantity(settled(reaction, most), force);
+            let at = quantity(settled(displacement, farthest), along);
             writeln!(out, "  {name:<18} {load} at {at}")?;
         }
     }

@@ -41,7 +41,7 @@ pub struct PlotArgs {
     /// Folders with the results of runs
     #[arg(value_name = "RESULT", required = true)]
     pub results: Vec<PathBuf>,
-    /// Field to draw, or none [default: damage where bonds broke, else displacement]
+    /// Field to draw, or none [default: damage where bonds broke, of softening bonds by their way of failing, else displacement]
     #[arg(long, value_name = "NAME")]
     pub field: Option<String>,
     /// Steps or modes to draw: numbers, first (breakage), peak, last, or all: a picture each, in files with numbers [default: the

@@ -4,6 +4,8 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
+use ligament_case::case::key_path::KeyPath;
+use ligament_case::case::keys::unit_of;
 use ligament_report::{Request, write_report};
 
 use super::numbers::number;
@@ -21,8 +23,8 @@ Examples:
 
 The page is one file without anything from a network: open it in a browser, send it, print it. It has
 summary and warnings, force over displacement, energies and convergence, and the body with any field,
-step by step; point at it for values, click for bonds and what became of them. Of a solid it has pictures:
-the outside, sections through the middle, and the crack surface.";
+step by step; point at it for values, click for bonds and what became of them. A solid turns, is cut by
+planes and opens along its crack.";
 
 /// `ligament report`.
 #[derive(Debug, Args)]
@@ -39,12 +41,16 @@ pub struct ReportArgs {
     /// Names of the results in the page, one for each [default: names of the folders]
     #[arg(long, value_name = "TEXT", num_args = 1..)]
     pub labels: Vec<String>,
+    /// Measured curves to draw over those of the results: tables of two columns, whose header names them with their units, as in
+    /// `opening (mm),force (kN)`
+    #[arg(long, value_name = "CSV", num_args = 1..)]
+    pub measured: Vec<PathBuf>,
     /// Digits that the largest value of a field in a step keeps
-    #[arg(long, value_name = "N", default_value = "5", value_parser = clap::value_parser!(u32).range(2..=8))]
+    #[arg(long, value_name = "N", default_value = "4", value_parser = clap::value_parser!(u32).range(2..=8))]
     pub digits: u32,
-    /// Steps of a result at most; of more an even choice, with the largest load [default: 60, of a solid 12]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..))]
-    pub steps: Option<u32>,
+    /// Steps of a result at most; of more an even choice, with the largest load
+    #[arg(long, value_name = "N", default_value = "60", value_parser = clap::value_parser!(u32).range(2..))]
+    pub steps: u32,
     /// Megabytes of the page at most: what a reader wants least is left out, and named
     #[arg(long, value_name = "MB", default_value = "15", value_parser = megabytes)]
     pub size: f64,
@@ -56,10 +62,12 @@ impl ReportArgs {
         let written = write_report(&Request {
             folders: self.results,
             labels: self.labels,
+            measured: self.measured,
+            unit_of: |key| KeyPath::parse(key).and_then(|key| unit_of(&key)),
             output: self.out,
             force: self.force,
             digits: self.digits,
-            steps: self.steps.map(|it| it as usize),
+            steps: self.steps as usize,
             size: (self.size * MEGABYTE) as usize,
         })?;
         let mut out = terminal::beside(&written.path);

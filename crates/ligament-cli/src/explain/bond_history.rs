@@ -95,7 +95,7 @@ impl BondHistories {
     pub(super) fn read(
         run: &StoredRun,
         pairs: Vec<usize>,
-        loading: StoredLoading,
+        loading: &StoredLoading,
     ) -> Result<Self, Error> {
         let is_absent = |pair: &usize| run.model.bonds.absence[*pair].is_some();
         let (absent, bonds): (Vec<usize>, Vec<usize>) = pairs.into_iter().partition(is_absent);

@@ -106,7 +106,7 @@ pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
     let run = StoredRun::open(&request.folder)?;
     let loading = stored_loading(&request.folder)?;
     let family = |out: &mut dyn Write, point: u32, sought: Option<[f64; 3]>| {
-        let lives = BondHistories::read(&run, bonds_of(&run, point), loading)?;
+        let lives = BondHistories::read(&run, bonds_of(&run, point), &loading)?;
         report::family(out, &run, point, sought, &lives)?;
         anyhow::Ok(lives)
     };
@@ -124,7 +124,7 @@ pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
             }
             let ends = [a.min(b), a.max(b)];
             let pair = pair_of(&run, ends);
-            let lives = BondHistories::read(&run, pair.into_iter().collect(), loading)?;
+            let lives = BondHistories::read(&run, pair.into_iter().collect(), &loading)?;
             report::bond(out, &run, ends, &lives)?;
             lives
         }

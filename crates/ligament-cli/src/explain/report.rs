@@ -5,13 +5,12 @@ use std::io::{self, Write};
 use std::ops::Add;
 
 use ligament_model::Absence;
-use ligament_output::quantity::quantity;
+use ligament_output::quantity::{quantity, settled};
 use ligament_output::results::stored::{StoredRun, StoredStep};
 
 use super::bond_history::{BondHistories, BondHistory};
 use super::words::{self, label, metres, number, place};
 use crate::lines::{self, Columns};
-use ligament::units::Units;
 
 /// Writes the history of the bond between two points, or the reason why there is no bond.
 pub(super) fn bond(
@@ -170,7 +169,12 @@ fn write_path(out: &mut dyn Write, lives: &BondHistories, rows: &Columns) -> io:
 /// Names of the columns of [`load`].
 const LOAD_HEADER: [&str; 4] = ["step", "load factor", "displacement", "reaction"];
 
-fn load(moment: &StoredStep, units: Units) -> Vec<String> {
+/// Cells of the load of a moment; what is nothing beside the largest of all moments is zero.
+fn load(moment: &StoredStep, lives: &BondHistories) -> Vec<String> {
+    let shown = |of: fn(&StoredStep) -> f64, unit: &str| {
+        let sizes = lives.moments.iter().map(|it| of(it).abs());
+        quantity(settled(of(moment), sizes.fold(0.0, f64::max)), unit)
+    };
     vec![
         if moment.at_rest {
             moment.step.to_string()
@@ -178,8 +182,8 @@ fn load(moment: &StoredStep, units: Units) -> Vec<String> {
             format!("{} (not converged)", moment.step)
         },
         format!("{:.6}", moment.load_factor),
-        quantity(moment.displacement, units.displacement),
-        quantity(moment.reaction, units.force),
+        shown(|it| it.displacement, lives.units.displacement),
+        shown(|it| it.reaction, lives.units.force),
     ]
 }
 
@@ -199,7 +203,7 @@ fn bond_path(lives: &BondHistories, life: &BondHistory) -> Columns {
     }
     let mut table = Columns::new(header);
     for (place, (moment, deformation)) in lives.moments.iter().zip(&life.deformation).enumerate() {
-        let mut row = load(moment, lives.units);
+        let mut row = load(moment, lives);
         let values = deformation.strains().into_iter();
         row.extend(values.take(names.len()).map(number));
         for (criterion, limit) in life.limits.iter().enumerate() {
@@ -290,7 +294,7 @@ fn family_path(run: &StoredRun, point: u32, lives: &BondHistories) -> Columns {
                 }
             }
         }
-        let mut row = load(moment, lives.units);
+        let mut row = load(moment, lives);
         row.push(intact().count().to_string());
         row.push(format!("{:.4}", damage(run, lives, place)));
         row.extend(match worst {

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use ligament_analysis::costs::Costs;
 use ligament_analysis::history::{BreakRecord, StepRecord};
+use ligament_analysis::probe::{PointField, motion_unit};
 
 use crate::csv::Value;
 
@@ -282,7 +283,16 @@ pub fn names(columns: &[Column], in_space: bool) -> Vec<&'static str> {
     here.map(|it| it.name).collect()
 }
 
-/// SI unit of a column of a history; `-` for a number without a unit, and for probes, whose units are not written.
+/// SI unit of a probe, by the field that it reads at a point, or by the component of the motion or of the force through a section.
+pub fn unit_of_probe(field: Option<&str>, component: &str, is_section: bool) -> &'static str {
+    match field {
+        Some(field) => PointField::named(field).map_or("-", |it| it.unit()),
+        None if is_section => "N",
+        None => motion_unit(component.starts_with("rotation")),
+    }
+}
+
+/// SI unit of a column of a history; `-` for a number without a unit, and for probes, whose units follow from the case.
 pub fn unit_of(column: &str) -> &'static str {
     let of_group = |it: &Column| match (it.name.split_once('.'), column.rsplit_once('.')) {
         (Some((_, one)), Some((_, other))) => one == other,

@@ -20,6 +20,7 @@ pub mod columns;
 mod crack_growth;
 mod crack_tables;
 pub mod cracks;
+mod first_field;
 mod grid;
 mod largest;
 mod level_files;
@@ -54,6 +55,7 @@ use crate::vtu::{self, Field};
 use crate::written::Written;
 
 pub use crack_tables::{CRACK_FILES, write_cracks};
+pub use first_field::{Happened, first_field, first_field_of};
 use grid::Lines;
 pub use grid::{point_grid, write_points};
 use largest::Largest;

@@ -4,7 +4,9 @@ use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 use ligament_analysis::result_fields::HORIZON;
-use ligament_post::surfaces::{CrackSurface, Link, Links, Tetrahedra, crack_surface};
+use ligament_post::surfaces::{
+    CrackSurface, Link, Links, Tetrahedra, crack_surface, sides_of_tetrahedra,
+};
 
 use super::cracks::{CrackRecord, Moment, broken_pairs, grown, softened_pairs};
 use super::outputs::{OutputKind, Outputs, bonded_pairs, cut_pairs};
@@ -111,6 +113,11 @@ impl SolidCracks {
     /// The smoothed crack surface in the state of a step.
     pub fn surface(&self, step: usize) -> CrackSurface {
         crack_surface(&self.tetrahedra, &self.links(step)).smoothed()
+    }
+
+    /// Sides of the crack on which the corners of the [tetrahedra](Self::tetrahedra) lie in the state of a step, shape (n_tetrahedra).
+    pub fn sides(&self, step: usize) -> Vec<[u8; 4]> {
+        sides_of_tetrahedra(&self.tetrahedra, &self.links(step))
     }
 
     /// Tetrahedra that are cut at some time.

@@ -172,11 +172,10 @@ impl Curve {
             })
         };
         let (x, y) = (column(&columns[0])?, column(&columns[1])?);
-        let of_load = stored_loading(folder).ok().map(|it| it.units);
-        let unit = |column: &String| match (column.as_str(), of_load) {
-            ("displacement", Some(units)) => units.displacement.to_owned(),
-            ("reaction", Some(units)) => units.force.to_owned(),
-            (name, _) => unit_of(name).to_owned(),
+        let loading = stored_loading(folder).ok();
+        let unit = |column: &String| {
+            let known = loading.as_ref().map(|it| it.unit_of(column));
+            known.unwrap_or_else(|| unit_of(column)).to_owned()
         };
         let is_of_load = columns[0] == "displacement" && columns[1] == "reaction";
         let points: Vec<[f64; 2]> = x.into_iter().zip(y).map(|(x, y)| [x, y]).collect();

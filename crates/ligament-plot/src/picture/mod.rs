@@ -40,7 +40,7 @@ pub use isosurface::{Isosurface, IsosurfaceRequest, write_isosurfaces};
 pub use lines::stored_precracks;
 pub use of_run::{asks_for_pictures, draw_run};
 pub use request::{CrackDrawing, FieldRequest, Magnification, SolidRequest};
-pub use series::{animate, draw_each, pictures_of_each};
+pub use series::{animate, draw_each};
 pub use solid::{Section, View};
 pub use target::{Format, Target};
 

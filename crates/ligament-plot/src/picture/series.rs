@@ -54,23 +54,6 @@ pub fn draw_each(request: &FieldRequest) -> Result<Vec<PathBuf>, PictureError> {
     Ok(written)
 }
 
-/// The pictures of a series in memory: a picture of each chosen output as the text of an SVG file, with the number of the step or the
-/// mode.
-///
-/// # Errors
-///
-/// If there are several results, or no such outputs or fields.
-pub fn pictures_of_each(request: &FieldRequest) -> Result<Vec<(usize, String)>, PictureError> {
-    let subject = one_subject(request, "a series of pictures")?;
-    let series = Series::new(request, &subject)?;
-    let outputs = series.outputs.iter();
-    let drawn = outputs.map(|output| {
-        let svg = series.draw(output)?.to_svg(&series.style.title);
-        Ok((output.number(), svg))
-    });
-    drawn.collect()
-}
-
 /// An animation over the chosen outputs, or evenly spread ones of all.
 ///
 /// Each is shown for `1 / per_second` s, the last for two seconds at least. Returns where the animation is.

@@ -7,7 +7,8 @@ use ligament_output::FieldLocation;
 use ligament_output::csv::read::Sheet;
 use ligament_output::quantity::four_digits;
 use ligament_output::results::cracks::StoredCracks;
-use ligament_output::results::fields::{DAMAGE, DISPLACEMENT, OPENING, STRAIN_ENERGY_DENSITY};
+use ligament_output::results::fields::OPENING;
+use ligament_output::results::first_field_of;
 use ligament_output::results::outputs::{OutputKind, Outputs};
 use ligament_output::results::solid_body::is_solid;
 use ligament_output::results::solid_cracks::{SolidCracks, has_solid};
@@ -109,7 +110,7 @@ impl Subject {
         let default = match request.crack {
             Some(CrackDrawing::Lines) if has_surface => OPENING.name,
             Some(CrackDrawing::Lines) => NONE,
-            _ => default_field(&sources),
+            _ => first_field_of(&sources[0].outputs)?.name,
         };
         Ok(Self {
             field: given.unwrap_or_else(|| default.to_owned()),
@@ -126,16 +127,6 @@ impl Subject {
             field => format!("picture-{field}.png"),
         };
         request.folders[0].join(name)
-    }
-}
-
-fn default_field(sources: &[Source]) -> &'static str {
-    if sources[0].outputs.kind == OutputKind::Modes {
-        STRAIN_ENERGY_DENSITY.name
-    } else if sources.iter().any(Source::has_broken) {
-        DAMAGE.name
-    } else {
-        DISPLACEMENT.name
     }
 }
 
@@ -173,7 +164,7 @@ impl Source {
             let sizes = source.moments.values().map(|it| of(it).abs());
             sizes.fold(0.0, f64::max)
         };
-        source.shown = loading.map(|it| {
+        source.shown = loading.as_ref().map(|it| {
             [
                 Shown::new(it.units.displacement, largest(|it| it.displacement)),
                 Shown::new(it.units.force, largest(|it| it.reaction)),
@@ -196,12 +187,6 @@ impl Source {
             source.lines.push(Lines::of_table(table, place)?);
         }
         Ok(source)
-    }
-
-    fn has_broken(&self) -> bool {
-        let breaks = Sheet::read(self.outputs.folder.join("breaks.csv"));
-        let steps = breaks.and_then(|sheet| sheet.values::<usize>("step"));
-        steps.is_ok_and(|steps| !steps.is_empty())
     }
 }
 

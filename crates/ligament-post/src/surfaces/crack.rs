@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use ligament_model::tensor::{dot, minus};
 
-use super::detached::with_detached_points_assigned;
-use super::sides::{Links, sides};
+use super::detached::sides_of_tetrahedra;
+use super::sides::Links;
 use super::surface::CrackSurface;
 use super::tetrahedra::{EDGES, Tetrahedra};
 use super::{Link, measures};
@@ -24,18 +24,15 @@ struct Finder<'a> {
 
 /// The surface between the sides of tetrahedra, for the links of their points. See [the rules](super).
 pub fn crack_surface(tetrahedra: &Tetrahedra, links: &Links) -> CrackSurface {
-    let with_detached_points_assigned = with_detached_points_assigned(tetrahedra, links);
     let mut finder = Finder {
         tetrahedra,
         links,
         surface: CrackSurface::default(),
         found: HashMap::new(),
     };
-    for corners in &tetrahedra.corners {
-        finder.add(
-            corners,
-            sides(tetrahedra, &with_detached_points_assigned, corners),
-        );
+    let sides = sides_of_tetrahedra(tetrahedra, links);
+    for (corners, sides) in tetrahedra.corners.iter().zip(sides) {
+        finder.add(corners, sides);
     }
     measures::completed(finder.surface)
 }

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use ligament_model::tensor::{minus, norm};
 
-use super::sides::{Link, Links};
+use super::sides::{Link, Links, sides};
 use super::tetrahedra::{EDGES, Tetrahedra};
 
 /// Neighbours of a detached point (all edges cut) on one side of it.
@@ -15,6 +15,14 @@ struct Side {
     counted: usize,
     /// Distance of the nearest one, m.
     nearest: f64,
+}
+
+/// Side of each corner of the tetrahedra, numbered from 0 in the order of the corners, shape (n_tetrahedra); all 0 where no crack passes.
+pub fn sides_of_tetrahedra(tetrahedra: &Tetrahedra, links: &Links) -> Vec<[u8; 4]> {
+    let links = with_detached_points_assigned(tetrahedra, links);
+    let all = tetrahedra.corners.iter();
+    all.map(|corners| sides(tetrahedra, &links, corners))
+        .collect()
 }
 
 /// The links after every detached point, whose edges are all cut, is assigned to one of its sides, where it has one.

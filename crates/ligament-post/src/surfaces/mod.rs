@@ -32,6 +32,7 @@ mod surface;
 mod tetrahedra;
 
 pub use crack::crack_surface;
+pub use detached::sides_of_tetrahedra;
 pub use level_set::{LevelSet, level_set};
 pub use measures::{BestPlane, SurfacePart};
 pub use opened::opened_cells;

@@ -56,6 +56,7 @@ class Run:
     cells: dict[str, NDArray[Any]]
     summary: str
     tagged: str
+    first_field: str
     def cracks(self, step: int) -> list[tuple[Floats, list[str], float]]: ...
     def draw(
         self, named: tuple[str, str, str], values: Floats, displacement: Floats, width: float

@@ -145,11 +145,12 @@ class Result:
     def plot(self, field: str | None = None, step: int | None = None, *, width: float = WIDTH) -> Picture:
         """A picture of a field on the deformed body; of a vector its length, or ``displacement_x`` and ``stress.xx`` for components.
 
-        Without a field the damage, or the displacement where no bond broke. The width is in mm.
+        Without a field the damage, of bonds that soften by the way in which they fail, or the displacement where no bond failed. The
+        width is in mm.
         """
         step = self._with_fields(step)
         if field is None:
-            field = "damage" if np.any(self.field("damage", step)) else "displacement"
+            field = self._run.first_field
         values, name = self._scalar(field, step)
         if not np.any(np.isfinite(values)):
             raise LigamentError(f"the field `{field}` has no value in step {step}")

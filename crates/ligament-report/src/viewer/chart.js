@@ -10,7 +10,8 @@ function svgElement(name, attributes = {}, text = null) {
   return element;
 }
 
-// Series: { label, x, y, colour (1 to 8), steps (places of steps by point, or none) }. `pick` is called with the place of a point.
+// Series: { label, x, y, colour (1 to 8), style (`thin`, `dashed` or none), steps (places of steps by point, or none) }. `pick` is called with
+// the place of a point.
 class Chart {
   constructor(parent, title) {
     this.parent = parent;
@@ -67,6 +68,7 @@ class Chart {
     this.svg.append(this.mark);
     this.parent.append(this.svg);
     if (this.series.length > 1) this.parent.append(this.legend());
+    this.parent.append(this.exports());
     if (this.pick) this.listen();
   }
 
@@ -89,7 +91,7 @@ class Chart {
     this.svg.append(svgElement("text", { class: "label", x: 14, y: middle, "text-anchor": "middle", transform: `rotate(-90 14 ${middle})` }, this.yLabel));
   }
 
-  drawSeries({ x, y, colour, steps, dots }) {
+  drawSeries({ x, y, colour, style, steps, dots }) {
     let path = "";
     let pen = "M";
     x.forEach((value, place) => {
@@ -97,7 +99,7 @@ class Chart {
       if (isDrawn) path += `${pen}${this.x(value).toFixed(2)} ${this.y(y[place]).toFixed(2)}`;
       pen = isDrawn ? "L" : "M";
     });
-    this.svg.append(svgElement("path", { class: `curve colour-${colour}`, d: path }));
+    this.svg.append(svgElement("path", { class: `curve colour-${colour} ${style ?? ""}`, d: path }));
     const few = steps && steps.length <= 80;
     if (!few && !dots) return;
     for (const place of steps ?? x.keys()) {
@@ -109,13 +111,74 @@ class Chart {
   legend() {
     const list = document.createElement("p");
     list.className = "series";
-    for (const { label, colour } of this.series) {
+    for (const { label, colour, style } of this.series) {
       const item = document.createElement("span");
-      item.className = `colour-${colour}`;
+      item.className = `colour-${colour} ${style ?? ""}`;
       item.textContent = label;
       list.append(item);
     }
     return list;
+  }
+
+  // Buttons that save the chart as a picture, or its numbers.
+  exports() {
+    const row = document.createElement("p");
+    row.className = "exports";
+    const name = this.title.toLowerCase().replaceAll(" ", "-");
+    const kinds = {
+      SVG: () => save(this.picture(), `${name}.svg`),
+      PNG: () => this.savePixels(`${name}.png`),
+      CSV: () => save(`data:text/csv;charset=utf-8,${encodeURIComponent(this.table())}`, `${name}.csv`),
+    };
+    for (const [kind, saves] of Object.entries(kinds)) {
+      const button = document.createElement("button");
+      Object.assign(button, { type: "button", textContent: kind, title: `Save: ${this.title} (${kind})` });
+      button.addEventListener("click", saves);
+      row.append(button);
+    }
+    return row;
+  }
+
+  // The chart as an address of an SVG file with its colours, and names of its curves below.
+  picture() {
+    const copy = this.svg.cloneNode(true);
+    const shapes = [...this.svg.querySelectorAll("*")];
+    const kept = ["fill", "stroke", "stroke-width", "stroke-dasharray", "stroke-opacity", "font-size", "visibility"];
+    [...copy.querySelectorAll("*")].forEach((it, place) => {
+      const style = getComputedStyle(shapes[place]);
+      it.setAttribute("style", kept.map((key) => `${key}:${style.getPropertyValue(key)}`).join(";"));
+    });
+    copy.querySelector(".mark")?.remove();
+    const names = this.series.length > 1 ? this.series : [];
+    const height = CHART.height + 16 * names.length;
+    names.forEach(({ label, colour }, place) => {
+      const y = CHART.height + 16 * place + 6;
+      const stroke = getComputedStyle(document.documentElement).getPropertyValue(`--c${colour}`);
+      copy.append(svgElement("line", { x1: CHART.left, x2: CHART.left + 18, y1: y - 4, y2: y - 4, style: `stroke:${resolved(stroke)};stroke-width:2` }));
+      copy.append(svgElement("text", { x: CHART.left + 24, y, style: `fill:${getComputedStyle(this.svg).color};font-size:11.5px` }, label));
+    });
+    const paper = getComputedStyle(this.parent.closest(".card")).backgroundColor;
+    copy.prepend(svgElement("rect", { width: CHART.width, height, style: `fill:${paper}` }));
+    const sizes = { xmlns: SVG, viewBox: `0 0 ${CHART.width} ${height}`, width: 2 * CHART.width, height: 2 * height, "font-family": "sans-serif" };
+    for (const [key, value] of Object.entries(sizes)) copy.setAttribute(key, value);
+    return `data:image/svg+xml;charset=utf-8,${encodeURIComponent(copy.outerHTML)}`;
+  }
+
+  async savePixels(name) {
+    const image = new Image();
+    image.src = this.picture();
+    await image.decode();
+    const canvas = Object.assign(document.createElement("canvas"), { width: 2 * image.width, height: 2 * image.height });
+    canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
+    save(canvas.toDataURL("image/png"), name);
+  }
+
+  // The numbers of all curves, with a header.
+  table() {
+    const quoted = (text) => `"${text.replaceAll('"', '""')}"`;
+    const header = ["curve", this.xLabel, this.yLabel].map(quoted).join(",");
+    const rows = this.series.flatMap(({ label, x, y }) => Array.from(x, (it, place) => `${quoted(label)},${it},${y[place]}`));
+    return `${[header, ...rows].join("\n")}\n`;
   }
 
   // Moves the mark to a point of a series.
@@ -154,6 +217,24 @@ class Chart {
     this.svg.addEventListener("pointerdown", picked);
     this.svg.addEventListener("pointermove", (event) => event.buttons === 1 && picked(event));
   }
+}
+
+// Gives a file to the reader.
+function save(address, name) {
+  const link = document.createElement("a");
+  Object.assign(link, { href: address, download: name.replaceAll(/[^\w.-]+/g, "-") });
+  link.click();
+  document.documentElement.dataset.saved = link.download;
+}
+
+// A colour of the style as the browser computes it.
+function resolved(colour) {
+  const probe = document.createElement("span");
+  probe.style.color = colour;
+  document.body.append(probe);
+  const found = getComputedStyle(probe).color;
+  probe.remove();
+  return found;
 }
 
 // Powers of ten between powers of ten; of few also twice and five times them.

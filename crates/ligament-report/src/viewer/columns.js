@@ -53,8 +53,13 @@ function stepsOfGroup(bytes, count, units) {
   return steps;
 }
 
+// Share of the largest value of all steps below which a whole step is nothing but rounding.
+const NOTHING = 1e-12;
+
 class Column {
-  constructor(description, count) {
+  // `largest` is the largest value of all steps, where it is known.
+  constructor(description, count, largest = 0) {
+    this.least = NOTHING * largest;
     this.first = description.texts[0];
     this.exponents = description.exponents;
     this.units = this.exponents.map((exponent) => Number(`1e${exponent}`));
@@ -79,6 +84,10 @@ class Column {
     const from = group * STEPS_OF_A_GROUP;
     const units = this.units.slice(from, from + STEPS_OF_A_GROUP);
     const steps = stepsOfGroup(await bytesOfText(this.first + group), this.count, units);
+    steps.forEach((multiples, place) => {
+      const isNothing = (multiple) => multiple >= NOT_A_NUMBER || Math.abs(multiple * units[place]) < this.least;
+      if (this.least > 0 && multiples.every(isNothing)) multiples.forEach((it, at) => { if (it < NOT_A_NUMBER) multiples[at] = 0; });
+    });
     this.groups.set(group, steps);
     return steps;
   }

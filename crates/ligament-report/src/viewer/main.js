@@ -1,11 +1,5 @@
 // The page: what is seen (result, step, field, place), and what the reader does.
 
-const CRACK = [0.9, 0.15, 0.16, 1];
-const CRACK_OVER_RED = [0.05, 0.05, 0.05, 1];
-const PRECRACK = [0.7, 0.7, 0.7, 1];
-const INTACT = [0.1, 0.45, 0.85, 0.9];
-const BROKEN = [0.9, 0.15, 0.16, 0.9];
-const CHOSEN = [1, 0.75, 0, 1];
 // Pixels from the pointer to a bond that it points at.
 const REACH = 7;
 // Share of the body that the usual displacement is drawn with; of a mode twice as much.
@@ -17,13 +11,15 @@ class Page {
   constructor(description) {
     this.runs = description.runs.map((it) => new Run(it));
     this.run = this.runs[0];
-    this.step = this.run.isModes ? 0 : this.run.steps.length - 1;
-    this.camera = new Camera();
+    this.step = this.run.description.opensAt;
     this.canvas = element("body");
-    this.drawing = Drawing.on(this.canvas);
+    this.scene = new Scene(this.canvas, () => {
+      this.tellGraphics();
+      this.redraw();
+    });
+    this.lines = new Lines(this.scene);
     this.panel = new Panel();
-    this.pictures = new Pictures(() => this.showStep());
-    this.charts = new Charts(this.runs, (number, step) => this.go(step, this.runs[number]));
+    this.charts = new Charts(this.runs, description.measured, (number, step) => this.go(step, this.runs[number]));
     this.asked = 0;
     this.pinned = null;
     this.family = [];
@@ -34,12 +30,19 @@ class Page {
   async start() {
     options(element("run"), this.runs.map((run, number) => [number, run.label]));
     element("run").closest("label").hidden = this.runs.length < 2;
-    if (!this.drawing) {
-      element("no-view").hidden = false;
-      element("no-view").textContent = "This browser has no WebGL 2, so the body is not drawn; numbers and curves are here.";
-    }
+    this.hadGraphics = Boolean(this.scene.drawing);
+    this.tellGraphics();
     await this.showRun(this.run);
     document.documentElement.dataset.ready = "true";
+  }
+
+  // Says why the body is not drawn, where it is not.
+  tellGraphics() {
+    const isLost = this.hadGraphics && !this.scene.drawing;
+    element("no-view").hidden = Boolean(this.scene.drawing);
+    element("no-view").textContent = isLost
+      ? "The browser took the graphics away; the body is drawn again as soon as it gives them back."
+      : "This browser has no WebGL 2, so the body is not drawn; numbers and curves are here.";
   }
 
   // Another result: its fields, steps, curves and summary.
@@ -53,28 +56,28 @@ class Page {
     for (const summary of document.querySelectorAll(".summary")) summary.hidden = Number(summary.dataset.run) !== this.runs.indexOf(run);
     this.charts.showRun(run);
     document.body.classList.toggle("solid", run.isSolid);
-    if (run.isSolid) this.pictures.offer(run);
-    else await this.showBody(run, isOther);
+    await this.showBody(run, isOther);
     await this.showStep();
   }
 
-  // A body in the plane, which is drawn here.
+  // The body of a result, and what can be seen of it.
   async showBody(run, isOther) {
-    const choice = isOther ? element("field").value : run.firstChoice;
+    const choice = isOther ? element("field").value : run.description.firstField;
     options(element("field"), run.choices.map((it) => [it.id, it.label]));
     element("field").value = run.choice(choice).id;
     this.offerMagnifications();
     this.offerCracks();
+    element("forces").closest("label").hidden = run.isModes || !run.field("reaction");
+    element("section").value = "";
     if (run.isModes) element("scale").value = "inner";
     this.pinned = null;
+    this.hovered = null;
     this.family = [];
     this.panel.clear();
     this.body = await run.body();
-    this.origin = [this.body.x[0], this.body.y[0]];
-    this.camera.bounds = boundsOf(...(this.body.corners ?? [this.body.x, this.body.y]));
-    this.camera.reset();
-    this.reference = new Places(this.body.x, this.body.y);
-    this.drawing?.setTriangles(this.body.corners ? cornersOfSquares(this.run.nPoints) : this.body.triangles);
+    this.scene.show(this.body);
+    this.lines.show(run, this.body);
+    this.allowTouch();
   }
 
   offerMagnifications() {
@@ -88,7 +91,9 @@ class Page {
 
   offerCracks() {
     const choices = [];
-    if (this.run.description.cracks) choices.push(["lines", "lines"]);
+    const { cracks, body } = this.run.description;
+    if (cracks?.lines) choices.push(["lines", "lines"]);
+    if (cracks?.tetrahedra > 0) choices.push(["open", body.half ? "between cells" : "open"], ["surface", "surface, by its opening"]);
     if (this.run.bonds) choices.push(["bonds", "broken bonds"]);
     options(element("cracks"), [...choices, ["none", "none"]]);
     element("cracks").closest("label").hidden = choices.length === 0;
@@ -112,24 +117,14 @@ class Page {
     const asked = ++this.asked;
     const { run, step, choice } = this;
     this.tellStep();
-    if (run.isSolid) {
-      this.values = null;
-      if (await this.pictures.show(step)) document.documentElement.dataset.drawn = `${run.label} ${run.steps[step]} ${this.pictures.view.value} ${this.pictures.field.value}`;
-      this.charts.mark(run, this.step);
-      return;
-    }
-    const [values, displacement, inner] = await Promise.all([
-      run.values(choice, step), run.displacement(step), this.readLayers(),
+    const [values, displacement, broken, cut, reaction] = await Promise.all([
+      run.values(choice, step), run.vector("displacement", step), this.readBroken(), run.cut(step), run.isModes ? null : run.vector("reaction", step),
     ]);
     // One picture a frame: a slow machine would pile them up.
     await new Promise(requestAnimationFrame);
     if (asked !== this.asked) return;
-    this.values = values;
-    this.displacement = displacement;
-    this.layers = inner;
+    Object.assign(this, { values, displacement, broken, cut, reaction });
     this.place();
-    this.colour();
-    this.redraw();
     this.charts.mark(run, step);
     const point = this.pinned ?? this.hovered;
     if (point !== undefined && point !== null) this.panel.showPoint(run, this.body, point, step, choice);
@@ -149,126 +144,71 @@ class Page {
     element("step-text").textContent = words.join(", ");
   }
 
-  // Deformed positions of points and corners.
+  // The deformed body, cut and opened as it is asked for.
   place() {
-    const { body, displacement: [ux, uy] } = this;
-    const factor = Number(element("magnification").value);
-    this.x = body.x.map((x, point) => x + factor * ux[point]);
-    this.y = body.y.map((y, point) => y + factor * uy[point]);
-    this.deformed = null;
-    const [cx, cy] = body.corners ?? [this.x, this.y];
-    const places = new Float32Array(2 * cx.length);
-    for (let corner = 0; corner < cx.length; corner++) {
-      const point = body.corners ? corner >> 2 : -1;
-      places[2 * corner] = cx[corner] - this.origin[0] + (point < 0 ? 0 : factor * ux[point]);
-      places[2 * corner + 1] = cy[corner] - this.origin[1] + (point < 0 ? 0 : factor * uy[point]);
-    }
-    this.drawing?.setPlaces(places);
+    const axis = element("section").value;
+    const isCut = axis !== "" && this.run.isSolid;
+    element("cut-label").hidden = !isCut;
+    const { low, high } = this.scene.box;
+    const at = isCut ? low[axis] + Number(element("cut").value) * (high[axis] - low[axis]) : 0;
+    // Beside the points, which lie in planes of many meshes.
+    const section = isCut ? { axis: Number(axis), at: at + 1e-6 * (high[axis] - low[axis]) } : null;
+    element("cut-text").textContent = isCut ? `${"xyz"[axis]} = ${shortText(1e3 * at)} mm` : "";
+    this.scene.place({
+      displacement: this.displacement, factor: Number(element("magnification").value), cut: this.cut, mode: element("cracks").value, section,
+    });
+    this.colour();
   }
 
   colour() {
-    const { values, body, choice } = this;
+    const { choice, run, scene } = this;
     const scale = element("scale").value;
+    const shown = { values: this.values, label: choice.label, unit: choice.field.unit, map: mapOf(choice.field.name) };
     const ofSteps = choice.place === null ? [0, choice.field.magnitude] : choice.field.ranges[choice.place];
     const shift = 10 ** choice.field.shift;
-    const range = scale === "all" ? ofSteps.map((it) => it * shift) : rangeOfValues(values, scale === "inner" ? 0.01 : 0);
-    this.range = colourRange(...range);
+    let range = scale === "all" ? ofSteps.map((it) => it * shift) : rangeOfValues(this.values, scale === "inner" ? 0.01 : 0);
+    if (scene.isSurface) {
+      const { unit, shift: power } = run.field("displacement");
+      Object.assign(shown, { values: scene.crack.values.map((it) => it * 10 ** power), label: "crack opening", unit, map: "damage" });
+      range = [0, rangeOfValues(shown.values, 0.01)[1]];
+    }
+    this.range = colourRange(...range, shown.map);
     const bytes = colourTable(this.range.map);
-    this.drawing?.setMap(bytes);
-    const size = Math.max(this.range.high - this.range.low, 1e-300);
-    // From 0 to 1, so that single precision serves values of any size.
-    const shares = body.corners
-      ? Float32Array.from({ length: 4 * values.length }, (_, corner) => (values[corner >> 2] - this.range.low) / size)
-      : Float32Array.from(values, (value) => (value - this.range.low) / size);
-    this.drawing?.setValues(shares);
-    this.showLegend(bytes);
+    scene.colour(shown.values, this.range, bytes);
+    scene.upload();
+    this.showLegend(bytes, shown);
+    this.redraw();
   }
 
-  showLegend(bytes) {
+  showLegend(bytes, { label, unit }) {
     const bar = element("legend-bar");
     const picture = new ImageData(new Uint8ClampedArray(bytes), bar.width, 1);
     bar.getContext("2d").putImageData(picture, 0, 0);
     element("legend-low").textContent = shortText(this.range.low);
     element("legend-high").textContent = shortText(this.range.high);
-    element("legend-name").textContent = labelWithUnit(this.choice.label, this.choice.field.unit);
+    element("legend-name").textContent = labelWithUnit(label, unit);
   }
 
-  // The ends of broken bonds in the state of the step; crack lines come with the description.
-  async readLayers() {
+  // The ends of broken bonds in the state of the step.
+  async readBroken() {
     const { run, step } = this;
     if (element("cracks").value !== "bonds" || !run.bonds) return null;
     const [ends, breaks, count] = await Promise.all([run.bonds.ends(), run.bonds.breaks(), run.bonds.countAt(run.steps[step])]);
     return Array.from(breaks.bond.subarray(0, count), (bond) => [ends.a[bond], ends.b[bond]]);
   }
 
-  // Crack lines of the step, on the deformed body.
-  crackSegments() {
-    const { cracks } = this.run.description;
-    if (element("cracks").value !== "lines" || !cracks) return [];
-    let at = this.step;
-    while (at > 0 && cracks[at] === null) at--;
-    const segments = [];
-    for (const line of cracks[at] ?? []) {
-      let before = null;
-      for (let place = 0; place < line.length; place += 2) {
-        const now = this.moved(line[place], line[place + 1]);
-        if (before) segments.push(...before, ...now);
-        before = now;
-      }
-    }
-    return segments;
-  }
-
-  // Pre-cracks, in pieces that follow the deformed body; what lies outside of it is not drawn.
-  precrackSegments() {
-    if (element("cracks").value === "none") return [];
-    const segments = [];
-    const isInside = (x, y) => this.reference.nearest(x, y, 1, 2 * this.reference.size).length > 0;
-    for (const line of this.run.description.precracks) {
-      for (let place = 0; place + 3 < line.length; place += 2) {
-        const [ax, ay, bx, by] = line.slice(place, place + 4);
-        const count = Math.ceil(Math.hypot(bx - ax, by - ay) / this.reference.size);
-        const at = (piece) => [ax + (piece / count) * (bx - ax), ay + (piece / count) * (by - ay)];
-        for (let piece = 0; piece < count; piece++) {
-          const ends = [at(piece), at(piece + 1)];
-          if (ends.every((it) => isInside(...it))) segments.push(...ends.flatMap((it) => this.moved(...it)));
-        }
-      }
-    }
-    return segments;
-  }
-
-  // A place that moves with the points about it.
-  moved(x, y) {
-    const near = this.reference.nearest(x, y, 4, 3 * this.reference.size);
-    const factor = Number(element("magnification").value) / Math.max(near.length, 1);
-    const [ux, uy] = this.displacement;
-    return near.reduce(([px, py], { point }) => [px + factor * ux[point], py + factor * uy[point]], [x, y])
-      .map((it, axis) => it - this.origin[axis]);
-  }
-
-  segmentOf([a, b]) {
-    const [ox, oy] = this.origin;
-    return [this.x[a] - ox, this.y[a] - oy, this.x[b] - ox, this.y[b] - oy];
-  }
-
   redraw() {
-    if (!this.values) return;
-    const { clientWidth, clientHeight } = this.canvas;
-    this.camera.resize(clientWidth, clientHeight);
-    const crack = this.range.map === "diverging" ? CRACK_OVER_RED : CRACK;
-    const layers = [
-      lineLayer((this.layers ?? []).flatMap((ends) => this.segmentOf(ends)), [...crack.slice(0, 3), 0.6], 1),
-      lineLayer(this.precrackSegments(), PRECRACK, 3),
-      lineLayer(this.crackSegments(), crack, 3),
-    ];
-    for (const [colour, kind] of [[INTACT, false], [BROKEN, true]]) {
-      const bonds = this.family.filter((it) => it.isBroken === kind);
-      layers.push(lineLayer(bonds.flatMap((it) => this.segmentOf(it.ends)), colour, 1.5));
-    }
-    const chosen = this.family.filter((it) => it.bond === this.chosenBond);
-    layers.push(lineLayer(chosen.flatMap((it) => this.segmentOf(it.ends)), CHOSEN, 4));
-    this.drawing?.draw(this.camera, this.origin, { low: 0, high: 1 }, layers);
+    if (!this.values || !this.scene.vertices) return;
+    this.scene.draw(this.lines.layers({
+      step: this.step,
+      mode: element("cracks").value,
+      broken: this.broken,
+      family: this.family,
+      chosen: this.chosenBond,
+      reaction: element("forces").checked ? this.reaction : null,
+      isOverRed: this.range.map !== "cividis",
+    }));
+    if (this.run.isSolid) drawAxes(element("axes"), this.scene.camera);
     this.mark();
   }
 
@@ -277,29 +217,21 @@ class Page {
     const marker = element("marker");
     marker.hidden = point === undefined || point === null;
     if (marker.hidden) return;
-    const [px, py] = this.camera.toScreen(this.x[point], this.y[point]);
-    marker.hidden = px < 0 || py < 0 || px > this.camera.width || py > this.camera.height;
+    const { camera } = this.scene;
+    const [px, py] = this.scene.pixelOf(point);
+    marker.hidden = px < 0 || py < 0 || px > camera.width || py > camera.height;
     marker.style.transform = `translate(${px}px, ${py}px)`;
-  }
-
-  // The point nearest to a pixel, or none away from the body.
-  pointAt(px, py) {
-    if (!this.x) return null;
-    this.deformed ??= new Places(this.x, this.y);
-    const [x, y] = this.camera.toWorld(px, py);
-    const reach = Math.max(2.5 * this.reference.size, 12 / this.camera.scale);
-    return this.deformed.nearest(x, y, 1, reach)[0]?.point ?? null;
   }
 
   hover(px, py) {
     if (this.pinned !== null) {
-      const [x, y] = this.camera.toWorld(px, py).map((it, axis) => it - this.origin[axis]);
-      const distances = this.family.map((it) => distanceToSegment(x, y, this.segmentOf(it.ends)) * this.camera.scale);
+      const pixels = (point) => this.scene.pixelOf(point).slice(0, 2);
+      const distances = this.family.map((it) => distanceToSegment(px, py, it.ends.flatMap(pixels)));
       const nearest = distances.indexOf(Math.min(...distances));
       if (distances[nearest] <= REACH) this.chooseBond(this.family[nearest].bond);
       return;
     }
-    const point = this.pointAt(px, py);
+    const point = this.scene.pointAt(px, py);
     if (point === this.hovered) return;
     this.hovered = point;
     this.mark();
@@ -326,15 +258,14 @@ class Page {
 
   async familyOf(point) {
     const [ends, breaks] = await Promise.all([this.run.bonds.ends(), this.run.bonds.breaks()]);
-    const { x, y } = this.body;
+    const { x, y, z } = this.body;
     const absent = await this.run.bonds.columns.find((it) => it.name === "absent")?.column.multiples(0);
     const bonds = Array.from(ends.ofPoints.subarray(ends.first[point], ends.first[point + 1]));
     return bonds.map((bond) => {
       const [a, b] = [ends.a[bond], ends.b[bond]];
-      const [dx, dy] = [x[b] - x[a], y[b] - y[a]];
+      const along = [x[b] - x[a], y[b] - y[a], z[b] - z[a]];
       return {
-        bond, ends: [a, b], other: a === point ? b : a, length: Math.hypot(dx, dy),
-        angle: (Math.atan2(dy, dx) * 180) / Math.PI,
+        bond, ends: [a, b], other: a === point ? b : a, length: Math.hypot(...along), along,
         isBroken: breaks.order[bond] >= 0 || absent?.[bond] > 0,
       };
     });
@@ -354,9 +285,14 @@ class Page {
       this.run.keepOnly(this.choice.field);
       this.showStep();
     });
-    element("scale").addEventListener("change", () => { this.colour(); this.redraw(); });
-    element("magnification").addEventListener("change", () => { this.place(); this.redraw(); });
+    element("scale").addEventListener("change", () => this.colour());
+    element("magnification").addEventListener("change", () => this.place());
     element("cracks").addEventListener("change", () => this.showStep());
+    element("section").addEventListener("change", () => this.place());
+    element("cut").addEventListener("input", () => this.place());
+    element("forces").addEventListener("change", () => this.redraw());
+    element("save-body").addEventListener("click", () => save(this.canvas.toDataURL("image/png"), `${this.run.label}-${this.choice.id}-${this.run.steps[this.step]}.png`));
+    for (const button of document.querySelectorAll("[data-view]")) button.addEventListener("click", () => this.look(button.dataset.view));
     element("step").addEventListener("input", (event) => this.go(Number(event.target.value)));
     element("play").addEventListener("click", () => this.play());
     for (const [id, factor] of [["zoom-in", 1.5], ["zoom-out", 1 / 1.5], ["zoom-fit", 0]]) {
@@ -371,29 +307,50 @@ class Page {
   }
 
   zoom(factor, px, py) {
-    if (factor === 0) this.camera.reset();
-    else this.camera.zoomBy(factor, px, py);
-    // A finger scrolls the page over the whole body, and moves the body once it is larger.
-    this.canvas.style.touchAction = this.camera.zoom > 1.01 ? "none" : "pan-y";
+    if (factor === 0) this.scene.camera.reset();
+    else this.scene.camera.zoomBy(factor, px, py);
+    this.allowTouch();
     this.redraw();
   }
 
+  move(dx, dy) {
+    this.scene.camera.moveBy(dx, dy);
+    this.redraw();
+  }
+
+  drag(dx, dy, moves) {
+    if (this.run.isSolid && !moves) {
+      this.scene.camera.turnBy(dx, dy);
+      this.redraw();
+    } else this.move(dx, dy);
+  }
+
+  look(view) {
+    this.scene.camera.reset(VIEWS[view]);
+    this.allowTouch();
+    this.redraw();
+  }
+
+  // A finger turns a solid; over the whole body in the plane it scrolls the page, and moves the body once it is larger.
+  allowTouch() {
+    this.canvas.style.touchAction = this.run.isSolid || this.scene.camera.zoom > 1.01 ? "none" : "pan-y";
+  }
+
   key(event) {
-    const isOnBody = event.target === this.canvas || event.target === this.pictures.image;
+    const isOnBody = event.target === this.canvas;
     const isElsewhere = event.target !== document.body && !isOnBody;
     if (isElsewhere || event.ctrlKey || event.metaKey || event.altKey) return;
     const moves = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] };
-    if (event.shiftKey && moves[event.key]) {
-      this.camera.moveBy(...moves[event.key]);
-      this.redraw();
-    } else if (event.key === "ArrowLeft") this.go(this.step - 1);
+    if (event.shiftKey && moves[event.key]) this.move(...moves[event.key]);
+    else if (this.run.isSolid && isOnBody && VIEWS[event.key]) this.look(event.key);
+    else if (event.key === "ArrowLeft") this.go(this.step - 1);
     else if (event.key === "ArrowRight") this.go(this.step + 1);
     else if (event.key === "Home" && isOnBody) this.go(0);
     else if (event.key === "End" && isOnBody) this.go(this.run.steps.length - 1);
     else if (event.key === "+" || event.key === "=") this.zoom(1.25);
     else if (event.key === "-") this.zoom(1 / 1.25);
     else if (event.key === "0") this.zoom(0);
-    else if (event.key === "Enter" && isOnBody && !this.run.isSolid) this.pin(this.pointAt(this.camera.width / 2, this.camera.height / 2));
+    else if (event.key === "Enter" && isOnBody) this.pin(this.scene.pointAt(this.scene.camera.width / 2, this.scene.camera.height / 2));
     else if (event.key === "Escape") this.pin(null);
     else return;
     event.preventDefault();
@@ -415,69 +372,31 @@ class Page {
 
   // A picture in place of the canvas, which not every browser prints.
   print(isBefore) {
-    if (this.run.isSolid) return;
     const picture = element("printed");
-    if (isBefore && this.drawing) picture.src = this.canvas.toDataURL("image/png");
-    picture.hidden = !(isBefore && this.drawing);
-    this.canvas.hidden = isBefore && Boolean(this.drawing);
+    const isDrawn = isBefore && Boolean(this.scene.drawing);
+    if (isDrawn) picture.src = this.canvas.toDataURL("image/png");
+    picture.hidden = !isDrawn;
+    this.canvas.hidden = isDrawn;
     if (!isBefore) this.redraw();
   }
 }
 
-// Pointers on the body: hover, click, drag and wheel, and two fingers.
-function listenToPointers(canvas, page) {
-  const pointers = new Map();
-  let moved = 0;
-  const place = (event) => {
-    const box = canvas.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
-  };
-  const spread = () => {
-    const [one, other] = [...pointers.values()];
-    return Math.hypot(one[0] - other[0], one[1] - other[1]);
-  };
-  canvas.addEventListener("pointerdown", (event) => {
-    pointers.set(event.pointerId, place(event));
-    canvas.setPointerCapture(event.pointerId);
-    moved = 0;
+// The directions of the axes, as seen.
+function drawAxes(canvas, camera) {
+  const pen = canvas.getContext("2d");
+  const middle = canvas.width / 2;
+  const colour = getComputedStyle(canvas).color;
+  pen.clearRect(0, 0, canvas.width, canvas.height);
+  Object.assign(pen, { font: "13px sans-serif", textAlign: "center", textBaseline: "middle", strokeStyle: colour, fillStyle: colour, lineWidth: 1.5 });
+  ["x", "y", "z"].forEach((name, axis) => {
+    const [dx, dy] = [camera.right[axis], -camera.up[axis]];
+    if (Math.hypot(dx, dy) < 0.05) return;
+    pen.beginPath();
+    pen.moveTo(middle, middle);
+    pen.lineTo(middle + 22 * dx, middle + 22 * dy);
+    pen.stroke();
+    pen.fillText(name, middle + 30 * dx, middle + 30 * dy);
   });
-  canvas.addEventListener("pointermove", (event) => {
-    const now = place(event);
-    const before = pointers.get(event.pointerId);
-    if (!before) {
-      page.hover(...now);
-      return;
-    }
-    const distance = pointers.size === 2 ? spread() : 0;
-    pointers.set(event.pointerId, now);
-    moved += Math.hypot(now[0] - before[0], now[1] - before[1]);
-    if (pointers.size === 2) page.zoom(spread() / Math.max(distance, 1), ...now);
-    else if (moved > 4) {
-      page.camera.moveBy(now[0] - before[0], now[1] - before[1]);
-      page.redraw();
-    }
-  });
-  canvas.addEventListener("pointerup", (event) => {
-    const isClick = pointers.size === 1 && moved <= 4;
-    pointers.delete(event.pointerId);
-    if (!isClick) return;
-    const point = page.pointAt(...place(event));
-    page.pin(point === page.pinned ? null : point);
-  });
-  canvas.addEventListener("pointercancel", (event) => pointers.delete(event.pointerId));
-  canvas.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    page.zoom(1.0015 ** -event.deltaY, ...place(event));
-  }, { passive: false });
-}
-
-// Two triangles for each square of four corners.
-function cornersOfSquares(count) {
-  const corners = new Uint32Array(6 * count);
-  for (let square = 0; square < count; square++) {
-    corners.set([0, 1, 2, 0, 2, 3].map((it) => 4 * square + it), 6 * square);
-  }
-  return corners;
 }
 
 // 1, 2 or 5 times a power of ten, at most a value.

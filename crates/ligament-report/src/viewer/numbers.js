@@ -36,7 +36,7 @@ function labelWithUnit(name, unit) {
 
 // The name of a column or field in words. Virial stresses are not those of the continuum at single points of a mesh.
 function inWords(name) {
-  const words = name.replaceAll("_", " ").replaceAll(".", " ");
+  const words = name.replaceAll("_", " ").replaceAll(".", " ").replace("stress principal", "principal stress");
   return name.startsWith("stress_virial") ? `${words}, right in the mean` : words;
 }
 

@@ -93,19 +93,18 @@ class Panel {
   }
 
   // What is known of a bond.
-  async showBond(run, body, { bond, ends, length, angle }) {
+  async showBond(run, body, { bond, ends, length, along }) {
     if (!this.bond) return;
     const [breaks, properties] = await Promise.all([run.bonds.breaks(), run.bonds.properties(bond)]);
     const { tags, tagged } = body;
     const rows = [
       ["bond", `${tagged} ${tags[ends[0]]} to ${tagged} ${tags[ends[1]]}`],
-      ["length", `${shortText(1e3 * length)} mm, ${angle.toFixed(2)}° from x`],
+      ["length", `${shortText(1e3 * length)} mm, ${directionOf(along, length, body.dimension)}`],
     ];
     const { criteria } = run.bonds;
     for (const [name, { multiple, exponent }] of properties) {
       if (name === "absent" || name === "utilisation" || name.endsWith("_of_largest")) continue;
-      const isHorizon = name === "horizon";
-      rows.push([isHorizon ? "bond horizon" : inWords(name), withUnit(exactText(multiple, exponent, isHorizon ? 3 : 0), isHorizon ? "mm" : "")]);
+      rows.push([inWords(name), exactText(multiple, exponent, 0)]);
     }
     const seen = properties.get("step_of_largest");
     const by = criteria[properties.get("criterion_of_largest")?.multiple];
@@ -121,6 +120,12 @@ class Panel {
     this.bond.replaceChildren(table(rows));
     for (const row of this.bondValues.querySelectorAll("tbody tr[data-bond]")) row.classList.toggle("chosen", Number(row.dataset.bond) === bond);
   }
+}
+
+// The direction of a bond: its angle in the plane, or a unit vector.
+function directionOf(along, length, dimension) {
+  if (dimension === 2) return `${((Math.atan2(along[1], along[0]) * 180) / Math.PI).toFixed(2)}° from x`;
+  return `along (${along.map((it) => minus((it / length).toFixed(3))).join(", ")})`;
 }
 
 // What became of a bond, in a few words.
@@ -142,8 +147,7 @@ function rowsOfField(field, point, step) {
 
 function pointRow(body, point) {
   const mm = (column) => exactText(column.ready(0)[point], column.exponents[0], 3);
-  const [x, y] = body.positionColumns.map(mm);
-  return [`${body.tagged} ${body.tags[point]}`, `(${x}, ${y}) mm`, "tag"];
+  return [`${body.tagged} ${body.tags[point]}`, `(${body.positionColumns.map(mm).join(", ")}) mm`, "tag"];
 }
 
 // A table of names with what they are; the third of a row names it for programs.

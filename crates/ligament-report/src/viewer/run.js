@@ -6,20 +6,22 @@ class Run {
     this.label = description.label;
     this.steps = description.steps;
     this.isModes = description.kind === "modes";
-    // Of a solid there are pictures in place of a body with fields.
-    this.pictures = description.pictures;
-    this.isSolid = Boolean(this.pictures);
     const { body } = description;
-    this.nPoints = body?.count ?? 0;
+    this.nPoints = body.count;
+    this.isSolid = body.dimension === 3;
     this.fields = description.fields.map((field) => ({
       ...field,
-      columns: field.columns.map((column) => new Column(column, body.count)),
+      columns: field.columns.map((column) => new Column(column, body.count, field.magnitude)),
     }));
     this.choices = this.fields.flatMap(choicesOfField);
     this.history = new Map(description.history.map((column) => [column.name, column]));
     const rows = this.history.get("step")?.values ?? [];
     // The row of the history of each step of the page.
     this.rows = this.steps.map((step) => rows.indexOf(step));
+    // Size and area of the cracks over the steps of the page.
+    const { cracks } = description;
+    this.size = cracks?.size ?? null;
+    this.area = cracks?.area ?? null;
     this.bonds = description.bonds ? new Bonds(description.bonds, this) : null;
   }
 
@@ -31,16 +33,50 @@ class Run {
 
   async readBody() {
     const { body } = this.description;
-    const whole = (column, count) => new Column(column, count).multiples(0);
-    const numbers = (column, count) => new Column(column, count).values(0);
+    const numbers = (columns) => Promise.all(columns.map((it) => new Column(it, body.count).values(0)));
+    const none = new Float64Array(body.count);
     const positionColumns = body.position.map((it) => new Column(it, body.count));
-    const [x, y, tags, triangles] = await Promise.all([
-      ...positionColumns.map((column) => column.values(0)),
-      whole(body.tags, body.count),
-      whole(body.triangles, 3 * body.nTriangles),
+    const [[x, y, z = none], half, tags, simplices] = await Promise.all([
+      Promise.all(positionColumns.map((column) => column.values(0))),
+      body.half && numbers(body.half),
+      new Column(body.tags, body.count).multiples(0),
+      new Column(body.simplices, body.nCorners).multiples(0),
     ]);
-    const corners = body.corner && await Promise.all(body.corner.map((it) => numbers(it, 4 * body.count)));
-    return { x, y, tags, triangles, corners, positionColumns, tagged: body.tagged };
+    if (half?.length === 2) half.push(none);
+    return { x, y, z, tags, simplices, half, positionColumns, dimension: body.dimension, tagged: body.tagged };
+  }
+
+  // Tetrahedra of a solid that cracks pass through at some time: of a mesh their numbers, of a lattice nodes that follow points; read once.
+  tetrahedra() {
+    this.tetrahedraPromise ??= this.readTetrahedra();
+    return this.tetrahedraPromise;
+  }
+
+  async readTetrahedra() {
+    const { cracks } = this.description;
+    const count = cracks?.tetrahedra ?? 0;
+    if (count === 0) return null;
+    const whole = (column, length) => new Column(column, length).multiples(0);
+    const sides = new Column(cracks.sides, count);
+    if (cracks.of) return { sides, of: await whole(cracks.of, count) };
+    const [points, corners, ...position] = await Promise.all([
+      whole(cracks.points, cracks.nNodes), whole(cracks.corners, 4 * count),
+      ...cracks.position.map((it) => new Column(it, cracks.nNodes).values(0)),
+    ]);
+    return { sides, nodes: { points, corners, position } };
+  }
+
+  // Pairs of each tetrahedron that the crack cuts in a step and the sides of its corners, with a key that tells such lists apart.
+  async cut(step) {
+    const tetrahedra = await this.tetrahedra();
+    if (!tetrahedra) return { list: [], key: "" };
+    const codes = await tetrahedra.sides.multiples(step);
+    const list = [];
+    codes.forEach((code, place) => {
+      const sides = sidesOf(code);
+      if (sides) list.push([tetrahedra.of ? tetrahedra.of[place] : place, sides]);
+    });
+    return { list, key: codes.join(), nodes: tetrahedra.nodes };
   }
 
   field(name) {
@@ -51,25 +87,18 @@ class Run {
     return this.choices.find((it) => it.id === id) ?? this.choices[0];
   }
 
-  // The field that a reader wants first.
-  get firstChoice() {
-    if (this.isModes) return "strain_energy_density";
-    const broke = this.history.get("broken_bonds")?.values.some((it) => it > 0);
-    return broke ? "damage" : "displacement";
-  }
-
   // Values of a choice in its display unit.
   async values({ field, place }, step) {
     const factor = 10 ** field.shift;
     if (place !== null) return field.columns[place].values(step, factor);
-    const [x, y] = await Promise.all(field.columns.map((column) => column.values(step, factor)));
-    return x.map((value, point) => Math.hypot(value, y[point]));
+    const parts = await Promise.all(field.columns.map((column) => column.values(step, factor)));
+    return parts[0].map((_, point) => Math.hypot(...parts.map((it) => it[point])));
   }
 
-  // Displacements of a step, m.
-  async displacement(step) {
-    const field = this.field("displacement");
-    return Promise.all(field.columns.map((column) => column.values(step)));
+  // Components of a vector field in a step, in SI units; null without it.
+  async vector(name, step) {
+    const field = this.field(name);
+    return field ? Promise.all(field.columns.map((column) => column.values(step))) : null;
   }
 
   // Values of a choice at a point over the steps, in the display unit.
@@ -101,7 +130,7 @@ function choicesOfField(field) {
   const parts = field.components.map((name, place) => ({
     id: `${field.name}.${name}`, label: inWords(`${field.name}.${name}`), field, place,
   }));
-  const isVector = field.components.join() === "x,y";
+  const isVector = field.components.join().startsWith("x,y");
   return isVector ? [{ id: field.name, label: words, field, place: null }, ...parts] : parts;
 }
 

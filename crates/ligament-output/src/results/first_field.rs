@@ -1,0 +1,110 @@
+//! The field that shows best what happened in a run: pictures, the page and Python show it unless another one is named.
+
+use std::path::Path;
+
+use ligament_analysis::result_fields::{
+    DAMAGE, DAMAGE_COMPRESSION, DAMAGE_SLIDING, DAMAGE_TENSION, DISPLACEMENT, ResultField,
+    STRAIN_ENERGY_DENSITY,
+};
+
+use super::outputs::{OutputKind, Outputs};
+use super::point_fields::location;
+use super::softening_table;
+use crate::Error;
+use crate::csv::read::Sheet;
+use crate::vtu::read::VtuFile;
+
+/// What happened to the bonds of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Happened {
+    /// Nothing: all bonds are as they were.
+    Nothing,
+    /// Bonds broke, and none softened.
+    Broke,
+    /// Bonds softened.
+    Softened,
+}
+
+/// Damage of softening bonds by the ways in which they fail.
+const OF_SOFTENING: [&ResultField; 3] = [&DAMAGE_TENSION, &DAMAGE_SLIDING, &DAMAGE_COMPRESSION];
+
+/// The field that shows best what happened in a run; `largest` is the largest value of a field at the end, 0 without the field.
+///
+/// Where bonds soften, few of them break before the crack is open: the damage by the way in which they soften most shows the crack as it forms.
+pub fn first_field(happened: Happened, largest: impl Fn(&str) -> f64) -> &'static ResultField {
+    let by_way = || {
+        let sizes = OF_SOFTENING.map(|it| (it, largest(it.name)));
+        let most = sizes
+            .into_iter()
+            .reduce(|most, it| if it.1 > most.1 { it } else { most });
+        most.filter(|it| it.1 > 0.0).map(|it| it.0)
+    };
+    match happened {
+        Happened::Nothing => &DISPLACEMENT,
+        Happened::Broke => &DAMAGE,
+        Happened::Softened => by_way().unwrap_or(&DAMAGE),
+    }
+}
+
+/// The field that shows best what happened in a stored run, or in its natural modes.
+///
+/// # Errors
+///
+/// If a file cannot be used.
+pub fn first_field_of(outputs: &Outputs) -> Result<&'static ResultField, Error> {
+    if outputs.kind == OutputKind::Modes {
+        return Ok(&STRAIN_ENERGY_DENSITY);
+    }
+    let happened = if has_rows(&outputs.folder.join(softening_table::FILE))? {
+        Happened::Softened
+    } else if has_rows(&outputs.folder.join("breaks.csv"))? {
+        Happened::Broke
+    } else {
+        Happened::Nothing
+    };
+    let last = outputs.files.last_key_value();
+    let last = last.map(|(_, path)| VtuFile::open(path)).transpose()?;
+    let largest = |name: &str| {
+        let values = last
+            .as_ref()
+            .and_then(|file| file.numbers(location(file), name).ok()?);
+        values.into_iter().flatten().fold(0.0, f64::max)
+    };
+    Ok(first_field(happened, largest))
+}
+
+fn has_rows(path: &Path) -> Result<bool, Error> {
+    if !path.is_file() {
+        return Ok(false);
+    }
+    let steps = Sheet::read(path)?.values::<usize>("step")?;
+    Ok(!steps.is_empty())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_field_follows_what_the_bonds_did() {
+        let sliding = |name: &str| {
+            if name == DAMAGE_SLIDING.name {
+                0.5
+            } else {
+                0.25
+            }
+        };
+        for (happened, expected) in [
+            (Happened::Nothing, "displacement"),
+            (Happened::Broke, "damage"),
+            (Happened::Softened, "damage_sliding"),
+        ] {
+            assert_eq!(first_field(happened, sliding).name, expected);
+        }
+        assert_eq!(
+            first_field(Happened::Softened, |_| 0.25).name,
+            "damage_tension"
+        );
+        assert_eq!(first_field(Happened::Softened, |_| 0.0).name, "damage");
+    }
+}
