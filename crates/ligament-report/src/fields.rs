@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use ligament_output::results::fields::{Components, Interest, ResultField, unit_of};
-use ligament_output::vtu::read::VtuFile;
+use ligament_output::vtu::read::{TAGGED, VtuFile};
 use ligament_output::{Error, FieldLocation};
 use rayon::prelude::*;
 
@@ -87,9 +87,7 @@ pub(crate) fn read(
 }
 
 fn begin(file: &VtuFile, location: FieldLocation, digits: u32) -> Vec<Growing> {
-    let names = file
-        .fields(location)
-        .filter(|it| !matches!(*it, "node" | "cell"));
+    let names = file.fields(location).filter(|it| !TAGGED.contains(it));
     let field = |name: &str| {
         let (stride, names) = file.components(location, name).unwrap_or((1, &[]));
         let components: Vec<String> = match (stride, names) {

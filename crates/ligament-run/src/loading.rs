@@ -26,6 +26,8 @@ pub(crate) struct LoadedBody<'a> {
     pub(crate) loading: &'a Loading,
     pub(crate) build: Build,
     pub(crate) is_stopped: IsStopped<'a>,
+    /// Whether the run is to end at once, without a state of its own.
+    pub(crate) is_aborted: IsStopped<'a>,
 }
 
 /// State of a checkpoint from which a run continues.
@@ -50,6 +52,7 @@ impl LoadedBody<'_> {
             loading,
             ref build,
             is_stopped,
+            is_aborted,
         } = *self;
         let problem = loading.problem(model);
         let analysis = &model.setup.analysis;
@@ -58,7 +61,8 @@ impl LoadedBody<'_> {
         let (fixed, rule) = (&model.fixed, write_rule(case, analysis));
         let mut contents = Contents::default();
         let inputs = Inputs::of_course(case, &mut contents).map_err(unread)?;
-        let mut provenance = provenance(build.clone(), case, &mut contents).map_err(unread)?;
+        let provenance = provenance(build.clone(), case, folder.path(), &mut contents);
+        let mut provenance = provenance.map_err(unread)?;
         provenance.resumed = kept.is_some();
         let every = case.case.output.checkpoint_every;
         let checkpoints = Checkpoints::new(folder, inputs.text().to_owned(), every);
@@ -74,7 +78,8 @@ impl LoadedBody<'_> {
             }
         };
         let watched = (writer, checkpoints);
-        let mut watch = Watch::new(watched, is_stopped, progress, &model.setup, notices);
+        let stops = (is_stopped, is_aborted);
+        let mut watch = Watch::new(watched, stops, progress, &model.setup, notices);
         let outcome = stages.time("solution", || match restored {
             None => follow(&problem, analysis, &mut watch),
             Some(restored) => resume(analysis, restored, &mut watch),

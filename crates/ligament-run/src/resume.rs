@@ -115,6 +115,7 @@ impl Request<'_> {
             loading: &loading,
             build: self.build.clone(),
             is_stopped: &is_stopped,
+            is_aborted: &|| false,
         };
         let Some(folder) = folder else {
             body.follow_beside(restored)?;
@@ -139,9 +140,9 @@ impl Request<'_> {
             clear(&folder)?;
         }
         let summary = make_results(
-            case,
+            (case, false),
             || Ok(folder),
-            |folder| {
+            |folder, _| {
                 let summary = body.follow(folder, kept, &mut stages, &mut progress)?;
                 progress.finish(&summary.termination_message);
                 let is_complete = End::from_summary(&summary) != End::Stopped;

@@ -22,6 +22,7 @@ pub(crate) struct Watch<'a> {
     writer: ResultWriter<'a>,
     checkpoints: Checkpoints<'a>,
     is_stopped: IsStopped<'a>,
+    is_aborted: IsStopped<'a>,
     /// Whether the run stops in the next state.
     stops: bool,
     progress: &'a mut Progress,
@@ -36,7 +37,7 @@ impl<'a> Watch<'a> {
     /// The observer of a run of a setup, with a writer, checkpoints, a progress display and the notices of an earlier part of the run.
     pub(crate) fn new(
         (writer, checkpoints): (ResultWriter<'a>, Checkpoints<'a>),
-        is_stopped: IsStopped<'a>,
+        (is_stopped, is_aborted): (IsStopped<'a>, IsStopped<'a>),
         progress: &'a mut Progress,
         setup: &'a Setup,
         notices: Vec<String>,
@@ -56,6 +57,7 @@ impl<'a> Watch<'a> {
             writer,
             checkpoints,
             is_stopped,
+            is_aborted,
             stops: false,
             progress,
             notices,
@@ -68,6 +70,13 @@ impl<'a> Watch<'a> {
     /// Notices, first broken and softened bonds, and checkpoints of the run.
     pub(crate) fn into_parts(self) -> (Vec<String>, FirstBonds, Checkpoints<'a>) {
         (self.notices, self.writer.first_bonds(), self.checkpoints)
+    }
+
+    fn unless_aborted(&self) -> Result<(), ObserverError> {
+        match (self.is_aborted)() {
+            true => Err(ObserverError("stopped at once".into())),
+            false => Ok(()),
+        }
     }
 }
 
@@ -88,6 +97,7 @@ impl Observer for Watch<'_> {
         if step > 0 && round > 0 {
             self.progress.round(&self.last);
         }
+        self.unless_aborted()?;
         self.writer.round(step, round, load_factor, broken)
     }
 
@@ -97,6 +107,7 @@ impl Observer for Watch<'_> {
         residual: f64,
         stored_energy: f64,
     ) -> Result<(), ObserverError> {
+        self.unless_aborted()?;
         self.writer.iteration(iteration, residual, stored_energy)
     }
 

@@ -39,8 +39,13 @@ pub struct CrackArgs {
     /// The folder with the results of a run
     #[arg(value_name = "RESULT")]
     pub results: PathBuf,
-    /// Step of the crack: a number, first (breakage), peak or last; of a solid also all
-    #[arg(long, value_name = "STEP", default_value = "last")]
+    /// Step of the crack: a number, -1 for the last, first (breakage), peak or last; of a solid also all
+    #[arg(
+        long,
+        value_name = "STEP",
+        default_value = "last",
+        allow_negative_numbers = true
+    )]
     pub step: StepChoice,
     /// Write the surface in a solid on which a field has this value, in SI units, into iso.vtu
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true, value_parser = number)]

@@ -31,14 +31,14 @@ pub(super) struct SofteningTable {
 
 /// Events of the softening bonds that were reported: none, the beginning of softening, or an open crack.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SoftenedBonds {
+pub(super) struct SoftenedBonds {
     /// Number of reported events of each bond, shape (n_bonds).
     told: Vec<u8>,
 }
 
 /// A bond with new events.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct SoftenedBond {
+pub(super) struct SoftenedBond {
     /// Number of the bond.
     pub bond: usize,
     /// Number of the criterion.
@@ -131,14 +131,14 @@ impl SofteningTable {
 
 impl SoftenedBonds {
     /// A record of `n_bonds` bonds without events.
-    pub fn new(n_bonds: usize) -> Self {
+    pub(super) fn new(n_bonds: usize) -> Self {
         Self {
             told: vec![0; n_bonds],
         }
     }
 
     /// Bonds with new events in a state, those farthest beyond their limits first; the events then count as reported.
-    pub fn step(&mut self, view: &View<'_>) -> Vec<SoftenedBond> {
+    pub(super) fn step(&mut self, view: &View<'_>) -> Vec<SoftenedBond> {
         let changed = self.changed(view);
         let told = |(bond, criterion, now)| SoftenedBond {
             bond,

@@ -2,6 +2,8 @@
 
 use ligament_analysis::Component;
 
+use super::temperature::Sample;
+
 /// A position or a vector along x, y and z; in the plane the z coordinate is zero.
 pub type Position = [f64; 3];
 
@@ -123,15 +125,20 @@ impl From<f64> for Couple {
     }
 }
 
-/// A linear variation of a load: the share of a point is multiplied by (c - zero)/(one - zero), with the point's coordinate c.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Profile {
-    /// Axis of the coordinate c.
-    pub along: Axis,
-    /// Coordinate at which the load is zero, m.
-    pub zero: f64,
-    /// Coordinate at which the load has its given value, m.
-    pub one: f64,
+/// A variation of a load: the factor of the share of each point.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Profile {
+    /// The factor (c - zero)/(one - zero) with the point's coordinate c.
+    Linear {
+        /// Axis of the coordinate c.
+        along: Axis,
+        /// Coordinate at which the load is zero, m.
+        zero: f64,
+        /// Coordinate at which the load has its given value, m.
+        one: f64,
+    },
+    /// Factors at positions, each assigned to the point within a tenth of its distance to the nearest other point.
+    Table(Vec<Sample>),
 }
 
 /// An axis of the coordinates.
@@ -256,12 +263,5 @@ impl Load {
             stiffness: None,
             tilts: false,
         }
-    }
-}
-
-impl Profile {
-    /// Factor of the load at a position.
-    pub fn at(&self, position: &[f64]) -> f64 {
-        (position[self.along.number()] - self.zero) / (self.one - self.zero)
     }
 }

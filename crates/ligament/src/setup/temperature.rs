@@ -29,11 +29,11 @@ pub enum TemperatureChange {
     },
 }
 
-/// A change of temperature at a position.
+/// A value at a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
     /// Position, m.
     pub position: Position,
-    /// Change, K.
-    pub change: f64,
+    /// Value: of a temperature its change, K, of a load a factor.
+    pub value: f64,
 }
