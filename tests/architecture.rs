@@ -118,6 +118,7 @@ pub(crate) const ARROWS: [(&str, &[&str]); 16] = [
             "ligament-model",
             "ligament-output",
             "ligament-plot",
+            "ligament-report",
             "ligament-run",
             "ligament-study",
         ],

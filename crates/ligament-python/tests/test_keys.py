@@ -48,8 +48,8 @@ WRONG = {
 def checked(checker: str, script: str, folder: Path) -> "subprocess.CompletedProcess[str]":
     file = folder / "script.py"
     file.write_text(script)
-    command = [sys.executable, "-m", checker, str(file)]
-    # Warnings of the types of NumPy are not ours.
+    of_checker = {"pyright": ["--pythonpath", sys.executable]}.get(checker, [])
+    command = [sys.executable, "-m", checker, *of_checker, str(file)]
     return subprocess.run(command, text=True, capture_output=True, cwd=folder)
 
 

@@ -173,6 +173,12 @@ pub(crate) fn recorded(case: &CaseFile, folder: &Path) -> CaseFile {
     recorded
 }
 
+/// Whether a result folder has copies of files that its case reads.
+pub(crate) fn are_kept(case: &CaseFile, folder: &Path) -> bool {
+    let files = files(&recorded(case, folder));
+    files.iter().any(|(_, file)| file.is_relative())
+}
+
 /// The error of a file that cannot be read, with its path for the user.
 pub(crate) fn unread((path, error): (PathBuf, io::Error)) -> anyhow::Error {
     anyhow::Error::new(error).context(format!("cannot read {}", path.display()))

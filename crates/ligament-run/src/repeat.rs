@@ -14,7 +14,7 @@ use ligament_output::summary::{self, Build, Input, Provenance, SUMMARY, Summary}
 
 use crate::checkpoints::{IsStopped, VERSION};
 use crate::comparison::{Comparison, Ending};
-use crate::inputs::{Contents, files, unread};
+use crate::inputs::{Contents, are_kept, files, unread};
 use crate::progress::ProgressMode;
 use crate::provenance::provenance;
 use crate::run;
@@ -152,6 +152,7 @@ impl Request<'_> {
         let is_at_its_end = || was_cut_short && length(out) >= end;
         let request = run::Request {
             is_stopped: &|| (self.is_stopped)() || is_at_its_end(),
+            keeps_inputs: are_kept(case, folder),
             ..run::Request::new(case, out, self.build.clone())
         };
         let report = request

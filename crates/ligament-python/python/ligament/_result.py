@@ -137,15 +137,19 @@ class Result:
         """SI units of the columns of the history; `-` for counts, numbers without a unit, and where it is not known."""
         return self._run.units()
 
-    @functools.cached_property
+    @property
     def history(self) -> Any:
         """The history as a table of pandas, with ``attrs["units"]``, or of polars, whichever is installed, else as a dictionary."""
         return table(self.columns, self.units)
 
     @functools.cached_property
+    def _breaks(self) -> dict[str, Any]:
+        return self._run.table("breaks.csv")
+
+    @property
     def breaks(self) -> Any:
         """The bonds that broke, in their order, as a table like the history."""
-        return table(self._run.table("breaks.csv"))
+        return table(self._breaks)
 
     @functools.cached_property
     def points(self) -> dict[str, NDArray[Any]]:
