@@ -3,7 +3,6 @@
 use std::borrow::Cow;
 use std::path::PathBuf;
 
-use ligament_output::results::steps::{StepChoice, StepName};
 use ligament_plot::drawing::Drawing;
 use ligament_plot::picture::select::Choice;
 use ligament_plot::picture::units::Shown;
@@ -44,7 +43,7 @@ pub(crate) struct Wanted {
 pub(crate) fn draw_fields(
     py: Python<'_>,
     folder: PathBuf,
-    step: usize,
+    step: &str,
     wanted: Wanted,
 ) -> PyResult<(Drawn, String)> {
     let request = request(folder, step, wanted).map_err(|it| errors::of_request(py, &it))?;
@@ -53,7 +52,7 @@ pub(crate) fn draw_fields(
     Ok((Drawn(drawing), title))
 }
 
-fn request(folder: PathBuf, step: usize, wanted: Wanted) -> Result<FieldRequest, String> {
+fn request(folder: PathBuf, step: &str, wanted: Wanted) -> Result<FieldRequest, String> {
     let crack = match wanted.crack.as_deref() {
         None => None,
         Some("bonds") => Some(CrackDrawing::Bonds),
@@ -64,7 +63,7 @@ fn request(folder: PathBuf, step: usize, wanted: Wanted) -> Result<FieldRequest,
         folders: vec![folder],
         labels: vec![wanted.label],
         field: wanted.field,
-        choice: Choice::Steps(vec![StepChoice::One(StepName::Number(step))]),
+        choice: Choice::Steps(vec![step.parse()?]),
         magnification: wanted
             .scale
             .map_or(Magnification::Auto, Magnification::Times),

@@ -141,10 +141,13 @@ pub(crate) fn of_request(py: Python<'_>, fault: &str) -> PyErr {
 }
 
 /// A message of the program in the words of Python: `--set model.law=x` as `model__law=x`, `--unset title` as `title=None`.
-fn in_python(message: &str) -> String {
+pub(crate) fn in_python(message: &str) -> String {
     let keyword = |key: &str| key.replace('.', "__");
+    let message = message
+        .replace("--force", "replace=True")
+        .replace("--out", "folder");
     let mut words = String::new();
-    let mut rest = message;
+    let mut rest = message.as_str();
     while let Some((before, after)) = rest.split_once("--") {
         words.push_str(before);
         let ends = |it: char| it.is_whitespace() || [':', ',', ';', ')', '`'].contains(&it);

@@ -253,7 +253,7 @@ impl Folder {
         let mut words = Vec::new();
         let explained = py.detach(|| explain::explain(&request, &mut words));
         explained.map_err(|error| errors::of_request(py, &format!("{error:#}")))?;
-        Ok(String::from_utf8_lossy(&words).into_owned())
+        Ok(errors::in_python(&String::from_utf8_lossy(&words)))
     }
 
     /// Copies the results into another folder, where earlier results are replaced if `replace` is set.

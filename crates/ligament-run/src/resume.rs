@@ -94,7 +94,7 @@ impl Request<'_> {
         &self,
         case: &CaseFile,
         folder: Option<ResultFolder>,
-        found: Option<(Checkpoint, OutputState)>,
+        mut found: Option<(Checkpoint, OutputState)>,
         mut progress: Progress,
     ) -> anyhow::Result<Report> {
         let mut stages = Stages::default();
@@ -102,7 +102,6 @@ impl Request<'_> {
         let loading = loading(case, &model)?;
         let problem = loading.problem(&model);
         let communicator = &*self.communicator;
-        let mut found = found;
         let solution =
             (found.as_mut()).map(|(checkpoint, _)| std::mem::take(&mut checkpoint.solution));
         let solution = broadcast_solution(communicator, solution)?;

@@ -95,7 +95,7 @@ pub fn bond_stiffness(request: &Request, screen: &mut dyn Write) -> anyhow::Resu
         for plot in plots(name, &file_stem(name, index), curves) {
             folder.write(
                 &format!("{}.svg", plot.name),
-                &plot.for_screen()?.to_svg(&plot.title),
+                plot.for_screen()?.to_svg(&plot.title),
             )?;
         }
     }

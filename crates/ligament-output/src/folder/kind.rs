@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::atomic::PASSING;
 use crate::vtu;
 
 /// File that every run writes first; the marker of a folder with the results of a run.
@@ -90,7 +91,7 @@ impl Kind {
 
     /// Whether a file of this name may be removed with the results.
     pub(super) fn may_remove(self, name: &str) -> bool {
-        name == self.marker || name == LOCK || name == REPLACED || {
+        name == self.marker || [LOCK, REPLACED, PASSING].contains(&name) || {
             let whole = unfinished(name).unwrap_or(name);
             (self.owns)(whole) || self.is_unfinished(name)
         }
@@ -110,9 +111,9 @@ pub(super) fn unfinished(name: &str) -> Option<&str> {
     is_number(process).then_some(whole)
 }
 
-/// Whether a file of this name is a lock, or an unfinished file of the program.
+/// Whether a file of this name is a lock or another mark, or an unfinished file of the program.
 pub(super) fn is_own_trace(name: &str) -> bool {
-    name == LOCK || Kind::RUN.is_unfinished(name)
+    [LOCK, PASSING].contains(&name) || Kind::RUN.is_unfinished(name)
 }
 
 fn is_of_a_run(name: &str) -> bool {

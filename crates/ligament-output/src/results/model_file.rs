@@ -83,14 +83,7 @@ pub(super) fn write(
         .collect();
     let limits = limits(problem, n_absent);
     let largest = at_end.map(|(largest, _)| largest.columns(n_absent));
-    let dissipated = at_end.map(|(_, dissipated)| {
-        let nothing = std::iter::repeat_n(f64::NAN, n_absent);
-        dissipated
-            .iter()
-            .copied()
-            .chain(nothing)
-            .collect::<Vec<f64>>()
-    });
+    let dissipated = at_end.map(|(_, dissipated)| with_absent(dissipated, n_absent));
 
     let mut cell_fields = vec![
         Field::integer("absent", &absence),
@@ -115,6 +108,12 @@ pub(super) fn write(
     let subdomain = system.subdomain();
     let path = folder.join(vtu::file_name(MODEL, subdomain));
     lines.write(&path, grid, &point_fields, &cell_fields, subdomain)
+}
+
+/// Values of the bonds, with no number for each absent one.
+fn with_absent(values: &[f64], n_absent: usize) -> Vec<f64> {
+    let nothing = std::iter::repeat_n(f64::NAN, n_absent);
+    values.iter().copied().chain(nothing).collect()
 }
 
 /// Fields of the limits and coefficients of each criterion for each bond, by name.

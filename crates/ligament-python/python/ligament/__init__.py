@@ -23,8 +23,9 @@ can be kept and opened later. All values are in SI units.
 from ligament._case import Case, Setup
 from ligament._errors import BodyError, CaseError, Interrupted, LigamentError, NotCalibrated, SolutionError
 from ligament._keys import Key, Keys, keys
+from ligament._modes import Modes
 from ligament._native import VERSION as __version__
-from ligament._result import CrackLine, CrackSurface, Modes, Result, open, report
+from ligament._result import CrackLine, CrackSurface, Result, open, report
 from ligament._sections import Sections
 from ligament._studies import Calibration, Sweep, calibrate, modal, run, sweep
 

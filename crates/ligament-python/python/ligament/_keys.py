@@ -6,6 +6,7 @@ import difflib
 import functools
 import html
 import json
+import re
 import textwrap
 from dataclasses import dataclass
 from typing import Any
@@ -97,6 +98,8 @@ def _tables(schema: Schema) -> list[Schema]:
 def _key(path: str, schema: Schema) -> Key:
     words = schema.get("enum", [])
     meaning = str(schema.get("description") or schema.get("items", {}).get("description", ""))
+    # Lines of a paragraph are broken where the source breaks them.
+    meaning = re.sub(r"\n+(?=- )", "\n", re.sub(r"(?<!\n)\n(?![\n-])", " ", meaning))
     return Key(path, _kind(schema), schema.get("x-unit"), schema.get("default"), tuple(map(str, words)), meaning)
 
 

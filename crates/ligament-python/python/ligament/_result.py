@@ -182,7 +182,8 @@ class Result:
         positions, bonds = self._model
         ends = bonds["ends"]
         length = np.linalg.norm(positions[ends[:, 1]] - positions[ends[:, 0]], axis=1)
-        return {**bonds, "length": _read_only(length)}
+        taken = {} if "dissipated_energy" in bonds or not self.is_finished else {"dissipated_energy": _read_only(np.zeros(len(ends)))}
+        return {**bonds, "length": _read_only(length), **taken}
 
     @functools.cached_property
     def _summary_text(self) -> str:
@@ -324,7 +325,7 @@ class Result:
             "label": self.title, "field": field, "scale": scale, "crack": crack, "view": seen, "section": section, "level": level,
             "width": width,
         }
-        return Picture(*_native.draw_fields(self.folder, at, wanted))
+        return Picture(*_native.draw_fields(self.folder, "last" if step is None else str(step), wanted))
 
     def curve(self, x: str = "displacement", y: str = "reaction", *, width: float = WIDTH) -> Picture:
         """A picture of a column of the history over another, at first of the force over the displacement."""
@@ -439,62 +440,3 @@ def curves(results: list[Result], labels: list[str], axes: tuple[str, str] = ("d
     units = results[0].units
     named = [(word, units[name]) for word, name in zip(words, axes, strict=True)]
     return Picture(_native.draw_curves(drawn, named[0], named[1], "", width), f"{words[1]} over {words[0]}")
-
-
-class Modes:
-    """Natural modes: arrays over the modes, lowest first, and a shape over the points for each."""
-
-    def __init__(self, found: Mapping[str, Any], title: str) -> None:
-        self._found = found
-        self.title = title
-
-    @property
-    def frequency(self) -> Floats:
-        """Frequencies in Hz, 0 for rigid motions."""
-        frequency: Floats = self._found["frequency"]
-        return frequency
-
-    @property
-    def kind(self) -> list[str]:
-        """Whether each mode is `rigid` or `elastic`."""
-        return list(self._found["kind"])
-
-    @property
-    def participation(self) -> Floats:
-        """Participation of each mode in motions along x, along y and about the centre (n, 3); of a solid along and about x, y and z (n, 6)."""
-        participation: Floats = self._found["participation"]
-        return participation
-
-    @property
-    def mass(self) -> float:
-        """Mass of the body, kg."""
-        return float(self._found["mass"])
-
-    @property
-    def warnings(self) -> list[str]:
-        """What one should know of the modes."""
-        return list(self._found["warnings"])
-
-    @property
-    def position(self) -> Floats:
-        """Positions of the points (n, 2) or (n, 3), m."""
-        position: Floats = self._found["position"]
-        return position
-
-    def shape(self, mode: int) -> Floats:
-        """Displacements of the points (n, 3) in a mode, counted from 0."""
-        shape: Floats = self._found["shapes"][mode]["displacement"]
-        return shape
-
-    @property
-    def table(self) -> Any:
-        """Number, kind, frequency and residual of each mode as a table."""
-        n = len(self.frequency)
-        columns = {"mode": np.arange(n), "kind": self.kind}
-        return table({**columns, "frequency": self.frequency, "residual": self._found["residual"]})
-
-    def __len__(self) -> int:
-        return len(self.frequency)
-
-    def __repr__(self) -> str:
-        return f"<ligament.Modes {self.title!r}: {len(self)} modes>"
