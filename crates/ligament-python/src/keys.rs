@@ -2,7 +2,7 @@
 
 use pyo3::prelude::*;
 
-/// The JSON schema of a case file, from which keys, units and defaults are told.
+/// The JSON schema of a case file, with its keys, their units and their defaults.
 #[pyfunction]
 pub(crate) fn schema() -> String {
     ligament_case::case::schema().to_string()

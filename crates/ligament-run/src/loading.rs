@@ -9,7 +9,7 @@ use ligament_output::folder::ResultFolder;
 use ligament_output::results::{OutputState, PieceWriter, ResultWriter, Time, WriteRule};
 use ligament_output::summary::{self, Build, Summary};
 
-use crate::checkpoints::{Checkpoints, IsStopped};
+use crate::checkpoints::{Checkpoints, Stops};
 use crate::inputs::{Contents, Inputs, unread};
 use crate::pieces::Pieces;
 use crate::processes::broadcast_path;
@@ -25,9 +25,7 @@ pub(crate) struct LoadedBody<'a> {
     pub(crate) model: &'a Model,
     pub(crate) loading: &'a Loading,
     pub(crate) build: Build,
-    pub(crate) is_stopped: IsStopped<'a>,
-    /// Whether the run is to end at once, without a state of its own.
-    pub(crate) is_aborted: IsStopped<'a>,
+    pub(crate) requests: Stops<'a>,
 }
 
 /// State of a checkpoint from which a run continues.
@@ -51,8 +49,7 @@ impl LoadedBody<'_> {
             model,
             loading,
             ref build,
-            is_stopped,
-            is_aborted,
+            requests,
         } = *self;
         let problem = loading.problem(model);
         let analysis = &model.setup.analysis;
@@ -78,8 +75,7 @@ impl LoadedBody<'_> {
             }
         };
         let watched = (writer, checkpoints);
-        let stops = (is_stopped, is_aborted);
-        let mut watch = Watch::new(watched, stops, progress, &model.setup, notices);
+        let mut watch = Watch::new(watched, requests, progress, &model.setup, notices);
         let outcome = stages.time("solution", || match restored {
             None => follow(&problem, analysis, &mut watch),
             Some(restored) => resume(analysis, restored, &mut watch),
@@ -109,7 +105,7 @@ impl LoadedBody<'_> {
             case,
             model,
             loading,
-            is_stopped,
+            requests,
             ..
         } = *self;
         let problem = loading.problem(model);
@@ -120,7 +116,7 @@ impl LoadedBody<'_> {
             || PieceWriter::new(folder, &grid, fixed, write_rule(case, analysis), &problem);
         let is_divided = !model.system.subdomain().is_whole();
         let writer = is_divided.then(writer).transpose()?;
-        let mut pieces = Pieces::new(writer, is_stopped);
+        let mut pieces = Pieces::new(writer, requests.is_stopped);
         match restored {
             None => follow(&problem, analysis, &mut pieces)?,
             Some(restored) => resume(analysis, restored, &mut pieces)?,

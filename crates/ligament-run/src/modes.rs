@@ -17,7 +17,7 @@ use ligament_case::case::CaseFile;
 pub(crate) fn find_modes(
     case: &CaseFile,
     settings: ModalSettings,
-    (model, provenance, keeps_inputs): (&Model, Provenance, bool),
+    (model, provenance): (&Model, Provenance),
     create: impl FnOnce() -> Result<ResultFolder, ligament_output::Error>,
     mut stages: Stages,
 ) -> anyhow::Result<ModalSummary> {
@@ -30,7 +30,7 @@ pub(crate) fn find_modes(
     let outcome = stages.time("modes", || analysis.find())?;
 
     // Nothing is written or replaced before the modes are found.
-    make_results((case, keeps_inputs), create, |folder, case| {
+    make_results((case, false), create, |folder, case| {
         stages.time("output", || {
             let grid = model.body().grid();
             write_modes(folder, &grid, &*model.system, &model.fixed, &outcome)

@@ -15,7 +15,7 @@ use ligament_output::results::OutputState;
 use ligament_output::results::outputs::{clear, require_results};
 use ligament_output::summary::{self, Build, SUMMARY, Summary};
 
-use crate::checkpoints::{IsStopped, VERSION};
+use crate::checkpoints::{IsStopped, Stops, VERSION};
 use crate::destination::make_results;
 use crate::end::End;
 use crate::inputs::{Contents, Inputs, MAY_CHANGE, unread};
@@ -113,8 +113,7 @@ impl Request<'_> {
             model: &model,
             loading: &loading,
             build: self.build.clone(),
-            is_stopped: &is_stopped,
-            is_aborted: &|| false,
+            requests: Stops::in_order(&is_stopped),
         };
         let Some(folder) = folder else {
             body.follow_beside(restored)?;

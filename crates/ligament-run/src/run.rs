@@ -11,6 +11,7 @@ use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use ligament_output::folder::ResultFolder;
 use ligament_output::summary::{Build, ModalSummary, Summary};
 
+use crate::checkpoints::Stops;
 use crate::destination::{self, make_results};
 use crate::end::{End, StoppedBeforeSolution};
 use crate::inputs::{Contents, unread};
@@ -158,7 +159,7 @@ impl<'a> Request<'a> {
             let create = || ResultFolder::create(self.out, self.force);
             let (build, mut contents) = (self.build.clone(), Contents::default());
             let provenance = provenance(build, self.case, self.out, &mut contents);
-            let body = (model, provenance.map_err(unread)?, self.keeps_inputs);
+            let body = (model, provenance.map_err(unread)?);
             let summary = find_modes(self.case, settings, body, create, stages)?;
             progress.finish(&format!("{} modes found", summary.modes.len()));
             Ok(Report::Modes(Box::new(summary)))
@@ -188,8 +189,10 @@ fn follow_loads(
         model,
         loading: &loading,
         build: request.build.clone(),
-        is_stopped: &is_stopped,
-        is_aborted: request.is_aborted,
+        requests: Stops {
+            is_stopped: &is_stopped,
+            is_aborted: request.is_aborted,
+        },
     };
     if !communicator.is_root() {
         body.follow_beside(None)?;

@@ -10,7 +10,7 @@ use ligament_analysis::history::{
 };
 use ligament_output::results::ResultWriter;
 
-use crate::checkpoints::{Checkpoints, IsStopped};
+use crate::checkpoints::{Checkpoints, Stops};
 use crate::notices::words;
 use crate::progress::{Progress, StepLine};
 
@@ -21,8 +21,7 @@ const SHOWN: usize = 5;
 pub(crate) struct Watch<'a> {
     writer: ResultWriter<'a>,
     checkpoints: Checkpoints<'a>,
-    is_stopped: IsStopped<'a>,
-    is_aborted: IsStopped<'a>,
+    requests: Stops<'a>,
     /// Whether the run stops in the next state.
     stops: bool,
     progress: &'a mut Progress,
@@ -37,7 +36,7 @@ impl<'a> Watch<'a> {
     /// The observer of a run of a setup, with a writer, checkpoints, a progress display and the notices of an earlier part of the run.
     pub(crate) fn new(
         (writer, checkpoints): (ResultWriter<'a>, Checkpoints<'a>),
-        (is_stopped, is_aborted): (IsStopped<'a>, IsStopped<'a>),
+        requests: Stops<'a>,
         progress: &'a mut Progress,
         setup: &'a Setup,
         notices: Vec<String>,
@@ -56,8 +55,7 @@ impl<'a> Watch<'a> {
         Self {
             writer,
             checkpoints,
-            is_stopped,
-            is_aborted,
+            requests,
             stops: false,
             progress,
             notices,
@@ -73,7 +71,7 @@ impl<'a> Watch<'a> {
     }
 
     fn unless_aborted(&self) -> Result<(), ObserverError> {
-        match (self.is_aborted)() {
+        match (self.requests.is_aborted)() {
             true => Err(ObserverError("stopped at once".into())),
             false => Ok(()),
         }
@@ -125,7 +123,7 @@ impl Observer for Watch<'_> {
     }
 
     fn asks(&mut self, end: Option<&Termination>) -> Result<bool, ObserverError> {
-        self.stops = end.is_none() && (self.is_stopped)();
+        self.stops = end.is_none() && (self.requests.is_stopped)();
         let stops = self.stops.then_some(&Termination::Stopped);
         self.checkpoints.ask(stops.or(end));
         Ok(self.checkpoints.is_due())

@@ -2,8 +2,6 @@
 
 use ligament_analysis::Component;
 
-use super::temperature::Sample;
-
 /// A position or a vector along x, y and z; in the plane the z coordinate is zero.
 pub type Position = [f64; 3];
 
@@ -123,6 +121,15 @@ impl From<f64> for Couple {
             about: [0.0, 0.0, about_z],
         }
     }
+}
+
+/// A value at a position.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Position, m.
+    pub position: Position,
+    /// Value: of a temperature its change, K, of a load a factor.
+    pub value: f64,
 }
 
 /// A variation of a load: the factor of the share of each point.
