@@ -118,6 +118,7 @@ pub(crate) const ARROWS: [(&str, &[&str]); 16] = [
             "ligament-model",
             "ligament-output",
             "ligament-plot",
+            "ligament-report",
             "ligament-run",
             "ligament-study",
         ],
@@ -175,11 +176,12 @@ const RESERVED: [(&str, &[&str]); 17] = [
 ];
 
 /// Crates that touch files.
-const WITH_FILES: [&str; 8] = [
+const WITH_FILES: [&str; 9] = [
     "ligament-case",
     "ligament-cli",
     "ligament-output",
     "ligament-plot",
+    "ligament-python",
     "ligament-report",
     "ligament-run",
     "ligament-study",

@@ -254,7 +254,7 @@ fn torque(mut setup: Setup, section: f64) -> f64 {
     let end = |z: f64| Place::Box([[-2.0, -2.0, z - 1e-6], [2.0, 2.0, z + 1e-6]]);
     let turned = |name: &str, value: Displacement, along: Axis| Load {
         name: name.to_owned(),
-        profile: Some(Profile {
+        profile: Some(Profile::Linear {
             along,
             zero: 0.0,
             one: 1.0,

@@ -179,12 +179,8 @@ fn a_resumed_run_gives_the_same_bits() {
         let asked = AtomicUsize::new(0);
         let case = split_block(&settings);
         let request = run::Request {
-            case: &case,
-            out: &out,
-            force: false,
-            build: Build::default(),
-            communicator: std::sync::Arc::new(ligament_analysis::distributed_matrix::Solo),
             is_stopped: &|| asked.fetch_add(1, Ordering::Relaxed) > 20,
+            ..run::Request::new(&case, &out, Build::default())
         };
         assert!(request.run(ProgressMode::Quiet).unwrap().is_stopped());
         assert!(broken(&out).len() < 60);

@@ -61,12 +61,8 @@ impl Stopped {
         let out = beside.path().join("out");
         let asked = AtomicUsize::new(0);
         let request = run::Request {
-            case: &case,
-            out: &out,
-            force: false,
-            build: Build::default(),
-            communicator: std::sync::Arc::new(ligament_analysis::distributed_matrix::Solo),
             is_stopped: &|| asked.fetch_add(1, Ordering::Relaxed) > 2,
+            ..run::Request::new(&case, &out, Build::default())
         };
         assert!(request.run(ProgressMode::Quiet).unwrap().is_stopped());
         Self {

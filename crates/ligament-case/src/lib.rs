@@ -6,6 +6,7 @@
 //! | [`setup`] | the typed setup of a case, and its errors at the responsible keys |
 //! | [`input_file`] | the reader of the user's files |
 //! | [`mesh_file`] | the reader of a case's mesh |
+//! | [`point_table`] | tables of values at positions, and of bodies of points |
 //! | [`starter`] | commented starter cases |
 #![cfg_attr(
     test,
@@ -15,6 +16,6 @@
 pub mod case;
 pub mod input_file;
 pub mod mesh_file;
+pub mod point_table;
 pub mod setup;
 pub mod starter;
-mod temperature_table;

@@ -7,6 +7,7 @@ use ligament_mesh::gmsh::{self, GmshError};
 use ligament_mesh::{AnyMesh, Mesh};
 
 use crate::input_file;
+use crate::point_table;
 
 /// Error of reading a mesh file.
 #[derive(Debug, thiserror::Error)]
@@ -59,13 +60,17 @@ fn read<T>(path: &Path, parse: fn(&[u8]) -> Result<T, GmshError>) -> Result<T, M
     })
 }
 
-/// Whether a file has a mesh of solid cells.
+/// Whether a file has a mesh of solid cells, or points of a solid.
 ///
 /// # Errors
 ///
 /// If the file cannot be read.
 pub(crate) fn holds_solid(path: &Path) -> io::Result<bool> {
-    input_file::read(path).map(|bytes| gmsh::holds_solid(&bytes))
+    let bytes = input_file::read(path)?;
+    Ok(match point_table::is_table(path) {
+        true => point_table::holds_solid(&bytes),
+        false => gmsh::holds_solid(&bytes),
+    })
 }
 
 /// The lowest and the highest corner of the box around positions, m.

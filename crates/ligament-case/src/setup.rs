@@ -1,14 +1,14 @@
 //! The setup of a computation from a case file and the files that it names.
 
 use ligament::body::{AnyBody, MeshBody, SolidMeshBody};
-use ligament::setup::{Setup, TemperatureChange};
+use ligament::setup::{Profile, Setup, TemperatureChange};
 use ligament::stage::{StageWatcher, stage};
 use ligament_analysis::SetupError;
 use ligament_mesh::AnyMesh;
 
 use crate::case::{CaseError, CaseFile, lattice_keys};
 use crate::mesh_file::{read_any_mesh, read_mesh};
-use crate::temperature_table;
+use crate::point_table;
 
 impl CaseFile {
     /// The setup of the case, with its mesh and tables read from their files.
@@ -38,10 +38,18 @@ impl CaseFile {
         Err(self.error(key, reason))
     }
 
-    /// The body of the case, with the mesh read from its file.
-    fn read_body(&self, watcher: &mut dyn StageWatcher) -> anyhow::Result<AnyBody> {
+    /// The body of the case, with the mesh or the points read from their file.
+    ///
+    /// # Errors
+    ///
+    /// As for [`setup`](Self::setup).
+    pub fn read_body(&self, watcher: &mut dyn StageWatcher) -> anyhow::Result<AnyBody> {
         let case = &self.case;
         match (&case.mesh, &case.lattice, &case.solid_lattice) {
+            (Some(section), _, _) if point_table::is_table(&section.file) => {
+                let body = stage(watcher, "read points", || point_table::body(&section.file));
+                body.map_err(|reason| self.error("mesh.file", reason).into())
+            }
             (Some(section), _, _) if section.is_solid => {
                 let mesh = stage(watcher, "read mesh", || read_any_mesh(&section.file))?;
                 let AnyMesh::Solid(mesh) = mesh else {
@@ -70,18 +78,25 @@ impl CaseFile {
     ///
     /// # Errors
     ///
-    /// If a table of temperatures cannot be read.
+    /// If a table of temperatures or of factors of a load cannot be read.
     pub fn setup_on(&self, body: AnyBody) -> Result<Setup, CaseError> {
         let dimensions = body.dimensions();
         let setup = self.case.setup_on(body);
         let mut setup = setup.map_err(|fault| self.source.error(fault))?;
         for (index, section) in self.case.temperatures.iter().enumerate() {
             if let Some(file) = &section.file {
-                let rows = temperature_table::rows_of(file, dimensions);
-                let rows = rows
+                let samples = point_table::samples(file, dimensions, ["change", " (K)"]);
+                let samples = samples
                     .map_err(|reason| self.error(&format!("temperature.{index}.file"), reason))?;
-                let samples = rows.into_iter().map(|(_, sample)| sample);
-                setup.temperatures[index].change = TemperatureChange::Table(samples.collect());
+                setup.temperatures[index].change = TemperatureChange::Table(samples);
+            }
+        }
+        for (index, section) in self.case.loads.iter().enumerate() {
+            if let Some(file) = section.profile.as_ref().and_then(|it| it.file.as_ref()) {
+                let samples = point_table::samples(file, dimensions, ["factor", ""]);
+                let samples = samples
+                    .map_err(|reason| self.error(&format!("load.{index}.profile.file"), reason))?;
+                setup.loads[index].profile = Some(Profile::Table(samples));
             }
         }
         Ok(setup)

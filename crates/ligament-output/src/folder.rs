@@ -1,5 +1,6 @@
 //! The folder with the results of one run.
 
+mod copy;
 mod entries;
 mod kind;
 mod lock;
@@ -16,8 +17,9 @@ use entries::{remove_files, resolved};
 use lock::Lock;
 use replacement::{behind, beside, free_place_aside};
 
+pub use copy::copy_results;
 pub use entries::{refuse_link, refuse_links, remove_unfinished_pages};
-pub use kind::{Kind, REPORT, RESOLVED_CASE, is_made_later};
+pub use kind::{Kind, REPORT, RESOLVED_CASE, input_name, is_made_later};
 pub use replacement::{put_in_place, recover};
 
 /// A folder for the results of one run, locked against other processes.
@@ -170,13 +172,13 @@ impl ResultFolder {
         self.path.join(name)
     }
 
-    /// Writes a text file in the folder atomically, replacing an earlier file of that name.
+    /// Writes a file in the folder atomically, replacing an earlier file of that name.
     ///
     /// # Errors
     ///
     /// If the file cannot be written.
-    pub fn write_text(&self, name: &str, text: &str) -> Result<(), Error> {
-        replace_file(&self.file(name), text.as_bytes())
+    pub fn write(&self, name: &str, contents: impl AsRef<[u8]>) -> Result<(), Error> {
+        replace_file(&self.file(name), contents.as_ref())
     }
 
     /// Removes a file of the folder, if it exists.
@@ -288,10 +290,8 @@ mod tests {
     fn creates_parents_and_writes_texts() {
         let parent = tempfile::tempdir().unwrap();
         let folder = ResultFolder::create(parent.path().join("a/b"), false).unwrap();
-        folder.write_text("summary.json", "{}").unwrap();
-        folder
-            .write_text("summary.json", "{\"volume\": 1.0}")
-            .unwrap();
+        folder.write("summary.json", "{}").unwrap();
+        folder.write("summary.json", "{\"volume\": 1.0}").unwrap();
         let text = fs::read_to_string(folder.path().join("summary.json")).unwrap();
         assert_eq!(text, "{\"volume\": 1.0}");
         drop(folder);
@@ -331,7 +331,7 @@ mod tests {
     /// Makes new results in a folder, up to the end.
     fn replace(path: &Path) {
         let folder = ResultFolder::create(path, true).unwrap();
-        folder.write_text(RESOLVED_CASE, "new").unwrap();
+        folder.write(RESOLVED_CASE, "new").unwrap();
         folder.finish().unwrap();
     }
 
@@ -341,7 +341,7 @@ mod tests {
         ResultFolder::check(&path, true).unwrap();
         assert_eq!(n_entries(&path), 2, "a check touches nothing");
         let folder = ResultFolder::create(&path, true).unwrap();
-        folder.write_text(RESOLVED_CASE, "new").unwrap();
+        folder.write(RESOLVED_CASE, "new").unwrap();
         assert_eq!(folder.path(), parent.path().join("results.new"));
         drop(folder);
         assert_eq!(names_in(&path), [RESOLVED_CASE, "fields_0000.vtu"]);
@@ -415,7 +415,7 @@ mod tests {
         for name in ["results", "results.new"] {
             let (parent, path) = results_with(&[RESOLVED_CASE]);
             let folder = ResultFolder::create(&path, true).unwrap();
-            folder.write_text(RESOLVED_CASE, "new").unwrap();
+            folder.write(RESOLVED_CASE, "new").unwrap();
             drop(folder);
             let folder = ResultFolder::resumed(parent.path().join(name)).unwrap();
             assert_eq!(folder.path(), parent.path().join("results.new"));

@@ -259,7 +259,7 @@ pub fn write<S: Serialize>(folder: &ResultFolder, summary: &S) -> Result<(), Err
         path: folder.file(SUMMARY),
         reason: error.to_string(),
     })?;
-    folder.write_text(SUMMARY, &(text + "\n"))
+    folder.write(SUMMARY, &(text + "\n"))
 }
 
 fn is_false(value: &bool) -> bool {

@@ -1,115 +1,107 @@
-//! Bodies from arrays.
+//! Bodies from arrays, written as files that a case reads.
 
-use ligament::body::{self, AnyBody, MeshBody, Points, SolidMeshBody};
-use ligament_case::case::BodyKind;
+use std::path::PathBuf;
+
+use ligament::body::Points;
+use ligament_case::point_table;
 use ligament_mesh::AnyMesh;
 use ligament_mesh::gmsh::{self, Element};
+use ligament_output::replace_file;
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 use crate::errors;
 
-/// Kind of a body.
-pub(crate) fn kind(body: &AnyBody) -> BodyKind {
-    match body {
-        AnyBody::Plane(_) => BodyKind::Plane,
-        AnyBody::Solid(_) => BodyKind::Solid,
-    }
-}
-
-/// A body of a setup, of any origin.
-#[pyclass(frozen, module = "ligament._native")]
-pub(crate) struct Body {
-    pub(crate) body: AnyBody,
-}
-
 /// Elements of a mesh: dimension, tags of the corners, shape (n, corners), and name of their group.
 type Elements<'py> = (u8, PyReadonlyArray2<'py, u64>, Option<String>);
 
-#[pymethods]
-impl Body {
-    /// A body of points at positions (n, 2) or (n, 3), m, with areas, m^2, or volumes, m^3, (n), and groups by indices.
-    #[staticmethod]
-    fn of_points(
-        py: Python<'_>,
-        positions: PyReadonlyArray2<'_, f64>,
-        sizes: PyReadonlyArray1<'_, f64>,
-        groups: Vec<(String, Vec<u32>)>,
-    ) -> PyResult<Self> {
-        let sizes = sizes.as_array().to_vec();
-        let body = match positions.as_array().ncols() {
-            3 => {
-                let points: Points<3> = points(py, positions_of(py, &positions)?, sizes, groups)?;
-                AnyBody::new(points)
-            }
-            _ => {
-                let points: Points = points(py, positions_of(py, &positions)?, sizes, groups)?;
-                AnyBody::new(points)
-            }
-        };
-        Ok(Self { body })
-    }
+/// Groups of points by their indices.
+type Groups = Vec<(String, Vec<u32>)>;
 
-    /// A meshed body: tags of the nodes (n), their positions (n, 3), and elements with their groups.
-    #[staticmethod]
-    fn of_mesh(
-        py: Python<'_>,
-        tags: PyReadonlyArray1<'_, u64>,
-        positions: PyReadonlyArray2<'_, f64>,
-        elements: Vec<Elements<'_>>,
-    ) -> PyResult<Self> {
-        let positions = positions_of(py, &positions)?;
-        let nodes: Vec<(u64, [f64; 3])> = tags.as_array().iter().copied().zip(positions).collect();
-        let mut all = Vec::new();
-        for (dimension, corners, group) in &elements {
-            let rows = corners.as_array();
-            let rows = rows.rows().into_iter();
-            all.extend(rows.map(|row| Element {
-                dimension: *dimension,
-                corners: row.to_vec(),
-                group: group.as_deref(),
-            }));
-        }
-        let mesh = gmsh::assemble(&nodes, &all);
-        let mesh = mesh.map_err(|error| errors::of_body(py, &error.to_string()))?;
-        let body = match mesh {
-            AnyMesh::Plane(mesh) => AnyBody::new(MeshBody::from(mesh)),
-            AnyMesh::Solid(mesh) => AnyBody::new(SolidMeshBody::from(mesh)),
-        };
-        Ok(Self { body })
-    }
-
-    /// Number of points.
-    #[getter]
-    fn n_points(&self) -> usize {
-        self.body.n_points()
-    }
-
-    /// Names of the groups.
-    #[getter]
-    fn groups(&self) -> Vec<String> {
-        self.body.group_names()
-    }
-
-    /// Whether the body is a solid.
-    #[getter]
-    fn is_solid(&self) -> bool {
-        kind(&self.body) == BodyKind::Solid
-    }
+/// Writes a body of points at positions (n, 2) or (n, 3), m, with areas, m^2, or volumes, m^3, (n), and groups by indices.
+#[pyfunction]
+pub(crate) fn write_points(
+    py: Python<'_>,
+    path: PathBuf,
+    positions: PyReadonlyArray2<'_, f64>,
+    sizes: PyReadonlyArray1<'_, f64>,
+    groups: Groups,
+) -> PyResult<()> {
+    let sizes = sizes.as_array().to_vec();
+    let text = match positions.as_array().ncols() {
+        3 => points_text::<3>(py, &positions, sizes, &groups)?,
+        _ => points_text::<2>(py, &positions, sizes, &groups)?,
+    };
+    written(py, &path, &text)
 }
 
-fn points<const D: usize>(
+/// Writes a meshed body: tags of the nodes (n), their positions (n, 3), and elements with their groups.
+#[pyfunction]
+pub(crate) fn write_mesh(
     py: Python<'_>,
-    positions: Vec<[f64; D]>,
-    sizes: Vec<f64>,
-    groups: Vec<(String, Vec<u32>)>,
-) -> PyResult<Points<D>> {
-    let fault = |error: body::PointsError| errors::of_body(py, &error.to_string());
-    let mut points = Points::new(positions, sizes).map_err(fault)?;
-    for (name, indices) in groups {
-        points = points.with_group(&name, indices).map_err(fault)?;
+    path: PathBuf,
+    tags: PyReadonlyArray1<'_, u64>,
+    positions: PyReadonlyArray2<'_, f64>,
+    elements: Vec<Elements<'_>>,
+) -> PyResult<()> {
+    let positions = positions_of(py, &positions)?;
+    let nodes: Vec<(u64, [f64; 3])> = tags.as_array().iter().copied().zip(positions).collect();
+    let mut all = Vec::new();
+    for (dimension, corners, group) in &elements {
+        let rows = corners.as_array();
+        let rows = rows.rows().into_iter();
+        all.extend(rows.map(|row| Element {
+            dimension: *dimension,
+            corners: row.to_vec(),
+            group: group.as_deref(),
+        }));
     }
-    Ok(points)
+    let mesh = gmsh::assemble(&nodes, &all);
+    let text = match mesh.map_err(|error| errors::of_body(py, &error.to_string()))? {
+        AnyMesh::Plane(mesh) => gmsh::write(&mesh),
+        AnyMesh::Solid(mesh) => gmsh::write(&mesh),
+    };
+    written(py, &path, &text)
+}
+
+/// Writes a table of values (n) at positions (n, 2) or (n, 3), m.
+#[pyfunction]
+pub(crate) fn write_samples(
+    py: Python<'_>,
+    path: PathBuf,
+    column: &str,
+    positions: PyReadonlyArray2<'_, f64>,
+    values: PyReadonlyArray1<'_, f64>,
+) -> PyResult<()> {
+    let values = values.as_array().to_vec();
+    let text = match positions.as_array().ncols() {
+        3 => point_table::text_of_samples::<3>(column, &positions_of(py, &positions)?, &values),
+        _ => point_table::text_of_samples::<2>(column, &positions_of(py, &positions)?, &values),
+    };
+    written(py, &path, &text)
+}
+
+fn written(py: Python<'_>, path: &std::path::Path, text: &str) -> PyResult<()> {
+    let written = replace_file(path, text.as_bytes());
+    written.map_err(|error| errors::of_request(py, &error.to_string()))
+}
+
+/// The table of points that are a body.
+fn points_text<const D: usize>(
+    py: Python<'_>,
+    positions: &PyReadonlyArray2<'_, f64>,
+    sizes: Vec<f64>,
+    groups: &Groups,
+) -> PyResult<String> {
+    let fault = |error: String| errors::of_body(py, &error);
+    let positions: Vec<[f64; D]> = positions_of(py, positions)?;
+    let text = point_table::text_of_points(&positions, &sizes, groups).map_err(fault)?;
+    let mut points = Points::new(positions, sizes).map_err(|it| fault(it.to_string()))?;
+    for (name, indices) in groups {
+        let with = points.with_group(name, indices.iter().copied());
+        points = with.map_err(|it| fault(it.to_string()))?;
+    }
+    Ok(text)
 }
 
 fn positions_of<const D: usize>(

@@ -1,6 +1,7 @@
 //! Cases.
 
 use std::path::PathBuf;
+use std::sync::OnceLock;
 
 use ligament::Setup;
 use ligament::body::AnyBody;
@@ -8,15 +9,15 @@ use ligament_case::case::CaseFile;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::body::{Body, kind};
+use crate::arrays::rows;
 use crate::errors::{Failure, of_case, of_request};
 use crate::{document, errors};
 
-/// A checked case, with its body if that is in memory.
+/// A checked case.
 #[pyclass(frozen, module = "ligament._native")]
 pub(crate) struct Case {
     pub(crate) file: CaseFile,
-    pub(crate) body: Option<AnyBody>,
+    body: OnceLock<AnyBody>,
 }
 
 #[pymethods]
@@ -26,7 +27,7 @@ impl Case {
     fn load(py: Python<'_>, path: PathBuf, changes: &Bound<'_, PyDict>) -> PyResult<Self> {
         let overrides = document::overrides(changes)?;
         let file = CaseFile::load(&path, &overrides).map_err(|it| of_case(py, &it))?;
-        Ok(Self { file, body: None })
+        Ok(Self::new(file))
     }
 
     /// The case in a text, with overrides; `path` is the path that its file would have.
@@ -39,43 +40,28 @@ impl Case {
     ) -> PyResult<Self> {
         let overrides = document::overrides(changes)?;
         let file = CaseFile::parse(&path, text, &overrides).map_err(|it| of_case(py, &it))?;
-        Ok(Self { file, body: None })
+        Ok(Self::new(file))
     }
 
-    /// The case of sections in memory, with overrides, on a body in memory or the body of its sections; `path` is the path that its file
-    /// would have.
+    /// The case of sections in memory, with overrides; `path` is the path that its file would have.
     #[staticmethod]
     fn of_sections(
         py: Python<'_>,
         sections: &Bound<'_, PyDict>,
         path: PathBuf,
         changes: &Bound<'_, PyDict>,
-        body: Option<&Bound<'_, Body>>,
     ) -> PyResult<Self> {
         let document = document::document(sections)?;
         let overrides = document::overrides(changes)?;
-        let body = body.map(|it| it.get().body.clone());
-        let file = match &body {
-            Some(body) => CaseFile::on_body(&path, document, &overrides, kind(body)),
-            None => CaseFile::of_document(&path, document, &overrides),
-        };
-        Ok(Self {
-            file: file.map_err(|it| of_case(py, &it))?,
-            body,
-        })
+        let file = CaseFile::of_document(&path, document, &overrides);
+        Ok(Self::new(file.map_err(|it| of_case(py, &it))?))
     }
 
     /// The case with further overrides.
     fn changed(&self, py: Python<'_>, changes: &Bound<'_, PyDict>) -> PyResult<Self> {
         let more = document::overrides(changes)?;
-        let file = self
-            .file
-            .with_overrides(&more)
-            .map_err(|it| of_case(py, &it))?;
-        Ok(Self {
-            file,
-            body: self.body.clone(),
-        })
+        let file = self.file.with_overrides(&more);
+        Ok(Self::new(file.map_err(|it| of_case(py, &it))?))
     }
 
     /// Title of the case.
@@ -88,6 +74,12 @@ impl Case {
     #[getter]
     fn name(&self) -> String {
         self.file.name()
+    }
+
+    /// Path of the file of the case, or that it would have.
+    #[getter]
+    fn path(&self) -> PathBuf {
+        self.file.source.path.clone()
     }
 
     /// Whether the case is an analysis of natural modes.
@@ -107,14 +99,67 @@ impl Case {
         let text = self.file.resolved_toml();
         text.map_err(|error| errors::of_request(py, &error.to_string()))
     }
+
+    /// The given sections as TOML, with the changes to them.
+    fn source(&self, py: Python<'_>) -> PyResult<String> {
+        document::text(py, &self.file.source.document)
+    }
+
+    /// Number of points of the body.
+    #[getter]
+    fn n_points(&self, py: Python<'_>) -> PyResult<usize> {
+        Ok(self.body(py)?.n_points())
+    }
+
+    /// Names of the groups of the body.
+    #[getter]
+    fn groups(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        Ok(self.body(py)?.group_names())
+    }
+
+    /// Whether the body is a solid.
+    #[getter]
+    fn is_solid(&self) -> bool {
+        self.file.case.is_solid()
+    }
+
+    /// Positions of the points, in the order of the body's file: (n, 2) or (n, 3), m.
+    fn positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let (body, in_space) = (self.body(py)?, self.is_solid());
+        let positions: Vec<f64> = match body {
+            AnyBody::Plane(body) => body
+                .numbering()
+                .to_file(body.positions().to_vec())
+                .into_flattened(),
+            AnyBody::Solid(body) => body
+                .numbering()
+                .to_file(body.positions().to_vec())
+                .into_flattened(),
+        };
+        rows(py, positions, if in_space { 3 } else { 2 })
+    }
 }
 
 impl Case {
+    fn new(file: CaseFile) -> Self {
+        Self {
+            file,
+            body: OnceLock::new(),
+        }
+    }
+
+    /// The body of the case, which is read once.
+    fn body(&self, py: Python<'_>) -> PyResult<&AnyBody> {
+        if let Some(body) = self.body.get() {
+            return Ok(body);
+        }
+        let read = py.detach(|| self.file.read_body(&mut ()));
+        let body = read.map_err(|error| Failure::Other(error).exception(py))?;
+        Ok(self.body.get_or_init(|| body))
+    }
+
     /// The setup of the case on its body.
     pub(crate) fn setup(&self) -> Result<Setup, Failure> {
-        Ok(match &self.body {
-            Some(body) => self.file.setup_on(body.clone())?,
-            None => self.file.setup(&mut ())?,
-        })
+        Ok(self.file.setup(&mut ())?)
     }
 }

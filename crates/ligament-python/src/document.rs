@@ -41,6 +41,17 @@ pub(crate) fn overrides(changes: &Bound<'_, PyDict>) -> PyResult<Vec<String>> {
     Ok(all)
 }
 
+/// The text of a document in TOML, a line for each section.
+pub(crate) fn text(py: Python<'_>, document: &Node) -> PyResult<String> {
+    let line = |entry: &Entry| {
+        let place = KeyPath(vec![entry.key.clone()]);
+        let value = written::toml(&entry.node, &place);
+        let value = value.map_err(|it| errors::at_key(py, &place, &it.fault.to_string()))?;
+        Ok(format!("{place} = {value}\n"))
+    };
+    document.entries().iter().map(line).collect()
+}
+
 fn in_memory(value: Value) -> Node {
     Node {
         origin: Origin::Memory,

@@ -1,15 +1,14 @@
-//! Pictures of results in memory.
+//! Pictures in memory.
 
 use std::borrow::Cow;
+use std::path::PathBuf;
 
-use ligament_mesh::Cell;
-use ligament_model::{BodyGrid, Canvas};
-use ligament_output::results::fields::unit_of;
-use ligament_output::vtu;
 use ligament_plot::drawing::Drawing;
-use ligament_plot::picture::PictureError;
-use ligament_plot::picture::maps::{MappedBody, Maps};
+use ligament_plot::picture::select::Choice;
 use ligament_plot::picture::units::Shown;
+use ligament_plot::picture::{
+    CrackDrawing, FieldRequest, Magnification, SolidRequest, Target, picture_of_fields,
+};
 use ligament_plot::plots::{Colour, Plot, Series};
 use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyValueError;
@@ -17,52 +16,77 @@ use pyo3::prelude::*;
 
 use crate::errors;
 
-/// A field on a body.
-pub(crate) struct Picture<'a> {
-    pub(crate) grid: &'a BodyGrid,
-    /// Description of the quantity.
-    pub(crate) quantity: String,
-    /// Name of the field, which determines the unit.
-    pub(crate) field: &'a str,
-    /// Values, shape (n_points).
-    pub(crate) values: Vec<f64>,
-    /// Displacements of the points, shape (n_points), m.
-    pub(crate) displacements: Vec<[f64; 2]>,
-    pub(crate) title: String,
+/// What a picture of a field shows, and how.
+#[derive(Debug, FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Wanted {
+    /// Name of the result.
+    label: String,
+    /// Field with its component; `none` draws none.
+    field: Option<String>,
+    /// Factor on the displacement.
+    scale: Option<f64>,
+    /// `bonds` or `lines`.
+    crack: Option<String>,
+    /// Side from which a solid is seen.
+    view: Option<String>,
+    /// Plane of a section of a solid.
+    section: Option<String>,
+    /// Value of the field on a surface in a solid.
+    level: Option<f64>,
+    /// Width, mm.
+    width: f64,
 }
 
-/// The picture with a width, mm.
-pub(crate) fn drawn(picture: Picture<'_>, width: f64) -> Result<Drawn, PictureError> {
-    let Picture {
-        grid,
-        values,
-        displacements,
-        ..
-    } = picture;
-    let body = match &grid.canvas {
-        Canvas::Around(squares) => MappedBody::of_squares("", squares, &displacements, values),
-        Canvas::Between(cells) => {
-            let drawn = |cell: &Cell| match *cell {
-                Cell::Triangle(corners) => vtu::Cell::Triangle(corners),
-                Cell::Quadrangle(corners) => vtu::Cell::Quad(corners),
-            };
-            let cells = cells.iter().map(drawn).collect();
-            MappedBody::of_mesh("", grid.positions_in_plane(), cells, displacements, values)
-        }
-        Canvas::Solid(_) | Canvas::Boxes(_) => {
-            return Err(PictureError::Solid("a map from memory"));
-        }
+/// The picture of a step of the results in a folder, with its title.
+#[pyfunction]
+pub(crate) fn draw_fields(
+    py: Python<'_>,
+    folder: PathBuf,
+    step: &str,
+    wanted: Wanted,
+) -> PyResult<(Drawn, String)> {
+    let request = request(folder, step, wanted).map_err(|it| errors::of_request(py, &it))?;
+    let drawn = py.detach(|| picture_of_fields(&request));
+    let (drawing, title) = drawn.map_err(|error| errors::of_request(py, &error.to_string()))?;
+    Ok((Drawn(drawing), title))
+}
+
+fn request(folder: PathBuf, step: &str, wanted: Wanted) -> Result<FieldRequest, String> {
+    let crack = match wanted.crack.as_deref() {
+        None => None,
+        Some("bonds") => Some(CrackDrawing::Bonds),
+        Some("lines") => Some(CrackDrawing::Lines),
+        Some(other) => return Err(format!("crack `{other}`: expected `bonds` or `lines`")),
     };
-    let maps = Maps {
-        name: picture.field.to_owned(),
-        title: picture.title,
-        quantity: picture.quantity,
-        unit: unit_of(picture.field),
-        bodies: vec![body],
-        columns: 1,
-        are_modes: false,
-    };
-    maps.draw(width).map(Drawn)
+    Ok(FieldRequest {
+        folders: vec![folder],
+        labels: vec![wanted.label],
+        field: wanted.field,
+        choice: Choice::Steps(vec![step.parse()?]),
+        magnification: wanted
+            .scale
+            .map_or(Magnification::Auto, Magnification::Times),
+        crack,
+        lines: Vec::new(),
+        window: None,
+        bands: None,
+        range: None,
+        map: None,
+        columns: None,
+        solid: SolidRequest {
+            view: wanted.view.map(|it| it.parse()).transpose()?,
+            section: wanted.section.map(|it| it.parse()).transpose()?,
+            level: wanted.level,
+        },
+        target: Target {
+            out: None,
+            force: false,
+            format: None,
+            width: Some(wanted.width),
+            dpi: None,
+        },
+    })
 }
 
 /// A picture in memory, which becomes a file of any kind.

@@ -2,7 +2,7 @@
 
 use ligament::SetupError;
 use ligament_case::case::key_path::KeyPath;
-use ligament_case::case::{CaseError, CaseFile, Location};
+use ligament_case::case::{CaseError, CaseFile, Fault, Location};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -80,6 +80,15 @@ impl Parts {
 /// The exception for an error of a case.
 pub(crate) fn of_case(py: Python<'_>, error: &CaseError) -> PyErr {
     let mut message = error.to_string();
+    if let CaseError::Key {
+        location, fault, ..
+    } = error
+        && let (Location::Document { .. }, Fault::SingleBrackets { section }) = (location, &**fault)
+    {
+        message = format!(
+            "{section}: this section may be repeated, so it is a list; write {section}=[{{...}}] instead of {section}={{...}}"
+        );
+    }
     let mut parts = Parts::of_message(&message);
     match error {
         CaseError::Key { location, key, .. } => {
@@ -131,14 +140,42 @@ pub(crate) fn of_request(py: Python<'_>, fault: &str) -> PyErr {
     raised(py, "LigamentError", fault, Parts::of_message(fault))
 }
 
+/// A message of the program in the words of Python: `--set model.law=x` as `model__law=x`, `--unset title` as `title=None`.
+pub(crate) fn in_python(message: &str) -> String {
+    let keyword = |key: &str| key.replace('.', "__");
+    let message = message
+        .replace("--force", "replace=True")
+        .replace("--out", "folder");
+    let mut words = String::new();
+    let mut rest = message.as_str();
+    while let Some((before, after)) = rest.split_once("--") {
+        words.push_str(before);
+        let ends = |it: char| it.is_whitespace() || [':', ',', ';', ')', '`'].contains(&it);
+        if let Some(setting) = after.strip_prefix("set ") {
+            let (key, value) = setting.split_once('=').unwrap_or((setting, ""));
+            words.push_str(&format!("{}=", keyword(key)));
+            rest = value;
+        } else if let Some(key) = after.strip_prefix("unset ") {
+            let end = key.find(ends).unwrap_or(key.len());
+            words.push_str(&format!("{}=None", keyword(&key[..end])));
+            rest = &key[end..];
+        } else {
+            words.push_str("--");
+            rest = after;
+        }
+    }
+    words + rest
+}
+
 fn raised(py: Python<'_>, kind: &str, message: &str, parts: Parts) -> PyErr {
+    let (message, hint) = (in_python(message), parts.hint.as_deref().map(in_python));
     let made = || {
         let keywords = PyDict::new(py);
         keywords.set_item("key", parts.key)?;
         keywords.set_item("path", parts.path)?;
         keywords.set_item("line", parts.line)?;
         keywords.set_item("column", parts.column)?;
-        keywords.set_item("hint", parts.hint)?;
+        keywords.set_item("hint", hint)?;
         let kind = py.import("ligament._errors")?.getattr(kind)?;
         kind.call((message,), Some(&keywords))
     };

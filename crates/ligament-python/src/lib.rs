@@ -1,19 +1,19 @@
 //! The Python package `ligament`: Python objects become a setup, and results of a run become arrays.
 //!
-//! The steps are those of the library, [`Setup`](ligament::Setup) to [`Model`](ligament::Model) to its outcome, in memory; sections are
-//! those of a case ([`ligament_case`]). The interface for Python users is in `python/ligament`, which calls this module.
+//! A run is that of the command line, into a folder of results; a result reads that folder. Sections are those of a case
+//! ([`ligament_case`]). The interface for Python users is in `python/ligament`, which calls this module.
 //!
 //! | module | holds |
 //! |---|---|
 //! | `document` | conversion of Python objects to sections of a case |
-//! | `body` | bodies from arrays |
+//! | `body` | bodies from arrays, as files that a case reads |
 //! | `case` | cases |
+//! | `keys` | the keys of a case |
 //! | `solution` | a run on a separate thread, with progress and Ctrl-C |
-//! | `collector` | the observer that collects history, breakages and fields |
-//! | `run` | results of a run, as arrays |
+//! | `folder` | results of a run in their folder, as arrays and words |
 //! | `modes` | natural modes, as arrays |
-//! | `table`, `arrays` | tables that grow by rows, arrays that are moved and not copied |
-//! | `drawing` | pictures of results in memory |
+//! | `arrays` | arrays that are moved and not copied |
+//! | `drawing` | pictures in memory |
 //! | `calibration` | the next trial value of a key |
 //! | `errors` | exceptions with key, line and hint |
 //! | `program` | the command line |
@@ -22,34 +22,36 @@ mod arrays;
 mod body;
 mod calibration;
 mod case;
-mod collector;
 mod document;
 mod drawing;
 mod errors;
-mod in_file;
+mod folder;
+mod keys;
 mod modes;
 mod program;
-mod run;
 mod solution;
-mod table;
 
 /// The module `ligament._native`.
 #[pyo3::pymodule(name = "_native")]
 mod native {
     #[pymodule_export]
-    use crate::body::Body;
+    use crate::body::{write_mesh, write_points, write_samples};
     #[pymodule_export]
     use crate::calibration::{next_trial, numbers};
     #[pymodule_export]
     use crate::case::Case;
     #[pymodule_export]
-    use crate::drawing::{Drawn, draw_curves};
+    use crate::drawing::{Drawn, draw_curves, draw_fields};
+    #[pymodule_export]
+    use crate::folder::{Folder, report};
+    #[pymodule_export]
+    use crate::keys::schema;
     #[pymodule_export]
     use crate::modes::modes;
     #[pymodule_export]
     use crate::program::execute;
     #[pymodule_export]
-    use crate::run::{Run, component_names, run};
+    use crate::solution::run;
 
     /// Version of the package.
     #[pymodule_export]

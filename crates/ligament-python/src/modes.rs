@@ -14,7 +14,6 @@ use pyo3::types::PyDict;
 use crate::arrays::{array, rows};
 use crate::case::Case;
 use crate::errors::Failure;
-use crate::run::positions;
 use crate::solution::watched;
 
 /// Finds the natural modes of a case: arrays over the modes, and for each mode a shape over the points.
@@ -109,4 +108,12 @@ fn find_here(case: &CaseFile, setup: Setup) -> Result<Found, Failure> {
         grid: model.body().grid(),
         outcome,
     })
+}
+
+/// Positions of the points, m: (n_points, 2) in the plane, (n_points, 3) in space.
+fn positions<'py>(py: Python<'py>, grid: &BodyGrid) -> PyResult<Bound<'py, PyAny>> {
+    match grid.canvas.is_solid() {
+        true => rows(py, grid.positions.as_flattened().to_vec(), 3),
+        false => rows(py, grid.positions_in_plane().into_flattened(), 2),
+    }
 }

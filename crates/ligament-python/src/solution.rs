@@ -1,65 +1,75 @@
 //! A run on a separate thread, for progress and Ctrl-C.
 
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU8, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::Duration;
 
-use ligament::run::{follow, on_threads};
-use ligament::system::AnySystem;
-use ligament::{Loading, Model, Setup};
-use ligament_analysis::ProportionalLoading;
-use ligament_analysis::driver::Outcome;
 use ligament_case::case::CaseFile;
-
-use ligament_model::{BodyGrid, BondSystem, ConstantFields};
-use ligament_run::loading::write_rule;
-use ligament_run::memory;
-use ligament_run::provenance::of_inputs;
-use ligament_run::stages::Stages;
-use ligament_run::summary::{self, Noted};
+use ligament_cli::BUILD;
+use ligament_run::end::StoppedBeforeSolution;
+use ligament_run::progress::{ProgressMode, StepLine};
+use ligament_run::run::Request;
 use pyo3::prelude::*;
 
 use crate::case::Case;
-use crate::collector::{Collector, Kept, Progress, Stop};
 use crate::errors::Failure;
 
 /// Time between two checks for a signal.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// Results of a run in memory.
-pub(crate) struct Solved {
-    pub(crate) fixed: ConstantFields,
-    pub(crate) arrays: SystemArrays,
-    /// Thickness of the body, m; 1 for a solid.
-    pub(crate) thickness: f64,
-    pub(crate) grid: BodyGrid,
-    pub(crate) outcome: Outcome,
-    pub(crate) kept: Kept,
-    /// Summary of the run, as in `summary.json`.
-    pub(crate) summary: String,
+/// Number of the user's requests to stop: the first ends the run at the next state, the second immediately.
+#[derive(Debug, Default)]
+pub(crate) struct Stop(AtomicU8);
+
+impl Stop {
+    /// Adds a request to stop.
+    fn ask(&self) {
+        self.0.fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// Whether there were at least `times` requests.
+    fn asked(&self, times: u8) -> bool {
+        self.0.load(Ordering::Relaxed) >= times
+    }
 }
 
-/// Arrays over the points and bonds of a system.
-pub(crate) struct SystemArrays {
-    pub(crate) volumes: Vec<f64>,
-    pub(crate) spacing: Vec<f64>,
-    pub(crate) ends: Vec<[u32; 2]>,
-    pub(crate) length: Vec<f64>,
-    pub(crate) horizon: Vec<f64>,
-    pub(crate) weight: Vec<f64>,
+/// Runs a case into a folder, where results of an earlier run are replaced if `replace` is set; calls `report` with step, load factor,
+/// displacement, force and number of broken bonds after each step. Returns whether Ctrl-C stopped the run.
+#[pyfunction]
+pub(crate) fn run(
+    py: Python<'_>,
+    case: &Bound<'_, Case>,
+    folder: PathBuf,
+    replace: bool,
+    report: Option<&Bound<'_, PyAny>>,
+) -> PyResult<bool> {
+    let file = &case.get().file;
+    let work = |steps, stop: &Stop| solve(file, (&folder, replace), steps, stop);
+    let (solved, stopped) = watched(py, report, work)?;
+    solved.map_err(|failure| failure.exception(py))?;
+    Ok(stopped)
 }
 
-impl SystemArrays {
-    /// The arrays of a system that is no longer needed.
-    fn new<const D: usize>(system: BondSystem<D>) -> Self {
-        Self {
-            volumes: system.cloud.volumes,
-            spacing: system.cloud.spacing,
-            ends: system.bonds.ends,
-            length: system.bonds.length,
-            horizon: system.bonds.horizon,
-            weight: system.weight,
-        }
+fn solve(
+    file: &CaseFile,
+    (folder, replace): (&Path, bool),
+    steps: Sender<StepLine>,
+    stop: &Stop,
+) -> Result<(), Failure> {
+    let request = Request {
+        force: replace,
+        is_stopped: &|| stop.asked(1),
+        is_aborted: &|| stop.asked(2),
+        keeps_inputs: true,
+        steps: Some(steps),
+        ..Request::new(file, folder, BUILD)
+    };
+    match request.run(ProgressMode::Quiet) {
+        Err(_) if stop.asked(2) => Err(Failure::Stopped),
+        Err(error) if error.is::<StoppedBeforeSolution>() => Err(Failure::Stopped),
+        other => Ok(other.map(|_| ())?),
     }
 }
 
@@ -72,7 +82,7 @@ impl SystemArrays {
 pub(crate) fn watched<T: Send>(
     py: Python<'_>,
     report: Option<&Bound<'_, PyAny>>,
-    work: impl FnOnce(Sender<Progress>, &Stop) -> T + Send,
+    work: impl FnOnce(Sender<StepLine>, &Stop) -> T + Send,
 ) -> PyResult<(T, bool)> {
     let (sender, receiver) = channel();
     let stop = Stop::default();
@@ -97,7 +107,7 @@ pub(crate) fn watched<T: Send>(
 }
 
 /// Reports progress until the work has ended; returns the first signal or failure, which stops the work.
-fn watch(receiver: &Receiver<Progress>, report: Option<&Py<PyAny>>, stop: &Stop) -> PyResult<()> {
+fn watch(receiver: &Receiver<StepLine>, report: Option<&Py<PyAny>>, stop: &Stop) -> PyResult<()> {
     let mut ended = Ok(());
     loop {
         let told = receiver.recv_timeout(LOOK);
@@ -106,18 +116,11 @@ fn watch(receiver: &Receiver<Progress>, report: Option<&Py<PyAny>>, stop: &Stop)
         }
         let looked = Python::attach(|py| {
             py.check_signals()?;
-            if let (Ok(progress), Some(report), false) = (told, report, stop.asked(1)) {
-                let Progress {
-                    step,
-                    load_factor,
-                    displacement,
-                    reaction,
-                    broken_bonds,
-                } = progress;
-                report.call1(
-                    py,
-                    (step, load_factor, displacement, reaction, broken_bonds),
-                )?;
+            if let (Ok(line), Some(report), false) = (told, report, stop.asked(1)) {
+                let [displacement, force] = [line.displacement, line.load];
+                let [displacement, force] = [displacement, force].map(|it| it.unwrap_or(f64::NAN));
+                let (step, factor, broken) = (line.step, line.load_factor, line.broken_bonds);
+                report.call1(py, (step, factor, displacement, force, broken))?;
             }
             Ok(())
         });
@@ -126,91 +129,4 @@ fn watch(receiver: &Receiver<Progress>, report: Option<&Py<PyAny>>, stop: &Stop)
             ended = ended.and(looked);
         }
     }
-}
-
-/// Builds the model of a case and runs its analysis.
-pub(crate) fn solve(
-    case: &Case,
-    progress: Sender<Progress>,
-    stop: &Stop,
-) -> Result<Solved, Failure> {
-    let file = &case.file;
-    let setup = case.setup()?;
-    let solved = on_threads(setup.threads, || solve_here(file, setup, progress, stop));
-    solved.map_err(|error| Failure::Other(error.into()))?
-}
-
-fn solve_here(
-    case: &CaseFile,
-    setup: Setup,
-    progress: Sender<Progress>,
-    stop: &Stop,
-) -> Result<Solved, Failure> {
-    let mut stages = Stages::default();
-    memory::foresee_model(case, &setup).map_err(|it| Failure::Other(it.into()))?;
-    let rule = write_rule(case, &setup.analysis);
-    let model = stages.time("model", || Model::build(setup, &mut ()));
-    let model = model.map_err(|it| Failure::setup(case, it))?;
-    let loading = Loading::new(&model);
-    let mut loading = loading.map_err(|it| Failure::setup(case, it))?;
-    loading.solver.memory = memory::for_factor(case, &*model.system);
-    let problem = loading.problem(&model);
-    memory::foresee_equations(case, &*model.system, &problem)?;
-    if stop.asked(1) {
-        return Err(Failure::Stopped);
-    }
-    let grid = model.body().grid();
-    let body = (&grid, model.system.ends());
-    let mut collector = Collector::new(&problem, body, rule, progress, stop);
-    let outcome = stages.time("solution", || {
-        follow(&problem, &model.setup.analysis, &mut collector)
-    });
-    let kept = collector.kept;
-    let outcome = match outcome {
-        Err(_) if stop.asked(2) => return Err(Failure::Stopped),
-        other => other.map_err(|it| Failure::computing(case, it))?,
-    };
-    let summary = summary(
-        case,
-        (&model, &loading.boundary),
-        (&outcome, &kept),
-        &stages,
-    )?;
-    let thickness = model.setup.thickness();
-    drop(problem);
-    drop(loading);
-    let Model { system, fixed, .. } = model;
-    // The model is no longer shared, so that its arrays can be taken.
-    let arrays = match system {
-        AnySystem::Plane(system) => system.into_parts().map(SystemArrays::new),
-        AnySystem::Solid(system) => system.into_parts().map(SystemArrays::new),
-    };
-    let shared = || Failure::Other(anyhow::anyhow!("the points and bonds are still in use"));
-    Ok(Solved {
-        fixed,
-        arrays: arrays.ok_or_else(shared)?,
-        thickness,
-        grid,
-        outcome,
-        kept,
-        summary,
-    })
-}
-
-/// Summary of a run, as in `summary.json`.
-fn summary(
-    case: &CaseFile,
-    (model, boundary): (&Model, &ProportionalLoading),
-    (outcome, kept): (&Outcome, &Kept),
-    stages: &Stages,
-) -> Result<String, Failure> {
-    let provenance = of_inputs(ligament_cli::BUILD, Vec::new());
-    let noted = Noted {
-        provenance,
-        notices: kept.notices.clone(),
-        first: kept.first,
-        stages: stages.done().to_vec(),
-    };
-    let summary = summary::summary(case, model, boundary, outcome, noted);
-    serde_json::to_string(&summary).map_err(|error| Failure::Other(error.into()))
 }

@@ -70,6 +70,20 @@ def test_a_group_that_is_not_there_is_told_with_those_that_are(plate: dict[str, 
     assert "`top`" in found.value.hint
 
 
+def test_errors_speak_python(plate: dict[str, Any]) -> None:
+    with pytest.raises(ligament.CaseError, match=r"^model__horizon_facto=4: .*did you mean `horizon_factor`"):
+        ligament.run(plate, model__horizon_facto=4)
+    with pytest.raises(ligament.CaseError, match=r"so it is a list; write load=\[\{"):
+        ligament.run({**plate, "load": plate["load"][0]})
+    with pytest.raises(ligament.CaseError, match=r"did you mean `material.young`"):
+        ligament.run({**plate, "young": 1e9})
+
+
+def test_a_number_that_is_not_there_is_told_with_those_that_are(result: Any) -> None:
+    with pytest.raises(ligament.LigamentError, match="no result `peek`.*`peak.displacement`, `peak.reaction`"):
+        result.number("peek")
+
+
 def test_a_case_that_is_not_there() -> None:
     with fault(path="nowhere/case.toml"):
         ligament.run("nowhere/case.toml")

@@ -11,6 +11,25 @@ use ligament_output::results::OutputState;
 /// Returns whether the run should stop; called after each equilibrium.
 pub type IsStopped<'a> = &'a (dyn Fn() -> bool + Sync);
 
+/// Requests of the user to end a run.
+#[derive(Clone, Copy)]
+pub(crate) struct Stops<'a> {
+    /// Whether the run is to stop at its next state.
+    pub(crate) is_stopped: IsStopped<'a>,
+    /// Whether the run is to end at once, without a state of its own.
+    pub(crate) is_aborted: IsStopped<'a>,
+}
+
+impl<'a> Stops<'a> {
+    /// Requests that stop a run at its next state and never at once.
+    pub(crate) fn in_order(is_stopped: IsStopped<'a>) -> Self {
+        Self {
+            is_stopped,
+            is_aborted: &|| false,
+        }
+    }
+}
+
 /// Version of the program in a checkpoint.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 

@@ -5,22 +5,22 @@ use std::io;
 use ligament_case::case::CaseFile;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 
-/// Writes the results of a case into a folder, which replaces earlier results if `make` returns that the results are complete.
+use crate::inputs::{copied, recorded};
+
+/// Writes the results of a case into a folder, which replaces earlier results if `make` returns that the results are complete. With
+/// `keeps_inputs` the folder gets copies of the files that the case reads, and `make` the case with them.
 ///
 /// # Errors
 ///
 /// If the folder cannot be opened, or the results cannot be written; earlier results are then unchanged.
 pub(crate) fn make_results<T>(
-    case: &CaseFile,
+    (case, keeps_inputs): (&CaseFile, bool),
     open: impl FnOnce() -> Result<ResultFolder, ligament_output::Error>,
-    make: impl FnOnce(&ResultFolder) -> anyhow::Result<(T, bool)>,
+    make: impl FnOnce(&ResultFolder, &CaseFile) -> anyhow::Result<(T, bool)>,
 ) -> anyhow::Result<T> {
-    let resolved = case.resolved_toml()?;
+    case.resolved_toml()?;
     let folder = open()?;
-    let written = folder.write_text(RESOLVED_CASE, &resolved);
-    let made = written
-        .map_err(anyhow::Error::from)
-        .and_then(|()| make(&folder));
+    let made = begun(case, keeps_inputs, &folder).and_then(|case| make(&folder, &case));
     let (made, is_complete) = made.map_err(|error| match failed_run_message(&folder, &error) {
         Some(words) => error.context(words),
         None => error,
@@ -29,6 +29,21 @@ pub(crate) fn make_results<T>(
         folder.finish()?;
     }
     Ok(made)
+}
+
+/// Writes the case, and copies of its files if they are kept; returns the case with the copies.
+fn begun(case: &CaseFile, keeps_inputs: bool, folder: &ResultFolder) -> anyhow::Result<CaseFile> {
+    let case = match keeps_inputs {
+        true => {
+            // First the file by which the folder is recognised.
+            folder.write(RESOLVED_CASE, &case.resolved_toml()?)?;
+            copied(case, folder)?
+        }
+        false => case.clone(),
+    };
+    let recorded = recorded(&case, folder.path()).resolved_toml()?;
+    folder.write(RESOLVED_CASE, &recorded)?;
+    Ok(case)
 }
 
 /// Message about the files of a failed run and their use, where needed.

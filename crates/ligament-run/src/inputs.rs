@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use ligament_case::case::{CaseFile, Stop};
 use ligament_case::input_file;
+use ligament_output::folder::{self, ResultFolder};
 use ligament_output::summary::Identity;
 
 /// All inputs of a run as text, independent of the paths of files and of the number of threads.
@@ -59,23 +60,15 @@ impl Inputs {
     ) -> Result<Self, (PathBuf, io::Error)> {
         let mut plain = case.clone();
         plain.case.solver.threads = None;
-        let mut content = |path: &PathBuf| {
-            contents
-                .identity(path)
-                .map(|identity| identity.to_string())
-                .map_err(|error| (path.clone(), error))
-        };
-        if let Some(section) = &mut plain.case.mesh {
-            let content = match mesh {
-                Some(content) => content.to_owned(),
-                None => content(&section.file)?,
+        for (key, file) in paths(&mut plain) {
+            *file = match mesh.filter(|_| key == "mesh.file") {
+                Some(content) => content.into(),
+                None => {
+                    let identity = contents.identity(file);
+                    let identity = identity.map_err(|error| (file.clone(), error))?;
+                    identity.to_string().into()
+                }
             };
-            section.file = content.into();
-        }
-        for temperature in &mut plain.case.temperatures {
-            if let Some(file) = &mut temperature.file {
-                *file = content(file)?.into();
-            }
         }
         // A case that cannot be written as TOML fails when it is run.
         Ok(Self(plain.resolved_toml().unwrap_or_default()))
@@ -124,15 +117,66 @@ impl Inputs {
 
 /// The files of a case, with their keys.
 pub fn files(case: &CaseFile) -> Vec<(String, PathBuf)> {
-    let mesh = case.case.mesh.iter();
-    let mut found: Vec<(String, PathBuf)> = mesh
-        .map(|section| ("mesh.file".to_owned(), section.file.clone()))
+    let mut case = case.clone();
+    let paths = paths(&mut case).into_iter();
+    paths.map(|(key, file)| (key, file.clone())).collect()
+}
+
+/// The paths of the files of a case, with their keys.
+fn paths(case: &mut CaseFile) -> Vec<(String, &mut PathBuf)> {
+    let case = &mut case.case;
+    let mesh = case.mesh.iter_mut();
+    let mut found: Vec<(String, &mut PathBuf)> = mesh
+        .map(|section| ("mesh.file".to_owned(), &mut section.file))
         .collect();
-    for (number, temperature) in case.case.temperatures.iter().enumerate() {
-        let file = temperature.file.iter().cloned();
+    for (number, temperature) in case.temperatures.iter_mut().enumerate() {
+        let file = temperature.file.iter_mut();
         found.extend(file.map(|file| (format!("temperature.{number}.file"), file)));
     }
+    for (number, load) in case.loads.iter_mut().enumerate() {
+        let file = (load.profile.iter_mut()).filter_map(|profile| profile.file.as_mut());
+        found.extend(file.map(|file| (format!("load.{number}.profile.file"), file)));
+    }
     found
+}
+
+/// Copies the files of a case into a result folder; returns the case with the copies.
+///
+/// # Errors
+///
+/// If a file cannot be read or written.
+pub(crate) fn copied(case: &CaseFile, folder: &ResultFolder) -> anyhow::Result<CaseFile> {
+    let mut kept = case.clone();
+    for (key, file) in paths(&mut kept) {
+        let name = folder::input_name(&key, file);
+        let bytes = input_file::read(file).map_err(|error| unread((file.clone(), error)))?;
+        folder.write(&name, &bytes)?;
+        *file = folder.file(&name);
+    }
+    Ok(kept)
+}
+
+/// The case as a result folder records it: files in the folder are named without their path, so that the folder can be moved.
+pub(crate) fn recorded(case: &CaseFile, folder: &Path) -> CaseFile {
+    let mut recorded = case.clone();
+    let whole = folder.canonicalize();
+    let is_here = |parent: &Path| {
+        parent == folder || parent.canonicalize().ok().as_ref() == whole.as_ref().ok()
+    };
+    for (_, file) in paths(&mut recorded) {
+        if file.parent().is_some_and(is_here)
+            && let Some(name) = file.file_name()
+        {
+            *file = name.into();
+        }
+    }
+    recorded
+}
+
+/// Whether a result folder has copies of files that its case reads.
+pub(crate) fn are_kept(case: &CaseFile, folder: &Path) -> bool {
+    let files = files(&recorded(case, folder));
+    files.iter().any(|(_, file)| file.is_relative())
 }
 
 /// The error of a file that cannot be read, with its path for the user.

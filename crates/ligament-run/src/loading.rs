@@ -9,7 +9,7 @@ use ligament_output::folder::ResultFolder;
 use ligament_output::results::{OutputState, PieceWriter, ResultWriter, Time, WriteRule};
 use ligament_output::summary::{self, Build, Summary};
 
-use crate::checkpoints::{Checkpoints, IsStopped};
+use crate::checkpoints::{Checkpoints, Stops};
 use crate::inputs::{Contents, Inputs, unread};
 use crate::pieces::Pieces;
 use crate::processes::broadcast_path;
@@ -25,7 +25,7 @@ pub(crate) struct LoadedBody<'a> {
     pub(crate) model: &'a Model,
     pub(crate) loading: &'a Loading,
     pub(crate) build: Build,
-    pub(crate) is_stopped: IsStopped<'a>,
+    pub(crate) requests: Stops<'a>,
 }
 
 /// State of a checkpoint from which a run continues.
@@ -49,7 +49,7 @@ impl LoadedBody<'_> {
             model,
             loading,
             ref build,
-            is_stopped,
+            requests,
         } = *self;
         let problem = loading.problem(model);
         let analysis = &model.setup.analysis;
@@ -58,7 +58,8 @@ impl LoadedBody<'_> {
         let (fixed, rule) = (&model.fixed, write_rule(case, analysis));
         let mut contents = Contents::default();
         let inputs = Inputs::of_course(case, &mut contents).map_err(unread)?;
-        let mut provenance = provenance(build.clone(), case, &mut contents).map_err(unread)?;
+        let provenance = provenance(build.clone(), case, folder.path(), &mut contents);
+        let mut provenance = provenance.map_err(unread)?;
         provenance.resumed = kept.is_some();
         let every = case.case.output.checkpoint_every;
         let checkpoints = Checkpoints::new(folder, inputs.text().to_owned(), every);
@@ -74,7 +75,7 @@ impl LoadedBody<'_> {
             }
         };
         let watched = (writer, checkpoints);
-        let mut watch = Watch::new(watched, is_stopped, progress, &model.setup, notices);
+        let mut watch = Watch::new(watched, requests, progress, &model.setup, notices);
         let outcome = stages.time("solution", || match restored {
             None => follow(&problem, analysis, &mut watch),
             Some(restored) => resume(analysis, restored, &mut watch),
@@ -104,7 +105,7 @@ impl LoadedBody<'_> {
             case,
             model,
             loading,
-            is_stopped,
+            requests,
             ..
         } = *self;
         let problem = loading.problem(model);
@@ -115,7 +116,7 @@ impl LoadedBody<'_> {
             || PieceWriter::new(folder, &grid, fixed, write_rule(case, analysis), &problem);
         let is_divided = !model.system.subdomain().is_whole();
         let writer = is_divided.then(writer).transpose()?;
-        let mut pieces = Pieces::new(writer, is_stopped);
+        let mut pieces = Pieces::new(writer, requests.is_stopped);
         match restored {
             None => follow(&problem, analysis, &mut pieces)?,
             Some(restored) => resume(analysis, restored, &mut pieces)?,

@@ -30,7 +30,7 @@ pub(crate) fn find_modes(
     let outcome = stages.time("modes", || analysis.find())?;
 
     // Nothing is written or replaced before the modes are found.
-    make_results(case, create, |folder| {
+    make_results((case, false), create, |folder, case| {
         stages.time("output", || {
             let grid = model.body().grid();
             write_modes(folder, &grid, &*model.system, &model.fixed, &outcome)

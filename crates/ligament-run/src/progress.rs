@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 use std::io::{self, IsTerminal, Write};
+use std::sync::mpsc::Sender;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -94,6 +95,7 @@ pub struct Progress {
     bar: Option<ProgressBar>,
     started: Instant,
     pace: LogPace,
+    steps: Option<Sender<StepLine>>,
 }
 
 impl Progress {
@@ -105,7 +107,13 @@ impl Progress {
             bar: None,
             started: Instant::now(),
             pace: LogPace::default(),
+            steps: None,
         }
+    }
+
+    /// The display with a receiver of the state at the end of each load step.
+    pub(crate) fn sent(self, steps: Option<Sender<StepLine>>) -> Self {
+        Self { steps, ..self }
     }
 
     /// Progress with a mode of display on rank 0 and none on other ranks.
@@ -145,6 +153,10 @@ impl Progress {
 
     /// Shows the state at the end of a load step.
     pub fn step(&mut self, line: &StepLine) {
+        if let Some(steps) = &self.steps {
+            // Whoever no longer listens does not end the run.
+            let _ = steps.send(line.clone());
+        }
         self.show(line, true);
     }
 

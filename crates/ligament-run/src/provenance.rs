@@ -2,15 +2,15 @@
 
 use std::fs;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use ligament_case::case::CaseFile;
 use ligament_output::folder::RESOLVED_CASE;
 use ligament_output::summary::{Build, Identity, Input, Provenance};
 
-use crate::inputs::{Contents, files};
+use crate::inputs::{Contents, files, recorded};
 
-/// The provenance of a run of a case by a build on this computer.
+/// The provenance of a run of a case into a folder, by a build on this computer.
 ///
 /// # Errors
 ///
@@ -18,33 +18,30 @@ use crate::inputs::{Contents, files};
 pub fn provenance(
     build: Build,
     case: &CaseFile,
+    folder: &Path,
     contents: &mut Contents,
 ) -> Result<Provenance, (PathBuf, io::Error)> {
+    let recorded = recorded(case, folder);
     // A case that cannot be written as TOML fails when it is run.
-    let resolved = case.resolved_toml().unwrap_or_default();
+    let resolved = recorded.resolved_toml().unwrap_or_default();
     let mut inputs = vec![Input {
         key: None,
         file: RESOLVED_CASE.into(),
         content: Identity::new(resolved.as_bytes()),
     }];
-    for (key, file) in files(case) {
-        let content = contents.identity(&file);
-        let content = content.map_err(|error| (file.clone(), error))?;
+    for ((key, path), (_, file)) in files(case).into_iter().zip(files(&recorded)) {
+        let content = contents.identity(&path);
+        let content = content.map_err(|error| (path, error))?;
         let key = Some(key);
         inputs.push(Input { key, file, content });
     }
-    Ok(of_inputs(build, inputs))
-}
-
-/// The provenance of a run with known inputs.
-pub fn of_inputs(build: Build, inputs: Vec<Input>) -> Provenance {
-    Provenance {
+    Ok(Provenance {
         build,
         processor: processor(),
         vector_instructions: Some(vector_instructions().into()),
         resumed: false,
         inputs,
-    }
+    })
 }
 
 /// Name of the processor, where known (Linux).

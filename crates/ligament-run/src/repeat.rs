@@ -4,11 +4,9 @@ use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use anyhow::{Context, bail, ensure};
 use ligament_analysis::Termination;
-use ligament_analysis::distributed_matrix::Solo;
 use ligament_case::case::CaseFile;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::results::outputs::require_results;
@@ -16,7 +14,7 @@ use ligament_output::summary::{self, Build, Input, Provenance, SUMMARY, Summary}
 
 use crate::checkpoints::{IsStopped, VERSION};
 use crate::comparison::{Comparison, Ending};
-use crate::inputs::{Contents, files, unread};
+use crate::inputs::{Contents, are_kept, files, unread};
 use crate::progress::ProgressMode;
 use crate::provenance::provenance;
 use crate::run;
@@ -73,7 +71,7 @@ impl Request<'_> {
             check_inputs(&folder, record, &case, &mut contents)?;
         }
         let out = self.place(&folder)?;
-        let now = provenance(self.build.clone(), &case, &mut contents).map_err(unread)?;
+        let now = provenance(self.build.clone(), &case, &folder, &mut contents).map_err(unread)?;
         if let Err(error) = self.run_again(&case, &folder, &out, &summary, mode) {
             if self.out.is_none() {
                 // The folder did not exist before; a rest that cannot be removed is harmless.
@@ -153,12 +151,9 @@ impl Request<'_> {
         let end: u64 = length(folder);
         let is_at_its_end = || was_cut_short && length(out) >= end;
         let request = run::Request {
-            case,
-            out,
-            force: false,
-            build: self.build.clone(),
-            communicator: Arc::new(Solo),
             is_stopped: &|| (self.is_stopped)() || is_at_its_end(),
+            keeps_inputs: are_kept(case, folder),
+            ..run::Request::new(case, out, self.build.clone())
         };
         let report = request
             .run(mode)

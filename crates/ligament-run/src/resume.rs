@@ -15,7 +15,7 @@ use ligament_output::results::OutputState;
 use ligament_output::results::outputs::{clear, require_results};
 use ligament_output::summary::{self, Build, SUMMARY, Summary};
 
-use crate::checkpoints::{IsStopped, VERSION};
+use crate::checkpoints::{IsStopped, Stops, VERSION};
 use crate::destination::make_results;
 use crate::end::End;
 use crate::inputs::{Contents, Inputs, MAY_CHANGE, unread};
@@ -94,7 +94,7 @@ impl Request<'_> {
         &self,
         case: &CaseFile,
         folder: Option<ResultFolder>,
-        found: Option<(Checkpoint, OutputState)>,
+        mut found: Option<(Checkpoint, OutputState)>,
         mut progress: Progress,
     ) -> anyhow::Result<Report> {
         let mut stages = Stages::default();
@@ -102,7 +102,6 @@ impl Request<'_> {
         let loading = loading(case, &model)?;
         let problem = loading.problem(&model);
         let communicator = &*self.communicator;
-        let mut found = found;
         let solution =
             (found.as_mut()).map(|(checkpoint, _)| std::mem::take(&mut checkpoint.solution));
         let solution = broadcast_solution(communicator, solution)?;
@@ -114,7 +113,7 @@ impl Request<'_> {
             model: &model,
             loading: &loading,
             build: self.build.clone(),
-            is_stopped: &is_stopped,
+            requests: Stops::in_order(&is_stopped),
         };
         let Some(folder) = folder else {
             body.follow_beside(restored)?;
@@ -139,9 +138,9 @@ impl Request<'_> {
             clear(&folder)?;
         }
         let summary = make_results(
-            case,
+            (case, false),
             || Ok(folder),
-            |folder| {
+            |folder, _| {
                 let summary = body.follow(folder, kept, &mut stages, &mut progress)?;
                 progress.finish(&summary.termination_message);
                 let is_complete = End::from_summary(&summary) != End::Stopped;

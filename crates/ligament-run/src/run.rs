@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::mpsc::Sender;
 
 use ligament::run::on_threads;
 use ligament::setup::Analysis;
@@ -10,6 +11,7 @@ use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use ligament_output::folder::ResultFolder;
 use ligament_output::summary::{Build, ModalSummary, Summary};
 
+use crate::checkpoints::Stops;
 use crate::destination::{self, make_results};
 use crate::end::{End, StoppedBeforeSolution};
 use crate::inputs::{Contents, unread};
@@ -18,7 +20,7 @@ use crate::memory;
 use crate::model::{Model, build_model_on};
 use crate::modes::find_modes;
 use crate::processes::{any_stopped, loading};
-use crate::progress::{Progress, ProgressMode};
+use crate::progress::{Progress, ProgressMode, StepLine};
 use crate::provenance::provenance;
 use crate::stages::Stages;
 use crate::summary::{write, write_modal};
@@ -83,6 +85,12 @@ pub struct Request<'a> {
     pub build: Build,
     /// Whether the user wants to stop the run.
     pub is_stopped: IsStopped<'a>,
+    /// Whether the user wants the run to end at once, with an error and without its last state.
+    pub is_aborted: IsStopped<'a>,
+    /// Whether the folder gets copies of the files that the case reads, so that it can be moved and repeated elsewhere.
+    pub keeps_inputs: bool,
+    /// Receiver of the state at the end of each load step.
+    pub steps: Option<Sender<StepLine>>,
     /// Processes of the run; rank 0 writes all results but the pieces of grids of each process.
     pub communicator: Arc<dyn MatrixCommunicator>,
 }
@@ -90,17 +98,28 @@ pub struct Request<'a> {
 /// Runs a case and writes its results into a new folder, without a record of the build.
 pub fn run(case: &CaseFile, out: &Path, force: bool, mode: ProgressMode) -> anyhow::Result<Report> {
     let request = Request {
-        case,
-        out,
         force,
-        build: Build::default(),
-        is_stopped: &|| false,
-        communicator: Arc::new(Solo),
+        ..Request::new(case, out, Build::default())
     };
     request.run(mode)
 }
 
-impl Request<'_> {
+impl<'a> Request<'a> {
+    /// A request to run a case on one process into a folder without results, up to its end.
+    pub fn new(case: &'a CaseFile, out: &'a Path, build: Build) -> Self {
+        Self {
+            case,
+            out,
+            force: false,
+            build,
+            is_stopped: &|| false,
+            is_aborted: &|| false,
+            keeps_inputs: false,
+            steps: None,
+            communicator: Arc::new(Solo),
+        }
+    }
+
     /// Runs the case and writes its results into a new folder, up to its end or until it is stopped.
     ///
     /// # Errors
@@ -117,7 +136,7 @@ impl Request<'_> {
             ResultFolder::check(self.out, self.force)?;
         }
         let mut stages = Stages::default();
-        let progress = Progress::on(&**communicator, mode);
+        let progress = Progress::on(&**communicator, mode).sent(self.steps.clone());
         let model = build_model_on(self.case, communicator.clone(), &mut stages, &progress)?;
         self.solve(&model, stages, progress)
     }
@@ -138,9 +157,9 @@ impl Request<'_> {
                 return Ok(Report::OfRankZero);
             }
             let create = || ResultFolder::create(self.out, self.force);
-            let provenance = provenance(self.build.clone(), self.case, &mut Contents::default());
-            let provenance = provenance.map_err(unread)?;
-            let body = (model, provenance);
+            let (build, mut contents) = (self.build.clone(), Contents::default());
+            let provenance = provenance(build, self.case, self.out, &mut contents);
+            let body = (model, provenance.map_err(unread)?);
             let summary = find_modes(self.case, settings, body, create, stages)?;
             progress.finish(&format!("{} modes found", summary.modes.len()));
             Ok(Report::Modes(Box::new(summary)))
@@ -170,7 +189,10 @@ fn follow_loads(
         model,
         loading: &loading,
         build: request.build.clone(),
-        is_stopped: &is_stopped,
+        requests: Stops {
+            is_stopped: &is_stopped,
+            is_aborted: request.is_aborted,
+        },
     };
     if !communicator.is_root() {
         body.follow_beside(None)?;
@@ -178,10 +200,11 @@ fn follow_loads(
     }
     // Nothing is written or replaced before all input is checked.
     let create = || ResultFolder::create(request.out, request.force);
-    let summary = make_results(case, create, |folder| {
+    let summary = make_results((case, request.keeps_inputs), create, |folder, case| {
         if let Some(words) = destination::words(folder) {
             progress.stage(&words);
         }
+        let body = LoadedBody { case, ..body };
         let summary = body.follow(folder, None, &mut stages, &mut progress)?;
         progress.finish(&summary.termination_message);
         let is_complete = End::from_summary(&summary) != End::Stopped;

@@ -10,7 +10,7 @@ use ligament_analysis::history::{
 };
 use ligament_output::results::ResultWriter;
 
-use crate::checkpoints::{Checkpoints, IsStopped};
+use crate::checkpoints::{Checkpoints, Stops};
 use crate::notices::words;
 use crate::progress::{Progress, StepLine};
 
@@ -21,7 +21,7 @@ const SHOWN: usize = 5;
 pub(crate) struct Watch<'a> {
     writer: ResultWriter<'a>,
     checkpoints: Checkpoints<'a>,
-    is_stopped: IsStopped<'a>,
+    requests: Stops<'a>,
     /// Whether the run stops in the next state.
     stops: bool,
     progress: &'a mut Progress,
@@ -36,7 +36,7 @@ impl<'a> Watch<'a> {
     /// The observer of a run of a setup, with a writer, checkpoints, a progress display and the notices of an earlier part of the run.
     pub(crate) fn new(
         (writer, checkpoints): (ResultWriter<'a>, Checkpoints<'a>),
-        is_stopped: IsStopped<'a>,
+        requests: Stops<'a>,
         progress: &'a mut Progress,
         setup: &'a Setup,
         notices: Vec<String>,
@@ -55,7 +55,7 @@ impl<'a> Watch<'a> {
         Self {
             writer,
             checkpoints,
-            is_stopped,
+            requests,
             stops: false,
             progress,
             notices,
@@ -68,6 +68,13 @@ impl<'a> Watch<'a> {
     /// Notices, first broken and softened bonds, and checkpoints of the run.
     pub(crate) fn into_parts(self) -> (Vec<String>, FirstBonds, Checkpoints<'a>) {
         (self.notices, self.writer.first_bonds(), self.checkpoints)
+    }
+
+    fn unless_aborted(&self) -> Result<(), ObserverError> {
+        match (self.requests.is_aborted)() {
+            true => Err(ObserverError("stopped at once".into())),
+            false => Ok(()),
+        }
     }
 }
 
@@ -88,6 +95,7 @@ impl Observer for Watch<'_> {
         if step > 0 && round > 0 {
             self.progress.round(&self.last);
         }
+        self.unless_aborted()?;
         self.writer.round(step, round, load_factor, broken)
     }
 
@@ -97,6 +105,7 @@ impl Observer for Watch<'_> {
         residual: f64,
         stored_energy: f64,
     ) -> Result<(), ObserverError> {
+        self.unless_aborted()?;
         self.writer.iteration(iteration, residual, stored_energy)
     }
 
@@ -114,7 +123,7 @@ impl Observer for Watch<'_> {
     }
 
     fn asks(&mut self, end: Option<&Termination>) -> Result<bool, ObserverError> {
-        self.stops = end.is_none() && (self.is_stopped)();
+        self.stops = end.is_none() && (self.requests.is_stopped)();
         let stops = self.stops.then_some(&Termination::Stopped);
         self.checkpoints.ask(stops.or(end));
         Ok(self.checkpoints.is_due())

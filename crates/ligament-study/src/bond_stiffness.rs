@@ -93,9 +93,9 @@ pub fn bond_stiffness(request: &Request, screen: &mut dyn Write) -> anyhow::Resu
         write_extremes(screen, name, curves)?;
         append(&mut table, name, curves)?;
         for plot in plots(name, &file_stem(name, index), curves) {
-            folder.write_text(
+            folder.write(
                 &format!("{}.svg", plot.name),
-                &plot.for_screen()?.to_svg(&plot.title),
+                plot.for_screen()?.to_svg(&plot.title),
             )?;
         }
     }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use ligament::suggestion::hint;
+use ligament::suggestion::{hint, nearest};
 use ligament_case::input_file;
 use ligament_output::folder::refuse_link;
 use ligament_run::end::NO_EQUILIBRIUM;
@@ -134,7 +134,7 @@ impl Quantities {
                 },
                 None => QuantityError::Unknown {
                     name: name.to_owned(),
-                    known: self.numeric(),
+                    known: self.near(name),
                 },
             });
         };
@@ -142,6 +142,19 @@ impl Quantities {
             name: name.to_owned(),
             value: value.clone(),
         })
+    }
+
+    /// Names of numbers to offer for a name that there is not: those of the part that its beginning resembles, otherwise all.
+    fn near(&self, name: &str) -> Vec<String> {
+        fn part(name: &str) -> &str {
+            name.split('.').next().unwrap_or(name)
+        }
+        let all = self.numeric();
+        let parts: Vec<String> = all.iter().map(|it| part(it).to_owned()).collect();
+        match (nearest(name, &all), nearest(part(name), &parts)) {
+            (None, Some(near)) => all.iter().filter(|it| part(it) == near).cloned().collect(),
+            _ => all,
+        }
     }
 
     /// Reason why the run has no result under load, or none beyond some load, if it ended without equilibrium.

@@ -196,8 +196,8 @@ pub fn verify(request: &Request, screen: &mut dyn Write) -> anyhow::Result<()> {
         summary.append(experiment, &Tally::from_findings(&findings))?;
         done.push((experiment, findings));
     }
-    folder.write_text("README.md", &page::text(&done, extent)?)?;
-    folder.write_text("report.md", &markdown::text(&done))?;
+    folder.write("README.md", page::text(&done, extent)?)?;
+    folder.write("report.md", markdown::text(&done))?;
     folder.finish()?;
     let all: Tally = done
         .iter()

@@ -292,7 +292,7 @@ pub enum Fault {
         /// Number of such points.
         points: usize,
     },
-    /// Two samples of a temperature at a point.
+    /// Two samples of a value at a point.
     #[error("{place} has sample {first} already: sample {second} must go")]
     SampledTwice {
         /// Description of the point.
@@ -302,12 +302,14 @@ pub enum Fault {
         /// Index of the second sample.
         second: usize,
     },
-    /// Points within the place of a table or a field of temperatures that get no temperature from it.
-    #[error("{points} points have no temperature (the first is {first}): {reason}")]
-    NoTemperature {
+    /// Points within the place of a table or a field that get no value from it.
+    #[error("{points} points have no {what} (the first is {first}): {reason}")]
+    NoValue {
+        /// The value.
+        what: &'static str,
         /// Number of such points.
         points: usize,
-        /// Reason why the points get no temperature.
+        /// Reason why the points get no value.
         reason: &'static str,
         /// Description of the first of these points.
         first: String,

@@ -24,6 +24,14 @@ pub enum Fault {
         /// The keys that the table may have.
         valid: Vec<String>,
     },
+    /// A key of sections that is given outside of them.
+    #[error("unknown key `{key}`; did you mean `{}`?", known.join("` or `"))]
+    KeyOfSection {
+        /// The key as given.
+        key: String,
+        /// Paths of the keys of this name.
+        known: Vec<String>,
+    },
     /// A key without a default is missing.
     #[error("missing key `{key}` in {table}{}", unit.map(|unit| format!(" (in {unit})")).unwrap_or_default())]
     MissingKey {

@@ -23,6 +23,21 @@ pub fn unit_of(key: &KeyPath) -> Option<&'static str> {
     unit.filter(|_| schema["type"] != "object")
 }
 
+/// Paths of the keys of this name in the sections of a case, an entry of a list as its first: `material.young`, `load.0.force`.
+pub(super) fn in_sections(name: &str) -> Vec<String> {
+    let sections = SCHEMA["properties"].as_object().into_iter().flatten();
+    let has = |(section, schema): (&String, &Json)| {
+        let (place, table) = match schema.get("items") {
+            Some(entry) => (format!("{section}.0"), entry),
+            None => (section.clone(), schema),
+        };
+        below(table, name)?;
+        let is_own = table_of(table)["properties"].get(name).is_some();
+        is_own.then(|| format!("{place}.{name}"))
+    };
+    sections.filter_map(has).collect()
+}
+
 /// The schema of the table among a key's alternatives, or the schema itself.
 fn table_of(schema: &Json) -> &Json {
     let alternatives = schema["anyOf"]

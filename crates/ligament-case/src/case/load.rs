@@ -1,5 +1,7 @@
 //! `[[load]]`: loads on the body.
 
+use std::path::{Path, PathBuf};
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -8,8 +10,9 @@ use super::coordinates::Coordinates;
 use super::couple::Couple;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
+use super::mesh_section::complete_path;
 use super::region::{Corners, place};
-use super::values::{exactly_one, first_given, one_of, require_column_name};
+use super::values::{exactly_one, first_given, missing, one_of, refuse, require_column_name};
 use super::word::Word;
 use ligament::setup::{self, Action, Axis, Place, Position, begins_as_formula};
 
@@ -57,7 +60,7 @@ pub struct Load {
     /// A pressure on the outline of a group, Pa; positive pushes on the body.
     #[schemars(extend("x-unit" = "Pa"))]
     pub pressure: Option<f64>,
-    /// How the load varies along an axis: what a point takes is multiplied by (c - zero)/(one - zero).
+    /// How the load varies: what a point takes is multiplied by (c - zero)/(one - zero), or by the factor of a table.
     pub profile: Option<Profile>,
     /// Stiffness in total of springs through which a `displacement` moves the points, N/m: what gives way in a testing machine.
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "N/m"))]
@@ -67,24 +70,66 @@ pub struct Load {
     pub tilts: bool,
 }
 
-/// A load that varies linearly: what a point would take without it is multiplied by (c - zero)/(one - zero), with the
-/// point's coordinate c.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// A load that varies: what a point would take without it is multiplied by (c - zero)/(one - zero), with the point's coordinate
+/// c, or by the factor of a table.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = exactly_one(&["along", "file"])))]
 pub struct Profile {
     /// The coordinate.
-    pub along: Word<Axis>,
+    pub along: Option<Word<Axis>>,
     /// Coordinate in the mesh file at which the load is zero, m.
     #[schemars(extend("x-unit" = "m"))]
-    pub zero: f64,
+    pub zero: Option<f64>,
     /// Coordinate in the mesh file at which it is as given, m.
     #[schemars(extend("x-unit" = "m"))]
-    pub one: f64,
+    pub one: Option<f64>,
+    /// A CSV file with the columns `x`, `y` (m; of a solid also `z`) and `factor`, with a row for each loaded point, from the folder of
+    /// the case file.
+    #[schemars(length(min = 1))]
+    pub file: Option<PathBuf>,
+}
+
+impl Profile {
+    fn complete(&mut self, key: &KeyPath, folder: &Path) -> Result<(), KeyFault> {
+        let Some(file) = &mut self.file else {
+            return Ok(());
+        };
+        complete_path(&key.child("file"), file, folder)?;
+        let given = [("zero", self.zero.is_some()), ("one", self.one.is_some())];
+        refuse(key, given, "`file`", "they belong to `along`")
+    }
+
+    /// The variation; for a file still without its rows.
+    fn setup(&self, key: &KeyPath) -> Result<setup::Profile, KeyFault> {
+        let number = |name: &str, given: Option<f64>| given.ok_or_else(|| missing(key, name));
+        let linear = |along: Word<Axis>| {
+            Ok(setup::Profile::Linear {
+                along: along.0,
+                zero: number("zero", self.zero)?,
+                one: number("one", self.one)?,
+            })
+        };
+        let table = || Ok(setup::Profile::Table(Vec::new()));
+        let forms = [
+            ("along", self.along.map(linear)),
+            ("file", self.file.as_ref().map(|_| table())),
+        ];
+        one_of(key, forms)?
+    }
 }
 
 impl Load {
     /// Sets the load's name; `number`, from 1, names a load without a name and a group.
-    pub(super) fn complete(&mut self, key: &KeyPath, number: usize) -> Result<(), KeyFault> {
+    pub(super) fn complete(
+        &mut self,
+        key: &KeyPath,
+        number: usize,
+        folder: &Path,
+    ) -> Result<(), KeyFault> {
+        if let Some(profile) = &mut self.profile {
+            profile.complete(&key.child("profile"), folder)?;
+        }
         let named_by = if self.name.is_some() { "name" } else { "group" };
         // A group of a mesh may have a name such as `-x`, which is not a valid column name.
         let of_group = || self.group.clone().filter(|it| !begins_as_formula(it));
@@ -104,15 +149,13 @@ impl Load {
             _ if is_placed => place()?,
             _ => Place::Everywhere,
         };
+        let profile = self.profile.as_ref();
+        let profile = profile.map(|it| it.setup(&key.child("profile")));
         Ok(setup::Load {
             name: self.name.clone().unwrap_or_default(),
             place,
             action,
-            profile: self.profile.map(|it| setup::Profile {
-                along: it.along.0,
-                zero: it.zero,
-                one: it.one,
-            }),
+            profile: profile.transpose()?,
             stiffness: self.stiffness,
             tilts: self.tilts,
         })

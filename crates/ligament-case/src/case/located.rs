@@ -8,7 +8,7 @@ use super::key_path::KeyPath;
 use super::sections::Case;
 use super::setting;
 use super::source::Source;
-use crate::temperature_table;
+use crate::point_table;
 
 impl Case {
     /// The error of a faulty field of the setup, at the responsible key.
@@ -127,16 +127,17 @@ impl Case {
         }
     }
 
-    /// The fault of two rows of a table of temperatures for one point.
+    /// The fault of two rows of a table of temperatures or factors for one point.
     fn row_twice(&self, field: Field, place: &str, samples: [usize; 2]) -> Fault {
-        let section = field.index.map(|index| &self.temperatures[index]);
-        let Some(file) = section.and_then(|it| it.file.as_ref()) else {
-            return format!("{place} has two temperatures").into();
+        let file = field.index.and_then(|index| match field.name {
+            "loads" => self.loads[index].profile.as_ref()?.file.as_ref(),
+            _ => self.temperatures[index].file.as_ref(),
+        });
+        let Some(file) = file else {
+            return format!("{place} has two values").into();
         };
         // The rows were read before: only their line numbers are needed.
-        let dimensions = if self.is_solid() { 3 } else { 2 };
-        let rows = temperature_table::rows_of(file, dimensions).unwrap_or_default();
-        let lines: Vec<usize> = rows.into_iter().map(|(line, _)| line).collect();
+        let lines = point_table::lines_of_rows(file);
         let [first, second] = samples.map(|it| lines.get(it).copied().unwrap_or_default());
         let file = file.display();
         format!("{file}:{second}: {place} has a row already, in line {first}").into()

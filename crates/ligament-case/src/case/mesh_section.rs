@@ -17,7 +17,7 @@ use ligament_model::Plane;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MeshSection {
-    /// The mesh, a Gmsh file (2.2 or 4.1), from the folder of the case file.
+    /// The mesh, a Gmsh file (2.2 or 4.1), or a table of points (`.csv`), from the folder of the case file.
     #[schemars(length(min = 1))]
     pub file: PathBuf,
     /// Thickness of a body in the plane, m; a mesh of solid cells has none.

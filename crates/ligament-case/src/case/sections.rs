@@ -123,7 +123,7 @@ impl Case {
         }
         let (loads, temperatures) = (root().child("load"), root().child("temperature"));
         for (index, load) in case.loads.iter_mut().enumerate() {
-            load.complete(&loads.child(index), index + 1)?;
+            load.complete(&loads.child(index), index + 1, folder)?;
         }
         for (index, stage) in case.stages.iter_mut().enumerate() {
             stage.complete(&root().child("stage").child(index), index + 1)?;

@@ -6,7 +6,7 @@ use super::body_kind::BodyKind;
 use super::document::{Node, Origin, line_and_column};
 use super::fault::{CaseError, Fault, KeyFault, Location};
 use super::key_path::KeyPath;
-use super::keys::unit_of;
+use super::keys::{in_sections, unit_of};
 use super::overrides;
 
 /// The parsed text of a case or a study, with its file and overrides.
@@ -95,9 +95,17 @@ impl Source {
         if let Fault::MissingKey { unit, .. } | Fault::WrongType { unit, .. } = &mut fault {
             *unit = unit_of(&key);
         }
+        if let (Fault::UnknownKey { key: given, .. }, [_]) = (&fault, key.0.as_slice()) {
+            let (given, known) = (given.clone(), in_sections(given));
+            if !known.is_empty() {
+                fault = Fault::KeyOfSection { key: given, known };
+            }
+        }
         let origin = match &fault {
             // An unknown key is located at the key, any other fault at the value.
-            Fault::UnknownKey { .. } => self.document.key_origin_of(&key),
+            Fault::UnknownKey { .. } | Fault::KeyOfSection { .. } => {
+                self.document.key_origin_of(&key)
+            }
             // The error of keys that exclude each other is located at an override, if there is one.
             Fault::NotExactlyOne { found, .. } => found
                 .iter()

@@ -56,6 +56,7 @@ profile = { along = "x", zero = 0, one = 1 }
 [[load]]
 group = "left"
 force = { x = 1 }
+profile = { file = "factors.csv" }
 [[load]]
 group = "right"
 force_per_length = { x = 1 }

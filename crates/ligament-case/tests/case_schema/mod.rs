@@ -4,6 +4,7 @@
 
 mod agreement;
 mod documents;
+mod python;
 mod repository;
 
 use std::path::Path;

@@ -8,7 +8,7 @@ use ligament_case::case::keys::rows;
 use super::documents::all_of_schema;
 use super::{document, objection};
 
-fn root() -> PathBuf {
+pub(super) fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 

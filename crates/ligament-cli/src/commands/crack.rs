@@ -42,8 +42,13 @@ pub struct CrackArgs {
     /// The folder with the results of a run
     #[arg(value_name = "RESULT")]
     pub results: PathBuf,
-    /// Step of the crack: a number, first (breakage), peak or last; in a solid also all
-    #[arg(long, value_name = "STEP", default_value = "last")]
+    /// Step of the crack: a number, -1 for the last, first (breakage), peak or last; in a solid also all
+    #[arg(
+        long,
+        value_name = "STEP",
+        default_value = "last",
+        allow_negative_numbers = true
+    )]
     pub step: StepChoice,
     /// Share of its force below which a softening bond counts as cracked
     #[arg(long, value_name = "SHARE", default_value = "0.1", value_parser = cracked_below(), conflicts_with = "iso")]

@@ -44,9 +44,9 @@ pub struct PlotArgs {
     /// Field to draw, or none [default: damage where bonds broke, of softening bonds by their way of failing, else displacement]
     #[arg(long, value_name = "NAME")]
     pub field: Option<String>,
-    /// Steps or modes to draw: numbers, first (breakage), peak, last, or all: a picture each, in files with numbers [default: the
+    /// Steps or modes to draw: numbers, -1 for the last, first (breakage), peak, last, or all: a picture each, in files with numbers [default: the
     /// last step, the first six modes]
-    #[arg(long, visible_alias = "mode", value_name = "STEP", num_args = 1.., value_delimiter = ',')]
+    #[arg(long, visible_alias = "mode", value_name = "STEP", num_args = 1.., value_delimiter = ',', allow_negative_numbers = true)]
     pub step: Vec<StepChoice>,
     /// Draw this number of outputs, evenly spaced, side by side
     #[arg(long, value_name = "COUNT", conflicts_with = "step", value_parser = clap::value_parser!(u32).range(1..=100))]

@@ -83,12 +83,10 @@ impl RunArgs {
             .out
             .unwrap_or_else(|| Path::new("results").join(case.name()));
         let request = Request {
-            case: &case,
-            out: &out,
             force: self.force,
-            build: BUILD,
             is_stopped: &|| stop.came(),
             communicator,
+            ..Request::new(&case, &out, BUILD)
         };
         let report = request.run(ProgressMode::detect(self.quiet))?;
         print_report(&report, &out, self.plot)

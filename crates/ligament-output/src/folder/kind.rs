@@ -1,5 +1,8 @@
 //! Kinds of result folders: the marker file of each kind, and the files that are the program's.
 
+use std::path::Path;
+
+use crate::atomic::PASSING;
 use crate::vtu;
 
 /// File that every run writes first; the marker of a folder with the results of a run.
@@ -29,6 +32,12 @@ const OF_A_RUN: [&str; 12] = [
     "bonds.pvd",
     "modes.pvd",
 ];
+
+/// Beginning of the names of copies of inputs.
+const OF_INPUTS: &str = "input-";
+
+/// Sections whose files are copied.
+const SECTIONS_WITH_FILES: [&str; 3] = ["mesh", "temperature", "load"];
 
 /// Stem of the grid file of a run with a fixed name.
 const MODEL_STEM: &str = "model";
@@ -82,7 +91,7 @@ impl Kind {
 
     /// Whether a file of this name may be removed with the results.
     pub(super) fn may_remove(self, name: &str) -> bool {
-        name == self.marker || name == LOCK || name == REPLACED || {
+        name == self.marker || [LOCK, REPLACED, PASSING].contains(&name) || {
             let whole = unfinished(name).unwrap_or(name);
             (self.owns)(whole) || self.is_unfinished(name)
         }
@@ -102,6 +111,11 @@ pub(super) fn unfinished(name: &str) -> Option<&str> {
     is_number(process).then_some(whole)
 }
 
+/// Whether a file of this name is a lock or another mark, or an unfinished file of the program.
+pub(super) fn is_own_trace(name: &str) -> bool {
+    [LOCK, PASSING].contains(&name) || Kind::RUN.is_unfinished(name)
+}
+
 fn is_of_a_run(name: &str) -> bool {
     let is_model = vtu::stem(name) == Some(MODEL_STEM);
     OF_A_RUN.contains(&name)
@@ -109,6 +123,21 @@ fn is_of_a_run(name: &str) -> bool {
         || is_numbered(name, &NUMBERED)
         || is_made_later(name)
         || name.starts_with("checkpoint")
+        || is_input(name)
+}
+
+/// Whether a file of this name is a copy of an input.
+fn is_input(name: &str) -> bool {
+    let section = name.strip_prefix(OF_INPUTS).unwrap_or_default();
+    let section = section.split(['-', '.']).next().unwrap_or_default();
+    SECTIONS_WITH_FILES.contains(&section)
+}
+
+/// Name of the copy of an input in a result folder, by its key in the case: `input-mesh.msh`, `input-temperature-0.csv`.
+pub fn input_name(key: &str, file: &Path) -> String {
+    let stem = key.trim_end_matches(".file").replace('.', "-");
+    let ending = file.extension().unwrap_or_default().to_string_lossy();
+    format!("{OF_INPUTS}{stem}.{ending}")
 }
 
 /// Whether a file of this name is derived from the results of a run later: of its cracks, or of another surface.
@@ -151,6 +180,8 @@ mod tests {
             "fields_0001.pvtu",
             "fields_0001.piece_12.vtu",
             "model.pvtu",
+            "input-mesh.msh",
+            "input-temperature-0.csv",
             ".summary.json.4711.partial",
             ".report.html.4711.partial",
             ".lock",
@@ -163,6 +194,7 @@ mod tests {
             "fields_a.vtu",
             "fields_0001.piece_a.vtu",
             "my-history.csv",
+            "input-data.csv",
             ".thesis.tex.1.partial",
         ];
         assert!(!foreign.iter().any(|name| Kind::RUN.may_remove(name)));

@@ -121,12 +121,14 @@ columns! { "First columns of the table of broken bonds."
     "reaction" "N" ANY "force of the load just before" => |it| it.reaction.into();
 }
 
-columns! { "Columns of the ends of a bond: nodes of a mesh or cells of a lattice."
+columns! { "Columns of the ends of a bond: nodes of a mesh, cells of a lattice, or points of a table."
     ENDS:
     "node_a" "" ANY "tag of one end, on a mesh";
     "node_b" "" ANY "tag of the other end, on a mesh";
     "cell_a" "" ANY "number of the cell at one end, on a lattice, counted row by row from 1";
     "cell_b" "" ANY "number of the cell at the other end, on a lattice";
+    "point_a" "" ANY "number of the point at one end, of a table of points, counted from 0";
+    "point_b" "" ANY "number of the point at the other end, of a table of points";
 }
 
 columns! { "Columns of the failure of a bond."
@@ -290,6 +292,13 @@ pub fn unit_of_probe(field: Option<&str>, component: &str, is_section: bool) -> 
         None if is_section => "N",
         None => motion_unit(component.starts_with("rotation")),
     }
+}
+
+/// Whether a column of a table holds counts or words, rather than numbers of any size.
+pub fn is_count(table: &str, column: &str) -> bool {
+    let tables = tables().into_iter().filter(|it| it.0 == table);
+    let mut columns = tables.flat_map(|it| it.1);
+    columns.any(|it| it.name == column && it.unit.is_empty())
 }
 
 /// SI unit of a column of a history; `-` for a number without a unit, and for probes, whose units follow from the case.

@@ -3,10 +3,9 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use ligament_analysis::history::StepRecord;
 use ligament_analysis::result_fields::{HORIZON, VOLUME};
 use ligament_mesh::Cell;
-use ligament_model::{BodyGrid, Canvas};
+use ligament_model::Canvas;
 use ligament_post::OpenedCells;
 use ligament_post::crack::{CrackLine, Faces, Part, crack_lines, opened_cells};
 
@@ -14,19 +13,8 @@ use super::outputs::{OutputKind, Outputs, cut_pairs};
 use super::point_fields::location;
 use super::softening_table::{self, CrackedBelow};
 use crate::csv::read::{Row, Sheet};
-use crate::vtu::read::VtuFile;
+use crate::vtu::read::{TAGGED, VtuFile};
 use crate::{Error, FieldLocation, vtu};
-
-/// Pairs of points that a run in memory separated.
-#[derive(Debug, Clone, Copy)]
-pub struct SeparatedPairs<'a> {
-    /// Pairs that pre-cracks separate.
-    pub cut: &'a [[u32; 2]],
-    /// Ends of the broken bonds, in the order of breaking.
-    pub broken: &'a [[u32; 2]],
-    /// Ends of the softening bonds that opened, each with its step.
-    pub softened: &'a [([u32; 2], usize)],
-}
 
 /// The faces of a body with the order in which a run opened them.
 #[derive(Debug, Clone, PartialEq)]
@@ -120,38 +108,6 @@ impl StoredCracks {
         })
     }
 
-    /// The cracks of a run in memory: its body with the horizons of the points (n_points, m) and its thickness (m), the separated pairs of
-    /// points, and the history.
-    pub fn in_memory(
-        body: &BodyGrid,
-        horizon: Vec<f64>,
-        thickness: f64,
-        parted: &SeparatedPairs<'_>,
-        history: &[StepRecord],
-    ) -> Self {
-        let &SeparatedPairs {
-            cut,
-            broken,
-            softened,
-        } = parted;
-        let faces = Faces::new(&body.positions_in_plane(), &body.canvas);
-        let breaks = (1..).zip(broken);
-        let breaks = breaks.map(|(order, ends)| (*ends, Moment::Breakage(order)));
-        let opened = softened
-            .iter()
-            .map(|(ends, step)| (*ends, Moment::Step(*step)));
-        let all = breaks.chain(opened);
-        let opened = all.filter_map(|(ends, moment)| Some((faces.between(ends)?, moment)));
-        Self {
-            thickness,
-            cut: cut.iter().filter_map(|ends| faces.between(*ends)).collect(),
-            opened: opened.collect(),
-            horizon,
-            records: history.iter().map(CrackRecord::from).collect(),
-            faces,
-        }
-    }
-
     /// The cracks in the state of a step, or of the last step before it. Pre-cracks are not included, but cracks start there.
     pub fn lines(&self, step: usize) -> Vec<CrackLine> {
         let until = self.records.iter().take_while(|it| it.step <= step);
@@ -235,20 +191,6 @@ pub(super) fn grown(
     chosen.map(|(_, record)| record).collect()
 }
 
-impl From<&StepRecord> for CrackRecord {
-    fn from(step: &StepRecord) -> Self {
-        Self {
-            step: step.step,
-            load_factor: step.load_factor,
-            displacement: step.displacement,
-            reaction: step.reaction,
-            released_energy: step.released_energy,
-            dissipated_energy: step.dissipated_energy,
-            broken_bonds: step.broken_bonds,
-        }
-    }
-}
-
 impl CrackRecord {
     /// Whether the record's state is after a moment. On the exact path the state precedes the breakages of its event.
     pub(super) fn is_after(&self, moment: Moment) -> bool {
@@ -276,7 +218,8 @@ pub(super) fn broken_pairs(folder: &Path) -> Result<Vec<[i64; 2]>, Error> {
     let Some(sheet) = table(&folder.join("breaks.csv"))? else {
         return Ok(Vec::new());
     };
-    sheet.rows(|row| ends(&sheet, row))
+    let columns = columns_of_ends(&sheet);
+    sheet.rows(|row| tag_pair(row, &columns))
 }
 
 /// Tags of the ends of the softening bonds whose force fell below a share, with the moment in which it did.
@@ -287,10 +230,11 @@ pub(super) fn softened_pairs(
     let Some(sheet) = table(&folder.join(softening_table::FILE))? else {
         return Ok(Vec::new());
     };
+    let columns = columns_of_ends(&sheet);
     let rows = sheet.rows(|row| {
         let opens = row.value::<String>("event")? == cracked.event();
         let moment = Moment::Step(row.value("step")?);
-        Ok(opens.then_some((ends(&sheet, row)?, moment)))
+        Ok(opens.then_some((tag_pair(row, &columns)?, moment)))
     })?;
     Ok(rows.into_iter().flatten().collect())
 }
@@ -299,14 +243,21 @@ fn table(path: &Path) -> Result<Option<Sheet>, Error> {
     path.is_file().then(|| Sheet::read(path)).transpose()
 }
 
-fn ends(sheet: &Sheet, row: Row<'_>) -> Result<[i64; 2], Error> {
-    let is_cell = sheet.columns().iter().any(|it| it == "cell_a");
-    let [a, b] = if is_cell {
-        ["cell_a", "cell_b"]
-    } else {
-        ["node_a", "node_b"]
-    };
+/// Tags of the ends of the bond of a row, from the columns that hold them.
+pub(super) fn tag_pair(row: Row<'_>, [a, b]: &[String; 2]) -> Result<[i64; 2], Error> {
     Ok([row.value(a)?, row.value(b)?])
+}
+
+/// Names of the columns with the tags of the ends of bonds, by those that a table has.
+pub fn columns_of_ends(sheet: &Sheet) -> [String; 2] {
+    let has = |tagged: &&str| {
+        sheet
+            .columns()
+            .iter()
+            .any(|it| *it == format!("{tagged}_a"))
+    };
+    let tagged = TAGGED.into_iter().find(has).unwrap_or(TAGGED[0]);
+    ["a", "b"].map(|end| format!("{tagged}_{end}"))
 }
 
 /// A body in the plane, read from a file of fields.

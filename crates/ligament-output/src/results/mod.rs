@@ -7,7 +7,7 @@
 //! | `breaks.csv` | one row per broken bond, in the order of breaking |
 //! | `softening.csv` | one row when a bond begins to soften, and one when its force falls below each of three shares; only where bonds soften |
 //! | `criteria.csv` | one row per failure criterion: its measure and its law after the limit |
-//! | `model.vtu` | points and bonds at the start, limits of the bonds; at the end their largest utilisations |
+//! | `model.vtu` | points and bonds at the start, limits of the bonds; at the end their largest utilisations and dissipated energies |
 //! | `timings.csv` | the time of each load step, in a file of its own, so that histories can be compared bitwise |
 //! | `fields_NNNN.vtu`, `fields.pvd` | fields on the cells of the mesh or the lattice |
 //! | `bonds_NNNN.vtu`, `bonds.pvd` | the bonds as lines, if requested |
@@ -16,6 +16,7 @@
 //! which a field has a value ([`write_level_set`]). A modal analysis writes `modes.csv`, `mode_NNNN.vtu` and `modes.pvd` instead
 //! ([`write_modes`]).
 
+pub mod bond_arrays;
 pub mod columns;
 mod crack_growth;
 mod crack_tables;
@@ -63,17 +64,14 @@ pub use level_files::write_level_set;
 pub use modes::write_modes;
 use outputs::remove_others;
 pub use pieces::PieceWriter;
-pub use point_fields::{PointFields, location, point_fields};
+pub use point_fields::location;
 pub use rule::{Time, WriteRule};
 pub use so_far::OutputState;
+pub use softening_table::CrackedBelow;
 use softening_table::SofteningTable;
-pub use softening_table::{CrackedBelow, SoftenedBond, SoftenedBonds};
-pub use surface_files::{SURFACE_FILES, write_series, write_surface};
-use tables::{CRITERIA_FILE, Tables};
-pub use tables::{
-    break_columns, break_row, criterion_labels, deformation_names, history_columns, history_row,
-    labels_of,
-};
+pub use surface_files::{SURFACE_FILES, stored_jumps, write_series, write_surface};
+pub use tables::criterion_labels;
+use tables::{CRITERIA_FILE, Tables, deformation_names};
 
 /// Observer that writes the results of a run.
 pub struct ResultWriter<'a> {
@@ -331,7 +329,7 @@ impl Observer for ResultWriter<'_> {
                     grid,
                     fixed,
                     &self.problem,
-                    Some(largest),
+                    Some((largest, &view.state.dissipated)),
                 ))?;
             }
         }

@@ -27,6 +27,9 @@ use super::tables::criterion_labels;
 use crate::Error;
 use crate::vtu::{self, Field};
 
+/// Name of the field of the energies that bonds dissipated, J.
+pub(super) const DISSIPATED_ENERGY: &str = "dissipated_energy";
+
 /// Stem of the model file's name.
 const MODEL: &str = "model";
 
@@ -50,13 +53,13 @@ pub(super) const COEFFICIENTS: [&str; 9] = [
     "coefficient_9",
 ];
 
-/// Writes the model, at the end of a run with the largest utilisations of its bonds.
+/// Writes the model, at the end of a run with the largest utilisations of its bonds and the energies that they dissipated (n_bonds, J).
 pub(super) fn write(
     folder: &Path,
     grid: &BodyGrid,
     fixed: &ConstantFields,
     problem: &Problem,
-    largest: Option<&Largest>,
+    at_end: Option<(&Largest, &[f64])>,
 ) -> Result<(), Error> {
     let (system, absent) = (&problem.system, &fixed.absent);
     let n_absent = absent.len();
@@ -79,7 +82,8 @@ pub(super) fn write(
         .chain(nothing)
         .collect();
     let limits = limits(problem, n_absent);
-    let largest = largest.map(|largest| largest.columns(n_absent));
+    let largest = at_end.map(|(largest, _)| largest.columns(n_absent));
+    let dissipated = at_end.map(|(_, dissipated)| with_absent(dissipated, n_absent));
 
     let mut cell_fields = vec![
         Field::integer("absent", &absence),
@@ -93,6 +97,8 @@ pub(super) fn write(
             .map(|(name, values)| Field::scalar(name, values)),
     );
     cell_fields.extend(largest.iter().flat_map(|columns| columns.fields()));
+    let dissipated = dissipated.iter();
+    cell_fields.extend(dissipated.map(|it| Field::scalar(DISSIPATED_ENERGY, it)));
     let point_fields = [
         Field::scalar(VOLUME.name, system.volumes()),
         Field::scalar(HORIZON.name, &fixed.horizon),
@@ -102,6 +108,12 @@ pub(super) fn write(
     let subdomain = system.subdomain();
     let path = folder.join(vtu::file_name(MODEL, subdomain));
     lines.write(&path, grid, &point_fields, &cell_fields, subdomain)
+}
+
+/// Values of the bonds, with no number for each absent one.
+fn with_absent(values: &[f64], n_absent: usize) -> Vec<f64> {
+    let nothing = std::iter::repeat_n(f64::NAN, n_absent);
+    values.iter().copied().chain(nothing).collect()
 }
 
 /// Fields of the limits and coefficients of each criterion for each bond, by name.

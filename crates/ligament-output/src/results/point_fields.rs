@@ -17,7 +17,7 @@ use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation};
 
 /// Fields of a state with their values.
-pub type PointFields = Vec<(&'static ResultField, FieldValues)>;
+pub(super) type PointFields = Vec<(&'static ResultField, FieldValues)>;
 
 /// Writes the fields of a state.
 pub(super) fn write(
@@ -54,7 +54,7 @@ pub(super) fn write(
 
 /// The fields of a state in the order of the files, with the stresses demanded by the rule; where the body is divided, values are right at
 /// owned points only.
-pub fn point_fields(rule: WriteRule, view: &View<'_>) -> PointFields {
+pub(super) fn point_fields(rule: WriteRule, view: &View<'_>) -> PointFields {
     let fields = FIELDS.iter().filter(|it| rule.has(&it.reading));
     fields
         .filter_map(|field| Some((*field, field.values(view)?)))

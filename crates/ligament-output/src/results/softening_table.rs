@@ -64,14 +64,14 @@ pub(super) struct SofteningTable {
 
 /// Events of the softening bonds that were reported: the beginning of softening, and the shares below which the force fell.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SoftenedBonds {
+pub(super) struct SoftenedBonds {
     /// Number of reported events of each bond, shape (n_bonds).
     told: Vec<u8>,
 }
 
 /// A bond with new events.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct SoftenedBond {
+pub(super) struct SoftenedBond {
     /// Number of the bond.
     pub bond: usize,
     /// Number of the criterion.
@@ -80,13 +80,6 @@ pub struct SoftenedBond {
     before: u8,
     /// Number of events now: 1 for the beginning of softening, more below the shares of the force.
     now: u8,
-}
-
-impl SoftenedBond {
-    /// Whether the force of the bond has fallen below a tenth now: a crack is open.
-    pub fn opens(&self) -> bool {
-        self.now == CrackedBelow::Tenth.n_events()
-    }
 }
 
 /// State of the table in a checkpoint.
@@ -171,14 +164,14 @@ impl SofteningTable {
 
 impl SoftenedBonds {
     /// A record of `n_bonds` bonds without events.
-    pub fn new(n_bonds: usize) -> Self {
+    pub(super) fn new(n_bonds: usize) -> Self {
         Self {
             told: vec![0; n_bonds],
         }
     }
 
     /// Bonds with new events in a state, those farthest beyond their limits first; the events then count as reported.
-    pub fn step(&mut self, view: &View<'_>) -> Vec<SoftenedBond> {
+    pub(super) fn step(&mut self, view: &View<'_>) -> Vec<SoftenedBond> {
         let changed = self.changed(view);
         let told = |(bond, criterion, now)| SoftenedBond {
             bond,

@@ -19,6 +19,8 @@ pub enum StepName {
     Last,
     /// The step with this number.
     Number(usize),
+    /// The step so many before the end: 1 is the last, 2 the one before.
+    FromEnd(usize),
 }
 
 /// Selection of stored steps by a word.
@@ -69,6 +71,16 @@ pub enum StepError {
         /// Requested name.
         name: StepName,
     },
+    /// A step counted from the end, of fewer steps.
+    #[error("{path} has no step -{back}: there is output of {n_stored} steps")]
+    TooFewSteps {
+        /// The folder.
+        path: PathBuf,
+        /// Place from the end, from 1.
+        back: usize,
+        /// Number of the stored steps.
+        n_stored: usize,
+    },
     /// The step with the number is not stored.
     #[error(
         "{path} has no output of step {number}; there are {} (run it again with --set output.fields_every=1 for all)",
@@ -91,6 +103,7 @@ impl fmt::Display for StepName {
             Self::Peak => f.write_str("peak"),
             Self::Last => f.write_str("last"),
             Self::Number(number) => write!(f, "{number}"),
+            Self::FromEnd(number) => write!(f, "-{number}"),
         }
     }
 }
@@ -98,16 +111,24 @@ impl fmt::Display for StepName {
 impl FromStr for StepChoice {
     type Err = String;
 
-    /// Parses `first`, `peak`, `last`, `all` or a number.
+    /// Parses `first`, `peak`, `last`, `all` or a number; -1 is the last step, -2 the one before.
     fn from_str(text: &str) -> Result<Self, String> {
         Ok(Self::One(match text.trim() {
             "all" => return Ok(Self::All),
             "first" => StepName::First,
             "peak" => StepName::Peak,
             "last" => StepName::Last,
-            number => StepName::Number(number.parse().map_err(|_| {
-                "expected the number of a step, or first (breakage), peak, last or all".to_owned()
-            })?),
+            number => {
+                let (number, name): (&str, fn(usize) -> StepName) = match number.strip_prefix('-') {
+                    Some(back) => (back, StepName::FromEnd),
+                    None => (number, StepName::Number),
+                };
+                let number = number.parse().ok().map(name);
+                let number = number.filter(|it| *it != StepName::FromEnd(0));
+                number.ok_or(
+                    "expected the number of a step, -1 for the last, -2 for the one before, or first (breakage), peak, last or all",
+                )?
+            }
         }))
     }
 }
@@ -132,6 +153,16 @@ impl StepChoice {
         Ok(match self {
             Self::All => stored.iter().copied().map(numbered).collect(),
             Self::One(StepName::Last) => vec![numbered(last)],
+            Self::One(StepName::FromEnd(back)) => {
+                let place = stored.len().checked_sub(back);
+                vec![numbered(
+                    stored[place.ok_or_else(|| StepError::TooFewSteps {
+                        path: folder.to_path_buf(),
+                        back,
+                        n_stored: stored.len(),
+                    })?],
+                )]
+            }
             Self::One(StepName::Number(number)) if stored.contains(&number) => {
                 vec![numbered(number)]
             }
@@ -242,6 +273,7 @@ mod tests {
         assert_eq!(steps("peak"), [2]);
         assert_eq!(steps("last"), [4]);
         assert_eq!(steps(" 3"), [3]);
+        assert_eq!([steps("-1"), steps("-5")], [[4], [0]]);
         assert_eq!(steps("all"), [0, 1, 2, 3, 4]);
         let brittle = HISTORY.replace("1e-9", "0");
         let choice = StepChoice::One(StepName::First);
@@ -279,6 +311,7 @@ mod tests {
                 .unwrap_err()
                 .to_string()
         };
+        assert!(error("-3", HISTORY).contains("no step -3: there is output of 2 steps"));
         assert!(error("7", HISTORY).contains("no output of step 7; there are 0, 1 ("));
         let intact = HISTORY.lines().take(2).collect::<Vec<_>>().join("\n") + "\n";
         assert!(error("first", &intact).contains("no bond broke or softened"));
@@ -293,6 +326,10 @@ mod tests {
                 .parse::<StepChoice>()
                 .is_err_and(|it| it.contains("peak, last or all"))
         );
-        assert!("-1".parse::<StepChoice>().is_err());
+        assert!(
+            ["-0", "--1", "-x"]
+                .iter()
+                .all(|it| it.parse::<StepChoice>().is_err())
+        );
     }
 }

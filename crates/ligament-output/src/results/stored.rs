@@ -197,11 +197,10 @@ impl StoredRun {
             return Ok(None);
         };
         let file = VtuFile::open(path)?;
-        // The fields of a lattice are on its cells.
-        let location = if self.model.tagged == "cell" {
-            FieldLocation::Cell
-        } else {
-            FieldLocation::Point
+        // The fields of a lattice, and of points, are on their cells.
+        let location = match self.model.tagged {
+            "node" => FieldLocation::Point,
+            _ => FieldLocation::Cell,
         };
         let displacement = file.finite_numbers(location, DISPLACEMENT.name)?;
         let rotation = file.finite_numbers(location, ROTATION.name)?;

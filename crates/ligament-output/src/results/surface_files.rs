@@ -83,6 +83,32 @@ pub fn write_series(folder: &Path, cracks: &SolidCracks) -> Result<usize, Error>
     Ok(outputs.files.len())
 }
 
+/// Opening and sliding (m) at each vertex of a surface of a step, by the stored displacements of the step or of the last one before it;
+/// not a number where there are none.
+///
+/// # Errors
+///
+/// If a file cannot be read.
+pub fn stored_jumps(
+    folder: &Path,
+    cracks: &SolidCracks,
+    surface: &CrackSurface,
+    step: usize,
+) -> Result<Vec<[f64; 2]>, Error> {
+    jumps(cracks, surface, fields_until(folder, step)?.as_ref())
+}
+
+fn jumps(
+    cracks: &SolidCracks,
+    surface: &CrackSurface,
+    fields: Option<&VtuFile>,
+) -> Result<Vec<[f64; 2]>, Error> {
+    Ok(match fields {
+        Some(file) => cracks.jumps(surface, &cracks.body.vectors(file, DISPLACEMENT.name)?),
+        None => vec![[f64::NAN; 2]; surface.places.len()],
+    })
+}
+
 /// The stored fields of a step, or of the last step before it with fields.
 pub(super) fn fields_until(folder: &Path, step: usize) -> Result<Option<VtuFile>, Error> {
     let outputs = Outputs::list(folder)?;
@@ -100,10 +126,7 @@ fn write_grid(
     if surface.triangles.is_empty() {
         return remove_file(path);
     }
-    let jumps = match fields {
-        Some(file) => cracks.jumps(surface, &cracks.body.vectors(file, DISPLACEMENT.name)?),
-        None => vec![[f64::NAN; 2]; surface.places.len()],
-    };
+    let jumps = jumps(cracks, surface, fields)?;
     let [opening, sliding]: [Vec<f64>; 2] =
         [0, 1].map(|place| jumps.iter().map(|it| it[place]).collect());
     let steps = cracks.steps_of_parting();

@@ -35,7 +35,7 @@ pub fn criterion_labels<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String>
 }
 
 /// Names of the failure criteria of a problem in results.
-pub fn labels_of(problem: &Problem) -> Vec<String> {
+pub(super) fn labels_of(problem: &Problem) -> Vec<String> {
     criterion_labels(problem.criteria.list.iter().map(|criterion| criterion.name))
 }
 
@@ -98,7 +98,7 @@ pub(super) struct Tables {
 }
 
 /// Names of the components of a bond's deformation in results, without the relative rotation of the ends, which enters no criterion.
-pub fn deformation_names(system: &dyn Bonds) -> &'static [&'static str] {
+pub(super) fn deformation_names(system: &dyn Bonds) -> &'static [&'static str] {
     told(system.strain_names())
 }
 
@@ -111,7 +111,7 @@ pub(super) fn told(names: &'static [&'static str]) -> &'static [&'static str] {
 }
 
 /// Names of the columns of the history of a problem.
-pub fn history_columns(problem: &Problem) -> Vec<String> {
+pub(super) fn history_columns(problem: &Problem) -> Vec<String> {
     let groups = problem.loads.groups().iter();
     let of_body = problem.system.layout().of_body();
     let of_groups = groups.flat_map(|group| {
@@ -128,7 +128,7 @@ pub fn history_columns(problem: &Problem) -> Vec<String> {
 }
 
 /// Values of a record in the [columns of the history](history_columns).
-pub fn history_row<'a>(record: &StepRecord, view: &View<'a>) -> Vec<Value<'a>> {
+pub(super) fn history_row<'a>(record: &StepRecord, view: &View<'a>) -> Vec<Value<'a>> {
     let mut row: Vec<Value<'_>> = HISTORY.iter().map(|column| column.1(record)).collect();
     if let Some(loads) = view.loads.course() {
         let stage = loads.programme.stage_name(record.part);
@@ -149,7 +149,7 @@ pub fn history_row<'a>(record: &StepRecord, view: &View<'a>) -> Vec<Value<'a>> {
 }
 
 /// Names of the columns of the table of breakages of a problem; `tagged` is the kind of the tags of bonds' ends, nodes or cells.
-pub fn break_columns(problem: &Problem, tagged: &str) -> Vec<String> {
+pub(super) fn break_columns(problem: &Problem, tagged: &str) -> Vec<String> {
     let breaks = BREAKS.iter().map(|it| it.0.name);
     let strains = deformation_names(&*problem.system).iter().copied();
     (breaks
@@ -168,7 +168,7 @@ pub(super) fn ends(tagged: &str) -> impl Iterator<Item = &'static str> {
 
 /// Values of a record in the [columns of the breakages](break_columns), from the tags of the ends, the names of the criteria, and the
 /// number of components of the deformation.
-pub fn break_row<'a>(
+pub(super) fn break_row<'a>(
     record: &BreakRecord,
     ends: [i64; 2],
     criteria: &'a [String],

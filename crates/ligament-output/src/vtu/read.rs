@@ -13,6 +13,9 @@ use super::pieces::{CELL_NUMBER, POINT_NUMBER};
 use crate::{Error, FieldLocation};
 use text::{Entry, Section, Text, sources, strange};
 
+/// What the points of a model are called, whose tags a file has: nodes of a mesh, cells of a lattice, points of a table.
+pub const TAGGED: [&str; 3] = ["node", "cell", "point"];
+
 /// Size that no number of a result has: squares and quotients of smaller ones are numbers.
 const BEYOND: f64 = 1e100;
 
@@ -116,6 +119,17 @@ impl VtuFile {
         Some((entry.n_components, &entry.components))
     }
 
+    /// Names of the components of a field by which its values can be asked for one by one: those of the file, `x`, `y` and `z` of a vector;
+    /// empty of a field of one number, or where there is no such field.
+    pub fn component_names(&self, location: FieldLocation, name: &str) -> Vec<String> {
+        match self.components(location, name) {
+            None | Some((1, _)) => Vec::new(),
+            Some((3, [])) => ["x", "y", "z"].map(str::to_owned).to_vec(),
+            Some((count, [])) => (0..count).map(|it| it.to_string()).collect(),
+            Some((_, names)) => names.to_vec(),
+        }
+    }
+
     /// The numbers of a field, point by point or cell by cell; None where there is no such field.
     ///
     /// # Errors
@@ -167,13 +181,13 @@ impl VtuFile {
         values.ok_or_else(|| self.missing(location, name))
     }
 
-    /// The tags of what the points of a model are: the noun `node` or `cell`, and the tags of the nodes or cells.
+    /// The tags of what the points of a model are: the noun of [`TAGGED`], and the tags.
     ///
     /// # Errors
     ///
     /// If there are none, or they are damaged.
     pub fn tags(&self, location: FieldLocation) -> Result<(&'static str, Vec<i64>), Error> {
-        for tagged in ["node", "cell"] {
+        for tagged in TAGGED {
             if let Some(tags) = self.integers(location, tagged)? {
                 return Ok((tagged, tags));
             }

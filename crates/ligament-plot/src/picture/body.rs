@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::fields::DISPLACEMENT;
+use ligament_output::results::location;
 use ligament_output::vtu::Cell;
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::{Error, FieldLocation};
@@ -51,13 +52,8 @@ impl Body {
     /// Reads it from an output.
     pub(super) fn read(file: &VtuFile) -> Result<Self, Error> {
         let moved = file.finite_numbers(FieldLocation::Point, DISPLACEMENT.name)?;
-        let (tagged, tags) = match file.integers(FieldLocation::Point, "node")? {
-            Some(tags) => (FieldLocation::Point, tags),
-            None => {
-                let location = FieldLocation::Cell;
-                (location, file.required_integers(location, "cell")?)
-            }
-        };
+        let tagged = location(file);
+        let (_, tags) = file.tags(tagged)?;
         Ok(Self {
             reference: file.points_in_plane()?,
             displacement: moved.chunks_exact(3).map(|v| [v[0], v[1]]).collect(),

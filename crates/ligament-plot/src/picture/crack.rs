@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use ligament_output::csv::read::Sheet;
+use ligament_output::results::cracks::columns_of_ends;
 use ligament_output::results::outputs::cut_pairs;
 
 use super::PictureError;
@@ -70,9 +71,7 @@ impl Broken {
 
 /// The broken bonds of a table by their criteria.
 fn broken(sheet: &Sheet) -> Result<Vec<Broken>, PictureError> {
-    let has_cells = sheet.columns().iter().any(|it| it == "cell_a");
-    let tagged = if has_cells { "cell" } else { "node" };
-    let ends = ["a", "b"].map(|end| format!("{tagged}_{end}"));
+    let ends = columns_of_ends(sheet);
     let mut by_name: BTreeMap<String, Vec<_>> = BTreeMap::new();
     let rows = sheet.rows(|row| {
         let ends = [row.value(&ends[0])?, row.value(&ends[1])?];

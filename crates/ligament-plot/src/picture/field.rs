@@ -10,6 +10,9 @@ use ligament::suggestion::nearest;
 /// The field of the names of an output that draws no field.
 pub(super) const NONE: &str = "none";
 
+/// Name of the norm of a vector among its components.
+const NORM: &str = "magnitude";
+
 /// Quantile of a mode's field that is drawn as its largest value: the corners of a clamp outshine all else.
 const MODE_QUANTILE: f64 = 0.995;
 
@@ -45,12 +48,12 @@ impl Field {
         let all = file.required_numbers(location, base)?;
         let values = match (part, count) {
             (None, 1) => all,
-            (None | Some("magnitude"), 3) if names.is_empty() => all
+            (None | Some(NORM), 3) if names.is_empty() => all
                 .chunks_exact(3)
                 .map(|v| v[0].hypot(v[1]).hypot(v[2]))
                 .collect(),
             (part, _) => {
-                let known = component_names(count, names);
+                let known = component_names(file, location, base);
                 let place = part.and_then(|part| known.iter().position(|it| it == part));
                 let place = place.ok_or_else(|| PictureError::NoComponent {
                     field: base.to_owned(),
@@ -77,22 +80,20 @@ impl Field {
     }
 }
 
-fn component_names(count: usize, names: &[String]) -> Vec<String> {
-    match (count, names) {
-        (1, _) => Vec::new(),
-        // The third component of a vector in the plane is zero.
-        (3, []) => ["x", "y", "z", "magnitude"].map(str::to_owned).to_vec(),
-        (_, []) => (0..count).map(|it| it.to_string()).collect(),
-        _ => names.to_vec(),
+/// Names of the components of a field that can be drawn: also the norm of a vector.
+fn component_names(file: &VtuFile, location: FieldLocation, field: &str) -> Vec<String> {
+    let mut names = file.component_names(location, field);
+    if matches!(file.components(location, field), Some((3, []))) {
+        names.push(NORM.to_owned());
     }
+    names
 }
 
 fn unknown(file: &VtuFile, name: &str) -> PictureError {
     let mut known: Vec<String> = Vec::new();
     for location in [FieldLocation::Point, FieldLocation::Cell] {
         for field in file.fields(location) {
-            let (count, names) = file.components(location, field).unwrap_or((1, &[]));
-            let mut drawable = component_names(count, names)
+            let mut drawable = component_names(file, location, field)
                 .iter()
                 .map(|part| format!("{field}.{part}"))
                 .collect::<Vec<_>>();

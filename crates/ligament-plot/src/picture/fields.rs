@@ -9,6 +9,7 @@ use super::panel::Panel;
 use super::request::{FieldRequest, Magnification, WIDTHS};
 use super::source::{Output, Subject, outputs};
 use super::style::{Style, crack_legend};
+use crate::drawing::Drawing;
 
 /// Draws the picture and returns where it is.
 ///
@@ -19,6 +20,20 @@ pub fn draw_fields(request: &FieldRequest) -> Result<PathBuf, PictureError> {
     let subject = Subject::open(request)?;
     let file = request.target.file(|| subject.default_file(request))?;
     request.target.check(&file)?;
+    let (drawing, title) = drawn(request, &subject)?;
+    request.target.write(file, &drawing, &title)
+}
+
+/// The picture with its title, of which no file is written.
+///
+/// # Errors
+///
+/// If there are no such results, outputs or fields.
+pub fn picture_of_fields(request: &FieldRequest) -> Result<(Drawing, String), PictureError> {
+    drawn(request, &Subject::open(request)?)
+}
+
+fn drawn(request: &FieldRequest, subject: &Subject) -> Result<(Drawing, String), PictureError> {
     let outputs = outputs(&subject.sources, &request.choice)?;
     let mut panels = Vec::new();
     for output in &outputs {
@@ -38,10 +53,10 @@ pub fn draw_fields(request: &FieldRequest) -> Result<PathBuf, PictureError> {
     let fields = panels.iter().filter_map(|panel| panel.field.as_ref());
     let unit = panels[0].field.as_ref().map_or("-", |field| field.unit);
     let ranges = fields.filter_map(Field::range);
-    let style = Style::new(request, &subject, magnification, (ranges, unit))?;
+    let style = Style::new(request, subject, magnification, (ranges, unit))?;
     let mut legend = crack_legend(&subject.sources, &panels, panels.len() == 1);
     legend.extend(Output::warning(&outputs));
     let width = WIDTHS[usize::from(panels.len() > 1)];
     let drawing = style.drawing(&panels, legend, None, width);
-    request.target.write(file, &drawing, &style.title)
+    Ok((drawing, style.title))
 }

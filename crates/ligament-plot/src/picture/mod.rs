@@ -35,7 +35,7 @@ use std::path::PathBuf;
 use ligament_output::results::steps::{StepError, listed};
 use thiserror::Error;
 
-pub use fields::draw_fields;
+pub use fields::{draw_fields, picture_of_fields};
 pub use isosurface::{Isosurface, IsosurfaceRequest, write_isosurfaces};
 pub use lines::stored_precracks;
 pub use of_run::{asks_for_pictures, draw_run};

@@ -140,11 +140,13 @@ fn require_mode(outputs: &Outputs, name: StepChoice, all: &[usize]) -> Result<()
                 known,
             })
         }
-        StepChoice::One(StepName::First | StepName::Peak) => Err(PictureError::Modes {
-            path,
-            what: "first breakage and no peak",
-            option: "--step",
-        }),
+        StepChoice::One(StepName::First | StepName::Peak | StepName::FromEnd(_)) => {
+            Err(PictureError::Modes {
+                path,
+                what: "first breakage and no peak",
+                option: "--step",
+            })
+        }
         StepChoice::All | StepChoice::One(StepName::Last | StepName::Number(_)) => Ok(()),
     }
 }

@@ -1,7 +1,8 @@
 """Peridynamics as a finite-element-style toolchain: mesh in, cracks out.
 
-A case says what to compute, with the sections and keys of a case file; a run of it gives a result in memory: the history as a
-table, points and bonds and fields as arrays, pictures and crack paths. All values are in SI units.
+A case says what to compute, with the sections and keys of a case file, which ``ligament.keys()`` lists; a run of it gives a result: the
+history as a table, points and bonds and fields as arrays, pictures, cracks and explanations. The result is a folder of the program, which
+can be kept and opened later. All values are in SI units.
 
 >>> import ligament
 >>> result = ligament.run({
@@ -22,8 +23,11 @@ table, points and bonds and fields as arrays, pictures and crack paths. All valu
 from ligament import examples
 from ligament._case import Case, Setup
 from ligament._errors import BodyError, CaseError, Interrupted, LigamentError, NotCalibrated, SolutionError
+from ligament._keys import Key, Keys, keys
+from ligament._modes import Modes
 from ligament._native import VERSION as __version__
-from ligament._result import CrackLine, Modes, Result
+from ligament._result import CrackLine, CrackSurface, Result, open, report
+from ligament._sections import Sections
 from ligament._studies import Calibration, Sweep, calibrate, modal, run, sweep
 
 __all__ = [
@@ -32,18 +36,25 @@ __all__ = [
     "Case",
     "CaseError",
     "CrackLine",
+    "CrackSurface",
     "Interrupted",
+    "Key",
+    "Keys",
     "LigamentError",
     "Modes",
     "NotCalibrated",
     "Result",
+    "Sections",
     "Setup",
     "SolutionError",
     "Sweep",
     "__version__",
     "calibrate",
     "examples",
+    "keys",
     "modal",
+    "open",
+    "report",
     "run",
     "sweep",
 ]

@@ -1,8 +1,9 @@
-"""Bodies from arrays, from meshio and from a live Gmsh model."""
+"""Bodies from arrays, from meshio and from a live Gmsh model, written as files that a case reads."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -30,10 +31,10 @@ GMSH_SHAPES = {
 UNREAD = "is none of points, lines, triangles, quadrangles, tetrahedra, hexahedra, prisms and pyramids"
 
 
-def of_points(
-    positions: ArrayLike, areas: ArrayLike | None, volumes: ArrayLike | None, groups: Mapping[str, ArrayLike] | None = None
-) -> _native.Body:
-    """The body of points (n, 2) with the area or (n, 3) with the volume that each stands for (n, or one for all)."""
+def write_points(
+    folder: Path, positions: ArrayLike, areas: ArrayLike | None, volumes: ArrayLike | None, groups: Mapping[str, ArrayLike] | None = None
+) -> Path:
+    """Writes the body of points (n, 2) with the area or (n, 3) with the volume that each stands for (n, or one for all)."""
     at = np.ascontiguousarray(positions, dtype=np.float64)
     if at.ndim != 2 or at.shape[1] not in (2, 3):
         raise BodyError(f"positions have the shape (n, 2), or of a solid (n, 3), found {at.shape}")
@@ -41,7 +42,9 @@ def of_points(
     if sizes is None or other is not None:
         raise BodyError(f"points at positions of the shape {at.shape} stand for `{needed}` each: give these, and these alone")
     each = np.ascontiguousarray(np.broadcast_to(np.asarray(sizes, dtype=np.float64), at.shape[:1]))
-    return _native.Body.of_points(at, each, [(name, _indices(name, it, len(at))) for name, it in (groups or {}).items()])
+    path = folder / "points.csv"
+    _native.write_points(path, at, each, [(name, _indices(name, it, len(at))) for name, it in (groups or {}).items()])
+    return path
 
 
 def _indices(name: str, group: ArrayLike, n_points: int) -> list[int]:
@@ -82,8 +85,8 @@ def _whole(what: str, values: NDArray[Any]) -> NDArray[np.int64]:
     return values.astype(np.int64)
 
 
-def of_mesh(mesh: Any, groups: Mapping[str, ArrayLike] | None = None) -> _native.Body:
-    """The body of a meshio mesh, or of the current model of the module gmsh, with further groups of nodes by their indices."""
+def write_mesh(folder: Path, mesh: Any, groups: Mapping[str, ArrayLike] | None = None) -> Path:
+    """Writes the body of a meshio mesh, or of the current model of the module gmsh, with further groups of nodes by their indices."""
     if hasattr(mesh, "cells") and hasattr(mesh, "points"):
         tags, positions, elements = _of_meshio(mesh)
     elif hasattr(mesh, "model") and hasattr(mesh, "isInitialized"):
@@ -91,16 +94,17 @@ def of_mesh(mesh: Any, groups: Mapping[str, ArrayLike] | None = None) -> _native
     else:
         kind = type(mesh).__name__
         raise BodyError(f"expected a mesh of meshio or the module gmsh, found {kind}; arrays go to `positions` with `cells` or `areas`")
-    return _meshed(tags, positions, elements, groups)
+    return _meshed(folder, tags, positions, elements, groups)
 
 
-def of_cells(
+def write_cells(
+    folder: Path,
     positions: ArrayLike,
     cells: Mapping[str, ArrayLike],
     faces: Mapping[str, ArrayLike] | None = None,
     groups: Mapping[str, ArrayLike] | None = None,
-) -> _native.Body:
-    """The body of nodes (n, 2) or (n, 3), cells of some kinds by their nodes, named faces or edges, and groups of nodes by indices."""
+) -> Path:
+    """Writes the body of nodes (n, 2) or (n, 3), cells of some kinds by their nodes, named faces or edges, and groups of nodes by indices."""
     at = np.asarray(positions, dtype=np.float64)
     if at.ndim != 2 or at.shape[1] not in (2, 3):
         raise BodyError(f"positions have the shape (n, 2), or of a solid (n, 3), found {at.shape}")
@@ -114,7 +118,7 @@ def of_cells(
     top = max((dimension for dimension, _, _ in elements), default=2)
     for name, rows in (faces or {}).items():
         elements.append((top - 1, _corners(name, rows, (2,) if top == 2 else (3, 4), tags), name))
-    return _meshed(tags, at, elements, groups)
+    return _meshed(folder, tags, at, elements, groups)
 
 
 def _corners(name: str, rows: ArrayLike, sizes: tuple[int, ...], tags: NDArray[np.uint64]) -> NDArray[np.uint64]:
@@ -128,13 +132,15 @@ def _corners(name: str, rows: ArrayLike, sizes: tuple[int, ...], tags: NDArray[n
 
 
 def _meshed(
-    tags: NDArray[np.uint64], positions: NDArray[Any], elements: Elements, groups: Mapping[str, ArrayLike] | None
-) -> _native.Body:
+    folder: Path, tags: NDArray[np.uint64], positions: NDArray[Any], elements: Elements, groups: Mapping[str, ArrayLike] | None
+) -> Path:
     for name, group in (groups or {}).items():
         chosen = tags[_indices(name, group, len(tags))]
         elements.append((0, np.ascontiguousarray(chosen[:, None]), name))
     is_solid = any(dimension == 3 for dimension, _, _ in elements)
-    return _native.Body.of_mesh(tags, _in_space(positions, is_solid), elements)
+    path = folder / "mesh.msh"
+    _native.write_mesh(path, tags, _in_space(positions, is_solid), elements)
+    return path
 
 
 def _in_space(positions: NDArray[Any], is_solid: bool) -> NDArray[np.float64]:

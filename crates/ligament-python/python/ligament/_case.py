@@ -5,12 +5,16 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Self, Unpack, cast
 
 from numpy.typing import ArrayLike
 
-from ligament import _body, _native
+from ligament import _body, _functions, _native
 from ligament._errors import LigamentError
+from ligament._functions import Function
+from ligament._home import Home
+from ligament._native import Case as NativeCase
+from ligament._sections import Sections, SectionsOnBody
 
 Section = Mapping[str, Any]
 
@@ -21,7 +25,7 @@ IN_MEMORY = "case in memory"
 class Case:
     """A case: a body, its material and bonds, supports and loads, and how bonds break.
 
-    The sections and keys are those of a case file. A case never changes: `with_changes` gives another one.
+    The sections and keys are those of a case file, which ``ligament.keys`` lists. A case never changes: `with_changes` gives another one.
 
     >>> case = Case.from_toml('''
     ... [lattice]
@@ -47,14 +51,46 @@ class Case:
     15000000000.0
     """
 
-    def __init__(self, sections: Section, /, **changes: Any) -> None:
-        self._native = _native.Case.of_sections(dict(sections), IN_MEMORY, dotted(changes), None)
+    _native: NativeCase
+    # Files of the body and of tables that are in memory, by their keys, and the folder that holds them.
+    _files: dict[str, Path]
+    _home: Home | None
+
+    def __init__(self, sections: Sections, /, **changes: Any) -> None:
+        self._make(dict(sections), dotted(changes))
+
+    def _make(self, sections: dict[str, Any], changes: dict[str, Any]) -> None:
+        """Reads sections, whose functions become tables at the points of the body."""
+        self._files, self._home = {}, None
+        plain, functions = _functions.taken_out(sections)
+        self._native = _native.Case.of_sections(plain, IN_MEMORY, changes)
+        if functions:
+            self._tabulate(plain, functions, changes)
+
+    def _tabulate(self, plain: dict[str, Any], functions: Sequence[tuple[str, int, Function]], changes: dict[str, Any]) -> None:
+        self._home = self._home or Home()
+        positions = self._native.positions()
+        for section, index, function in functions:
+            key = f"{section}.{index}.file" if section == "temperature" else f"{section}.{index}.profile.file"
+            file = self._files[key] = self._home.path / f"{section}-{index}.csv"
+            values = _functions.values(function, positions, key.removesuffix(".file"))
+            _native.write_samples(file, _functions.column(section), positions, values)
+            plain[section][index] = _functions.with_table(plain[section][index], section, str(file))
+        self._native = _native.Case.of_sections(plain, IN_MEMORY, changes)
 
     @classmethod
-    def _of(cls, native: _native.Case) -> Case:
+    def _of(cls, native: NativeCase, files: dict[str, Path] | None = None, home: Home | None = None) -> Self:
         case = cls.__new__(cls)
-        case._native = native
+        case._native, case._files, case._home = native, files or {}, home
         return case
+
+    def __reduce__(self) -> Any:
+        files = {key: (file.name, file.read_bytes()) for key, file in self._files.items()}
+        return _restored, (type(self), self._native.source(), str(self._native.path), files)
+
+    def __deepcopy__(self, _: object) -> Self:
+        # It never changes.
+        return self
 
     @classmethod
     def from_toml(cls, source: str | os.PathLike[str], /, **changes: Any) -> Case:
@@ -65,16 +101,16 @@ class Case:
 
     @classmethod
     def from_dict(cls, sections: Section, /, **changes: Any) -> Case:
-        """The case of a dictionary of sections, with the keys of a case file."""
-        return cls(sections, **changes)
+        """The case of a dictionary of sections whose type is not known; editors check the keys of `Case` itself."""
+        return cls(cast(Sections, sections), **changes)
 
-    def with_changes(self, **changes: Any) -> Case:
+    def with_changes(self, **changes: Any) -> Self:
         """The case with some keys changed, and those taken away whose value is None.
 
         Keys are written with two underscores for a dot, ``model__horizon_factor=4``, or as they are in a dictionary:
         ``**{"model.horizon_factor": 4}``. Entries of lists count from 0: ``load__0__displacement__y``.
         """
-        return self._of(self._native.changed(dotted(changes)))
+        return self._of(self._native.changed(dotted(changes)), self._files, self._home)
 
     @property
     def title(self) -> str:
@@ -89,6 +125,21 @@ class Case:
     def number(self, key: str) -> float | None:
         """The number at a key such as ``material.young``: as given or by default."""
         return self._native.number(key)
+
+    @property
+    def n_points(self) -> int:
+        """Number of points of the body."""
+        return self._native.n_points
+
+    @property
+    def groups(self) -> list[str]:
+        """Names of the groups of the body."""
+        return self._native.groups
+
+    @property
+    def is_solid(self) -> bool:
+        """Whether the body is a solid."""
+        return self._native.is_solid
 
     def to_toml(self) -> str:
         """The case as a text in TOML with every default filled in."""
@@ -106,7 +157,8 @@ class Setup(Case):
     indices by the kind of cell, as meshio calls them (``triangle``, ``quad``, ``tetra``, ``hexahedron``, ``wedge``, ``pyramid``), and
     `faces` are named sides of cells: edges (n, 2), in a solid faces (n, 3) or (n, 4). A `mesh` is an object of meshio or the module
     gmsh itself; its groups are its physical groups or cell sets, and `groups` adds further ones of its nodes. `thickness` and `plane`
-    are those of a body in the plane. `sections` are those of a case file, but for ``mesh`` and lattices.
+    are those of a body in the plane. `sections` are those of a case file, but for ``mesh`` and lattices; the ``change`` of a temperature and
+    the ``profile`` of a load may be functions of x and y, in a solid of x, y and z.
 
     >>> import numpy as np
     >>> x, y = np.meshgrid(0.01 * np.arange(30), 0.01 * np.arange(10))
@@ -134,34 +186,39 @@ class Setup(Case):
         groups: Mapping[str, ArrayLike] | None = None,
         thickness: float | None = None,
         plane: str | None = None,
-        **sections: Section | Sequence[Section] | str,
+        **sections: Unpack[SectionsOnBody],
     ) -> None:
+        home = Home()
         if mesh is not None:
-            self._body = _body.of_mesh(mesh, groups)
+            file = _body.write_mesh(home.path, mesh, groups)
         elif positions is not None and cells is not None:
-            self._body = _body.of_cells(positions, cells, faces, groups)
+            file = _body.write_cells(home.path, positions, cells, faces, groups)
         elif positions is not None and not (areas is None and volumes is None):
-            self._body = _body.of_points(positions, areas, volumes, groups)
+            file = _body.write_points(home.path, positions, areas, volumes, groups)
         else:
             raise LigamentError("a setup needs a `mesh`, or `positions` with `cells`, or `positions` and `areas` (`volumes` of a solid)")
-        # The body of the section is the one in memory: no such file is read.
-        on_body = {"mesh": {"file": "body in memory", "thickness": thickness, "plane": plane}, **sections}
-        self._native = _native.Case.of_sections(on_body, IN_MEMORY, {}, self._body)
+        plain, functions = _functions.taken_out(sections)
+        on_body = {"mesh": {"file": str(file), "thickness": thickness, "plane": plane}, **plain}
+        self._files, self._home = {"mesh.file": file}, home
+        self._native = _native.Case.of_sections(on_body, IN_MEMORY, {})
+        if functions:
+            self._tabulate(on_body, functions, {})
 
-    @property
-    def n_points(self) -> int:
-        """Number of points of the body."""
-        return self._body.n_points
 
-    @property
-    def groups(self) -> list[str]:
-        """Names of the groups of the body."""
-        return self._body.groups
+def _restored(kind: type[Case], source: str, path: str, files: dict[str, tuple[str, bytes]]) -> Case:
+    """The case of a text, with files of its own."""
+    home = Home() if files else None
+    paths: dict[str, Path] = {}
+    for key, (name, contents) in files.items():
+        assert home is not None
+        home.restore({name: contents})
+        paths[key] = home.path / name
+    changes = {key: str(file) for key, file in paths.items()}
+    return kind._of(_native.Case.parse(source, path, changes), paths, home)
 
-    @property
-    def is_solid(self) -> bool:
-        """Whether the body is a solid."""
-        return self._body.is_solid
+
+# What a case is given as.
+Source = Case | Sections | str | os.PathLike[str]
 
 
 def dotted(changes: Mapping[str, Any]) -> dict[str, Any]:
@@ -169,7 +226,7 @@ def dotted(changes: Mapping[str, Any]) -> dict[str, Any]:
     return {key if "." in key else key.replace("__", "."): value for key, value in changes.items()}
 
 
-def case_of(source: Case | Section | str | os.PathLike[str], changes: Mapping[str, Any]) -> Case:
+def case_of(source: Source, changes: Mapping[str, Any]) -> Case:
     """The case that is meant, with changes."""
     if isinstance(source, Case):
         return source.with_changes(**changes) if changes else source

@@ -1,26 +1,39 @@
-"""Results in memory: tables, arrays, pictures."""
+"""Results of runs: tables, arrays, pictures, cracks."""
 
 from __future__ import annotations
 
+import difflib
+import functools
 import html
 import importlib.util
 import json
+import os
+import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from pathlib import Path
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ligament import _native
 from ligament._errors import LigamentError
+from ligament._home import Home
 from ligament._picture import Picture
 
 Floats = NDArray[np.float64]
 
+# A step by its number, from the end (-1 is the last) or by what happened in it: the first breakage or softening, the largest load.
+Step = int | Literal["first", "peak", "last"]
+
 # Widths of pictures, mm: alone, and two beside each other.
 WIDTH = 140.0
 HALF = 100.0
+
+# Components by which vectors and their norm are named.
+VECTOR = ["x", "y", "z"]
+NORM = "magnitude"
 
 
 @dataclass(frozen=True)
@@ -32,12 +45,40 @@ class CrackLine:
     length: float
 
 
-def table(columns: Mapping[str, Any]) -> Any:
-    """Columns as a table of pandas or polars, whichever is installed, else as a dictionary of arrays."""
+@dataclass(frozen=True)
+class CrackSurface:
+    """The crack of a solid as triangles.
+
+    `places` (n, 3) in m are in the body without load, `triangles` (m, 3) are indices of places. At the places `opening` and `sliding` (n)
+    in m are the jumps of the displacement along the normal and in the surface. Of the triangles `part` (m) numbers what is connected, the
+    largest from 1, and `is_precrack` (m) tells pre-cracks. `area` in m² is that without pre-cracks.
+    """
+
+    places: Floats
+    triangles: NDArray[np.int64]
+    opening: Floats
+    sliding: Floats
+    part: NDArray[np.int64]
+    is_precrack: NDArray[np.bool_]
+    area: float
+
+
+class Text(str):
+    """A text that notebooks and consoles show as it is, without quotes."""
+
+    def __repr__(self) -> str:
+        return str(self)
+
+
+def table(columns: Mapping[str, Any], units: Mapping[str, str] | None = None) -> Any:
+    """Columns as a table of pandas, whose ``attrs["units"]`` has their units, or of polars, whichever is installed, else as a dictionary."""
     if importlib.util.find_spec("pandas"):
         import pandas
 
-        return pandas.DataFrame(dict(columns), copy=False)
+        frame = pandas.DataFrame(dict(columns), copy=False)
+        if units is not None:
+            frame.attrs["units"] = dict(units)
+        return frame
     if importlib.util.find_spec("polars"):
         import polars
 
@@ -46,177 +87,307 @@ def table(columns: Mapping[str, Any]) -> Any:
 
 
 class Result:
-    """What a run gave: history, points, bonds and fields as arrays, pictures and cracks.
+    """The results of a run in a folder: history, points, bonds and fields as arrays, pictures, cracks, explanations.
 
-    Arrays are those that the run filled, and none is copied on its way here; those of a result belong to it.
+    The folder is that of the command line, so that its commands take it too. Arrays are read when they are asked for, and then kept; they
+    are read only. The folder of ``ligament.run`` without ``folder`` is removed with its result: `save` keeps it.
     """
 
-    def __init__(self, run: _native.Run, title: str) -> None:
-        self._run = run
-        self._summary: dict[str, Any] = json.loads(run.summary)
-        self.title = title
+    def __init__(self, folder: str | os.PathLike[str], title: str | None = None, home: Home | None = None) -> None:
+        self._run = _native.Folder(Path(folder))
+        # Who has the folder: it lives as long as this.
+        self._home = home
+        self._fields: dict[tuple[int, str], NDArray[Any]] = {}
+        self._infos: dict[int, dict[str, tuple[list[str], bool, str]]] = {}
+        self.title = title if title is not None else self._own_title()
+
+    def _own_title(self) -> str:
+        case = tomllib.loads((self.folder / "case.resolved.toml").read_text(encoding="utf-8"))
+        return str(case.get("title") or self.folder.name)
 
     @property
+    def folder(self) -> Path:
+        """The folder of the results."""
+        return Path(self._run.path)
+
+    def save(self, folder: str | os.PathLike[str], *, replace: bool = False) -> Path:
+        """Copies the results into a folder that is new or empty, and gives its path; `ligament.open` and the command line read it.
+
+        The files that the case reads come along, so that the folder can be moved, repeated and, where the run was stopped, resumed.
+        `replace` puts it in the place of earlier results.
+        """
+        self._run.copy_to(Path(folder), replace)
+        return Path(folder)
+
+    def __reduce__(self) -> Any:
+        files = {it.name: it.read_bytes() for it in sorted(self.folder.iterdir()) if it.is_file() and not it.name.startswith(".")}
+        return _restored, (files, self.title)
+
+    def __deepcopy__(self, _: object) -> Result:
+        # It never changes.
+        return self
+
+    @functools.cached_property
     def columns(self) -> dict[str, Any]:
         """The history as arrays by the names of their columns: a row a load step, or an event of the exact path."""
-        return self._run.history
+        return self._run.table("history.csv")
+
+    @functools.cached_property
+    def units(self) -> dict[str, str]:
+        """SI units of the columns of the history; `-` for counts, numbers without a unit, and where it is not known."""
+        return self._run.units()
 
     @property
     def history(self) -> Any:
-        """The history as a table of pandas or polars, whichever is installed, else as a dictionary of arrays."""
-        return table(self._run.history)
+        """The history as a table of pandas, with ``attrs["units"]``, or of polars, whichever is installed, else as a dictionary."""
+        return table(self.columns, self.units)
+
+    @functools.cached_property
+    def _breaks(self) -> dict[str, Any]:
+        return self._run.table("breaks.csv")
 
     @property
     def breaks(self) -> Any:
         """The bonds that broke, in their order, as a table like the history."""
-        return table(self._run.breaks)
+        return table(self._breaks)
 
-    @property
+    @functools.cached_property
     def points(self) -> dict[str, NDArray[Any]]:
         """Arrays over the points that never change: position (n, 2) or (n, 3), volume, horizon and others."""
-        return self._run.points
+        first = self.steps[0]
+        fixed = [name for name, (_, stays, _) in self._info(first).items() if stays]
+        position = self._positions if self.is_solid else _read_only(self._positions[:, :2].copy())
+        return {"position": position, **{name: self._whole(name, first) for name in fixed}}
+
+    @functools.cached_property
+    def _model(self) -> tuple[Floats, dict[str, NDArray[Any]]] | None:
+        return self._run.bonds()
 
     @property
+    def _positions(self) -> Floats:
+        return self._model[0] if self._model else self._run.positions(self.steps[0])
+
+    @functools.cached_property
     def is_solid(self) -> bool:
         """Whether the body is a solid."""
-        return bool(self._run.points["position"].shape[1] == 3)
+        return self._run.is_solid()
 
-    @property
+    @functools.cached_property
     def bonds(self) -> dict[str, NDArray[Any]]:
-        """Arrays over the bonds: ends (n, 2), length, horizon, whether each is intact at the end, and the step in which it broke."""
-        return self._run.bonds
+        """Arrays over the bonds: ends (n, 2), length, horizon and weight (with seven digits), whether each is intact at the end, the step in
+        which it broke, and the energy in J that it dissipated."""
+        if self._model is None:
+            hint = "`output__model=True` keeps them"
+            raise LigamentError(f"the run wrote no bonds; {hint}", hint=hint)
+        positions, bonds = self._model
+        ends = bonds["ends"]
+        length = np.linalg.norm(positions[ends[:, 1]] - positions[ends[:, 0]], axis=1)
+        taken = {} if "dissipated_energy" in bonds or not self.is_finished else {"dissipated_energy": _read_only(np.zeros(len(ends)))}
+        return {**bonds, "length": _read_only(length), **taken}
+
+    @functools.cached_property
+    def _summary_text(self) -> str:
+        summary = self._run.summary()
+        if summary is None:
+            hint = "`ligament resume` goes on with a run that was killed; `ligament.open` it again when a run is over"
+            raise LigamentError(f"{self.folder}: the run has not come to its end, and has no summary; {hint}", hint=hint)
+        return summary
+
+    @functools.cached_property
+    def summary(self) -> dict[str, Any]:
+        """The run in numbers, as `summary.json` has them; there is none before the run has ended."""
+        summary: dict[str, Any] = json.loads(self._summary_text)
+        return summary
 
     @property
-    def summary(self) -> dict[str, Any]:
-        """The run in numbers, as `summary.json` has them."""
-        return self._summary
+    def is_finished(self) -> bool:
+        """Whether the run had ended, or was stopped, when it was asked first."""
+        return "summary" in self.__dict__ or self._run.summary() is not None
 
     @property
     def warnings(self) -> list[str]:
         """What one should know of the run."""
-        return list(self._summary["warnings"])
+        return list(self.summary["warnings"])
 
     @property
     def termination(self) -> str:
-        """Why the run ended, as a short name; `summary["termination_message"]` says it in words."""
-        return str(self._summary["termination"])
+        """Why the run ended, as a short name; `summary["termination_message"]` says it in words. `unfinished` before the end."""
+        return str(self.summary["termination"]) if self.is_finished else "unfinished"
 
-    @property
+    @functools.cached_property
     def steps(self) -> list[int]:
         """Steps of which there are fields."""
-        return list(self._run.fields)
+        return self._run.steps()
 
     @property
     def field_names(self) -> list[str]:
-        """Names of the fields of the points."""
-        return list(self._run.fields[self.steps[-1]])
+        """Names of the fields of the points that change with the steps."""
+        return [name for name, (_, stays, _) in self._info(self.steps[-1]).items() if not stays]
 
     def number(self, name: str) -> float:
         """A number of the summary by its dotted name, such as ``first_peak.reaction``."""
-        return _native.numbers(self._run.summary, name)[name]
+        return _native.numbers(self._summary_text, name)[name]
 
-    def field(self, name: str, step: int | None = None) -> NDArray[Any]:
-        """The values of a field over the points in a step, the last one where none is said; the same array each time.
+    def field(self, name: str, step: Step | None = None) -> NDArray[Any]:
+        """The values of a field over the points, or of a component of it, in a step, the last one where none is said.
+
+        Components are named as on the command line: ``displacement.y``, ``displacement.magnitude``, ``stress.xx``. A step is a number, -1
+        for the last, or ``"first"`` (breakage or softening), ``"peak"`` or ``"last"``; where fields of a named step were not kept, those of
+        the next one are taken. The same array is returned each time.
 
         ``stress`` is the stress of each point (``output__stress=["material"]``), without a value where its bonds do not span the space.
         ``stress_virial`` at single points of an irregular mesh is off by a tenth to a quarter inside the body and by a third and more
         at its edges; its mean over many points is right.
         """
-        of_step = self._run.fields[self._with_fields(step)]
-        if name not in of_step:
-            raise LigamentError(f"there is no field `{name}`; fields: {', '.join(of_step)}", hint=f"fields: {', '.join(of_step)}")
-        return of_step[name]
+        at = self._step(step)
+        base, part = self._named(name, at)
+        values = self._whole(base, at)
+        if part is None:
+            return values
+        if part == NORM:
+            return self._fields.setdefault((at, name), _read_only(np.linalg.norm(values, axis=1)))
+        return values[:, self._info(at)[base][0].index(part)]
 
-    def _with_fields(self, step: int | None) -> int:
-        if step is None:
-            return self.steps[-1]
-        if step not in self._run.fields:
-            listed = ", ".join(map(str, self.steps))
-            hint = "`output__fields_every=1` keeps those of every step"
-            raise LigamentError(f"there are no fields of step {step}, but of {listed}; {hint}", hint=hint)
-        return step
+    def _step(self, step: Step | None) -> int:
+        """The step with fields that is meant."""
+        return self._run.step("last" if step is None else str(step), True)
 
-    def crack_path(self, step: int | None = None) -> list[CrackLine]:
-        """The cracks in a step as lines, the last step where none is said."""
-        last = int(self._run.history["step"][-1])
-        lines = self._run.cracks(last if step is None else step)
+    def _info(self, step: int) -> dict[str, tuple[list[str], bool, str]]:
+        if step not in self._infos:
+            self._infos[step] = self._run.fields(step)
+        return self._infos[step]
+
+    def _whole(self, name: str, step: int) -> NDArray[Any]:
+        if (step, name) not in self._fields:
+            self._fields[step, name] = self._run.field(step, name)
+        return self._fields[step, name]
+
+    def _named(self, name: str, step: int) -> tuple[str, str | None]:
+        """The field and the component, if any, that a name means."""
+        fields = self._info(step)
+        if name in fields:
+            return name, None
+        parts = {base: components + [NORM] * (components == VECTOR) for base, (components, _, _) in fields.items()}
+        base, _, part = name.rpartition(".")
+        if part in parts.get(base, ()):
+            return base, part
+        known = [*fields, *(f"{base}.{part}" for base, all_parts in parts.items() for part in all_parts)]
+        near = difflib.get_close_matches(name.replace("_", "."), [it.replace("_", ".") for it in known], 1, 0.7)
+        meant = [it for it in known if near and it.replace("_", ".") == near[0]]
+        below = [it for it in known if base and it.startswith(f"{base}.")]
+        hint = (f"did you mean `{meant[0]}`? " if meant else "") + f"fields: {', '.join(below or fields)}"
+        raise LigamentError(f"there is no field `{name}`; {hint}", hint=hint)
+
+    def crack_path(self, step: Step | None = None) -> list[CrackLine]:
+        """The cracks of a body in the plane in a step as lines, the last step where none is said."""
+        if self.is_solid:
+            hint = "`crack_surface` has its crack as triangles"
+            raise LigamentError(f"lines of cracks are those of a body in the plane, and this one is a solid; {hint}", hint=hint)
+        lines = self._run.cracks(self._run.step("last" if step is None else str(step), False))
         return [CrackLine(points, (ends[0], ends[1]), length) for points, ends, length in lines]
 
-    def plot(self, field: str | None = None, step: int | None = None, *, width: float = WIDTH) -> Picture:
-        """A picture of a field on the deformed body; of a vector its length, or ``displacement_x`` and ``stress.xx`` for components.
+    def crack_surface(self, step: Step | None = None) -> CrackSurface:
+        """The crack of a solid in a step as a surface, the last step where none is said.
 
-        Without a field the damage, of bonds that soften by the way in which they fail, or the displacement where no bond failed. The
-        width is in mm.
+        Openings are those of the step's fields, or of the last fields before it.
         """
-        step = self._with_fields(step)
-        if field is None:
-            field = self._run.first_field
-        values, name = self._scalar(field, step)
-        if not np.any(np.isfinite(values)):
-            raise LigamentError(f"the field `{field}` has no value in step {step}")
-        words = field.replace("_", " ")
-        drawing = self._run.draw(
-            (words, name, f"step {step}"),
-            np.ascontiguousarray(values, dtype=np.float64),
-            self.field("displacement", step),
-            width,
-        )
-        return Picture(drawing, f"{words} in step {step}")
+        if not self.is_solid:
+            hint = "`crack_path` has its cracks as lines"
+            raise LigamentError(f"a crack surface is that of a solid, and this body lies in the plane; {hint}", hint=hint)
+        return CrackSurface(**self._run.surface(self._run.step("last" if step is None else str(step), False)))
 
-    def _scalar(self, field: str, step: int) -> tuple[NDArray[Any], str]:
-        """Values of a field or of a component of one, and the name of the field."""
-        stem, _, component = field.rpartition("_")
-        if field not in self._run.fields[step] and component in ("x", "y", "z") and stem in self._run.fields[step]:
-            return self.field(stem, step)[:, "xyz".index(component)], stem
-        stem, _, component = field.rpartition(".")
-        names = _native.component_names(stem, self.is_solid)
-        if component in names and stem in self._run.fields[step]:
-            return self.field(stem, step)[:, names.index(component)], stem
-        values = self.field(field, step)
-        return (np.linalg.norm(values, axis=1), field) if values.ndim == 2 else (values, field)
+    def plot(
+        self,
+        field: str | None = None,
+        step: Step | None = None,
+        *,
+        width: float = WIDTH,
+        scale: float | None = None,
+        crack: Literal["bonds", "lines"] | None = None,
+        view: str | tuple[float, float] | None = None,
+        section: str | None = None,
+        level: float | None = None,
+    ) -> Picture:
+        """A picture of a field on the deformed body, as the command ``ligament plot`` draws it.
 
-    def curve(self, *, width: float = WIDTH) -> Picture:
-        """A picture of force over displacement of the control load; the width is in mm."""
-        return curves([self], [""], width)
+        A field is named as in `field`: of a vector its norm, or ``displacement.y`` and ``stress.xx``; ``"none"`` draws the body alone. Without
+        a field the damage, or the displacement where no bond broke. The width is in mm, `scale` is the factor on the displacement.
 
-    def to_pyvista(self, step: int | None = None) -> Any:
-        """The body in a step as a grid of PyVista, with all fields; it shares the memory of the result."""
+        `crack` draws the broken bonds or the crack as lines; of a solid the cells opened along the crack, or its surface by the opening. A
+        solid is seen from ``"x"``, ``"y"``, ``"z"``, ``"iso"`` or an azimuth and an elevation in degrees; `section` is a plane such as
+        ``"z=0.05"``, and `level` draws the surface on which the field has this value.
+        """
+        at = self._step(step)
+        if field not in (None, "none"):
+            self._named(str(field), at)
+        seen = view if view is None or isinstance(view, str) else f"{view[0]},{view[1]}"
+        wanted = {
+            "label": self.title, "field": field, "scale": scale, "crack": crack, "view": seen, "section": section, "level": level,
+            "width": width,
+        }
+        return Picture(*_native.draw_fields(self.folder, "last" if step is None else str(step), wanted))
+
+    def curve(self, x: str = "displacement", y: str = "reaction", *, width: float = WIDTH) -> Picture:
+        """A picture of a column of the history over another, at first of the force over the displacement."""
+        return curves([self], [self.title], (x, y), width)
+
+    def explain(
+        self, point: int | None = None, *, bond: tuple[int, int] | None = None, at: tuple[float, ...] | None = None
+    ) -> Text:
+        """What the command ``ligament explain`` says of the bonds of a point by its tag, of the bond between two points, or of the point nearest
+        to a position in m: limits, largest utilisations, when and why they broke."""
+        tags = [*([] if point is None else [int(point)]), *map(int, bond or ())]
+        return Text(self._run.explain(tags, [float(it) for it in at or ()]))
+
+    def report(self, path: str | os.PathLike[str]) -> Path:
+        """Writes the page of the results for a browser, one file, and gives its path; a file that is there is replaced."""
+        return report([self], path)
+
+    def to_pyvista(self, step: Step | None = None) -> Any:
+        """The body in a step as a grid of PyVista, with all fields."""
         import pyvista
 
-        of_step = self._run.fields[self._with_fields(step)]
-        cells = self._run.cells
-        if "corners" in cells:
-            corners = cells["corners"]
-            of_one, kind = (8, pyvista.CellType.HEXAHEDRON) if self.is_solid else (4, pyvista.CellType.QUAD)
-            n = len(corners) // of_one
-            grid = pyvista.UnstructuredGrid({kind: np.arange(of_one * n).reshape(n, of_one)}, _in_space(corners))
-            data = grid.cell_data
-            grid.point_data["displacement"] = np.repeat(of_step["displacement"], of_one, axis=0)
-        else:
-            types = {
-                "triangles": pyvista.CellType.TRIANGLE, "quadrangles": pyvista.CellType.QUAD, "tetrahedra": pyvista.CellType.TETRA,
-                "pyramids": pyvista.CellType.PYRAMID, "prisms": pyvista.CellType.WEDGE, "hexahedra": pyvista.CellType.HEXAHEDRON,
-            }
-            filled = {types[name]: corners for name, corners in cells.items() if len(corners)}
-            grid = pyvista.UnstructuredGrid(filled, _in_space(self.points["position"]))
-            data = grid.point_data
-        for name, values in of_step.items():
-            data[name] = values
-        return grid
+        return pyvista.read(self._run.file(self._step(step)))
+
+    def to_xarray(self) -> Any:
+        """The fields over the steps and points as a data set of xarray, with units and, at each step, displacement and force of the load."""
+        import xarray
+
+        rows = [int(np.flatnonzero(self.columns["step"] == step)[0]) for step in self.steps]
+        coordinates: dict[str, Any] = {"step": self.steps}
+        for name in ("load_factor", "displacement", "reaction"):
+            of_steps = np.asarray(self.columns[name])[rows]
+            coordinates[f"load_{name}" if name != "load_factor" else name] = ("step", of_steps, {"units": self.units[name]})
+        for axis, values in zip(VECTOR, self.points["position"].T, strict=False):
+            coordinates[axis] = ("point", values, {"units": "m"})
+        fields: dict[str, Any] = {}
+        for name, (components, stays, unit) in self._info(self.steps[-1]).items():
+            dimensions = ["step", "point"]
+            if components:
+                dimensions.append("axis" if components == VECTOR else f"{name}_component")
+                coordinates[dimensions[-1]] = components
+            if stays:
+                fields[name] = (dimensions[1:], self._whole(name, self.steps[-1]), {"units": unit})
+            else:
+                fields[name] = (dimensions, np.stack([self._whole(name, step) for step in self.steps]), {"units": unit})
+        return xarray.Dataset(fields, coordinates, {"title": self.title})
 
     def __repr__(self) -> str:
-        summary = self._summary
-        return f"<ligament.Result {self.title!r}: {summary['broken_bonds']} bonds broken, {self.termination}>"
+        if not self.is_finished:
+            return f"<ligament.Result {self.title!r}: unfinished>"
+        return f"<ligament.Result {self.title!r}: {self.summary['broken_bonds']} bonds broken, {self.termination}>"
 
     def _repr_html_(self) -> str:
         rows = "".join(f"<tr><td>{html.escape(name)}</td><td>{html.escape(value)}</td></tr>" for name, value in self._told())
-        pictures = [] if self.is_solid else [self.plot(width=HALF).to_html()]
+        pictures = [self.plot(width=HALF).to_html()]
         if len(self.columns["step"]) > 2:
             pictures.insert(0, self.curve(width=HALF).to_html())
         return f"<div><b>{html.escape(self.title)}</b><table>{rows}</table>{''.join(pictures)}</div>"
 
     def _told(self) -> list[tuple[str, str]]:
-        summary = self._summary
+        if not self.is_finished:
+            return [("the run", "has not come to its end"), ("steps so far", str(int(self.columns["step"][-1])))]
+        summary = self.summary
         units = summary["units"]
         told = [("points, bonds", f"{summary['points']}, {summary['bonds']}")]
         for name, words in (("first_peak", "first peak"), ("peak", "largest load")):
@@ -229,76 +400,43 @@ class Result:
         return told + [("warning", words) for words in self.warnings]
 
 
-def _in_space(positions: NDArray[Any]) -> Floats:
-    return positions if positions.shape[1] == 3 else np.column_stack([positions, np.zeros(len(positions))])
+def _restored(files: dict[str, bytes], title: str) -> Result:
+    """The result of files, in a folder of its own."""
+    home = Home()
+    home.restore(files)
+    return Result(home.path, title, home)
 
 
-def curves(results: list[Result], labels: list[str], width: float = WIDTH) -> Picture:
-    """A picture of force over displacement of several results."""
+def _read_only(values: NDArray[Any]) -> NDArray[Any]:
+    values.setflags(write=False)
+    # A view of an array that is read only cannot be made writable.
+    return values.view()
+
+
+def open(folder: str | os.PathLike[str]) -> Result:
+    """The results in a folder: of ``ligament run``, of `Result.save`, or of a run that is under way, of which it has what is there so far."""
+    return Result(folder)
+
+
+def report(results: list[Result], path: str | os.PathLike[str]) -> Path:
+    """Writes one page for a browser with several results, and gives its path; a file that is there is replaced."""
+    return _native.report([it.folder for it in results], [it.title for it in results], Path(path))
+
+
+def curves(results: list[Result], labels: list[str], axes: tuple[str, str] = ("displacement", "reaction"), width: float = WIDTH) -> Picture:
+    """A picture of a column of the histories of several results over another."""
+    for name in axes:
+        if name not in results[0].columns:
+            near = difflib.get_close_matches(name, results[0].columns, 1)
+            hint = (f"did you mean `{near[0]}`? " if near else "") + f"columns: {', '.join(results[0].columns)}"
+            raise LigamentError(f"the history has no column `{name}`; {hint}", hint=hint)
     drawn = []
     for result, label in zip(results, labels, strict=True):
         columns = result.columns
         rests = np.asarray(columns["at_rest"], dtype=bool)
-        drawn.append((label, columns["displacement"][rests], columns["reaction"][rests]))
-    units = results[0].summary["units"]
-    axes = ("displacement", units["displacement"]), ("force", units["force"])
-    return Picture(_native.draw_curves(drawn, *axes, "", width), "force over displacement")
-
-
-class Modes:
-    """Natural modes: arrays over the modes, lowest first, and a shape over the points for each."""
-
-    def __init__(self, found: Mapping[str, Any], title: str) -> None:
-        self._found = found
-        self.title = title
-
-    @property
-    def frequency(self) -> Floats:
-        """Frequencies in Hz, 0 for rigid motions."""
-        frequency: Floats = self._found["frequency"]
-        return frequency
-
-    @property
-    def kind(self) -> list[str]:
-        """Whether each mode is `rigid` or `elastic`."""
-        return list(self._found["kind"])
-
-    @property
-    def participation(self) -> Floats:
-        """Participation of each mode in motions along x, along y and about the centre (n, 3); of a solid along and about x, y and z (n, 6)."""
-        participation: Floats = self._found["participation"]
-        return participation
-
-    @property
-    def mass(self) -> float:
-        """Mass of the body, kg."""
-        return float(self._found["mass"])
-
-    @property
-    def warnings(self) -> list[str]:
-        """What one should know of the modes."""
-        return list(self._found["warnings"])
-
-    @property
-    def position(self) -> Floats:
-        """Positions of the points (n, 2) or (n, 3), m."""
-        position: Floats = self._found["position"]
-        return position
-
-    def shape(self, mode: int) -> Floats:
-        """Displacements of the points (n, 3) in a mode, counted from 0."""
-        shape: Floats = self._found["shapes"][mode]["displacement"]
-        return shape
-
-    @property
-    def table(self) -> Any:
-        """Number, kind, frequency and residual of each mode as a table."""
-        n = len(self.frequency)
-        columns = {"mode": np.arange(n), "kind": self.kind}
-        return table({**columns, "frequency": self.frequency, "residual": self._found["residual"]})
-
-    def __len__(self) -> int:
-        return len(self.frequency)
-
-    def __repr__(self) -> str:
-        return f"<ligament.Modes {self.title!r}: {len(self)} modes>"
+        x, y = (np.asarray(columns[name], dtype=np.float64)[rests] for name in axes)
+        drawn.append((label, x, y))
+    words = [{"reaction": "force"}.get(name, name.replace("_", " ")) for name in axes]
+    units = results[0].units
+    named = [(word, units[name]) for word, name in zip(words, axes, strict=True)]
+    return Picture(_native.draw_curves(drawn, named[0], named[1], "", width), f"{words[1]} over {words[0]}")

@@ -7,38 +7,57 @@ import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from ligament import _native, _progress
-from ligament._case import Case, Section, case_of
+from ligament._case import Case, Source, case_of
 from ligament._errors import Interrupted, LigamentError, NotCalibrated
+from ligament._home import Home
+from ligament._modes import Modes
 from ligament._picture import Picture
 from ligament._progress import Report
-from ligament._result import Modes, Result, curves, table
-
-Source = Case | Section | str | os.PathLike[str]
+from ligament._result import Result, curves, table
 
 
-def run(case: Source, /, *, progress: bool | Report | None = None, **changes: Any) -> Result:
-    """Runs a case in memory: a `Case` or `Setup`, a dictionary of sections, the path of a case file or its text.
+def run(
+    case: Source,
+    /,
+    *,
+    folder: str | os.PathLike[str] | None = None,
+    replace: bool = False,
+    progress: bool | Report | None = None,
+    **changes: Any,
+) -> Result:
+    """Runs a case: a `Case` or `Setup`, a dictionary of sections, the path of a case file or its text.
+
+    The results are written into `folder`, or into a temporary one that is removed with the result; `replace` takes the place of earlier
+    results there.
 
     Changes are keys with two underscores for a dot: ``run("case.toml", model__horizon_factor=4)``. `progress` shows how far the run
-    is, by default in a notebook or a terminal; a function is called with step, load factor, displacement, force and the number of
-    broken bonds. Other threads go on meanwhile, and Ctrl-C ends the run at the end of its step by `Interrupted`, which has the
+    is, by default in a notebook or a terminal; a function is called after each step with its number, load factor, displacement, force and
+    the number of broken bonds. Other threads go on meanwhile, and Ctrl-C ends the run at the end of its step by `Interrupted`, which has the
     result so far.
     """
-    return _run(case_of(case, changes), progress)
+    return _run(case_of(case, changes), progress, folder, replace)
 
 
-def _run(case: Case, progress: bool | Report | None) -> Result:
+def _run(
+    case: Case, progress: bool | Report | None, folder: str | os.PathLike[str] | None = None, replace: bool = False
+) -> Result:
     if case._native.is_modal:
         raise LigamentError("the case asks for natural modes; `ligament.modal` finds them", hint="`ligament.modal` finds them")
+    home: Home | None = None
+    if folder is None:
+        home = Home()
+        folder = home.path
+    place = Path(folder)
     report = _progress.report_of(progress)
     try:
-        found, stopped = _native.run(case._native, report)
+        stopped = _native.run(case._native, place, replace, report)
     finally:
         _progress.close(report)
-    result = Result(found, case.title or case.name)
+    result = Result(place, case.title or case.name, home)
     if stopped:
         raise Interrupted(result)
     return result
@@ -61,7 +80,7 @@ class Sweep:
     @property
     def table(self) -> Any:
         """A row a run: its settings and all numbers of its summary."""
-        numbers = [_native.numbers(result._run.summary, None) for result in self.results]
+        numbers = [_native.numbers(result._summary_text, None) for result in self.results]
         names = list(dict.fromkeys(name for of_run in numbers for name in of_run))
         columns: dict[str, Any] = {key: [setting[key] for setting in self.settings] for key in self.axes}
         columns.update({name: [of_run.get(name) for of_run in numbers] for name in names})

@@ -11,12 +11,10 @@ mod request;
 pub mod search;
 
 use std::io::Write;
-use std::sync::Arc;
 
 use anyhow::Context;
 
 use crate::quantities::Quantities;
-use ligament_analysis::distributed_matrix::Solo;
 use ligament_case::case::{Analysis, CaseError, CaseFile, Fault};
 use ligament_run::inputs::{Contents, Inputs};
 use ligament_run::progress::ProgressMode;
@@ -144,12 +142,8 @@ fn one_run(request: &Request, record: &Record, key: f64) -> anyhow::Result<Run> 
     let setting = setting(&request.key, key);
     // The folder of a killed run may still exist.
     let one = run::Request {
-        case: &case,
-        out: &folder,
         force: true,
-        build: request.build.clone(),
-        communicator: Arc::new(Solo),
-        is_stopped: &|| false,
+        ..run::Request::new(&case, &folder, request.build.clone())
     };
     one.run(ProgressMode::Quiet)
         .with_context(|| format!("run {number} ({setting}) failed"))?;

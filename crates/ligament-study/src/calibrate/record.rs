@@ -209,7 +209,7 @@ impl Record {
             runs: &self.runs,
         };
         let text = serde_json::to_string_pretty(&whole)?;
-        Ok(self.folder.write_text(RECORD, &(text + "\n"))?)
+        Ok(self.folder.write(RECORD, text + "\n")?)
     }
 
     /// Difference from the target, relative to it.

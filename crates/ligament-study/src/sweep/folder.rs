@@ -74,7 +74,7 @@ impl StudyFolder {
                         "title": study.title,
                         "version": env!("CARGO_PKG_VERSION"),
                     });
-                    new.write_text(MARKER, &format!("{marker:#}\n"))?;
+                    new.write(MARKER, format!("{marker:#}\n"))?;
                     break;
                 }
                 // Another shard may have created the folder without marking it yet.

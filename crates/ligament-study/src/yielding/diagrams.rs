@@ -69,12 +69,12 @@ pub(super) fn write(
         for strain in strains {
             if let Some(plot) = polar(comparison, strain, &mut orientation)? {
                 let svg = plot.for_screen()?.to_svg(&plot.title);
-                folder.write_text(&format!("{}.svg", plot.name), &svg)?;
+                folder.write(&format!("{}.svg", plot.name), svg)?;
             }
         }
         for plot in loci(comparison, &mut locus)? {
             let svg = plot.for_screen()?.to_svg(&plot.plot.title);
-            folder.write_text(&format!("{}.svg", plot.plot.name), &svg)?;
+            folder.write(&format!("{}.svg", plot.plot.name), svg)?;
         }
     }
     Ok(folder.finish()?)

@@ -77,7 +77,7 @@ fn draw_here(request: &Request, case: &CaseFile, screen: &mut dyn Write) -> anyh
     }
     let plot = distribution(&layers, &is_interior);
     if plot.series.iter().any(|it| !it.points().is_empty()) {
-        folder.write_text("distribution.svg", &plot.for_screen()?.to_svg(&plot.title))?;
+        folder.write("distribution.svg", plot.for_screen()?.to_svg(&plot.title))?;
     }
     write_fields(
         &folder.file("points.vtu"),

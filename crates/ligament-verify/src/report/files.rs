@@ -54,7 +54,7 @@ pub(crate) fn write(folder: &ResultFolder, findings: &Findings) -> anyhow::Resul
     }
     for plot in &findings.plots {
         let svg = plot.for_screen()?.to_svg(&plot.title);
-        folder.write_text(&format!("{}.svg", plot.name), &svg)?;
+        folder.write(&format!("{}.svg", plot.name), svg)?;
     }
     for maps in &findings.maps {
         let png = maps.draw(WIDTH)?.to_png(DOTS_PER_INCH)?;

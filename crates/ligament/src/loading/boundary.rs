@@ -6,9 +6,12 @@ use ligament_analysis::{
 use ligament_model::{Bonds, LumpedMass, PointCloud};
 
 use super::places::Places;
+use super::samples;
 use super::temperature::{Heating, heating};
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{Action, Couple, Displacement, Load, MaterialRegion, Place, Profile, Setup};
+use crate::setup::{
+    Action, Couple, Displacement, Load, MaterialRegion, Place, Profile, Sample, Setup,
+};
 
 /// Forces along the axes (N) and couples about them (N m), or their directions, in the order of the components: three in the plane, six in
 /// space.
@@ -219,12 +222,43 @@ impl<const D: usize> Places<'_, D> {
         let Some(profile) = profile else {
             return Ok(vec![1.0; points.len()]);
         };
-        let factor = |&point: &u32| profile.at(self.setup.body.position(point));
-        let factors: Vec<f64> = points.iter().map(factor).collect();
+        let factors: Vec<f64> = match profile {
+            Profile::Linear { along, zero, one } => {
+                let coordinate = |point: u32| self.setup.body.position(point)[along.number()];
+                let factor = |&point: &u32| (coordinate(point) - zero) / (one - zero);
+                points.iter().map(factor).collect()
+            }
+            Profile::Table(samples) => {
+                let field = field.part("profile");
+                self.sampled(field, samples, points)?
+            }
+        };
         if factors.iter().all(|&factor| factor == 0.0) {
             return Err(field.part("profile").error(Fault::ZeroProfile));
         }
         Ok(factors)
+    }
+
+    /// Factors of a table at the points, shape (n_points).
+    fn sampled(
+        &self,
+        field: Field,
+        samples: &[Sample],
+        points: &[u32],
+    ) -> Result<Vec<f64>, SetupError> {
+        let body = &*self.setup.body;
+        let all = samples::at_points(samples, body, self.cloud);
+        let all = all.map_err(|fault| field.error(fault))?;
+        let missing = |point: &&u32| all[**point as usize].is_none();
+        if let Some(first) = points.iter().find(missing) {
+            return Err(field.error(Fault::NoValue {
+                what: "factor of the load",
+                points: points.iter().filter(missing).count(),
+                reason: samples::MISSING,
+                first: body.place(*first),
+            }));
+        }
+        Ok(points.iter().filter_map(|&it| all[it as usize]).collect())
     }
 
     /// Areas (m^2) or lengths (m) that the points of a group represent; empty for other places.

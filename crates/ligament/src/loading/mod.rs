@@ -5,6 +5,7 @@ mod places;
 mod probes;
 mod programme;
 mod restraints;
+mod samples;
 mod temperature;
 mod vibration;
 

@@ -10,7 +10,7 @@ use ligament_model::{Advice, Anisotropic, Elasticity, Isotropic, Material, Ortho
 
 use super::setting::Setting;
 use super::{Action, Alpha, Analysis, Calibration, CorrectionDomain, Couple, Horizon, Load, Place};
-use super::{Reading, Setup, Surface};
+use super::{Profile, Reading, Setup, Surface};
 use crate::body::Origin;
 use crate::error::{Fault, Field, SetupError};
 
@@ -325,12 +325,12 @@ const NOT_IDLE: &str = "other than 0, or the load does nothing";
 
 /// Refuses loads without an effect, or of a kind that their place does not have.
 fn check_load(field: Field, load: &Load, dimensions: usize) -> Checked {
-    if let Some(profile) = load.profile {
+    if let Some(Profile::Linear { zero, one, .. }) = load.profile {
         require(
-            profile.one != profile.zero,
+            one != zero,
             field.part("profile.one"),
             "another coordinate than `zero`: the load is as given there",
-            profile.one,
+            one,
         )?;
     }
     let action = field.part("action");

@@ -11,8 +11,8 @@ use ligament_model::{Advice, Elasticity};
 use super::check::{Checked, contradiction, positive, require};
 use super::setting::Setting;
 use super::{
-    Action, Analysis, CrackShape, Displacement, Form, Place, Position, Reading, Section, Setup,
-    Strains, Support,
+    Action, Analysis, CrackShape, Displacement, Form, Place, Position, Profile, Reading, Section,
+    Setup, Strains, Support,
 };
 use crate::body::Origin;
 use crate::error::Field;
@@ -198,9 +198,8 @@ impl Setup {
         }
         for (index, load) in self.loads.iter().enumerate() {
             let field = Field::element("loads", index);
-            if load
-                .profile
-                .is_some_and(|it| it.along.number() >= self.dimensions())
+            if let Some(Profile::Linear { along, .. }) = &load.profile
+                && along.number() >= self.dimensions()
             {
                 return contradiction(field.part("profile"), NO_Z);
             }

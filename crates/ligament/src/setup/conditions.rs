@@ -123,15 +123,29 @@ impl From<f64> for Couple {
     }
 }
 
-/// A linear variation of a load: the share of a point is multiplied by (c - zero)/(one - zero), with the point's coordinate c.
+/// A value at a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Profile {
-    /// Axis of the coordinate c.
-    pub along: Axis,
-    /// Coordinate at which the load is zero, m.
-    pub zero: f64,
-    /// Coordinate at which the load has its given value, m.
-    pub one: f64,
+pub struct Sample {
+    /// Position, m.
+    pub position: Position,
+    /// Value: of a temperature its change, K, of a load a factor.
+    pub value: f64,
+}
+
+/// A variation of a load: the factor of the share of each point.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Profile {
+    /// The factor (c - zero)/(one - zero) with the point's coordinate c.
+    Linear {
+        /// Axis of the coordinate c.
+        along: Axis,
+        /// Coordinate at which the load is zero, m.
+        zero: f64,
+        /// Coordinate at which the load has its given value, m.
+        one: f64,
+    },
+    /// Factors at positions, each assigned to the point within a tenth of its distance to the nearest other point.
+    Table(Vec<Sample>),
 }
 
 /// An axis of the coordinates.
@@ -256,12 +270,5 @@ impl Load {
             stiffness: None,
             tilts: false,
         }
-    }
-}
-
-impl Profile {
-    /// Factor of the load at a position.
-    pub fn at(&self, position: &[f64]) -> f64 {
-        (position[self.along.number()] - self.zero) / (self.one - self.zero)
     }
 }

@@ -29,8 +29,8 @@ use crate::implausible::Implausible;
 
 pub use analysis::{Analysis, ELASTIC_ENERGY_TOLERANCE, event, modal, stepped};
 pub use conditions::{
-    Action, Axis, Couple, Displacement, Load, Place, Position, Profile, SpringStiffness, Support,
-    begins_as_formula,
+    Action, Axis, Couple, Displacement, Load, Place, Position, Profile, Sample, SpringStiffness,
+    Support, begins_as_formula,
 };
 pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
 pub use ligament_model::law::{Calibration, Form, Law, Options, Strains};
@@ -38,7 +38,7 @@ pub use precrack::{CrackShape, PreCrack};
 pub use probe::{Probe, Reading};
 pub use section::Section;
 pub use stage::{Control, Course, Quantity, Stage};
-pub use temperature::{Sample, Temperature, TemperatureChange};
+pub use temperature::{Temperature, TemperatureChange};
 
 /// Description of a computation in the plane or in space: body, section, materials, law, corrections, supports, loads and the
 /// analysis.

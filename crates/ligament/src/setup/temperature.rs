@@ -1,6 +1,6 @@
 //! Changes of temperature.
 
-use super::conditions::{Place, Position};
+use super::conditions::{Place, Sample};
 
 /// A change of temperature at load factor 1.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,13 +27,4 @@ pub enum TemperatureChange {
         /// Value that is subtracted from the field, in its unit.
         reference: f64,
     },
-}
-
-/// A change of temperature at a position.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sample {
-    /// Position, m.
-    pub position: Position,
-    /// Change, K.
-    pub change: f64,
 }

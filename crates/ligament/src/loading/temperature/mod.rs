@@ -1,12 +1,12 @@
 //! Changes of temperature at the points of a body, and their free strains.
 
 mod field;
-mod table;
 
 use ligament_model::tensor::SymTensor;
 use ligament_model::thermal::StressFreeStrains;
 
 use super::places::Places;
+use super::samples;
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::{Place, Temperature, TemperatureChange};
 
@@ -122,9 +122,9 @@ impl<const D: usize> Places<'_, D> {
         Ok(match &section.change {
             TemperatureChange::Uniform(change) => Change::Uniform(*change),
             TemperatureChange::Table(samples) => {
-                let values = table::at_points(samples, body, self.cloud);
+                let values = samples::at_points(samples, body, self.cloud);
                 let values = values.map_err(|fault| field.part("change").error(fault))?;
-                Change::Each(values, table::MISSING)
+                Change::Each(values, samples::MISSING)
             }
             TemperatureChange::Field {
                 name,
@@ -167,7 +167,8 @@ impl Missing {
         let Change::Each(_, reason) = changes[section] else {
             return Ok(());
         };
-        let fault = Fault::NoTemperature {
+        let fault = Fault::NoValue {
+            what: "temperature",
             points: count,
             reason,
             first: places.setup.body.place(point),

@@ -1,22 +1,22 @@
-//! Temperatures from samples at positions.
+//! Values of points from samples at positions.
 
 use ligament_model::PointCloud;
 
+use super::places::distance;
 use crate::body::Body;
 use crate::coordinates::narrowed;
 use crate::error::Fault;
-use crate::loading::places::distance;
 use crate::setup::Sample;
 
 /// Largest distance of a sample from its point over the distance between nearest points: coordinates may be rounded, but those of another
 /// mesh are refused.
 const NEARNESS: f64 = 0.1;
 
-/// Reason why a point has no change.
+/// Reason why a point has no value.
 pub(super) const MISSING: &str =
     "the table has no row within a tenth of the distance to the nearest other point";
 
-/// The change at each point with a sample, shape (n_points), K; as the error the fault of the samples.
+/// The value at each point with a sample, shape (n_points); as the error the fault of the samples.
 pub(super) fn at_points<const D: usize>(
     samples: &[Sample],
     body: &dyn Body,
@@ -41,6 +41,6 @@ pub(super) fn at_points<const D: usize>(
             });
         }
     }
-    let change = |sample: Option<usize>| sample.map(|it| samples[it].change);
-    Ok(of_point.into_iter().map(change).collect())
+    let value = |sample: Option<usize>| sample.map(|it| samples[it].value);
+    Ok(of_point.into_iter().map(value).collect())
 }

@@ -1,0 +1,290 @@
+//! Tables of comma-separated values at positions: temperatures, factors of loads, and bodies of points.
+
+use std::path::Path;
+
+use ligament::body::{AnyBody, Points};
+use ligament::setup::Sample;
+
+use crate::input_file;
+
+/// Names of the coordinates in a header.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Column of what a point of a body stands for, m^2 in the plane and m^3 in space.
+const SIZES: [&str; 2] = ["area", "volume"];
+
+/// Ending of the names of tables.
+const ENDING: &str = "csv";
+
+/// Whether a body's file is a table of points.
+pub(crate) fn is_table(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|it| it.eq_ignore_ascii_case(ENDING))
+}
+
+/// Whether the points of a table are those of a solid, by its header.
+pub(crate) fn holds_solid(bytes: &[u8]) -> bool {
+    let header = bytes.split(|it| *it == b'\n').next().unwrap_or_default();
+    let header = String::from_utf8_lossy(header);
+    header.split(',').map(name_of).any(|it| it == AXES[2])
+}
+
+/// Reads the values of a column at their positions; as the error a description of the fault.
+pub(crate) fn samples(
+    path: &Path,
+    dimensions: usize,
+    [column, unit]: [&str; 2],
+) -> Result<Vec<Sample>, String> {
+    let names: Vec<String> = AXES[..dimensions]
+        .iter()
+        .map(|it| format!("`{it}`"))
+        .collect();
+    let expected = format!(
+        "the first row must name the columns {} (m) and `{column}`{unit}",
+        names.join(", ")
+    );
+    let table = Table::read(path, &expected)?;
+    let wanted = AXES[..dimensions].iter().copied().chain([column]);
+    let places: Vec<usize> = wanted.map(|it| table.place(it)).collect::<Result<_, _>>()?;
+    let (value, axes) = places.split_last().unwrap_or((&0, &[]));
+    let sample = |row: &Vec<f64>| {
+        let mut position = [0.0; 3];
+        for (coordinate, &place) in position.iter_mut().zip(axes) {
+            *coordinate = row[place];
+        }
+        Sample {
+            position,
+            value: row[*value],
+        }
+    };
+    Ok(table.rows.iter().map(sample).collect())
+}
+
+/// Lines of the rows of a table; none of a file that is no table.
+pub(crate) fn lines_of_rows(path: &Path) -> Vec<usize> {
+    Table::read(path, "").map_or_else(|_| Vec::new(), |it| it.lines)
+}
+
+/// Reads a body of points: positions, the area or in space the volume of each, and a column of ones and zeros for each group.
+pub(crate) fn body(path: &Path) -> Result<AnyBody, String> {
+    let expected = "the first row of a body of points must name the columns `x`, `y` (m) and `area` (m^2), of a solid `x`, `y`, `z` and \
+                    `volume` (m^3), then those of groups with 1 for their points and 0 for others";
+    let table = Table::read(path, expected)?;
+    let is_solid = table.names.iter().any(|it| it == AXES[2]);
+    match is_solid {
+        true => table.body::<3>().map(AnyBody::new),
+        false => table.body::<2>().map(AnyBody::new),
+    }
+}
+
+/// The text of a table of points at positions (n_points, m) with what each stands for (n_points, m^2 or m^3) and groups by indices, from
+/// which a case makes the body.
+///
+/// # Errors
+///
+/// If a name of a group cannot head a column, or has the name of another column.
+pub fn text_of_points<const D: usize>(
+    positions: &[[f64; D]],
+    sizes: &[f64],
+    groups: &[(String, Vec<u32>)],
+) -> Result<String, String> {
+    let axes = AXES[..D].iter().chain([&SIZES[D - 2]]).copied();
+    let mut header: Vec<&str> = axes.collect();
+    let mut members = vec![vec!['0'; groups.len()]; positions.len()];
+    for (column, (name, points)) in groups.iter().enumerate() {
+        let is_plain = !name.is_empty() && name.trim() == name && !name.contains(['"', ',', '\n']);
+        if !is_plain || header.contains(&name.as_str()) {
+            return Err(format!(
+                "`{name}` cannot be the name of a group: it heads a column of a table of points, beside {}",
+                header.join(", ")
+            ));
+        }
+        header.push(name);
+        for &point in points {
+            if let Some(row) = members.get_mut(point as usize) {
+                row[column] = '1';
+            }
+        }
+    }
+    let mut text = header.join(",");
+    for ((position, size), members) in positions.iter().zip(sizes).zip(&members) {
+        text.push('\n');
+        let numbers = position.iter().chain([size]).map(|it| format!("{it:?}"));
+        let all = numbers.chain(members.iter().map(char::to_string));
+        text.push_str(&all.collect::<Vec<_>>().join(","));
+    }
+    text.push('\n');
+    Ok(text)
+}
+
+/// The text of a table of values at positions, from which a case reads them.
+pub fn text_of_samples<const D: usize>(
+    column: &str,
+    positions: &[[f64; D]],
+    values: &[f64],
+) -> String {
+    let axes = AXES[..D].iter().copied().chain([column]);
+    let mut text = axes.collect::<Vec<_>>().join(",");
+    for (position, value) in positions.iter().zip(values) {
+        text.push('\n');
+        let numbers = position.iter().chain([value]).map(|it| format!("{it:?}"));
+        text.push_str(&numbers.collect::<Vec<_>>().join(","));
+    }
+    text.push('\n');
+    text
+}
+
+/// A table of numbers.
+struct Table<'a> {
+    path: &'a Path,
+    /// Line of the header.
+    line: usize,
+    names: Vec<String>,
+    rows: Vec<Vec<f64>>,
+    /// Lines of the rows.
+    lines: Vec<usize>,
+    /// Description of the columns that the table must have.
+    expected: &'a str,
+}
+
+impl<'a> Table<'a> {
+    fn read(path: &'a Path, expected: &'a str) -> Result<Self, String> {
+        let text = input_file::read_text(path)
+            .map_err(|source| format!("cannot read {}: {source}", path.display()))?;
+        Self::parse(path, &text, expected)
+    }
+
+    /// Parses the rows below the header; blank lines and lines that begin with # are ignored.
+    fn parse(path: &'a Path, text: &str, expected: &'a str) -> Result<Self, String> {
+        // Spreadsheets write a byte order mark at the beginning of a file.
+        let lines = text.trim_start_matches('\u{feff}').lines();
+        let mut lines = (1..)
+            .zip(lines.map(str::trim))
+            .filter(|(_, text)| !text.is_empty() && !text.starts_with('#'));
+        let (line, header) = lines
+            .next()
+            .ok_or_else(|| at(path, 1, &format!("the file is empty: {expected}")))?;
+        let mut table = Self {
+            path,
+            line,
+            names: header.split(',').map(|it| name_of(it).to_owned()).collect(),
+            rows: Vec::new(),
+            lines: Vec::new(),
+            expected,
+        };
+        for (line, text) in lines {
+            let row = table.row(text);
+            table
+                .rows
+                .push(row.map_err(|reason| at(path, line, &reason))?);
+            table.lines.push(line);
+        }
+        Ok(table)
+    }
+
+    /// The numbers of a row.
+    fn row(&self, text: &str) -> Result<Vec<f64>, String> {
+        let values = text.split(',').map(str::trim);
+        let number = |text: &str| {
+            let number = text.parse().ok().filter(|it: &f64| it.is_finite());
+            number.ok_or_else(|| format!("`{text:.40}` is no number"))
+        };
+        let (given, columns) = (values.clone().count(), self.names.len());
+        if given != columns {
+            return Err(format!(
+                "{given} values, but the header names {columns} columns"
+            ));
+        }
+        values.map(number).collect()
+    }
+
+    /// Place of a column.
+    fn place(&self, wanted: &str) -> Result<usize, String> {
+        let place = self.names.iter().position(|name| name == wanted);
+        place.ok_or_else(|| {
+            let reason = format!("there is no column `{wanted}`: {}", self.expected);
+            at(self.path, self.line, &reason)
+        })
+    }
+
+    /// The body of the points of the table.
+    fn body<const D: usize>(&self) -> Result<Points<D>, String> {
+        let mut axes = [0; D];
+        for (place, axis) in axes.iter_mut().zip(AXES) {
+            *place = self.place(axis)?;
+        }
+        let size = self.place(SIZES[D - 2])?;
+        let rows = || self.rows.iter();
+        let positions = rows().map(|row| axes.map(|place| row[place])).collect();
+        let sizes = rows().map(|row| row[size]).collect();
+        let fault =
+            |error: ligament::body::PointsError| format!("{}: {error}", self.path.display());
+        let mut points = Points::new(positions, sizes).map_err(fault)?;
+        let is_group = |place: &usize| *place != size && !axes.contains(place);
+        for place in (0..self.names.len()).filter(is_group) {
+            let members = (0..).zip(rows()).filter(|(_, row)| row[place] != 0.0);
+            let members: Vec<u32> = members.map(|(point, _)| point).collect();
+            points = points
+                .with_group(&self.names[place], members)
+                .map_err(fault)?;
+        }
+        Ok(points)
+    }
+}
+
+fn at(path: &Path, line: usize, reason: &str) -> String {
+    format!("{}:{line}: {reason}", path.display())
+}
+
+fn name_of(text: &str) -> &str {
+    text.trim().trim_start_matches('\u{feff}').trim_matches('"')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ligament::body::Body;
+
+    #[test]
+    fn points_are_read_as_they_are_written() {
+        let positions = [[0.1, 0.2], [0.1 + 0.2, 1e-300]];
+        let groups = [("left".to_owned(), vec![0]), ("all".to_owned(), vec![0, 1])];
+        let text = text_of_points(&positions, &[1e-4, 2e-4], &groups).unwrap();
+        let table = Table::parse(Path::new("points.csv"), &text, "").unwrap();
+        let body = table.body::<2>().unwrap();
+        let direct = Points::new(positions.to_vec(), vec![1e-4, 2e-4]).unwrap();
+        let direct = direct
+            .with_group("left", [0])
+            .unwrap()
+            .with_group("all", [0, 1])
+            .unwrap();
+        assert_eq!(body, direct);
+        assert_eq!(body.group_names(), ["all", "left"]);
+        assert!(text_of_points(&positions, &[1.0; 2], &[("x".to_owned(), vec![0])]).is_err());
+        assert!(text_of_points(&positions, &[1.0; 2], &[("a,b".to_owned(), vec![0])]).is_err());
+        assert!(!holds_solid(text.as_bytes()) && holds_solid(b"x, y,\"z\",volume\n"));
+    }
+
+    #[test]
+    fn what_is_no_table_is_told_with_its_line() {
+        let fault = |text: &str| {
+            let table = Table::parse(Path::new("p.csv"), text, "EXPECTED");
+            table.and_then(|it| it.body::<2>()).err().unwrap()
+        };
+        assert_eq!(fault(" \n"), "p.csv:1: the file is empty: EXPECTED");
+        assert_eq!(
+            fault("x,y\n0,0\n"),
+            "p.csv:1: there is no column `area`: EXPECTED"
+        );
+        assert_eq!(
+            fault("x,y,area\n0,0\n"),
+            "p.csv:2: 2 values, but the header names 3 columns"
+        );
+        assert_eq!(
+            fault("x,y,area\n# no\n0,b,1\n"),
+            "p.csv:3: `b` is no number"
+        );
+        assert!(fault("x,y,area\n0,0,-1\n").contains("areas greater than 0"));
+        assert!(fault("x,y,area,left\n0,0,1,0\n").contains("group `left` is empty"));
+    }
+}

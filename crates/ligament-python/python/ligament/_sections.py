@@ -1,0 +1,1031 @@
+"""The sections of a case as types, by which editors complete keys and mypy finds wrong ones.
+
+Made of the schema of a case file: LIGAMENT_WRITE_KEYS=1 cargo test --release -p ligament-case --test integration case_schema
+"""
+
+# ruff: noqa: E501
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from os import PathLike
+from typing import Any, Literal, TypedDict
+
+from numpy.typing import NDArray
+
+Numbers = Sequence[float] | NDArray[Any]
+Function = Callable[..., Any]
+
+
+class Material(TypedDict, total=False):
+    """The material of the whole body; or a table `[material.NAME]` with a `group` for each of several."""
+
+    young: float
+    """Young's modulus, Pa."""
+    poisson: float
+    """Poisson's ratio."""
+    young_1: float
+    """Young's modulus along the axis 1, Pa."""
+    young_2: float
+    """Young's modulus along the axis 2, Pa."""
+    poisson_12: float
+    """Poisson's ratio: contraction along 2 under stress along 1."""
+    shear_modulus: float
+    """Shear modulus in the plane, Pa."""
+    angle: float
+    """From the x axis to the axis 1, counter-clockwise, rad. Default 0.0."""
+    young_3: float
+    """Young's modulus across the plane, Pa; for plane strain."""
+    poisson_13: float
+    """Poisson's ratio: contraction across the plane under stress along 1; for plane strain."""
+    poisson_23: float
+    """Poisson's ratio: contraction across the plane under stress along 2; for plane strain."""
+    c11: float
+    """Stiffness of sigma_xx by eps_xx, Pa."""
+    c12: float
+    """Stiffness of sigma_xx by eps_yy, Pa."""
+    c16: float
+    """Stiffness of sigma_xx by gamma_xy, Pa."""
+    c22: float
+    """Stiffness of sigma_yy by eps_yy, Pa."""
+    c26: float
+    """Stiffness of sigma_yy by gamma_xy, Pa."""
+    c66: float
+    """Stiffness of sigma_xy by gamma_xy, Pa."""
+    tensile_strength: float
+    """Tensile strength, Pa."""
+    compressive_strength: float
+    """Compressive strength, Pa, positive."""
+    fracture_energy: float
+    """Fracture energy of opening, J/m^2."""
+    fracture_energy_sliding: float
+    """Fracture energy of sliding where it is another, J/m^2; for `mixed-mode`."""
+    mixed_mode_exponent: float
+    """Exponent eta between the two fracture energies; for `mixed-mode`."""
+    density: float
+    """Mass density, kg/m^3; for natural modes."""
+    thermal_expansion: float
+    """Coefficient of linear thermal expansion, 1/K, the same in all directions; steel has 12e-6."""
+    thermal_expansion_1: float
+    """Thermal expansion along the axis 1, 1/K."""
+    thermal_expansion_2: float
+    """Thermal expansion along the axis 2, 1/K."""
+    thermal_expansion_3: float
+    """Thermal expansion across the plane, 1/K; for plane strain."""
+
+
+class MaterialPart(TypedDict, total=False):
+    """The material of a group."""
+
+    group: str
+    """The physical surface of the mesh, or the set of the lattice, that the material fills."""
+    young: float
+    """Young's modulus, Pa."""
+    poisson: float
+    """Poisson's ratio."""
+    young_1: float
+    """Young's modulus along the axis 1, Pa."""
+    young_2: float
+    """Young's modulus along the axis 2, Pa."""
+    poisson_12: float
+    """Poisson's ratio: contraction along 2 under stress along 1."""
+    shear_modulus: float
+    """Shear modulus in the plane, Pa."""
+    angle: float
+    """From the x axis to the axis 1, counter-clockwise, rad. Default 0.0."""
+    young_3: float
+    """Young's modulus across the plane, Pa; for plane strain."""
+    poisson_13: float
+    """Poisson's ratio: contraction across the plane under stress along 1; for plane strain."""
+    poisson_23: float
+    """Poisson's ratio: contraction across the plane under stress along 2; for plane strain."""
+    c11: float
+    """Stiffness of sigma_xx by eps_xx, Pa."""
+    c12: float
+    """Stiffness of sigma_xx by eps_yy, Pa."""
+    c16: float
+    """Stiffness of sigma_xx by gamma_xy, Pa."""
+    c22: float
+    """Stiffness of sigma_yy by eps_yy, Pa."""
+    c26: float
+    """Stiffness of sigma_yy by gamma_xy, Pa."""
+    c66: float
+    """Stiffness of sigma_xy by gamma_xy, Pa."""
+    tensile_strength: float
+    """Tensile strength, Pa."""
+    compressive_strength: float
+    """Compressive strength, Pa, positive."""
+    fracture_energy: float
+    """Fracture energy of opening, J/m^2."""
+    fracture_energy_sliding: float
+    """Fracture energy of sliding where it is another, J/m^2; for `mixed-mode`."""
+    mixed_mode_exponent: float
+    """Exponent eta between the two fracture energies; for `mixed-mode`."""
+    density: float
+    """Mass density, kg/m^3; for natural modes."""
+    thermal_expansion: float
+    """Coefficient of linear thermal expansion, 1/K, the same in all directions; steel has 12e-6."""
+    thermal_expansion_1: float
+    """Thermal expansion along the axis 1, 1/K."""
+    thermal_expansion_2: float
+    """Thermal expansion along the axis 2, 1/K."""
+    thermal_expansion_3: float
+    """Thermal expansion across the plane, 1/K; for plane strain."""
+
+
+class Model(TypedDict, total=False):
+    """The bond model."""
+
+    law: Literal["nhpd", "bbpd", "bbpd-conical", "pds", "mppd", "mppd-beam", "orthotropic", "mbb-pd"]
+    """The bond law.
+
+- `nhpd`: Beam-like bonds with non-unified horizons: normal, shear and rotational stiffness.
+- `bbpd`: Central forces alone; Poisson's ratio 1/3, or 1/4 in plane strain.
+- `bbpd-conical`: Central forces with a stiffness that falls with the length.
+- `pds`: Normal and constant shear stiffness, no rotations of the points.
+- `mppd`: Normal and constant shear stiffness, rotations.
+- `mppd-beam`: Micropolar bonds in the form of a beam: shear stiffness falls with the length.
+- `orthotropic`: Stiffness by the direction in the axes of an orthotropic material, rotations.
+- `mbb-pd`: All strains of a small rectangle around each bond of a lattice."""
+    horizon_factor: float
+    """Horizon of each point over the distance to its nearest neighbour, lambda; 3 is usual."""
+    horizon: float
+    """One horizon for all points, m, in the place of `horizon_factor`."""
+    bonds_through_voids: bool
+    """Whether bonds run through holes, slots and notches of a mesh, as if these were filled. Default false."""
+    closing: bool
+    """Whether the faces of cracks carry pressure again where they close; of laws whose points turn. Default false."""
+    calibration: Literal["integral", "discrete"]
+    """Where the constants of the law come from; of `bbpd`, `bbpd-conical`, `pds`, `mppd`, `mppd-beam`.
+
+- `integral`: Integrals over a full circle (the papers').
+- `discrete`: Sums over the family of each point."""
+    rotational_stiffness: Literal["decaying", "quarter", "beam", "none"]
+    """Stiffness against relative rotation; of `mppd`, `orthotropic`.
+
+- `decaying`: k_t l (1 - l/H)/2.
+- `quarter`: k_t l/4.
+- `beam`: k_t l/12.
+- `none`: None."""
+    rotational_factor: float
+    """Stiffness against relative rotation over that of the law; 1 without the key; of `nhpd`, `mppd`, `mppd-beam`, `orthotropic`."""
+    cosserat_length: float
+    """Stiffness against relative rotation of a Cosserat continuum with this characteristic length in bending, m; in the place of
+`rotational_factor`."""
+    form: Literal["full", "rows", "pairwise"]
+    """How the bonds of `mbb-pd` resist their strains.
+
+- `full`: All bonds all three strains.
+- `rows`: Bonds along x and y only their own.
+- `pairwise`: As printed, with forces on the two ends alone."""
+    strains: Literal["small", "true"]
+    """What the strains of `mbb-pd` are taken over.
+
+- `small`: The distances before the deformation.
+- `true`: The distances after the deformation."""
+
+
+class Correction(TypedDict, total=False):
+    """The corrections of the bonds; without it as in the paper of the law."""
+
+    alpha: Literal["none", "partial-volume", "length"]
+    """The factor alpha of each bond; without it as in the paper of the law.
+
+- `none`: 1.
+- `partial-volume`: The share of the cell inside the horizon.
+- `length`: NHPD's factor by length."""
+    surface: Literal["none", "volume", "domain", "patch"]
+    """The correction of surfaces; without it as in the paper of the law.
+
+- `none`: None.
+- `volume`: By the volumes of the families.
+- `domain`: NHPD's iterative domain correction.
+- `patch`: Two factors a bond for which every uniform strain is an equilibrium."""
+    rule: Literal["auto", "sum", "mean"]
+    """How the change of a sweep of the domain correction is measured.
+
+- `auto`: `sum` for models of up to a million bonds, `mean` for larger ones, each with its default tolerance.
+- `sum`: Summed over all bonds (the paper's): grows with the size of the model.
+- `mean`: Mean per bond: independent of the size of the model."""
+    tolerance: float
+    """Change of a sweep below which the domain correction has converged."""
+    max_sweeps: int
+    """Sweeps of the domain correction at most. Default 500."""
+    reference: Literal["body", "families"]
+    """The factors that those of the patch correction are the nearest to; without it `body` in the plane and `families` in space.
+
+- `body`: alpha times one number for the body.
+- `families`: alpha times factors with which a dilation has one stress at all points, also where the mesh is graded."""
+    smallest_factor: float
+    """Smallest factor of the patch correction over the uncorrected one. Default 0.02."""
+    largest_factor: float
+    """Largest factor of the patch correction over the uncorrected one. Default 20.0."""
+    moment_weight: float
+    """Weight of the equations of moments against those of forces in the patch correction. Default 0.04."""
+    regularisation: float
+    """Regularisation of the patch correction, which lets go where its equations cannot be met. Default 0.00001."""
+    domain: Literal["whole", "cracked"]
+    """The body that the correction sees.
+
+- `whole`: Before the pre-cracks cut bonds.
+- `cracked`: After the pre-cracks cut bonds. Default "whole"."""
+
+
+class Precrack(TypedDict, total=False):
+    """A crack that is there from the start."""
+
+    points: Sequence[Numbers]
+    """Corners of the polyline, two or more `[x, y]`, m; in a solid of a plane polygon, three or more `[x, y, z]`."""
+    centre: Numbers
+    """Middle of a straight crack, m; with `length` and `angle` in the place of `points`. In a solid the middle of a disk, with `normal` and
+`radius`."""
+    length: float
+    """From end to end of a straight crack, m."""
+    angle: float
+    """From the x axis to a straight crack, counter-clockwise, rad."""
+    normal: Numbers
+    """Normal of a disk in a solid."""
+    radius: float
+    """Radius of a disk in a solid, m."""
+    group: str
+    """The faces of this physical surface of a solid mesh."""
+    ends: Literal["excluded", "included"]
+    """Whether bonds that only touch the crack are cut.
+
+- `excluded`: Bonds that pass through the crack are cut.
+- `included`: Bonds that have a point in common with the crack are cut. Default "excluded"."""
+
+
+class SupportDisplacement(TypedDict, total=False):
+    """The components that are held, each at 0: `{ x = 0.0 }`, `{ x = 0.0, y = 0.0 }`; m, rotation in rad."""
+
+    x: float
+    """Along x, m."""
+    y: float
+    """Along y, m."""
+    rotation: float
+    """Rotation in the plane, rad, counter-clockwise."""
+    z: float
+    """Along z of a solid, m."""
+    rotation_x: float
+    """Rotation about x in a solid, rad, right-handed."""
+    rotation_y: float
+    """Rotation about y in a solid, rad, right-handed."""
+    rotation_z: float
+    """Rotation about z in a solid, rad, right-handed."""
+
+
+class SupportStiffness(TypedDict, total=False):
+    """Springs to the ground in the place of what holds, in total over the points."""
+
+    x: float
+    """Along x, N/m."""
+    y: float
+    """Along y, N/m."""
+    rotation: float
+    """Against rotations of the points, in N m/rad."""
+    z: float
+    """Along z of a solid, N/m."""
+    normal: float
+    """Along the `normal` of the support, N/m."""
+
+
+class Support(TypedDict, total=False):
+    """A support: displacements held at zero, or resisted by springs."""
+
+    group: str
+    """The points of this physical group of the mesh, or of this set or hole of the lattice."""
+    box: Sequence[Numbers]
+    """The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, in a solid in this box, m."""
+    at: Numbers
+    """The point nearest to `[x, y]`, in a solid to `[x, y, z]`, m."""
+    displacement: SupportDisplacement
+    """The components that are held, each at 0: `{ x = 0.0 }`, `{ x = 0.0, y = 0.0 }`; m, rotation in rad."""
+    normal: Numbers
+    """An inclined roller: the direction along which the points are held while they are free across it, `[1.0, 1.0]` is at 45 degrees."""
+    stiffness: SupportStiffness
+    """Springs to the ground in the place of what holds, in total over the points."""
+
+
+class LoadDisplacement(TypedDict, total=False):
+    """Prescribed displacements, m, rotation in rad."""
+
+    x: float
+    """Along x, m."""
+    y: float
+    """Along y, m."""
+    rotation: float
+    """Rotation in the plane, rad, counter-clockwise."""
+    z: float
+    """Along z of a solid, m."""
+    rotation_x: float
+    """Rotation about x in a solid, rad, right-handed."""
+    rotation_y: float
+    """Rotation about y in a solid, rad, right-handed."""
+    rotation_z: float
+    """Rotation about z in a solid, rad, right-handed."""
+
+
+class LoadForce(TypedDict, total=False):
+    """A force in total over the points, N."""
+
+    x: float
+    """Along x, in the unit of the force. Default 0.0."""
+    y: float
+    """Along y, in the unit of the force. Default 0.0."""
+    z: float
+    """Along z of a solid, in the unit of the force."""
+
+
+class LoadForcePerLength(TypedDict, total=False):
+    """A force along the edges of a group, N/m."""
+
+    x: float
+    """Along x, in the unit of the force. Default 0.0."""
+    y: float
+    """Along y, in the unit of the force. Default 0.0."""
+    z: float
+    """Along z of a solid, in the unit of the force."""
+
+
+class LoadForcePerArea(TypedDict, total=False):
+    """A force over the surface of a group of a solid, N/m^2."""
+
+    x: float
+    """Along x, in the unit of the force. Default 0.0."""
+    y: float
+    """Along y, in the unit of the force. Default 0.0."""
+    z: float
+    """Along z of a solid, in the unit of the force."""
+
+
+class LoadBodyForce(TypedDict, total=False):
+    """A force in the volume, N/m^3; on the whole body without a place."""
+
+    x: float
+    """Along x, in the unit of the force. Default 0.0."""
+    y: float
+    """Along y, in the unit of the force. Default 0.0."""
+    z: float
+    """Along z of a solid, in the unit of the force."""
+
+
+class LoadAcceleration(TypedDict, total=False):
+    """An acceleration that acts on all masses, as gravity does, m/s^2; on the whole body without a place, and the materials need a
+`density`."""
+
+    x: float
+    """Along x, in the unit of the force. Default 0.0."""
+    y: float
+    """Along y, in the unit of the force. Default 0.0."""
+    z: float
+    """Along z of a solid, in the unit of the force."""
+
+
+class LoadMoment(TypedDict, total=False):
+    """A vector; a component that is not given is zero."""
+
+    x: float
+    """Along x, in the unit of the force. Default 0.0."""
+    y: float
+    """Along y, in the unit of the force. Default 0.0."""
+    z: float
+    """Along z of a solid, in the unit of the force."""
+
+
+class LoadBodyCouple(TypedDict, total=False):
+    """A vector; a component that is not given is zero."""
+
+    x: float
+    """Along x, in the unit of the force. Default 0.0."""
+    y: float
+    """Along y, in the unit of the force. Default 0.0."""
+    z: float
+    """Along z of a solid, in the unit of the force."""
+
+
+class LoadProfile(TypedDict, total=False):
+    """How the load varies: what a point takes is multiplied by (c - zero)/(one - zero), or by the factor of a table."""
+
+    along: Literal["x", "y", "z"]
+    """The coordinate.
+
+- `x`: Along x.
+- `y`: Along y.
+- `z`: Along z of a solid."""
+    zero: float
+    """Coordinate in the mesh file at which the load is zero, m."""
+    one: float
+    """Coordinate in the mesh file at which it is as given, m."""
+    file: str | PathLike[str]
+    """A CSV file with the columns `x`, `y` (m; of a solid also `z`) and `factor`, with a row for each loaded point, from the folder of
+the case file."""
+
+
+class Load(TypedDict, total=False):
+    """A load, given as it is at load factor 1."""
+
+    name: str
+    """Heads its column in `history.csv`; without it the name of the group."""
+    group: str
+    """The points of this physical group of the mesh, or of this set or hole of the lattice."""
+    box: Sequence[Numbers]
+    """The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, in a solid in this box, m."""
+    at: Numbers
+    """The point nearest to `[x, y]`, in a solid to `[x, y, z]`, m."""
+    displacement: LoadDisplacement
+    """Prescribed displacements, m, rotation in rad."""
+    force: LoadForce
+    """A force in total over the points, N."""
+    force_per_length: LoadForcePerLength
+    """A force along the edges of a group, N/m."""
+    force_per_area: LoadForcePerArea
+    """A force over the surface of a group of a solid, N/m^2."""
+    body_force: LoadBodyForce
+    """A force in the volume, N/m^3; on the whole body without a place."""
+    acceleration: LoadAcceleration
+    """An acceleration that acts on all masses, as gravity does, m/s^2; on the whole body without a place, and the materials need a
+`density`."""
+    moment: float | LoadMoment
+    """A couple in total over the points, N m: counter-clockwise, in a solid `{ x = 0.0, y = 0.0, z = 1.0 }`, right-handed."""
+    body_couple: float | LoadBodyCouple
+    """A couple in the volume, N m/m^3, as a `moment`; on the whole body without a place."""
+    pressure: float
+    """A pressure on the outline of a group, Pa; positive pushes on the body."""
+    profile: LoadProfile | Function
+    """How the load varies: what a point takes is multiplied by (c - zero)/(one - zero), or by the factor of a table."""
+    stiffness: float
+    """Stiffness in total of springs through which a `displacement` moves the points, N/m: what gives way in a testing machine."""
+    tilts: bool
+    """Whether a `displacement` or `force` acts through a rigid platen that may tilt: it moves by the mean of its points."""
+
+
+class StageControl(TypedDict, total=False):
+    """What grows in equal steps over the stage, while the loads follow in the proportion in which they would go to their factors, past
+peaks and snap-backs. Without it the factors grow."""
+
+    probe: str
+    """Name of a probe that reads a displacement or one between two points; load steps alone."""
+    probes: Mapping[str, float]
+    """Weights of such probes, by their names."""
+    quantity: Literal["dissipated_energy"]
+    """A quantity of the whole body.
+
+- `dissipated_energy`: The energy that bonds have taken for good since the loading began, a column of `history.csv`: in load steps of bonds that soften; along
+the exact path it says how far the stage goes."""
+    to: float
+    """The value at the end of the stage, in the unit of the probe, or J."""
+
+
+class Stage(TypedDict, total=False):
+    """A stage of the loading: loads that go to other factors, each times the load as it is at factor 1."""
+
+    name: str
+    """Stands in `history.csv`; without it `stage-1` and so on."""
+    loads: Mapping[str, float | Numbers | Sequence[Numbers]]
+    """Factors that loads go to, by the names of the loads; `temperature` for the temperatures. All others keep theirs, which is 0 at
+first."""
+    steps: int
+    """Equal load steps of the stage; not on the exact path, nor in an elastic analysis."""
+    control: StageControl
+    """What grows in equal steps over the stage, while the loads follow in the proportion in which they would go to their factors, past
+peaks and snap-backs. Without it the factors grow."""
+
+
+class Temperature(TypedDict, total=False):
+    """A change of temperature at load factor 1. Where several reach, the last of them holds."""
+
+    group: str
+    """The part of the body; the whole body without it or a `box`."""
+    box: Sequence[Numbers]
+    """The part of the body in this rectangle, by two opposite corners, in a solid in this box, m."""
+    change: float | Function
+    """Change of the temperature at load factor 1, the same everywhere there, K."""
+    file: str | PathLike[str]
+    """A CSV file with the columns `x`, `y` (m; of a solid also `z`) and `change` (K), from the folder of the case file."""
+    mesh_field: str
+    """A scalar field at the nodes in the mesh file, K; `ligament inspect` lists them."""
+    time_step: int
+    """Time step of the `mesh_field`, where the file has several."""
+    reference: float
+    """Subtracted from the values of the `mesh_field`, K. Default 0.0."""
+
+
+class NoFail(TypedDict, total=False):
+    """A part of the body."""
+
+    group: str
+    """The points of this physical group of the mesh, or of this set or hole of the lattice."""
+    box: Sequence[Numbers]
+    """The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, in a solid in this box, m."""
+
+
+class Probe(TypedDict, total=False):
+    """A column of the history."""
+
+    name: str
+    """Heads its column in `history.csv`; each name once."""
+    between: Sequence[Numbers]
+    """Two positions, m: the second displacement less the first, as of a strain gauge or a crack opening; with `component`."""
+    at: Numbers
+    """A position, m, at which a field is read between the points of the cell around it; with `field`."""
+    section: Sequence[Numbers]
+    """A line, m, through which the bonds carry a force, N; in a solid a point of a plane and one before it along its normal; with
+`component`."""
+    component: Literal["x", "y", "rotation", "z", "rotation_x", "rotation_y", "rotation_z"]
+    """The component that `between` (m or rad) or `section` (N; `x`, `y`, or `z` in a solid) reads.
+
+- `x`: Displacement along x, m.
+- `y`: Displacement along y, m.
+- `rotation`: Rotation in the plane, rad, counter-clockwise.
+- `z`: Displacement along z of a solid, m.
+- `rotation_x`: Rotation about x in a solid, rad, right-handed.
+- `rotation_y`: Rotation about y in a solid, rad, right-handed.
+- `rotation_z`: Rotation about z in a solid, rad, right-handed."""
+    field: Literal["damage", "strain_energy_density", "damage_tension", "damage_compression", "damage_sliding", "stress.xx", "stress.yy", "stress.xy", "stress.zz", "stress.xz", "stress.yz", "stress_principal.1", "stress_principal.2", "stress_principal.3", "displacement_x", "displacement_y", "rotation", "displacement_z", "rotation_x", "rotation_y", "rotation_z", "stress_xx", "stress_yy", "stress_xy", "stress_zz", "stress_xz", "stress_yz"]
+    """The field that is read `at` the position.
+
+- `damage`: Share of the point's bonds that are broken, weighted with volumes, 0 to 1.
+- `strain_energy_density`: Strain energy density, J/m^3: energy stored in the point's bonds, half of each.
+- `damage_tension`: Damage by opening of bonds, d_t, 0 to 1.
+- `damage_compression`: Damage by crushing of bonds, d_c.
+- `damage_sliding`: Damage by sliding of bonds, d_gamma.
+- `stress.xx`: Stress by the law of the material xx, Pa.
+- `stress.yy`: Stress by the law of the material yy, Pa.
+- `stress.xy`: Stress by the law of the material xy, Pa.
+- `stress.zz`: Stress by the law of the material zz, Pa.
+- `stress.xz`: Stress by the law of the material xz, Pa.
+- `stress.yz`: Stress by the law of the material yz, Pa.
+- `stress_principal.1`: Principal value of that stress 1, Pa.
+- `stress_principal.2`: Principal value of that stress 2, Pa.
+- `stress_principal.3`: Principal value of that stress 3, Pa.
+- `displacement_x`: Displacement along x, m.
+- `displacement_y`: Displacement along y, m.
+- `rotation`: Rotation in the plane, rad, counter-clockwise.
+- `displacement_z`: Displacement along z of a solid, m.
+- `rotation_x`: Rotation about x in a solid, rad, right-handed.
+- `rotation_y`: Rotation about y in a solid, rad, right-handed.
+- `rotation_z`: Rotation about z in a solid, rad, right-handed.
+- `stress_xx`: Virial stress xx, Pa.
+- `stress_yy`: Virial stress yy, Pa.
+- `stress_xy`: Virial stress xy, Pa.
+- `stress_zz`: Virial stress zz of a solid, Pa.
+- `stress_xz`: Virial stress xz of a solid, Pa.
+- `stress_yz`: Virial stress yz of a solid, Pa."""
+
+
+class FractureStop(TypedDict, total=False):
+    """When to stop before the end of the loading; whichever comes first."""
+
+    load_fraction: float
+    """When the load has fallen to this share of its largest value; not where the load factor is below an earlier one."""
+    displacement: float
+    """When the displacement of the first load reaches this, m; in rad, m^3 or K where that is its unit."""
+    bonds: int
+    """When so many bonds are broken."""
+    wall_time: float
+    """After so much time, s."""
+    negative_energy: bool
+    """When the stored energy becomes negative, as it may where Poisson's ratio makes the bonds' shear stiffness negative. Default true."""
+
+
+class FractureScatter(TypedDict, total=False):
+    """A strength or a fracture energy that varies over the body at random."""
+
+    of: Literal["strength", "fracture-energy"]
+    """What varies.
+
+- `strength`: Strengths, and limits given in their place.
+- `fracture-energy`: Fracture energies."""
+    distribution: Literal["weibull", "normal"]
+    """Distribution of the factors.
+
+- `weibull`: Weibull's with two parameters, by its `modulus`.
+- `normal`: Normal with a `deviation`, cut off at four of them. Default "weibull"."""
+    modulus: float
+    """Weibull modulus; of `weibull`: 5 scatters by 23 %, 12 by 10 %, 25 by 5 %."""
+    deviation: float
+    """Standard deviation over the mean; of `normal`."""
+    seed: int
+    """Seed of the random numbers: another one is another specimen. Default 0."""
+    correlation_length: float
+    """Distance over which the correlation exp(-(r/L)^2) of two places falls to 1/e, m; 0: each point for itself. Default 0.0."""
+
+
+class FractureCriterion(TypedDict, total=False):
+    """A criterion of failure."""
+
+    kind: Literal["strength", "bond-rankine", "rankine", "mohr-coulomb", "tension", "compression", "fibre", "sliding", "frictional", "critical-stretch", "bond-energy", "mixed-mode", "printed-opening", "printed-sliding", "printed-mixed"]
+    """What fails, and where its limit comes from.
+
+- `strength`: Stretch, from the energy at the `tensile_strength` (NHPD).
+- `bond-rankine`: Tensile stress on the plane across the bond, from the `tensile_strength`: the strength of the material under any stress.
+- `rankine`: Largest principal stress around the bond, at which it begins to soften, from the `tensile_strength`; it takes what `bond-energy` gives it, from the `fracture_energy`.
+- `mohr-coulomb`: Tension up to the `tensile_strength`, and shear with friction, from the `compressive_strength` and a `friction_angle` or one that fits both strengths, or from a `cohesion` and a `friction_angle`; where bonds soften, by the `fracture_energy` and by `fracture_energy_sliding`.
+- `tension`: Stretch, from the `tensile_strength` or a `limit`.
+- `compression`: Shortening, from the `compressive_strength` or a `limit`.
+- `fibre`: Stretch of the outermost fibre of a bond that bends, from the `tensile_strength` or a `limit`; with a `fibre_distance`.
+- `sliding`: Sliding, from the `tensile_strength` or a `limit`.
+- `frictional`: Sliding that compression makes harder, from both strengths, from the `tensile_strength` and a `friction_angle`, or from a `limit` and a `friction_angle`.
+- `critical-stretch`: Stretch, from the `fracture_energy`.
+- `bond-energy`: Energy of stretch and sliding, from the `fracture_energy` or a `limit`; where bonds soften, from the `tensile_strength`.
+- `mixed-mode`: Opening and shear of the bonds of `mbb-pd`, from the fracture energies or limits of both.
+- `printed-opening`: Critical stretch and angle of the bonds of `mbb-pd` in mode I as printed, from the fracture energy and the bonds left.
+- `printed-sliding`: Critical stretch and angle of the bonds of `mbb-pd` in mode II as printed, from the fracture energy and the bonds left.
+- `printed-mixed`: Critical stretch and angle of the bonds of `mbb-pd` in both modes as printed, from the fracture energies and the bonds left."""
+    limit: float
+    """Stretch, shortening or sliding at which a bond fails, in the place of the strength or the energy of the material."""
+    critical_stretch: float
+    """Stretch at which a bond without shear fails; of `mixed-mode`, with `critical_angle`."""
+    critical_angle: float
+    """Shear at which a bond that does not open fails, rad; of `mixed-mode`, with `critical_stretch`."""
+    calibration: Literal["printed", "two-point"]
+    """How the limit of `frictional` comes from the strengths.
+
+- `printed`: As printed: exact without lateral strain alone.
+- `two-point`: From the strains of a bar under both strengths. Default "printed"."""
+    friction_angle: float
+    """Angle of friction, rad. Of `mohr-coulomb` that of the material, phi. Of `frictional` that of a bond, beta, in the place of the
+compressive strength: compression by s makes its limit of sliding larger by s tan(beta)."""
+    cohesion: float
+    """Cohesion of `mohr-coulomb`, Pa, in the place of the compressive strength; with `friction_angle`."""
+    fibre_distance: float
+    """Distance of the outermost fibre from the axis of a bond, m; of `fibre`."""
+    after: Literal["brittle", "linear", "two-branch", "exponential", "plastic", "bilinear"]
+    """What a bond does after its limit.
+
+- `brittle`: It breaks.
+- `linear`: Its force falls in one straight line to zero.
+- `two-branch`: Its force falls in two straight lines, to a third and then to zero (Petersson's, of concrete).
+- `exponential`: Its force falls exponentially.
+- `plastic`: Its force stays; of `sliding` alone.
+- `bilinear`: Older word for `linear`: one straight line, not the two of `two-branch` that concrete has. Default "brittle"."""
+    end: float
+    """Deformation at which the force of `linear` (above 1) or `two-branch` (above 3) is gone, over that at the limit; without it so that the `fracture_energy` comes out."""
+    scale: float
+    """Scale of the fall of `exponential` over the deformation at the limit; without it so that the `fracture_energy` comes out."""
+
+
+class Fracture(TypedDict, total=False):
+    """How bonds break; without it the case is one linear elastic solution."""
+
+    control: Literal["stepped", "event"]
+    """What drives the load.
+
+- `stepped`: Load steps, given by `steps`; in each, bonds break until none is beyond its limit.
+- `event`: The exact path from breakage to breakage up to load factor 1, without steps and with snap-back. Default "stepped"."""
+    steps: int | Numbers
+    """The load steps: so many equal ones up to load factor 1, or a list of load factors. With stages each of them has its own."""
+    bonds_per_iteration: int
+    """Bonds broken at most between two solutions. Default 5."""
+    order: Literal["excess", "ratio"]
+    """Order in which the bonds beyond their limit break.
+
+- `excess`: Bonds with the largest excess of stretch over critical stretch (the paper's).
+- `ratio`: Bonds with the largest ratio of stretch to critical stretch. Default "excess"."""
+    max_iterations: int
+    """Rounds of breaking at most in a load step. Default 10000."""
+    refine_first_break: int
+    """Parts into which the load step of the first breakage is divided after it; 0: not divided. Default 0."""
+    tie_tolerance: float
+    """Bonds closer than this (relative) to the worst one break together with it. Default 1e-8."""
+    energy_tolerance: float
+    """Relative change of energy below which a solution is in equilibrium. Default 0.0001."""
+    stop: FractureStop
+    """When to stop before the end of the loading; whichever comes first."""
+    scatter: FractureScatter
+    """A strength or a fracture energy that varies over the body at random."""
+    criterion: Sequence[FractureCriterion]
+    """When bonds fail: the first criterion that is met decides; without any, by the strength (`mbb-pd`: `mixed-mode`)."""
+
+
+class Modal(TypedDict, total=False):
+    """Natural modes that are wanted, with `analysis = "modal"`."""
+
+    modes: int
+    """Number of modes, rigid ones included, lowest first. Default 10."""
+    rotations: Literal["auto", "inertia", "massless"]
+    """Inertia of the rotations of the points.
+
+- `auto`: `inertia` where no bond has a negative shear stiffness, `massless` otherwise.
+- `inertia`: Rotations have the inertia of a square with the point's volume.
+- `massless`: Rotations have no inertia and follow the displacements. Default "auto"."""
+    tolerance: float
+    """Residual of the search, relative to 1/omega^2. Default 1e-10."""
+
+
+class Solver(TypedDict, total=False):
+    """How the equations are solved. The results are the same up to rounding."""
+
+    method: Literal["auto", "direct", "iterative"]
+    """How the equations are solved: with a factor of the matrix or without a matrix.
+
+- `auto`: `direct` in the plane as long as the factor fits into memory and in space up to 5,000 points, and where the iteration cannot; `iterative` beyond.
+- `direct`: With a factor of the matrix.
+- `iterative`: By conjugate gradients without a matrix, for positive definite stiffness."""
+    tolerance: float
+    """Force that the iteration leaves out of balance after a breakage, relative to the forces that may act at a point: 1e-8. Bonds that
+are nearer to each other than a hundred times this, relatively, break together."""
+    factorisation: Literal["auto", "llt", "ldlt"]
+    """The factorisation of the stiffness.
+
+- `auto`: `llt` where every bond has a positive shear stiffness, `ldlt` otherwise.
+- `llt`: L L^T, for positive definite stiffness.
+- `ldlt`: L D L^T, also for indefinite stiffness. Default "auto"."""
+    ordering: Literal["auto", "nested-dissection", "minimum-degree"]
+    """The order of elimination.
+
+- `auto`: `nested-dissection` from 10,000 points on, `minimum-degree` below.
+- `nested-dissection`: Nested dissection of the points.
+- `minimum-degree`: Approximate minimum degree of the unknowns. Default "auto"."""
+    update: Literal["auto", "incremental", "refactor"]
+    """What happens to the factor when bonds break.
+
+- `auto`: `incremental`.
+- `incremental`: The factor is changed in place, unless so many bonds break at once that making it anew costs less.
+- `refactor`: The factor is made anew every time. Default "auto"."""
+    rebuild_every: int
+    """Broken bonds between two factors that are made anew."""
+    threads: int
+    """Threads; without it one for each processor. Results do not depend on it."""
+    memory: float
+    """Memory that a run may take, GB; without it what the machine has left. A run that would take more is refused; where the method is
+open, bodies in the plane whose factor does not fit are solved without a matrix."""
+
+
+class Output(TypedDict, total=False):
+    """What a run writes."""
+
+    fields_every: int
+    """Load steps (default 10) or events of the exact path (100) between two field files; 0: the first and the last state alone."""
+    bonds: bool
+    """Whether the bonds are written as lines with each field file. Default false."""
+    model: bool
+    """Whether `model.vtu` is written, which `ligament explain` reads. Default true."""
+    checkpoint_every: float
+    """Time between two checkpoints, from which `ligament resume` goes on, s; without it half a minute, and so long that they take
+a fiftieth of the time. 0: only when the run is stopped."""
+    picture: bool
+    """Whether a picture of the last state, with its damage or displacement, and one of the curve of force over displacement are drawn
+at the end. Default false."""
+    stress: Sequence[Literal["material", "virial", "traction"]]
+    """Stresses at the points in the field files. Default []."""
+
+
+class SectionsOnBody(TypedDict, total=False):
+    """The sections of a case without its body."""
+
+    title: str
+    """One line on what the case is. Default ""."""
+    analysis: Literal["static", "fracture", "modal"]
+    """What is computed; without it `fracture` where there is a `[fracture]` section, else `static`.
+
+- `static`: One linear elastic solution at load factor 1.
+- `fracture`: The breaking of bonds under rising loads.
+- `modal`: Natural frequencies and modes."""
+    curve: str
+    """Name of the load, or `temperature`, that is the axis of the force-displacement curve; without it the first load."""
+    material: Material | Mapping[str, MaterialPart]
+    """The material of the whole body; or a table `[material.NAME]` with a `group` for each of several."""
+    model: Model
+    """The bond model."""
+    correction: Correction
+    """The corrections of the bonds; without it as in the paper of the law."""
+    precrack: Sequence[Precrack]
+    """Cracks and slots that are there from the start."""
+    support: Sequence[Support]
+    """What holds the body; nothing need."""
+    load: Sequence[Load]
+    """Loads as they are at load factor 1; the first is the axis of the force-displacement curve."""
+    stage: Sequence[Stage]
+    """Stages one after the other, in which each load follows a factor of its own; without any all grow with one load factor."""
+    temperature: Sequence[Temperature]
+    """Changes of temperature at load factor 1; where several reach, the last holds."""
+    no_fail: Sequence[NoFail]
+    """Parts of the body where bonds never break."""
+    probe: Sequence[Probe]
+    """Extra columns of `history.csv`."""
+    fracture: Fracture
+    """How bonds break; without it the case is one linear elastic solution."""
+    modal: Modal
+    """Natural modes that are wanted, with `analysis = "modal"`."""
+    solver: Literal["auto"] | Solver
+    """How the equations are solved; nothing need be said."""
+    output: Output
+    """What a run writes."""
+
+
+class Mesh(TypedDict, total=False):
+    """The body, meshed by Gmsh; or a `[lattice]`."""
+
+    file: str | PathLike[str]
+    """The mesh, a Gmsh file (2.2 or 4.1), or a table of points (`.csv`), from the folder of the case file."""
+    thickness: float
+    """Thickness of a body in the plane, m; a mesh of solid cells has none. Default 1.0."""
+    plane: Literal["stress", "strain"]
+    """Plane stress or plane strain of a body in the plane; a mesh of solid cells has none.
+
+- `stress`: No stress out of the plane: thin bodies.
+- `strain`: No strain out of the plane: long bodies. Default "stress"."""
+
+
+class LatticeRemoveCircle(TypedDict, total=False):
+    """A disk, m."""
+
+    centre: Numbers
+    """Centre, m."""
+    radius: float
+    """Radius, m."""
+
+
+class LatticeRemoveOutside(TypedDict, total=False):
+    """Everything outside of a disk, m."""
+
+    centre: Numbers
+    """Centre, m."""
+    radius: float
+    """Radius, m."""
+
+
+class LatticeRemove(TypedDict, total=False):
+    """A hole: cells whose centre lies in it are removed."""
+
+    name: str
+    """Makes the cells at its rim a `group`; several holes may share it."""
+    circle: LatticeRemoveCircle
+    """A disk, m."""
+    rectangle: Sequence[Numbers]
+    """A rectangle by two opposite corners, m."""
+    polygon: Sequence[Numbers]
+    """A polygon by its corners, three or more, m."""
+    outside: LatticeRemoveOutside
+    """Everything outside of a disk, m."""
+
+
+class LatticeSetCircle(TypedDict, total=False):
+    """Cells whose centre lies in a disk, m."""
+
+    centre: Numbers
+    """Centre, m."""
+    radius: float
+    """Radius, m."""
+
+
+class LatticeSet(TypedDict, total=False):
+    """A set of cells."""
+
+    bottom: int
+    """So many rows from the bottom."""
+    top: int
+    """So many rows from the top."""
+    left: int
+    """So many columns from the left."""
+    right: int
+    """So many columns from the right."""
+    box: Sequence[Numbers]
+    """Cells whose centre lies in a rectangle, by two opposite corners, m."""
+    circle: LatticeSetCircle
+    """Cells whose centre lies in a disk, m."""
+    polygon: Sequence[Numbers]
+    """Cells whose centre lies in a polygon, by its corners, three or more, m."""
+
+
+class Lattice(TypedDict, total=False):
+    """The body as a rectangle of equal cells with a point at the centre of each; or a `[mesh]`."""
+
+    cells: Sequence[int]
+    """Number of cells along x and y."""
+    spacing: float | Numbers
+    """Side of the cells, or their sides `[dx, dy]`, m."""
+    corner: Numbers
+    """Lower left corner of the lattice, m. Default [0.0,0.0]."""
+    thickness: float
+    """Thickness of the body, m. Default 1.0."""
+    plane: Literal["stress", "strain"]
+    """Plane stress or plane strain.
+
+- `stress`: No stress out of the plane: thin bodies.
+- `strain`: No strain out of the plane: long bodies. Default "stress"."""
+    remove: Sequence[LatticeRemove]
+    """Holes: cells whose centre lies in one are removed, and bonds across it."""
+    set: Mapping[str, LatticeSet]
+    """Named sets of cells, which stand wherever a `group` does."""
+
+
+class SolidLatticeRemoveSphere(TypedDict, total=False):
+    """A ball, m."""
+
+    centre: Numbers
+    """Centre, m."""
+    radius: float
+    """Radius, m."""
+
+
+class SolidLatticeRemoveCylinder(TypedDict, total=False):
+    """A cylinder with flat ends, m."""
+
+    ends: Sequence[Numbers]
+    """Middles of its two ends, m."""
+    radius: float
+    """Radius, m."""
+
+
+class SolidLatticeRemoveOutsideSphere(TypedDict, total=False):
+    """Everything outside of a ball, m."""
+
+    centre: Numbers
+    """Centre, m."""
+    radius: float
+    """Radius, m."""
+
+
+class SolidLatticeRemoveOutsideCylinder(TypedDict, total=False):
+    """Everything outside of a cylinder that goes on beyond its ends, m."""
+
+    ends: Sequence[Numbers]
+    """Middles of its two ends, m."""
+    radius: float
+    """Radius, m."""
+
+
+class SolidLatticeRemove(TypedDict, total=False):
+    """A hole: cells whose centre lies in it are removed."""
+
+    name: str
+    """Makes the cells at its surface a `group`; several holes may share it."""
+    sphere: SolidLatticeRemoveSphere
+    """A ball, m."""
+    cylinder: SolidLatticeRemoveCylinder
+    """A cylinder with flat ends, m."""
+    box: Sequence[Numbers]
+    """A box by two opposite corners `[[x, y, z], [x, y, z]]`, m."""
+    outside_sphere: SolidLatticeRemoveOutsideSphere
+    """Everything outside of a ball, m."""
+    outside_cylinder: SolidLatticeRemoveOutsideCylinder
+    """Everything outside of a cylinder that goes on beyond its ends, m."""
+
+
+class SolidLatticeSetSphere(TypedDict, total=False):
+    """Cells whose centre lies in a ball, m."""
+
+    centre: Numbers
+    """Centre, m."""
+    radius: float
+    """Radius, m."""
+
+
+class SolidLatticeSetCylinder(TypedDict, total=False):
+    """Cells whose centre lies in a cylinder, m."""
+
+    ends: Sequence[Numbers]
+    """Middles of its two ends, m."""
+    radius: float
+    """Radius, m."""
+
+
+class SolidLatticeSet(TypedDict, total=False):
+    """A set of cells."""
+
+    left: int
+    """So many layers from the lowest x."""
+    right: int
+    """So many layers from the highest x."""
+    front: int
+    """So many layers from the lowest y."""
+    back: int
+    """So many layers from the highest y."""
+    bottom: int
+    """So many layers from the lowest z."""
+    top: int
+    """So many layers from the highest z."""
+    box: Sequence[Numbers]
+    """Cells whose centre lies in a box, by two opposite corners, m."""
+    sphere: SolidLatticeSetSphere
+    """Cells whose centre lies in a ball, m."""
+    cylinder: SolidLatticeSetCylinder
+    """Cells whose centre lies in a cylinder, m."""
+
+
+class SolidLattice(TypedDict, total=False):
+    """The body as a box of equal cells in space with a point at the centre of each; or a `[mesh]` of solid cells."""
+
+    cells: Sequence[int]
+    """Number of cells along x, y and z."""
+    spacing: Numbers
+    """Sides of the cells `[dx, dy, dz]`, m."""
+    corner: Numbers
+    """Corner of the box with the lowest coordinates, m. Default [0.0,0.0,0.0]."""
+    remove: Sequence[SolidLatticeRemove]
+    """Holes: cells whose centre lies in one are removed, and bonds across it."""
+    set: Mapping[str, SolidLatticeSet]
+    """Named sets of cells, which stand wherever a `group` does."""
+
+
+class Sections(SectionsOnBody, total=False):
+    """The sections of a case."""
+
+    mesh: Mesh
+    """The body, meshed by Gmsh; or a `[lattice]`."""
+    lattice: Lattice
+    """The body as a rectangle of equal cells with a point at the centre of each; or a `[mesh]`."""
+    solid_lattice: SolidLattice
+    """The body as a box of equal cells in space with a point at the centre of each; or a `[mesh]` of solid cells."""
