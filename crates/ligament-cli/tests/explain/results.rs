@@ -44,7 +44,7 @@ fn what_is_not_there_is_named() {
     assert_eq!(unknown, expected);
     let unknown = refusal(&results, &["--bond", "1", "0"]);
     assert!(
-        unknown.contains("no cell 0: the tags go from 1 to 45, the nearest is 1"),
+        unknown.contains("no cell 0: the tags go from 1 to 45, and the nearest is 1"),
         "{unknown}"
     );
     let same = refusal(&results, &["--bond", "7", "7"]);
