@@ -166,7 +166,15 @@ const RESERVED: [(&str, &[&str]); 17] = [
         ],
     ),
     ("serde_path_to_error", &["ligament-case"]),
-    ("toml", &["ligament-case", "ligament-cli", "ligament-plot"]),
+    (
+        "toml",
+        &[
+            "ligament-case",
+            "ligament-cli",
+            "ligament-plot",
+            "ligament-report",
+        ],
+    ),
     ("toml_edit", &["ligament-case", "ligament-study"]),
     ("roxmltree", &["ligament-cli", "ligament-output"]),
     ("csv", &["ligament-output"]),

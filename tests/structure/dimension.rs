@@ -48,10 +48,6 @@ const GEOMETRIC: [(&str, &str); 13] = [
         "files of cracks as surfaces",
     ),
     ("ligament-plot/src/picture/solid", "a painter of solids"),
-    (
-        "ligament-report/src/solid.rs",
-        "what the page has of a solid",
-    ),
 ];
 
 /// Crates that see bodies as values, whatever their dimension.
