@@ -8,7 +8,7 @@ use ligament_output::Error;
 use ligament_output::csv::read::Sheet;
 use ligament_output::folder::{REPORT, copy_results};
 use ligament_output::results::bond_arrays::{BondArrays, positions_of_fields};
-use ligament_output::results::columns::{is_count, unit_of};
+use ligament_output::results::columns::is_count;
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::fields::{self, FieldReading, ResultField};
 use ligament_output::results::location;
@@ -82,15 +82,10 @@ impl Folder {
     /// SI units of the columns of the history, `-` where there is none or it is not known.
     fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let sheet = Sheet::read(self.path.join("history.csv")).map_err(told(py))?;
-        let of_load = stored_loading(&self.path).map_err(told(py))?.units;
+        let loading = stored_loading(&self.path).map_err(told(py))?;
         let units = PyDict::new(py);
         for column in sheet.columns() {
-            let unit = match column.as_str() {
-                "displacement" => of_load.displacement,
-                "reaction" => of_load.force,
-                name => unit_of(name),
-            };
-            units.set_item(column, unit)?;
+            units.set_item(column, loading.unit_of(column))?;
         }
         Ok(units)
     }

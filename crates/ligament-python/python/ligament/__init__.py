@@ -20,6 +20,8 @@ can be kept and opened later. All values are in SI units.
 'steps-done'
 """
 
+from typing import TYPE_CHECKING, Any
+
 from ligament import examples
 from ligament._case import Case, Setup
 from ligament._errors import BodyError, CaseError, Interrupted, LigamentError, NotCalibrated, SolutionError
@@ -27,8 +29,20 @@ from ligament._keys import Key, Keys, keys
 from ligament._modes import Modes
 from ligament._native import VERSION as __version__
 from ligament._result import CrackLine, CrackSurface, Result, open, report
-from ligament._sections import Sections
 from ligament._studies import Calibration, Sweep, calibrate, modal, run, sweep
+
+if TYPE_CHECKING:
+    from ligament._sections import Sections
+
+
+def __getattr__(name: str) -> Any:
+    """The types of the sections of a case, which are imported when they are asked for."""
+    if name == "Sections":
+        from ligament._sections import Sections
+
+        return Sections
+    raise AttributeError(f"module 'ligament' has no attribute {name!r}")
+
 
 __all__ = [
     "BodyError",

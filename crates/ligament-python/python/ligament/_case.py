@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Self, Unpack, cast
+from typing import TYPE_CHECKING, Any, Self, TypeAlias, Unpack, cast
 
 from numpy.typing import ArrayLike
 
@@ -14,7 +14,10 @@ from ligament._errors import LigamentError
 from ligament._functions import Function
 from ligament._home import Home
 from ligament._native import Case as NativeCase
-from ligament._sections import Sections, SectionsOnBody
+
+if TYPE_CHECKING:
+    # A thousand lines of types are read by checkers and editors alone.
+    from ligament._sections import Sections, SectionsOnBody
 
 Section = Mapping[str, Any]
 
@@ -102,7 +105,7 @@ class Case:
     @classmethod
     def from_dict(cls, sections: Section, /, **changes: Any) -> Case:
         """The case of a dictionary of sections whose type is not known; editors check the keys of `Case` itself."""
-        return cls(cast(Sections, sections), **changes)
+        return cls(cast("Sections", sections), **changes)
 
     def with_changes(self, **changes: Any) -> Self:
         """The case with some keys changed, and those taken away whose value is None.
@@ -218,7 +221,7 @@ def _restored(kind: type[Case], source: str, path: str, files: dict[str, tuple[s
 
 
 # What a case is given as.
-Source = Case | Sections | str | os.PathLike[str]
+Source: TypeAlias = "Case | Sections | str | os.PathLike[str]"
 
 
 def dotted(changes: Mapping[str, Any]) -> dict[str, Any]:
