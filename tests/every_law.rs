@@ -21,7 +21,7 @@ const SPACING: f64 = 0.01;
 const REFUSED: [(&str, &str); 4] = [
     (
         "mppd-beam volume",
-        "the discrete calibration has the surfaces in its sums",
+        "the discrete calibration already accounts for surfaces",
     ),
     (
         "mbb-pd volume",

@@ -58,7 +58,7 @@ fn profiles_and_couples_are_checked() {
         (
             "force = { x = 1.0 }\nprofile = { along = \"y\", zero = 0.1, ones = 0.1 }",
             "34:38: load.0.profile.ones: unknown key `ones` in `load.0.profile`; did you mean `one`? valid keys: \
-             `along`, `zero`, `one`",
+             `along`, `zero`, `one`, `file`",
         ),
         (
             "force = { x = 1.0 }\nprofile = { along = \"y\", zero = 0.1 }",

@@ -48,6 +48,34 @@ component = "x"
 steps = 10
 "#;
 
+/// A bar of points of a table that softens.
+const POINTS: &str = r#"
+[mesh]
+file = "points.csv"
+thickness = 0.01
+[material]
+young = 30e9
+poisson = 0.2
+tensile_strength = 3e6
+[model]
+law = "nhpd"
+horizon_factor = 3.0
+[[support]]
+group = "left"
+displacement = { x = 0.0, y = 0.0 }
+[[load]]
+group = "right"
+displacement = { x = 2e-5 }
+[fracture]
+steps = 4
+[[fracture.criterion]]
+kind = "tension"
+after = "bilinear"
+end = 6.0
+[output]
+fields_every = 1
+"#;
+
 /// A bar in space of 8 x 4 x 4 cells.
 const SOLID: &str = include_str!("support/small-solid.toml");
 
@@ -194,8 +222,8 @@ fn compare(heading: &str, written: &[Vec<String>], names: &Names, wrong: &mut Ve
 }
 
 /// Runs whose tables together have all columns: on a lattice, brittle and softening; with strains of their own; on a mesh; with cracks that close; in stages;
-/// in space; modes.
-fn runs(place: &Place) -> [&'static str; 7] {
+/// in space; between points of a table; modes.
+fn runs(place: &Place) -> [&'static str; 8] {
     fs::write(place.path("bar.toml"), BAR).unwrap();
     let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes");
     let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/brazilian-disk/case.toml");
@@ -224,6 +252,15 @@ fn runs(place: &Place) -> [&'static str; 7] {
     place.call(&format!(
         "run bar.toml --out stages --quiet --unset fracture.steps --set {stage}"
     ));
+    let mut points = "x,y,area,left,right\n".to_owned();
+    for (i, j) in (0..12).flat_map(|i| (0..4).map(move |j| (i, j))) {
+        let (x, y) = (0.01 * f64::from(i), 0.01 * f64::from(j));
+        let [left, right] = [i < 2, i > 9].map(u8::from);
+        points.push_str(&format!("{x},{y},1e-4,{left},{right}\n"));
+    }
+    fs::write(place.path("points.csv"), points).unwrap();
+    fs::write(place.path("points.toml"), POINTS).unwrap();
+    place.call("run points.toml --out points --quiet");
     fs::write(place.path("solid.toml"), SOLID).unwrap();
     place.call("run solid.toml --out solid --quiet");
     place.call(
@@ -231,7 +268,7 @@ fn runs(place: &Place) -> [&'static str; 7] {
          --unset no_fail --unset output",
     );
     [
-        "brittle", "soft", "mbb", "mesh", "closing", "stages", "solid",
+        "brittle", "soft", "mbb", "mesh", "closing", "stages", "solid", "points",
     ]
 }
 
@@ -275,7 +312,7 @@ fn the_page_has_every_column_that_is_written() {
         let headers = runs.map(|run| place.header(&format!("{run}/{file}")));
         compare(file, &headers, &names, wrong);
     }
-    let soft = ["soft", "mesh"].map(|run| place.header(&format!("{run}/softening.csv")));
+    let soft = ["soft", "mesh", "points"].map(|run| place.header(&format!("{run}/softening.csv")));
     compare("softening.csv", &soft, &names, wrong);
     compare(
         "modes.csv",
@@ -311,7 +348,7 @@ fn of_stored_results(place: &Place, names: &Names, wrong: &mut Vec<String>) {
         names,
         wrong,
     );
-    let lives = ["brittle", "soft", "mbb", "mesh"].map(|run| {
+    let lives = ["brittle", "soft", "mbb", "mesh", "points"].map(|run| {
         place.call(&format!("explain {run} --point 40 --csv {run}.csv"));
         place.header(&format!("{run}.csv"))
     });

@@ -4,11 +4,11 @@ use std::collections::HashMap;
 
 /// Cells without a crack, and pieces of the cells cut by a crack, which move apart.
 #[derive(Debug, Clone, PartialEq)]
-pub struct OpenedCells<const D: usize, C> {
+pub struct OpenedCells<C> {
     /// Points whose mean displacement each corner of the cells has, shape (n_corners).
     pub follows: Vec<Vec<u32>>,
-    /// Positions of the corners, shape (n_corners), m.
-    pub positions: Vec<[f64; D]>,
+    /// Positions of the corners, shape (n_corners), m; z = 0 in the plane.
+    pub positions: Vec<[f64; 3]>,
     /// Cells between the corners.
     pub cells: Vec<C>,
     /// Cell of the mesh that contains each cell or piece, shape (n_cells).
@@ -18,13 +18,13 @@ pub struct OpenedCells<const D: usize, C> {
 /// Numbers of the corners of pieces by the points between which they lie, and by those of them on their side.
 pub(crate) type Found = HashMap<(Vec<u32>, Vec<u32>), u32>;
 
-impl<const D: usize, C> OpenedCells<D, C> {
+impl<C> OpenedCells<C> {
     /// No cells, with a corner at each point (n_points, m).
-    pub(crate) fn at_points(positions: &[[f64; D]]) -> Self {
+    pub(crate) fn at_points(positions: Vec<[f64; 3]>) -> Self {
         let points = 0..positions.len() as u32;
         Self {
             follows: points.map(|point| vec![point]).collect(),
-            positions: positions.to_vec(),
+            positions,
             cells: Vec::new(),
             of: Vec::new(),
         }
@@ -42,7 +42,7 @@ impl<const D: usize, C> OpenedCells<D, C> {
                     let all = between.iter().map(|it| self.positions[*it as usize][axis]);
                     all.sum::<f64>() / between.len() as f64
                 };
-                let middle = std::array::from_fn(mean);
+                let middle = [0, 1, 2].map(mean);
                 self.positions.push(middle);
                 self.follows.push(own.clone());
                 self.positions.len() as u32 - 1

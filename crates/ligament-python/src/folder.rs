@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use ligament_case::case::key_path::KeyPath;
+use ligament_case::case::keys::unit_of;
 use ligament_cli::explain::{self, Position, Subject};
 use ligament_output::Error;
 use ligament_output::csv::read::Sheet;
@@ -40,7 +42,10 @@ type Line<'py> = (Bound<'py, PyAny>, [&'static str; 2], f64);
 const MOST_BYTES: usize = 15_000_000;
 
 /// Digits that the largest value of a field keeps in a page of results.
-const DIGITS: u32 = 5;
+const DIGITS: u32 = 4;
+
+/// Largest number of steps of a page.
+const STEPS: usize = 60;
 
 /// The exception of a fault in a folder.
 fn told(py: Python<'_>) -> impl Fn(Error) -> PyErr {
@@ -265,6 +270,7 @@ pub(crate) fn report(
     folders: Vec<PathBuf>,
     labels: Vec<String>,
     path: PathBuf,
+    measured: Vec<PathBuf>,
 ) -> PyResult<PathBuf> {
     let path = match path.is_dir() {
         true => path.join(REPORT),
@@ -276,8 +282,10 @@ pub(crate) fn report(
         output: Some(path),
         force: true,
         digits: DIGITS,
-        steps: None,
+        steps: STEPS,
         size: MOST_BYTES,
+        measured,
+        unit_of: |key| KeyPath::parse(key).and_then(|key| unit_of(&key)),
     };
     let written = py.detach(|| write_report(&request));
     let written = written.map_err(|error| errors::of_request(py, &error.to_string()))?;

@@ -130,8 +130,11 @@ fn sought(
                 curvature.discard();
             }
             mechanisms.extend(held);
-            let with = (&mut grown, is_one_way);
-            next(equations, state, &iterate, curvature, target, with)
+            let directions = Directions {
+                curvature,
+                growth: &mut grown,
+            };
+            next(equations, state, &iterate, directions, target, is_one_way)
         });
         iterate = match next {
             Ok(next) => next,
@@ -203,6 +206,12 @@ struct Growth {
     growth: Vec<f64>,
     /// Number of corrections made with it.
     used: usize,
+}
+
+/// What is known of the stiffness from earlier corrections.
+struct Directions<'a> {
+    curvature: &'a mut Curvature,
+    growth: &'a mut Option<Growth>,
 }
 
 /// Correction by the stiffness with the recorded curvature. The growth with the load of an earlier correction is near enough for an
@@ -283,9 +292,9 @@ fn next(
     equations: &mut Equations,
     state: &mut State,
     iterate: &Iterate,
-    curvature: &mut Curvature,
+    Directions { curvature, growth }: Directions<'_>,
     target: Option<&Target>,
-    (last, is_one_way): (&mut Option<Growth>, bool),
+    is_one_way: bool,
 ) -> Result<Iterate, Unbalanced> {
     let force = equations.out_of_balance(state, iterate);
     // A motion reaches its value by a whole correction, for which curvature recorded elsewhere may be wrong.
@@ -293,11 +302,11 @@ fn next(
     if !is_searched {
         curvature.discard();
     }
-    let mut found = correction(equations, state, &force, curvature, target, last)?;
+    let mut found = correction(equations, state, &force, curvature, target, growth)?;
     if equations.dot(&found.force, &found.step) <= 0.0 {
         curvature.discard();
-        *last = None;
-        found = correction(equations, state, &force, curvature, target, last)?;
+        *growth = None;
+        found = correction(equations, state, &force, curvature, target, growth)?;
     }
     let Correction { force, step, .. } = &found;
     state.load_factor += found.load_change;

@@ -126,7 +126,7 @@ impl StoredCracks {
         positions: &[[f64; 2]],
         cells: &[Cell],
         step: usize,
-    ) -> OpenedCells<2, Cell> {
+    ) -> OpenedCells<Cell> {
         let record = self.records.iter().take_while(|it| it.step <= step).last();
         let parts = self.parts(record);
         opened_cells((positions, cells), |pair| {

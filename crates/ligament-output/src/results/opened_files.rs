@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use ligament_analysis::result_fields::{DAMAGE, DISPLACEMENT, ResultField, STRAIN_ENERGY_DENSITY};
-use ligament_model::{Canvas, raised};
+use ligament_model::Canvas;
 use ligament_post::OpenedCells;
 use ligament_post::surfaces::opened_cells;
 
@@ -37,8 +37,7 @@ pub(super) fn write_opened(
     };
     let links = cracks.links(step);
     let opened = opened_cells((&grid.positions, cells), &cracks.tetrahedra, &links);
-    let places = opened.positions.clone();
-    write(path, opened, &places, fields)
+    write(path, opened, fields)
 }
 
 /// Writes the cells of a body in the plane, cut by the cracks of a step, with stored fields; returns whether it has cells between points.
@@ -53,21 +52,19 @@ pub(super) fn write_opened_plane(
         return Ok(false);
     };
     let opened = cracks.opened_cells(&fields.points_in_plane()?, &cells, step);
-    let places = raised(&opened.positions);
-    write(path, opened, &places, fields)?;
+    write(path, opened, fields)?;
     Ok(true)
 }
 
-/// Writes opened cells with their corners at places (n_corners, m): corners on the crack have the mean of the points on their side.
-fn write<const D: usize, C: Into<Cell>>(
+/// Writes opened cells: corners on the crack have the mean of the points on their side.
+fn write<C: Into<Cell>>(
     path: &Path,
-    opened: OpenedCells<D, C>,
-    places: &[[f64; 3]],
+    opened: OpenedCells<C>,
     fields: &VtuFile,
 ) -> Result<(), Error> {
     let displacement = fields.finite_numbers(FieldLocation::Point, DISPLACEMENT.name)?;
     let along = [0, 1, 2].map(|axis| opened.means(|point| displacement[3 * point + axis]));
-    let moved: Vec<[f64; 3]> = (0..places.len())
+    let moved: Vec<[f64; 3]> = (0..opened.positions.len())
         .map(|corner| [0, 1, 2].map(|axis| along[axis][corner]))
         .collect();
     let mut named = Vec::new();
@@ -85,7 +82,7 @@ fn write<const D: usize, C: Into<Cell>>(
             .map(|(name, values)| Field::scalar(name, values)),
     );
     let grid = UnstructuredGrid {
-        points: places,
+        points: &opened.positions,
         cells: &cells,
         point_fields: &point_fields,
         cell_fields: &[Field::integer("cell_of_mesh", &of)],

@@ -86,7 +86,7 @@ impl Body {
             *values = opened.means(|point| values[point]);
         }
         self.cells = opened.cells.into_iter().map(Cell::from).collect();
-        self.reference = opened.positions;
+        self.reference = opened.positions.iter().map(|it| [it[0], it[1]]).collect();
     }
 
     /// Whether the cells of the body share their corners.

@@ -180,7 +180,8 @@ impl Source {
             Some(CrackDrawing::Bonds) => source.crack = Some(Crack::read(folder, follows_path)?),
             None => {}
         }
-        if !has_solid(folder)? {
+        // A run that was cut short has no history before its first step.
+        if !has_solid(folder)? && folder.join("history.csv").is_file() {
             source.cracks = Some(StoredCracks::open(folder)?);
         }
         for (place, table) in request.lines.iter().enumerate() {

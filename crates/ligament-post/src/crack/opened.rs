@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use ligament_mesh::Cell;
+use ligament_model::raised;
 
 use crate::opened::{Found, OpenedCells};
 
@@ -12,7 +13,7 @@ use crate::opened::{Found, OpenedCells};
 pub fn opened_cells(
     (positions, cells): (&[[f64; 2]], &[Cell]),
     is_parted: impl Fn([u32; 2]) -> bool,
-) -> OpenedCells<2, Cell> {
+) -> OpenedCells<Cell> {
     let parted_sides = |cell: &Cell| -> Vec<usize> {
         let sides = (0..cell.corners().len()).filter(|&place| is_parted(side(cell, place)));
         sides.collect()
@@ -25,7 +26,7 @@ pub fn opened_cells(
             *n_cracked.entry(side(cell, place)).or_default() += 1;
         }
     }
-    let mut opened = OpenedCells::at_points(positions);
+    let mut opened = OpenedCells::at_points(raised(positions));
     let mut found = Found::new();
     for ((number, cell), parted) in (0..).zip(cells).zip(&cracked) {
         let corners = cell.corners();
@@ -97,11 +98,10 @@ mod tests {
         Cell::Triangle([4, 5, 7]),
     ];
 
-    fn opened(parted: &[[u32; 2]]) -> OpenedCells<2, Cell> {
+    fn opened(parted: &[[u32; 2]]) -> OpenedCells<Cell> {
         let opened = opened_cells((&PLACES, &CELLS), |pair| parted.contains(&pair));
-        let areas: Vec<f64> = (opened.cells.iter())
-            .map(|it| it.area(&opened.positions))
-            .collect();
+        let places: Vec<[f64; 2]> = opened.positions.iter().map(|it| [it[0], it[1]]).collect();
+        let areas: Vec<f64> = opened.cells.iter().map(|it| it.area(&places)).collect();
         assert!(areas.iter().all(|it| *it > 0.0), "{areas:?}");
         assert!((areas.iter().sum::<f64>() - 12.0).abs() < 1e-14);
         opened
@@ -124,7 +124,7 @@ mod tests {
     /// A crack that turns into a triangle parts one of its corners from the others; where all of its edges are parted, every corner.
     #[test]
     fn a_triangle_falls_into_pieces() {
-        let count = |opened: &OpenedCells<2, Cell>| opened.of.iter().filter(|it| **it == 2).count();
+        let count = |opened: &OpenedCells<Cell>| opened.of.iter().filter(|it| **it == 2).count();
         assert_eq!(count(&opened(&[[0, 3], [3, 4], [4, 6]])), 5);
         assert_eq!(count(&opened(&[[0, 3], [3, 4], [3, 6], [4, 6]])), 6);
     }

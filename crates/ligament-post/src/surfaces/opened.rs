@@ -14,9 +14,9 @@ pub fn opened_cells(
     (positions, cells): (&[[f64; 3]], &[SolidCell]),
     tetrahedra: &Tetrahedra,
     links: &Links,
-) -> OpenedCells<3, SolidCell> {
+) -> OpenedCells<SolidCell> {
     let with_detached_points_assigned = with_detached_points_assigned(tetrahedra, links);
-    let mut opened = OpenedCells::at_points(positions);
+    let mut opened = OpenedCells::at_points(positions.to_vec());
     let mut is_cut = vec![false; cells.len()];
     let all = || tetrahedra.corners.iter().zip(&tetrahedra.cells);
     for (corners, cell) in all() {

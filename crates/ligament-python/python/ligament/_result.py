@@ -9,7 +9,7 @@ import importlib.util
 import json
 import os
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -339,9 +339,10 @@ class Result:
         tags = [*([] if point is None else [int(point)]), *map(int, bond or ())]
         return Text(self._run.explain(tags, [float(it) for it in at or ()]))
 
-    def report(self, path: str | os.PathLike[str]) -> Path:
-        """Writes the page of the results for a browser, one file, and gives its path; a file that is there is replaced."""
-        return report([self], path)
+    def report(self, path: str | os.PathLike[str], measured: Sequence[str | os.PathLike[str]] = ()) -> Path:
+        """Writes the page of the results for a browser, one file, with tables of measured curves, and gives its path; a file that is there
+        is replaced."""
+        return report([self], path, measured)
 
     def to_pyvista(self, step: Step | None = None) -> Any:
         """The body in a step as a grid of PyVista, with all fields."""
@@ -418,9 +419,11 @@ def open(folder: str | os.PathLike[str]) -> Result:
     return Result(folder)
 
 
-def report(results: list[Result], path: str | os.PathLike[str]) -> Path:
+def report(
+    results: list[Result], path: str | os.PathLike[str], measured: Sequence[str | os.PathLike[str]] = ()
+) -> Path:
     """Writes one page for a browser with several results, and gives its path; a file that is there is replaced."""
-    return _native.report([it.folder for it in results], [it.title for it in results], Path(path))
+    return _native.report([it.folder for it in results], [it.title for it in results], Path(path), [Path(it) for it in measured])
 
 
 def curves(results: list[Result], labels: list[str], axes: tuple[str, str] = ("displacement", "reaction"), width: float = WIDTH) -> Picture:
