@@ -51,7 +51,7 @@ steps = 10
 /// A bar of points of a table that softens.
 const POINTS: &str = r#"
 [mesh]
-file = "points.csv"
+file = "cloud.csv"
 thickness = 0.01
 [material]
 young = 30e9
@@ -258,7 +258,7 @@ fn runs(place: &Place) -> [&'static str; 8] {
         let [left, right] = [i < 2, i > 9].map(u8::from);
         points.push_str(&format!("{x},{y},1e-4,{left},{right}\n"));
     }
-    fs::write(place.path("points.csv"), points).unwrap();
+    fs::write(place.path("cloud.csv"), points).unwrap();
     fs::write(place.path("points.toml"), POINTS).unwrap();
     place.call("run points.toml --out points --quiet");
     fs::write(place.path("solid.toml"), SOLID).unwrap();

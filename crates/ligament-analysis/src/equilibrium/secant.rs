@@ -130,10 +130,7 @@ fn sought(
                 curvature.discard();
             }
             mechanisms.extend(held);
-            let directions = Directions {
-                curvature,
-                growth: &mut grown,
-            };
+            let directions = (curvature, &mut grown);
             next(equations, state, &iterate, directions, target, is_one_way)
         });
         iterate = match next {
@@ -208,11 +205,8 @@ struct Growth {
     used: usize,
 }
 
-/// What is known of the stiffness from earlier corrections.
-struct Directions<'a> {
-    curvature: &'a mut Curvature,
-    growth: &'a mut Option<Growth>,
-}
+/// What earlier corrections say of the stiffness.
+type Directions<'a> = (&'a mut Curvature, &'a mut Option<Growth>);
 
 /// Correction by the stiffness with the recorded curvature. The growth with the load of an earlier correction is near enough for an
 /// iterative solver: the motion reaches its value along any growth.
@@ -292,7 +286,7 @@ fn next(
     equations: &mut Equations,
     state: &mut State,
     iterate: &Iterate,
-    Directions { curvature, growth }: Directions<'_>,
+    (curvature, growth): Directions<'_>,
     target: Option<&Target>,
     is_one_way: bool,
 ) -> Result<Iterate, Unbalanced> {

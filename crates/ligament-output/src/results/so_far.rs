@@ -55,10 +55,7 @@ impl OutputState {
         bonds.all(|(ends, _)| is_bond(ends))
             && largest.all(|it| n_bonds.is_none_or(|n_bonds| it.fits(n_bonds, n_criteria)))
             && first.all(|it| is_bond(&it.ends) && (it.criterion as usize) < n_criteria)
-            && softening.is_none_or(|told| {
-                n_bonds.is_none_or(|it| told.of_bonds.len() == it)
-                    && told.of_bonds.iter().all(|rows| *rows <= 2)
-            })
+            && softening.is_none_or(|told| n_bonds.is_none_or(|it| told.fits(it)))
     }
 
     /// Reason why a run cannot be resumed with the files of its folder; `None` if it can.

@@ -91,6 +91,14 @@ pub(super) struct SofteningProgress {
 
 serial!(SofteningProgress { written, of_bonds });
 
+impl SofteningProgress {
+    /// Whether it can be that of a run with so many bonds.
+    pub(super) fn fits(&self, n_bonds: usize) -> bool {
+        let mut events = self.of_bonds.iter();
+        self.of_bonds.len() == n_bonds && events.all(|it| usize::from(*it) <= EVENTS.len())
+    }
+}
+
 impl SofteningTable {
     /// Creates the table; `None` where no bond softens, or the body is divided between processes.
     pub(super) fn create(
