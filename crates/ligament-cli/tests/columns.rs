@@ -51,7 +51,7 @@ steps = 10
 /// A bar of points of a table that softens.
 const POINTS: &str = r#"
 [mesh]
-file = "cloud.csv"
+file = "places.csv"
 thickness = 0.01
 [material]
 young = 30e9
@@ -258,9 +258,9 @@ fn runs(place: &Place) -> [&'static str; 8] {
         let [left, right] = [i < 2, i > 9].map(u8::from);
         points.push_str(&format!("{x},{y},1e-4,{left},{right}\n"));
     }
-    fs::write(place.path("cloud.csv"), points).unwrap();
+    fs::write(place.path("places.csv"), points).unwrap();
     fs::write(place.path("points.toml"), POINTS).unwrap();
-    place.call("run points.toml --out points --quiet");
+    place.call("run points.toml --out cloud --quiet");
     fs::write(place.path("solid.toml"), SOLID).unwrap();
     place.call("run solid.toml --out solid --quiet");
     place.call(
@@ -268,7 +268,7 @@ fn runs(place: &Place) -> [&'static str; 8] {
          --unset no_fail --unset output",
     );
     [
-        "brittle", "soft", "mbb", "mesh", "closing", "stages", "solid", "points",
+        "brittle", "soft", "mbb", "mesh", "closing", "stages", "solid", "cloud",
     ]
 }
 
@@ -312,7 +312,7 @@ fn the_page_has_every_column_that_is_written() {
         let headers = runs.map(|run| place.header(&format!("{run}/{file}")));
         compare(file, &headers, &names, wrong);
     }
-    let soft = ["soft", "mesh", "points"].map(|run| place.header(&format!("{run}/softening.csv")));
+    let soft = ["soft", "mesh", "cloud"].map(|run| place.header(&format!("{run}/softening.csv")));
     compare("softening.csv", &soft, &names, wrong);
     compare(
         "modes.csv",
@@ -348,7 +348,7 @@ fn of_stored_results(place: &Place, names: &Names, wrong: &mut Vec<String>) {
         names,
         wrong,
     );
-    let lives = ["brittle", "soft", "mbb", "mesh", "points"].map(|run| {
+    let lives = ["brittle", "soft", "mbb", "mesh", "cloud"].map(|run| {
         place.call(&format!("explain {run} --point 40 --csv {run}.csv"));
         place.header(&format!("{run}.csv"))
     });

@@ -139,7 +139,7 @@ def test_setups_and_results_go_to_other_processes(kind: str) -> None:
 
 
 def test_a_run_that_was_stopped_goes_on(plate: dict[str, Any], tmp_path: Path) -> None:
-    plate["fracture"]["steps"] = 400
+    plate["fracture"]["steps"] = 4000
     whole = ligament.run(plate, progress=False)
     with pytest.raises(ligament.Interrupted) as stopped:
         ligament.run(plate, progress=lambda step, *_: _thread.interrupt_main() if step == 3 else None)
