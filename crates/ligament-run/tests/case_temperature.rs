@@ -368,8 +368,8 @@ fn tables_give_each_point_the_row_beside_it() {
         "x,y,change\n1,2\n",
         "heat.csv:2: 2 values, but the header names 3 columns",
     );
-    wrong("x,y,change\n1,2,hot\n", "heat.csv:2: `hot` is no number");
-    wrong("x,y,change\n1,2,nan\n", "heat.csv:2: `nan` is no number");
+    wrong("x,y,change\n1,2,hot\n", "heat.csv:2: a value is no number");
+    wrong("x,y,change\n1,2,nan\n", "heat.csv:2: a value is no number");
     wrong(
         "x,y,change\n0.5,0.5,1\n0.5,1.5,1\n0.7,1.5,1\n",
         "2 points have no temperature (the first is cell 2 at (1.500000, 0.500000)): the table has no row within a tenth of the distance \

@@ -286,10 +286,11 @@ fn next(
     equations: &mut Equations,
     state: &mut State,
     iterate: &Iterate,
-    (curvature, growth): Directions<'_>,
+    directions: Directions<'_>,
     target: Option<&Target>,
     is_one_way: bool,
 ) -> Result<Iterate, Unbalanced> {
+    let (curvature, growth) = directions;
     let force = equations.out_of_balance(state, iterate);
     // A motion reaches its value by a whole correction, for which curvature recorded elsewhere may be wrong.
     let is_searched = target.is_none_or(|it| it.is_met(&state.displacement));
