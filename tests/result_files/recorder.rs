@@ -1,5 +1,7 @@
 //! An observer that keeps what a run has in memory, apart from the writer of the results.
 
+mod model;
+
 use ligament::setup::Analysis;
 use std::path::Path;
 
@@ -7,7 +9,6 @@ use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::{Component, ControlKind, fields};
 use ligament_case::case::StressField;
-use ligament_model::Absence;
 use ligament_model::interface::StressReading;
 use ligament_model::thermal::StressFreeStrains;
 use ligament_run::model::Model;
@@ -47,6 +48,8 @@ pub(crate) struct Recorder<'a> {
     step_of_breaking: Vec<i64>,
     /// Utilisation, step and criterion.
     largest: Vec<(f32, i64, i64)>,
+    /// Energies that the bonds dissipated up to the last step, J.
+    dissipated: Vec<f64>,
 }
 
 /// A criterion's name, with a number from the second of its kind on.
@@ -152,6 +155,7 @@ impl<'a> Recorder<'a> {
             round: (0, 0, 0.0, 0),
             step_of_breaking: vec![-1; n_bonds],
             largest: vec![(0.0, 0, 0); n_bonds],
+            dissipated: vec![0.0; n_bonds],
         }
     }
 
@@ -327,68 +331,6 @@ impl<'a> Recorder<'a> {
             self.expected.reals(cell(name), values);
         }
     }
-
-    fn model_file(&mut self) {
-        let (file, system, fixed) = ("model.vtu", &**self.model.plane(), &self.model.fixed);
-        let absent = &fixed.absent;
-        let n_lines = system.bonds.len() + absent.len();
-        let expected = &mut self.expected;
-        expected.lines(file, self.model.setup.body.geometry().positions(), n_lines);
-        let point = |name| Place {
-            file,
-            part: "point",
-            name,
-        };
-        expected.reals(point("volume"), system.cloud.volumes.iter().copied());
-        expected.reals(point("horizon"), fixed.horizon.iter().copied());
-        let no_fail = fixed.no_fail.iter().map(|&it| i64::from(it));
-        expected.integers(point("no_fail"), no_fail);
-        let tags = (0..system.cloud.len() as u32).map(|it| self.model.body().tag(it) as i64);
-        expected.integers(point(self.model.body().tagged()), tags);
-
-        fn cell(name: &str) -> Place<'_> {
-            let (file, part) = ("model.vtu", "cell");
-            Place { file, part, name }
-        }
-        let n_bonds = system.bonds.len();
-        let none = || absent.iter().map(|_| f64::NAN);
-        let words = absent.iter().map(|it| match it.absence {
-            Absence::PreCrack => 1,
-            Absence::Void => 2,
-        });
-        expected.integers(cell("absent"), std::iter::repeat_n(0, n_bonds).chain(words));
-        let horizons = system.bonds.horizon.iter().copied();
-        let horizons = horizons.chain(absent.iter().map(|it| it.horizon));
-        expected.singles(cell("horizon"), horizons.map(single));
-        let alpha = (0..n_bonds).map(|bond| system.weight[bond] / fixed.domain_factor[bond]);
-        expected.singles(cell("length_factor"), alpha.chain(none()).map(single));
-        let omega = fixed.domain_factor.iter().copied();
-        expected.singles(cell("domain_factor"), omega.chain(none()).map(single));
-        for (criterion, label) in self.problem.criteria.list.iter().zip(&self.labels) {
-            let limits = criterion.limit.iter().copied();
-            expected.reals(cell(&format!("limit.{label}")), limits.chain(none()));
-            let count = criterion.coefficient.len() / n_bonds;
-            let names = ["coefficient", "toughness_ratio", "mixed_mode_exponent"];
-            for (place, name) in names.into_iter().enumerate().take(count) {
-                let values = (0..n_bonds).map(|bond| criterion.coefficients(bond)[place]);
-                expected.reals(cell(&format!("{name}.{label}")), values.chain(none()));
-            }
-            let parameters = criterion.after.parameter();
-            if parameters.is_empty() {
-                continue;
-            }
-            let values = parameters.iter().copied().chain(none());
-            expected.reals(cell(&format!("after.{label}")), values);
-        }
-        if self.problem.criteria.list.is_empty() {
-            return;
-        }
-        let nothing = || absent.iter().map(|_| (f32::NAN, 0, 0));
-        let all = || self.largest.iter().copied().chain(nothing());
-        expected.singles(cell("largest_utilisation"), all().map(|it| it.0));
-        expected.integers(cell("step_of_largest"), all().map(|it| it.1));
-        expected.integers(cell("criterion_of_largest"), all().map(|it| it.2));
-    }
 }
 
 impl Observer for Recorder<'_> {
@@ -469,6 +411,7 @@ impl Observer for Recorder<'_> {
             }
         }
         self.see_largest(record.step, view);
+        self.dissipated.clone_from(&view.state.dissipated);
         if let Some(softened) = &mut self.softened {
             let body = self.model.body();
             let in_file = |bond: usize| self.expected.in_file(view.system.ends()[bond]);

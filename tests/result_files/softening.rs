@@ -5,7 +5,7 @@ use ligament_model::failure::Weakened;
 
 use super::expected::{Entry, Expected, Rows};
 
-/// Bonds that began to soften and that opened, step by step.
+/// Bonds that began to soften, and whose force fell below a half, a quarter and a tenth, step by step.
 pub(crate) struct Softened {
     rows: Rows,
     /// Rows that each bond has so far.
@@ -38,8 +38,11 @@ impl Softened {
             let of = |criterion: usize| {
                 let largest = *softening.largest[criterion].get(bond)?;
                 let opens = view.criteria.list[criterion].measure.weakens() == Weakened::Opening;
-                let is_open = opens && softening.bond(view.criteria, criterion, bond).force < 0.1;
-                let rows = usize::from(largest > 1.0) + usize::from(largest > 1.0 && is_open);
+                let force = softening.bond(view.criteria, criterion, bond).force;
+                let below = [0.5, 0.25, 0.1]
+                    .into_iter()
+                    .filter(|share| opens && force < *share);
+                let rows = if largest > 1.0 { 1 + below.count() } else { 0 };
                 (rows > self.told[bond]).then_some((largest, criterion, rows))
             };
             let all = (0..softening.largest.len()).filter_map(of);
@@ -49,7 +52,7 @@ impl Softened {
         }
         news.sort_by(|(_, one), (_, other)| other.0.total_cmp(&one.0));
         for (bond, (_, criterion, rows)) in news {
-            for event in &["begins", "opens"][self.told[bond]..rows] {
+            for event in &["begins", "half", "quarter", "opens"][self.told[bond]..rows] {
                 let [a, b] = tags(bond);
                 let row: [Entry; 8] = [
                     record.step.into(),

@@ -47,22 +47,24 @@ pub(crate) fn samples(
     let wanted = AXES[..dimensions].iter().copied().chain([column]);
     let places: Vec<usize> = wanted.map(|it| table.place(it)).collect::<Result<_, _>>()?;
     let (value, axes) = places.split_last().unwrap_or((&0, &[]));
-    let sample = |row: &Vec<f64>| {
+    let sample = |row: &Row| {
         let mut position = [0.0; 3];
         for (coordinate, &place) in position.iter_mut().zip(axes) {
-            *coordinate = row[place];
+            *coordinate = table.number(row, place)?;
         }
-        Sample {
-            position,
-            value: row[*value],
-        }
+        let value = table.number(row, *value)?;
+        Ok(Sample { position, value })
     };
-    Ok(table.rows.iter().map(sample).collect())
+    table.rows.iter().map(sample).collect()
 }
 
 /// Lines of the rows of a table; none of a file that is no table.
 pub(crate) fn lines_of_rows(path: &Path) -> Vec<usize> {
-    Table::read(path, "").map_or_else(|_| Vec::new(), |it| it.lines)
+    let table = Table::read(path, "");
+    table.map_or_else(
+        |_| Vec::new(),
+        |it| it.rows.iter().map(|row| row.line).collect(),
+    )
 }
 
 /// Reads a body of points: positions, the area or in space the volume of each, and a column of ones and zeros for each group.
@@ -134,15 +136,19 @@ pub fn text_of_samples<const D: usize>(
     text
 }
 
-/// A table of numbers.
+/// A row of a table: its line and values, which are words where nothing asks for numbers.
+struct Row {
+    line: usize,
+    values: Vec<String>,
+}
+
+/// A table of values.
 struct Table<'a> {
     path: &'a Path,
     /// Line of the header.
     line: usize,
     names: Vec<String>,
-    rows: Vec<Vec<f64>>,
-    /// Lines of the rows.
-    lines: Vec<usize>,
+    rows: Vec<Row>,
     /// Description of the columns that the table must have.
     expected: &'a str,
 }
@@ -164,38 +170,38 @@ impl<'a> Table<'a> {
         let (line, header) = lines
             .next()
             .ok_or_else(|| at(path, 1, &format!("the file is empty: {expected}")))?;
-        let mut table = Self {
+        let values = |text: &str| text.split(',').map(|it| it.trim().to_owned()).collect();
+        let row = |(line, text)| Row {
+            line,
+            values: values(text),
+        };
+        Ok(Self {
             path,
             line,
             names: header.split(',').map(|it| name_of(it).to_owned()).collect(),
-            rows: Vec::new(),
-            lines: Vec::new(),
+            rows: lines.map(row).collect(),
             expected,
-        };
-        for (line, text) in lines {
-            let row = table.row(text);
-            table
-                .rows
-                .push(row.map_err(|reason| at(path, line, &reason))?);
-            table.lines.push(line);
-        }
-        Ok(table)
+        })
     }
 
-    /// The numbers of a row.
-    fn row(&self, text: &str) -> Result<Vec<f64>, String> {
-        let values = text.split(',').map(str::trim);
-        let number = |text: &str| {
-            let number = text.parse().ok().filter(|it: &f64| it.is_finite());
-            number.ok_or_else(|| "a value is no number".to_owned())
-        };
-        let (given, columns) = (values.clone().count(), self.names.len());
+    /// The number of a row at a place.
+    fn number(&self, row: &Row, place: usize) -> Result<f64, String> {
+        let (given, columns) = (row.values.len(), self.names.len());
         if given != columns {
-            return Err(format!(
-                "{given} values, but the header names {columns} columns"
-            ));
+            let reason = format!("{given} values, but the header names {columns} columns");
+            return Err(at(self.path, row.line, &reason));
         }
-        values.map(number).collect()
+        let text = &row.values[place];
+        let number = text.parse().ok().filter(|it: &f64| it.is_finite());
+        number.ok_or_else(|| at(self.path, row.line, &format!("`{text:.40}` is no number")))
+    }
+
+    /// The numbers of a column.
+    fn column(&self, place: usize) -> Result<Vec<f64>, String> {
+        self.rows
+            .iter()
+            .map(|row| self.number(row, place))
+            .collect()
     }
 
     /// Place of a column.
@@ -214,15 +220,20 @@ impl<'a> Table<'a> {
             *place = self.place(axis)?;
         }
         let size = self.place(SIZES[D - 2])?;
-        let rows = || self.rows.iter();
-        let positions = rows().map(|row| axes.map(|place| row[place])).collect();
-        let sizes = rows().map(|row| row[size]).collect();
+        let mut positions = vec![[0.0; D]; self.rows.len()];
+        for (axis, &place) in axes.iter().enumerate() {
+            for (position, coordinate) in positions.iter_mut().zip(self.column(place)?) {
+                position[axis] = coordinate;
+            }
+        }
+        let sizes = self.column(size)?;
         let fault =
             |error: ligament::body::PointsError| format!("{}: {error}", self.path.display());
         let mut points = Points::new(positions, sizes).map_err(fault)?;
         let is_group = |place: &usize| *place != size && !axes.contains(place);
         for place in (0..self.names.len()).filter(is_group) {
-            let members = (0..).zip(rows()).filter(|(_, row)| row[place] != 0.0);
+            let column = self.column(place)?;
+            let members = (0..).zip(column).filter(|(_, it)| *it != 0.0);
             let members: Vec<u32> = members.map(|(point, _)| point).collect();
             points = points
                 .with_group(&self.names[place], members)
@@ -282,7 +293,7 @@ mod tests {
         );
         assert_eq!(
             fault("x,y,area\n# no\n0,b,1\n"),
-            "p.csv:3: a value is no number"
+            "p.csv:3: `b` is no number"
         );
         assert!(fault("x,y,area\n0,0,-1\n").contains("areas greater than 0"));
         assert!(fault("x,y,area,left\n0,0,1,0\n").contains("group `left` is empty"));

@@ -48,34 +48,6 @@ component = "x"
 steps = 10
 "#;
 
-/// A bar of points of a table that softens.
-const POINTS: &str = r#"
-[mesh]
-file = "places.csv"
-thickness = 0.01
-[material]
-young = 30e9
-poisson = 0.2
-tensile_strength = 3e6
-[model]
-law = "nhpd"
-horizon_factor = 3.0
-[[support]]
-group = "left"
-displacement = { x = 0.0, y = 0.0 }
-[[load]]
-group = "right"
-displacement = { x = 2e-5 }
-[fracture]
-steps = 4
-[[fracture.criterion]]
-kind = "tension"
-after = "bilinear"
-end = 6.0
-[output]
-fields_every = 1
-"#;
-
 /// A bar in space of 8 x 4 x 4 cells.
 const SOLID: &str = include_str!("support/small-solid.toml");
 
@@ -259,8 +231,13 @@ fn runs(place: &Place) -> [&'static str; 8] {
         points.push_str(&format!("{x},{y},1e-4,{left},{right}\n"));
     }
     fs::write(place.path("places.csv"), points).unwrap();
-    fs::write(place.path("points.toml"), POINTS).unwrap();
-    place.call("run points.toml --out cloud --quiet");
+    let (_, sections) = BAR.split_once("[material]").unwrap();
+    let of_points = "[mesh]\nfile = \"places.csv\"\nthickness = 0.01\n[material]";
+    fs::write(place.path("points.toml"), format!("{of_points}{sections}")).unwrap();
+    let volume = "--set correction.surface=volume";
+    place.call(&format!(
+        "run points.toml --out cloud --quiet {volume} --set {tension}"
+    ));
     fs::write(place.path("solid.toml"), SOLID).unwrap();
     place.call("run solid.toml --out solid --quiet");
     place.call(

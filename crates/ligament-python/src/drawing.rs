@@ -60,7 +60,6 @@ fn request(folder: PathBuf, step: &str, wanted: Wanted) -> Result<FieldRequest, 
         Some(other) => return Err(format!("crack `{other}`: expected `bonds` or `lines`")),
     };
     Ok(FieldRequest {
-        folders: vec![folder],
         labels: vec![wanted.label],
         field: wanted.field,
         choice: Choice::Steps(vec![step.parse()?]),
@@ -68,24 +67,16 @@ fn request(folder: PathBuf, step: &str, wanted: Wanted) -> Result<FieldRequest, 
             .scale
             .map_or(Magnification::Auto, Magnification::Times),
         crack,
-        lines: Vec::new(),
-        window: None,
-        bands: None,
-        range: None,
-        map: None,
-        columns: None,
         solid: SolidRequest {
             view: wanted.view.map(|it| it.parse()).transpose()?,
             section: wanted.section.map(|it| it.parse()).transpose()?,
             level: wanted.level,
         },
         target: Target {
-            out: None,
-            force: false,
-            format: None,
             width: Some(wanted.width),
-            dpi: None,
+            ..Target::default()
         },
+        ..FieldRequest::usual(folder)
     })
 }
 

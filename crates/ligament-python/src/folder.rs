@@ -20,7 +20,7 @@ use ligament_output::results::steps::StepChoice;
 use ligament_output::results::stored_jumps;
 use ligament_output::vtu::read::{TAGGED, VtuFile};
 use ligament_plot::stored_loading::stored_loading;
-use ligament_report::write_report;
+use ligament_report::{DIGITS, MEGABYTE, SIZE, STEPS, write_report};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -37,15 +37,6 @@ pub(crate) struct Folder {
 
 /// A line of a crack: vertices (n, 2), m, kinds of the ends, and length, m.
 type Line<'py> = (Bound<'py, PyAny>, [&'static str; 2], f64);
-
-/// Bytes of a page of results at most.
-const MOST_BYTES: usize = 15_000_000;
-
-/// Digits that the largest value of a field keeps in a page of results.
-const DIGITS: u32 = 4;
-
-/// Largest number of steps of a page.
-const STEPS: usize = 60;
 
 /// The exception of a fault in a folder.
 fn told(py: Python<'_>) -> impl Fn(Error) -> PyErr {
@@ -282,8 +273,8 @@ pub(crate) fn report(
         output: Some(path),
         force: true,
         digits: DIGITS,
-        steps: STEPS,
-        size: MOST_BYTES,
+        steps: STEPS as usize,
+        size: (SIZE * MEGABYTE) as usize,
         measured,
         unit_of: |key| KeyPath::parse(key).and_then(|key| unit_of(&key)),
     };

@@ -36,5 +36,5 @@ mod run;
 mod summary;
 
 pub use error::ReportError;
-pub use page::{Contents, Request, Written, write_report};
+pub use page::{Contents, DIGITS, MEGABYTE, Request, SIZE, STEPS, Written, write_report};
 pub use parts::UnitOf;

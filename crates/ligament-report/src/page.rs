@@ -62,6 +62,18 @@ pub struct Request {
     pub size: usize,
 }
 
+/// Usual digits of the largest value of a field in each step.
+pub const DIGITS: u32 = 4;
+
+/// Usual largest number of steps of each result.
+pub const STEPS: u32 = 60;
+
+/// Usual size of the page up to which fields and bonds are included, MB.
+pub const SIZE: f64 = 15.0;
+
+/// Bytes of a megabyte.
+pub const MEGABYTE: f64 = 1e6;
+
 /// Description of the written page.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Written {

@@ -351,7 +351,7 @@ fn tables_give_each_point_the_row_beside_it() {
         changes_in(folder.path(), &text)
     };
     // With a byte order mark, other columns, another order, a row of no cell, coordinates off by less than a tenth of a cell.
-    let table = "\u{feff}# from somewhere\r\n\"y\", x,id,change\r\n1.5,0.5,7,3\r\n0.5,0.5,8,1e0\r\n\r\n0.5,1.45,9,2\r\n\
+    let table = "\u{feff}# from somewhere\r\n\"y\", x,id,change\r\n1.5,0.5,corner,3\r\n0.5,0.5,8,1e0\r\n\r\n0.5,1.45,9,2\r\n\
                  1.5,1.5,1,4.5\r\n9,9,2,99";
     assert_eq!(of_table(table).unwrap(), [1.0, 2.0, 3.0, 4.5]);
     let wrong = |table: &str, expected: &str| {
@@ -368,8 +368,8 @@ fn tables_give_each_point_the_row_beside_it() {
         "x,y,change\n1,2\n",
         "heat.csv:2: 2 values, but the header names 3 columns",
     );
-    wrong("x,y,change\n1,2,hot\n", "heat.csv:2: a value is no number");
-    wrong("x,y,change\n1,2,nan\n", "heat.csv:2: a value is no number");
+    wrong("x,y,change\n1,2,hot\n", "heat.csv:2: `hot` is no number");
+    wrong("x,y,change\n1,2,nan\n", "heat.csv:2: `nan` is no number");
     wrong(
         "x,y,change\n0.5,0.5,1\n0.5,1.5,1\n0.7,1.5,1\n",
         "2 points have no temperature (the first is cell 2 at (1.500000, 0.500000)): the table has no row within a tenth of the distance \

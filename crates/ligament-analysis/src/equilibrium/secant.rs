@@ -89,7 +89,7 @@ fn sought(
 ) -> Result<Attempt, ObserverError> {
     let mut earlier = applicable_precedents(equations, breakage);
     let (mut iterate, mut iterations) = begun(equations, state, breakage, target, &earlier);
-    let mut grown = None;
+    let mut growth = None;
     let mut mechanisms = Vec::new();
     let mut previous_energy = f64::NAN;
     let faces_close = equations.problem.system.faces_close();
@@ -128,9 +128,10 @@ fn sought(
         let next = equations.make_ready(state, &iterate).and_then(|held| {
             if !held.is_empty() {
                 curvature.discard();
+                growth = None;
             }
             mechanisms.extend(held);
-            let directions = (curvature, &mut grown);
+            let directions = (curvature, &mut growth);
             next(equations, state, &iterate, directions, target, is_one_way)
         });
         iterate = match next {
@@ -198,9 +199,9 @@ struct Correction {
 /// Growth of a state with the load factor.
 struct Growth {
     /// Residual force that the loads cause at load factor 1, shape (n_unknowns), N.
-    rate: Vec<f64>,
+    force: Vec<f64>,
     /// Rate of the displacements, shape (n_degrees_of_freedom).
-    growth: Vec<f64>,
+    motion: Vec<f64>,
     /// Number of corrections made with it.
     used: usize,
 }
@@ -232,12 +233,12 @@ fn correction(
         };
         grown.used += 1;
         let moved = equations.at_degrees_of_freedom(&step);
-        load_change = target.load_change(&state.displacement, &moved, &grown.growth)?;
+        load_change = target.load_change(&state.displacement, &moved, &grown.motion)?;
         let dofs = equations.degrees_of_freedom();
         for (value, &dof) in step.iter_mut().zip(dofs) {
-            *value += load_change * grown.growth[dof as usize];
+            *value += load_change * grown.motion[dof as usize];
         }
-        for (value, rate) in force.iter_mut().zip(&grown.rate) {
+        for (value, rate) in force.iter_mut().zip(&grown.force) {
             *value += load_change * rate;
         }
         *last = Some(grown);
@@ -256,14 +257,14 @@ fn growth(
     curvature: &Curvature,
     target: &Target,
 ) -> Result<Growth, Unbalanced> {
-    let (mut growth, rate) = line::rate(equations, state, &*target.rate);
-    let grown = solved(equations, state, &rate, curvature)?;
+    let (mut motion, force) = line::rate(equations, state, &*target.rate);
+    let grown = solved(equations, state, &force, curvature)?;
     for (&dof, value) in equations.degrees_of_freedom().iter().zip(&grown) {
-        growth[dof as usize] = *value;
+        motion[dof as usize] = *value;
     }
     Ok(Growth {
-        rate,
-        growth,
+        force,
+        motion,
         used: 0,
     })
 }

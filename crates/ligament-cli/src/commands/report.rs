@@ -6,14 +6,11 @@ use std::path::PathBuf;
 use clap::Args;
 use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::keys::unit_of;
-use ligament_report::{Request, write_report};
+use ligament_report::{DIGITS, MEGABYTE, Request, SIZE, STEPS, write_report};
 
 use super::numbers::number;
 use super::output;
 use crate::terminal;
-
-/// Bytes of a megabyte.
-const MEGABYTE: f64 = 1e6;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -46,13 +43,13 @@ pub struct ReportArgs {
     #[arg(long, value_name = "CSV", num_args = 1..)]
     pub measured: Vec<PathBuf>,
     /// Digits that the largest value of a field in a step keeps
-    #[arg(long, value_name = "N", default_value = "4", value_parser = clap::value_parser!(u32).range(2..=8))]
+    #[arg(long, value_name = "N", default_value_t = DIGITS, value_parser = clap::value_parser!(u32).range(2..=8))]
     pub digits: u32,
     /// Steps of a result at most; of more an even choice, with the largest load
-    #[arg(long, value_name = "N", default_value = "60", value_parser = clap::value_parser!(u32).range(2..))]
+    #[arg(long, value_name = "N", default_value_t = STEPS, value_parser = clap::value_parser!(u32).range(2..))]
     pub steps: u32,
     /// Megabytes of the page at most: what a reader wants least is left out, and named
-    #[arg(long, value_name = "MB", default_value = "15", value_parser = megabytes)]
+    #[arg(long, value_name = "MB", default_value_t = SIZE, value_parser = megabytes)]
     pub size: f64,
 }
 

@@ -17,7 +17,7 @@ use ligament_analysis::result_fields::{DISPLACEMENT, OPENING, SLIDING};
 use ligament_post::surfaces::CrackSurface;
 
 use super::crack_growth::{CrackSize, write_growth};
-use super::opened_files::{has_cells, write_opened};
+use super::opened_files::{OPENED, has_cells, write_opened};
 use super::outputs::Outputs;
 use super::solid_cracks::SolidCracks;
 use crate::Error;
@@ -28,7 +28,7 @@ use crate::vtu::read::VtuFile;
 use crate::vtu::{self, Cell, Field, UnstructuredGrid};
 
 /// Names of the files of cracks beside the results of a run of a solid.
-pub const SURFACE_FILES: [&str; 4] = ["crack.vtu", "crack.stl", "opened.vtu", "crack_growth.csv"];
+pub const SURFACE_FILES: [&str; 4] = ["crack.vtu", "crack.stl", OPENED, "crack_growth.csv"];
 
 /// Writes the surface of a step, and its growth over all steps; returns the surface.
 ///

@@ -7,8 +7,7 @@ use ligament_output::results::outputs::{OutputKind, kind_of};
 use super::PictureError;
 use super::curve::{CurveRequest, draw_curves};
 use super::fields::draw_fields;
-use super::request::{FieldRequest, Magnification, SolidRequest};
-use super::select::Choice;
+use super::request::FieldRequest;
 use super::target::Target;
 use crate::stored_loading::resolved_case;
 
@@ -26,37 +25,14 @@ pub fn asks_for_pictures(folder: &Path) -> bool {
 ///
 /// If there are no such results, or a picture cannot be written.
 pub fn draw_run(folder: &Path) -> Result<Vec<PathBuf>, PictureError> {
-    let folders = vec![folder.to_path_buf()];
-    let target = Target {
-        out: None,
-        force: false,
-        format: None,
-        width: None,
-        dpi: None,
-    };
-    let mut drawn = vec![draw_fields(&FieldRequest {
-        folders: folders.clone(),
-        labels: Vec::new(),
-        field: None,
-        choice: Choice::Default,
-        magnification: Magnification::Auto,
-        crack: None,
-        lines: Vec::new(),
-        window: None,
-        bands: None,
-        range: None,
-        map: None,
-        columns: None,
-        solid: SolidRequest::default(),
-        target: target.clone(),
-    })?];
+    let mut drawn = vec![draw_fields(&FieldRequest::usual(folder.to_path_buf()))?];
     let breaks = resolved_case(folder)?.contains_key("fracture");
     if breaks && kind_of(folder) == OutputKind::Steps {
         drawn.push(draw_curves(&CurveRequest {
-            folders,
+            folders: vec![folder.to_path_buf()],
             labels: Vec::new(),
             columns: ["displacement", "reaction"].map(str::to_owned),
-            target,
+            target: Target::default(),
         })?);
     }
     Ok(drawn)

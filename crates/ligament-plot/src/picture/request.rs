@@ -29,6 +29,26 @@ pub enum CrackDrawing {
 }
 
 impl FieldRequest {
+    /// The usual picture of the results in a folder, of the usual size.
+    pub fn usual(folder: PathBuf) -> Self {
+        Self {
+            folders: vec![folder],
+            labels: Vec::new(),
+            field: None,
+            choice: Choice::Default,
+            magnification: Magnification::Auto,
+            crack: None,
+            lines: Vec::new(),
+            window: None,
+            bands: None,
+            range: None,
+            map: None,
+            columns: None,
+            solid: SolidRequest::default(),
+            target: Target::default(),
+        }
+    }
+
     /// Whether lines are drawn over the body, which then is undeformed.
     pub(super) fn has_lines(&self) -> bool {
         self.crack == Some(CrackDrawing::Lines) || !self.lines.is_empty()

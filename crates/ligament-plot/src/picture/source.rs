@@ -7,7 +7,7 @@ use ligament_output::FieldLocation;
 use ligament_output::csv::read::Sheet;
 use ligament_output::quantity::four_digits;
 use ligament_output::results::cracks::StoredCracks;
-use ligament_output::results::fields::OPENING;
+use ligament_output::results::fields::{DISPLACEMENT, OPENING};
 use ligament_output::results::first_field_of;
 use ligament_output::results::outputs::{OutputKind, Outputs};
 use ligament_output::results::solid_body::is_solid;
@@ -110,7 +110,7 @@ impl Subject {
         let default = match request.crack {
             Some(CrackDrawing::Lines) if has_surface => OPENING.name,
             Some(CrackDrawing::Lines) => NONE,
-            _ => first_field_of(&sources[0].outputs)?.name,
+            _ => default_field(&sources)?,
         };
         Ok(Self {
             field: given.unwrap_or_else(|| default.to_owned()),
@@ -128,6 +128,17 @@ impl Subject {
         };
         request.folders[0].join(name)
     }
+}
+
+/// The field that shows what happened in the first of the results in which bonds failed.
+fn default_field(sources: &[Source]) -> Result<&'static str, PictureError> {
+    for source in sources {
+        let field = first_field_of(&source.outputs)?;
+        if field.name != DISPLACEMENT.name {
+            return Ok(field.name);
+        }
+    }
+    Ok(DISPLACEMENT.name)
 }
 
 impl Source {

@@ -8,7 +8,7 @@ use super::PictureError;
 use crate::drawing::Drawing;
 
 /// Size and file of a picture.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Target {
     /// File to write; None: one beside the results.
     pub out: Option<PathBuf>,
