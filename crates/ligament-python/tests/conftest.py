@@ -1,6 +1,8 @@
 """What the tests share: a plate that a crack runs through, quick to compute."""
 
 import copy
+import signal
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -35,3 +37,11 @@ def result() -> Any:
     import ligament
 
     return ligament.run(PLATE, progress=False)
+
+
+@pytest.fixture
+def interruptible() -> Iterator[None]:
+    """Ctrl-C as at a terminal: what a shell starts in the background has it ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)

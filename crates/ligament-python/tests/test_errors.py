@@ -4,7 +4,6 @@ import os
 import signal
 import threading
 import time
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -93,14 +92,6 @@ def test_errors_are_those_of_python_too(plate: dict[str, Any]) -> None:
     assert issubclass(ligament.CaseError, ValueError) and issubclass(ligament.Interrupted, KeyboardInterrupt)
     with pytest.raises(ValueError):
         ligament.run({**plate, "stage": 3})
-
-
-@pytest.fixture
-def interruptible() -> Iterator[None]:
-    """Ctrl-C as at a terminal: what a shell starts in the background has it ignored."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    yield
-    signal.signal(signal.SIGINT, before)
 
 
 @pytest.mark.usefixtures("interruptible")

@@ -138,8 +138,9 @@ def test_setups_and_results_go_to_other_processes(kind: str) -> None:
     assert_same(copy.deepcopy(results[0]), pickle.loads(pickle.dumps(results[0])))
 
 
+@pytest.mark.usefixtures("interruptible")
 def test_a_run_that_was_stopped_goes_on(plate: dict[str, Any], tmp_path: Path) -> None:
-    plate["fracture"]["steps"] = 4000
+    plate["fracture"]["steps"] = 400
     whole = ligament.run(plate, progress=False)
     with pytest.raises(ligament.Interrupted) as stopped:
         ligament.run(plate, progress=lambda step, *_: _thread.interrupt_main() if step == 3 else None)

@@ -93,11 +93,7 @@ fn sought(
     let mut mechanisms = Vec::new();
     let mut previous_energy = f64::NAN;
     let faces_close = equations.problem.system.faces_close();
-    let largest_residual = if target.is_some() || faces_close {
-        LARGEST_FOLLOWING
-    } else {
-        LARGEST_RESIDUAL
-    };
+    let largest_residual = largest_residual(target.is_some() || faces_close);
     loop {
         let residual = iterate.residual;
         if iterations > 0 {
@@ -139,6 +135,15 @@ fn sought(
             Err(unbalanced) => return Ok(Attempt::Unbalanced(unbalanced)),
         };
         iterations += 1;
+    }
+}
+
+/// Largest residual of an equilibrium accepted by the energy rule; `follows` where a motion is prescribed or faces close.
+fn largest_residual(follows: bool) -> f64 {
+    if follows {
+        LARGEST_FOLLOWING
+    } else {
+        LARGEST_RESIDUAL
     }
 }
 
