@@ -67,6 +67,44 @@ pub struct StepRecord {
     pub group_forces: Vec<Vec<f64>>,
     /// Values of the probes.
     pub probes: Vec<f64>,
+    /// Time steps and energies of a motion, whose load factor is the time; None in statics.
+    pub motion: Option<InMotion>,
+}
+
+/// Time steps and energies of a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct InMotion {
+    /// Number of time steps so far.
+    pub time_steps: usize,
+    /// Energy of the body at time zero, J: of its first velocities and of a static preload.
+    pub initial_energy: f64,
+    /// Kinetic energy of displacements and rotations, J; with central differences 1/2 v^T M v' with the velocities in the middles of the steps
+    /// before and after, which the scheme conserves.
+    pub kinetic_energy: f64,
+    /// Energy that damping and dashpots have taken so far, J.
+    pub damping_energy: f64,
+    /// Energy stored in contacts between surfaces, J.
+    pub contact_energy: f64,
+    /// Energy that friction and the birth and end of contacts have taken so far, J.
+    pub friction_energy: f64,
+}
+
+serial!(InMotion {
+    time_steps,
+    initial_energy,
+    kinetic_energy,
+    damping_energy,
+    contact_energy,
+    friction_energy,
+});
+
+impl InMotion {
+    /// Energy at work beside the stored and released energies of the bonds, less the energy at time zero, J.
+    fn beside_bonds(&self) -> f64 {
+        let now =
+            self.kinetic_energy + self.damping_energy + self.contact_energy + self.friction_energy;
+        now - self.initial_energy
+    }
 }
 
 serial!(StepRecord {
@@ -92,14 +130,18 @@ serial!(StepRecord {
     closed_pairs,
     group_forces,
     probes,
+    motion,
 });
 
 impl StepRecord {
-    /// Energy imbalance, external work - stored - released energy, over the external work or the energy floor, whichever is larger;
-    /// 0 without work.
+    /// [Energy imbalance](Self::missing_energy) over the external work or the energy floor, whichever is larger; 0 without work. In a
+    /// motion the energy at time zero counts as work.
     pub fn energy_error(&self) -> f64 {
-        let scale = if self.external_work.abs() < self.energy_floor {
+        let at_start = self.motion.map_or(0.0, |it| it.initial_energy);
+        let scale = if self.external_work.abs() + at_start < self.energy_floor {
             self.energy_floor
+        } else if at_start > 0.0 {
+            self.external_work.abs() + at_start
         } else {
             self.external_work
         };
@@ -110,9 +152,12 @@ impl StepRecord {
         }
     }
 
-    /// External work - stored - released energy, J.
+    /// External work - stored - released energy, J; in a motion the kinetic energy, the energies of damping, contact and friction count as
+    /// well, and the energy at time zero.
     pub fn missing_energy(&self) -> f64 {
-        self.external_work - self.stored_energy - self.released_energy
+        let of_bonds = self.external_work - self.stored_energy - self.released_energy;
+        self.motion
+            .map_or(of_bonds, |it| of_bonds - it.beside_bonds())
     }
 }
 
@@ -277,9 +322,20 @@ pub struct View<'a> {
     pub softened: SoftenedOfAll,
     /// Whether the run ends with this state.
     pub is_last: bool,
+    /// Velocities and accelerations of a motion; None in statics.
+    pub motion: Option<Rates<'a>>,
     /// Whether the whole body is known; otherwise motions and forces are those of supported and loaded points alone, and there are
     /// no deformations.
     pub is_whole: bool,
+}
+
+/// Velocities and accelerations of the points.
+#[derive(Debug, Clone, Copy)]
+pub struct Rates<'a> {
+    /// Velocities, shape (n_degrees_of_freedom), m/s and rad/s.
+    pub velocity: &'a [f64],
+    /// Accelerations, shape (n_degrees_of_freedom), m/s^2 and rad/s^2.
+    pub acceleration: &'a [f64],
 }
 
 impl View<'_> {

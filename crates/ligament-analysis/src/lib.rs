@@ -31,6 +31,7 @@ pub mod internal;
 mod lagging;
 pub mod load_program;
 pub mod modal;
+pub mod motion;
 pub mod probe;
 pub mod problem;
 pub mod restraints;

@@ -43,6 +43,8 @@ pub enum Rows {
     LoadSteps,
     /// States of the exact path, each just before its bonds break.
     Events,
+    /// States at times of a motion.
+    Times,
 }
 
 /// A point of the force-displacement curve.

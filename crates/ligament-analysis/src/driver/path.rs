@@ -412,6 +412,7 @@ impl<'a> Path<'a> {
             criteria: &criteria,
             fragments: self.equilibrium.fragments(),
             costs: self.equilibrium.costs(),
+            motion: None,
             is_last,
             is_whole,
         };

@@ -268,6 +268,7 @@ pub(super) fn step_record(
         at_rest: counters.at_rest,
         negative_eigenvalues: counters.negative_eigenvalues,
         closed_pairs: balanced.closed.len(),
+        motion: None,
         group_forces: group_forces(problem, state.load_factor, &reactions),
         probes: probe::values(
             &problem.probes,
