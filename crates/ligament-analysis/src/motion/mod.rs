@@ -10,6 +10,7 @@ use std::sync::Arc;
 use ligament_model::LumpedMass;
 use thiserror::Error;
 
+use crate::breaking::BreakingRule;
 use crate::problem::Problem;
 
 pub use crate::critical_step::CriticalStep;
@@ -59,6 +60,23 @@ pub struct MotionSettings {
 pub enum Scheme {
     /// Velocity Verlet, which is stable below a critical step.
     Explicit(ExplicitSettings),
+    /// Newmark's scheme with the averaging of Hilber, Hughes and Taylor, which is stable for any step.
+    Implicit(ImplicitSettings),
+}
+
+/// Settings of implicit steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ImplicitSettings {
+    /// Largest time step, s.
+    pub step: f64,
+    /// Dissipation alpha of high frequencies after Hilber, Hughes and Taylor, 0 (Newmark's trapezoidal rule) to 1/3.
+    pub dissipation: f64,
+    /// Rule that selects the bonds that break in a round.
+    pub rule: BreakingRule,
+    /// Largest number of rounds of breaking in a step; beyond it the step is halved, ten times at most.
+    pub rounds: usize,
+    /// Relative change of the energy that ends the iteration of bonds that soften (NHPD eq. 21).
+    pub energy_tolerance: f64,
 }
 
 /// Settings of explicit steps.

@@ -13,16 +13,20 @@ use rayon::prelude::*;
 use super::body::{Body, TimeStep};
 use super::clock::Clock;
 use super::inertia::{Inertia, Velocities};
-use super::restored::{Progress, Restored};
+use super::progress::{EXPLICIT, Progress};
+use super::record;
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
+use crate::driver::course::{CheckValues, with_begun};
 use crate::driver::outcome::Outcome;
 use crate::driver::recorder::Energies;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
 use crate::motion::{ExplicitSettings, MotionError, MotionProblem, MotionSettings, critical_step};
-use crate::solver::ExplicitChoice;
+use crate::serial::Serial;
+use crate::solver::{ExplicitChoice, SolverChoice};
+use crate::state::State;
 use crate::vectors::{CHUNK, sum_of_chunks};
 
 /// Motion in explicit steps.
@@ -75,16 +79,10 @@ pub(super) fn run(
 pub(super) fn resume(
     settings: &MotionSettings,
     explicit: ExplicitSettings,
-    restored: Restored,
+    (problem, energies, progress, kept): (MotionProblem, Energies, Progress, ExplicitKept),
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let Restored {
-        problem,
-        body,
-        velocities,
-        energies,
-        progress,
-    } = restored;
+    let ExplicitKept { body, velocities } = kept;
     let (clock, choice) = chosen(&problem, settings, explicit)?;
     if clock != progress.clock {
         return Err(CheckpointError::OtherTimes.into());
@@ -93,6 +91,46 @@ pub(super) fn resume(
     let mut motion = Explicit::new(&problem, (settings, choice), parts, observer);
     motion.apply_loads();
     motion.follow()
+}
+
+/// Motion in explicit steps as a checkpoint has it.
+pub(super) struct ExplicitKept {
+    pub(super) body: Body,
+    velocities: Velocities,
+}
+
+impl ExplicitKept {
+    /// Appends the motion at a row.
+    fn write(body: &Body, velocities: &Velocities, out: &mut Vec<u8>) {
+        body.state.write(&body.numbers, out);
+        velocities.write(out);
+        body.costs.write(out);
+        CheckValues::new(&body.problem, &body.balanced).write(out);
+    }
+
+    /// Restores the motion of a problem at a row, with the criteria of bonds that had begun to soften.
+    pub(super) fn read(problem: &mut MotionProblem, from: &mut &[u8]) -> Result<Self, SetupError> {
+        let damaged = CheckpointError::Damaged;
+        let numbers = BondNumbers::new(&*problem.problem.system)?;
+        let state = State::read(&numbers, from)?;
+        let velocities: Velocities = Serial::read(from).map_err(damaged)?;
+        let costs = Serial::read(from).map_err(damaged)?;
+        let system = &*problem.problem.system;
+        let lengths = [velocities.half.len(), velocities.acceleration.len()];
+        let fits = state.fits(system, system.ends().len(), &problem.problem.criteria);
+        if !fits || lengths != [state.displacement.len(); 2] {
+            return Err(CheckpointError::OtherModel.into());
+        }
+        problem.problem = with_begun(&problem.problem, &state)?;
+        let mut body = Body::new(&problem.problem, numbers, Some(state));
+        body.costs = costs;
+        body.measure();
+        let values_then = CheckValues::read(from).map_err(damaged)?;
+        if !CheckValues::new(&body.problem, &body.balanced).agrees(&values_then) {
+            return Err(CheckpointError::OtherArithmetic.into());
+        }
+        Ok(Self { body, velocities })
+    }
 }
 
 /// Times of a motion, with the critical step.
@@ -178,7 +216,7 @@ impl<'a> Explicit<'a> {
     /// Follows the motion row by row.
     fn follow(mut self) -> Result<Outcome, SetupError> {
         if self.progress.history.is_empty() {
-            self.record(0)?;
+            self.record()?;
         }
         let Clock {
             rows,
@@ -192,13 +230,40 @@ impl<'a> Explicit<'a> {
             for _ in 0..steps_per_row {
                 self.step(row)?;
             }
-            end = self.record(row)?;
+            end = self.record()?;
             if end.is_some() {
                 break;
             }
         }
         let termination = end.unwrap_or(Termination::TimeReached { time: duration });
-        Ok(self.into_outcome(termination))
+        let velocity = self.velocities.at_time(self.inertia.step());
+        let rates = self.velocities.rates(&velocity);
+        let now = self.body.now(&self.energies, rates);
+        let solver = SolverChoice::Explicit(self.choice);
+        Ok(record::outcome(&now, self.progress, solver, termination))
+    }
+
+    /// Records the present time as a row, and returns the reason why the motion ends there, if it does.
+    fn record(&mut self) -> Result<Option<Termination>, SetupError> {
+        let Self {
+            body,
+            velocities,
+            energies,
+            progress,
+            observer,
+            ..
+        } = self;
+        progress.motion.kinetic_energy = self.inertia.kinetic_energy(velocities);
+        let velocity = velocities.at_time(self.inertia.step());
+        let now = body.now(energies, velocities.rates(&velocity));
+        let stop = (&self.settings.stop, self.started);
+        let end = now.record(progress, stop, *observer)?;
+        let checkpoint = || {
+            progress.bytes(energies, EXPLICIT, &|out| {
+                ExplicitKept::write(body, velocities, out);
+            })
+        };
+        Ok(record::offer(*observer, end, &checkpoint)?)
     }
 
     /// One time step on the way to a row of the history.
