@@ -4,9 +4,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::{bail, ensure};
-use ligament::run::{on_threads, restore};
+use ligament::run::{Posed, Restored, on_threads, restore};
 use ligament_analysis::distributed_matrix::MatrixCommunicator;
-use ligament_analysis::driver::{Problem, Restored};
+use ligament_analysis::driver::Problem;
 use ligament_analysis::serial::Serial;
 use ligament_case::case::CaseFile;
 use ligament_output::checkpoint::Checkpoint;
@@ -101,11 +101,13 @@ impl Request<'_> {
         let model = build_model_on(case, self.communicator.clone(), &mut stages, &progress)?;
         let loading = loading(case, &model)?;
         let problem = loading.problem(&model);
+        let motion = loading.motion(&problem);
+        let posed = Posed::new(&problem, motion.as_ref());
         let communicator = &*self.communicator;
         let solution =
             (found.as_mut()).map(|(checkpoint, _)| std::mem::take(&mut checkpoint.solution));
         let solution = broadcast_solution(communicator, solution)?;
-        let restored = solution.map(|it| restore(&problem, &model.setup.analysis, &it));
+        let restored = solution.map(|it| restore(posed, &model.setup.analysis, &it));
         let restored = restored.transpose()?;
         let is_stopped = || any_stopped(communicator, self.is_stopped);
         let body = LoadedBody {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use ligament_analysis::Observer;
 use ligament_analysis::checkpoint::CheckpointError;
-use ligament_analysis::driver::{self, Outcome, Problem, Restored};
+use ligament_analysis::driver::{self, Outcome, Problem, motion};
 use ligament_analysis::history::{ObserverError, StepRecord, View};
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome};
 use ligament_analysis::motion::MotionProblem;
@@ -130,16 +130,50 @@ pub fn follow<'a>(
 /// # Errors
 ///
 /// If the checkpoint is damaged or not of this problem and analysis, or the analysis breaks no bonds.
-pub fn restore(
-    problem: &Problem,
+pub fn restore<'a>(
+    posed: impl Into<Posed<'a>>,
     analysis: &Analysis,
     checkpoint: &[u8],
 ) -> Result<Restored, Error> {
-    Ok(match analysis {
+    let problem = match posed.into() {
+        Posed::Motion(problem) => {
+            return Ok(Restored::Motion(motion::restore(problem, checkpoint)?));
+        }
+        Posed::Statics(problem) => problem,
+    };
+    Ok(Restored::Statics(match analysis {
         Analysis::Stepped(settings) => driver::stepped::restore(problem, settings, checkpoint)?,
         Analysis::Event(settings) => driver::event::restore(problem, settings, checkpoint)?,
-        Analysis::Elastic { .. } | Analysis::Modal(_) => return Err(without_fracture()),
-    })
+        Analysis::Elastic { .. } | Analysis::Modal(_) | Analysis::Motion(_) => {
+            return Err(without_fracture());
+        }
+    }))
+}
+
+/// A restored run, ready to continue.
+pub enum Restored {
+    /// Equilibrium under loads.
+    Statics(driver::Restored),
+    /// Motion in time.
+    Motion(motion::Restored),
+}
+
+impl Restored {
+    /// Load factor of the restored state, in a motion the time, s.
+    pub fn load_factor(&self) -> f64 {
+        match self {
+            Self::Statics(it) => it.load_factor(),
+            Self::Motion(it) => it.time(),
+        }
+    }
+
+    /// Number of bonds broken up to the restored state.
+    pub fn broken_bonds(&self) -> usize {
+        match self {
+            Self::Statics(it) => it.broken_bonds(),
+            Self::Motion(it) => it.broken_bonds(),
+        }
+    }
 }
 
 /// Continues a run from its checkpoint, bitwise identical to an uninterrupted run.
@@ -152,10 +186,24 @@ pub fn resume(
     restored: Restored,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error> {
-    Ok(match analysis {
-        Analysis::Stepped(settings) => driver::stepped::resume(settings, restored, observer)?,
-        Analysis::Event(settings) => driver::event::resume(settings, restored, observer)?,
-        Analysis::Elastic { .. } | Analysis::Modal(_) => return Err(without_fracture()),
+    Ok(match (analysis, restored) {
+        (Analysis::Stepped(settings), Restored::Statics(restored)) => {
+            driver::stepped::resume(settings, restored, observer)?
+        }
+        (Analysis::Event(settings), Restored::Statics(restored)) => {
+            driver::event::resume(settings, restored, observer)?
+        }
+        (Analysis::Motion(settings), Restored::Motion(restored)) => {
+            motion::resume(settings, restored, observer)?
+        }
+        (
+            Analysis::Elastic { .. }
+            | Analysis::Modal(_)
+            | Analysis::Stepped(_)
+            | Analysis::Event(_)
+            | Analysis::Motion(_),
+            Restored::Statics(_) | Restored::Motion(_),
+        ) => return Err(without_fracture()),
     })
 }
 

@@ -96,7 +96,7 @@ pub(super) fn resume(
 }
 
 /// Times of a motion, with the critical step.
-fn chosen(
+pub(super) fn chosen(
     problem: &MotionProblem,
     settings: &MotionSettings,
     explicit: ExplicitSettings,
