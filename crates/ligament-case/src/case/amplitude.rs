@@ -113,7 +113,9 @@ impl Amplitude {
             let setting = format!("shape = \"{word}\"");
             self.refuse_others(key, &setting, reason, [false, !is_sine, true, true])?;
             let duration = number("duration", self.duration)?;
-            Ok(Factor::pulse(shape, self.start.unwrap_or(0.0), duration))
+            let start = self.start.unwrap_or(0.0);
+            require(start >= 0.0, || key.child("start"), "at least 0", start)?;
+            Ok(Factor::pulse(shape, start, duration))
         };
         match shape {
             Shape::Sine => {
