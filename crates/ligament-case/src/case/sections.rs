@@ -198,13 +198,8 @@ impl Case {
         }
         if analysis != Analysis::Motion {
             let reason = "only a motion takes place in time";
-            refuse("motion", self.motion.is_some(), reason)?;
-            refuse(
-                "initial_velocity",
-                !self.initial_velocities.is_empty(),
-                reason,
-            )?;
-            refuse("quiet", !self.quiet.is_empty(), reason)?;
+            let mut given = self.in_time().into_iter();
+            given.try_for_each(|(key, is_given)| refuse(key, is_given, reason))?;
         }
         match analysis {
             Analysis::Motion if self.motion.is_none() => {
@@ -242,6 +237,15 @@ impl Case {
                 refuse("output", has_output, reason)
             }
         }
+    }
+
+    /// Sections of a motion, each with whether it is given.
+    fn in_time(&self) -> [(&'static str, bool); 3] {
+        [
+            ("motion", self.motion.is_some()),
+            ("initial_velocity", !self.initial_velocities.is_empty()),
+            ("quiet", !self.quiet.is_empty()),
+        ]
     }
 
     /// Refuses keys of load steps and of equations in a motion without them.
