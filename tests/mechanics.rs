@@ -40,3 +40,4 @@ mod space_bonds;
 mod stress;
 mod symmetry;
 mod temperature;
+mod waves;

@@ -134,7 +134,7 @@ impl ExplicitKept {
 }
 
 /// Times of a motion, with the critical step.
-fn chosen(
+pub(super) fn chosen(
     problem: &MotionProblem,
     settings: &MotionSettings,
     explicit: ExplicitSettings,

@@ -18,6 +18,7 @@ use crate::checkpoint::CheckpointError;
 use crate::error::SetupError;
 use crate::history::Observer;
 use crate::motion::{MotionProblem, MotionSettings, Scheme};
+use crate::solver::ExplicitChoice;
 
 use super::Outcome;
 use restored::Kept;
@@ -36,6 +37,20 @@ pub fn run(
     match settings.scheme {
         Scheme::Explicit(explicit) => explicit::run(problem, settings, explicit, observer),
         Scheme::Implicit(implicit) => implicit::run(problem, settings, implicit, observer),
+    }
+}
+
+/// Time step of a motion, with the critical one, as [`run`] chooses them.
+///
+/// # Errors
+///
+/// If the motion cannot be computed ([`MotionError`](crate::motion::MotionError)).
+pub fn time_step(
+    problem: &MotionProblem,
+    settings: &MotionSettings,
+) -> Result<ExplicitChoice, SetupError> {
+    match settings.scheme {
+        Scheme::Explicit(explicit) => Ok(explicit::chosen(problem, settings, explicit)?.1),
     }
 }
 
