@@ -36,17 +36,26 @@ use super::stage::Stage;
 use super::temperature::Temperature;
 use super::values::{exactly_one, metre, refuse};
 
-/// Keys of `[fracture]` about load steps and equilibrium.
-pub(super) const STEPPING: [&str; 8] = [
-    "control",
-    "steps",
+/// Keys of `[fracture]` about load steps.
+const STEPPING: [&str; 3] = ["control", "steps", "refine_first_break"];
+
+/// Keys of `[fracture]` about breakages and equilibrium within a step.
+const BALANCING: [&str; 5] = [
     "bonds_per_iteration",
     "order",
     "max_iterations",
-    "refine_first_break",
     "tie_tolerance",
     "energy_tolerance",
 ];
+
+/// Keys of `[fracture]` that a motion does not have.
+pub(super) fn keys_of_statics(scheme: Scheme) -> Vec<&'static str> {
+    let of_steps = STEPPING.into_iter().chain(["stop"]);
+    match scheme {
+        Scheme::Explicit => of_steps.chain(BALANCING).collect(),
+        Scheme::Implicit => of_steps.collect(),
+    }
+}
 
 /// A case: the sections of its file, with every default filled in.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -260,7 +269,11 @@ impl Case {
         let reason = "a motion has a `stop` of its own, in [motion]";
         refuse(&fracture, [is_given("stop")], setting, reason)?;
         match scheme {
+            Scheme::Implicit => Ok(()),
             Scheme::Explicit => {
+                let setting = "motion.scheme = \"explicit\"";
+                let reason = "all bonds at their limits break in an explicit step";
+                refuse(&fracture, BALANCING.map(is_given), setting, reason)?;
                 let (key, reason) = (root().child("solver"), "explicit steps solve no equations");
                 refuse(
                     &key,
@@ -400,7 +413,10 @@ impl Case {
 
     fn analysis_of_setup(&self) -> Result<setup::Analysis, KeyFault> {
         Ok(match (&self.motion, &self.modal, &self.fracture) {
-            (Some(motion), _, _) => setup::Analysis::Motion(motion.setup()),
+            (Some(motion), _, _) => {
+                let key = root().child("motion");
+                setup::Analysis::Motion(motion.setup(&key, self.fracture.as_ref())?)
+            }
             (None, Some(modal), _) => setup::Analysis::Modal(modal.setup()),
             (None, None, Some(fracture)) => {
                 fracture.setup(&root().child("fracture"), !self.stages.is_empty())?

@@ -95,12 +95,22 @@ fn check_settings(settings: &MotionSettings) -> Checked {
     positive(field.part("duration"), Some(settings.duration))?;
     let rows = settings.rows;
     require(rows > 0, field.part("rows"), "at least 1", rows)?;
-    let Scheme::Explicit(explicit) = settings.scheme;
-    positive(field.part("step"), explicit.step)?;
-    let safety = explicit.safety;
-    let is_share = safety > 0.0 && safety < 1.0;
-    let expected = "greater than 0 and less than 1: the share of the critical step, beyond which an explicit scheme is unstable";
-    require(is_share, field.part("safety"), expected, safety)?;
+    match settings.scheme {
+        Scheme::Explicit(explicit) => {
+            positive(field.part("step"), explicit.step)?;
+            let safety = explicit.safety;
+            let is_share = safety > 0.0 && safety < 1.0;
+            let expected = "greater than 0 and less than 1: the share of the critical step, beyond which an explicit scheme is unstable";
+            require(is_share, field.part("safety"), expected, safety)?;
+        }
+        Scheme::Implicit(implicit) => {
+            positive(field.part("step"), Some(implicit.step))?;
+            let dissipation = implicit.dissipation;
+            let is_fit = (0.0..=1.0 / 3.0).contains(&dissipation);
+            let expected = "0 to 1/3";
+            require(is_fit, field.part("dissipation"), expected, dissipation)?;
+        }
+    }
     let factor = settings.rotary_inertia;
     positive(field.part("rotary_inertia"), Some(factor))?;
     for (part, value) in [

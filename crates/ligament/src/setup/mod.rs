@@ -29,7 +29,9 @@ use ligament_model::{Elasticity, Horizons, Isotropic, Material, Plane, PointClou
 use crate::body::{AnyBody, Geometry};
 use crate::implausible::Implausible;
 
-pub use analysis::{Analysis, ELASTIC_ENERGY_TOLERANCE, event, modal, motion, stepped};
+pub use analysis::{
+    Analysis, ELASTIC_ENERGY_TOLERANCE, event, explicit, implicit, modal, motion, stepped,
+};
 pub use conditions::{
     Action, Axis, Couple, Displacement, Load, Place, Position, Profile, Sample, SpringStiffness,
     Support, begins_as_formula,

@@ -17,10 +17,11 @@ mod taken;
 use crate::checkpoint::CheckpointError;
 use crate::error::SetupError;
 use crate::history::Observer;
-use crate::motion::{MotionProblem, MotionSettings, Scheme};
+use crate::motion::{MotionProblem, MotionSettings, Scheme, critical_step};
 use crate::solver::ExplicitChoice;
 
 use super::Outcome;
+use clock::Clock;
 use restored::Kept;
 pub use restored::Restored;
 
@@ -51,6 +52,10 @@ pub fn time_step(
 ) -> Result<ExplicitChoice, SetupError> {
     match settings.scheme {
         Scheme::Explicit(explicit) => Ok(explicit::chosen(problem, settings, explicit)?.1),
+        Scheme::Implicit(implicit) => Ok(ExplicitChoice {
+            step: Clock::new(settings, implicit.step).step(),
+            critical: critical_step(problem, settings)?,
+        }),
     }
 }
 
