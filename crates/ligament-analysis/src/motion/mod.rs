@@ -3,6 +3,8 @@
 //! The loads of the [`Problem`] are functions of time: the load factor of a [`State`](crate::State) is the time, s. [`run`] integrates the
 //! equations by the scheme of the settings.
 
+pub mod contact;
+
 use std::sync::Arc;
 
 use ligament_model::LumpedMass;
