@@ -2,6 +2,7 @@
 
 use std::sync::OnceLock;
 
+use ligament_model::Bonds;
 use ligament_model::contact::ClosedPair;
 use ligament_model::deformation::Deformations;
 use ligament_model::failure::Stresses;
@@ -56,6 +57,32 @@ pub struct Balanced {
 }
 
 impl Balanced {
+    /// Unloaded body, without deformations.
+    pub(crate) fn unloaded(system: &dyn Bonds) -> Self {
+        Self {
+            deformations: Deformations::default(),
+            internal: InternalForces {
+                values: vec![0.0; system.layout().n_degrees_of_freedom()],
+                force_scale: 0.0,
+                moment_scale: 0.0,
+                thermal: 0.0,
+            },
+            stored_energy: 0.0,
+            energy_floor: 0.0,
+            residual: 0.0,
+            iterations: 0,
+            negative_energy: None,
+            mechanisms: Vec::new(),
+            closed: Vec::new(),
+            stresses: OnceLock::new(),
+        }
+    }
+
+    /// Forgets the stresses across the bonds, after their deformations have changed.
+    pub(crate) fn forget_stresses(&mut self) {
+        self.stresses = OnceLock::new();
+    }
+
     /// Equilibrium of the same bonds at `factor` times the load factor, to which everything is proportional.
     pub fn scaled(&self, factor: f64) -> Self {
         Self {

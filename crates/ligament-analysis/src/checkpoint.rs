@@ -14,7 +14,7 @@ pub enum CheckpointError {
     #[error("it belongs to another model: points, bonds or supports differ")]
     OtherModel,
     /// The run belongs to another driver.
-    #[error("one of the two runs follows the exact path, and the other takes load steps")]
+    #[error("the two runs differ in kind: the exact path, load steps or motion in time")]
     OtherDriver,
     /// The loading up to the checkpoint differs.
     #[error(
@@ -26,6 +26,11 @@ pub enum CheckpointError {
         /// Load factor of the step in the checkpoint.
         was: f64,
     },
+    /// The times of a motion differ.
+    #[error(
+        "the duration of the motion, its rows or its time step differ from those of the checkpoint"
+    )]
+    OtherTimes,
     /// One process wrote the checkpoint, and several are to continue.
     #[error(
         "one process wrote it: resume with one process, or start anew with several; any number of processes can resume what \

@@ -6,6 +6,7 @@ use thiserror::Error;
 use crate::bond_numbers::WithoutBonds;
 use crate::checkpoint::CheckpointError;
 use crate::history::ObserverError;
+use crate::motion::MotionError;
 use crate::solver::Unfit;
 
 /// Error that stops an analysis.
@@ -54,6 +55,9 @@ pub enum SetupError {
          through stages does not follow: take load steps, or leave the faces open"
     )]
     ClosingFaces,
+    /// A motion in time cannot be computed.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
     /// A run cannot continue from its checkpoint.
     #[error("cannot resume from the checkpoint: {0}")]
     Checkpoint(#[from] CheckpointError),

@@ -16,6 +16,7 @@ pub mod checkpoint;
 pub mod connectivity;
 mod contact;
 pub mod costs;
+pub mod critical_step;
 pub mod dissection;
 pub mod distributed_matrix;
 pub mod driver;

@@ -9,8 +9,10 @@ use ligament_model::Bonds;
 use ligament_model::communicator::Solo;
 use thiserror::Error;
 
+use crate::critical_step::CriticalStep;
 use crate::dissection;
 use crate::distributed_matrix::MatrixCommunicator;
+
 use crate::unknowns::Unknowns;
 
 /// Settings of the solver; open ones are chosen for the problem.
@@ -151,6 +153,17 @@ pub enum SolverChoice {
     Iterative(IterativeChoice),
     /// A matrix whose rows are distributed over processes.
     Distributed(DistributedChoice),
+    /// Explicit steps in time, without equations.
+    Explicit(ExplicitChoice),
+}
+
+/// Time step chosen for an explicit motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ExplicitChoice {
+    /// Time step, s.
+    pub step: f64,
+    /// Largest stable step and what limits it.
+    pub critical: CriticalStep,
 }
 
 /// Solver chosen for several processes.
@@ -354,7 +367,7 @@ impl SolverChoice {
     /// Residual after a breakage, see [`SolverSettings::tolerance`]; None for a direct solver.
     fn tolerance(&self) -> Option<f64> {
         match self {
-            Self::Direct(_) => None,
+            Self::Direct(_) | Self::Explicit(_) => None,
             Self::Iterative(choice) => Some(choice.tolerance),
             Self::Distributed(choice) => choice.tolerance,
         }

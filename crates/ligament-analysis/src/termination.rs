@@ -46,6 +46,23 @@ pub enum Termination {
         /// Allowed wall time, s.
         seconds: f64,
     },
+    /// The motion reached its end.
+    #[error("the end of the motion, {time} s, was reached")]
+    TimeReached {
+        /// Duration, s.
+        time: f64,
+    },
+    /// The energy of a motion grew without cause.
+    #[error(
+        "at {time:.4e} s the energies of the motion differ by {error:.1e} from the work: it grows without cause, as with too large a time \
+         step or an unstable law"
+    )]
+    EnergyGrew {
+        /// Time, s.
+        time: f64,
+        /// Energy imbalance, relative to the work.
+        error: f64,
+    },
     /// The observer stopped the run.
     #[error("the run was stopped")]
     Stopped,
@@ -110,6 +127,8 @@ impl Termination {
             | Self::Stopped
             | Self::NotAtRest { .. } => true,
             Self::FullLoad
+            | Self::TimeReached { .. }
+            | Self::EnergyGrew { .. }
             | Self::EnergyDissipated { .. }
             | Self::NothingBreaks
             | Self::FellApart
@@ -130,6 +149,8 @@ impl Termination {
             Self::DisplacementReached { .. } => "displacement-reached",
             Self::BondsBroken { .. } => "bonds-broken",
             Self::WallTime { .. } => "wall-time",
+            Self::TimeReached { .. } => "time-reached",
+            Self::EnergyGrew { .. } => "energy-grew",
             Self::Stopped => "stopped",
             Self::FellApart => "fell-apart",
             Self::Collapsed | Self::LostStiffness { .. } => "collapsed",

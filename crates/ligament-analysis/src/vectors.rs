@@ -1,5 +1,7 @@
 //! Arithmetic on long arrays with reproducible bits: sums are taken in a fixed order for any number of threads.
 
+use std::ops::Range;
+
 use ligament_model::subdomain::Subdomain;
 use rayon::prelude::*;
 
@@ -40,5 +42,14 @@ pub(crate) fn weighted_square(weights: &[f64], values: &[f64]) -> f64 {
         pairs.map(|(weight, value)| weight * value * value).sum()
     };
     let sums: Vec<f64> = chunks.map(of_chunk).collect();
+    sums.iter().sum()
+}
+
+/// Sum of the values that a function makes of ranges of n places, by chunks on all threads.
+pub(crate) fn sum_of_chunks(n: usize, of: impl Fn(Range<usize>) -> f64 + Sync) -> f64 {
+    let chunks = (0..n.div_ceil(CHUNK)).into_par_iter();
+    let sums: Vec<f64> = chunks
+        .map(|chunk| of(chunk * CHUNK..n.min((chunk + 1) * CHUNK)))
+        .collect();
     sums.iter().sum()
 }

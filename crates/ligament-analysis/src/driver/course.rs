@@ -156,16 +156,8 @@ impl Restored {
         let numbers = BondNumbers::new(&*problem.system)?;
         let state = State::read(&numbers, from)?;
         let course: Course = Serial::read(from).map_err(damaged)?;
-        let mut problem = course.problem(problem).ok_or(CheckpointError::OtherModel)?;
-        let begun = &state.softening.begun;
-        let has_all = problem.criteria.none_begun();
-        let lengths = |of: &[Vec<f64>]| of.iter().map(Vec::len).collect::<Vec<usize>>();
-        if !begun.is_empty() {
-            if lengths(begun) != lengths(&has_all) {
-                return Err(CheckpointError::OtherModel.into());
-            }
-            problem.criteria = Arc::new(problem.criteria.begun_at(begun));
-        }
+        let problem = course.problem(problem).ok_or(CheckpointError::OtherModel)?;
+        let problem = with_begun(&problem, &state)?;
         let (equilibrium, state, balanced) =
             Equilibrium::restored(&problem, energy_tolerance, (numbers, state), from)?;
         let energies = Energies::read(&problem, &state, &balanced, from)?;
@@ -212,6 +204,25 @@ impl Restored {
     }
 }
 
+/// Problem with the criteria of the bonds that had begun to soften in a restored state.
+///
+/// # Errors
+///
+/// If the state belongs to other criteria.
+pub(super) fn with_begun(problem: &Problem, state: &State) -> Result<Problem, CheckpointError> {
+    let mut problem = problem.clone();
+    let begun = &state.softening.begun;
+    let has_all = problem.criteria.none_begun();
+    let lengths = |of: &[Vec<f64>]| of.iter().map(Vec::len).collect::<Vec<usize>>();
+    if !begun.is_empty() {
+        if lengths(begun) != lengths(&has_all) {
+            return Err(CheckpointError::OtherModel);
+        }
+        problem.criteria = Arc::new(problem.criteria.begun_at(begun));
+    }
+    Ok(problem)
+}
+
 /// Relative difference of sums over the bonds that is accepted between different numbers of processes.
 const OTHER_SUMS: f64 = 1e-9;
 
@@ -241,7 +252,7 @@ impl CheckValues {
     }
 
     /// Whether the check values agree, bit for bit where the number of processes is equal.
-    fn agrees(&self, then: &Self) -> bool {
+    pub(super) fn agrees(&self, then: &Self) -> bool {
         let numbers = |it: &Self| [it.stored_energy, it.force_scale];
         let mut both = numbers(self).into_iter().zip(numbers(then));
         let is_same = self.n_ranks == then.n_ranks;

@@ -7,6 +7,7 @@ mod dissipation;
 pub mod elastic;
 mod ends;
 pub mod event;
+pub mod motion;
 mod outcome;
 mod parts;
 mod path;

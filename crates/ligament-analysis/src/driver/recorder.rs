@@ -192,13 +192,23 @@ impl Energies {
         breakage: &Breakage,
         balanced: &Balanced,
     ) {
-        let expansion = |load_factor| problem.loads.thermal_strain(load_factor);
-        let change = self.contact.follow(state, balanced, &expansion);
+        let change = self.follow_contact(problem, state, balanced);
         if breakage.bonds.is_empty() {
             self.external_work -= change;
         } else {
             self.released += change;
         }
+    }
+
+    /// Moves to the closed pairs of the next state, and returns the energy that left by pairs that opened or closed since the last one, J.
+    pub(super) fn follow_contact(
+        &mut self,
+        problem: &Problem,
+        state: &State,
+        balanced: &Balanced,
+    ) -> f64 {
+        let expansion = |load_factor| problem.loads.thermal_strain(load_factor);
+        self.contact.follow(state, balanced, &expansion)
     }
 
     /// Stores the deformations and the remaining stiffness of the bonds.

@@ -1,15 +1,21 @@
 //! Motion in time: the equations M a + C v + f(u) = F(t) of a body whose bonds break.
 //!
-//! The loads of the [`Problem`] are functions of time: the load factor of a [`State`](crate::State) is the time, s. [`run`] integrates the
-//! equations by the scheme of the settings.
+//! The loads of the [`Problem`] are functions of time: the load factor of a [`State`](crate::State) is the time, s.
+//! [`driver::motion`](crate::driver::motion) integrates the equations.
+
+mod stable_step;
 
 pub mod contact;
 
 use std::sync::Arc;
 
 use ligament_model::LumpedMass;
+use thiserror::Error;
 
-use crate::driver::Problem;
+use crate::problem::Problem;
+
+pub use crate::critical_step::CriticalStep;
+pub use stable_step::critical_step;
 
 /// Motion in time: a problem whose loads are functions of time, with masses, first velocities and dashpots. A copy shares its data.
 #[derive(Clone)]
@@ -82,4 +88,74 @@ pub struct MotionStop {
     pub bonds: Option<usize>,
     /// Largest wall time, s.
     pub wall_time: Option<f64>,
+}
+
+/// Reason why a motion cannot be computed.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum MotionError {
+    /// Supports and loads prescribe every degree of freedom.
+    #[error("supports and loads prescribe the motion of every point: nothing is left to move")]
+    NothingMoves,
+    /// No bond and no support resists a motion.
+    #[error("nothing in the body resists a motion: it has no critical time step")]
+    NothingResists,
+    /// A point has no mass.
+    #[error("point {point} has no mass, or no inertia of its rotation: explicit motion needs both")]
+    Massless {
+        /// The point.
+        point: u32,
+    },
+    /// A negative shear stiffness makes rotations with inertia unstable.
+    #[error(
+        "bonds have a negative shear stiffness (large Poisson's ratio): rotations of points with inertia are unstable, and a motion would grow \
+         without bound; take a smaller Poisson's ratio or a law without rotations"
+    )]
+    UnstableRotations,
+    /// Damping in proportion to a stiffness that changes with the displacements.
+    #[error(
+        "the forces of the bonds are not linear in the displacements: damping in proportion to the stiffness has no meaning; damp by mass"
+    )]
+    StiffnessDamping,
+    /// The given step is larger than the stable one.
+    #[error(
+        "the time step {step:.4e} s is larger than the critical one, {critical:.4e} s, so that the motion would grow without bound"
+    )]
+    StepTooLarge {
+        /// Given step, s.
+        step: f64,
+        /// Critical step, s.
+        critical: f64,
+    },
+    /// Several processes cannot compute a motion.
+    #[error("several processes cannot compute a motion in time; use one process")]
+    SeveralProcesses,
+}
+
+impl MotionProblem {
+    /// Mass of each degree of freedom with a factor on the rotational inertias, shape (n_degrees_of_freedom), kg and kg m^2.
+    pub fn masses(&self, rotary_inertia: f64) -> Vec<f64> {
+        let layout = self.problem.system.layout();
+        let of_dof = |dof: usize| {
+            let point = layout.point(dof) as usize;
+            match layout.component(dof).is_rotation() {
+                false => self.mass.mass[point],
+                true => rotary_inertia * self.mass.inertia[point],
+            }
+        };
+        (0..layout.n_degrees_of_freedom()).map(of_dof).collect()
+    }
+
+    /// Degrees of freedom whose motion is not prescribed, ascending.
+    pub fn free(&self) -> Vec<u32> {
+        let n = self.problem.system.layout().n_degrees_of_freedom();
+        let is_free = |dof: &u32| !self.problem.loads.is_prescribed(*dof as usize);
+        (0..n as u32).filter(is_free).collect()
+    }
+
+    /// Degrees of freedom whose motion is prescribed, ascending.
+    pub fn prescribed(&self) -> Vec<u32> {
+        let n = self.problem.system.layout().n_degrees_of_freedom();
+        let is_prescribed = |dof: &u32| self.problem.loads.is_prescribed(*dof as usize);
+        (0..n as u32).filter(is_prescribed).collect()
+    }
 }

@@ -1,0 +1,93 @@
+//! Times of a motion: equal time steps, of which a fixed number makes a row of the history.
+
+use crate::motion::{MotionError, MotionSettings};
+use crate::serial;
+
+/// Times of a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Clock {
+    /// Duration, s.
+    pub(super) duration: f64,
+    /// Number of rows of the history after the first one.
+    pub(super) rows: usize,
+    /// Number of time steps between two rows.
+    pub(super) steps_per_row: usize,
+}
+
+serial!(Clock {
+    duration,
+    rows,
+    steps_per_row,
+});
+
+impl Clock {
+    /// Times with the largest step that divides the time between two rows and is not larger than `at_most`, s.
+    pub(super) fn new(settings: &MotionSettings, at_most: f64) -> Self {
+        let MotionSettings { duration, rows, .. } = *settings;
+        let between = duration / rows as f64;
+        // A step that divides the time but for rounding is not made smaller.
+        let steps_per_row = (between / at_most * (1.0 - 1e-12)).ceil().max(1.0) as usize;
+        Self {
+            duration,
+            rows,
+            steps_per_row,
+        }
+    }
+
+    /// Times with a given step, or with a fraction of the critical step, s.
+    ///
+    /// # Errors
+    ///
+    /// If the given step is larger than the critical one.
+    pub(super) fn explicit(
+        settings: &MotionSettings,
+        (given, safety): (Option<f64>, f64),
+        critical: f64,
+    ) -> Result<Self, MotionError> {
+        match given {
+            Some(step) if step > critical => Err(MotionError::StepTooLarge { step, critical }),
+            Some(step) => Ok(Self::new(settings, step)),
+            None => Ok(Self::new(settings, safety * critical)),
+        }
+    }
+
+    /// Time step, s.
+    pub(super) fn step(&self) -> f64 {
+        self.duration / (self.rows * self.steps_per_row) as f64
+    }
+
+    /// Time after a number of steps, s.
+    pub(super) fn time(&self, steps: usize) -> f64 {
+        self.duration * (steps as f64 / (self.rows * self.steps_per_row) as f64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::{Damping, ExplicitSettings, MotionStop, Scheme};
+
+    #[test]
+    fn steps_divide_the_time_between_rows() {
+        let explicit = ExplicitSettings {
+            step: None,
+            safety: 0.8,
+        };
+        let settings = MotionSettings {
+            duration: 1e-5,
+            rows: 4,
+            scheme: Scheme::Explicit(explicit),
+            damping: Damping::default(),
+            rotary_inertia: 1.0,
+            stop: MotionStop::default(),
+        };
+        let clock = Clock::explicit(&settings, (None, 0.8), 1e-6).unwrap();
+        assert_eq!(clock.steps_per_row, 4);
+        assert_eq!(clock.time(16), 1e-5);
+        // 2.5 e-6 s are ten steps of 2.5e-7 s.
+        let given = Clock::explicit(&settings, (Some(2.5e-7), 0.8), 1e-6).unwrap();
+        assert_eq!(given.steps_per_row, 10);
+        let too_large = Clock::explicit(&settings, (Some(2e-6), 0.8), 1e-6);
+        assert!(matches!(too_large, Err(MotionError::StepTooLarge { .. })));
+    }
+}

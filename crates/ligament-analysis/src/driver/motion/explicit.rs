@@ -1,0 +1,324 @@
+//! Explicit motion by velocity Verlet (central differences), in which all bonds that come to their limits in a time step break in it.
+//!
+//! A step from t to t' = t + dt: u' = u + dt v+ with the velocities v+ in its middle; deformations and breakages at u'; forces f(u') of the bonds
+//! that are left; velocities in the middle of the next step ([`Inertia::advance`]).
+//!
+//! With the kinetic energy 1/2 v-^T M v+ and the trapezoidal rule for work, damping and released energy the energies balance to rounding for forces
+//! that are linear in the displacements: 1/2 (M a + M a')^T (u' - u) is the change of the kinetic energy.
+
+use std::time::Instant;
+
+use rayon::prelude::*;
+
+use super::body::{Body, BreakTime};
+use super::clock::Clock;
+use super::inertia::{Inertia, Velocities};
+use super::restored::{Progress, Restored};
+use crate::bond_numbers::BondNumbers;
+use crate::breakage::Breakage;
+use crate::checkpoint::CheckpointError;
+use crate::driver::outcome::Outcome;
+use crate::driver::recorder::Energies;
+use crate::error::SetupError;
+use crate::history::{Observer, Termination};
+use crate::motion::{ExplicitSettings, MotionError, MotionProblem, MotionSettings, critical_step};
+use crate::solver::ExplicitChoice;
+use crate::vectors::{CHUNK, sum_of_chunks};
+
+/// Motion in explicit steps.
+pub(super) struct Explicit<'a> {
+    pub(super) settings: &'a MotionSettings,
+    pub(super) choice: ExplicitChoice,
+    pub(super) inertia: Inertia,
+    pub(super) body: Body,
+    pub(super) velocities: Velocities,
+    pub(super) energies: Energies,
+    pub(super) progress: Progress,
+    /// Degrees of freedom that are prescribed or loaded, ascending.
+    pub(super) loaded: Vec<u32>,
+    /// External forces, shape (n_degrees_of_freedom), N and N m.
+    pub(super) external: Vec<f64>,
+    /// Forces of restraints on the body, shape (n_degrees_of_freedom), N and N m; empty without restraints.
+    pub(super) restraining: Vec<f64>,
+    /// Prescribed displacements at the end of the next step, shape (n_degrees_of_freedom); zero at others.
+    pub(super) ahead: Vec<f64>,
+    /// Product of the stiffness with the velocities, shape (n_degrees_of_freedom); empty without damping by stiffness.
+    pub(super) damped: Vec<f64>,
+    pub(super) observer: &'a mut dyn Observer,
+    pub(super) started: Instant,
+}
+
+/// Follows a motion from time zero to its end.
+pub(super) fn run(
+    problem: &MotionProblem,
+    settings: &MotionSettings,
+    explicit: ExplicitSettings,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, SetupError> {
+    let (clock, choice) = chosen(problem, settings, explicit)?;
+    let numbers = BondNumbers::new(&*problem.problem.system)?;
+    let body = Body::new(&problem.problem, numbers, None);
+    let n = body.state.displacement.len();
+    let velocities = Velocities {
+        half: vec![0.0; n],
+        acceleration: vec![0.0; n],
+    };
+    let energies = Energies::unloaded(&problem.problem);
+    let progress = Progress::at_start(clock);
+    let parts = (body, velocities, energies, progress);
+    let mut motion = Explicit::new(problem, (settings, choice), parts, observer);
+    motion.begin(&problem.initial_velocity);
+    motion.follow()
+}
+
+/// Continues a motion from a checkpoint.
+pub(super) fn resume(
+    settings: &MotionSettings,
+    explicit: ExplicitSettings,
+    restored: Restored,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, SetupError> {
+    let Restored {
+        problem,
+        body,
+        velocities,
+        energies,
+        progress,
+    } = restored;
+    let (clock, choice) = chosen(&problem, settings, explicit)?;
+    if clock != progress.clock {
+        return Err(CheckpointError::OtherTimes.into());
+    }
+    let parts = (body, velocities, energies, progress);
+    let mut motion = Explicit::new(&problem, (settings, choice), parts, observer);
+    motion.apply_loads();
+    motion.follow()
+}
+
+/// Times of a motion, with the critical step.
+fn chosen(
+    problem: &MotionProblem,
+    settings: &MotionSettings,
+    explicit: ExplicitSettings,
+) -> Result<(Clock, ExplicitChoice), SetupError> {
+    let system = &problem.problem.system;
+    if !system.subdomain().is_whole() {
+        return Err(MotionError::SeveralProcesses.into());
+    }
+    if settings.damping.stiffness > 0.0 && !system.is_linear() {
+        return Err(MotionError::StiffnessDamping.into());
+    }
+    let critical = critical_step(problem, settings)?;
+    let wanted = (explicit.step, explicit.safety);
+    let clock = Clock::explicit(settings, wanted, critical.step)?;
+    let step = clock.step();
+    Ok((clock, ExplicitChoice { step, critical }))
+}
+
+impl<'a> Explicit<'a> {
+    fn new(
+        problem: &MotionProblem,
+        (settings, choice): (&'a MotionSettings, ExplicitChoice),
+        (body, velocities, energies, progress): (Body, Velocities, Energies, Progress),
+        observer: &'a mut dyn Observer,
+    ) -> Self {
+        let (alpha, step) = (settings.damping.mass, choice.step);
+        let loads = &problem.problem.loads;
+        let n = body.state.displacement.len();
+        let is_damped = settings.damping.stiffness > 0.0;
+        Self {
+            inertia: Inertia::new(problem, settings.rotary_inertia, alpha, step),
+            loaded: loads.loaded_degrees_of_freedom(),
+            external: vec![0.0; n],
+            restraining: vec![0.0; if loads.restraints().is_empty() { 0 } else { n }],
+            ahead: vec![0.0; n],
+            damped: vec![0.0; if is_damped { n } else { 0 }],
+            settings,
+            choice,
+            body,
+            velocities,
+            energies,
+            progress,
+            observer,
+            started: Instant::now(),
+        }
+    }
+
+    /// Sets the velocities and the energies of time zero.
+    fn begin(&mut self, velocity: &[f64]) {
+        let loads = self.body.problem.loads.clone();
+        loads.prescribe(0.0, &mut self.body.state.displacement);
+        self.body.measure();
+        self.apply_loads();
+        let internal = &self.body.balanced.internal.values;
+        let forces = self.external.iter().zip(internal);
+        let unbalanced: Vec<f64> = forces.map(|(given, inner)| given - inner).collect();
+        self.velocities.half = self.inertia.before_start(velocity, &unbalanced);
+        for &dof in self.inertia.prescribed() {
+            let dof = dof as usize;
+            let way = self.ahead[dof] - self.body.state.displacement[dof];
+            self.velocities.half[dof] = way / self.inertia.step();
+        }
+        self.advance();
+        let Body {
+            problem,
+            state,
+            balanced,
+            ..
+        } = &self.body;
+        self.energies.add_work(problem, state, balanced);
+        let nothing = Breakage::default();
+        self.energies
+            .add_released(problem, state, &nothing, balanced);
+        self.progress.motion.initial_energy =
+            self.inertia.kinetic_energy(&self.velocities) + balanced.stored_energy;
+        self.damp();
+    }
+
+    /// Follows the motion row by row.
+    fn follow(mut self) -> Result<Outcome, SetupError> {
+        if self.progress.history.is_empty() {
+            self.record(0)?;
+        }
+        let Clock {
+            rows,
+            steps_per_row,
+            duration,
+        } = self.progress.clock;
+        let mut end = None;
+        for row in self.progress.history.len()..=rows {
+            let time = self.body.state.load_factor;
+            self.observer.round(row, 0, time, self.body.broken)?;
+            for _ in 0..steps_per_row {
+                self.step(row)?;
+            }
+            end = self.record(row)?;
+            if end.is_some() {
+                break;
+            }
+        }
+        let termination = end.unwrap_or(Termination::TimeReached { time: duration });
+        Ok(self.into_outcome(termination))
+    }
+
+    /// One time step on the way to a row of the history.
+    fn step(&mut self, row: usize) -> Result<(), SetupError> {
+        self.progress.motion.time_steps += 1;
+        let time_step = self.progress.motion.time_steps;
+        self.body.state.load_factor = self.progress.clock.time(time_step);
+        self.displace();
+        let (half, step) = (&self.velocities.half, self.inertia.step());
+        let displacement = self.body.state.displacement.clone();
+        let before = || {
+            let both = displacement.iter().zip(half);
+            both.map(|(now, velocity)| now - step * velocity).collect()
+        };
+        let at = BreakTime { row, time_step };
+        let breakage = self.body.move_to(&before, at, self.observer)?;
+        self.apply_loads();
+        self.advance();
+        let Body {
+            problem,
+            state,
+            balanced,
+            ..
+        } = &self.body;
+        self.energies.add_work(problem, state, balanced);
+        self.energies
+            .add_released(problem, state, &breakage, balanced);
+        self.progress.motion.friction_energy +=
+            self.energies.follow_contact(problem, state, balanced);
+        self.damp();
+        Ok(())
+    }
+
+    /// Moves the points by their velocities in the middle of the step, or as prescribed.
+    fn displace(&mut self) {
+        let step = self.inertia.step();
+        let displacement = &mut self.body.state.displacement;
+        (
+            displacement.par_chunks_mut(CHUNK),
+            self.velocities.half.par_chunks(CHUNK),
+        )
+            .into_par_iter()
+            .for_each(|(displacement, half)| {
+                for (displacement, velocity) in displacement.iter_mut().zip(half) {
+                    *displacement += step * velocity;
+                }
+            });
+        for &dof in self.inertia.prescribed() {
+            displacement[dof as usize] = self.ahead[dof as usize];
+        }
+    }
+
+    /// Sets the external forces of the time, and the prescribed displacements of the end of the next step.
+    fn apply_loads(&mut self) {
+        let loads = &self.body.problem.loads;
+        let time = self.body.state.load_factor;
+        let forces = loads.forces(time, &self.loaded);
+        for (&dof, force) in self.loaded.iter().zip(forces) {
+            self.external[dof as usize] = force;
+        }
+        if !self.restraining.is_empty() {
+            let restraints = loads.restraints();
+            let restrained = restraints.degrees_of_freedom();
+            for &dof in restrained {
+                self.restraining[dof as usize] = 0.0;
+            }
+            restraints.add_forces(&self.body.state.displacement, &mut self.restraining);
+            for &dof in restrained {
+                self.external[dof as usize] -= self.restraining[dof as usize];
+            }
+        }
+        let next = self.progress.motion.time_steps + 1;
+        loads.prescribe(self.progress.clock.time(next), &mut self.ahead);
+    }
+
+    /// Finds the velocities in the middle of the next step.
+    fn advance(&mut self) {
+        let beta = self.settings.damping.stiffness;
+        let internal = &mut self.body.balanced.internal.values;
+        if !self.damped.is_empty() {
+            let (system, bonds) = (&self.body.problem.system, self.body.state.bonds());
+            system.multiply(bonds, &self.velocities.half, &mut self.damped);
+            for (force, damped) in internal.iter_mut().zip(&self.damped) {
+                *force += beta * damped;
+            }
+        }
+        let displacement = &self.body.state.displacement;
+        self.inertia.advance(
+            &mut self.velocities,
+            &self.external,
+            internal,
+            displacement,
+            &self.ahead,
+        );
+    }
+
+    /// Adds the energy that damping took in the last step, by the trapezoidal rule.
+    fn damp(&mut self) {
+        if !self.inertia.is_damped() && self.damped.is_empty() {
+            return;
+        }
+        let n = self.external.len();
+        let mut forces = vec![0.0; n];
+        self.inertia.damping_forces(&self.velocities, &mut forces);
+        let beta = self.settings.damping.stiffness;
+        for (force, damped) in forces.iter_mut().zip(&self.damped) {
+            *force += beta * damped;
+        }
+        let earlier = &self.progress.damping_forces;
+        if !earlier.is_empty() {
+            let Velocities { half, acceleration } = &self.velocities;
+            let step = self.inertia.step();
+            self.progress.motion.damping_energy += sum_of_chunks(n, |range| {
+                let of = |dof: usize| {
+                    let way = step * (half[dof] - step * acceleration[dof]);
+                    0.5 * (forces[dof] + earlier[dof]) * way
+                };
+                range.map(of).sum()
+            });
+        }
+        self.progress.damping_forces = forces;
+    }
+}
