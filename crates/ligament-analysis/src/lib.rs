@@ -57,8 +57,9 @@ pub use history::{Observer, ObserverError, Termination};
 pub use ligament_model::element::{BondDeformation, ElementKind};
 pub use ligament_model::{Bonds, interface};
 pub use load_program::{
-    BoundaryError, Control, ControlKind, LoadCourse, LoadProgram, MotionControl, Part, PartControl,
-    Programme, ProportionalLoading, StagedLoading,
+    Amplitude, BoundaryError, Control, ControlKind, LoadCourse, LoadInTime, LoadProgram,
+    LoadsInTime, MotionControl, Part, PartControl, Programme, ProportionalLoading, Shape,
+    StagedLoading, Timed,
 };
 pub use probe::Probe;
 pub use problem::Problem;

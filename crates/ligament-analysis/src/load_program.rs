@@ -1,7 +1,10 @@
 //! Load programs: supports and loads on a body at each pseudo-time.
 
+mod amplitude;
+mod in_time;
 mod programme;
 mod proportional;
+mod separate;
 mod staged;
 
 use std::fmt::Debug;
@@ -12,6 +15,8 @@ use crate::restraints::Restraints;
 use crate::unknowns::Layout;
 use ligament_model::thermal::ThermalStrain;
 
+pub use amplitude::{Amplitude, Shape};
+pub use in_time::{LoadInTime, LoadsInTime, Timed};
 pub use programme::{LoadCourse, MotionControl, Part, PartControl, Programme};
 pub use proportional::{BoundaryError, ProportionalLoading};
 pub use staged::StagedLoading;

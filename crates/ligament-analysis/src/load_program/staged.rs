@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::programme::Pair;
-use super::{BoundaryGroup, Control, ControlKind, LoadCourse, LoadProgram, ProportionalLoading};
+use super::separate::Separate;
+use super::{BoundaryGroup, Control, LoadCourse, LoadProgram, ProportionalLoading};
 use crate::internal::InternalForces;
 use crate::restraints::Restraints;
 use ligament_model::thermal::ThermalStrain;
@@ -14,8 +15,7 @@ use ligament_model::thermal::ThermalStrain;
 /// lambda_a)/(lambda_b - lambda_a), also beyond the ends of the part.
 #[derive(Debug, Clone)]
 pub struct StagedLoading {
-    /// Each load by itself at factor 1, with all supports and all groups of the history, shape (n_loads).
-    loads: Arc<[ProportionalLoading]>,
+    loads: Separate,
     course: LoadCourse,
     /// Prescribed value of each degree of freedom, shape (n_degrees_of_freedom), m or rad; zero where none is prescribed.
     prescribed: Vec<Pair>,
@@ -46,7 +46,7 @@ impl StagedLoading {
             }
         }
         Self {
-            loads,
+            loads: Separate(loads),
             course,
             prescribed,
             force,
@@ -74,17 +74,16 @@ impl StagedLoading {
 
 impl LoadProgram for StagedLoading {
     fn is_prescribed(&self, degree_of_freedom: usize) -> bool {
-        let mut loads = self.loads.iter();
-        loads.any(|it| it.prescribed[degree_of_freedom].is_some())
+        self.loads.is_prescribed(degree_of_freedom)
     }
 
     fn restraints(&self) -> &Arc<Restraints> {
-        &self.loads[0].restraints
+        self.loads.restraints()
     }
 
     fn prescribe(&self, time: f64, displacement: &mut [f64]) {
         let share = self.course.share(time);
-        for load in &*self.loads {
+        for load in &*self.loads.0 {
             for (dof, value) in load.prescribed.iter().enumerate() {
                 if value.is_some() {
                     displacement[dof] = self.prescribed[dof].at(share);
@@ -105,7 +104,7 @@ impl LoadProgram for StagedLoading {
 
     fn thermal_strain(&self, time: f64) -> ThermalStrain<'_> {
         match self.temperature(time) {
-            Some((load, factor)) => self.loads[load].thermal_strain.times(factor),
+            Some((load, factor)) => self.loads.0[load].thermal_strain.times(factor),
             None => ThermalStrain::NONE,
         }
     }
@@ -114,7 +113,7 @@ impl LoadProgram for StagedLoading {
         let Some((load, factor)) = self.temperature(time) else {
             return Vec::new();
         };
-        let changes = self.loads[load].temperature_change.iter();
+        let changes = self.loads.0[load].temperature_change.iter();
         changes.map(|change| factor * change).collect()
     }
 
@@ -131,17 +130,11 @@ impl LoadProgram for StagedLoading {
     }
 
     fn in_course(&self, course: LoadCourse) -> Option<Arc<dyn LoadProgram>> {
-        Some(Arc::new(Self::new(self.loads.clone(), course)))
+        Some(Arc::new(Self::new(self.loads.0.clone(), course)))
     }
 
     fn loaded_degrees_of_freedom(&self) -> Vec<u32> {
-        let of_loads = self.loads.iter();
-        let mut loaded: Vec<u32> = of_loads
-            .flat_map(LoadProgram::loaded_degrees_of_freedom)
-            .collect();
-        loaded.sort_unstable();
-        loaded.dedup();
-        loaded
+        self.loads.loaded_degrees_of_freedom()
     }
 
     fn reactions(&self, time: f64, internal_forces: &[f64]) -> Vec<f64> {
@@ -151,49 +144,25 @@ impl LoadProgram for StagedLoading {
     }
 
     fn groups(&self) -> &[BoundaryGroup] {
-        &self.loads[0].groups
+        self.loads.groups()
     }
 
     fn given_resultants(&self, time: f64) -> Vec<Vec<f64>> {
-        let mut sums: Vec<Vec<f64>> = (self.groups().iter())
-            .map(|group| vec![0.0; group.force.len()])
-            .collect();
-        for (load, factor) in self.loads.iter().zip(self.course.factors(time)) {
-            for (sum, group) in sums.iter_mut().zip(&load.groups) {
-                for (sum, force) in sum.iter_mut().zip(&group.force) {
-                    *sum += factor * force;
-                }
-            }
-        }
-        sums
+        self.loads.given_resultants(&self.course.factors(time))
     }
 
     fn control(&self) -> &Control {
-        &self.loads[0].control
+        self.loads.control()
     }
 
     fn control_displacement(&self, time: f64, displacement: &[f64]) -> f64 {
-        let control = self.control();
-        match control.kind {
-            ControlKind::Displacement | ControlKind::Temperature => {
-                control.magnitude * self.control_factor(time)
-            }
-            ControlKind::Force => {
-                let layout = self.loads[0].layout;
-                control.along(layout, |dof| displacement[dof])
-            }
-        }
+        let factor = self.control_factor(time);
+        self.loads.control_displacement(factor, displacement)
     }
 
     fn control_force(&self, time: f64, internal: &InternalForces) -> f64 {
-        let control = self.control();
-        match control.kind {
-            ControlKind::Force => control.magnitude * self.control_factor(time),
-            ControlKind::Temperature => internal.thermal / control.magnitude,
-            ControlKind::Displacement => {
-                let layout = self.loads[0].layout;
-                control.along(layout, |dof| self.reaction(time, &internal.values, dof))
-            }
-        }
+        let factor = self.control_factor(time);
+        let reaction = |dof: usize| self.reaction(time, &internal.values, dof);
+        self.loads.control_force(factor, internal, reaction)
     }
 }
