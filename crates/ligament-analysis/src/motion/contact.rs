@@ -10,6 +10,7 @@ use ligament_model::layout::Layout;
 use ligament_model::surface::{Search, Step, SurfacePair, Touch, Vector};
 use ligament_model::tensor::{dot, minus};
 
+use crate::load_program::Amplitude;
 use crate::serial;
 
 /// Contacts of a motion and their rigid bodies. A copy shares the surfaces.
@@ -44,8 +45,13 @@ pub struct RigidBody {
 /// Motion of a rigid body.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RigidMotion {
-    /// A constant velocity, m/s.
-    Prescribed(Vector),
+    /// A prescribed velocity.
+    Prescribed {
+        /// Velocity at amplitude 1, m/s.
+        velocity: Vector,
+        /// Factor as a function of time.
+        amplitude: Amplitude,
+    },
     /// A mass that contacts alone move.
     Free {
         /// Mass, kg.
@@ -53,6 +59,22 @@ pub enum RigidMotion {
         /// Velocity at time zero, m/s.
         velocity: Vector,
     },
+}
+
+impl RigidMotion {
+    /// Velocity at time zero, m/s.
+    fn first_velocity(&self) -> Vector {
+        match self {
+            Self::Prescribed {
+                velocity,
+                amplitude,
+            } => {
+                let factor = amplitude.value(0.0);
+                velocity.map(|it| factor * it)
+            }
+            Self::Free { velocity, .. } => *velocity,
+        }
+    }
 }
 
 /// State of a rigid body.
@@ -129,13 +151,9 @@ impl ContactForces {
     /// Contacts of a problem at time zero, for the motions then, shape (n_degrees_of_freedom). Surfaces that overlap there begin without
     /// force.
     pub fn new(problem: ContactProblem, layout: Layout, motions: &[f64]) -> Self {
-        let rigid = problem.rigid_bodies.iter().map(|it| {
-            let (RigidMotion::Prescribed(velocity) | RigidMotion::Free { velocity, .. }) =
-                it.motion;
-            RigidState {
-                velocity,
-                ..RigidState::default()
-            }
+        let rigid = problem.rigid_bodies.iter().map(|it| RigidState {
+            velocity: it.motion.first_velocity(),
+            ..RigidState::default()
         });
         let state = ContactState {
             touches: vec![Vec::new(); problem.contacts.len()],
@@ -245,8 +263,8 @@ impl ContactForces {
         contacts
             .iter()
             .for_each(|it| it.surfaces.add_bound(&mut sums));
-        let of_body = |(index, body): (usize, &RigidBody)| match body.motion {
-            RigidMotion::Prescribed(_) => 0.0,
+        let of_body = |(index, body): (usize, &RigidBody)| match &body.motion {
+            RigidMotion::Prescribed { .. } => 0.0,
             RigidMotion::Free { mass, .. } => {
                 let own = contacts.iter().filter(|it| it.rigid_body == Some(index));
                 2.0 * own.map(|it| it.surfaces.whole_stiffness()).sum::<f64>() / mass
@@ -296,9 +314,14 @@ impl ContactForces {
     fn move_rigid_bodies(&mut self, time: f64, step: f64) {
         let bodies = self.problem.rigid_bodies.iter();
         for (body, state) in bodies.zip(&mut self.state.rigid_bodies) {
-            match body.motion {
-                RigidMotion::Prescribed(velocity) => {
-                    state.displacement = velocity.map(|it| time * it)
+            match &body.motion {
+                RigidMotion::Prescribed {
+                    velocity,
+                    amplitude,
+                } => {
+                    let (now, so_far) = (amplitude.value(time), amplitude.integral(time));
+                    state.velocity = velocity.map(|it| now * it);
+                    state.displacement = velocity.map(|it| so_far * it);
                 }
                 RigidMotion::Free { mass, .. } => {
                     add(&mut state.displacement, step, state.velocity);
@@ -327,8 +350,8 @@ impl ContactForces {
             let mut mean = state.force.map(|it| 0.5 * it);
             add(&mut mean, 0.5, before[index].force);
             let work = dot(mean, minus(state.displacement, before[index].displacement));
-            match body.motion {
-                RigidMotion::Prescribed(_) => on_driven += work,
+            match &body.motion {
+                RigidMotion::Prescribed { .. } => on_driven += work,
                 RigidMotion::Free { mass, .. } => {
                     add(&mut state.velocity, step / mass, mean);
                     on_free += work;
@@ -341,8 +364,8 @@ impl ContactForces {
     /// Kinetic energy 1/2 m v . v' of the free rigid bodies with the velocities half a step (s) before and after.
     fn kinetic_energy(&self, step: f64) -> f64 {
         let bodies = self.problem.rigid_bodies.iter();
-        let of_body = |(body, state): (&RigidBody, &RigidState)| match body.motion {
-            RigidMotion::Prescribed(_) => 0.0,
+        let of_body = |(body, state): (&RigidBody, &RigidState)| match &body.motion {
+            RigidMotion::Prescribed { .. } => 0.0,
             RigidMotion::Free { mass, .. } => {
                 let change = state.force.map(|it| 0.5 * step * it / mass);
                 0.5 * mass * (dot(state.velocity, state.velocity) - dot(change, change))

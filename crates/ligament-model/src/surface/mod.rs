@@ -15,6 +15,7 @@
 //! start, or where surfaces are born that overlap. Nothing jumps there; g_0 follows the gap as it opens, and is never restored.
 
 mod facet;
+mod lattice;
 mod nearest;
 mod pair;
 mod rigid;

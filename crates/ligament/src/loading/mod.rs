@@ -1,6 +1,7 @@
 //! Supports, loads and probes of a setup on its model.
 
 mod boundary;
+mod contact;
 mod places;
 mod probes;
 mod programme;
@@ -18,6 +19,7 @@ use ligament_analysis::{LoadProgram, ProportionalLoading, StagedLoading};
 use ligament_model::System;
 use ligament_model::subdomain::Subdomain;
 
+pub use contact::contact_problem;
 use places::Places;
 pub use places::{material_of_cell, no_fail};
 pub use vibration::Vibration;

@@ -137,7 +137,7 @@ fn cells_of_group(setup: &Setup, field: Field, group: &str) -> Result<Vec<u32>, 
     Ok(cells)
 }
 
-fn unknown_group(setup: &Setup, name: &str) -> Fault {
+pub(super) fn unknown_group(setup: &Setup, name: &str) -> Fault {
     Fault::UnknownName {
         what: setup.body.group_kind(),
         found: name.to_owned(),

@@ -46,6 +46,13 @@ impl Analysis {
         }
     }
 
+    /// Whether the body moves in time.
+    pub fn is_motion(&self) -> bool {
+        match self {
+            Self::Elastic { .. } | Self::Stepped(_) | Self::Event(_) | Self::Modal(_) => false,
+        }
+    }
+
     /// Whether bonds may break.
     pub fn is_fracture(&self) -> bool {
         matches!(self, Self::Stepped(_) | Self::Event(_))
