@@ -215,7 +215,7 @@ impl ContactForces {
         }
         let (on_driven, on_free) = self.load_rigid_bodies(&rigid, step);
         let touches = self.state.touches.iter().flatten();
-        let stored: f64 = touches.map(Touch::energy).sum();
+        let stored = touches.map(Touch::energy).fold(0.0, |sum, it| sum + it);
         let kinetic = self.kinetic_energy(step);
         let energies = &mut self.state.energies;
         energies.dissipated -= on_body + on_driven + on_free + (stored - energies.stored);
@@ -371,7 +371,7 @@ impl ContactForces {
                 0.5 * mass * (dot(state.velocity, state.velocity) - dot(change, change))
             }
         };
-        bodies.zip(&self.state.rigid_bodies).map(of_body).sum()
+        bodies.zip(&self.state.rigid_bodies).map(of_body).fold(0.0, |sum, it| sum + it)
     }
 }
 
