@@ -41,3 +41,4 @@ mod stress;
 mod surface_contact;
 mod symmetry;
 mod temperature;
+mod waves;

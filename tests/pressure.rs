@@ -343,12 +343,12 @@ load = [{ group = "top", pressure = 8.0 }]
     for (name, message) in [
         (
             "seam",
-            "load.0.group: a pressure acts on the outline of the body, but the edge of this group from node 7 to node 8, around \
+            "load.0.group: pressures and quiet edges are on the outline of the body, but the edge of this group from node 7 to node 8, around \
              (0.375000, 0.250000), has cells on both sides",
         ),
         (
             "across",
-            "load.0.group: a pressure acts on the outline of the body, but the edge of this group from node 7 to node 13, around \
+            "load.0.group: pressures and quiet edges are on the outline of the body, but the edge of this group from node 7 to node 13, around \
              (0.375000, 0.375000), is no edge of a cell",
         ),
         (

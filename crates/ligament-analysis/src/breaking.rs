@@ -57,6 +57,30 @@ pub fn next_to_break(
     chosen(rule, numbers.subdomain().all_gather_list(near))
 }
 
+/// Bonds to break now of some intact ones of a whole body that are near their limits, as [`next_to_break`] chooses them of all.
+pub(crate) fn next_of_near(
+    rule: &BreakingRule,
+    near: &[(u32, BondDeformation)],
+    criteria: &Criteria,
+    in_file: impl Fn(u32) -> [u32; 2],
+) -> Vec<u32> {
+    let candidate = |(bond, deformation): &(u32, BondDeformation)| {
+        let verdict = criteria.breaking(*bond as usize, deformation)?;
+        Some(Candidate {
+            in_file: in_file(*bond),
+            ..Candidate::new(rule.order, *bond, &verdict)
+        })
+    };
+    chosen(rule, near.iter().filter_map(candidate).collect())
+}
+
+impl BreakingRule {
+    /// Factor on a measure that reaches the limit of a bond that may be tied with one beyond its limit.
+    pub(crate) fn near(&self) -> f64 {
+        1.0 + 2.0 * self.tie_tolerance
+    }
+}
+
 /// Intact bonds beyond their limits, or close enough to them to be tied with one that is.
 fn near_limit(
     rule: &BreakingRule,
@@ -64,7 +88,7 @@ fn near_limit(
     criteria: &Criteria,
     intact: &[bool],
 ) -> Vec<Candidate> {
-    let near = 1.0 + 2.0 * rule.tie_tolerance;
+    let near = rule.near();
     let of_tasks = judge(
         deformations,
         criteria,

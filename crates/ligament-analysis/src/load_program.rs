@@ -26,6 +26,11 @@ pub use staged::StagedLoading;
 /// Drivers choose t, the load factor of a state. Which degrees of freedom have a prescribed motion does not depend on t, so that
 /// the unknowns are the same in all states. Degrees of freedom are numbered as in the displacements of a [`State`](crate::State).
 pub trait LoadProgram: Debug + Send + Sync {
+    /// Whether the pseudo-time is the time of a motion, s.
+    fn is_in_time(&self) -> bool {
+        false
+    }
+
     /// Whether the motion of a degree of freedom is prescribed.
     fn is_prescribed(&self, degree_of_freedom: usize) -> bool;
 

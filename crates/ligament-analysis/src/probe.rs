@@ -1,6 +1,7 @@
 //! Probes: quantities evaluated at every load step.
 
 use crate::contact;
+use crate::history::Rates;
 use crate::result_fields::{FIELDS, FieldReading, Solution, unit_of};
 use crate::unknowns::{Component, Layout};
 
@@ -60,6 +61,10 @@ pub struct PointField {
 pub enum PointReading {
     /// A displacement or the rotation, m or rad; zero where points have no such component.
     Motion(Component),
+    /// A component of the velocity in a motion, m/s; zero where points have no such component.
+    Velocity(Component),
+    /// A component of the acceleration in a motion, m/s^2; zero where points have no such component.
+    Acceleration(Component),
     /// A component of the virial stress, Pa.
     Stress(StressComponent),
     /// A component of a function of the stress by the law of the material, Pa.
@@ -76,7 +81,7 @@ pub enum PointReading {
 }
 
 /// Components of the vectors and tensors that a probe can read.
-const OF_VECTORS_AND_TENSORS: [PointField; 13] = [
+const OF_VECTORS_AND_TENSORS: [PointField; 19] = [
     motion("displacement_x", "Displacement along x, m.", Component::X),
     motion("displacement_y", "Displacement along y, m.", Component::Y),
     motion(
@@ -103,6 +108,36 @@ const OF_VECTORS_AND_TENSORS: [PointField; 13] = [
         "rotation_z",
         "Rotation about z in a solid, rad, right-handed.",
         Component::RotationZ,
+    ),
+    rate(
+        "velocity_x",
+        "Velocity along x in a motion, m/s.",
+        PointReading::Velocity(Component::X),
+    ),
+    rate(
+        "velocity_y",
+        "Velocity along y in a motion, m/s.",
+        PointReading::Velocity(Component::Y),
+    ),
+    rate(
+        "velocity_z",
+        "Velocity along z of a solid in a motion, m/s.",
+        PointReading::Velocity(Component::Z),
+    ),
+    rate(
+        "acceleration_x",
+        "Acceleration along x in a motion, m/s^2.",
+        PointReading::Acceleration(Component::X),
+    ),
+    rate(
+        "acceleration_y",
+        "Acceleration along y in a motion, m/s^2.",
+        PointReading::Acceleration(Component::Y),
+    ),
+    rate(
+        "acceleration_z",
+        "Acceleration along z of a solid in a motion, m/s^2.",
+        PointReading::Acceleration(Component::Z),
     ),
     stress("stress_xx", "Virial stress xx, Pa.", StressComponent::Xx),
     stress("stress_yy", "Virial stress yy, Pa.", StressComponent::Yy),
@@ -138,6 +173,14 @@ const fn motion(word: &'static str, meaning: &'static str, component: Component)
     }
 }
 
+const fn rate(word: &'static str, meaning: &'static str, reading: PointReading) -> PointField {
+    PointField {
+        word,
+        meaning,
+        reading,
+    }
+}
+
 const fn stress(word: &'static str, meaning: &'static str, it: StressComponent) -> PointField {
     let reading = PointReading::Stress(it);
     PointField {
@@ -158,6 +201,8 @@ impl PointField {
     pub fn unit(&self) -> &'static str {
         match self.reading {
             PointReading::Motion(component) => motion_unit(component.is_rotation()),
+            PointReading::Velocity(_) => "m/s",
+            PointReading::Acceleration(_) => "m/s^2",
             PointReading::Stress(_) | PointReading::MaterialStress { .. } => "Pa",
             PointReading::Scalar(_) => unit_of(self.word),
         }
@@ -207,6 +252,14 @@ impl PointField {
     /// Field with this name.
     pub fn named(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|it| it.word == word)
+    }
+
+    /// Whether the field is a velocity or an acceleration, which a motion in time alone has.
+    pub fn is_rate(&self) -> bool {
+        matches!(
+            self.reading,
+            PointReading::Velocity(_) | PointReading::Acceleration(_)
+        )
     }
 
     /// Whether the field is a motion.
@@ -320,6 +373,12 @@ impl Reading {
             balanced,
             ..
         } = solution;
+        let rate = |point: u32, component: Component, of: fn(Rates<'_>) -> &[f64]| {
+            let rates = solution.motion;
+            rates.map_or(f64::NAN, |it| {
+                system.layout().value(point, component, of(it))
+            })
+        };
         let motion = |point: u32, component: Component| {
             system.layout().value(point, component, &state.displacement)
         };
@@ -331,6 +390,10 @@ impl Reading {
             }
             Self::Field { place, field } => mean(place, |point| match field.reading {
                 PointReading::Motion(component) => motion(point, component),
+                PointReading::Velocity(component) => rate(point, component, |it| it.velocity),
+                PointReading::Acceleration(component) => {
+                    rate(point, component, |it| it.acceleration)
+                }
                 PointReading::MaterialStress {
                     read, component, ..
                 } => {

@@ -10,6 +10,7 @@ use ligament_model::stress::point_strain::Motion;
 use crate::balanced::Balanced;
 use crate::load_program::LoadProgram;
 use crate::probe::Probe;
+use crate::result_fields::Solution;
 use crate::solver::SolverSettings;
 use crate::state::State;
 
@@ -39,6 +40,18 @@ impl Problem {
         });
         self.criteria
             .in_state(stresses, &state.intact, deformations)
+    }
+
+    /// An equilibrium state with its criteria, from which fields and probes are read.
+    pub(crate) fn solution<'a>(&'a self, state: &'a State, balanced: &'a Balanced) -> Solution<'a> {
+        Solution {
+            system: &*self.system,
+            criteria: &self.criteria,
+            state,
+            balanced,
+            loads: &*self.loads,
+            motion: None,
+        }
     }
 
     /// The deformations at which bonds began to soften by the stress around them, with those that begin in an equilibrium; None where

@@ -12,7 +12,7 @@ use ligament_model::{Bonds, ConstantFields};
 
 use crate::balanced::Balanced;
 use crate::fields;
-use crate::history::View;
+use crate::history::{Rates, View};
 use crate::load_program::LoadProgram;
 use crate::state::State;
 use crate::unknowns::{Component, Layout};
@@ -108,6 +108,8 @@ pub struct Solution<'a> {
     pub balanced: &'a Balanced,
     /// Supports and loads.
     pub loads: &'a dyn LoadProgram,
+    /// Velocities and accelerations of a motion; None in statics.
+    pub motion: Option<Rates<'a>>,
 }
 
 /// Fields of a model that do not change in a run.
@@ -176,6 +178,10 @@ result_fields! {
     ROTATION "rotation" ["rad"] TURN Main(6),
         "Rotation of the point: in the plane counter-clockwise, in space about x, y and z, right-handed."
         => InState(|view| numbers(rotations(view.system.layout(), &view.state.displacement)));
+    VELOCITY "velocity" ["m/s"] VECTOR Main(7), "Velocity of the point, in a motion."
+        => InState(|view| numbers(vectors(view.system.layout(), view.motion?.velocity)));
+    ACCELERATION "acceleration" ["m/s^2"] VECTOR Low, "Acceleration of the point, in a motion."
+        => InState(|view| numbers(vectors(view.system.layout(), view.motion?.acceleration)));
     DAMAGE "damage" ["-"] SCALAR Main(1), "Share of the point's bonds that are broken, weighted with volumes, 0 to 1."
         => Probed(|it| Some(fields::damage(it.system, &it.state.intact)), |it, point| fields::point_damage(it.system, &it.state.intact, point));
     STRAIN_ENERGY_DENSITY "strain_energy_density" ["J/m^3"] SCALAR Main(3),
@@ -311,6 +317,7 @@ impl<'a> View<'a> {
             state: self.state,
             balanced: self.balanced,
             loads: self.loads,
+            motion: self.motion,
         }
     }
 }

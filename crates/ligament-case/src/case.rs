@@ -1,9 +1,10 @@
 //! Case files: what to compute, in TOML.
 //!
-//! A case has a body, materials, the bond model, supports and loads, and optionally pre-cracks, probes, and the breakage of bonds or
-//! natural modes. All values are in SI units. [`CaseFile::load`] reads and checks a case; every fault is reported with its line, column and
+//! A case has a body, materials, the bond model, supports and loads, and optionally pre-cracks, probes, and the breakage of bonds,
+//! natural modes or a motion in time. All values are in SI units. [`CaseFile::load`] reads and checks a case; every fault is reported with its line, column and
 //! key path.
 
+mod amplitude;
 mod analysis;
 mod body_kind;
 mod conditions;
@@ -26,6 +27,7 @@ mod located;
 mod material;
 mod mesh_section;
 mod model;
+mod motion;
 mod output;
 mod overrides;
 mod precrack;
@@ -44,9 +46,10 @@ mod temperature;
 pub mod values;
 mod word;
 
+pub use amplitude::{Amplitude, Shape};
 pub use analysis::{Analysis, MOST_MODES, Modal};
 pub use body_kind::BodyKind;
-pub use conditions::{Displacement, SpringStiffness, Support, Vector};
+pub use conditions::{Displacement, Rate, SpringStiffness, Support, Vector};
 pub use coordinates::Coordinates;
 pub use correction::Correction;
 pub use couple::Couple;
@@ -60,6 +63,7 @@ pub use load::{Load, Profile};
 pub use material::Material;
 pub use mesh_section::MeshSection;
 pub use model::ModelSection;
+pub use motion::{Damping, InitialVelocity, Motion, MotionStop, Quiet, Scheme};
 pub use output::{Output, StressField};
 pub use overrides::unset;
 pub use precrack::Precrack;

@@ -1,9 +1,10 @@
-//! Tables of comma-separated values at positions: temperatures, factors of loads, and bodies of points.
+//! Tables of comma-separated values at positions: temperatures, factors of loads, and bodies of points; and amplitudes, at times.
 
 use std::path::Path;
 
 use ligament::body::{AnyBody, Points};
 use ligament::setup::Sample;
+use ligament_analysis::Amplitude;
 
 use crate::input_file;
 
@@ -56,6 +57,28 @@ pub(crate) fn samples(
         Ok(Sample { position, value })
     };
     table.rows.iter().map(sample).collect()
+}
+
+/// Reads an amplitude, whose times must grow from row to row; as the error a description of the fault.
+pub(crate) fn amplitude(path: &Path) -> Result<Amplitude, String> {
+    let expected = "the first row must name the columns `time` (s) and `factor`";
+    let table = Table::read(path, expected)?;
+    let (time, factor) = (table.place("time")?, table.place("factor")?);
+    let mut points: Vec<[f64; 2]> = Vec::with_capacity(table.rows.len());
+    for row in &table.rows {
+        let now = table.number(row, time)?;
+        if let Some([before, _]) = points.last().filter(|it| it[0] >= now) {
+            let reason = format!(
+                "the time {now:?} s is not later than that of the row before, {before:?} s"
+            );
+            return Err(at(path, row.line, &reason));
+        }
+        points.push([now, table.number(row, factor)?]);
+    }
+    if points.is_empty() {
+        return Err(at(path, table.line, "there is no row below the header"));
+    }
+    Ok(Amplitude::through(&points))
 }
 
 /// Lines of the rows of a table; none of a file that is no table.

@@ -78,7 +78,7 @@ impl CaseFile {
     ///
     /// # Errors
     ///
-    /// If a table of temperatures or of factors of a load cannot be read.
+    /// If a table of temperatures or of factors or an amplitude of a load cannot be read.
     pub fn setup_on(&self, body: AnyBody) -> Result<Setup, CaseError> {
         let dimensions = body.dimensions();
         let setup = self.case.setup_on(body);
@@ -97,6 +97,12 @@ impl CaseFile {
                 let samples = samples
                     .map_err(|reason| self.error(&format!("load.{index}.profile.file"), reason))?;
                 setup.loads[index].profile = Some(Profile::Table(samples));
+            }
+            if let Some(file) = section.amplitude.as_ref().and_then(|it| it.file.as_ref()) {
+                let amplitude = point_table::amplitude(file).map_err(|reason| {
+                    self.error(&format!("load.{index}.amplitude.file"), reason)
+                })?;
+                setup.loads[index].amplitude = Some(amplitude);
             }
         }
         Ok(setup)

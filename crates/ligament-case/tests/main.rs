@@ -6,5 +6,6 @@ mod case_errors;
 mod case_lattice;
 mod case_laws;
 mod case_loads;
+mod case_motion;
 mod case_schema;
 mod case_settings;

@@ -14,6 +14,7 @@ use crate::failure::Criterion;
 use crate::failure::hooke::{Moduli, StressAcross};
 use crate::failure::starting::Starting;
 use crate::layout::{Component, Layout};
+use crate::product::{ForceSum, NearLimits};
 use crate::rigid_motions::FreeMotion;
 use crate::stress::point_strain::Motion;
 use crate::subdomain::Subdomain;
@@ -200,6 +201,16 @@ pub trait BondKinetics: BondTopology {
     ///
     /// The result does not depend on the number of threads, as in [`BondKinetics::forces`].
     fn multiply(&self, bonds: UnbrokenBonds<'_>, motions: &[f64], forces: &mut [f64]);
+
+    /// The product K u, as [`BondKinetics::multiply`], and the unbroken bonds near their limits, ascending, in one sweep. The forces overwrite
+    /// `sum`.
+    fn forces_near_limits(
+        &self,
+        bonds: UnbrokenBonds<'_>,
+        motions: &[f64],
+        limits: NearLimits<'_>,
+        sum: &mut ForceSum,
+    ) -> Vec<u32>;
 
     /// Adds the derivatives of the forces by the displacements: row, column, value.
     fn add_derivatives(&self, intact: &[bool], add: &mut dyn FnMut(usize, usize, f64));

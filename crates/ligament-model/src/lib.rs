@@ -39,7 +39,7 @@ pub mod mass;
 pub mod material;
 pub mod moduli;
 mod predicates;
-mod product;
+pub mod product;
 pub mod rigid_motions;
 pub mod scatter;
 pub mod shape;

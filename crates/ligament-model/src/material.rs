@@ -4,11 +4,13 @@ mod anisotropic;
 mod contrast;
 mod elasticity;
 mod expansion;
+mod waves;
 
 pub use anisotropic::Anisotropic;
 pub use contrast::with_reduced_contrast;
 pub use elasticity::{Elasticity, Isotropic, Orthotropic, OutOfPlane, Plane, Space, Stiffness};
 pub use expansion::Expansion;
+pub use waves::PlaneWaves;
 
 /// A linear elastic, brittle material.
 #[derive(Debug, Clone, PartialEq)]

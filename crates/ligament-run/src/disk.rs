@@ -44,6 +44,7 @@ impl FieldsOnDisk {
                 let refined = steps + settings.refine_first_break;
                 Some(refined / every + 2)
             }
+            Analysis::Motion(settings) => Some(settings.rows / every + 2),
             Analysis::Elastic { .. } | Analysis::Modal(_) => Some(2),
         };
         Self {

@@ -1,9 +1,8 @@
 //! Runs a body under loads, from its first state or from a checkpoint, and writes the results into a folder.
 
-use ligament::run::{follow, resume};
+use ligament::run::{Posed, Restored, follow, resume};
 use ligament::setup::Analysis;
 use ligament::{Loading, Model};
-use ligament_analysis::driver::Restored;
 use ligament_case::case::{CaseFile, StressField};
 use ligament_output::folder::ResultFolder;
 use ligament_output::results::{OutputState, PieceWriter, ResultWriter, Time, WriteRule};
@@ -52,6 +51,8 @@ impl LoadedBody<'_> {
             requests,
         } = *self;
         let problem = loading.problem(model);
+        let motion = loading.motion(&problem);
+        let posed = Posed::new(&problem, motion.as_ref());
         let analysis = &model.setup.analysis;
         let grid = model.body().grid();
         broadcast_path(&*loading.solver.communicator, Some(folder.path()))?;
@@ -77,7 +78,7 @@ impl LoadedBody<'_> {
         let watched = (writer, checkpoints);
         let mut watch = Watch::new(watched, requests, progress, &model.setup, notices);
         let outcome = stages.time("solution", || match restored {
-            None => follow(&problem, analysis, &mut watch),
+            None => follow(posed, analysis, &mut watch),
             Some(restored) => resume(analysis, restored, &mut watch),
         });
         let outcome = outcome.map_err(|it| case.explained(it))?;

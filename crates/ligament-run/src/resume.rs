@@ -4,9 +4,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::{bail, ensure};
-use ligament::run::{on_threads, restore};
+use ligament::run::{Posed, Restored, on_threads, restore};
+use ligament::{Loading, Model};
 use ligament_analysis::distributed_matrix::MatrixCommunicator;
-use ligament_analysis::driver::{Problem, Restored};
+use ligament_analysis::driver::Problem;
 use ligament_analysis::serial::Serial;
 use ligament_case::case::CaseFile;
 use ligament_output::checkpoint::Checkpoint;
@@ -105,7 +106,7 @@ impl Request<'_> {
         let solution =
             (found.as_mut()).map(|(checkpoint, _)| std::mem::take(&mut checkpoint.solution));
         let solution = broadcast_solution(communicator, solution)?;
-        let restored = solution.map(|it| restore(&problem, &model.setup.analysis, &it));
+        let restored = solution.map(|it| restored(&model, &loading, &problem, &it));
         let restored = restored.transpose()?;
         let is_stopped = || any_stopped(communicator, self.is_stopped);
         let body = LoadedBody {
@@ -149,6 +150,18 @@ impl Request<'_> {
         )?;
         Ok(Report::Loading(Box::new(summary)))
     }
+}
+
+/// The run of a checkpoint's solution.
+fn restored(
+    model: &Model,
+    loading: &Loading,
+    problem: &Problem,
+    solution: &[u8],
+) -> anyhow::Result<Restored> {
+    let motion = loading.motion(problem);
+    let posed = Posed::new(problem, motion.as_ref());
+    Ok(restore(posed, &model.setup.analysis, solution)?)
 }
 
 /// Refuses a setting that would change earlier results.

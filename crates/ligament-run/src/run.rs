@@ -178,7 +178,7 @@ fn follow_loads(
 ) -> anyhow::Result<Report> {
     let (case, communicator) = (request.case, &*request.communicator);
     let loading = loading(case, model)?;
-    if !communicator.has_matrices() {
+    if !communicator.has_matrices() && !model.setup.analysis.is_motion() {
         let problem = loading.problem(model);
         memory::foresee_equations(case, &*model.system, &problem)?;
     }

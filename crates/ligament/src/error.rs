@@ -240,8 +240,8 @@ pub enum Fault {
     },
     /// A motion of a point that two loads with different load factors prescribe.
     #[error(
-        "component {component} of {place} is moved by load `{other}` as well, and in stages each load follows a factor of its own: let one \
-         load move it"
+        "component {component} of {place} is moved by load `{other}` as well, and each load follows a factor of its own: let one load move \
+         it"
     )]
     MovedTwice {
         /// The component.
@@ -282,6 +282,12 @@ pub enum Fault {
         "a force per area needs a physical surface of a solid mesh, or cells at a side of a box: this group has no area"
     )]
     NoArea,
+    /// A quiet edge on a group without an outline.
+    #[error(
+        "waves leave through a physical curve on the outline of a mesh, a physical surface of a solid, or cells of a lattice at a side or a \
+         hole: this group has no part of the outline"
+    )]
+    NoQuietOutline,
     /// A pressure on a group without an outline.
     #[error(
         "a pressure needs a physical curve on the outline of a mesh, a physical surface of a solid, or cells of a lattice at a side or a \

@@ -13,7 +13,7 @@ use crate::setup::Analysis;
 ///
 /// # Errors
 ///
-/// If the equations cannot be set up, nothing resists the loads, or the analysis is of natural modes.
+/// If the equations cannot be set up, nothing resists the loads, or the analysis is of natural modes or a motion.
 pub fn predict(
     problem: &Problem,
     analysis: &Analysis,
@@ -22,7 +22,7 @@ pub fn predict(
     Ok(match analysis {
         Analysis::Stepped(settings) => Some(driver::stepped::predict(problem, settings, observer)?),
         Analysis::Event(settings) => Some(driver::event::predict(problem, settings, observer)?),
-        Analysis::Elastic { .. } | Analysis::Modal(_) => {
+        Analysis::Elastic { .. } | Analysis::Modal(_) | Analysis::Motion(_) => {
             let outcome = follow(problem, analysis, observer)?;
             let part = outcome.history.last().map_or(0, |it| it.part);
             match outcome.termination {
@@ -43,6 +43,9 @@ pub fn predict(
 pub fn refuse(problem: &Problem, analysis: &Analysis) -> Result<(), Error> {
     match analysis {
         Analysis::Event(_) => Ok(driver::event::refuse(problem)?),
-        Analysis::Elastic { .. } | Analysis::Stepped(_) | Analysis::Modal(_) => Ok(()),
+        Analysis::Elastic { .. }
+        | Analysis::Stepped(_)
+        | Analysis::Modal(_)
+        | Analysis::Motion(_) => Ok(()),
     }
 }

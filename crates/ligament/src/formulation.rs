@@ -206,7 +206,7 @@ pub fn criteria<const D: usize>(
     system: &BondSystem<D>,
     fixed: &ConstantFields,
 ) -> Result<Criteria, SetupError> {
-    if !setup.analysis.is_fracture() {
+    if !setup.analysis.is_fracture() || setup.criteria.is_empty() {
         return Ok(Criteria::default());
     }
     let (materials, space) = (setup.materials(), setup.space());

@@ -197,12 +197,12 @@ impl Model {
     }
 }
 
-/// The processes between which the body of a setup is divided. Elements that couple more points than the bond's ends, closing faces and
-/// natural modes need the whole body on each process.
+/// The processes between which the body of a setup is divided. Elements that couple more points than the bond's ends, closing faces,
+/// natural modes and motions need the whole body on each process.
 pub fn partition_communicator(setup: &Setup) -> Arc<dyn Communicator> {
     let needs_all = setup.closing
         || !setup.law.row.couples_ends_alone
-        || matches!(setup.analysis, Analysis::Modal(_));
+        || matches!(setup.analysis, Analysis::Modal(_) | Analysis::Motion(_));
     match needs_all {
         true => Arc::new(Solo),
         false => setup.solver.communicator.clone(),

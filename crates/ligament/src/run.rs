@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use ligament_analysis::Observer;
 use ligament_analysis::checkpoint::CheckpointError;
-use ligament_analysis::driver::{self, Outcome, Problem, Restored};
+use ligament_analysis::driver::{self, Outcome, Problem, motion};
 use ligament_analysis::history::{ObserverError, StepRecord, View};
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome};
+use ligament_analysis::motion::MotionProblem;
 use ligament_analysis::probe::Probe;
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 
@@ -38,7 +39,9 @@ impl Setup {
             let model = Model::build(self, &mut ())?;
             let loading = Loading::new(&model)?;
             let problem = loading.problem(&model);
-            let outcome = follow(&problem, &model.setup.analysis, observer)?;
+            let motion = loading.motion(&problem);
+            let posed = Posed::new(&problem, motion.as_ref());
+            let outcome = follow(posed, &model.setup.analysis, observer)?;
             Ok(Solution {
                 model,
                 probes: loading.probes,
@@ -65,23 +68,60 @@ impl Setup {
     }
 }
 
-/// Solves a problem, or follows its loading up to failure.
+/// A problem of loads, in statics or in motion.
+#[derive(Clone, Copy)]
+pub enum Posed<'a> {
+    /// Equilibrium under loads.
+    Statics(&'a Problem),
+    /// Motion in time.
+    Motion(&'a MotionProblem),
+}
+
+impl<'a> Posed<'a> {
+    /// The problem in motion, if there is one, otherwise that in statics.
+    pub fn new(problem: &'a Problem, motion: Option<&'a MotionProblem>) -> Self {
+        motion.map_or(Self::Statics(problem), Self::Motion)
+    }
+}
+
+impl<'a> From<&'a Problem> for Posed<'a> {
+    fn from(problem: &'a Problem) -> Self {
+        Self::Statics(problem)
+    }
+}
+
+impl<'a> From<&'a MotionProblem> for Posed<'a> {
+    fn from(problem: &'a MotionProblem) -> Self {
+        Self::Motion(problem)
+    }
+}
+
+/// Solves a problem, or follows its loading up to failure or its motion up to the end.
 ///
 /// # Errors
 ///
-/// If the analysis is of natural modes, or the equations cannot be set up.
-pub fn follow(
-    problem: &Problem,
+/// If the analysis is of natural modes or does not fit the problem, or the equations cannot be set up.
+pub fn follow<'a>(
+    posed: impl Into<Posed<'a>>,
     analysis: &Analysis,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error> {
+    let problem = match (posed.into(), analysis) {
+        (Posed::Motion(problem), Analysis::Motion(settings)) => {
+            return Ok(motion::run(problem, settings, observer)?);
+        }
+        (Posed::Motion(_), _) => return Err(other_analysis(analysis, "a motion")),
+        (Posed::Statics(problem), _) => problem,
+    };
     Ok(match analysis {
         Analysis::Elastic { energy_tolerance } => {
             driver::elastic::run(problem, *energy_tolerance, observer)?
         }
         Analysis::Stepped(settings) => driver::stepped::run(problem, settings, observer)?,
         Analysis::Event(settings) => driver::event::run(problem, settings, observer)?,
-        Analysis::Modal(_) => return Err(other_analysis(analysis, "the response to loads")),
+        Analysis::Modal(_) | Analysis::Motion(_) => {
+            return Err(other_analysis(analysis, "the response to loads"));
+        }
     })
 }
 
@@ -90,16 +130,50 @@ pub fn follow(
 /// # Errors
 ///
 /// If the checkpoint is damaged or not of this problem and analysis, or the analysis breaks no bonds.
-pub fn restore(
-    problem: &Problem,
+pub fn restore<'a>(
+    posed: impl Into<Posed<'a>>,
     analysis: &Analysis,
     checkpoint: &[u8],
 ) -> Result<Restored, Error> {
-    Ok(match analysis {
+    let problem = match posed.into() {
+        Posed::Motion(problem) => {
+            return Ok(Restored::Motion(motion::restore(problem, checkpoint)?));
+        }
+        Posed::Statics(problem) => problem,
+    };
+    Ok(Restored::Statics(match analysis {
         Analysis::Stepped(settings) => driver::stepped::restore(problem, settings, checkpoint)?,
         Analysis::Event(settings) => driver::event::restore(problem, settings, checkpoint)?,
-        Analysis::Elastic { .. } | Analysis::Modal(_) => return Err(without_fracture()),
-    })
+        Analysis::Elastic { .. } | Analysis::Modal(_) | Analysis::Motion(_) => {
+            return Err(without_fracture());
+        }
+    }))
+}
+
+/// A restored run, ready to continue.
+pub enum Restored {
+    /// Equilibrium under loads.
+    Statics(driver::Restored),
+    /// Motion in time.
+    Motion(motion::Restored),
+}
+
+impl Restored {
+    /// Load factor of the restored state, in a motion the time, s.
+    pub fn load_factor(&self) -> f64 {
+        match self {
+            Self::Statics(it) => it.load_factor(),
+            Self::Motion(it) => it.time(),
+        }
+    }
+
+    /// Number of bonds broken up to the restored state.
+    pub fn broken_bonds(&self) -> usize {
+        match self {
+            Self::Statics(it) => it.broken_bonds(),
+            Self::Motion(it) => it.broken_bonds(),
+        }
+    }
 }
 
 /// Continues a run from its checkpoint, bitwise identical to an uninterrupted run.
@@ -112,10 +186,24 @@ pub fn resume(
     restored: Restored,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error> {
-    Ok(match analysis {
-        Analysis::Stepped(settings) => driver::stepped::resume(settings, restored, observer)?,
-        Analysis::Event(settings) => driver::event::resume(settings, restored, observer)?,
-        Analysis::Elastic { .. } | Analysis::Modal(_) => return Err(without_fracture()),
+    Ok(match (analysis, restored) {
+        (Analysis::Stepped(settings), Restored::Statics(restored)) => {
+            driver::stepped::resume(settings, restored, observer)?
+        }
+        (Analysis::Event(settings), Restored::Statics(restored)) => {
+            driver::event::resume(settings, restored, observer)?
+        }
+        (Analysis::Motion(settings), Restored::Motion(restored)) => {
+            motion::resume(settings, restored, observer)?
+        }
+        (
+            Analysis::Elastic { .. }
+            | Analysis::Modal(_)
+            | Analysis::Stepped(_)
+            | Analysis::Event(_)
+            | Analysis::Motion(_),
+            Restored::Statics(_) | Restored::Motion(_),
+        ) => return Err(without_fracture()),
     })
 }
 

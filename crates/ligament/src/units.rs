@@ -33,10 +33,14 @@ impl Units {
 }
 
 impl Setup {
-    /// Units of displacement and force in the history: those of the load of the curve, or of the temperature.
+    /// Units of displacement and force in the history: those of the load of the curve, or of the temperature; in a motion without a load those
+    /// of a force.
     pub fn units(&self) -> Units {
-        let load = self.curve_load();
-        load.map_or(Units::TEMPERATURE, |load| self.loads[load].action.units())
+        match self.curve_load() {
+            Some(load) => self.loads[load].action.units(),
+            None if self.analysis.is_motion() => Units::FORCE,
+            None => Units::TEMPERATURE,
+        }
     }
 }
 
@@ -44,10 +48,14 @@ impl Action {
     /// Units of the displacement and the force of the action in the history: their product is work.
     pub fn units(&self) -> Units {
         match self {
-            Self::Displacement(it) if it.components().all(|(it, _)| it.is_rotation()) => {
+            Self::Displacement(it) | Self::Velocity(it) | Self::BaseAcceleration(it)
+                if it.components().all(|(it, _)| it.is_rotation()) =>
+            {
                 Units::COUPLE
             }
             Self::Displacement(_)
+            | Self::Velocity(_)
+            | Self::BaseAcceleration(_)
             | Self::Force(_)
             | Self::ForcePerLength(_)
             | Self::ForcePerArea(_)

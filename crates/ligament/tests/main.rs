@@ -2,6 +2,7 @@
 
 mod examples;
 mod half_a_body;
+mod motion;
 mod programmes;
 mod unsound_bodies;
 mod wrong_setups;

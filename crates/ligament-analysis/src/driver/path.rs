@@ -393,8 +393,7 @@ impl<'a> Path<'a> {
         self.course.solves[1] = self.equilibrium.costs().solves;
         let record = step_record(
             &self.problem,
-            &self.state,
-            balanced,
+            self.problem.solution(&self.state, balanced),
             &self.energies,
             self.equilibrium.fragments(),
             counters,

@@ -247,13 +247,17 @@ serial!(StepCounters {
 /// Record of an equilibrium.
 pub(super) fn step_record(
     problem: &Problem,
-    state: &State,
-    balanced: &Balanced,
+    solution: Solution<'_>,
     energies: &Energies,
     fragments: &Fragments,
     counters: StepCounters,
 ) -> StepRecord {
-    let loads = &problem.loads;
+    let Solution {
+        state,
+        balanced,
+        loads,
+        ..
+    } = solution;
     let reactions = loads.reactions(state.load_factor, &balanced.internal.values);
     StepRecord {
         step: counters.step,
@@ -280,16 +284,7 @@ pub(super) fn step_record(
         closed_pairs: balanced.closed.len(),
         motion: None,
         group_forces: group_forces(problem, state.load_factor, &reactions),
-        probes: probe::values(
-            &problem.probes,
-            Solution {
-                system: &*problem.system,
-                criteria: &problem.criteria,
-                state,
-                balanced,
-                loads: &**loads,
-            },
-        ),
+        probes: probe::values(&problem.probes, solution),
     }
 }
 

@@ -125,8 +125,7 @@ impl Start {
     ) {
         let record = step_record(
             problem,
-            at_one,
-            balanced,
+            problem.solution(at_one, balanced),
             &Energies::unloaded(problem),
             fragments,
             StepCounters::default(),

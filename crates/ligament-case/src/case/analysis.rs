@@ -20,6 +20,8 @@ pub enum Analysis {
     Fracture,
     /// Natural frequencies and modes.
     Modal,
+    /// A motion in time, in which bonds break where `[fracture]` has criteria.
+    Motion,
 }
 
 /// Natural modes that are wanted.
@@ -68,6 +70,7 @@ impl Analysis {
             Self::Static => "static",
             Self::Fracture => "fracture",
             Self::Modal => "modal",
+            Self::Motion => "motion",
         }
     }
 }

@@ -56,6 +56,45 @@ impl Displacement {
     }
 }
 
+/// Prescribed velocities or accelerations; a component that is not given is free.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("minProperties" = 1))]
+pub struct Rate {
+    /// Along x.
+    pub x: Option<f64>,
+    /// Along y.
+    pub y: Option<f64>,
+    /// Of the rotation in the plane, counter-clockwise, with rad in the place of m.
+    pub rotation: Option<f64>,
+    /// Along z of a solid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z: Option<f64>,
+    /// Of the rotation about x in a solid, right-handed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rotation_x: Option<f64>,
+    /// Of the rotation about y in a solid, right-handed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rotation_y: Option<f64>,
+    /// Of the rotation about z in a solid, right-handed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rotation_z: Option<f64>,
+}
+
+impl Rate {
+    pub(super) fn setup(&self) -> setup::Displacement {
+        setup::Displacement {
+            x: self.x,
+            y: self.y,
+            rotation: self.rotation,
+            z: self.z,
+            rotation_x: self.rotation_x,
+            rotation_y: self.rotation_y,
+            rotation_z: self.rotation_z,
+        }
+    }
+}
+
 /// A vector; a component that is not given is zero.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -128,13 +128,8 @@ impl Default for Stop {
 }
 
 impl Fracture {
-    /// Fills in missing keys; `law` is the law of the bonds; with stages, load steps are those of the stages.
-    pub(super) fn complete(
-        &mut self,
-        key: &KeyPath,
-        law: &setup::Law,
-        is_staged: bool,
-    ) -> Result<(), KeyFault> {
+    /// Fills in missing keys of the load steps; with stages, these are those of the stages.
+    pub(super) fn complete(&mut self, key: &KeyPath, is_staged: bool) -> Result<(), KeyFault> {
         match self.control {
             Control::Stepped => {
                 let settings = self.stepping(key, is_staged)?;
@@ -146,6 +141,15 @@ impl Fracture {
             }
             Control::Event => self.refuse_stepping(key)?,
         }
+        Ok(())
+    }
+
+    /// Fills in missing keys of the criteria; `law` is the law of the bonds.
+    pub(super) fn complete_criteria(
+        &mut self,
+        key: &KeyPath,
+        law: &setup::Law,
+    ) -> Result<(), KeyFault> {
         let default: Kind = *law.row.criterion;
         let criteria = self.criteria.get_or_insert_with(|| vec![default.into()]);
         criteria.iter_mut().for_each(Criterion::complete);

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::conditions::{Displacement, Vector};
+use super::amplitude::Amplitude;
+use super::conditions::{Displacement, Rate, Vector};
 use super::coordinates::Coordinates;
 use super::couple::Couple;
 use super::fault::KeyFault;
@@ -19,7 +20,7 @@ use ligament::setup::{self, Action, Axis, Place, Position, begins_as_formula};
 /// A load, given as it is at load factor 1.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = exactly_one(&["displacement", "force", "force_per_length", "force_per_area", "body_force", "acceleration", "moment", "body_couple", "pressure"])))]
+#[schemars(extend("oneOf" = exactly_one(&["displacement", "velocity", "base_acceleration", "force", "force_per_length", "force_per_area", "body_force", "acceleration", "moment", "body_couple", "pressure"])))]
 pub struct Load {
     /// Heads its column in `history.csv`; without it the name of the group.
     #[schemars(length(min = 1))]
@@ -34,6 +35,14 @@ pub struct Load {
     pub at: Option<Coordinates>,
     /// Prescribed displacements, m, rotation in rad.
     pub displacement: Option<Displacement>,
+    /// Prescribed velocities in a motion, m/s, of the rotation rad/s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m/s"))]
+    pub velocity: Option<Rate>,
+    /// Prescribed accelerations in a motion, such as those of the ground, m/s^2, of the rotation rad/s^2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m/s^2"))]
+    pub base_acceleration: Option<Rate>,
     /// A force in total over the points, N.
     #[schemars(extend("x-unit" = "N"))]
     pub force: Option<Vector>,
@@ -62,6 +71,9 @@ pub struct Load {
     pub pressure: Option<f64>,
     /// How the load varies: what a point takes is multiplied by (c - zero)/(one - zero), or by the factor of a table.
     pub profile: Option<Profile>,
+    /// How the load varies in time, in a motion: it is multiplied by this factor. Without it the load is as given from the start.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub amplitude: Option<Amplitude>,
     /// Stiffness in total of springs through which a `displacement` moves the points, N/m: what gives way in a testing machine.
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "N/m"))]
     pub stiffness: Option<f64>,
@@ -130,6 +142,9 @@ impl Load {
         if let Some(profile) = &mut self.profile {
             profile.complete(&key.child("profile"), folder)?;
         }
+        if let Some(amplitude) = &mut self.amplitude {
+            amplitude.complete(&key.child("amplitude"), folder)?;
+        }
         let named_by = if self.name.is_some() { "name" } else { "group" };
         // A group of a mesh may have a name such as `-x`, which is not a valid column name.
         let of_group = || self.group.clone().filter(|it| !begins_as_formula(it));
@@ -145,17 +160,24 @@ impl Load {
         let place = || place(key, dimensions, self.group.as_ref(), self.r#box, self.at);
         let is_placed = self.group.is_some() || self.r#box.is_some() || self.at.is_some();
         let place = match action {
-            Action::Displacement(_) | Action::Force(_) | Action::Moment(_) => place()?,
+            Action::Displacement(_)
+            | Action::Velocity(_)
+            | Action::BaseAcceleration(_)
+            | Action::Force(_)
+            | Action::Moment(_) => place()?,
             _ if is_placed => place()?,
             _ => Place::Everywhere,
         };
         let profile = self.profile.as_ref();
         let profile = profile.map(|it| it.setup(&key.child("profile")));
+        let amplitude = self.amplitude.as_ref();
+        let amplitude = amplitude.map(|it| it.setup(&key.child("amplitude")));
         Ok(setup::Load {
             name: self.name.clone().unwrap_or_default(),
             place,
             action,
             profile: profile.transpose()?,
+            amplitude: amplitude.transpose()?,
             stiffness: self.stiffness,
             tilts: self.tilts,
         })
@@ -163,6 +185,10 @@ impl Load {
 
     fn actions(&self, key: &KeyPath, dimensions: usize) -> Actions {
         let displacement = |it: Displacement| Ok(Action::Displacement(it.setup()));
+        let rate =
+            |name: &'static str, given: Option<Rate>, make: fn(setup::Displacement) -> Action| {
+                (name, given.map(|it| Ok(make(it.setup()))))
+            };
         let vector = |name: &'static str, given: Option<Vector>, make: fn(Position) -> Action| {
             let action = given.map(|it| it.for_body(&key.child(name), dimensions).map(make));
             (name, action)
@@ -173,6 +199,12 @@ impl Load {
         };
         [
             ("displacement", self.displacement.map(displacement)),
+            rate("velocity", self.velocity, Action::Velocity),
+            rate(
+                "base_acceleration",
+                self.base_acceleration,
+                Action::BaseAcceleration,
+            ),
             vector("force", self.force, Action::Force),
             vector(
                 "force_per_length",
@@ -196,4 +228,4 @@ impl Load {
 }
 
 /// The actions of a load by their keys.
-type Actions = [(&'static str, Option<Result<Action, KeyFault>>); 9];
+type Actions = [(&'static str, Option<Result<Action, KeyFault>>); 11];

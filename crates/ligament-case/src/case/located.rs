@@ -64,6 +64,7 @@ impl Case {
             "loads" => "load",
             "stages" => "stage",
             "temperatures" => "temperature",
+            "initial_velocities" => "initial_velocity",
             "probes" => "probe",
             "criteria" => "fracture.criterion",
             "scatter" => "fracture.scatter",
@@ -118,6 +119,11 @@ impl Case {
             "supports" => (self.supports[index].r#box, self.supports[index].at),
             "loads" => (self.loads[index].r#box, self.loads[index].at),
             "temperatures" => (self.temperatures[index].r#box, None),
+            "initial_velocities" => {
+                let initial = &self.initial_velocities[index];
+                (initial.r#box, initial.at)
+            }
+            "quiet" => (None, None),
             _ => (self.no_fail[index].r#box, None),
         };
         match (corners, at) {

@@ -11,7 +11,7 @@ use super::values::require;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Output {
-    /// Load steps (default 10) or events of the exact path (100) between two field files; 0: the first and the last state alone.
+    /// Load steps or rows of a motion (default 10) or events of the exact path (100) between two field files; 0: the first and the last state alone.
     pub fields_every: Option<u32>,
     /// Whether the bonds are written as lines with each field file.
     pub bonds: bool,

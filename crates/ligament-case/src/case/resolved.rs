@@ -3,7 +3,7 @@
 use toml_edit::visit_mut::{VisitMut, visit_value_mut};
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, Value};
 
-use super::sections::Case;
+use super::sections::{Case, STEPPING};
 
 /// The case as TOML, with a header for each section and nested tables inline.
 pub(super) fn to_toml(case: &Case) -> Result<String, toml_edit::ser::Error> {
@@ -11,6 +11,13 @@ pub(super) fn to_toml(case: &Case) -> Result<String, toml_edit::ser::Error> {
     // The section is refused in a modal case.
     if case.modal.is_some() {
         document.remove("output");
+    }
+    // So are these in a motion.
+    let fracture = document.get_mut("fracture");
+    if let (Some(_), Some(keys)) = (&case.motion, fracture.and_then(Item::as_table_like_mut)) {
+        for key in STEPPING.into_iter().chain(["stop"]) {
+            keys.remove(key);
+        }
     }
     Exponents.visit_document_mut(&mut document);
     for (key, item) in document.iter_mut() {

@@ -25,6 +25,7 @@ use super::load::Load;
 use super::material::{self, Material};
 use super::mesh_section::MeshSection;
 use super::model::ModelSection;
+use super::motion::{InitialVelocity, Motion, Quiet, Scheme};
 use super::output::{Output, StressField};
 use super::precrack::Precrack;
 use super::probe::Probe;
@@ -35,6 +36,18 @@ use super::stage::Stage;
 use super::temperature::Temperature;
 use super::values::{exactly_one, metre, refuse};
 
+/// Keys of `[fracture]` about load steps and equilibrium.
+pub(super) const STEPPING: [&str; 8] = [
+    "control",
+    "steps",
+    "bonds_per_iteration",
+    "order",
+    "max_iterations",
+    "refine_first_break",
+    "tie_tolerance",
+    "energy_tolerance",
+];
+
 /// A case: the sections of its file, with every default filled in.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -43,7 +56,8 @@ pub struct Case {
     /// One line on what the case is.
     #[serde(default)]
     pub title: String,
-    /// What is computed; without it `fracture` where there is a `[fracture]` section, else `static`.
+    /// What is computed; without it `motion` where there is a `[motion]` section, `fracture` where there is a `[fracture]` section, else
+    /// `static`.
     pub analysis: Option<Analysis>,
     /// Name of the load, or `temperature`, that is the axis of the force-displacement curve; without it the first load.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -83,6 +97,16 @@ pub struct Case {
     /// Changes of temperature at load factor 1; where several reach, the last holds.
     #[serde(rename = "temperature", default, skip_serializing_if = "Vec::is_empty")]
     pub temperatures: Vec<Temperature>,
+    /// Velocities at time zero of a motion.
+    #[serde(
+        rename = "initial_velocity",
+        default,
+        skip_serializing_if = "Vec::is_empty"
+    )]
+    pub initial_velocities: Vec<InitialVelocity>,
+    /// Parts of the outline through which waves leave the body in a motion.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub quiet: Vec<Quiet>,
     /// Parts of the body where bonds never break.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub no_fail: Vec<Region>,
@@ -93,6 +117,9 @@ pub struct Case {
     pub fracture: Option<Fracture>,
     /// Natural modes that are wanted, with `analysis = "modal"`.
     pub modal: Option<Modal>,
+    /// A motion in time under loads that depend on time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub motion: Option<Motion>,
     /// How the equations are solved; nothing need be said.
     #[serde(default, deserialize_with = "solver::read")]
     #[schemars(schema_with = "solver::schema")]
@@ -117,7 +144,12 @@ impl Case {
             mesh.complete(&root().child("mesh"), folder, body)?;
         }
         case.complete_analysis(document.get("output").is_some())?;
-        let is_idle = case.loads.is_empty() && case.temperatures.is_empty();
+        if let Some(motion) = &case.motion {
+            case.refuse_statics(document, motion.scheme)?;
+        }
+        let is_idle = case.loads.is_empty()
+            && case.temperatures.is_empty()
+            && case.initial_velocities.is_empty();
         if is_idle && case.analysis != Some(Analysis::Modal) {
             return Err(missing_section("load"));
         }
@@ -136,8 +168,11 @@ impl Case {
         case.correction
             .complete(&root().child("correction"), &law)?;
         if let Some(fracture) = &mut case.fracture {
-            let is_staged = !case.stages.is_empty();
-            fracture.complete(&root().child("fracture"), &law, is_staged)?;
+            let (key, is_staged) = (root().child("fracture"), !case.stages.is_empty());
+            if case.motion.is_none() {
+                fracture.complete(&key, is_staged)?;
+            }
+            fracture.complete_criteria(&key, &law)?;
         }
         let on_exact_path = (case.fracture.as_ref()).is_some_and(|it| it.control == Control::Event);
         (case.output).complete(&root().child("output"), on_exact_path)?;
@@ -147,9 +182,10 @@ impl Case {
     /// Sets the analysis, as given by the case or implied by its sections; refuses sections that do not belong to it.
     fn complete_analysis(&mut self, has_output: bool) -> Result<(), KeyFault> {
         let (is_breaking, is_modal) = (self.fracture.is_some(), self.modal.is_some());
-        let meant = match is_breaking {
-            true => Analysis::Fracture,
-            false => Analysis::Static,
+        let meant = match (&self.motion, is_breaking) {
+            (Some(_), _) => Analysis::Motion,
+            (None, true) => Analysis::Fracture,
+            (None, false) => Analysis::Static,
         };
         let analysis = *self.analysis.get_or_insert(meant);
         let refuse = |key, is_given, reason| {
@@ -160,7 +196,22 @@ impl Case {
             let reason = "it says which modes are wanted, and only analysis = \"modal\" finds any";
             refuse("modal", is_modal, reason)?;
         }
+        if analysis != Analysis::Motion {
+            let reason = "only a motion takes place in time";
+            let mut given = self.in_time().into_iter();
+            given.try_for_each(|(key, is_given)| refuse(key, is_given, reason))?;
+        }
         match analysis {
+            Analysis::Motion if self.motion.is_none() => {
+                let reason = "\"motion\" needs a [motion] section, which says how long it lasts: `duration`, in s";
+                Err(KeyFault::new(root().child("analysis"), reason))
+            }
+            Analysis::Motion => {
+                let reason = "each load follows an `amplitude` of its own in time";
+                refuse("stage", !self.stages.is_empty(), reason)?;
+                let reason = "a change of temperature would act at once at time zero";
+                refuse("temperature", !self.temperatures.is_empty(), reason)
+            }
             Analysis::Fracture if !is_breaking => {
                 let reason =
                     "\"fracture\" needs a [fracture] section, which says how the loads rise";
@@ -184,6 +235,39 @@ impl Case {
                 refuse("probe", !self.probes.is_empty(), reason)?;
                 let reason = "every mode is written, to a file of its own";
                 refuse("output", has_output, reason)
+            }
+        }
+    }
+
+    /// Sections of a motion, each with whether it is given.
+    fn in_time(&self) -> [(&'static str, bool); 3] {
+        [
+            ("motion", self.motion.is_some()),
+            ("initial_velocity", !self.initial_velocities.is_empty()),
+            ("quiet", !self.quiet.is_empty()),
+        ]
+    }
+
+    /// Refuses keys of load steps and of equations in a motion without them.
+    fn refuse_statics(&self, document: &Node, scheme: Scheme) -> Result<(), KeyFault> {
+        let given = document.get("fracture");
+        let is_given = |key: &'static str| (key, given.is_some_and(|it| it.get(key).is_some()));
+        let fracture = root().child("fracture");
+        let setting = "analysis = \"motion\"";
+        let reason =
+            "a motion has no load steps: bonds break at the time at which they reach their limits";
+        refuse(&fracture, STEPPING.map(is_given), setting, reason)?;
+        let reason = "a motion has a `stop` of its own, in [motion]";
+        refuse(&fracture, [is_given("stop")], setting, reason)?;
+        match scheme {
+            Scheme::Explicit => {
+                let (key, reason) = (root().child("solver"), "explicit steps solve no equations");
+                refuse(
+                    &key,
+                    self.solver.of_equations(),
+                    "motion.scheme = \"explicit\"",
+                    reason,
+                )
             }
         }
     }
@@ -292,6 +376,10 @@ impl Case {
             temperatures: each("temperature", &self.temperatures, |it, key| {
                 it.setup(key, dimensions)
             })?,
+            initial_velocities: each("initial_velocity", &self.initial_velocities, |it, key| {
+                it.setup(key, dimensions)
+            })?,
+            quiet: self.quiet.iter().map(Quiet::setup).collect(),
             criteria: each(
                 "fracture.criterion",
                 criteria.flatten(),
@@ -303,16 +391,21 @@ impl Case {
                 .next()
                 .transpose()?,
             probes: each("probe", &self.probes, |it, key| it.setup(key, dimensions))?,
-            analysis: match (&self.modal, &self.fracture) {
-                (Some(modal), _) => setup::Analysis::Modal(modal.setup()),
-                (None, Some(fracture)) => {
-                    fracture.setup(&root().child("fracture"), !self.stages.is_empty())?
-                }
-                (None, None) => setup::Analysis::default(),
-            },
+            analysis: self.analysis_of_setup()?,
             solver: self.solver.setup(),
             threads: self.solver.threads.map(|threads| threads as usize),
             remarks: self.remarks(),
+        })
+    }
+
+    fn analysis_of_setup(&self) -> Result<setup::Analysis, KeyFault> {
+        Ok(match (&self.motion, &self.modal, &self.fracture) {
+            (Some(motion), _, _) => setup::Analysis::Motion(motion.setup()),
+            (None, Some(modal), _) => setup::Analysis::Modal(modal.setup()),
+            (None, None, Some(fracture)) => {
+                fracture.setup(&root().child("fracture"), !self.stages.is_empty())?
+            }
+            (None, None, None) => setup::Analysis::default(),
         })
     }
 

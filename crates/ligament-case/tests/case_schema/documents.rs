@@ -148,6 +148,43 @@ horizon_factor = 3
 [modal]
 "#;
 
+const MOTION: &str = r#"
+[lattice]
+cells = [10, 20]
+spacing = 0.1
+[lattice.set]
+right = { right = 1 }
+[material]
+young = 1e9
+poisson = 0.2
+density = 1000
+[model]
+law = "nhpd"
+horizon_factor = 3
+[[load]]
+name = "pulled"
+group = "right"
+velocity = { x = 1 }
+amplitude = { points = [[0, 0], [1e-3, 1]] }
+[[load]]
+name = "shaken"
+at = [0, 0]
+base_acceleration = { y = 1 }
+amplitude = { shape = "sine", duration = 1e-3, periods = 2 }
+[[load]]
+name = "read"
+body_force = { y = 1 }
+amplitude = { file = "pulse.csv" }
+[[initial_velocity]]
+velocity = { x = 1 }
+[[quiet]]
+group = "right"
+[motion]
+duration = 1e-2
+damping = { mass = 1 }
+stop = { bonds = 3 }
+"#;
+
 const ORTHOTROPIC: &str = r#"
 [lattice]
 cells = [10, 20]
@@ -193,9 +230,17 @@ pub(super) fn documents() -> Vec<Value> {
     );
     // Keys of one correction stand in another document than those of the other.
     let patch = ORTHOTROPIC.replace("\"domain\"", "\"patch\"");
-    [mesh.as_str(), LATTICE, SOLID, MODAL, ORTHOTROPIC, &patch]
-        .map(document)
-        .to_vec()
+    [
+        mesh.as_str(),
+        LATTICE,
+        SOLID,
+        MODAL,
+        MOTION,
+        ORTHOTROPIC,
+        &patch,
+    ]
+    .map(document)
+    .to_vec()
 }
 
 /// The path of a table: its keys and indices, and the same with a star for indices and for names that the user chooses.

@@ -28,7 +28,10 @@ pub(super) fn write(
         (None, SolverChoice::Iterative(choice)) => {
             write_iteration(out, case, model, (equilibrium.unknowns().len(), choice))
         }
-        (None, SolverChoice::Direct(_) | SolverChoice::Distributed(_)) => Ok(()),
+        (
+            None,
+            SolverChoice::Direct(_) | SolverChoice::Distributed(_) | SolverChoice::Explicit(_),
+        ) => Ok(()),
     }
 }
 

@@ -66,7 +66,7 @@ pub(super) fn check(
 }
 
 /// Writes the disk space of the fields, and a warning where the disk of the current folder has less.
-fn write_room(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
+pub(super) fn write_room(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
     let fields = FieldsOnDisk::new(case, model);
     let of_one = megabytes(fields.of_one);
     let Some((most, all)) = fields.most.zip(fields.all()) else {
@@ -89,7 +89,11 @@ fn write_room(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result
     }
 }
 
-fn write_boundary(out: &mut dyn Write, model: &Model, loading: &Loading) -> io::Result<()> {
+pub(super) fn write_boundary(
+    out: &mut dyn Write,
+    model: &Model,
+    loading: &Loading,
+) -> io::Result<()> {
     let body = model.body();
     writeln!(out, "supports and loads")?;
     for group in &loading.boundary.groups {
@@ -164,7 +168,7 @@ fn write_loading(out: &mut dyn Write, setup: &Setup) -> io::Result<()> {
         Analysis::Event(_) => {
             "exact path from breakage to breakage, up to load factor 1".to_owned()
         }
-        Analysis::Elastic { .. } | Analysis::Modal(_) => {
+        Analysis::Elastic { .. } | Analysis::Modal(_) | Analysis::Motion(_) => {
             "one elastic solution at load factor 1".to_owned()
         }
     };

@@ -11,6 +11,7 @@ mod foresight;
 mod loading;
 mod modal;
 mod model;
+mod motion;
 mod patch_test;
 mod restraints;
 
@@ -74,7 +75,13 @@ fn write_report(
             modal::check(case, settings, extent, model, &mut stages, out)?;
             Vec::new()
         }
-        _ => loading::check(case, extent, model, &mut stages, out)?,
+        Analysis::Motion(ref settings) => {
+            motion::check(case, settings, extent, model, &mut stages, out)?;
+            Vec::new()
+        }
+        Analysis::Elastic { .. } | Analysis::Stepped(_) | Analysis::Event(_) => {
+            loading::check(case, extent, model, &mut stages, out)?
+        }
     };
     patch_test::write(out, extent, model, &mut stages)?;
     let too_stiff = bending_test::write(out, extent, model, &mut stages)?;

@@ -17,6 +17,7 @@ use crate::interface::{
     PointStiffness, StressReading, Stresses,
 };
 use crate::layout::Component;
+use crate::product::{ForceSum, NearLimits};
 use crate::rigid_motions::{self, FreeMotion, RigidMotions, Turn};
 use crate::stress::point_strain::Motion;
 use crate::stress::traction;
@@ -252,6 +253,16 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for Element
 
     fn multiply(&self, bonds: UnbrokenBonds<'_>, motions: &[f64], forces: &mut [f64]) {
         self.multiply(bonds, motions, forces);
+    }
+
+    fn forces_near_limits(
+        &self,
+        bonds: UnbrokenBonds<'_>,
+        motions: &[f64],
+        limits: NearLimits<'_>,
+        sum: &mut ForceSum,
+    ) -> Vec<u32> {
+        self.forces_near_limits(bonds, motions, limits, sum)
     }
 
     fn add_derivatives(&self, intact: &[bool], add: &mut dyn FnMut(usize, usize, f64)) {

@@ -6,7 +6,7 @@
 use std::time::Duration;
 
 use ligament_analysis::costs::Costs;
-use ligament_analysis::history::{BreakRecord, StepRecord};
+use ligament_analysis::history::{BreakRecord, InMotion, StepRecord};
 use ligament_analysis::probe::{PointField, motion_unit};
 
 use crate::csv::Value;
@@ -48,7 +48,7 @@ columns! { "Columns of every history."
     HISTORY of StepRecord, Value<'static>:
     "step" "" ANY "number of the load step or event of the exact path" => |it| it.step.into();
     "load_factor" "-" ANY
-        "factor of all loads; with [stages](programmes.md) the share of the stage that is over" => |it| it.load_factor.into();
+        "factor of all loads; with [stages](programmes.md) the share of the stage that is over; in a [motion](motion.md) the time, s" => |it| it.load_factor.into();
     "displacement" "m" ANY
         "displacement of the load, in its direction; with a couple rad (the mean [turn of the loaded points](loads.md#couples)), with a \
          pressure m^3, with a temperature alone K" => |it| it.displacement.into();
@@ -59,7 +59,7 @@ columns! { "Columns of every history."
         "energy that all breakages so far took out of the body, whatever became of it: cracks and motion" => |it| it.released_energy.into();
     "broken_bonds" "" ANY "bonds broken so far" => |it| it.broken_bonds.into();
     "external_work" "J" ANY "work done so far by supports and loads" => |it| it.external_work.into();
-    "energy_error" "-" ANY "(external work - stored - released energy)/external work: 0 but for rounding" => |it| it.energy_error().into();
+    "energy_error" "-" ANY "(external work - stored - released energy)/external work: 0 but for rounding; in a [motion](motion.md) all energies of its ledger count" => |it| it.energy_error().into();
     "broken_in_step" "" ANY
         "bonds broken in this step; on the exact path those about to break, which are not yet among `broken_bonds`"
         => |it| it.broken_in_step.into();
@@ -91,6 +91,16 @@ columns! { "The column of a history of a body whose crack faces close."
         "pairs of points across cracks that carry pressure; with `model.closing = true` alone" => |it| it.closed_pairs.into();
 }
 
+columns! { "Columns of a history of a motion in time."
+    MOTION of InMotion, Value<'static>:
+    "time_steps" "" ANY "time steps so far; the time, s, is `load_factor`" => |it| it.time_steps.into();
+    "kinetic_energy" "J" ANY "kinetic energy of displacements and rotations" => |it| it.kinetic_energy.into();
+    "damping_energy" "J" ANY "energy that damping and quiet edges took so far" => |it| it.damping_energy.into();
+    "contact_energy" "J" ANY "energy stored in contacts between surfaces" => |it| it.contact_energy.into();
+    "friction_energy" "J" ANY "energy that friction and the birth and end of contacts took so far" => |it| it.friction_energy.into();
+    "initial_energy" "J" ANY "energy of the body at time zero" => |it| it.initial_energy.into();
+}
+
 columns! { "Columns of a history for each group with supports or loads."
     GROUPS:
     "GROUP.force_x" "N" ANY
@@ -115,7 +125,7 @@ columns! { "First columns of the table of broken bonds."
     BREAKS of BreakRecord, Value<'static>:
     "order" "" ANY "place in the order of all breakages, from 1" => |it| it.order.into();
     "step" "" ANY "load step or event" => |it| it.step.into();
-    "round" "" ANY "round of breaking in it, from 1" => |it| it.round.into();
+    "round" "" ANY "round of breaking in it, from 1; in a motion the time step" => |it| it.round.into();
     "load_factor" "-" ANY "load factor just before" => |it| it.load_factor.into();
     "displacement" "m" ANY "displacement of the load just before" => |it| it.displacement.into();
     "reaction" "N" ANY "force of the load just before" => |it| it.reaction.into();
@@ -259,13 +269,13 @@ pub fn tables() -> Vec<(&'static str, Vec<Column>)> {
     fn of<R, V>(readings: &[Reading<R, V>]) -> Vec<Column> {
         readings.iter().map(|it| it.0).collect()
     }
-    let (history, closing) = (of(HISTORY), of(CLOSING));
+    let (history, closing, motion) = (of(HISTORY), of(CLOSING), of(MOTION));
     let (breaks, timings) = (of(BREAKS), of(TIMINGS));
     let joined = |parts: &[&[Column]]| parts.concat();
     vec![
         (
             "history.csv",
-            joined(&[&history, STAGES, &closing, GROUPS, PROBES]),
+            joined(&[&history, STAGES, &closing, &motion, GROUPS, PROBES]),
         ),
         ("breaks.csv", joined(&[&breaks, ENDS, FAILURE, STRAINS])),
         ("softening.csv", joined(&[SOFTENING, ENDS, SOFTENED_BY])),
@@ -307,7 +317,8 @@ pub fn unit_of(column: &str) -> &'static str {
         (Some((_, one)), Some((_, other))) => one == other,
         _ => false,
     };
-    let mut history = HISTORY.iter().map(|it| &it.0);
+    let history = HISTORY.iter().map(|it| &it.0);
+    let mut history = history.chain(MOTION.iter().map(|it| &it.0));
     let found = history.find(|it| it.name == column);
     let found = found.or_else(|| GROUPS.iter().find(|it| of_group(it)));
     found.map_or("-", |it| if it.unit.is_empty() { "-" } else { it.unit })

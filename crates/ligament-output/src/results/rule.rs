@@ -24,7 +24,7 @@ pub struct WriteRule {
     pub time: Time,
 }
 
-/// Quantity used as the time of an output.
+/// Quantity used as the time of an output; in a motion that is the time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Time {
     /// The applied displacement, or the applied load where the load is given.
@@ -60,6 +60,9 @@ impl WriteRule {
 
 impl Time {
     pub(super) fn value(self, record: &StepRecord, view: &View<'_>) -> f64 {
+        if record.motion.is_some() {
+            return record.load_factor;
+        }
         match (self, view.loads.control().kind) {
             (Self::Step, _) => record.step as f64,
             (Self::Load, ControlKind::Displacement | ControlKind::Temperature) => {

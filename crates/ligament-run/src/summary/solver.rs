@@ -1,7 +1,10 @@
 //! Choices and costs of the solver of a run, for the summary.
 
 use ligament_analysis::costs::Costs;
-use ligament_analysis::solver::{DirectChoice, FactorKind, Ordering, SolverChoice, Update};
+use ligament_analysis::critical_step::CriticalStep;
+use ligament_analysis::solver::{
+    DirectChoice, ExplicitChoice, FactorKind, Ordering, SolverChoice, Update,
+};
 use ligament_output::summary::{FactorSummary, IterationSummary, SolverSummary};
 
 /// Summary of the choices for a matrix factor.
@@ -23,6 +26,19 @@ fn factor(choice: &DirectChoice) -> FactorSummary {
     }
 }
 
+/// What limits the time step of an explicit motion.
+fn limit(choice: &ExplicitChoice) -> String {
+    let CriticalStep {
+        step, of_rotations, ..
+    } = choice.critical;
+    let by = if of_rotations > 0.5 {
+        "rotations"
+    } else {
+        "displacements"
+    };
+    format!("the critical step is {step:.4e} s, limited by {by}")
+}
+
 /// Summary of the solver's choices and costs.
 pub(super) fn solver_summary(costs: &Costs, choice: &SolverChoice) -> SolverSummary {
     let iterations = costs.iterations;
@@ -32,23 +48,24 @@ pub(super) fn solver_summary(costs: &Costs, choice: &SolverChoice) -> SolverSumm
         iterations,
     };
     let (method, reason, factor, iteration) = match choice {
-        SolverChoice::Direct(it) => ("direct", it.reason, Some(factor(it)), None),
+        SolverChoice::Direct(it) => ("direct", it.reason.to_string(), Some(factor(it)), None),
         &SolverChoice::Iterative(it) => {
             let iteration = iteration(it.tolerance, Some(it.aggregate));
-            ("iterative", it.reason, None, Some(iteration))
+            ("iterative", it.reason.to_string(), None, Some(iteration))
         }
         SolverChoice::Distributed(it) => {
             let iteration = it.tolerance.map(|it| iteration(it, None));
-            ("distributed", it.reason, None, iteration)
+            ("distributed", it.reason.to_string(), None, iteration)
         }
+        SolverChoice::Explicit(it) => ("explicit", limit(it), None, None),
     };
     let ranks = match choice {
         SolverChoice::Distributed(it) => Some(it.n_ranks),
-        SolverChoice::Direct(_) | SolverChoice::Iterative(_) => None,
+        SolverChoice::Direct(_) | SolverChoice::Iterative(_) | SolverChoice::Explicit(_) => None,
     };
     SolverSummary {
         method: method.into(),
-        reason: reason.to_string().into(),
+        reason: reason.into(),
         factor,
         iteration,
         ranks,

@@ -63,7 +63,8 @@ fn equations(case: &CaseFile) -> anyhow::Result<usize> {
             let analysis = ModalAnalysis::new(&vibration.problem(&model), settings)?;
             memory::of_equations(&**system, Some(analysis.stiffness()))
         }
-        _ => {
+        Analysis::Motion(_) => memory::of_equations(&**system, None),
+        Analysis::Elastic { .. } | Analysis::Stepped(_) | Analysis::Event(_) => {
             let loading = Loading::new(&model)?;
             let problem = loading.problem(&model);
             let equilibrium = Equilibrium::new(&problem, ELASTIC_ENERGY_TOLERANCE)?;

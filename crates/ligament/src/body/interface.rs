@@ -13,10 +13,10 @@ use thiserror::Error;
 
 use crate::coordinates::coordinates;
 
-/// Error of a group under pressure with an edge, of a solid a face, that is not on the outline of the body.
+/// Error of a group under pressure, or of a quiet edge, with an edge, of a solid a face, that is not on the outline of the body.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
-    "a pressure acts on the outline of the body, but the {side} of this group {}, around ({}), {}",
+    "pressures and quiet edges are on the outline of the body, but the {side} of this group {}, around ({}), {}",
     from_node_to_node(.nodes), coordinates(.middle),
     if *.cells == 0 { format!("is no {side} of a cell") } else { "has cells on both sides".to_owned() }
 )]

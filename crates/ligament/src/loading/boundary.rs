@@ -65,11 +65,11 @@ pub(super) fn boundary<const D: usize>(
             continue;
         }
         let factors = places.factors(field, load.profile.as_ref(), &points)?;
-        if let Action::Displacement(displacement) = &load.action
+        if let Some(motion) = load.action.motion()
             && !load.is_restraint()
         {
             let each: Vec<(u32, f64)> = points.iter().copied().zip(factors).collect();
-            for (component, value) in displacement.components() {
+            for (component, value) in motion.components() {
                 places.prescribe(&mut boundary, field, &each, component, value)?;
             }
         }
@@ -149,7 +149,11 @@ impl<const D: usize> Places<'_, D> {
                 second,
             } = error;
             let place = self.setup.body.label(point);
-            field.part("displacement").error(Fault::PrescribedTwice {
+            let part = match field.name {
+                "loads" => "action",
+                _ => "displacement",
+            };
+            field.part(part).error(Fault::PrescribedTwice {
                 component,
                 place,
                 first,
@@ -163,6 +167,14 @@ impl<const D: usize> Places<'_, D> {
         let index = self.setup.curve_load();
         let field = Field::element("loads", index.unwrap_or(0));
         let Some(load) = index.map(|index| &self.setup.loads[index]) else {
+            if self.setup.analysis.is_motion() {
+                return Ok(Control {
+                    kind: ControlKind::Force,
+                    points: Vec::new(),
+                    shape: Vec::new(),
+                    magnitude: 0.0,
+                });
+            }
             let changes = heating.map_or(&[][..], |it| &it.change);
             let magnitude = changes.iter().map(|it| it.abs()).fold(0.0, f64::max);
             if magnitude == 0.0 {
@@ -178,10 +190,7 @@ impl<const D: usize> Places<'_, D> {
         let points = self.points(field, &load.place)?;
         let factors = self.factors(field, load.profile.as_ref(), &points)?;
         let given = self.forces(field, load, &points)?;
-        let motion = match load.action {
-            Action::Displacement(it) => Some(motion::<D>(&it)),
-            _ => None,
-        };
+        let motion = load.action.motion().map(|it| motion::<D>(&it));
         let magnitude = motion.map_or(given.size, norm);
         if magnitude == 0.0 {
             return Err(field.error(Fault::ZeroControl));
@@ -298,7 +307,9 @@ impl<const D: usize> Places<'_, D> {
         let volumes: Vec<(u32, f64)> = points.iter().map(volume).collect();
         let size = |weights: &[(u32, f64)]| weights.iter().map(|(_, weight)| weight).sum::<f64>();
         let (weights, density) = match &load.action {
-            Action::Displacement(_) => return Ok(Given::default()),
+            Action::Displacement(_) | Action::Velocity(_) | Action::BaseAcceleration(_) => {
+                return Ok(Given::default());
+            }
             Action::Pressure(pressure) => return self.pressures(field, load, *pressure),
             Action::BodyForce(force) => (volumes, force_alone(force)),
             Action::Acceleration(acceleration) => {

@@ -2,6 +2,7 @@
 
 mod boundary;
 mod contact;
+mod motion;
 mod places;
 mod probes;
 mod programme;
@@ -13,13 +14,15 @@ mod vibration;
 use std::sync::Arc;
 
 use ligament_analysis::driver::Problem;
+use ligament_analysis::motion::MotionProblem;
 use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::solver::SolverSettings;
-use ligament_analysis::{LoadProgram, ProportionalLoading, StagedLoading};
+use ligament_analysis::{LoadProgram, LoadsInTime, ProportionalLoading, StagedLoading};
 use ligament_model::System;
 use ligament_model::subdomain::Subdomain;
 
 pub use contact::contact_problem;
+pub use motion::Inertia;
 use places::Places;
 pub use places::{material_of_cell, no_fail};
 pub use vibration::Vibration;
@@ -29,6 +32,7 @@ use crate::model::Model;
 use crate::setup::Setup;
 use crate::system::over_dimension;
 use boundary::{ActiveLoads, boundary, require_rotational_stiffness};
+use motion::{in_time, inertia};
 use programme::staged;
 use restraints::restrained;
 
@@ -39,6 +43,10 @@ pub struct Loading {
     pub boundary: Arc<ProportionalLoading>,
     /// Supports and loads at the first part of the stages; none without stages.
     pub staged: Option<Arc<StagedLoading>>,
+    /// Supports and loads as functions of time; none without a motion.
+    pub in_time: Option<Arc<LoadsInTime>>,
+    /// Masses, initial velocities and quiet edges; none without a motion.
+    pub inertia: Option<Inertia>,
     /// Probes.
     pub probes: Arc<[Probe]>,
     /// Settings of the equation solver.
@@ -67,9 +75,18 @@ impl Loading {
         let probes: Arc<[Probe]> = probes.collect();
         require_crossed_sections(&probes, system.subdomain())?;
         let staged = staged(setup, system, &probes)?;
+        let (in_time, inertia) = match setup.analysis.is_motion() {
+            true => (
+                Some(in_time(setup, system)?),
+                Some(inertia(setup, system.layout(), cloud)?),
+            ),
+            false => (None, None),
+        };
         let boundary = restrained(setup, system, boundary, ActiveLoads::All)?;
         Ok(Self {
             staged: staged.map(Arc::new),
+            in_time: in_time.map(Arc::new),
+            inertia,
             boundary: Arc::new(boundary),
             probes,
             solver: setup.solver.clone(),
@@ -78,9 +95,10 @@ impl Loading {
 
     /// The problem of this loading with the bonds of its model and their failure criteria.
     pub fn problem(&self, model: &Model) -> Problem {
-        let loads: Arc<dyn LoadProgram> = match &self.staged {
-            None => self.boundary.clone(),
-            Some(staged) => staged.clone(),
+        let loads: Arc<dyn LoadProgram> = match (&self.staged, &self.in_time) {
+            (_, Some(in_time)) => in_time.clone(),
+            (Some(staged), None) => staged.clone(),
+            (None, None) => self.boundary.clone(),
         };
         Problem {
             system: model.system.to_bonds(),
@@ -89,6 +107,17 @@ impl Loading {
             solver: self.solver.clone(),
             probes: self.probes.clone(),
         }
+    }
+
+    /// A problem of this loading as one of a motion in time, if its analysis is one.
+    pub fn motion(&self, problem: &Problem) -> Option<MotionProblem> {
+        let inertia = self.inertia.as_ref()?;
+        Some(MotionProblem {
+            problem: problem.clone(),
+            mass: inertia.mass.clone(),
+            initial_velocity: inertia.initial_velocity.clone(),
+            dashpots: inertia.dashpots.clone(),
+        })
     }
 }
 

@@ -25,7 +25,7 @@ impl Setup {
         }
     }
 
-    /// Number of solutions of the loading: load steps, or ends of the parts of stages; `None` along the exact path. The first breakage may
+    /// Number of solutions of the loading: load steps, ends of the parts of stages, or rows of a motion; `None` along the exact path. The first breakage may
     /// add load steps.
     pub fn n_steps(&self) -> Option<usize> {
         let is_staged = !self.stages.is_empty();
@@ -35,6 +35,7 @@ impl Setup {
             Analysis::Stepped(_) => Some(parts(self).iter().map(|it| it.steps).sum()),
             Analysis::Elastic { .. } if is_staged => Some(parts(self).len()),
             Analysis::Elastic { .. } | Analysis::Modal(_) => Some(1),
+            Analysis::Motion(settings) => Some(settings.rows),
         }
     }
 }
@@ -151,7 +152,7 @@ fn add_parts(
 }
 
 /// Refuses degrees of freedom that two loads move, because they would follow two factors.
-fn refuse_shared_motions(
+pub(super) fn refuse_shared_motions(
     setup: &Setup,
     layout: Layout,
     loads: &[ProportionalLoading],
@@ -166,9 +167,7 @@ fn refuse_shared_motions(
                 place: setup.body.label(layout.point(dof)),
                 other: setup.loads[first].name.clone(),
             };
-            return Err(Field::element("loads", second)
-                .part("displacement")
-                .error(fault));
+            return Err(Field::element("loads", second).part("action").error(fault));
         }
     }
     Ok(())

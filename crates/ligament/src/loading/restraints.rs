@@ -92,10 +92,7 @@ impl<const D: usize> RestraintBuilder<'_, D> {
 
     fn load(&mut self, field: Field, load: &Load, acts: bool) -> Result<(), SetupError> {
         let points = self.places.points(field, &load.place)?;
-        let motion = match load.action {
-            Action::Displacement(it) => Some(it.vector::<D>()),
-            _ => None,
-        };
+        let motion = load.action.motion().map(|it| it.vector::<D>());
         let direction = match (motion, load.action) {
             (Some(motion), _) => motion,
             (None, Action::Force(force)) => narrowed(force),

@@ -1,10 +1,11 @@
-//! Kind of analysis: an elastic solution, the breakage of bonds, or natural modes.
+//! Kind of analysis: an elastic solution, the breakage of bonds, natural modes, or a motion in time.
 
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
 use ligament_analysis::driver::StopRules;
 use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::stepped::SteppedSettings;
 use ligament_analysis::modal::ModalSettings;
+use ligament_analysis::motion::{Damping, ExplicitSettings, MotionSettings, MotionStop, Scheme};
 
 /// Relative change of energy below which an elastic solution is in equilibrium (NHPD's value).
 pub const ELASTIC_ENERGY_TOLERANCE: f64 = 1e-4;
@@ -26,6 +27,8 @@ pub enum Analysis {
     Event(EventSettings),
     /// Natural frequencies and modes.
     Modal(ModalSettings),
+    /// Motion in time under loads that depend on time, in which bonds break where there are criteria.
+    Motion(MotionSettings),
 }
 
 impl Default for Analysis {
@@ -43,19 +46,18 @@ impl Analysis {
             Self::Elastic { .. } => "static",
             Self::Stepped(_) | Self::Event(_) => "fracture",
             Self::Modal(_) => "modal",
-        }
-    }
-
-    /// Whether the body moves in time.
-    pub fn is_motion(&self) -> bool {
-        match self {
-            Self::Elastic { .. } | Self::Stepped(_) | Self::Event(_) | Self::Modal(_) => false,
+            Self::Motion(_) => "motion",
         }
     }
 
     /// Whether bonds may break.
     pub fn is_fracture(&self) -> bool {
-        matches!(self, Self::Stepped(_) | Self::Event(_))
+        matches!(self, Self::Stepped(_) | Self::Event(_) | Self::Motion(_))
+    }
+
+    /// Whether the body moves in time.
+    pub fn is_motion(&self) -> bool {
+        matches!(self, Self::Motion(_))
     }
 }
 
@@ -90,5 +92,20 @@ pub fn modal() -> ModalSettings {
         modes: 10,
         rotations: None,
         tolerance: 1e-10,
+    }
+}
+
+/// Settings of a motion for a duration, s: explicit steps of 0.8 of the critical step, 200 rows of the history, no damping.
+pub fn motion(duration: f64) -> MotionSettings {
+    MotionSettings {
+        duration,
+        rows: 200,
+        scheme: Scheme::Explicit(ExplicitSettings {
+            step: None,
+            safety: 0.8,
+        }),
+        damping: Damping::default(),
+        rotary_inertia: 1.0,
+        stop: MotionStop::default(),
     }
 }

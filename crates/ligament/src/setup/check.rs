@@ -44,6 +44,7 @@ impl Setup {
         self.check_dimension()?;
         self.check_correction()?;
         self.check_load_factors()?;
+        self.check_motion()?;
         self.check_stages()?;
         require_unique("loads", self.loads.iter().map(|it| it.name.as_str()))?;
         require_unique("probes", self.probes.iter().map(|it| it.name.as_str()))?;
@@ -108,7 +109,8 @@ impl Setup {
     fn check_criteria(&self) -> Checked {
         let on_exact_path = matches!(self.analysis, Analysis::Event(_));
         let takes_strains = self.law.row.has_own_strains();
-        if self.analysis.is_fracture() && self.criteria.is_empty() {
+        let may_be_whole = self.analysis.is_motion();
+        if self.analysis.is_fracture() && !may_be_whole && self.criteria.is_empty() {
             let reason = "bonds break by a criterion, and there is none: give one";
             return contradiction(Field::whole("criteria"), reason);
         }
@@ -336,7 +338,9 @@ fn check_load(field: Field, load: &Load, dimensions: usize) -> Checked {
     }
     let action = field.part("action");
     match load.action {
-        Action::Displacement(it) if it.components().next().is_none() => {
+        Action::Displacement(it) | Action::Velocity(it) | Action::BaseAcceleration(it)
+            if it.components().next().is_none() =>
+        {
             return contradiction(action, no_component(dimensions));
         }
         Action::Force(vector)
@@ -430,7 +434,7 @@ pub(crate) fn contradiction(field: Field, reason: impl Into<Advice<Setting>>) ->
     Err(field.error(Fault::Contradiction(reason.into())))
 }
 
-fn missing(field: Field, property: &'static str, reason: &str) -> Checked {
+pub(super) fn missing(field: Field, property: &'static str, reason: &str) -> Checked {
     let reason = reason.to_owned();
     Err(field
         .part(property)

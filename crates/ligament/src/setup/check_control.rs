@@ -65,7 +65,7 @@ impl Setup {
                     (`after`), or take the exact path, which goes from breakage to breakage";
                 contradiction(part, reason)
             }
-            Analysis::Elastic { .. } | Analysis::Modal(_) => {
+            Analysis::Elastic { .. } | Analysis::Modal(_) | Analysis::Motion(_) => {
                 let reason = "nothing is dissipated where bonds neither soften nor break";
                 contradiction(part, reason)
             }

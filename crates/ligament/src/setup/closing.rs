@@ -32,6 +32,10 @@ impl Setup {
             let reason = "natural modes assume that crack faces do not close: remove it";
             return contradiction(field, reason);
         }
+        if self.analysis.is_motion() {
+            let reason = "a motion does not find the faces that close: remove it";
+            return contradiction(field, reason);
+        }
         if matches!(self.analysis, Analysis::Event(_)) && !self.stages.is_empty() {
             let reason = "with a part of the load that stays, faces open and close between two breakages, and the exact path does not \
                 follow that: take load steps, or let all loads grow with one factor";

@@ -1,6 +1,6 @@
 //! Supports and loads, and where they act.
 
-use ligament_analysis::Component;
+use ligament_analysis::{Amplitude, Component, Timed};
 
 /// A position or a vector along x, y and z; in the plane the z coordinate is zero.
 pub type Position = [f64; 3];
@@ -76,6 +76,8 @@ pub struct Load {
     pub action: Action,
     /// Variation over the points; without it every point has its whole share.
     pub profile: Option<Profile>,
+    /// Factor as a function of time, in a motion; without it the load is as given at all times.
+    pub amplitude: Option<Amplitude>,
     /// Total stiffness of springs between a prescribed displacement and the points, such as that of a testing machine, N/m. Without it the
     /// points move as prescribed.
     pub stiffness: Option<f64>,
@@ -89,6 +91,10 @@ pub struct Load {
 pub enum Action {
     /// Prescribed displacements, m and rad.
     Displacement(Displacement),
+    /// Prescribed velocities, m/s and rad/s, in a motion.
+    Velocity(Displacement),
+    /// Prescribed accelerations of the points, such as those of the ground, m/s^2 and rad/s^2, in a motion.
+    BaseAcceleration(Displacement),
     /// A total force, distributed over the points, N.
     Force(Position),
     /// A force per length of a group, N/m.
@@ -254,6 +260,40 @@ impl Displacement {
     }
 }
 
+impl Action {
+    /// Prescribed motion: displacements, velocities or accelerations; None for a force.
+    pub fn motion(&self) -> Option<Displacement> {
+        match *self {
+            Self::Displacement(it) | Self::Velocity(it) | Self::BaseAcceleration(it) => Some(it),
+            Self::Force(_)
+            | Self::ForcePerLength(_)
+            | Self::BodyForce(_)
+            | Self::Acceleration(_)
+            | Self::ForcePerArea(_)
+            | Self::Moment(_)
+            | Self::BodyCouple(_)
+            | Self::Pressure(_) => None,
+        }
+    }
+
+    /// Quantity that an amplitude multiplies.
+    pub fn timed(&self) -> Timed {
+        match self {
+            Self::Velocity(_) => Timed::Velocity,
+            Self::BaseAcceleration(_) => Timed::Acceleration,
+            Self::Displacement(_)
+            | Self::Force(_)
+            | Self::ForcePerLength(_)
+            | Self::BodyForce(_)
+            | Self::Acceleration(_)
+            | Self::ForcePerArea(_)
+            | Self::Moment(_)
+            | Self::BodyCouple(_)
+            | Self::Pressure(_) => Timed::Value,
+        }
+    }
+}
+
 impl Load {
     /// A load without a profile, named after its group, or `load` for other places.
     pub fn new(place: impl Into<Place>, action: Action) -> Self {
@@ -267,6 +307,7 @@ impl Load {
             place,
             action,
             profile: None,
+            amplitude: None,
             stiffness: None,
             tilts: false,
         }

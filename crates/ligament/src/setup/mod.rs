@@ -4,11 +4,13 @@ mod analysis;
 pub(crate) mod check;
 mod check_control;
 mod check_dimension;
+mod check_motion;
 mod check_stages;
 mod closing;
 mod conditions;
 mod contact;
 mod correction;
+mod motion;
 mod precrack;
 mod probe;
 mod restraint;
@@ -28,7 +30,7 @@ use ligament_model::{Elasticity, Horizons, Isotropic, Material, Plane, PointClou
 use crate::body::{AnyBody, Geometry};
 use crate::implausible::Implausible;
 
-pub use analysis::{Analysis, ELASTIC_ENERGY_TOLERANCE, event, modal, stepped};
+pub use analysis::{Analysis, ELASTIC_ENERGY_TOLERANCE, event, modal, motion, stepped};
 pub use conditions::{
     Action, Axis, Couple, Displacement, Load, Place, Position, Profile, Sample, SpringStiffness,
     Support, begins_as_formula,
@@ -36,6 +38,7 @@ pub use conditions::{
 pub use contact::{Between, ContactLaw, Rigid, RigidForm, SurfaceContact};
 pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
 pub use ligament_model::law::{Calibration, Form, Law, Options, Strains};
+pub use motion::{InitialVelocity, QuietEdge};
 pub use precrack::{CrackShape, PreCrack};
 pub use probe::{Probe, Reading};
 pub use section::Section;
@@ -85,7 +88,11 @@ pub struct Setup {
     pub stages: Vec<Stage>,
     /// Changes of temperature at load factor 1; where several apply, the last counts.
     pub temperatures: Vec<Temperature>,
-    /// Failure criteria of the bonds in an analysis of fracture; the first criterion that is met applies.
+    /// Velocities of parts of the body at time zero of a motion; where several apply, the last counts.
+    pub initial_velocities: Vec<InitialVelocity>,
+    /// Parts of the outline through which waves leave the body in a motion.
+    pub quiet: Vec<QuietEdge>,
+    /// Failure criteria of the bonds in an analysis of fracture or, if any, in a motion; the first criterion that is met applies.
     pub criteria: Vec<Choice>,
     /// A property of the materials that varies at random over the body, in an analysis of fracture.
     pub scatter: Option<Scatter>,
@@ -149,6 +156,8 @@ impl Setup {
             curve: None,
             stages: Vec::new(),
             temperatures: Vec::new(),
+            initial_velocities: Vec::new(),
+            quiet: Vec::new(),
             criteria: Vec::new(),
             scatter: None,
             probes: Vec::new(),

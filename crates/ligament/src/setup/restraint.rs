@@ -114,10 +114,7 @@ fn check_support(field: Field, support: &Support, dimensions: usize) -> Checked 
 
 fn check_load(field: Field, load: &Load) -> Checked {
     positive(field.part("stiffness"), load.stiffness)?;
-    let moves = match load.action {
-        Action::Displacement(it) => it.is_translation(),
-        _ => false,
-    };
+    let moves = load.action.motion().is_some_and(|it| it.is_translation());
     if load.stiffness.is_some() && !moves {
         let reason = "only a `displacement` along the axes goes through springs";
         return contradiction(field.part("stiffness"), reason);

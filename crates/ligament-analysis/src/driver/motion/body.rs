@@ -3,12 +3,15 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use ligament_model::failure::Criteria;
+use ligament_model::element::BondDeformation;
+use ligament_model::failure::{Criteria, Criterion};
+use ligament_model::product::{ForceSum, NearLimits};
+use ligament_model::thermal::ThermalStrain;
 
 use crate::balanced::Balanced;
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
-use crate::breaking::{BreakingOrder, BreakingRule, next_to_break};
+use crate::breaking::{BreakingOrder, BreakingRule, next_of_near, next_to_break};
 use crate::connectivity::decremental::Connectivity;
 use crate::contact::{self, Contact};
 use crate::costs::Costs;
@@ -19,7 +22,6 @@ use crate::history::{BreakRecord, Observer};
 use crate::problem::Problem;
 use crate::softening::Softening;
 use crate::state::State;
-use ligament_model::element::BondDeformation;
 
 /// All bonds at their limits break in a step, with those that differ from the first of them by rounding.
 const RULE: BreakingRule = BreakingRule {
@@ -38,18 +40,54 @@ pub(super) struct Body {
     pub(super) state: State,
     /// Deformations, forces and energy of the bonds at the time of the state.
     pub(super) balanced: Balanced,
+    /// Memory of forces in one sweep without deformations; None where the bonds are not linear up to limits of their own.
+    sum: Option<ForceSum>,
     /// Number of broken bonds.
     pub(super) broken: usize,
     pub(super) costs: Costs,
 }
 
-/// Place of a breakage in a history.
-#[derive(Clone, Copy)]
-pub(super) struct BreakTime {
+/// Time step of a motion.
+pub(super) struct TimeStep<'a> {
+    /// Number of the time step.
+    pub(super) number: usize,
     /// Next row of the history.
     pub(super) row: usize,
-    /// Number of the time step.
-    pub(super) time_step: usize,
+    /// Length of the step, s.
+    pub(super) length: f64,
+    /// Velocities in the middle of the step, shape (n_degrees_of_freedom), m/s and rad/s.
+    pub(super) velocity: &'a [f64],
+}
+
+impl TimeStep<'_> {
+    /// Displacements before the step, from those after it (n_degrees_of_freedom).
+    fn before(&self, after: &[f64]) -> Vec<f64> {
+        let both = after.iter().zip(self.velocity);
+        both.map(|(now, velocity)| now - self.length * velocity)
+            .collect()
+    }
+}
+
+/// Bonds beyond their limits, with their deformations, in the order in which they break.
+struct Beyond {
+    bonds: Vec<u32>,
+    deformations: Vec<BondDeformation>,
+}
+
+/// Forces in one sweep without deformations; None where the bonds are not linear up to limits of their own.
+fn in_one_sweep(problem: &Problem) -> Option<ForceSum> {
+    let Problem {
+        system,
+        criteria,
+        loads,
+        ..
+    } = problem;
+    let is_plain = |it: &Criterion| it.after.is_brittle() && it.surroundings.is_none();
+    let are_plain = criteria.list.iter().all(is_plain);
+    let is_cold = loads.temperature_change(0.0).is_empty();
+    let is_linear = system.is_linear() && !system.faces_close();
+    let n = system.layout().n_degrees_of_freedom();
+    (are_plain && is_cold && is_linear).then(|| ForceSum::new(n))
 }
 
 impl Body {
@@ -69,6 +107,7 @@ impl Body {
             },
             contact: Contact::new(system, &state.intact),
             balanced: Balanced::unloaded(system),
+            sum: in_one_sweep(problem),
             problem: problem.clone(),
             costs: Costs::default(),
             numbers,
@@ -77,26 +116,99 @@ impl Body {
         }
     }
 
-    /// Computes deformations, forces and energy at the displacements and the time of the state, and breaks the bonds that have come to their
-    /// limits. `before` are the displacements of the step before (n_degrees_of_freedom).
+    /// Computes the forces at the displacements and the time of the state, and breaks the bonds that have come to their limits.
+    ///
+    /// With `is_whole` the deformations and the energy of the bonds are computed as well; otherwise they may stay those of an earlier time.
     pub(super) fn move_to(
         &mut self,
-        before: &dyn Fn() -> Vec<f64>,
-        at: BreakTime,
+        step: &TimeStep<'_>,
+        is_whole: bool,
         observer: &mut dyn Observer,
     ) -> Result<Breakage, SetupError> {
         let start = Instant::now();
+        let breakage = match (self.sum.take(), is_whole) {
+            (Some(mut sum), false) => {
+                let breakage = self.move_in_one_sweep(step, &mut sum, observer);
+                self.sum = Some(sum);
+                breakage?
+            }
+            (sum, _) => {
+                self.sum = sum;
+                self.move_with_deformations(step, observer)?
+            }
+        };
+        self.costs.bonds += start.elapsed();
+        Ok(breakage)
+    }
+
+    fn move_with_deformations(
+        &mut self,
+        step: &TimeStep<'_>,
+        observer: &mut dyn Observer,
+    ) -> Result<Breakage, SetupError> {
         self.deform();
         self.soften();
         let problem = self.problem.clone();
         let criteria = problem.criteria_in(&self.state, &self.balanced);
-        let beyond = self.beyond_limits(&criteria);
+        let bonds = self.beyond_limits(&criteria);
         let mut breakage = Breakage::default();
-        if !beyond.is_empty() {
-            breakage = self.break_bonds(&beyond, &criteria, before, at, observer)?;
+        if !bonds.is_empty() {
+            let of_bond = |&bond: &u32| self.balanced.deformations[bond as usize];
+            let deformations = bonds.iter().map(of_bond).collect();
+            let beyond = Beyond {
+                bonds,
+                deformations,
+            };
+            breakage = self.break_bonds(&beyond, &criteria, step, observer)?;
+            self.contact = Contact::new(&*problem.system, &self.state.intact);
+            if breakage.n_elements() != beyond.bonds.len() {
+                self.deform();
+            }
         }
         self.sum_forces();
-        self.costs.bonds += start.elapsed();
+        Ok(breakage)
+    }
+
+    /// Moves bonds that are linear until they break by limits of their own, without storing their deformations.
+    fn move_in_one_sweep(
+        &mut self,
+        step: &TimeStep<'_>,
+        sum: &mut ForceSum,
+        observer: &mut dyn Observer,
+    ) -> Result<Breakage, SetupError> {
+        let problem = self.problem.clone();
+        let (system, criteria) = (&*problem.system, &*problem.criteria);
+        let State {
+            intact,
+            displacement,
+            ..
+        } = &self.state;
+        let limits = NearLimits {
+            criteria,
+            factor: RULE.near(),
+        };
+        let near = system.forces_near_limits(self.state.bonds(), displacement, limits, sum);
+        std::mem::swap(&mut self.balanced.internal.values, &mut sum.values);
+        if near.is_empty() {
+            return Ok(Breakage::default());
+        }
+        let measured = system.measured(intact, displacement, &near);
+        let near: Vec<(u32, BondDeformation)> = near.into_iter().zip(measured).collect();
+        let in_file = |bond| system.ends_in_file(bond);
+        let bonds = next_of_near(&RULE, &near, criteria, in_file);
+        if bonds.is_empty() {
+            return Ok(Breakage::default());
+        }
+        let deformations = system.measured(intact, displacement, &bonds);
+        let beyond = Beyond {
+            bonds,
+            deformations,
+        };
+        let breakage = self.break_bonds(&beyond, criteria, step, observer)?;
+        let lost = breakage.unbalanced_force(&self.state.displacement, ThermalStrain::NONE);
+        for (dof, force) in lost {
+            self.balanced.internal.values[dof] -= force;
+        }
         Ok(breakage)
     }
 
@@ -158,16 +270,15 @@ impl Body {
 
     fn break_bonds(
         &mut self,
-        bonds: &[u32],
+        beyond: &Beyond,
         criteria: &Criteria,
-        before: &dyn Fn() -> Vec<f64>,
-        at: BreakTime,
+        step: &TimeStep<'_>,
         observer: &mut dyn Observer,
     ) -> Result<Breakage, SetupError> {
         let problem = self.problem.clone();
         let (system, loads) = (&*problem.system, &problem.loads);
         let time = self.state.load_factor;
-        let deformation = |_, bond: usize| self.balanced.deformations[bond];
+        let deformation = |place: usize, _| beyond.deformations[place];
         let breaking = Breaking {
             ends: system.ends(),
             judged: CriteriaAtDeformations {
@@ -176,8 +287,8 @@ impl Body {
             },
             moment: BreakRecord {
                 order: self.broken,
-                step: at.row,
-                round: at.time_step,
+                step: step.row,
+                round: step.number,
                 load_factor: time,
                 displacement: loads.control_displacement(time, &self.state.displacement),
                 reaction: loads.control_force(time, &self.balanced.internal),
@@ -188,23 +299,21 @@ impl Body {
                 deformation: BondDeformation::default(),
             },
         };
+        let bonds = &beyond.bonds;
         let records = breaking.records(&self.numbers, bonds);
         observer.broke(&records)?;
         for record in &records {
             dissipation::break_bond(&problem, &mut self.state, record.bond as usize, record);
         }
         // With the displacements before the step, because the energy that leaves in it is 1/2 u^T K_b u' with those before and after.
-        let now = std::mem::replace(&mut self.state.displacement, before());
+        let before = step.before(&self.state.displacement);
+        let now = std::mem::replace(&mut self.state.displacement, before);
         let expansion = loads.thermal_strain(time);
         let breakage = Breakage::new(system, expansion, &self.state, bonds);
         self.state.displacement = now;
         self.broken += bonds.len();
         self.connectivity
             .bonds_broke(system, &mut self.state.intact, bonds);
-        self.contact = Contact::new(system, &self.state.intact);
-        if breakage.n_elements() != bonds.len() {
-            self.deform();
-        }
         Ok(breakage)
     }
 

@@ -10,7 +10,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::body::{Body, BreakTime};
+use super::body::{Body, TimeStep};
 use super::clock::Clock;
 use super::inertia::{Inertia, Velocities};
 use super::restored::{Progress, Restored};
@@ -96,7 +96,7 @@ pub(super) fn resume(
 }
 
 /// Times of a motion, with the critical step.
-fn chosen(
+pub(super) fn chosen(
     problem: &MotionProblem,
     settings: &MotionSettings,
     explicit: ExplicitSettings,
@@ -207,14 +207,14 @@ impl<'a> Explicit<'a> {
         let time_step = self.progress.motion.time_steps;
         self.body.state.load_factor = self.progress.clock.time(time_step);
         self.displace();
-        let (half, step) = (&self.velocities.half, self.inertia.step());
-        let displacement = self.body.state.displacement.clone();
-        let before = || {
-            let both = displacement.iter().zip(half);
-            both.map(|(now, velocity)| now - step * velocity).collect()
+        let step = TimeStep {
+            number: time_step,
+            row,
+            length: self.inertia.step(),
+            velocity: &self.velocities.half,
         };
-        let at = BreakTime { row, time_step };
-        let breakage = self.body.move_to(&before, at, self.observer)?;
+        let is_row = time_step == row * self.progress.clock.steps_per_row;
+        let breakage = self.body.move_to(&step, is_row, self.observer)?;
         self.apply_loads();
         self.advance();
         let Body {

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
+use crate::history::Rates;
 use crate::motion::MotionProblem;
 use crate::serial;
 use crate::vectors::{CHUNK, sum_of_chunks};
@@ -48,6 +49,14 @@ pub(super) struct Velocities {
 serial!(Velocities { half, acceleration });
 
 impl Velocities {
+    /// Velocities (n_degrees_of_freedom) and accelerations for results.
+    pub(super) fn rates<'a>(&'a self, velocity: &'a [f64]) -> Rates<'a> {
+        Rates {
+            velocity,
+            acceleration: &self.acceleration,
+        }
+    }
+
     /// Velocities at the time, in the middle between those before and after it, shape (n_degrees_of_freedom).
     pub(super) fn at_time(&self, step: f64) -> Vec<f64> {
         let both = self.half.iter().zip(&self.acceleration);

@@ -10,6 +10,7 @@ mod restored;
 use crate::error::SetupError;
 use crate::history::Observer;
 use crate::motion::{MotionProblem, MotionSettings, Scheme};
+use crate::solver::ExplicitChoice;
 
 use super::Outcome;
 pub use restored::Restored;
@@ -26,6 +27,20 @@ pub fn run(
 ) -> Result<Outcome, SetupError> {
     match settings.scheme {
         Scheme::Explicit(explicit) => explicit::run(problem, settings, explicit, observer),
+    }
+}
+
+/// Time step of a motion, with the critical one, as [`run`] chooses them.
+///
+/// # Errors
+///
+/// If the motion cannot be computed ([`MotionError`](crate::motion::MotionError)).
+pub fn time_step(
+    problem: &MotionProblem,
+    settings: &MotionSettings,
+) -> Result<ExplicitChoice, SetupError> {
+    match settings.scheme {
+        Scheme::Explicit(explicit) => Ok(explicit::chosen(problem, settings, explicit)?.1),
     }
 }
 

@@ -7,7 +7,8 @@ use crate::driver::outcome::{Outcome, Rows};
 use crate::driver::recorder::{StepCounters, largest_ratio, step_record};
 use crate::driver::remarks;
 use crate::error::SetupError;
-use crate::history::{Moment, Onward, Rates, StepRecord, Termination, View};
+use crate::history::{Moment, Onward, StepRecord, Termination, View};
+use crate::result_fields::Solution;
 use crate::softened::SoftenedOfAll;
 use crate::solver::SolverChoice;
 
@@ -59,17 +60,15 @@ impl Explicit<'_> {
             largest_ratio: largest_ratio(problem, state, balanced),
             ..Default::default()
         };
+        let velocity = self.velocities.at_time(self.inertia.step());
+        let solution = Solution {
+            motion: Some(self.velocities.rates(&velocity)),
+            ..problem.solution(state, balanced)
+        };
         let fragments = connectivity.fragments();
         StepRecord {
             motion: Some(self.progress.motion),
-            ..step_record(
-                problem,
-                state,
-                balanced,
-                &self.energies,
-                fragments,
-                counters,
-            )
+            ..step_record(problem, solution, &self.energies, fragments, counters)
         }
     }
 
@@ -97,10 +96,7 @@ impl Explicit<'_> {
             costs,
             softened: SoftenedOfAll::in_state(state, numbers, system.ends()),
             is_last,
-            motion: Some(Rates {
-                velocity: &velocity,
-                acceleration: &self.velocities.acceleration,
-            }),
+            motion: Some(self.velocities.rates(&velocity)),
             is_whole: true,
         };
         self.observer.step(record, &view)?;

@@ -1,0 +1,126 @@
+//! Report of `ligament check` on a motion in time.
+
+use std::io::{self, Write};
+
+use ligament::Loading;
+use ligament::setup::Setup;
+use ligament_analysis::driver::motion::time_step;
+use ligament_analysis::motion::MotionSettings;
+use ligament_case::case::CaseFile;
+use ligament_model::material::PlaneWaves;
+use ligament_output::quantity::quantity;
+use ligament_run::model::Model;
+use ligament_run::stages::Stages;
+
+use super::entry::entry;
+use super::{Extent, loading, model};
+
+/// Fewest points along a wave that is not much slower than the wave of the material.
+const FEWEST_POINTS: f64 = 10.0;
+
+/// Checks supports, loads and masses, and writes what the motion will do.
+pub(super) fn check(
+    case: &CaseFile,
+    settings: &MotionSettings,
+    extent: Extent,
+    model: &Model,
+    stages: &mut Stages,
+    out: &mut dyn Write,
+) -> anyhow::Result<()> {
+    let loads = Loading::new(model);
+    let loads = loads.map_err(|it| case.located(it))?;
+    let problem = loads.problem(model);
+    let step = match (extent, loads.motion(&problem)) {
+        (Extent::Matrix | Extent::PatchTest, Some(motion)) => {
+            Some(stages.time("critical step", || time_step(&motion, settings))?)
+        }
+        (Extent::Model, _) | (_, None) => None,
+    };
+    model::write(out, case, model)?;
+    loading::write_boundary(out, model, &loads)?;
+    loading::write_room(out, case, model)?;
+    writeln!(out, "motion")?;
+    let rows = settings.rows;
+    let duration = quantity(settings.duration, "s");
+    entry(
+        out,
+        "duration",
+        format!("{duration}, {rows} rows of the history"),
+    )?;
+    if let Some(step) = step {
+        let critical = step.critical;
+        let words = format!(
+            "{}, of {} along {}",
+            quantity(critical.step, "s"),
+            model.body().place(critical.point),
+            critical.component.name()
+        );
+        entry(out, "critical step", words)?;
+        let count = (settings.duration / step.step).round();
+        entry(
+            out,
+            "time step",
+            format!("{}, {count} steps", quantity(step.step, "s")),
+        )?;
+    }
+    Ok(write_waves(out, model)?)
+}
+
+/// Writes the speeds of plane waves along x in each material, and how many points lie along the shortest wave of the loads.
+fn write_waves(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+    let setup = &model.setup;
+    let speeds: Vec<Vec<f64>> = (0..setup.materials.len())
+        .filter_map(|index| speeds(setup, index))
+        .collect();
+    for (region, speeds) in setup.materials.iter().zip(&speeds) {
+        let name = match region.material.name.as_str() {
+            "" => "waves along x".to_owned(),
+            name => format!("waves in {name}"),
+        };
+        let words: Vec<String> = speeds.iter().map(|it| quantity(*it, "m/s")).collect();
+        entry(out, &name, words.join(", "))?;
+    }
+    let amplitudes = setup.loads.iter().filter_map(|it| it.amplitude.as_ref());
+    let shortest = amplitudes
+        .filter_map(|it| it.shortest_time())
+        .reduce(f64::min);
+    let slowest = speeds
+        .iter()
+        .filter_map(|it| it.first().copied())
+        .reduce(f64::min);
+    let (Some(time), Some(speed)) = (shortest, slowest) else {
+        return Ok(());
+    };
+    let spacing = model.system.spacing().iter().copied().fold(0.0, f64::max);
+    let points = time * speed / spacing;
+    let length = quantity(time * speed, "m");
+    entry(
+        out,
+        "shortest wave",
+        format!("{length}, {points:.0} points long"),
+    )?;
+    if points < FEWEST_POINTS {
+        writeln!(
+            out,
+            "warning: the shortest wave of the loads is {points:.1} points long, and waves of fewer than {FEWEST_POINTS} points are too slow: \
+             take a longer pulse or more points"
+        )?;
+    }
+    Ok(())
+}
+
+/// Speeds of the plane waves along x in a material, fastest first, m/s.
+fn speeds(setup: &Setup, index: usize) -> Option<Vec<f64>> {
+    let material = &setup.materials[index].material;
+    let (elasticity, density) = (&material.elasticity, material.density?);
+    let plane = setup.plane();
+    Some(match setup.body.dimensions() {
+        2 => PlaneWaves::new(elasticity, plane, density, [1.0, 0.0])?
+            .speeds
+            .to_vec(),
+        _ => {
+            let waves = PlaneWaves::new(elasticity, plane, density, [1.0, 0.0, 0.0])?;
+            waves.speeds[..2].to_vec()
+        }
+    })
+}

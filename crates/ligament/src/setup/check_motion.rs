@@ -1,0 +1,135 @@
+//! Checks of a motion in time, and of what only a motion has.
+
+use ligament_analysis::motion::{MotionSettings, Scheme};
+
+use super::check::{Checked, contradiction, missing, positive, require};
+use super::{Action, Analysis, Load, Setup, Support};
+use crate::error::Field;
+
+/// Reason why what depends on time is refused in an analysis without time.
+const NO_TIME: &str =
+    "there is no time in this analysis, only in a motion: remove it, or take a motion";
+
+impl Setup {
+    pub(super) fn check_motion(&self) -> Checked {
+        let Analysis::Motion(settings) = &self.analysis else {
+            return self.refuse_time();
+        };
+        check_settings(settings)?;
+        for (index, region) in self.materials.iter().enumerate() {
+            if region.material.density.is_none() {
+                let field = Field::element("materials", index);
+                return missing(
+                    field,
+                    "density",
+                    "(in kg/m^3) because a motion needs masses",
+                );
+            }
+        }
+        if !self.stages.is_empty() {
+            let reason = "a motion has no stages: let each load follow its `amplitude`";
+            return contradiction(Field::whole("stages"), reason);
+        }
+        if !self.temperatures.is_empty() {
+            let reason =
+                "a motion takes no changes of temperature, which would act at once at time zero";
+            return contradiction(Field::whole("temperatures"), reason);
+        }
+        if self.loads.is_empty() && self.initial_velocities.is_empty() {
+            let reason = "there is no load and no initial velocity, so nothing would move";
+            return contradiction(Field::whole("loads"), reason);
+        }
+        for (index, load) in self.loads.iter().enumerate() {
+            check_load(Field::element("loads", index), load)?;
+        }
+        for (index, initial) in self.initial_velocities.iter().enumerate() {
+            let field = Field::element("initial_velocities", index).part("velocity");
+            let is_number = initial.velocity.iter().all(|it| it.is_finite());
+            require(is_number, field, "finite numbers", initial.velocity)?;
+        }
+        self.refuse_rigid_restraints()
+    }
+
+    /// Refuses what depends on time in an analysis without time.
+    fn refuse_time(&self) -> Checked {
+        for (index, load) in self.loads.iter().enumerate() {
+            let field = Field::element("loads", index);
+            if load.amplitude.is_some() {
+                return contradiction(field.part("amplitude"), NO_TIME);
+            }
+            if matches!(
+                load.action,
+                Action::Velocity(_) | Action::BaseAcceleration(_)
+            ) {
+                return contradiction(field.part("action"), NO_TIME);
+            }
+        }
+        if !self.initial_velocities.is_empty() {
+            return contradiction(Field::element("initial_velocities", 0), NO_TIME);
+        }
+        match self.quiet.is_empty() {
+            true => Ok(()),
+            false => contradiction(Field::element("quiet", 0), NO_TIME),
+        }
+    }
+
+    /// Refuses inclined rollers and platens, whose springs are so stiff that explicit steps would be a thousand times shorter.
+    fn refuse_rigid_restraints(&self) -> Checked {
+        let is_rigid =
+            |it: &Support| it.restrained_normal().is_some() && it.stiffness.normal.is_none();
+        if let Some(index) = self.supports.iter().position(is_rigid) {
+            let reason = "an inclined roller is held by springs so stiff that explicit steps would be a thousand times shorter: give it a \
+                          `stiffness` along its normal, or an axis as its normal";
+            return contradiction(Field::element("supports", index).part("normal"), reason);
+        }
+        if let Some(index) = self.loads.iter().position(|it| it.tilts) {
+            let reason = "a platen is so stiff that explicit steps would be a thousand times shorter: leave `tilts` out";
+            return contradiction(Field::element("loads", index).part("tilts"), reason);
+        }
+        Ok(())
+    }
+}
+
+fn check_settings(settings: &MotionSettings) -> Checked {
+    let field = Field::whole("motion");
+    positive(field.part("duration"), Some(settings.duration))?;
+    let rows = settings.rows;
+    require(rows > 0, field.part("rows"), "at least 1", rows)?;
+    let Scheme::Explicit(explicit) = settings.scheme;
+    positive(field.part("step"), explicit.step)?;
+    let safety = explicit.safety;
+    let is_share = safety > 0.0 && safety < 1.0;
+    let expected = "greater than 0 and less than 1: the share of the critical step, beyond which an explicit scheme is unstable";
+    require(is_share, field.part("safety"), expected, safety)?;
+    let factor = settings.rotary_inertia;
+    positive(field.part("rotary_inertia"), Some(factor))?;
+    for (part, value) in [
+        ("damping.mass", settings.damping.mass),
+        ("damping.stiffness", settings.damping.stiffness),
+    ] {
+        let damps = value >= 0.0 && value.is_finite();
+        let expected = "at least 0: a negative damping would feed energy to the body";
+        require(damps, field.part(part), expected, value)?;
+    }
+    positive(field.part("stop.wall_time"), settings.stop.wall_time)
+}
+
+/// Refuses displacements that jump at time zero or later.
+fn check_load(field: Field, load: &Load) -> Checked {
+    if !matches!(load.action, Action::Displacement(_)) {
+        return Ok(());
+    }
+    match &load.amplitude {
+        None => {
+            let reason = "the points would jump at time zero: give the load an `amplitude` that begins at 0, or a `velocity` in the place \
+                          of the displacement";
+            contradiction(field.part("action"), reason)
+        }
+        Some(amplitude) if amplitude.jumps() => {
+            let reason = "the points would jump: a displacement takes an amplitude that begins at 0 and has no steps, such as \
+                          \"smooth-ramp\", or give a `velocity` in its place";
+            contradiction(field.part("amplitude"), reason)
+        }
+        Some(_) => Ok(()),
+    }
+}
