@@ -371,7 +371,10 @@ impl ContactForces {
                 0.5 * mass * (dot(state.velocity, state.velocity) - dot(change, change))
             }
         };
-        bodies.zip(&self.state.rigid_bodies).map(of_body).fold(0.0, |sum, it| sum + it)
+        bodies
+            .zip(&self.state.rigid_bodies)
+            .map(of_body)
+            .fold(0.0, |sum, it| sum + it)
     }
 }
 
