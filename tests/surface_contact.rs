@@ -430,7 +430,7 @@ fn states_and_threads_keep_all_bits() {
     let mut bytes = Vec::new();
     two.contacts.state().write(&mut bytes);
     let state = ContactState::read(&mut bytes.as_slice()).unwrap();
-    two.contacts = ContactForces::resumed(two.problem.clone(), two.layout(), &two.motions, state);
+    two.contacts = ContactForces::resumed(two.problem.clone(), &two.motions, state);
     for impact in [&mut one, &mut two] {
         impact.follow(200.0 * impact.step, &Drive::NONE);
     }

@@ -87,7 +87,7 @@ impl Impact {
                 .collect()
         };
         let (motions, velocity) = (over(&motion), over(&velocity));
-        let contacts = ContactForces::new(problem.clone(), layout, &motions);
+        let contacts = ContactForces::new(problem.clone(), &motions);
         let mass = masses(&model, layout);
         let mut impact = Self {
             acceleration: vec![0.0; mass.len()],
@@ -130,7 +130,7 @@ impl Impact {
     /// 0.9 times the critical step, by the power method on M^-1 (K + D) with the bound D of the contacts; 1 % of the frequency covers what
     /// the method misses in 300 products.
     fn stable_step(&self) -> f64 {
-        let bound = self.contacts.stiffness();
+        let bound = self.problem.stiffness(self.layout());
         let mut mode: Vec<f64> = (0..self.mass.len())
             .map(|it| (it as f64 * 1.7).sin())
             .collect();
@@ -161,8 +161,8 @@ impl Impact {
         }
         let internal = self.internal(&self.motions);
         let mut forces = vec![0.0; internal.len()];
-        self.contacts
-            .advance(self.time, step, &self.motions, &mut forces);
+        self.contacts.advance(self.time, step, &self.motions);
+        self.contacts.add_forces(1.0, &mut forces);
         let mut load = (drive.load)(self.time);
         load.resize(internal.len(), 0.0);
         for dof in 0..internal.len() {

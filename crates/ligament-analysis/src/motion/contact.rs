@@ -61,6 +61,37 @@ pub enum RigidMotion {
     },
 }
 
+impl ContactProblem {
+    /// Whether nothing can come into contact.
+    pub fn is_empty(&self) -> bool {
+        self.contacts.is_empty()
+    }
+
+    /// Bound of what the contacts add to the squared frequencies of a body with a layout.
+    pub fn stiffness(&self, layout: Layout) -> ContactStiffness {
+        if self.is_empty() {
+            return ContactStiffness::default();
+        }
+        let mut sums = vec![0.0; layout.n_degrees_of_freedom()];
+        for contact in &self.contacts {
+            contact.surfaces.add_bound(&mut sums);
+        }
+        let of_body = |(index, body): (usize, &RigidBody)| match &body.motion {
+            RigidMotion::Prescribed { .. } => 0.0,
+            RigidMotion::Free { mass, .. } => {
+                let own = self.contacts.iter();
+                let own = own.filter(|it| it.rigid_body == Some(index));
+                2.0 * own.map(|it| it.surfaces.whole_stiffness()).sum::<f64>() / mass
+            }
+        };
+        let rigid = self.rigid_bodies.iter().enumerate();
+        ContactStiffness {
+            at_degrees_of_freedom: sums,
+            squared_frequency: rigid.map(of_body).fold(0.0, f64::max),
+        }
+    }
+}
+
 impl RigidMotion {
     /// Velocity at time zero, m/s.
     fn first_velocity(&self) -> Vector {
@@ -123,10 +154,10 @@ pub struct ContactState {
 }
 
 /// Bound of what contact adds to the squared frequencies of a body.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct ContactStiffness {
-    /// Diagonal matrix above the stiffness of all contacts, shape (n_degrees_of_freedom), N/m and N m. With the masses M_i the largest squared
-    /// frequency of the body grows by max (this over M_i) at most.
+    /// Diagonal matrix above the stiffness of all contacts, shape (n_degrees_of_freedom), N/m and N m; empty without contacts. With
+    /// the masses M_i the largest squared frequency of the body grows by max (this over M_i) at most.
     pub at_degrees_of_freedom: Vec<f64>,
     /// Bound of the squared frequency of free rigid bodies, 1/s^2.
     pub squared_frequency: f64,
@@ -136,7 +167,6 @@ pub struct ContactStiffness {
 #[derive(Debug)]
 pub struct ContactForces {
     problem: ContactProblem,
-    layout: Layout,
     /// Degrees of freedom that contacts may load, ascending.
     degrees_of_freedom: Vec<u32>,
     searches: Vec<Search>,
@@ -147,10 +177,20 @@ pub struct ContactForces {
     state: ContactState,
 }
 
+impl ContactState {
+    /// Whether the state can be that of a problem.
+    pub fn fits(&self, problem: &ContactProblem) -> bool {
+        self.touches.len() == problem.contacts.len()
+            && self.rigid_bodies.len() == problem.rigid_bodies.len()
+            && (problem.contacts.iter().zip(&self.touches))
+                .all(|(contact, touches)| contact.surfaces.can_have(touches))
+    }
+}
+
 impl ContactForces {
     /// Contacts of a problem at time zero, for the motions then, shape (n_degrees_of_freedom). Surfaces that overlap there begin without
     /// force.
-    pub fn new(problem: ContactProblem, layout: Layout, motions: &[f64]) -> Self {
+    pub fn new(problem: ContactProblem, motions: &[f64]) -> Self {
         let rigid = problem.rigid_bodies.iter().map(|it| RigidState {
             velocity: it.motion.first_velocity(),
             ..RigidState::default()
@@ -160,18 +200,13 @@ impl ContactForces {
             rigid_bodies: rigid.collect(),
             energies: ContactEnergies::default(),
         };
-        let mut contacts = Self::resumed(problem, layout, motions, state);
-        contacts.advance(0.0, 0.0, motions, &mut vec![0.0; motions.len()]);
+        let mut contacts = Self::resumed(problem, motions, state);
+        contacts.advance(0.0, 0.0, motions);
         contacts
     }
 
     /// Contacts of a problem with the state that they had at some motions, shape (n_degrees_of_freedom).
-    pub fn resumed(
-        problem: ContactProblem,
-        layout: Layout,
-        motions: &[f64],
-        state: ContactState,
-    ) -> Self {
+    pub fn resumed(problem: ContactProblem, motions: &[f64], state: ContactState) -> Self {
         let surfaces = problem.contacts.iter().map(|it| &it.surfaces);
         let mut loaded: Vec<u32> = surfaces.flat_map(|it| it.degrees_of_freedom()).collect();
         loaded.sort_unstable();
@@ -182,36 +217,27 @@ impl ContactForces {
             forces: vec![0.0; motions.len()],
             motions: motions.to_vec(),
             problem,
-            layout,
             state,
         };
-        contacts.add_forces();
+        contacts.load_body();
         contacts
     }
 
-    /// Moves to the next time (s), after a step (s) to given motions, and adds the contact forces there to the forces on the body; motions and
-    /// forces have shape (n_degrees_of_freedom).
+    /// Moves to the next time (s), after a step (s) to given motions, shape (n_degrees_of_freedom).
     ///
     /// Free rigid bodies move by velocity Verlet. The result does not depend on the number of threads.
-    pub fn advance(
-        &mut self,
-        time: f64,
-        step: f64,
-        motions: &[f64],
-        forces: &mut [f64],
-    ) -> ContactEnergies {
+    pub fn advance(&mut self, time: f64, step: f64, motions: &[f64]) -> ContactEnergies {
         let rigid = self.state.rigid_bodies.clone();
         self.move_rigid_bodies(time, step);
         self.meet(&rigid, motions);
         let before: Vec<f64> = self.at_loaded(&self.forces);
-        self.add_forces();
+        self.load_body();
         let mut on_body = 0.0;
         for (&dof, before) in self.degrees_of_freedom.iter().zip(before) {
             let dof = dof as usize;
             let way = motions[dof] - self.motions[dof];
             on_body += 0.5 * (before + self.forces[dof]) * way;
             self.motions[dof] = motions[dof];
-            forces[dof] += self.forces[dof];
         }
         let (on_driven, on_free) = self.load_rigid_bodies(&rigid, step);
         let touches = self.state.touches.iter().flatten();
@@ -223,6 +249,13 @@ impl ContactForces {
         energies.stored = stored;
         energies.kinetic = kinetic;
         self.state.energies
+    }
+
+    /// Adds the contact forces at the present time times a factor to forces on the body, shape (n_degrees_of_freedom), N and N m.
+    pub fn add_forces(&self, factor: f64, forces: &mut [f64]) {
+        for &dof in &self.degrees_of_freedom {
+            forces[dof as usize] += factor * self.forces[dof as usize];
+        }
     }
 
     /// Energies at the present time.
@@ -256,27 +289,6 @@ impl ContactForces {
         self.state.touches.iter().map(of_contact).collect()
     }
 
-    /// Bound of what the contacts add to the squared frequencies of the body.
-    pub fn stiffness(&self) -> ContactStiffness {
-        let mut sums = vec![0.0; self.layout.n_degrees_of_freedom()];
-        let contacts = &self.problem.contacts;
-        contacts
-            .iter()
-            .for_each(|it| it.surfaces.add_bound(&mut sums));
-        let of_body = |(index, body): (usize, &RigidBody)| match &body.motion {
-            RigidMotion::Prescribed { .. } => 0.0,
-            RigidMotion::Free { mass, .. } => {
-                let own = contacts.iter().filter(|it| it.rigid_body == Some(index));
-                2.0 * own.map(|it| it.surfaces.whole_stiffness()).sum::<f64>() / mass
-            }
-        };
-        let rigid = self.problem.rigid_bodies.iter().enumerate();
-        ContactStiffness {
-            at_degrees_of_freedom: sums,
-            squared_frequency: rigid.map(of_body).fold(0.0, f64::max),
-        }
-    }
-
     /// Finds the contacts at new motions, given the rigid bodies before the step.
     fn meet(&mut self, before: &[RigidState], motions: &[f64]) {
         for (index, contact) in self.problem.contacts.iter().enumerate() {
@@ -297,7 +309,7 @@ impl ContactForces {
     }
 
     /// Computes the forces of the present contacts on the body.
-    fn add_forces(&mut self) {
+    fn load_body(&mut self) {
         for &dof in &self.degrees_of_freedom {
             self.forces[dof as usize] = 0.0;
         }

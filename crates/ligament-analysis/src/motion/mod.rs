@@ -13,6 +13,7 @@ use ligament_model::LumpedMass;
 use thiserror::Error;
 
 use crate::problem::Problem;
+use contact::ContactProblem;
 
 pub use crate::critical_step::CriticalStep;
 pub use stable_step::critical_step;
@@ -28,6 +29,8 @@ pub struct MotionProblem {
     pub initial_velocity: Arc<[f64]>,
     /// Dashpots between points and the ground.
     pub dashpots: Arc<[Dashpot]>,
+    /// Contacts between surfaces and with rigid bodies.
+    pub contact: ContactProblem,
 }
 
 /// Dashpot between a point and the ground: the force -C v for the velocity v of the point.

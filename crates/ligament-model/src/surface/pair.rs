@@ -41,6 +41,9 @@ pub trait SurfacePair: Debug + Send + Sync {
     /// contacts.
     fn add_forces(&self, touches: &[Touch], forces: &mut [f64]);
 
+    /// Whether numbers of integration points and facets exist, in an ascending order.
+    fn can_have(&self, touches: &[Touch]) -> bool;
+
     /// Degrees of freedom that the contact may load, ascending.
     fn degrees_of_freedom(&self) -> Vec<u32>;
 
@@ -303,6 +306,15 @@ impl<const D: usize> SurfacePair for FacetPair<D> {
                 facets[onto as usize].add_force(layout, &touch.weights, opposite, forces);
             }
         }
+    }
+
+    fn can_have(&self, touches: &[Touch]) -> bool {
+        let n_facets = self.surface.facets.len();
+        let exists = |it: &Touch| {
+            let is_facet = it.onto.is_none_or(|facet| (facet as usize) < n_facets);
+            (it.place as usize) < D * n_facets && is_facet
+        };
+        touches.iter().all(exists) && touches.is_sorted_by(|one, other| one.place < other.place)
     }
 
     fn degrees_of_freedom(&self) -> Vec<u32> {

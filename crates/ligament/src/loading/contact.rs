@@ -25,7 +25,15 @@ const TOUCHING: f64 = 0.01;
 ///
 /// If a group is not in the body or has no part of its outline, two groups have facets in common, or a rigid body starts inside the body.
 pub fn contact_problem(model: &Model) -> Result<ContactProblem, SetupError> {
-    over_dimension!(&model.system, system => Outline::new(&model.setup, &**system).contacts())
+    over_dimension!(&model.system, system => contacts(&model.setup, &**system))
+}
+
+/// The contacts of a setup on its points and bonds.
+pub(super) fn contacts<const D: usize>(
+    setup: &Setup,
+    system: &dyn System<D>,
+) -> Result<ContactProblem, SetupError> {
+    Outline::new(setup, system).contacts()
 }
 
 /// The outline of a body, which contacts take facets from.

@@ -15,6 +15,7 @@ use std::sync::Arc;
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::motion::MotionProblem;
+use ligament_analysis::motion::contact::ContactProblem;
 use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::solver::SolverSettings;
 use ligament_analysis::{LoadProgram, LoadsInTime, ProportionalLoading, StagedLoading};
@@ -47,6 +48,8 @@ pub struct Loading {
     pub in_time: Option<Arc<LoadsInTime>>,
     /// Masses, initial velocities and quiet edges; none without a motion.
     pub inertia: Option<Inertia>,
+    /// Contacts between surfaces; empty without a motion.
+    pub contact: ContactProblem,
     /// Probes.
     pub probes: Arc<[Probe]>,
     /// Settings of the equation solver.
@@ -82,11 +85,13 @@ impl Loading {
             ),
             false => (None, None),
         };
+        let contact = contact::contacts(setup, system)?;
         let boundary = restrained(setup, system, boundary, ActiveLoads::All)?;
         Ok(Self {
             staged: staged.map(Arc::new),
             in_time: in_time.map(Arc::new),
             inertia,
+            contact,
             boundary: Arc::new(boundary),
             probes,
             solver: setup.solver.clone(),
@@ -117,6 +122,7 @@ impl Loading {
             mass: inertia.mass.clone(),
             initial_velocity: inertia.initial_velocity.clone(),
             dashpots: inertia.dashpots.clone(),
+            contact: self.contact.clone(),
         })
     }
 }

@@ -21,6 +21,7 @@ use crate::driver::outcome::Outcome;
 use crate::driver::recorder::Energies;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
+use crate::motion::contact::{ContactEnergies, ContactForces, ContactProblem};
 use crate::motion::{ExplicitSettings, MotionError, MotionProblem, MotionSettings, critical_step};
 use crate::solver::ExplicitChoice;
 use crate::vectors::{CHUNK, sum_of_chunks};
@@ -34,6 +35,7 @@ pub(super) struct Explicit<'a> {
     pub(super) velocities: Velocities,
     pub(super) energies: Energies,
     pub(super) progress: Progress,
+    pub(super) contacts: Option<ContactForces>,
     /// Degrees of freedom that are prescribed or loaded, ascending.
     pub(super) loaded: Vec<u32>,
     /// External forces, shape (n_degrees_of_freedom), N and N m.
@@ -67,7 +69,7 @@ pub(super) fn run(
     let progress = Progress::at_start(clock);
     let parts = (body, velocities, energies, progress);
     let mut motion = Explicit::new(problem, (settings, choice), parts, observer);
-    motion.begin(&problem.initial_velocity);
+    motion.begin(&problem.initial_velocity, &problem.contact);
     motion.follow()
 }
 
@@ -84,6 +86,7 @@ pub(super) fn resume(
         velocities,
         energies,
         progress,
+        contacts,
     } = restored;
     let (clock, choice) = chosen(&problem, settings, explicit)?;
     if clock != progress.clock {
@@ -91,6 +94,7 @@ pub(super) fn resume(
     }
     let parts = (body, velocities, energies, progress);
     let mut motion = Explicit::new(&problem, (settings, choice), parts, observer);
+    motion.contacts = contacts;
     motion.apply_loads();
     motion.follow()
 }
@@ -139,16 +143,21 @@ impl<'a> Explicit<'a> {
             velocities,
             energies,
             progress,
+            contacts: None,
             observer,
             started: Instant::now(),
         }
     }
 
     /// Sets the velocities and the energies of time zero.
-    fn begin(&mut self, velocity: &[f64]) {
+    fn begin(&mut self, velocity: &[f64], contact: &ContactProblem) {
         let loads = self.body.problem.loads.clone();
         loads.prescribe(0.0, &mut self.body.state.displacement);
         self.body.measure();
+        if !contact.is_empty() {
+            let motions = &self.body.state.displacement;
+            self.contacts = Some(ContactForces::new(contact.clone(), motions));
+        }
         self.apply_loads();
         let internal = &self.body.balanced.internal.values;
         let forces = self.external.iter().zip(internal);
@@ -171,7 +180,7 @@ impl<'a> Explicit<'a> {
         self.energies
             .add_released(problem, state, &nothing, balanced);
         self.progress.motion.initial_energy =
-            self.inertia.kinetic_energy(&self.velocities) + balanced.stored_energy;
+            self.kinetic_energy() + self.body.balanced.stored_energy;
         self.damp();
     }
 
@@ -215,6 +224,7 @@ impl<'a> Explicit<'a> {
         };
         let is_row = time_step == row * self.progress.clock.steps_per_row;
         let breakage = self.body.move_to(&step, is_row, self.observer)?;
+        self.apply_contacts();
         self.apply_loads();
         self.advance();
         let Body {
@@ -249,6 +259,37 @@ impl<'a> Explicit<'a> {
         for &dof in self.inertia.prescribed() {
             displacement[dof as usize] = self.ahead[dof as usize];
         }
+    }
+
+    /// Subtracts the forces of contacts between surfaces from those of the bonds, and adds up the energies of the contacts.
+    fn apply_contacts(&mut self) {
+        let Some(contacts) = &mut self.contacts else {
+            return;
+        };
+        let ContactEnergies {
+            dissipated,
+            driving_work,
+            ..
+        } = contacts.energies();
+        let (state, balanced) = (&self.body.state, &mut self.body.balanced);
+        let (time, step) = (state.load_factor, self.inertia.step());
+        let internal = &mut balanced.internal.values;
+        let now = contacts.advance(time, step, &state.displacement);
+        contacts.add_forces(-1.0, internal);
+        let motion = &mut self.progress.motion;
+        motion.contact_energy = now.stored;
+        motion.friction_energy += now.dissipated - dissipated;
+        self.energies
+            .add_driving_work(now.driving_work - driving_work);
+    }
+
+    /// Kinetic energy of the body and of free rigid bodies, J.
+    pub(super) fn kinetic_energy(&self) -> f64 {
+        let of_rigid = self
+            .contacts
+            .as_ref()
+            .map_or(0.0, |it| it.energies().kinetic);
+        self.inertia.kinetic_energy(&self.velocities) + of_rigid
     }
 
     /// Sets the external forces of the time, and the prescribed displacements of the end of the next step.

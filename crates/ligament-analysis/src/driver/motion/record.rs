@@ -18,7 +18,7 @@ const GROWN: f64 = 0.02;
 impl Explicit<'_> {
     /// Records the present time as a row, and returns the reason why the motion ends there, if it does.
     pub(super) fn record(&mut self, row: usize) -> Result<Option<Termination>, SetupError> {
-        self.progress.motion.kinetic_energy = self.inertia.kinetic_energy(&self.velocities);
+        self.progress.motion.kinetic_energy = self.kinetic_energy();
         let record = self.row(row);
         let end = self.end(&record);
         let is_last = end.is_some() || row == self.progress.clock.rows;
@@ -143,10 +143,12 @@ impl Explicit<'_> {
             velocities,
             energies,
             progress,
+            contacts,
             observer,
             ..
         } = self;
-        let checkpoint = || Restored::write(body, velocities, energies, progress);
+        let checkpoint =
+            || Restored::write(body, velocities, energies, (progress, contacts.as_ref()));
         let moment = Moment {
             end: end.as_ref(),
             checkpoint: &checkpoint,

@@ -10,6 +10,7 @@ use crate::driver::recorder::Energies;
 use crate::error::SetupError;
 use crate::history::{InMotion, LargestOverlap, StepRecord};
 use crate::motion::MotionProblem;
+use crate::motion::contact::{ContactForces, ContactState};
 use crate::serial;
 use crate::serial::{Damaged, Serial};
 use crate::state::State;
@@ -57,6 +58,7 @@ pub struct Restored {
     pub(super) velocities: Velocities,
     pub(super) energies: Energies,
     pub(super) progress: Progress,
+    pub(super) contacts: Option<ContactForces>,
 }
 
 impl Restored {
@@ -75,13 +77,14 @@ impl Restored {
         body: &Body,
         velocities: &Velocities,
         energies: &Energies,
-        progress: &Progress,
+        (progress, contacts): (&Progress, Option<&ContactForces>),
     ) -> Vec<u8> {
         let mut out = Vec::new();
         MOTION.write(&mut out);
         body.state.write(&body.numbers, &mut out);
         velocities.write(&mut out);
         progress.write(&mut out);
+        contacts.map(|it| it.state().clone()).write(&mut out);
         body.costs.write(&mut out);
         energies.write(&mut out);
         CheckValues::new(&body.problem, &body.balanced).write(&mut out);
@@ -106,11 +109,22 @@ impl Restored {
             return Err(CheckpointError::OtherModel.into());
         }
         let progress: Progress = Serial::read(from).map_err(damaged)?;
+        let contact: Option<ContactState> = Serial::read(from).map_err(damaged)?;
+        let can_be = contact.as_ref().map(|it| it.fits(&problem.contact));
+        if !can_be.unwrap_or(problem.contact.is_empty()) {
+            return Err(CheckpointError::OtherModel.into());
+        }
         let costs = Serial::read(from).map_err(damaged)?;
         let with_begun = with_begun(&problem.problem, &state)?;
         let mut body = Body::new(&with_begun, numbers, Some(state));
         body.costs = costs;
         body.measure();
+        let resumed =
+            |it| ContactForces::resumed(problem.contact.clone(), &body.state.displacement, it);
+        let contacts = contact.map(resumed);
+        if let Some(contacts) = &contacts {
+            contacts.add_forces(-1.0, &mut body.balanced.internal.values);
+        }
         let energies = Energies::read(&body.problem, &body.state, &body.balanced, from)?;
         let values_then = CheckValues::read(from).map_err(damaged)?;
         if !from.is_empty() {
@@ -125,6 +139,7 @@ impl Restored {
             velocities,
             energies,
             progress,
+            contacts,
         })
     }
 }
