@@ -3,9 +3,14 @@
 
 use std::collections::BTreeMap;
 
-use ligament::body::{LatticeBody, MeshBody, SolidLatticeBody};
-use ligament::setup::{Between, ContactLaw, Law, Rigid, RigidForm, Section, Setup, SurfaceContact};
+use ligament::body::{Cells, LatticeBody, MeshBody, SolidLatticeBody};
+use ligament::run::NoObserver;
+use ligament::setup::{
+    Analysis, Between, ContactLaw, InitialVelocity, Law, Place, Rigid, RigidForm, Section, Setup,
+    Support, SurfaceContact, motion,
+};
 use ligament_analysis::Component;
+use ligament_analysis::history::StepRecord;
 use ligament_analysis::load_program::{self, Amplitude};
 use ligament_analysis::motion::contact::{ContactForces, ContactState};
 use ligament_analysis::serial::Serial;
@@ -200,7 +205,6 @@ fn groups_of_a_mesh_meet() {
         (impact.contacts.readings()[0], impact.contacts.energies())
     };
     let ((one, energies), (other, _)) = (run(["left", "right"]), run(["right", "left"]));
-    println!("{one:?} {energies:?}");
     assert!(one.normal_force[0] < 0.0 && energies.dissipated > 0.0);
     let share = one.area / (4.7 * SIDE);
     assert!((0.7..=1.1).contains(&share), "{share}");
@@ -273,16 +277,12 @@ fn a_circle_makes_the_contact_of_hertz() {
     let expected = (4.0 * force * radius / (std::f64::consts::PI * modulus)).sqrt();
     let found = 0.5 * circle.area;
     let penetration = circle.penetration / SIDE;
-    println!(
-        "a {found:.4e}, {expected:.4e} expected; F {force:.4e}; wall {:.4e}; penetration {penetration:.4}",
-        wall.normal_force[1]
-    );
+    println!("a {found:.4e}, {expected:.4e} expected; penetration {penetration:.4}");
     assert!((wall.normal_force[1] / force - 1.0).abs() < 1e-2);
     assert!((found - expected).abs() < 0.75 * SIDE);
     // The penetration is p h/E' with the largest pressure p = 2 F/(pi a).
     let pressure = 2.0 * force / (std::f64::consts::PI * expected);
     let constrained = YOUNG * 0.8 / (1.2 * 0.6);
-    println!("p h/E' {:.4}", pressure / constrained);
     assert!((penetration * constrained / pressure - 1.0).abs() < 0.1);
 }
 
@@ -404,7 +404,6 @@ fn a_sphere_gives_its_momentum_to_a_block() {
         touched = touched.max(impact.contacts.readings()[0].penetration);
     }
     let now = impact.ledger();
-    println!("penetration {touched:.2e} m; {now:?}");
     assert!(touched > 1e-6 && now.contact.dissipated > 1e-3 * start.kinetic);
 }
 
@@ -436,4 +435,64 @@ fn states_and_threads_keep_all_bits() {
     }
     assert_eq!(bits(&one), bits(&two));
     assert_eq!(one.contacts.state(), two.contacts.state());
+}
+
+/// Rows of a motion of a setup with contact.
+fn history(setup: &Setup, duration: f64) -> Vec<StepRecord> {
+    let setup = Setup {
+        analysis: Analysis::Motion(motion(duration)),
+        ..setup.clone()
+    };
+    setup.solve(&mut NoObserver).unwrap().outcome.history
+}
+
+/// Motions of the program have the contacts: a flying bar gives its energy to an equal one, and the balance of energy closes to rounding.
+#[test]
+fn motions_have_contacts() {
+    let bars = parted([81, 3], [40.0 * SIDE, 41.0 * SIDE], Law::NHPD, 0.0);
+    let left = InitialVelocity {
+        place: Place::Box([[0.0; 3], [40.0 * SIDE, SIDE * 3.0, 0.0]]),
+        velocity: [20.0, 0.0, 0.0],
+    };
+    let setup = Setup {
+        initial_velocities: vec![left],
+        ..with_contact(bars, ContactLaw::default())
+    };
+    let rows = history(&setup, 8e-5);
+    let all: Vec<_> = rows.iter().map(|it| it.motion.unwrap()).collect();
+    let largest = |value: fn(&StepRecord) -> f64| rows.iter().map(value).fold(0.0, f64::max);
+    let stored = all.iter().map(|it| it.contact_energy).fold(0.0, f64::max);
+    assert!(stored > 1e-3 * all[0].initial_energy && all.last().unwrap().contact_energy == 0.0);
+    assert!(largest(|it| it.energy_error().abs()) < 1e-11);
+    // Half of the energy is strain while the wave is half way.
+    assert!(largest(|it| it.stored_energy) > 0.4 * all[0].initial_energy);
+}
+
+/// A circle driven into a held block: the work of the drive is what the block, the contact and friction take, and supports carry the force of the
+/// circle on the block.
+#[test]
+fn a_driven_circle_does_work_on_a_held_block() {
+    let set = BTreeMap::from([("base".to_owned(), Cells::bottom(1))]);
+    let body = LatticeBody::new([24, 12], [SIDE; 2], [0.0; 2], &[], &set).unwrap();
+    let mut circle = rigid(RigidForm::Ball {
+        centre: [12.0 * SIDE, 62.0 * SIDE, 0.0],
+        radius: 50.0 * SIDE,
+    });
+    circle.velocity = [1.0, -2.0, 0.0];
+    circle.law.friction = 0.3;
+    circle.amplitude = Amplitude::pulse(load_program::Shape::SmoothRamp, 0.0, 1e-5);
+    let setup = Setup {
+        supports: vec![Support::new("base", &[Component::X, Component::Y])],
+        rigid_bodies: vec![circle],
+        ..Setup::new(body, material(0.2), Law::NHPD)
+    };
+    let rows = history(&setup, 3e-5);
+    let last = rows.last().unwrap();
+    let taken = last.motion.unwrap().friction_energy;
+    assert!(last.external_work > 0.0 && taken > 0.0 && taken < last.external_work);
+    let error = rows
+        .iter()
+        .map(|it| it.energy_error().abs())
+        .fold(0.0, f64::max);
+    assert!(error < 1e-10, "{error}");
 }

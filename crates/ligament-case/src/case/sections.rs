@@ -275,12 +275,8 @@ impl Case {
         match scheme {
             Scheme::Explicit => {
                 let (key, reason) = (root().child("solver"), "explicit steps solve no equations");
-                refuse(
-                    &key,
-                    self.solver.of_equations(),
-                    "motion.scheme = \"explicit\"",
-                    reason,
-                )
+                let keys = self.solver.of_equations();
+                refuse(&key, keys, "motion.scheme = \"explicit\"", reason)
             }
         }
     }
