@@ -5,6 +5,8 @@
 
 mod stable_step;
 
+pub mod contact;
+
 use std::sync::Arc;
 
 use ligament_model::LumpedMass;
@@ -12,6 +14,7 @@ use thiserror::Error;
 
 use crate::breaking::BreakingRule;
 use crate::problem::Problem;
+use contact::ContactProblem;
 
 pub use crate::critical_step::CriticalStep;
 pub use stable_step::critical_step;
@@ -27,6 +30,8 @@ pub struct MotionProblem {
     pub initial_velocity: Arc<[f64]>,
     /// Dashpots between points and the ground.
     pub dashpots: Arc<[Dashpot]>,
+    /// Contacts between surfaces and with rigid bodies.
+    pub contact: ContactProblem,
 }
 
 /// Dashpot between a point and the ground: the force -C v for the velocity v of the point.
@@ -142,6 +147,11 @@ pub enum MotionError {
         /// Critical step, s.
         critical: f64,
     },
+    /// Contact between surfaces was required in implicit steps.
+    #[error(
+        "contact between surfaces needs explicit steps; implicit ones know that of crack faces alone"
+    )]
+    ImplicitContact,
     /// Several processes cannot compute a motion.
     #[error("several processes cannot compute a motion in time; use one process")]
     SeveralProcesses,

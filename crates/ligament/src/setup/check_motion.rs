@@ -35,8 +35,10 @@ impl Setup {
                 "a motion takes no changes of temperature, which would act at once at time zero";
             return contradiction(Field::whole("temperatures"), reason);
         }
-        if self.loads.is_empty() && self.initial_velocities.is_empty() {
-            let reason = "there is no load and no initial velocity, so nothing would move";
+        let is_idle = self.loads.is_empty() && self.initial_velocities.is_empty();
+        if is_idle && self.rigid_bodies.is_empty() {
+            let reason =
+                "there is no load, no initial velocity and no rigid body, so nothing would move";
             return contradiction(Field::whole("loads"), reason);
         }
         for (index, load) in self.loads.iter().enumerate() {

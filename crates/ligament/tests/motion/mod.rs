@@ -94,6 +94,7 @@ fn motion_of(setup: &Setup, velocity: impl FnOnce(&Model) -> Vec<f64>) -> Motion
     MotionProblem {
         initial_velocity: velocity(&model).into(),
         dashpots: Arc::new([]),
+        contact: Default::default(),
         problem: Problem {
             system,
             criteria: model.criteria.clone(),

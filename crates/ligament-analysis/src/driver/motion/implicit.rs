@@ -144,6 +144,9 @@ fn check(problem: &MotionProblem, settings: &MotionSettings) -> Result<(), Motio
     if !system.subdomain().is_whole() {
         return Err(MotionError::SeveralProcesses);
     }
+    if !problem.contact.is_empty() {
+        return Err(MotionError::ImplicitContact);
+    }
     let is_heated = !loads.temperature_change(0.0).is_empty();
     let is_plain = system.is_linear() && !system.faces_close() && !criteria.soften() && !is_heated;
     if settings.damping.stiffness > 0.0 && !is_plain {
