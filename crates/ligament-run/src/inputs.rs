@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use ligament_case::case::{CaseFile, Stop};
+use ligament_case::case::{CaseFile, MotionStop, Stop};
 use ligament_case::input_file;
 use ligament_output::folder::{self, ResultFolder};
 use ligament_output::summary::Identity;
@@ -15,13 +15,15 @@ pub struct Inputs(String);
 
 /// Keys that may change when a run is resumed, because they do not change earlier results. The driver checks that completed load steps
 /// stay.
-pub const MAY_CHANGE: [&str; 9] = [
+pub const MAY_CHANGE: [&str; 11] = [
     "fracture.stop.load_fraction",
     "fracture.stop.displacement",
     "fracture.stop.bonds",
     "fracture.stop.wall_time",
     "fracture.steps",
     "fracture.max_iterations",
+    "motion.stop.bonds",
+    "motion.stop.wall_time",
     "output.fields_every",
     "output.checkpoint_every",
     "output.picture",
@@ -95,6 +97,9 @@ impl Inputs {
                 ..Stop::default()
             };
         }
+        if let Some(motion) = &mut plain.case.motion {
+            motion.stop = MotionStop::default();
+        }
         Self::from_case(&plain, None, contents)
     }
 
@@ -136,6 +141,8 @@ fn paths(case: &mut CaseFile) -> Vec<(String, &mut PathBuf)> {
     for (number, load) in case.loads.iter_mut().enumerate() {
         let file = (load.profile.iter_mut()).filter_map(|profile| profile.file.as_mut());
         found.extend(file.map(|file| (format!("load.{number}.profile.file"), file)));
+        let file = (load.amplitude.iter_mut()).filter_map(|it| it.file.as_mut());
+        found.extend(file.map(|file| (format!("load.{number}.amplitude.file"), file)));
     }
     found
 }

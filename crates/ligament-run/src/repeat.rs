@@ -113,6 +113,9 @@ impl Request<'_> {
         if let Some(fracture) = &mut case.case.fracture {
             fracture.stop.wall_time = None;
         }
+        if let Some(motion) = &mut case.case.motion {
+            motion.stop.wall_time = None;
+        }
         Ok(case)
     }
 

@@ -1,5 +1,7 @@
 //! Units of the force-displacement curve.
 
+use ligament_analysis::Timed;
+
 use crate::setup::{Action, Setup};
 
 /// Units of the axes of the force-displacement curve.
@@ -40,6 +42,24 @@ impl Setup {
             Some(load) => self.loads[load].action.units(),
             None if self.analysis.is_motion() => Units::FORCE,
             None => Units::TEMPERATURE,
+        }
+    }
+}
+
+impl Setup {
+    /// Unit of the size of the load of the curve: of its displacement or force, or of the rate of its displacement.
+    pub fn control_unit(&self) -> &'static str {
+        let units = self.units();
+        let action = self.curve_load().map(|load| &self.loads[load].action);
+        let is_turned = units == Units::COUPLE;
+        match action.map(|it| (it.motion().is_some(), it.timed())) {
+            None => units.displacement,
+            Some((false, _)) => units.force,
+            Some((true, Timed::Value)) => units.displacement,
+            Some((true, Timed::Velocity)) if is_turned => "rad/s",
+            Some((true, Timed::Velocity)) => "m/s",
+            Some((true, Timed::Acceleration)) if is_turned => "rad/s^2",
+            Some((true, Timed::Acceleration)) => "m/s^2",
         }
     }
 }

@@ -150,12 +150,12 @@ pub(super) const REFUSED: [[&str; 2]; 45] = [
     ],
     [
         "quiet=[{group=\"rigth\"}]",
-        "quiet.0.group: no set or hole of the lattice is called `rigth`; did you mean `right`?",
+        "quiet.0.group: no set of the lattice is called `rigth`; did you mean `right`?",
     ],
     ["quiet=[{}]", "quiet.0.group: missing key `group`"],
     [
         "initial_velocity=[{group=\"middle\",velocity={x=1.0}}]",
-        "initial_velocity.0.group: no set or hole of the lattice is called `middle`",
+        "initial_velocity.0.group: no set of the lattice is called `middle`",
     ],
     [
         "initial_velocity=[{velocity={z=1.0}}]",

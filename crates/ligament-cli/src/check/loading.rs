@@ -107,11 +107,12 @@ pub(super) fn write_boundary(
     let points = control.points.len();
     let [moved, loaded] = ["moved by", "loaded by"].map(|it| format!("{points} points, {it}"));
     let units = model.setup.units();
-    let (what, unit) = match control.kind {
-        ControlKind::Temperature => ("the temperature, changed by", units.displacement),
-        ControlKind::Displacement => (moved.as_str(), units.displacement),
-        ControlKind::Force => (loaded.as_str(), units.force),
+    let what = match control.kind {
+        ControlKind::Temperature => "the temperature, changed by",
+        ControlKind::Displacement => moved.as_str(),
+        ControlKind::Force => loaded.as_str(),
     };
+    let unit = model.setup.control_unit();
     let words = format!("{what} {}", quantity(control.magnitude, unit));
     entry(out, "controlled by", words)?;
     if control.kind == ControlKind::Force && units == Units::COUPLE {

@@ -18,7 +18,7 @@ use crate::body::Origin;
 use crate::error::Field;
 
 /// Message about a z axis in the plane.
-const NO_Z: &str = "a body in the plane has no z: give \"x\" or \"y\"";
+pub(super) const NO_Z: &str = "a body in the plane has no z: give \"x\" or \"y\"";
 
 /// Message about a component of the stress that bodies in the plane do not have.
 const ONLY_OF_SOLIDS: &str = "a body in the plane has no such component of the stress";
@@ -147,7 +147,7 @@ impl Setup {
     }
 
     /// Whether a vector or a position of a body in the plane has a z coordinate other than zero.
-    fn leaves_plane(&self, vector: &Position) -> bool {
+    pub(super) fn leaves_plane(&self, vector: &Position) -> bool {
         self.dimensions() == 2 && vector[2] != 0.0
     }
 
@@ -204,8 +204,10 @@ impl Setup {
                 return contradiction(field.part("profile"), NO_Z);
             }
             let action = field.part("action");
+            if load.action.motion().is_some_and(|it| leaves(&it)) {
+                return contradiction(action, reason);
+            }
             match load.action {
-                Action::Displacement(it) if leaves(&it) => return contradiction(action, reason),
                 Action::Force(it)
                 | Action::ForcePerLength(it)
                 | Action::BodyForce(it)

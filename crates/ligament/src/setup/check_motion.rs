@@ -3,7 +3,8 @@
 use ligament_analysis::motion::{MotionSettings, Scheme};
 
 use super::check::{Checked, contradiction, missing, positive, require};
-use super::{Action, Analysis, Load, Setup, Support};
+use super::check_dimension::NO_Z;
+use super::{Action, Analysis, Load, Place, Setup, Support};
 use crate::error::Field;
 
 /// Reason why what depends on time is refused in an analysis without time.
@@ -48,6 +49,11 @@ impl Setup {
             let field = Field::element("initial_velocities", index).part("velocity");
             let is_number = initial.velocity.iter().all(|it| it.is_finite());
             require(is_number, field, "finite numbers", initial.velocity)?;
+            let is_off =
+                matches!(&initial.place, Place::At(position) if self.leaves_plane(position));
+            if is_off || self.leaves_plane(&initial.velocity) {
+                return contradiction(field, NO_Z);
+            }
         }
         self.refuse_rigid_restraints()
     }
