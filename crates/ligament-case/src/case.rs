@@ -61,7 +61,7 @@ pub use material::Material;
 pub use mesh_section::MeshSection;
 pub use model::ModelSection;
 pub use output::{Output, StressField};
-pub use overrides::unset;
+pub use overrides::{parts as override_parts, unset};
 pub use precrack::Precrack;
 pub use probe::Probe;
 pub use region::{Corners, Rectangle, Region};
