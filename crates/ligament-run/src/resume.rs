@@ -12,6 +12,7 @@ use ligament_analysis::serial::Serial;
 use ligament_case::case::CaseFile;
 use ligament_output::checkpoint::Checkpoint;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
+use ligament_output::quantity::quantity;
 use ligament_output::results::OutputState;
 use ligament_output::results::outputs::{clear, require_results};
 use ligament_output::summary::{self, Build, SUMMARY, Summary};
@@ -124,9 +125,13 @@ impl Request<'_> {
             .zip(restored)
             .map(|((checkpoint, results), restored)| {
                 let kept = kept(checkpoint, results, restored, &problem)?;
+                let reached = kept.restored.load_factor();
+                let reached = match model.setup.analysis.is_motion() {
+                    true => quantity(reached, "s"),
+                    false => format!("load factor {reached:.4}"),
+                };
                 progress.stage(&format!(
-                    "resuming at load factor {:.4} with {} broken",
-                    kept.restored.load_factor(),
+                    "resuming at {reached} with {} broken",
                     kept.restored.broken_bonds()
                 ));
                 anyhow::Ok(kept)

@@ -2,6 +2,7 @@
 
 mod modal;
 mod model;
+mod motion;
 mod places;
 mod solver;
 
@@ -22,6 +23,7 @@ use ligament_case::case::CaseFile;
 
 pub use modal::{modal_summary, write_modal};
 pub use model::{correction_line, family, formulation_line, heading, scatter};
+use motion::{motion_summary, write_motion};
 use places::{bond_event, resultants_at_peak};
 use solver::solver_summary;
 
@@ -95,11 +97,13 @@ pub fn summary(
         first_broken_bond: noted.first.broken.map(|it| bond_event(model, &it)),
         peak: loaded(outcome.peak()),
         reactions_at_peak: resultants_at_peak(boundary, model.system.layout(), outcome),
-        first_peak: loaded(outcome.first_peak(DROP)),
+        // The force of a motion rises and falls with its waves.
+        first_peak: loaded(outcome.first_peak(DROP)).filter(|_| outcome.rows != Rows::Times),
         broken_bonds: outcome.broken_bonds,
         softened_bonds: (model.criteria.soften()).then_some(outcome.softened_bonds),
         steps: history.len().saturating_sub(1),
         exact_path: outcome.rows == Rows::Events,
+        motion: motion_summary(&model.setup.analysis, outcome),
         termination: outcome.termination.name().into(),
         termination_message: ending(outcome, model),
         without_equilibrium,
@@ -133,18 +137,21 @@ pub fn write(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
     )?;
     write_loads(summary, out)?;
     write_first_bonds(summary, out)?;
-    let unit = if summary.exact_path {
-        "states of the exact path"
-    } else {
-        "load steps"
-    };
+    if let Some(motion) = &summary.motion {
+        write_motion(motion, out)?;
+    }
     let softened = (summary.softened_bonds).map_or(String::new(), |it| {
         format!(", and {it} more that softened,")
     });
+    let of_steps = match &summary.motion {
+        Some(motion) => format!("{} time steps", motion.time_steps),
+        None if summary.exact_path => format!("{} states of the exact path", summary.steps),
+        None => format!("{} load steps", summary.steps),
+    };
     writeln!(
         out,
-        "  broken bonds       {}{softened} in {} {unit}",
-        summary.broken_bonds, summary.steps
+        "  broken bonds       {}{softened} in {of_steps}",
+        summary.broken_bonds
     )?;
     writeln!(
         out,
@@ -190,7 +197,8 @@ fn write_first_bonds(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
         ("first broken", &summary.first_broken_bond),
     ] {
         if let Some(bond) = bond {
-            writeln!(out, "  {name:<18} {bond}")?;
+            let words = bond.words(summary.motion.is_some());
+            writeln!(out, "  {name:<18} {words}")?;
         }
     }
     Ok(())
@@ -241,11 +249,14 @@ fn write_loads(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
         if let Some(PathPoint {
             displacement,
             reaction,
-            ..
-        }) = point
+            load_factor,
+        }) = point.filter(|it| summary.motion.is_none() || it.reaction != 0.0)
         {
             let load = quantity(settled(reaction, most), force);
-            let at = quantity(settled(displacement, farthest), along);
+            let at = match summary.motion {
+                Some(_) => quantity(load_factor, "s"),
+                None => quantity(settled(displacement, farthest), along),
+            };
             writeln!(out, "  {name:<18} {load} at {at}")?;
         }
     }

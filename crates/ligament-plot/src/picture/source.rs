@@ -36,6 +36,8 @@ pub(super) struct Source {
     moments: BTreeMap<usize, Moment>,
     /// Units to show displacement and force in.
     shown: Option<[Shown; 2]>,
+    /// Unit to show the time of a motion in; none in statics.
+    time: Option<Shown>,
     pub(super) crack: Option<Crack>,
     /// Lines that are drawn over the body in all steps.
     lines: Vec<Lines>,
@@ -148,6 +150,7 @@ impl Source {
             label,
             moments: BTreeMap::new(),
             shown: None,
+            time: None,
             crack: None,
             lines: Vec::new(),
             cracks: None,
@@ -181,6 +184,8 @@ impl Source {
                 Shown::new(it.units.force, largest(|it| it.reaction)),
             ]
         });
+        let in_time = loading.as_ref().is_some_and(|it| it.in_time);
+        source.time = in_time.then(|| Shown::new("s", largest(|it| it.load_factor)));
         if request.crack.is_some() && has_solid(folder)? {
             source.solid_cracks = Some(SolidCracks::open(folder)?);
             return Ok(source);
@@ -226,6 +231,11 @@ impl Output<'_> {
             let frequency =
                 frequency.map_or(String::new(), |it| format!(": {} Hz", four_digits(*it)));
             words.push(same(format!("mode {number}{frequency}")));
+            return words;
+        }
+        if let (Some(moment), Some(shown)) = (self.moment(), &source.time) {
+            words.push(same(format!("t = {}", shown.value(moment.load_factor))));
+            words.extend(self.chosen.happened.clone());
             return words;
         }
         words.push(same(format!("step {number}")));
