@@ -24,12 +24,19 @@ from ligament._picture import Picture
 
 Floats = NDArray[np.float64]
 
-# A step by its number, from the end (-1 is the last) or by what happened in it: the first breakage or softening, the largest load.
+# A step by its number, from the end (-1 is the last) or by what happened in it: the first breakage or softening, the largest load. In a motion a
+# step is a row of the history, and a time in s means the nearest one.
 Step = int | Literal["first", "peak", "last"]
 
 # Widths of pictures, mm: alone, and two beside each other.
 WIDTH = 140.0
 HALF = 100.0
+
+# Energies of a motion or of a run in statics, in the order of their ledger.
+ENERGIES = [
+    "external_work", "kinetic_energy", "stored_energy", "released_energy", "damping_energy", "contact_energy", "friction_energy",
+    "initial_energy", "dissipated_energy",
+]
 
 # Components by which vectors and their norm are named.
 VECTOR = ["x", "y", "z"]
@@ -142,6 +149,26 @@ class Result:
         """The history as a table of pandas, with ``attrs["units"]``, or of polars, whichever is installed, else as a dictionary."""
         return table(self.columns, self.units)
 
+    @property
+    def is_motion(self) -> bool:
+        """Whether the run is a motion in time, whose history has the column `time` in s."""
+        return {"time", "time_steps"} <= self.columns.keys()
+
+    @property
+    def duration(self) -> float | None:
+        """The time that a motion reached, s; `None` in statics."""
+        return float(self.columns["time"][-1]) if self.is_motion else None
+
+    @property
+    def times(self) -> Floats | None:
+        """The times of `steps` in a motion, s; `None` in statics."""
+        return np.asarray(self.columns["time"])[self._rows] if self.is_motion else None
+
+    @functools.cached_property
+    def probes(self) -> dict[str, Any]:
+        """The probes over the rows of the history, as arrays by their names; `units` has their units."""
+        return {name: self.columns[name] for name in self._run.probes() if name in self.columns}
+
     @functools.cached_property
     def _breaks(self) -> dict[str, Any]:
         return self._run.table("breaks.csv")
@@ -220,6 +247,11 @@ class Result:
         return self._run.steps()
 
     @property
+    def _rows(self) -> list[int]:
+        """The rows of the history of the steps of which there are fields."""
+        return [int(np.flatnonzero(self.columns["step"] == step)[0]) for step in self.steps]
+
+    @property
     def field_names(self) -> list[str]:
         """Names of the fields of the points that change with the steps."""
         return [name for name, (_, stays, _) in self._info(self.steps[-1]).items() if not stays]
@@ -228,8 +260,10 @@ class Result:
         """A number of the summary by its dotted name, such as ``first_peak.reaction``."""
         return _native.numbers(self._summary_text, name)[name]
 
-    def field(self, name: str, step: Step | None = None) -> NDArray[Any]:
+    def field(self, name: str, step: Step | None = None, *, time: float | None = None) -> NDArray[Any]:
         """The values of a field over the points, or of a component of it, in a step, the last one where none is said.
+
+        Of a motion also at a `time` in s: in the step with fields that is nearest to it.
 
         Components are named as on the command line: ``displacement.y``, ``displacement.magnitude``, ``stress.xx``. A step is a number, -1
         for the last, or ``"first"`` (breakage or softening), ``"peak"`` or ``"last"``; where fields of a named step were not kept, those of
@@ -239,7 +273,7 @@ class Result:
         ``stress_virial`` at single points of an irregular mesh is off by a tenth to a quarter inside the body and by a third and more
         at its edges; its mean over many points is right.
         """
-        at = self._step(step)
+        at = self._step(step, time)
         base, part = self._named(name, at)
         values = self._whole(base, at)
         if part is None:
@@ -248,9 +282,9 @@ class Result:
             return self._fields.setdefault((at, name), _read_only(np.linalg.norm(values, axis=1)))
         return values[:, self._info(at)[base][0].index(part)]
 
-    def _step(self, step: Step | None) -> int:
+    def _step(self, step: Step | None, time: float | None = None) -> int:
         """The step with fields that is meant."""
-        return self._run.step("last" if step is None else str(step), True)
+        return self._run.step(_meant(step, time), True)
 
     def _info(self, step: int) -> dict[str, tuple[list[str], bool, str]]:
         if step not in self._infos:
@@ -278,29 +312,30 @@ class Result:
         hint = (f"did you mean `{meant[0]}`? " if meant else "") + f"fields: {', '.join(below or fields)}"
         raise LigamentError(f"there is no field `{name}`; {hint}", hint=hint)
 
-    def crack_path(self, step: Step | None = None) -> list[CrackLine]:
-        """The cracks of a body in the plane in a step as lines, the last step where none is said."""
+    def crack_path(self, step: Step | None = None, *, time: float | None = None) -> list[CrackLine]:
+        """The cracks of a body in the plane in a step, or at a time of a motion, as lines, the last step where none is said."""
         if self.is_solid:
             hint = "`crack_surface` has its crack as triangles"
             raise LigamentError(f"lines of cracks are those of a body in the plane, and this one is a solid; {hint}", hint=hint)
-        lines = self._run.cracks(self._run.step("last" if step is None else str(step), False))
+        lines = self._run.cracks(self._run.step(_meant(step, time), False))
         return [CrackLine(points, (ends[0], ends[1]), length) for points, ends, length in lines]
 
-    def crack_surface(self, step: Step | None = None) -> CrackSurface:
-        """The crack of a solid in a step as a surface, the last step where none is said.
+    def crack_surface(self, step: Step | None = None, *, time: float | None = None) -> CrackSurface:
+        """The crack of a solid in a step, or at a time of a motion, as a surface, the last step where none is said.
 
         Openings are those of the step's fields, or of the last fields before it.
         """
         if not self.is_solid:
             hint = "`crack_path` has its cracks as lines"
             raise LigamentError(f"a crack surface is that of a solid, and this body lies in the plane; {hint}", hint=hint)
-        return CrackSurface(**self._run.surface(self._run.step("last" if step is None else str(step), False)))
+        return CrackSurface(**self._run.surface(self._run.step(_meant(step, time), False)))
 
     def plot(
         self,
         field: str | None = None,
         step: Step | None = None,
         *,
+        time: float | None = None,
         width: float = WIDTH,
         scale: float | None = None,
         crack: Literal["bonds", "lines"] | None = None,
@@ -317,7 +352,7 @@ class Result:
         solid is seen from ``"x"``, ``"y"``, ``"z"``, ``"iso"`` or an azimuth and an elevation in degrees; `section` is a plane such as
         ``"z=0.05"``, and `level` draws the surface on which the field has this value.
         """
-        at = self._step(step)
+        at = self._step(step, time)
         if field not in (None, "none"):
             self._named(str(field), at)
         seen = view if view is None or isinstance(view, str) else f"{view[0]},{view[1]}"
@@ -325,10 +360,13 @@ class Result:
             "label": self.title, "field": field, "scale": scale, "crack": crack, "view": seen, "section": section, "level": level,
             "width": width,
         }
-        return Picture(*_native.draw_fields(self.folder, "last" if step is None else str(step), wanted))
+        return Picture(*_native.draw_fields(self.folder, _meant(step, time), wanted))
 
-    def curve(self, x: str = "displacement", y: str = "reaction", *, width: float = WIDTH) -> Picture:
-        """A picture of a column of the history over another, at first of the force over the displacement."""
+    def curve(self, x: str | None = None, y: str | Sequence[str] = "reaction", *, width: float = WIDTH) -> Picture:
+        """A picture of a column of the history over another, at first of the force over the displacement, of a motion over the time.
+
+        `y` may be several columns of one unit; ``"energies"`` and ``"probes"`` are all of these.
+        """
         return curves([self], [self.title], (x, y), width)
 
     def explain(
@@ -344,21 +382,23 @@ class Result:
         is replaced."""
         return report([self], path, measured)
 
-    def to_pyvista(self, step: Step | None = None) -> Any:
-        """The body in a step as a grid of PyVista, with all fields."""
+    def to_pyvista(self, step: Step | None = None, *, time: float | None = None) -> Any:
+        """The body in a step, or at a time of a motion, as a grid of PyVista, with all fields."""
         import pyvista
 
-        return pyvista.read(self._run.file(self._step(step)))
+        return pyvista.read(self._run.file(self._step(step, time)))
 
     def to_xarray(self) -> Any:
-        """The fields over the steps and points as a data set of xarray, with units and, at each step, displacement and force of the load."""
+        """The fields over the steps and points as a data set of xarray, with units and, at each step, displacement and force of the load, and
+        in a motion the time."""
         import xarray
 
-        rows = [int(np.flatnonzero(self.columns["step"] == step)[0]) for step in self.steps]
         coordinates: dict[str, Any] = {"step": self.steps}
         for name in ("load_factor", "displacement", "reaction"):
-            of_steps = np.asarray(self.columns[name])[rows]
+            of_steps = np.asarray(self.columns[name])[self._rows]
             coordinates[f"load_{name}" if name != "load_factor" else name] = ("step", of_steps, {"units": self.units[name]})
+        if self.is_motion:
+            coordinates["time"] = coordinates.pop("load_factor")[:2] + ({"units": "s"},)
         for axis, values in zip(VECTOR, self.points["position"].T, strict=False):
             coordinates[axis] = ("point", values, {"units": "m"})
         fields: dict[str, Any] = {}
@@ -395,7 +435,8 @@ class Result:
             point = summary.get(name)
             if point:
                 force, along = units["force"], units["displacement"]
-                told.append((words, f"{point['reaction']:.4g} {force} at {point['displacement']:.4g} {along}"))
+                at = f"{point['load_factor']:.4g} s" if self.is_motion else f"{point['displacement']:.4g} {along}"
+                told.append((words, f"{point['reaction']:.4g} {force} at {at}"))
         told.append(("broken bonds", str(summary["broken_bonds"])))
         told.append(("ended because", summary["termination_message"]))
         return told + [("warning", words) for words in self.warnings]
@@ -406,6 +447,16 @@ def _restored(files: dict[str, bytes], title: str) -> Result:
     home = Home()
     home.restore(files)
     return Result(home.path, title, home)
+
+
+def _meant(step: Step | None, time: float | None) -> str:
+    """The name of a step or of a time."""
+    if time is None:
+        return "last" if step is None else str(step)
+    if step is not None:
+        hint = "give one of them"
+        raise LigamentError(f"`step` and `time` both mean a step; {hint}", hint=hint)
+    return f"t={float(time)!r}"
 
 
 def _read_only(values: NDArray[Any]) -> NDArray[Any]:
@@ -426,20 +477,42 @@ def report(
     return _native.report([it.folder for it in results], [it.title for it in results], Path(path), [Path(it) for it in measured])
 
 
-def curves(results: list[Result], labels: list[str], axes: tuple[str, str] = ("displacement", "reaction"), width: float = WIDTH) -> Picture:
-    """A picture of a column of the histories of several results over another."""
-    for name in axes:
-        if name not in results[0].columns:
-            near = difflib.get_close_matches(name, results[0].columns, 1)
-            hint = (f"did you mean `{near[0]}`? " if near else "") + f"columns: {', '.join(results[0].columns)}"
-            raise LigamentError(f"the history has no column `{name}`; {hint}", hint=hint)
+def _columns(result: Result, name: str) -> list[str]:
+    """The columns of the history that a name means."""
+    if name in result.columns:
+        return [name]
+    if name == "energies":
+        return [it for it in ENERGIES if np.any(result.columns.get(it, 0.0))]
+    if name == "probes" and result.probes:
+        return list(result.probes)
+    near = difflib.get_close_matches(name, result.columns, 1)
+    hint = (f"did you mean `{near[0]}`? " if near else "") + f"columns: {', '.join(result.columns)}"
+    raise LigamentError(f"the history has no column `{name}`; {hint}", hint=hint)
+
+
+def curves(
+    results: list[Result], labels: list[str], axes: tuple[str | None, str | Sequence[str]] = (None, "reaction"), width: float = WIDTH
+) -> Picture:
+    """A picture of columns of the histories of several results over another column, over the time of motions where none is said, else over the
+    displacement."""
+    first, units = results[0], results[0].units
+    [x] = _columns(first, axes[0] or ("time" if first.is_motion else "displacement"))
+    asked = [axes[1]] if isinstance(axes[1], str) else axes[1]
+    names = [name for it in asked for name in _columns(first, it)]
+    other = next((it for it in names if units[it] != units[names[0]]), None)
+    if other:
+        hint = "draw them separately"
+        raise LigamentError(f"`{names[0]}` is in {units[names[0]]} and `{other}` in {units[other]}; {hint}", hint=hint)
+
+    def words(name: str) -> str:
+        return {"reaction": "force"}.get(name, name.replace("_", " "))
+
     drawn = []
     for result, label in zip(results, labels, strict=True):
-        columns = result.columns
-        rests = np.asarray(columns["at_rest"], dtype=bool)
-        x, y = (np.asarray(columns[name], dtype=np.float64)[rests] for name in axes)
-        drawn.append((label, x, y))
-    words = [{"reaction": "force"}.get(name, name.replace("_", " ")) for name in axes]
-    units = results[0].units
-    named = [(word, units[name]) for word, name in zip(words, axes, strict=True)]
-    return Picture(_native.draw_curves(drawn, named[0], named[1], "", width), f"{words[1]} over {words[0]}")
+        rests = np.asarray(result.columns["at_rest"], dtype=bool)
+        for name in names:
+            values = (np.asarray(result.columns[it], dtype=np.float64)[rests] for it in (x, name))
+            parts = [label] * (len(names) == 1 or len(results) > 1) + [words(name)] * (len(names) > 1)
+            drawn.append((", ".join(parts), *values))
+    y = words(names[0]) if len(names) == 1 else {"J": "energy"}.get(units[names[0]], "value")
+    return Picture(_native.draw_curves(drawn, (words(x), units[x]), (y, units[names[0]]), "", width), f"{y} over {words(x)}")

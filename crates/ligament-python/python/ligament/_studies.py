@@ -35,7 +35,7 @@ def run(
     results there.
 
     Changes are keys with two underscores for a dot: ``run("case.toml", model__horizon_factor=4)``. `progress` shows how far the run
-    is, by default in a notebook or a terminal; a function is called after each step with its number, load factor, displacement, force and
+    is, by default in a notebook or a terminal; a function is called after each step with its number, load factor (the time of a motion, s), displacement, force and
     the number of broken bonds. Other threads go on meanwhile, and Ctrl-C ends the run at the end of its step by `Interrupted`, which has the
     result so far.
     """
@@ -52,7 +52,7 @@ def _run(
         home = Home()
         folder = home.path
     place = Path(folder)
-    report = _progress.report_of(progress)
+    report = _progress.report_of(progress, case._native.is_motion)
     try:
         stopped = _native.run(case._native, place, replace, report)
     finally:
