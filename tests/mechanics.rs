@@ -38,6 +38,7 @@ mod solid_patch;
 mod solids_elastic;
 mod space_bonds;
 mod stress;
+mod surface_contact;
 mod symmetry;
 mod temperature;
 mod waves;

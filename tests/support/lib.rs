@@ -9,6 +9,7 @@
 
 pub mod bench;
 pub mod cylinders;
+pub mod impact;
 pub mod meshes;
 pub mod modal;
 pub mod numbers;

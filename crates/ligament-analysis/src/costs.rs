@@ -47,3 +47,23 @@ serial!(Costs {
     bonds,
     connectivity,
 });
+
+impl Costs {
+    /// Sum of the costs of two successive equations.
+    pub fn plus(&self, other: &Self) -> Self {
+        Self {
+            factorisations: self.factorisations + other.factorisations,
+            changes: self.changes + other.changes,
+            solves: self.solves + other.solves,
+            iterations: self.iterations + other.iterations,
+            analysis: self.analysis + other.analysis,
+            assembly: self.assembly + other.assembly,
+            factorisation: self.factorisation + other.factorisation,
+            change: self.change + other.change,
+            backward: self.backward + other.backward,
+            solve: self.solve + other.solve,
+            bonds: self.bonds + other.bonds,
+            connectivity: self.connectivity + other.connectivity,
+        }
+    }
+}

@@ -162,7 +162,7 @@ impl StepRecord {
 }
 
 /// Record of a bond that broke.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BreakRecord {
     /// Position in the order of all breakages, from 1.
     pub order: usize,

@@ -105,6 +105,14 @@ impl CaseFile {
                 setup.loads[index].amplitude = Some(amplitude);
             }
         }
+        for (index, section) in self.case.rigid_bodies.iter().enumerate() {
+            if let Some(file) = section.amplitude.as_ref().and_then(|it| it.file.as_ref()) {
+                let amplitude = point_table::amplitude(file).map_err(|reason| {
+                    self.error(&format!("rigid.{index}.amplitude.file"), reason)
+                })?;
+                setup.rigid_bodies[index].amplitude = amplitude;
+            }
+        }
         Ok(setup)
     }
 

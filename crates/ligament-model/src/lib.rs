@@ -45,6 +45,7 @@ pub mod scatter;
 pub mod shape;
 pub mod stress;
 pub mod subdomain;
+pub mod surface;
 pub mod sweep;
 pub mod system;
 pub mod tensor;

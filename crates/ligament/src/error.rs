@@ -191,6 +191,14 @@ pub enum Fault {
         /// Description of the edge's other end.
         to: String,
     },
+    /// A rigid body that begins inside the body.
+    #[error("begins {depth:.3e} m deep inside the body, at {place}: move it outside")]
+    StartsInside {
+        /// Depth, m.
+        depth: f64,
+        /// Description of the deepest point.
+        place: String,
+    },
     /// A rectangle without a point.
     #[error("there is no point of the body in this box")]
     EmptyBox,

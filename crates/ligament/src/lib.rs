@@ -55,6 +55,7 @@ pub mod formulation;
 pub mod implausible;
 pub mod loading;
 pub mod model;
+mod parts;
 pub mod patch_test;
 pub mod plausibility;
 mod precracks;

@@ -135,11 +135,13 @@ pub fn restore<'a>(
     analysis: &Analysis,
     checkpoint: &[u8],
 ) -> Result<Restored, Error> {
-    let problem = match posed.into() {
-        Posed::Motion(problem) => {
-            return Ok(Restored::Motion(motion::restore(problem, checkpoint)?));
+    let problem = match (posed.into(), analysis) {
+        (Posed::Motion(problem), Analysis::Motion(settings)) => {
+            let restored = motion::restore(problem, settings, checkpoint)?;
+            return Ok(Restored::Motion(restored));
         }
-        Posed::Statics(problem) => problem,
+        (Posed::Motion(_), _) => return Err(other_analysis(analysis, "a motion")),
+        (Posed::Statics(problem), _) => problem,
     };
     Ok(Restored::Statics(match analysis {
         Analysis::Stepped(settings) => driver::stepped::restore(problem, settings, checkpoint)?,

@@ -139,6 +139,12 @@ impl Energies {
         self.largest_work = self.largest_work.max(self.external_work.abs());
     }
 
+    /// Adds the work of what moves rigid bodies, J.
+    pub(super) fn add_driving_work(&mut self, work: f64) {
+        self.external_work += work;
+        self.largest_work = self.largest_work.max(self.external_work.abs());
+    }
+
     /// Half the work of the present forces on the displacements from the unloaded body, J: the stored energy under proportional
     /// loading (Clapeyron).
     pub(super) fn stored_in_proportion(&self) -> f64 {

@@ -5,12 +5,16 @@
 
 mod stable_step;
 
+pub mod contact;
+
 use std::sync::Arc;
 
 use ligament_model::LumpedMass;
 use thiserror::Error;
 
+use crate::breaking::BreakingRule;
 use crate::problem::Problem;
+use contact::ContactProblem;
 
 pub use crate::critical_step::CriticalStep;
 pub use stable_step::critical_step;
@@ -26,6 +30,8 @@ pub struct MotionProblem {
     pub initial_velocity: Arc<[f64]>,
     /// Dashpots between points and the ground.
     pub dashpots: Arc<[Dashpot]>,
+    /// Contacts between surfaces and with rigid bodies.
+    pub contact: ContactProblem,
 }
 
 /// Dashpot between a point and the ground: the force -C v for the velocity v of the point.
@@ -59,6 +65,23 @@ pub struct MotionSettings {
 pub enum Scheme {
     /// Velocity Verlet, which is stable below a critical step.
     Explicit(ExplicitSettings),
+    /// Newmark's scheme with the averaging of Hilber, Hughes and Taylor, which is stable for any step.
+    Implicit(ImplicitSettings),
+}
+
+/// Settings of implicit steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ImplicitSettings {
+    /// Largest time step, s.
+    pub step: f64,
+    /// Dissipation alpha of high frequencies after Hilber, Hughes and Taylor, 0 (Newmark's trapezoidal rule) to 1/3.
+    pub dissipation: f64,
+    /// Rule that selects the bonds that break in a round.
+    pub rule: BreakingRule,
+    /// Largest number of rounds of breaking in a step; beyond it the step is halved, ten times at most.
+    pub rounds: usize,
+    /// Relative change of the energy that ends the iteration of bonds that soften (NHPD eq. 21).
+    pub energy_tolerance: f64,
 }
 
 /// Settings of explicit steps.
@@ -124,6 +147,11 @@ pub enum MotionError {
         /// Critical step, s.
         critical: f64,
     },
+    /// Contact between surfaces was required in implicit steps.
+    #[error(
+        "contact between surfaces needs explicit steps; implicit ones know that of crack faces alone"
+    )]
+    ImplicitContact,
     /// Several processes cannot compute a motion.
     #[error("several processes cannot compute a motion in time; use one process")]
     SeveralProcesses,

@@ -47,7 +47,8 @@ pub fn critical_step(
         return Err(MotionError::UnstableRotations);
     }
     let root = |dof: u32| masses[dof as usize].sqrt();
-    let mut product = Product::new(problem);
+    let contact = problem.contact.stiffness(layout);
+    let mut product = Product::new(problem, contact.at_degrees_of_freedom);
     let search = Search {
         count: 1,
         tolerance: TOLERANCE,
@@ -68,7 +69,8 @@ pub fn critical_step(
     let (Some(largest), Some(mode)) = (largest, pairs.vectors.first()) else {
         return Err(MotionError::NothingResists);
     };
-    let frequency = (largest * (1.0 + TOLERANCE)).sqrt();
+    let largest = (largest * (1.0 + TOLERANCE)).max(contact.squared_frequency);
+    let frequency = largest.sqrt();
     let xi = 0.5 * settings.damping.stiffness * frequency;
     let is_rotation = |dof: u32| layout.component(dof as usize).is_rotation();
     let energies = || free.iter().copied().zip(mode.iter().map(|it| it * it));
@@ -91,10 +93,12 @@ struct Product<'a> {
     motions: Vec<f64>,
     /// Forces K u, shape (n_degrees_of_freedom).
     forces: Vec<f64>,
+    /// Diagonal matrix above the stiffness of contacts, shape (n_degrees_of_freedom); empty without contacts.
+    of_contact: Vec<f64>,
 }
 
 impl<'a> Product<'a> {
-    fn new(problem: &'a MotionProblem) -> Self {
+    fn new(problem: &'a MotionProblem, of_contact: Vec<f64>) -> Self {
         let system = &*problem.problem.system;
         let n = system.layout().n_degrees_of_freedom();
         Self {
@@ -102,6 +106,7 @@ impl<'a> Product<'a> {
             fresh: State::fresh(system),
             motions: vec![0.0; n],
             forces: vec![0.0; n],
+            of_contact,
         }
     }
 
@@ -130,6 +135,10 @@ impl<'a> Product<'a> {
         loads
             .restraints()
             .add_forces(&self.motions, &mut self.forces);
+        let stiffness = self.of_contact.iter().zip(&self.motions);
+        for (force, (stiffness, motion)) in self.forces.iter_mut().zip(stiffness) {
+            *force += stiffness * motion;
+        }
     }
 }
 

@@ -31,6 +31,9 @@ pub struct Restraints {
     at_points: BTreeMap<u32, Vec<usize>>,
     /// Degrees of freedom of all restraints, ascending.
     degrees_of_freedom: Vec<u32>,
+    /// Stiffness between each degree of freedom and the ground, beside the list, shape (n_degrees_of_freedom), N/m and N m/rad; empty
+    /// without any.
+    ground: Vec<f64>,
 }
 
 impl Restraint {
@@ -74,12 +77,32 @@ impl Restraints {
             list,
             at_points,
             degrees_of_freedom,
+            ground: Vec::new(),
         }
+    }
+
+    /// Restraints with a stiffness between each degree of freedom and the ground (n_degrees_of_freedom), as that of the inertia in an implicit
+    /// step of time, beside their own.
+    pub fn with_ground(self, ground: Vec<f64>) -> Self {
+        Self { ground, ..self }
+    }
+
+    /// All restraints with their stiffnesses times a factor, in a list without ground.
+    pub fn scaled(&self, factor: f64) -> Vec<Restraint> {
+        let scaled = |it: &Restraint| Restraint {
+            degrees_of_freedom: it.degrees_of_freedom.clone(),
+            stiffness: it.stiffness.iter().map(|value| factor * value).collect(),
+        };
+        self.list.iter().map(scaled).collect()
     }
 
     /// Whether there are no restraints.
     pub fn is_empty(&self) -> bool {
-        self.list.is_empty()
+        self.list.is_empty() && self.ground.is_empty()
+    }
+
+    fn ground_at(&self, degree_of_freedom: usize) -> f64 {
+        self.ground.get(degree_of_freedom).copied().unwrap_or(0.0)
     }
 
     /// Degrees of freedom on which restraints act, ascending.
@@ -90,11 +113,15 @@ impl Restraints {
     /// Whether a restraint acts on a degree of freedom.
     pub fn acts_on(&self, degree_of_freedom: usize) -> bool {
         let dof = degree_of_freedom as u32;
-        self.degrees_of_freedom.binary_search(&dof).is_ok()
+        self.ground_at(degree_of_freedom) > 0.0
+            || self.degrees_of_freedom.binary_search(&dof).is_ok()
     }
 
     /// Whether a restraint supports a degree of freedom by itself.
     pub fn holds(&self, layout: Layout, degree_of_freedom: usize) -> bool {
+        if self.ground_at(degree_of_freedom) > 0.0 {
+            return true;
+        }
         let of_point = self.at_points.get(&layout.point(degree_of_freedom));
         let mut restraints = of_point.into_iter().flatten().map(|&it| &self.list[it]);
         restraints
@@ -111,6 +138,11 @@ impl Restraints {
                 forces[dof as usize] += force;
             }
         }
+        for ((force, stiffness), displacement) in
+            forces.iter_mut().zip(&self.ground).zip(displacement)
+        {
+            *force += stiffness * displacement;
+        }
     }
 
     /// Adds the diagonal of the stiffness (n_degrees_of_freedom), N/m and N m/rad.
@@ -120,6 +152,9 @@ impl Restraints {
             for (place, &dof) in restraint.degrees_of_freedom.iter().enumerate() {
                 diagonal[dof as usize] += restraint.stiffness[place * (n + 1)];
             }
+        }
+        for (sum, stiffness) in diagonal.iter_mut().zip(&self.ground) {
+            *sum += stiffness;
         }
     }
 
@@ -158,6 +193,12 @@ impl Restraints {
     /// (n_lower + 1, n_components, n_components).
     pub(crate) fn add_blocks(&self, layout: Layout, point: u32, lower: &[u32], blocks: &mut [f64]) {
         let components = layout.components.len();
+        if !self.ground.is_empty() {
+            let of_point = &mut blocks[lower.len() * components * components..];
+            for (place, dof) in layout.range(point).enumerate() {
+                of_point[place * (components + 1)] += self.ground[dof];
+            }
+        }
         let place_of = |other: u32| match other == point {
             true => Some(lower.len()),
             false => lower.binary_search(&other).ok(),

@@ -7,6 +7,7 @@ use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
 use ligament_analysis::driver::StopRules;
 use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::stepped::SteppedSettings;
+use ligament_analysis::motion::ImplicitSettings;
 use ligament_model::failure::Kind;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Error, Unexpected};
@@ -180,6 +181,22 @@ impl Fracture {
                 stop: self.stop.setup(),
             }),
         })
+    }
+
+    /// Settings of implicit steps of a motion, from others for the keys that are not given.
+    pub(super) fn implicit(&self, default: ImplicitSettings) -> ImplicitSettings {
+        let count = |given: Option<u32>, default: usize| given.map_or(default, |it| it as usize);
+        let ImplicitSettings { rule, rounds, .. } = default;
+        ImplicitSettings {
+            rule: BreakingRule {
+                order: self.order.map_or(rule.order, |it| it.0),
+                bonds_per_iteration: count(self.bonds_per_iteration, rule.bonds_per_iteration),
+                tie_tolerance: self.tie_tolerance,
+            },
+            rounds: count(self.max_iterations, rounds),
+            energy_tolerance: self.energy_tolerance,
+            ..default
+        }
     }
 
     fn stepping(&self, key: &KeyPath, is_staged: bool) -> Result<SteppedSettings, KeyFault> {

@@ -66,6 +66,8 @@ impl Case {
             "temperatures" => "temperature",
             "initial_velocities" => "initial_velocity",
             "probes" => "probe",
+            "contacts" => "contact",
+            "rigid_bodies" => "rigid",
             "criteria" => "fracture.criterion",
             "scatter" => "fracture.scatter",
             "analysis.load_factors" => "fracture.steps",

@@ -1,15 +1,20 @@
 //! `[motion]`, `[[initial_velocity]]` and `[[quiet]]`: a motion in time.
 
 use ligament::setup::{self, Place, QuietEdge};
-use ligament_analysis::motion::{self, ExplicitSettings, MotionSettings};
+use ligament_analysis::motion::{self, ExplicitSettings, ImplicitSettings, MotionSettings};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::conditions::Vector;
 use super::coordinates::Coordinates;
 use super::fault::KeyFault;
+use super::fracture::Fracture;
 use super::key_path::KeyPath;
 use super::region::{Corners, place};
+use super::values::{missing, refuse};
+
+/// Largest dissipation of implicit steps, beyond which they are less accurate than of second order.
+const MOST_DISSIPATION: f64 = 1.0 / 3.0;
 
 /// Largest number of rows.
 const MOST_ROWS: u32 = 1_000_000;
@@ -28,13 +33,16 @@ pub struct Motion {
     /// Scheme of the integration in time.
     #[serde(default)]
     pub scheme: Scheme,
-    /// Time step, s; without it `safety` times the critical step of the body. It is shortened so that rows are at multiples of it.
+    /// Time step, s; explicit steps without it are `safety` times the critical step of the body. It is shortened so that rows are at
+    /// multiples of it, and implicit steps are halved where bonds break fast.
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "s"))]
     pub step: Option<f64>,
     /// Share of the critical step, beyond which explicit steps are unstable.
-    #[serde(default = "safety")]
-    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
-    pub safety: f64,
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1, "default" = explicit().safety))]
+    pub safety: Option<f64>,
+    /// Dissipation of fast motions by implicit steps, after Hilber, Hughes and Taylor: 0 takes no energy.
+    #[schemars(range(min = 0), extend("maximum" = MOST_DISSIPATION, "default" = 0.0))]
+    pub dissipation: Option<f64>,
     /// Factor on the rotational inertia of the points; a larger one allows longer steps where rotations limit them.
     #[serde(default = "one")]
     #[schemars(extend("exclusiveMinimum" = 0))]
@@ -54,6 +62,8 @@ pub enum Scheme {
     /// Central differences: steps without equations to solve, shorter than a critical step.
     #[default]
     Explicit,
+    /// Newmark's scheme: steps of any length, each an equilibrium with inertia; of `[fracture]` the keys of a load step hold for each.
+    Implicit,
 }
 
 /// Damping in proportion to masses and stiffness.
@@ -84,9 +94,8 @@ fn rows() -> u32 {
     setup::motion(1.0).rows as u32
 }
 
-fn safety() -> f64 {
-    let motion::Scheme::Explicit(it) = setup::motion(1.0).scheme;
-    it.safety
+fn explicit() -> ExplicitSettings {
+    setup::explicit()
 }
 
 fn one() -> f64 {
@@ -94,17 +103,42 @@ fn one() -> f64 {
 }
 
 impl Motion {
-    pub(super) fn setup(&self) -> MotionSettings {
-        let explicit = ExplicitSettings {
-            step: self.step,
-            safety: self.safety,
+    /// Settings, with the keys of `[fracture]` about the breakages in implicit steps.
+    pub(super) fn setup(
+        &self,
+        key: &KeyPath,
+        fracture: Option<&Fracture>,
+    ) -> Result<MotionSettings, KeyFault> {
+        let (safety, dissipation) = (self.safety.is_some(), self.dissipation.is_some());
+        let scheme = match self.scheme {
+            Scheme::Explicit => {
+                let reason = "explicit steps take no energy";
+                let given = [("dissipation", dissipation)];
+                refuse(key, given, "scheme = \"explicit\"", reason)?;
+                motion::Scheme::Explicit(ExplicitSettings {
+                    step: self.step,
+                    safety: self.safety.unwrap_or(explicit().safety),
+                })
+            }
+            Scheme::Implicit => {
+                let reason = "implicit steps are stable at any length";
+                refuse(key, [("safety", safety)], "scheme = \"implicit\"", reason)?;
+                let step = self.step.ok_or_else(|| missing(key, "step"))?;
+                let default = setup::implicit(step);
+                let settings = match fracture {
+                    Some(it) => it.implicit(default),
+                    None => default,
+                };
+                motion::Scheme::Implicit(ImplicitSettings {
+                    dissipation: self.dissipation.unwrap_or(0.0),
+                    ..settings
+                })
+            }
         };
-        MotionSettings {
+        Ok(MotionSettings {
             duration: self.duration,
             rows: self.rows as usize,
-            scheme: match self.scheme {
-                Scheme::Explicit => motion::Scheme::Explicit(explicit),
-            },
+            scheme,
             damping: motion::Damping {
                 mass: self.damping.mass,
                 stiffness: self.damping.stiffness,
@@ -114,7 +148,7 @@ impl Motion {
                 bonds: self.stop.bonds.map(|bonds| bonds as usize),
                 wall_time: self.stop.wall_time,
             },
-        }
+        })
     }
 }
 

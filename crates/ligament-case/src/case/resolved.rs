@@ -3,7 +3,7 @@
 use toml_edit::visit_mut::{VisitMut, visit_value_mut};
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, Value};
 
-use super::sections::{Case, STEPPING};
+use super::sections::{Case, keys_of_statics};
 
 /// The case as TOML, with a header for each section and nested tables inline.
 pub(super) fn to_toml(case: &Case) -> Result<String, toml_edit::ser::Error> {
@@ -14,8 +14,8 @@ pub(super) fn to_toml(case: &Case) -> Result<String, toml_edit::ser::Error> {
     }
     // So are these in a motion.
     let fracture = document.get_mut("fracture");
-    if let (Some(_), Some(keys)) = (&case.motion, fracture.and_then(Item::as_table_like_mut)) {
-        for key in STEPPING.into_iter().chain(["stop"]) {
+    if let (Some(motion), Some(keys)) = (&case.motion, fracture.and_then(Item::as_table_like_mut)) {
+        for key in keys_of_statics(motion.scheme) {
             keys.remove(key);
         }
     }

@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use super::analysis::{Analysis, Modal};
 use super::body_kind::BodyKind;
 use super::conditions::Support;
+use super::contact::{Contact, Rigid};
 use super::correction::Correction;
 use super::decode::decode;
 use super::document::Node;
@@ -36,17 +37,26 @@ use super::stage::Stage;
 use super::temperature::Temperature;
 use super::values::{exactly_one, metre, refuse};
 
-/// Keys of `[fracture]` about load steps and equilibrium.
-pub(super) const STEPPING: [&str; 8] = [
-    "control",
-    "steps",
+/// Keys of `[fracture]` about load steps.
+const STEPPING: [&str; 3] = ["control", "steps", "refine_first_break"];
+
+/// Keys of `[fracture]` about breakages and equilibrium within a step.
+const BALANCING: [&str; 5] = [
     "bonds_per_iteration",
     "order",
     "max_iterations",
-    "refine_first_break",
     "tie_tolerance",
     "energy_tolerance",
 ];
+
+/// Keys of `[fracture]` that a motion does not have.
+pub(super) fn keys_of_statics(scheme: Scheme) -> Vec<&'static str> {
+    let of_steps = STEPPING.into_iter().chain(["stop"]);
+    match scheme {
+        Scheme::Explicit => of_steps.chain(BALANCING).collect(),
+        Scheme::Implicit => of_steps.collect(),
+    }
+}
 
 /// A case: the sections of its file, with every default filled in.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -107,6 +117,12 @@ pub struct Case {
     /// Parts of the outline through which waves leave the body in a motion.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub quiet: Vec<Quiet>,
+    /// Contact between parts of the body in a motion.
+    #[serde(rename = "contact", default, skip_serializing_if = "Vec::is_empty")]
+    pub contacts: Vec<Contact>,
+    /// Rigid bodies that parts of the body meet in a motion.
+    #[serde(rename = "rigid", default, skip_serializing_if = "Vec::is_empty")]
+    pub rigid_bodies: Vec<Rigid>,
     /// Parts of the body where bonds never break.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub no_fail: Vec<Region>,
@@ -149,13 +165,17 @@ impl Case {
         }
         let is_idle = case.loads.is_empty()
             && case.temperatures.is_empty()
-            && case.initial_velocities.is_empty();
+            && case.initial_velocities.is_empty()
+            && case.rigid_bodies.is_empty();
         if is_idle && case.analysis != Some(Analysis::Modal) {
             return Err(missing_section("load"));
         }
         let (loads, temperatures) = (root().child("load"), root().child("temperature"));
         for (index, load) in case.loads.iter_mut().enumerate() {
             load.complete(&loads.child(index), index + 1, folder)?;
+        }
+        for (index, body) in case.rigid_bodies.iter_mut().enumerate() {
+            body.complete(&root().child("rigid").child(index), folder)?;
         }
         for (index, stage) in case.stages.iter_mut().enumerate() {
             stage.complete(&root().child("stage").child(index), index + 1)?;
@@ -240,11 +260,13 @@ impl Case {
     }
 
     /// Sections of a motion, each with whether it is given.
-    fn in_time(&self) -> [(&'static str, bool); 3] {
+    fn in_time(&self) -> [(&'static str, bool); 5] {
         [
             ("motion", self.motion.is_some()),
             ("initial_velocity", !self.initial_velocities.is_empty()),
             ("quiet", !self.quiet.is_empty()),
+            ("contact", !self.contacts.is_empty()),
+            ("rigid", !self.rigid_bodies.is_empty()),
         ]
     }
 
@@ -260,14 +282,14 @@ impl Case {
         let reason = "a motion has a `stop` of its own, in [motion]";
         refuse(&fracture, [is_given("stop")], setting, reason)?;
         match scheme {
+            Scheme::Implicit => Ok(()),
             Scheme::Explicit => {
+                let setting = "motion.scheme = \"explicit\"";
+                let reason = "all bonds at their limits break in an explicit step";
+                refuse(&fracture, BALANCING.map(is_given), setting, reason)?;
                 let (key, reason) = (root().child("solver"), "explicit steps solve no equations");
-                refuse(
-                    &key,
-                    self.solver.of_equations(),
-                    "motion.scheme = \"explicit\"",
-                    reason,
-                )
+                let keys = self.solver.of_equations();
+                refuse(&key, keys, "motion.scheme = \"explicit\"", reason)
             }
         }
     }
@@ -380,6 +402,10 @@ impl Case {
                 it.setup(key, dimensions)
             })?,
             quiet: self.quiet.iter().map(Quiet::setup).collect(),
+            contacts: self.contacts.iter().map(Contact::setup).collect(),
+            rigid_bodies: each("rigid", &self.rigid_bodies, |it, key| {
+                it.setup(key, dimensions)
+            })?,
             criteria: each(
                 "fracture.criterion",
                 criteria.flatten(),
@@ -400,7 +426,10 @@ impl Case {
 
     fn analysis_of_setup(&self) -> Result<setup::Analysis, KeyFault> {
         Ok(match (&self.motion, &self.modal, &self.fracture) {
-            (Some(motion), _, _) => setup::Analysis::Motion(motion.setup()),
+            (Some(motion), _, _) => {
+                let key = root().child("motion");
+                setup::Analysis::Motion(motion.setup(&key, self.fracture.as_ref())?)
+            }
             (None, Some(modal), _) => setup::Analysis::Modal(modal.setup()),
             (None, None, Some(fracture)) => {
                 fracture.setup(&root().child("fracture"), !self.stages.is_empty())?

@@ -182,6 +182,27 @@ at = [0, 0]
 velocity = { y = 1 }
 [[quiet]]
 group = "right"
+[[contact]]
+between = ["right", "right"]
+[[rigid]]
+name = "ball"
+shape = "circle"
+centre = [0, 3]
+radius = 1
+velocity = { y = -1 }
+amplitude = { shape = "ramp", duration = 1 }
+[[rigid]]
+name = "floor"
+shape = "wall"
+centre = [0, 0]
+normal = [0, 1]
+against = ["right"]
+[[rigid]]
+name = "block"
+shape = "box"
+centre = [0, 9]
+size = [1, 1]
+mass = 2
 [motion]
 duration = 1e-2
 damping = {}

@@ -7,6 +7,7 @@ use ligament_mesh::{Cell, Mesh, NodeField, Numbering, SolidMesh};
 use ligament_model::cloud::lattice::SolidLattice;
 use ligament_model::correction::patch::CellForces;
 use ligament_model::material::Stiffness;
+use ligament_model::surface::Facet;
 use ligament_model::{BodyGrid, BondSet, Lattice, PointCloud};
 use thiserror::Error;
 
@@ -181,6 +182,13 @@ pub trait Geometry<const D: usize>: Body {
     /// bodies.
     fn outer_sides(&self) -> Vec<[u32; D]> {
         Vec::new()
+    }
+
+    /// Facets of the outline between the points of a cloud; empty for bodies without cells.
+    fn facets(&self, cloud: &PointCloud<D>) -> Vec<Facet<D>> {
+        let sides = self.outer_sides().into_iter();
+        let corner = |node: u32| (node, cloud.positions[node as usize]);
+        sides.map(|it| Facet::new(cloud, it.map(corner))).collect()
     }
 
     /// A body of some of the cells (ascending) of a meshed body, without groups; `None` for other bodies.

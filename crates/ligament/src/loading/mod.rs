@@ -1,6 +1,7 @@
 //! Supports, loads and probes of a setup on its model.
 
 mod boundary;
+mod contact;
 mod motion;
 mod places;
 mod probes;
@@ -14,12 +15,14 @@ use std::sync::Arc;
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::motion::MotionProblem;
+use ligament_analysis::motion::contact::ContactProblem;
 use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::solver::SolverSettings;
 use ligament_analysis::{LoadProgram, LoadsInTime, ProportionalLoading, StagedLoading};
 use ligament_model::System;
 use ligament_model::subdomain::Subdomain;
 
+pub use contact::contact_problem;
 pub use motion::Inertia;
 use places::Places;
 pub use places::{material_of_cell, no_fail};
@@ -45,6 +48,8 @@ pub struct Loading {
     pub in_time: Option<Arc<LoadsInTime>>,
     /// Masses, initial velocities and quiet edges; none without a motion.
     pub inertia: Option<Inertia>,
+    /// Contacts between surfaces; empty without a motion.
+    pub contact: ContactProblem,
     /// Probes.
     pub probes: Arc<[Probe]>,
     /// Settings of the equation solver.
@@ -80,11 +85,13 @@ impl Loading {
             ),
             false => (None, None),
         };
+        let contact = contact::contacts(setup, system)?;
         let boundary = restrained(setup, system, boundary, ActiveLoads::All)?;
         Ok(Self {
             staged: staged.map(Arc::new),
             in_time: in_time.map(Arc::new),
             inertia,
+            contact,
             boundary: Arc::new(boundary),
             probes,
             solver: setup.solver.clone(),
@@ -115,6 +122,7 @@ impl Loading {
             mass: inertia.mass.clone(),
             initial_velocity: inertia.initial_velocity.clone(),
             dashpots: inertia.dashpots.clone(),
+            contact: self.contact.clone(),
         })
     }
 }

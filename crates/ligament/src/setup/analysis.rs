@@ -5,7 +5,9 @@ use ligament_analysis::driver::StopRules;
 use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::stepped::SteppedSettings;
 use ligament_analysis::modal::ModalSettings;
-use ligament_analysis::motion::{Damping, ExplicitSettings, MotionSettings, MotionStop, Scheme};
+use ligament_analysis::motion::{
+    Damping, ExplicitSettings, ImplicitSettings, MotionSettings, MotionStop, Scheme,
+};
 
 /// Relative change of energy below which an elastic solution is in equilibrium (NHPD's value).
 pub const ELASTIC_ENERGY_TOLERANCE: f64 = 1e-4;
@@ -100,12 +102,34 @@ pub fn motion(duration: f64) -> MotionSettings {
     MotionSettings {
         duration,
         rows: 200,
-        scheme: Scheme::Explicit(ExplicitSettings {
-            step: None,
-            safety: 0.8,
-        }),
+        scheme: Scheme::Explicit(explicit()),
         damping: Damping::default(),
         rotary_inertia: 1.0,
         stop: MotionStop::default(),
+    }
+}
+
+/// Explicit steps of 0.8 of the critical step.
+pub fn explicit() -> ExplicitSettings {
+    ExplicitSettings {
+        step: None,
+        safety: 0.8,
+    }
+}
+
+/// Implicit steps of a length, s, by the trapezoidal rule; at most five bonds break between two solutions, and a step in which bonds break
+/// in more than twenty rounds is halved.
+pub fn implicit(step: f64) -> ImplicitSettings {
+    let SteppedSettings {
+        rule,
+        energy_tolerance,
+        ..
+    } = stepped(Vec::new());
+    ImplicitSettings {
+        step,
+        dissipation: 0.0,
+        rule,
+        rounds: 20,
+        energy_tolerance,
     }
 }

@@ -49,6 +49,7 @@ impl Setup {
         require_unique("loads", self.loads.iter().map(|it| it.name.as_str()))?;
         require_unique("probes", self.probes.iter().map(|it| it.name.as_str()))?;
         self.check_restraints()?;
+        self.check_contacts()?;
         for (index, load) in self.loads.iter().enumerate() {
             check_load(Field::element("loads", index), load, self.body.dimensions())?;
         }

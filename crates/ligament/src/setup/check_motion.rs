@@ -36,8 +36,10 @@ impl Setup {
                 "a motion takes no changes of temperature, which would act at once at time zero";
             return contradiction(Field::whole("temperatures"), reason);
         }
-        if self.loads.is_empty() && self.initial_velocities.is_empty() {
-            let reason = "there is no load and no initial velocity, so nothing would move";
+        let is_idle = self.loads.is_empty() && self.initial_velocities.is_empty();
+        if is_idle && self.rigid_bodies.is_empty() {
+            let reason =
+                "there is no load, no initial velocity and no rigid body, so nothing would move";
             return contradiction(Field::whole("loads"), reason);
         }
         for (index, load) in self.loads.iter().enumerate() {
@@ -101,12 +103,22 @@ fn check_settings(settings: &MotionSettings) -> Checked {
     positive(field.part("duration"), Some(settings.duration))?;
     let rows = settings.rows;
     require(rows > 0, field.part("rows"), "at least 1", rows)?;
-    let Scheme::Explicit(explicit) = settings.scheme;
-    positive(field.part("step"), explicit.step)?;
-    let safety = explicit.safety;
-    let is_share = safety > 0.0 && safety < 1.0;
-    let expected = "greater than 0 and less than 1: the share of the critical step, beyond which an explicit scheme is unstable";
-    require(is_share, field.part("safety"), expected, safety)?;
+    match settings.scheme {
+        Scheme::Explicit(explicit) => {
+            positive(field.part("step"), explicit.step)?;
+            let safety = explicit.safety;
+            let is_share = safety > 0.0 && safety < 1.0;
+            let expected = "greater than 0 and less than 1: the share of the critical step, beyond which an explicit scheme is unstable";
+            require(is_share, field.part("safety"), expected, safety)?;
+        }
+        Scheme::Implicit(implicit) => {
+            positive(field.part("step"), Some(implicit.step))?;
+            let dissipation = implicit.dissipation;
+            let is_fit = (0.0..=1.0 / 3.0).contains(&dissipation);
+            let expected = "0 to 1/3";
+            require(is_fit, field.part("dissipation"), expected, dissipation)?;
+        }
+    }
     let factor = settings.rotary_inertia;
     positive(field.part("rotary_inertia"), Some(factor))?;
     for (part, value) in [

@@ -8,6 +8,7 @@ mod check_motion;
 mod check_stages;
 mod closing;
 mod conditions;
+mod contact;
 mod correction;
 mod motion;
 mod precrack;
@@ -29,11 +30,14 @@ use ligament_model::{Elasticity, Horizons, Isotropic, Material, Plane, PointClou
 use crate::body::{AnyBody, Geometry};
 use crate::implausible::Implausible;
 
-pub use analysis::{Analysis, ELASTIC_ENERGY_TOLERANCE, event, modal, motion, stepped};
+pub use analysis::{
+    Analysis, ELASTIC_ENERGY_TOLERANCE, event, explicit, implicit, modal, motion, stepped,
+};
 pub use conditions::{
     Action, Axis, Couple, Displacement, Load, Place, Position, Profile, Sample, SpringStiffness,
     Support, begins_as_formula,
 };
+pub use contact::{Between, ContactLaw, Rigid, RigidForm, SurfaceContact};
 pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
 pub use ligament_model::law::{Calibration, Form, Law, Options, Strains};
 pub use motion::{InitialVelocity, QuietEdge};
@@ -70,6 +74,10 @@ pub struct Setup {
     pub precracks: Vec<PreCrack>,
     /// Whether the faces of pre-cracks and of broken bonds carry pressure where they close; for laws with rotations of points.
     pub closing: bool,
+    /// Contacts between parts of the body in a motion.
+    pub contacts: Vec<SurfaceContact>,
+    /// Rigid bodies that parts of the body meet in a motion.
+    pub rigid_bodies: Vec<Rigid>,
     /// Parts of the body where bonds never fail.
     pub no_fail: Vec<Place>,
     /// Supports of the body, none or more.
@@ -142,6 +150,8 @@ impl Setup {
             correction: Correction::of_paper(&law),
             precracks: Vec::new(),
             closing: false,
+            contacts: Vec::new(),
+            rigid_bodies: Vec::new(),
             no_fail: Vec::new(),
             supports: Vec::new(),
             loads: Vec::new(),

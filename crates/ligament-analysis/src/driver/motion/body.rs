@@ -8,6 +8,7 @@ use ligament_model::failure::{Criteria, Criterion};
 use ligament_model::product::{ForceSum, NearLimits};
 use ligament_model::thermal::ThermalStrain;
 
+use super::record::Now;
 use crate::balanced::Balanced;
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
@@ -17,8 +18,9 @@ use crate::contact::{self, Contact};
 use crate::costs::Costs;
 use crate::driver::breaks::{Breaking, CriteriaAtDeformations};
 use crate::driver::dissipation;
+use crate::driver::recorder::Energies;
 use crate::error::SetupError;
-use crate::history::{BreakRecord, Observer};
+use crate::history::{BreakRecord, Observer, Rates};
 use crate::problem::Problem;
 use crate::softening::Softening;
 use crate::state::State;
@@ -210,6 +212,21 @@ impl Body {
             self.balanced.internal.values[dof] -= force;
         }
         Ok(breakage)
+    }
+
+    /// The body at its time for a row of the history.
+    pub(super) fn now<'a>(&'a self, energies: &'a Energies, rates: Rates<'a>) -> Now<'a> {
+        Now {
+            problem: &self.problem,
+            numbers: &self.numbers,
+            fragments: self.connectivity.fragments(),
+            state: &self.state,
+            balanced: &self.balanced,
+            energies,
+            costs: &self.costs,
+            rates,
+            broken: self.broken,
+        }
     }
 
     /// Deformations, forces and energy at the displacements and the time of the state.

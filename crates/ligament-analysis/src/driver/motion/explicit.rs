@@ -13,16 +13,21 @@ use rayon::prelude::*;
 use super::body::{Body, TimeStep};
 use super::clock::Clock;
 use super::inertia::{Inertia, Velocities};
-use super::restored::{Progress, Restored};
+use super::progress::{EXPLICIT, Progress};
+use super::record;
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
+use crate::driver::course::{CheckValues, with_begun};
 use crate::driver::outcome::Outcome;
 use crate::driver::recorder::Energies;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
+use crate::motion::contact::{ContactForces, ContactProblem, ContactState};
 use crate::motion::{ExplicitSettings, MotionError, MotionProblem, MotionSettings, critical_step};
-use crate::solver::ExplicitChoice;
+use crate::serial::Serial;
+use crate::solver::{ExplicitChoice, SolverChoice};
+use crate::state::State;
 use crate::vectors::{CHUNK, sum_of_chunks};
 
 /// Motion in explicit steps.
@@ -34,6 +39,7 @@ pub(super) struct Explicit<'a> {
     pub(super) velocities: Velocities,
     pub(super) energies: Energies,
     pub(super) progress: Progress,
+    pub(super) contacts: Option<ContactForces>,
     /// Degrees of freedom that are prescribed or loaded, ascending.
     pub(super) loaded: Vec<u32>,
     /// External forces, shape (n_degrees_of_freedom), N and N m.
@@ -67,7 +73,7 @@ pub(super) fn run(
     let progress = Progress::at_start(clock);
     let parts = (body, velocities, energies, progress);
     let mut motion = Explicit::new(problem, (settings, choice), parts, observer);
-    motion.begin(&problem.initial_velocity);
+    motion.begin(&problem.initial_velocity, &problem.contact);
     motion.follow()
 }
 
@@ -75,24 +81,87 @@ pub(super) fn run(
 pub(super) fn resume(
     settings: &MotionSettings,
     explicit: ExplicitSettings,
-    restored: Restored,
+    (problem, energies, progress, kept): (MotionProblem, Energies, Progress, ExplicitKept),
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let Restored {
-        problem,
+    let ExplicitKept {
         body,
         velocities,
-        energies,
-        progress,
-    } = restored;
+        contacts,
+    } = kept;
     let (clock, choice) = chosen(&problem, settings, explicit)?;
     if clock != progress.clock {
         return Err(CheckpointError::OtherTimes.into());
     }
     let parts = (body, velocities, energies, progress);
     let mut motion = Explicit::new(&problem, (settings, choice), parts, observer);
+    motion.contacts = contacts;
     motion.apply_loads();
     motion.follow()
+}
+
+/// Motion in explicit steps as a checkpoint has it.
+pub(super) struct ExplicitKept {
+    pub(super) body: Body,
+    velocities: Velocities,
+    contacts: Option<ContactForces>,
+}
+
+impl ExplicitKept {
+    /// Appends the motion at a row.
+    fn write(
+        body: &Body,
+        velocities: &Velocities,
+        contacts: Option<&ContactForces>,
+        out: &mut Vec<u8>,
+    ) {
+        body.state.write(&body.numbers, out);
+        velocities.write(out);
+        contacts.map(|it| it.state().clone()).write(out);
+        body.costs.write(out);
+        CheckValues::new(&body.problem, &body.balanced).write(out);
+    }
+
+    /// Restores the motion of a problem at a row, with the criteria of bonds that had begun to soften.
+    pub(super) fn read(problem: &mut MotionProblem, from: &mut &[u8]) -> Result<Self, SetupError> {
+        let damaged = CheckpointError::Damaged;
+        let numbers = BondNumbers::new(&*problem.problem.system)?;
+        let state = State::read(&numbers, from)?;
+        let velocities: Velocities = Serial::read(from).map_err(damaged)?;
+        let contact: Option<ContactState> = Serial::read(from).map_err(damaged)?;
+        let costs = Serial::read(from).map_err(damaged)?;
+        let system = &*problem.problem.system;
+        let lengths = [velocities.half.len(), velocities.acceleration.len()];
+        let fits = state.fits(system, system.ends().len(), &problem.problem.criteria);
+        let can_touch = match &contact {
+            Some(contact) => contact.fits(&problem.contact),
+            None => problem.contact.is_empty(),
+        };
+        if !fits || !can_touch || lengths != [state.displacement.len(); 2] {
+            return Err(CheckpointError::OtherModel.into());
+        }
+        problem.problem = with_begun(&problem.problem, &state)?;
+        let mut body = Body::new(&problem.problem, numbers, Some(state));
+        body.costs = costs;
+        body.measure();
+        let resumed = |it| {
+            let motions = &body.state.displacement;
+            ContactForces::resumed(problem.contact.clone(), motions, it)
+        };
+        let contacts = contact.map(resumed);
+        if let Some(contacts) = &contacts {
+            contacts.add_forces(-1.0, &mut body.balanced.internal.values);
+        }
+        let values_then = CheckValues::read(from).map_err(damaged)?;
+        if !CheckValues::new(&body.problem, &body.balanced).agrees(&values_then) {
+            return Err(CheckpointError::OtherArithmetic.into());
+        }
+        Ok(Self {
+            body,
+            velocities,
+            contacts,
+        })
+    }
 }
 
 /// Times of a motion, with the critical step.
@@ -139,16 +208,21 @@ impl<'a> Explicit<'a> {
             velocities,
             energies,
             progress,
+            contacts: None,
             observer,
             started: Instant::now(),
         }
     }
 
     /// Sets the velocities and the energies of time zero.
-    fn begin(&mut self, velocity: &[f64]) {
+    fn begin(&mut self, velocity: &[f64], contact: &ContactProblem) {
         let loads = self.body.problem.loads.clone();
         loads.prescribe(0.0, &mut self.body.state.displacement);
         self.body.measure();
+        if !contact.is_empty() {
+            let motions = &self.body.state.displacement;
+            self.contacts = Some(ContactForces::new(contact.clone(), motions));
+        }
         self.apply_loads();
         let internal = &self.body.balanced.internal.values;
         let forces = self.external.iter().zip(internal);
@@ -171,14 +245,14 @@ impl<'a> Explicit<'a> {
         self.energies
             .add_released(problem, state, &nothing, balanced);
         self.progress.motion.initial_energy =
-            self.inertia.kinetic_energy(&self.velocities) + balanced.stored_energy;
+            self.kinetic_energy() + self.body.balanced.stored_energy;
         self.damp();
     }
 
     /// Follows the motion row by row.
     fn follow(mut self) -> Result<Outcome, SetupError> {
         if self.progress.history.is_empty() {
-            self.record(0)?;
+            self.record()?;
         }
         let Clock {
             rows,
@@ -192,13 +266,41 @@ impl<'a> Explicit<'a> {
             for _ in 0..steps_per_row {
                 self.step(row)?;
             }
-            end = self.record(row)?;
+            end = self.record()?;
             if end.is_some() {
                 break;
             }
         }
         let termination = end.unwrap_or(Termination::TimeReached { time: duration });
-        Ok(self.into_outcome(termination))
+        let velocity = self.velocities.at_time(self.inertia.step());
+        let rates = self.velocities.rates(&velocity);
+        let now = self.body.now(&self.energies, rates);
+        let solver = SolverChoice::Explicit(self.choice);
+        Ok(record::outcome(&now, self.progress, solver, termination))
+    }
+
+    /// Records the present time as a row, and returns the reason why the motion ends there, if it does.
+    fn record(&mut self) -> Result<Option<Termination>, SetupError> {
+        self.progress.motion.kinetic_energy = self.kinetic_energy();
+        let Self {
+            body,
+            velocities,
+            energies,
+            progress,
+            contacts,
+            observer,
+            ..
+        } = self;
+        let velocity = velocities.at_time(self.inertia.step());
+        let now = body.now(energies, velocities.rates(&velocity));
+        let stop = (&self.settings.stop, self.started);
+        let end = now.record(progress, stop, *observer)?;
+        let checkpoint = || {
+            progress.bytes(energies, EXPLICIT, &|out| {
+                ExplicitKept::write(body, velocities, contacts.as_ref(), out);
+            })
+        };
+        Ok(record::offer(*observer, end, &checkpoint)?)
     }
 
     /// One time step on the way to a row of the history.
@@ -215,6 +317,7 @@ impl<'a> Explicit<'a> {
         };
         let is_row = time_step == row * self.progress.clock.steps_per_row;
         let breakage = self.body.move_to(&step, is_row, self.observer)?;
+        self.apply_contacts();
         self.apply_loads();
         self.advance();
         let Body {
@@ -249,6 +352,30 @@ impl<'a> Explicit<'a> {
         for &dof in self.inertia.prescribed() {
             displacement[dof as usize] = self.ahead[dof as usize];
         }
+    }
+
+    /// Subtracts the forces of contacts between surfaces from those of the bonds, and adds up the energies of the contacts.
+    fn apply_contacts(&mut self) {
+        let Some(contacts) = &mut self.contacts else {
+            return;
+        };
+        let before = contacts.energies();
+        let (state, balanced) = (&self.body.state, &mut self.body.balanced);
+        let (time, step) = (state.load_factor, self.inertia.step());
+        let internal = &mut balanced.internal.values;
+        let now = contacts.advance(time, step, &state.displacement);
+        contacts.add_forces(-1.0, internal);
+        let motion = &mut self.progress.motion;
+        motion.contact_energy = now.stored;
+        motion.friction_energy += now.dissipated - before.dissipated;
+        self.energies
+            .add_driving_work(now.driving_work - before.driving_work);
+    }
+
+    /// Kinetic energy of the body and of free rigid bodies, J.
+    fn kinetic_energy(&self) -> f64 {
+        let rigid = self.contacts.as_ref().map(|it| it.energies().kinetic);
+        self.inertia.kinetic_energy(&self.velocities) + rigid.unwrap_or(0.0)
     }
 
     /// Sets the external forces of the time, and the prescribed displacements of the end of the next step.

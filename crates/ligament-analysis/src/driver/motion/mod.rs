@@ -1,18 +1,28 @@
-//! Motion in time: explicit steps in which bonds break.
+//! Motion in time: explicit and implicit steps in which bonds break.
 
 mod body;
 mod clock;
 mod explicit;
+mod here;
+mod implicit;
+mod implicit_kept;
 mod inertia;
+mod newmark;
+mod progress;
 mod record;
 mod restored;
+mod stepping;
+mod taken;
 
+use crate::checkpoint::CheckpointError;
 use crate::error::SetupError;
 use crate::history::Observer;
-use crate::motion::{MotionProblem, MotionSettings, Scheme};
+use crate::motion::{MotionProblem, MotionSettings, Scheme, critical_step};
 use crate::solver::ExplicitChoice;
 
 use super::Outcome;
+use clock::Clock;
+use restored::Kept;
 pub use restored::Restored;
 
 /// Follows a motion to its end.
@@ -27,6 +37,7 @@ pub fn run(
 ) -> Result<Outcome, SetupError> {
     match settings.scheme {
         Scheme::Explicit(explicit) => explicit::run(problem, settings, explicit, observer),
+        Scheme::Implicit(implicit) => implicit::run(problem, settings, implicit, observer),
     }
 }
 
@@ -41,6 +52,10 @@ pub fn time_step(
 ) -> Result<ExplicitChoice, SetupError> {
     match settings.scheme {
         Scheme::Explicit(explicit) => Ok(explicit::chosen(problem, settings, explicit)?.1),
+        Scheme::Implicit(implicit) => Ok(ExplicitChoice {
+            step: Clock::new(settings, implicit.step).step(),
+            critical: critical_step(problem, settings)?,
+        }),
     }
 }
 
@@ -49,8 +64,12 @@ pub fn time_step(
 /// # Errors
 ///
 /// If the checkpoint is damaged, or belongs to another body or to statics.
-pub fn restore(problem: &MotionProblem, checkpoint: &[u8]) -> Result<Restored, SetupError> {
-    Restored::read(problem, checkpoint)
+pub fn restore(
+    problem: &MotionProblem,
+    settings: &MotionSettings,
+    checkpoint: &[u8],
+) -> Result<Restored, SetupError> {
+    Restored::read(problem, settings, checkpoint)
 }
 
 /// Continues a motion as if it had never stopped; the rules for a stop may differ from those before.
@@ -63,7 +82,23 @@ pub fn resume(
     restored: Restored,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    match settings.scheme {
-        Scheme::Explicit(explicit) => explicit::resume(settings, explicit, restored, observer),
+    let Restored {
+        problem,
+        energies,
+        progress,
+        kept,
+    } = restored;
+    match (settings.scheme, kept) {
+        (Scheme::Explicit(explicit), Kept::Explicit(kept)) => {
+            let parts = (problem, energies, progress, *kept);
+            explicit::resume(settings, explicit, parts, observer)
+        }
+        (Scheme::Implicit(implicit), Kept::Implicit(kept)) => {
+            let parts = (problem, energies, progress, *kept);
+            implicit::resume(settings, implicit, parts, observer)
+        }
+        (Scheme::Explicit(_), Kept::Implicit(_)) | (Scheme::Implicit(_), Kept::Explicit(_)) => {
+            Err(CheckpointError::OtherDriver.into())
+        }
     }
 }

@@ -1,0 +1,166 @@
+//! An implicit motion at a time: state, velocities and forces.
+
+use crate::balanced::Balanced;
+use crate::history::Rates;
+use crate::motion::MotionProblem;
+use crate::problem::Problem;
+use crate::serial;
+use crate::state::State;
+use crate::vectors::weighted_square;
+
+/// Motion at a time.
+pub(super) struct Here {
+    pub(super) state: State,
+    /// Deformations and energy of the bonds; its forces are those that supports and loads balance.
+    pub(super) balanced: Balanced,
+    /// Number of broken bonds.
+    pub(super) broken: usize,
+    pub(super) motion: Motion,
+}
+
+/// Velocities and forces at a time, each of shape (n_degrees_of_freedom).
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Motion {
+    pub(super) velocity: Vec<f64>,
+    pub(super) acceleration: Vec<f64>,
+    /// Forces of the bonds, N and N m.
+    pub(super) internal: Vec<f64>,
+    /// Forces of loads and restraints, N and N m.
+    pub(super) external: Vec<f64>,
+    /// Forces of damping, N and N m.
+    pub(super) damping: Vec<f64>,
+}
+
+serial!(Motion {
+    velocity,
+    acceleration,
+    internal,
+    external,
+    damping,
+});
+
+/// Masses and damping of a body.
+#[derive(Clone, Copy)]
+pub(super) struct Inertia<'a> {
+    pub(super) problem: &'a MotionProblem,
+    /// Mass of each degree of freedom, zero where its motion is prescribed, shape (n_degrees_of_freedom).
+    pub(super) masses: &'a [f64],
+    /// Damping over the mass, 1/s, and over the stiffness, s.
+    pub(super) damping: [f64; 2],
+}
+
+/// Mass of each degree of freedom, zero where its motion is prescribed.
+pub(super) fn free_masses(problem: &MotionProblem, rotary_inertia: f64) -> Vec<f64> {
+    let mut masses = problem.masses(rotary_inertia);
+    for dof in problem.prescribed() {
+        masses[dof as usize] = 0.0;
+    }
+    masses
+}
+
+impl Motion {
+    /// Motion with given velocities (n_degrees_of_freedom), before accelerations and forces are known.
+    pub(super) fn at_rest(velocity: &[f64], balanced: &Balanced) -> Self {
+        let n = velocity.len();
+        Self {
+            velocity: velocity.to_vec(),
+            acceleration: vec![0.0; n],
+            internal: balanced.internal.values.clone(),
+            external: vec![0.0; n],
+            damping: vec![0.0; n],
+        }
+    }
+
+    /// Whether all arrays have the shapes for a body with a number of degrees of freedom.
+    pub(super) fn fits(&self, n: usize) -> bool {
+        let Self {
+            velocity,
+            acceleration,
+            internal,
+            external,
+            damping,
+        } = self;
+        let arrays = [velocity, acceleration, internal, external, damping];
+        arrays.iter().all(|it| it.len() == n)
+    }
+
+    pub(super) fn rates(&self) -> Rates<'_> {
+        Rates {
+            velocity: &self.velocity,
+            acceleration: &self.acceleration,
+        }
+    }
+
+    /// Kinetic energy 1/2 v^T M v, J.
+    pub(super) fn kinetic_energy(&self, masses: &[f64]) -> f64 {
+        0.5 * weighted_square(masses, &self.velocity)
+    }
+}
+
+impl Inertia<'_> {
+    /// Forces of loads and restraints, and of damping, at the time of a state with its velocities (n_degrees_of_freedom).
+    pub(super) fn forces(&self, state: &State, velocity: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let loads = &self.problem.problem.loads;
+        let n = velocity.len();
+        let all: Vec<u32> = (0..n as u32).collect();
+        let mut external = loads.forces(state.load_factor, &all);
+        if !loads.restraints().is_empty() {
+            let mut restraining = vec![0.0; n];
+            (loads.restraints()).add_forces(&state.displacement, &mut restraining);
+            for (sum, force) in external.iter_mut().zip(&restraining) {
+                *sum -= force;
+            }
+        }
+        (external, self.damping_forces(state, velocity))
+    }
+
+    /// Forces C v of damping for velocities (n_degrees_of_freedom), N and N m.
+    pub(super) fn damping_forces(&self, state: &State, velocity: &[f64]) -> Vec<f64> {
+        let [alpha, beta] = self.damping;
+        let MotionProblem {
+            problem, dashpots, ..
+        } = self.problem;
+        let mut forces = vec![0.0; velocity.len()];
+        if beta > 0.0 {
+            problem
+                .system
+                .multiply(state.bonds(), velocity, &mut forces);
+            forces.iter_mut().for_each(|force| *force *= beta);
+        }
+        for ((force, mass), velocity) in forces.iter_mut().zip(self.masses).zip(velocity) {
+            *force += alpha * mass * velocity;
+        }
+        let layout = problem.system.layout();
+        for it in dashpots.iter() {
+            let displacements = layout.range(it.point);
+            let dofs: Vec<usize> = displacements
+                .filter(|&dof| !layout.component(dof).is_rotation())
+                .collect();
+            for (row, &dof) in it.damping.iter().zip(&dofs) {
+                let parts = row.iter().zip(&dofs);
+                forces[dof] += parts.map(|(c, &dof)| c * velocity[dof]).sum::<f64>();
+            }
+        }
+        forces
+    }
+}
+
+impl Here {
+    /// Makes the forces of the state those that supports and loads balance: the bonds' with inertia and damping, and at restraints the external
+    /// ones.
+    pub(super) fn balance_forces(&mut self, problem: &Problem, masses: &[f64]) {
+        let Self {
+            balanced, motion, ..
+        } = self;
+        let restraints = problem.loads.restraints();
+        for (dof, value) in balanced.internal.values.iter_mut().enumerate() {
+            *value = match masses[dof] > 0.0 && restraints.acts_on(dof) {
+                true => motion.external[dof],
+                false => {
+                    let inertia = masses[dof] * motion.acceleration[dof];
+                    motion.internal[dof] + inertia + motion.damping[dof]
+                }
+            };
+        }
+    }
+}

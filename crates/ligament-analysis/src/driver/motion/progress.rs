@@ -1,0 +1,61 @@
+//! Progress of a motion.
+
+use super::clock::Clock;
+use crate::driver::recorder::Energies;
+use crate::history::{InMotion, LargestOverlap, StepRecord};
+use crate::serial;
+use crate::serial::Serial;
+
+/// First byte of the checkpoint of an explicit motion; those of statics begin with 0 or 1.
+pub(super) const EXPLICIT: u8 = 2;
+
+/// First byte of the checkpoint of an implicit motion.
+pub(super) const IMPLICIT: u8 = 3;
+
+/// Progress of a motion.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Progress {
+    pub(super) clock: Clock,
+    /// Energies and number of time steps.
+    pub(super) motion: InMotion,
+    /// Forces of damping at the time (n_degrees_of_freedom), N and N m; empty where nothing damps.
+    pub(super) damping_forces: Vec<f64>,
+    pub(super) history: Vec<StepRecord>,
+    /// Largest overlap of crack faces so far.
+    pub(super) overlap: Option<LargestOverlap>,
+}
+
+serial!(Progress {
+    clock,
+    motion,
+    damping_forces,
+    history,
+    overlap,
+});
+
+impl Progress {
+    pub(super) fn at_start(clock: Clock) -> Self {
+        Self {
+            clock,
+            motion: InMotion::default(),
+            damping_forces: Vec::new(),
+            history: Vec::new(),
+            overlap: None,
+        }
+    }
+
+    /// Bytes of a motion under a scheme, from which it continues with the same bits; `write` appends its state.
+    pub(super) fn bytes(
+        &self,
+        energies: &Energies,
+        scheme: u8,
+        write: &dyn Fn(&mut Vec<u8>),
+    ) -> Vec<u8> {
+        let mut out = Vec::new();
+        scheme.write(&mut out);
+        self.write(&mut out);
+        write(&mut out);
+        energies.write(&mut out);
+        out
+    }
+}

@@ -1,0 +1,196 @@
+//! Implicit steps of one length: their equations, their loads, and the motion after them.
+
+use std::sync::Arc;
+
+use super::clock::Clock;
+use super::here::{Here, Inertia, Motion};
+use super::newmark::{Newmark, StepLoads};
+use super::record::Now;
+use super::taken::Taken;
+use crate::costs::Costs;
+use crate::driver::recorder::Energies;
+use crate::equilibrium::Equilibrium;
+use crate::error::SetupError;
+use crate::motion::{ImplicitSettings, MotionProblem, MotionSettings};
+use crate::problem::Problem;
+use crate::restraints::Restraints;
+use crate::serial;
+use crate::state::State;
+
+/// Largest number of times that a step is halved.
+pub(super) const HALVINGS: usize = 10;
+
+/// Equations of steps of one length.
+pub(super) struct Stepping {
+    pub(super) scheme: Newmark,
+    pub(super) restraints: Arc<Restraints>,
+    pub(super) equilibrium: Equilibrium,
+    /// Costs of the equations of other lengths before.
+    pub(super) costs: Costs,
+}
+
+/// Length of the steps: those of the clock, halved some times.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Pace {
+    /// Number of halvings.
+    pub(super) halvings: usize,
+    /// Number of steps since the last halving or breakage.
+    pub(super) calm: usize,
+}
+
+serial!(Pace { halvings, calm });
+
+/// Scheme of steps at a pace.
+pub(super) fn scheme(
+    settings: &MotionSettings,
+    implicit: ImplicitSettings,
+    clock: &Clock,
+    pace: Pace,
+) -> Newmark {
+    Newmark {
+        step: clock.step() / f64::from(1_u32 << pace.halvings),
+        dissipation: implicit.dissipation,
+        damping: [settings.damping.mass, settings.damping.stiffness],
+    }
+}
+
+/// Problem of a step of a scheme, with its restraints.
+pub(super) fn of_step(
+    problem: &MotionProblem,
+    scheme: Newmark,
+    masses: &[f64],
+) -> (Problem, Arc<Restraints>) {
+    let restraints = Arc::new(scheme.restraints(problem, masses));
+    let loads = StepLoads {
+        base: problem.problem.loads.clone(),
+        restraints: restraints.clone(),
+        factor: 1.0 / scheme.of_stiffness(),
+        added: vec![0.0; masses.len()],
+    };
+    let of_step = Problem {
+        loads: Arc::new(loads),
+        ..problem.problem.clone()
+    };
+    (of_step, restraints)
+}
+
+impl Stepping {
+    /// Equations of steps of a scheme, for the bonds of a state.
+    pub(super) fn new(
+        problem: &MotionProblem,
+        scheme: Newmark,
+        masses: &[f64],
+        (state, implicit): (&mut State, ImplicitSettings),
+    ) -> Result<Self, SetupError> {
+        let (of_step, restraints) = of_step(problem, scheme, masses);
+        let mut equilibrium = Equilibrium::new(&of_step, implicit.energy_tolerance)?;
+        let broken = (0..).zip(&state.intact).filter(|(_, intact)| !**intact);
+        let broken: Vec<u32> = broken.map(|(bond, _)| bond).collect();
+        for &bond in &broken {
+            state.intact[bond as usize] = true;
+        }
+        equilibrium.break_bonds(state, &broken);
+        if !state.softening.remaining.is_empty() {
+            equilibrium.soften();
+        }
+        Ok(Self {
+            scheme,
+            restraints,
+            equilibrium,
+            costs: Costs::default(),
+        })
+    }
+
+    /// Costs of all steps so far.
+    pub(super) fn costs(&self) -> Costs {
+        self.costs.plus(self.equilibrium.costs())
+    }
+
+    /// Loads of a step from here.
+    pub(super) fn loads(&self, here: &Here, inertia: Inertia<'_>) -> StepLoads {
+        let Stepping {
+            scheme, restraints, ..
+        } = self;
+        let Here { state, motion, .. } = here;
+        let Motion {
+            velocity,
+            acceleration,
+            internal,
+            external,
+            damping,
+        } = motion;
+        let (dt, beta, gamma) = (scheme.step, scheme.beta(), scheme.gamma());
+        let n = velocity.len();
+        let mut predicted = vec![0.0; n];
+        // Velocity less its change with the displacement times the predicted displacement.
+        let mut remaining = vec![0.0; n];
+        for dof in 0..n {
+            let (v, a) = (velocity[dof], acceleration[dof]);
+            predicted[dof] = state.displacement[dof] + dt * v + (0.5 - beta) * dt * dt * a;
+            remaining[dof] = v + (1.0 - gamma) * dt * a - scheme.velocity() * predicted[dof];
+        }
+        let mut added = inertia.damping_forces(state, &remaining);
+        let factor = 1.0 / scheme.of_stiffness();
+        let of_mass = scheme.acceleration() / (1.0 - scheme.dissipation);
+        for (dof, sum) in added.iter_mut().enumerate() {
+            let mass = inertia.masses[dof];
+            let at_start = damping[dof] + internal[dof] - external[dof];
+            let force = mass * of_mass * predicted[dof] - scheme.of_start() * at_start - *sum;
+            *sum = if mass > 0.0 { factor * force } else { 0.0 };
+        }
+        StepLoads {
+            base: inertia.problem.problem.loads.clone(),
+            restraints: restraints.clone(),
+            factor,
+            added,
+        }
+    }
+
+    /// Velocities, accelerations and forces after a step.
+    pub(super) fn after(&self, here: &Here, taken: &Taken, inertia: Inertia<'_>) -> Motion {
+        let scheme = &self.scheme;
+        let Here { state, motion, .. } = here;
+        let (dt, beta, gamma) = (scheme.step, scheme.beta(), scheme.gamma());
+        let n = inertia.masses.len();
+        let mut after = Motion {
+            velocity: vec![0.0; n],
+            acceleration: vec![0.0; n],
+            internal: taken.balanced.internal.values.clone(),
+            external: Vec::new(),
+            damping: Vec::new(),
+        };
+        for dof in (0..n).filter(|&dof| inertia.masses[dof] > 0.0) {
+            let (u, v, a) = (
+                state.displacement[dof],
+                motion.velocity[dof],
+                motion.acceleration[dof],
+            );
+            let predicted = u + dt * v + (0.5 - beta) * dt * dt * a;
+            let now = scheme.acceleration() * (taken.state.displacement[dof] - predicted);
+            after.acceleration[dof] = now;
+            after.velocity[dof] = v + dt * ((1.0 - gamma) * a + gamma * now);
+        }
+        (after.external, after.damping) = inertia.forces(&taken.state, &after.velocity);
+        after
+    }
+
+    /// The body at its time for a row of the history.
+    pub(super) fn now<'a>(
+        &'a self,
+        problem: &'a Problem,
+        here: &'a Here,
+        (energies, costs): (&'a Energies, &'a Costs),
+    ) -> Now<'a> {
+        Now {
+            numbers: self.equilibrium.numbers(),
+            fragments: self.equilibrium.fragments(),
+            state: &here.state,
+            balanced: &here.balanced,
+            rates: here.motion.rates(),
+            broken: here.broken,
+            energies,
+            problem,
+            costs,
+        }
+    }
+}

@@ -1,0 +1,426 @@
+//! Contact between surfaces in a motion, with its rigid bodies and its energies.
+//!
+//! [`ContactForces`] is advanced once a time step. Its energies close the balance of a motion by central differences: over a step the forces do
+//! the work 1/2 (f + f') . (u' - u) on the body and on the rigid bodies; what of it is not stored in the contacts counts as dissipated, by
+//! friction and where contacts begin and end.
+
+use std::sync::Arc;
+
+use ligament_model::layout::Layout;
+use ligament_model::surface::{Search, Step, SurfacePair, Touch, Vector};
+use ligament_model::tensor::{dot, minus};
+
+use crate::load_program::Amplitude;
+use crate::serial;
+
+/// Contacts of a motion and their rigid bodies. A copy shares the surfaces.
+#[derive(Debug, Clone, Default)]
+pub struct ContactProblem {
+    /// Contacts.
+    pub contacts: Vec<SurfaceContact>,
+    /// Rigid bodies.
+    pub rigid_bodies: Vec<RigidBody>,
+}
+
+/// Surfaces that may come into contact.
+#[derive(Debug, Clone)]
+pub struct SurfaceContact {
+    /// Name in results.
+    pub name: String,
+    /// The surfaces, without their coordinates.
+    pub surfaces: Arc<dyn SurfacePair>,
+    /// Index of the rigid body that is met; `None` for contact between surfaces of the body.
+    pub rigid_body: Option<usize>,
+}
+
+/// A rigid body, which moves without turning.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RigidBody {
+    /// Name in results.
+    pub name: String,
+    /// How it moves.
+    pub motion: RigidMotion,
+}
+
+/// Motion of a rigid body.
+#[derive(Debug, Clone, PartialEq)]
+pub enum RigidMotion {
+    /// A prescribed velocity.
+    Prescribed {
+        /// Velocity at amplitude 1, m/s.
+        velocity: Vector,
+        /// Factor as a function of time.
+        amplitude: Amplitude,
+    },
+    /// A mass that contacts alone move.
+    Free {
+        /// Mass, kg.
+        mass: f64,
+        /// Velocity at time zero, m/s.
+        velocity: Vector,
+    },
+}
+
+impl ContactProblem {
+    /// Whether nothing can come into contact.
+    pub fn is_empty(&self) -> bool {
+        self.contacts.is_empty()
+    }
+
+    /// Bound of what the contacts add to the squared frequencies of a body with a layout.
+    pub fn stiffness(&self, layout: Layout) -> ContactStiffness {
+        if self.is_empty() {
+            return ContactStiffness::default();
+        }
+        let mut sums = vec![0.0; layout.n_degrees_of_freedom()];
+        for contact in &self.contacts {
+            contact.surfaces.add_bound(&mut sums);
+        }
+        let of_body = |(index, body): (usize, &RigidBody)| match &body.motion {
+            RigidMotion::Prescribed { .. } => 0.0,
+            RigidMotion::Free { mass, .. } => {
+                let own = self.contacts.iter();
+                let own = own.filter(|it| it.rigid_body == Some(index));
+                2.0 * own.map(|it| it.surfaces.whole_stiffness()).sum::<f64>() / mass
+            }
+        };
+        let rigid = self.rigid_bodies.iter().enumerate();
+        ContactStiffness {
+            at_degrees_of_freedom: sums,
+            squared_frequency: rigid.map(of_body).fold(0.0, f64::max),
+        }
+    }
+}
+
+impl RigidMotion {
+    /// Velocity at time zero, m/s.
+    fn first_velocity(&self) -> Vector {
+        match self {
+            Self::Prescribed {
+                velocity,
+                amplitude,
+            } => {
+                let factor = amplitude.value(0.0);
+                velocity.map(|it| factor * it)
+            }
+            Self::Free { velocity, .. } => *velocity,
+        }
+    }
+}
+
+/// State of a rigid body.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct RigidState {
+    /// Displacement since time zero, m.
+    pub displacement: Vector,
+    /// Velocity, m/s.
+    pub velocity: Vector,
+    /// Force of the contacts on it, N.
+    pub force: Vector,
+}
+
+/// Energies of contacts, J.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ContactEnergies {
+    /// Energy stored in the contacts.
+    pub stored: f64,
+    /// Energy that friction and the birth and end of contacts have taken so far.
+    pub dissipated: f64,
+    /// Work so far of what moves the rigid bodies with a prescribed motion.
+    pub driving_work: f64,
+    /// Kinetic energy of the free rigid bodies, with the velocities in the middles of the steps before and after.
+    pub kinetic: f64,
+}
+
+/// Resultants of a contact.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ContactReading {
+    /// Pressing force on the first surface, N; against a rigid body that on the surface of the deformable body.
+    pub normal_force: Vector,
+    /// Force of friction on the same surface, N.
+    pub friction_force: Vector,
+    /// Area in contact, m^2.
+    pub area: f64,
+    /// Largest penetration that causes a force, m.
+    pub penetration: f64,
+}
+
+/// State of contacts for a checkpoint; everything else follows from the motions.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ContactState {
+    touches: Vec<Vec<Touch>>,
+    rigid_bodies: Vec<RigidState>,
+    energies: ContactEnergies,
+}
+
+/// Bound of what contact adds to the squared frequencies of a body.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ContactStiffness {
+    /// Diagonal matrix above the stiffness of all contacts, shape (n_degrees_of_freedom), N/m and N m; empty without contacts. With
+    /// the masses M_i the largest squared frequency of the body grows by max (this over M_i) at most.
+    pub at_degrees_of_freedom: Vec<f64>,
+    /// Bound of the squared frequency of free rigid bodies, 1/s^2.
+    pub squared_frequency: f64,
+}
+
+/// Forces and energies of the contacts along a motion.
+#[derive(Debug)]
+pub struct ContactForces {
+    problem: ContactProblem,
+    /// Degrees of freedom that contacts may load, ascending.
+    degrees_of_freedom: Vec<u32>,
+    searches: Vec<Search>,
+    /// Motions at the present time, shape (n_degrees_of_freedom).
+    motions: Vec<f64>,
+    /// Contact forces at the present time, shape (n_degrees_of_freedom).
+    forces: Vec<f64>,
+    state: ContactState,
+}
+
+impl ContactState {
+    /// Whether the state can be that of a problem.
+    pub fn fits(&self, problem: &ContactProblem) -> bool {
+        self.touches.len() == problem.contacts.len()
+            && self.rigid_bodies.len() == problem.rigid_bodies.len()
+            && (problem.contacts.iter().zip(&self.touches))
+                .all(|(contact, touches)| contact.surfaces.can_have(touches))
+    }
+}
+
+impl ContactForces {
+    /// Contacts of a problem at time zero, for the motions then, shape (n_degrees_of_freedom). Surfaces that overlap there begin without
+    /// force.
+    pub fn new(problem: ContactProblem, motions: &[f64]) -> Self {
+        let rigid = problem.rigid_bodies.iter().map(|it| RigidState {
+            velocity: it.motion.first_velocity(),
+            ..RigidState::default()
+        });
+        let state = ContactState {
+            touches: vec![Vec::new(); problem.contacts.len()],
+            rigid_bodies: rigid.collect(),
+            energies: ContactEnergies::default(),
+        };
+        let mut contacts = Self::resumed(problem, motions, state);
+        contacts.advance(0.0, 0.0, motions);
+        contacts
+    }
+
+    /// Contacts of a problem with the state that they had at some motions, shape (n_degrees_of_freedom).
+    pub fn resumed(problem: ContactProblem, motions: &[f64], state: ContactState) -> Self {
+        let surfaces = problem.contacts.iter().map(|it| &it.surfaces);
+        let mut loaded: Vec<u32> = surfaces.flat_map(|it| it.degrees_of_freedom()).collect();
+        loaded.sort_unstable();
+        loaded.dedup();
+        let mut contacts = Self {
+            searches: vec![Search::default(); problem.contacts.len()],
+            degrees_of_freedom: loaded,
+            forces: vec![0.0; motions.len()],
+            motions: motions.to_vec(),
+            problem,
+            state,
+        };
+        contacts.load_body();
+        contacts
+    }
+
+    /// Moves to the next time (s), after a step (s) to given motions, shape (n_degrees_of_freedom).
+    ///
+    /// Free rigid bodies move by velocity Verlet. The result does not depend on the number of threads.
+    pub fn advance(&mut self, time: f64, step: f64, motions: &[f64]) -> ContactEnergies {
+        let rigid = self.state.rigid_bodies.clone();
+        self.move_rigid_bodies(time, step);
+        self.meet(&rigid, motions);
+        let before: Vec<f64> = self.at_loaded(&self.forces);
+        self.load_body();
+        let mut on_body = 0.0;
+        for (&dof, before) in self.degrees_of_freedom.iter().zip(before) {
+            let dof = dof as usize;
+            let way = motions[dof] - self.motions[dof];
+            on_body += 0.5 * (before + self.forces[dof]) * way;
+            self.motions[dof] = motions[dof];
+        }
+        let (on_driven, on_free) = self.load_rigid_bodies(&rigid, step);
+        let touches = self.state.touches.iter().flatten();
+        let stored = touches.map(Touch::energy).fold(0.0, |sum, it| sum + it);
+        let kinetic = self.kinetic_energy(step);
+        let energies = &mut self.state.energies;
+        energies.dissipated -= on_body + on_driven + on_free + (stored - energies.stored);
+        energies.driving_work -= on_driven;
+        energies.stored = stored;
+        energies.kinetic = kinetic;
+        self.state.energies
+    }
+
+    /// Adds the contact forces at the present time times a factor to forces on the body, shape (n_degrees_of_freedom), N and N m.
+    pub fn add_forces(&self, factor: f64, forces: &mut [f64]) {
+        for &dof in &self.degrees_of_freedom {
+            forces[dof as usize] += factor * self.forces[dof as usize];
+        }
+    }
+
+    /// Energies at the present time.
+    pub fn energies(&self) -> ContactEnergies {
+        self.state.energies
+    }
+
+    /// State of each rigid body.
+    pub fn rigid_bodies(&self) -> &[RigidState] {
+        &self.state.rigid_bodies
+    }
+
+    /// State for a checkpoint.
+    pub fn state(&self) -> &ContactState {
+        &self.state
+    }
+
+    /// Resultants of each contact.
+    pub fn readings(&self) -> Vec<ContactReading> {
+        let of_contact = |touches: &Vec<Touch>| {
+            let mut reading = ContactReading::default();
+            for touch in touches.iter().filter(|it| it.depth() > 0.0) {
+                let sign = if touch.is_first { 1.0 } else { -1.0 };
+                add(&mut reading.normal_force, sign, touch.normal_force());
+                add(&mut reading.friction_force, sign, touch.friction_force());
+                reading.area += touch.area;
+                reading.penetration = reading.penetration.max(touch.depth());
+            }
+            reading
+        };
+        self.state.touches.iter().map(of_contact).collect()
+    }
+
+    /// Finds the contacts at new motions, given the rigid bodies before the step.
+    fn meet(&mut self, before: &[RigidState], motions: &[f64]) {
+        for (index, contact) in self.problem.contacts.iter().enumerate() {
+            let place = |all: &[RigidState]| {
+                let body = contact.rigid_body.map(|it| all[it].displacement);
+                body.unwrap_or_default()
+            };
+            let step = Step {
+                before: &self.motions,
+                now: motions,
+                rigid: [place(before), place(&self.state.rigid_bodies)],
+            };
+            let touches = &mut self.state.touches[index];
+            *touches = contact
+                .surfaces
+                .touches(&mut self.searches[index], step, touches);
+        }
+    }
+
+    /// Computes the forces of the present contacts on the body.
+    fn load_body(&mut self) {
+        for &dof in &self.degrees_of_freedom {
+            self.forces[dof as usize] = 0.0;
+        }
+        for (contact, touches) in self.problem.contacts.iter().zip(&self.state.touches) {
+            contact.surfaces.add_forces(touches, &mut self.forces);
+        }
+    }
+
+    fn at_loaded(&self, values: &[f64]) -> Vec<f64> {
+        let loaded = self.degrees_of_freedom.iter();
+        loaded.map(|&dof| values[dof as usize]).collect()
+    }
+
+    fn move_rigid_bodies(&mut self, time: f64, step: f64) {
+        let bodies = self.problem.rigid_bodies.iter();
+        for (body, state) in bodies.zip(&mut self.state.rigid_bodies) {
+            match &body.motion {
+                RigidMotion::Prescribed {
+                    velocity,
+                    amplitude,
+                } => {
+                    let (now, so_far) = (amplitude.value(time), amplitude.integral(time));
+                    state.velocity = velocity.map(|it| now * it);
+                    state.displacement = velocity.map(|it| so_far * it);
+                }
+                RigidMotion::Free { mass, .. } => {
+                    add(&mut state.displacement, step, state.velocity);
+                    add(
+                        &mut state.displacement,
+                        0.5 * step * step / mass,
+                        state.force,
+                    );
+                }
+            }
+        }
+    }
+
+    /// Loads the rigid bodies with the present contacts, given their states before the step; returns the work of the contact forces on the
+    /// driven and on the free ones.
+    fn load_rigid_bodies(&mut self, before: &[RigidState], step: f64) -> (f64, f64) {
+        let (mut on_driven, mut on_free) = (0.0, 0.0);
+        for (index, body) in self.problem.rigid_bodies.iter().enumerate() {
+            let state = &mut self.state.rigid_bodies[index];
+            state.force = Vector::default();
+            let contacts = self.problem.contacts.iter().zip(&self.state.touches);
+            let own = contacts.filter(|(contact, _)| contact.rigid_body == Some(index));
+            for touch in own.flat_map(|(_, touches)| touches) {
+                add(&mut state.force, -1.0, touch.force());
+            }
+            let mut mean = state.force.map(|it| 0.5 * it);
+            add(&mut mean, 0.5, before[index].force);
+            let work = dot(mean, minus(state.displacement, before[index].displacement));
+            match &body.motion {
+                RigidMotion::Prescribed { .. } => on_driven += work,
+                RigidMotion::Free { mass, .. } => {
+                    add(&mut state.velocity, step / mass, mean);
+                    on_free += work;
+                }
+            }
+        }
+        (on_driven, on_free)
+    }
+
+    /// Kinetic energy 1/2 m v . v' of the free rigid bodies with the velocities half a step (s) before and after.
+    fn kinetic_energy(&self, step: f64) -> f64 {
+        let bodies = self.problem.rigid_bodies.iter();
+        let of_body = |(body, state): (&RigidBody, &RigidState)| match &body.motion {
+            RigidMotion::Prescribed { .. } => 0.0,
+            RigidMotion::Free { mass, .. } => {
+                let change = state.force.map(|it| 0.5 * step * it / mass);
+                0.5 * mass * (dot(state.velocity, state.velocity) - dot(change, change))
+            }
+        };
+        bodies
+            .zip(&self.state.rigid_bodies)
+            .map(of_body)
+            .fold(0.0, |sum, it| sum + it)
+    }
+}
+
+fn add(sum: &mut Vector, factor: f64, vector: Vector) {
+    for (sum, value) in sum.iter_mut().zip(vector) {
+        *sum += factor * value;
+    }
+}
+
+serial!(Touch {
+    place,
+    onto,
+    weights,
+    normal,
+    overlap,
+    offset,
+    slip,
+    stiffness,
+    area,
+    is_first
+});
+serial!(RigidState {
+    displacement,
+    velocity,
+    force
+});
+serial!(ContactEnergies {
+    stored,
+    dissipated,
+    driving_work,
+    kinetic
+});
+serial!(ContactState {
+    touches,
+    rigid_bodies,
+    energies
+});

@@ -1,0 +1,193 @@
+//! `[[contact]]` and `[[rigid]]`: contact between parts of the body and with rigid bodies, in a motion.
+
+use std::path::Path;
+
+use ligament::setup::{self, Between, ContactLaw, RigidForm};
+use ligament_analysis::load_program;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::amplitude::Amplitude;
+use super::conditions::Vector;
+use super::coordinates::Coordinates;
+use super::fault::KeyFault;
+use super::key_path::KeyPath;
+use super::values::{missing, refuse, require_column_name};
+
+/// Contact between parts of the body in a motion, with friction.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Contact {
+    /// Two groups whose outlines meet, `["a", "b"]`; without it all parts that no bond connects at the start.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub between: Option<[String; 2]>,
+    /// Coefficient of Coulomb's friction.
+    #[serde(default)]
+    #[schemars(range(min = 0))]
+    pub friction: f64,
+    /// Stiffness of the contact over E'/h of the material, with the spacing h of the points.
+    #[serde(default = "one")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub stiffness: f64,
+}
+
+/// A rigid body that parts of the body meet in a motion; it does not turn.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Rigid {
+    /// Name in results.
+    pub name: String,
+    /// Its shape.
+    pub shape: RigidShape,
+    /// Its centre at time zero, of a wall a point of its surface, m.
+    #[schemars(extend("x-unit" = "m"))]
+    pub centre: Coordinates,
+    /// Radius of a circle or sphere, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
+    pub radius: Option<f64>,
+    /// Outward normal of a wall.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub normal: Option<Coordinates>,
+    /// Sides of a box, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m"))]
+    pub size: Option<Coordinates>,
+    /// Velocity, m/s: of a body with a `mass` at time zero, of another one times its `amplitude`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m/s"))]
+    pub velocity: Option<Vector>,
+    /// Factor of the velocity as a function of time; without it 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub amplitude: Option<Amplitude>,
+    /// Mass of a body that contact alone moves, in the plane that of the whole thickness, kg; without it the motion is prescribed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "kg"))]
+    pub mass: Option<f64>,
+    /// Coefficient of Coulomb's friction.
+    #[serde(default)]
+    #[schemars(range(min = 0))]
+    pub friction: f64,
+    /// Stiffness of the contact over E'/h of the material, with the spacing h of the points.
+    #[serde(default = "one")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub stiffness: f64,
+    /// Groups whose outlines it meets; without it that of the whole body.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub against: Vec<String>,
+}
+
+/// Shape of a rigid body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum RigidShape {
+    /// A circle, for a body in the plane.
+    Circle,
+    /// A sphere, for a solid.
+    Sphere,
+    /// A half-plane, for a solid a half-space.
+    Wall,
+    /// A rectangle, for a solid a box, with sides along the axes.
+    Box,
+}
+
+fn one() -> f64 {
+    ContactLaw::default().stiffness
+}
+
+impl Contact {
+    pub(super) fn setup(&self) -> setup::SurfaceContact {
+        setup::SurfaceContact {
+            between: self.between.clone().map_or(Between::Parts, Between::Groups),
+            law: ContactLaw {
+                friction: self.friction,
+                stiffness: self.stiffness,
+            },
+        }
+    }
+}
+
+impl Rigid {
+    /// Fills in missing keys; `folder` is that of the case file.
+    pub(super) fn complete(&mut self, key: &KeyPath, folder: &Path) -> Result<(), KeyFault> {
+        require_column_name(|| key.child("name"), &self.name)?;
+        match &mut self.amplitude {
+            Some(amplitude) => amplitude.complete(&key.child("amplitude"), folder),
+            None => Ok(()),
+        }
+    }
+
+    /// The rigid body beside a body in some dimensions; an amplitude from a file is still without its rows.
+    pub(super) fn setup(&self, key: &KeyPath, dimensions: usize) -> Result<setup::Rigid, KeyFault> {
+        let velocity = self
+            .velocity
+            .map(|it| it.for_body(&key.child("velocity"), dimensions));
+        let amplitude = self.amplitude.as_ref();
+        let amplitude = amplitude.map(|it| it.setup(&key.child("amplitude")));
+        Ok(setup::Rigid {
+            name: self.name.clone(),
+            form: self.form(key, dimensions)?,
+            against: self.against.clone(),
+            law: ContactLaw {
+                friction: self.friction,
+                stiffness: self.stiffness,
+            },
+            velocity: velocity.transpose()?.unwrap_or_default(),
+            amplitude: (amplitude.transpose()?).unwrap_or_else(load_program::Amplitude::constant),
+            mass: self.mass,
+        })
+    }
+
+    fn form(&self, key: &KeyPath, dimensions: usize) -> Result<RigidForm, KeyFault> {
+        let centre = self.centre.for_body(&key.child("centre"), dimensions)?;
+        let of_ball = ("radius", self.radius.is_some());
+        let of_wall = ("normal", self.normal.is_some());
+        let of_box = ("size", self.size.is_some());
+        let refuse = |keys: [(&'static str, bool); 2], word: &str| {
+            let setting = format!("shape = \"{word}\"");
+            refuse(key, keys, &setting, "it belongs to another shape")
+        };
+        let along = |name: &str, given: Option<Coordinates>| {
+            let given = given.ok_or_else(|| missing(key, name))?;
+            given.for_body(&key.child(name), dimensions)
+        };
+        match self.shape {
+            RigidShape::Circle | RigidShape::Sphere => {
+                refuse([of_wall, of_box], self.shape.word())?;
+                if (self.shape == RigidShape::Circle) != (dimensions == 2) {
+                    let reason = match dimensions {
+                        2 => "a body in the plane meets a \"circle\"",
+                        _ => "a solid meets a \"sphere\"",
+                    };
+                    return Err(KeyFault::new(key.child("shape"), reason));
+                }
+                let radius = self.radius.ok_or_else(|| missing(key, "radius"))?;
+                Ok(RigidForm::Ball { centre, radius })
+            }
+            RigidShape::Wall => {
+                refuse([of_ball, of_box], self.shape.word())?;
+                let normal = along("normal", self.normal)?;
+                Ok(RigidForm::Wall {
+                    point: centre,
+                    normal,
+                })
+            }
+            RigidShape::Box => {
+                refuse([of_ball, of_wall], self.shape.word())?;
+                let size = along("size", self.size)?;
+                Ok(RigidForm::Box { centre, size })
+            }
+        }
+    }
+}
+
+impl RigidShape {
+    fn word(self) -> &'static str {
+        match self {
+            Self::Circle => "circle",
+            Self::Sphere => "sphere",
+            Self::Wall => "wall",
+            Self::Box => "box",
+        }
+    }
+}

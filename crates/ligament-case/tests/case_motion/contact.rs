@@ -1,0 +1,144 @@
+//! `[[contact]]` and `[[rigid]]`: what they make, and what is refused.
+
+use ligament::setup::{Between, ContactLaw, RigidForm};
+use ligament_analysis::motion::contact::RigidMotion;
+use ligament_analysis::{Amplitude, Shape};
+
+use super::{BAR, motion, read};
+
+/// Settings of the bar, and what the error says about them.
+const REFUSED: [[&str; 2]; 18] = [
+    [
+        "contact=[{between=[\"left\",\"rigth\"]}]",
+        "contact.0.between: no set of the lattice is called `rigth`; did you mean `right`?",
+    ],
+    [
+        "contact=[{between=[\"left\",\"left\"]}]",
+        "contact.0.between: contact is between two different groups",
+    ],
+    [
+        "contact=[{}]",
+        "contact.0.between: bonds connect the whole body",
+    ],
+    [
+        "contact=[{friction=-0.1}]",
+        "contact.0.friction: must be at least 0, found -0.1",
+    ],
+    [
+        "contact=[{stiffness=0.0}]",
+        "contact.0.stiffness: must be greater than 0, found 0.0",
+    ],
+    ["contact=[{betwen=[\"left\",\"right\"]}]", "`betwen`"],
+    [
+        "rigid=[{name=\"it\",shape=\"circle\",centre=[0.005,0.003],radius=1.5e-3}]",
+        "rigid.0: begins 4.901e-4 m deep inside the body, at cell ",
+    ],
+    [
+        "rigid=[{name=\"it\",shape=\"sphere\",centre=[0.0,1.0],radius=0.1}]",
+        "rigid.0.shape: a body in the plane meets a \"circle\"",
+    ],
+    [
+        "rigid=[{name=\"it\",shape=\"circle\",centre=[0.0,1.0]}]",
+        "rigid.0.radius: missing key `radius` in [[rigid]]",
+    ],
+    [
+        "rigid=[{name=\"it\",shape=\"circle\",centre=[0.0,1.0],radius=-1.0}]",
+        "rigid.0.radius: must be greater than 0, found -1.0",
+    ],
+    [
+        "rigid=[{name=\"it\",shape=\"circle\",centre=[0.0,1.0],radius=0.1,normal=[0.0,1.0]}]",
+        "rigid.0.normal: `normal` does not apply with shape = \"circle\"",
+    ],
+    [
+        "rigid=[{name=\"it\",shape=\"wall\",centre=[0.0,0.0],normal=[0.0,0.0]}]",
+        "rigid.0.normal: must be a direction other than [0, 0]",
+    ],
+    [
+        "rigid=[{name=\"it\",shape=\"box\",centre=[0.0,1.0],size=[1.0,0.0]}]",
+        "rigid.0.size: must be greater than 0, found 0.0",
+    ],
+    [
+        "rigid=[{name=\"it\",shape=\"wall\",centre=[0.0,0.0],normal=[0.0,1.0],mass=-2.0}]",
+        "rigid.0.mass: must be greater than 0, found -2.0",
+    ],
+    [
+        "rigid=[{name=\"it\",shape=\"wall\",centre=[0.0,0.0],normal=[0.0,1.0],mass=2.0,amplitude={shape=\"ramp\",duration=1.0}}]",
+        "rigid.0.amplitude: a body with a mass moves by itself",
+    ],
+    [
+        "rigid=[{name=\"it\",shape=\"wall\",centre=[0.0,0.0],normal=[0.0,1.0],against=[\"lef\"]}]",
+        "rigid.0.against: no set of the lattice is called `lef`; did you mean `left`?",
+    ],
+    [
+        "rigid=[{name=\"it\",shape=\"wall\",centre=[0.0,0.0,0.0],normal=[0.0,1.0]}]",
+        "rigid.0.centre: a body in the plane takes two coordinates",
+    ],
+    [
+        "rigid=[{name=\"a,b\",shape=\"wall\",centre=[0.0,0.0],normal=[0.0,1.0]}]",
+        "rigid.0.name: must be a name without commas",
+    ],
+];
+
+#[test]
+fn contacts_are_refused_where_they_make_no_sense() {
+    for [setting, expected] in REFUSED {
+        let error = motion(BAR, &[setting]).err().unwrap_or_default();
+        assert!(error.contains(expected), "{setting}\n{error}\n{expected}");
+    }
+    let twice = "rigid=[{name=\"it\",shape=\"wall\",centre=[0.0,0.0],normal=[0.0,1.0]},{name=\"it\",shape=\"wall\",centre=[0.0,2e-3],normal=[0.0,-1.0]}]";
+    let error = motion(BAR, &[twice]).err().unwrap();
+    assert!(error.contains("rigid.1.name"), "{error}");
+    let statics = [
+        "analysis=static",
+        "-motion",
+        "-load.0.velocity",
+        "-load.0.amplitude",
+        "load.0.force.x=1.0",
+    ];
+    let statics: Vec<&str> = statics.into_iter().chain(["contact=[{}]"]).collect();
+    let error = motion(BAR, &statics).err().unwrap();
+    assert!(
+        error.contains("contact: `contact` does not apply with analysis = \"static\""),
+        "{error}"
+    );
+}
+
+#[test]
+fn contacts_have_defaults() {
+    let floor = "rigid=[{name=\"floor\",shape=\"wall\",centre=[0.0,0.0],normal=[0.0,1.0],velocity={y=2.0},amplitude={shape=\"ramp\",duration=1e-6}},{name=\"hammer\",shape=\"box\",centre=[0.005,0.004],size=[1e-3,2e-3],mass=0.5,friction=0.4,against=[\"right\"]}]";
+    let settings = [
+        floor,
+        "contact=[{between=[\"left\",\"right\"],friction=0.3}]",
+    ];
+    let setup = read(BAR, &settings).unwrap().setup(&mut ()).unwrap();
+    let contact = &setup.contacts[0];
+    assert_eq!(
+        contact.between,
+        Between::Groups(["left", "right"].map(str::to_owned))
+    );
+    assert_eq!(
+        contact.law,
+        ContactLaw {
+            friction: 0.3,
+            stiffness: 1.0
+        }
+    );
+    let RigidForm::Box { size, .. } = setup.rigid_bodies[1].form else {
+        panic!("another shape");
+    };
+    assert_eq!(size, [1e-3, 2e-3, 0.0]);
+    let problem = motion(BAR, &settings).unwrap().contact;
+    let names: Vec<&str> = problem.contacts.iter().map(|it| it.name.as_str()).collect();
+    assert_eq!(names, ["left-right", "floor", "hammer"]);
+    let ramp = Amplitude::pulse(Shape::Ramp, 0.0, 1e-6);
+    let driven = RigidMotion::Prescribed {
+        velocity: [0.0, 2.0, 0.0],
+        amplitude: ramp,
+    };
+    assert_eq!(problem.rigid_bodies[0].motion, driven);
+    let free = RigidMotion::Free {
+        mass: 0.5,
+        velocity: [0.0; 3],
+    };
+    assert_eq!(problem.rigid_bodies[1].motion, free);
+}

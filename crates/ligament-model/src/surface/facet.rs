@@ -1,0 +1,232 @@
+//! Facets of the outline of a body, and how they move with its points.
+
+use super::{Corners, Vector, area_vector, weighted};
+use crate::cloud::PointCloud;
+use crate::layout::Layout;
+use crate::tensor::{dot, minus, norm};
+
+/// A corner of a facet, which moves with a point: x = X + u + phi x (X - X_point), linear in the rotation phi of the point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Corner<const D: usize> {
+    /// The point.
+    pub point: u32,
+    /// Position X without motion, m.
+    pub position: [f64; D],
+    /// Arm X - X_point, m.
+    pub arm: [f64; D],
+}
+
+/// A facet of the outline: a segment with the body on its left, or a triangle that is counter-clockwise from outside.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Facet<const D: usize> {
+    /// Corners.
+    pub corners: [Corner<D>; D],
+    /// Area without motion, m^2: of a segment its length times the thickness.
+    pub area: f64,
+}
+
+/// Facets of some bodies, each with the side to which it belongs.
+#[derive(Debug, Clone)]
+pub struct Surface<const D: usize> {
+    pub(super) layout: Layout,
+    pub(super) facets: Vec<Facet<D>>,
+    /// Number of the side of each facet.
+    pub(super) sides: Vec<u32>,
+    /// Contact stiffness of each facet, Pa/m.
+    pub(super) stiffness: Vec<f64>,
+}
+
+impl<const D: usize> Facet<D> {
+    /// A facet between corners, each a point and a position in the coordinates of the cloud.
+    pub fn new(cloud: &PointCloud<D>, corners: [(u32, [f64; D]); D]) -> Self {
+        let positions = corners.map(|(_, position)| position);
+        let corner = |(point, position): (u32, [f64; D])| Corner {
+            point,
+            position,
+            arm: minus(position, cloud.positions[point as usize]),
+        };
+        Self {
+            corners: corners.map(corner),
+            area: norm(area_vector(&positions)) * cloud.thickness,
+        }
+    }
+
+    /// The points with which its corners move.
+    pub fn points(&self) -> [u32; D] {
+        self.corners.map(|it| it.point)
+    }
+
+    /// Length of its longest edge, m.
+    pub(super) fn length(&self) -> f64 {
+        let positions = self.corners.map(|it| it.position);
+        let edges = (0..D).map(|it| norm(minus(positions[(it + 1) % D], positions[it])));
+        edges.fold(0.0, f64::max)
+    }
+
+    /// Present positions of the corners for the motions of all points (n_degrees_of_freedom), m.
+    pub(super) fn moved(&self, layout: Layout, motions: &[f64]) -> Corners<D> {
+        self.corners.map(|corner| {
+            let motion = &motions[layout.range(corner.point)];
+            let turned = turned(&motion[D..], corner.arm);
+            std::array::from_fn(|axis| corner.position[axis] + motion[axis] + turned[axis])
+        })
+    }
+
+    /// Adds a force (N) on a place of the facet to the forces and moments on its points, shape (n_degrees_of_freedom).
+    pub(super) fn add_force(
+        &self,
+        layout: Layout,
+        weights: &[f64],
+        force: [f64; D],
+        forces: &mut [f64],
+    ) {
+        for (corner, weight) in self.corners.iter().zip(weights) {
+            let own = &mut forces[layout.range(corner.point)];
+            let part = force.map(|it| weight * it);
+            for (sum, value) in own.iter_mut().zip(part) {
+                *sum += value;
+            }
+            let moment = moment(corner.arm, part);
+            let moments = if D == 2 { &moment[2..] } else { &moment[..] };
+            for (sum, value) in own[D..].iter_mut().zip(moments) {
+                *sum += value;
+            }
+        }
+    }
+}
+
+/// Displacement phi x r of an arm by the rotations of its point: one in the plane, three in space, or none.
+fn turned<const D: usize>(rotations: &[f64], arm: [f64; D]) -> [f64; D] {
+    match *rotations {
+        [angle] => std::array::from_fn(|axis| angle * if axis == 0 { -arm[1] } else { arm[0] }),
+        [_, _, _] => std::array::from_fn(|axis| {
+            let (next, last) = ((axis + 1) % D, (axis + 2) % D);
+            rotations[next] * arm[last] - rotations[last] * arm[next]
+        }),
+        _ => [0.0; D],
+    }
+}
+
+/// Moment r x f of a force at an arm, N m.
+fn moment<const D: usize>(arm: [f64; D], force: [f64; D]) -> Vector {
+    let product = |one: usize, other: usize| arm[one] * force[other] - arm[other] * force[one];
+    if D == 2 {
+        [0.0, 0.0, product(0, 1)]
+    } else {
+        [product(1, 2), product(2, 0), product(0, 1)]
+    }
+}
+
+impl<const D: usize> Surface<D> {
+    /// A surface of facets with the side and the contact stiffness (Pa/m) of each, for points with a layout.
+    pub fn new(layout: Layout, facets: Vec<(Facet<D>, u32, f64)>) -> Self {
+        let mut surface = Self {
+            layout,
+            facets: Vec::with_capacity(facets.len()),
+            sides: Vec::with_capacity(facets.len()),
+            stiffness: Vec::with_capacity(facets.len()),
+        };
+        for (facet, side, stiffness) in facets {
+            surface.facets.push(facet);
+            surface.sides.push(side);
+            surface.stiffness.push(stiffness);
+        }
+        surface
+    }
+
+    /// Facets.
+    pub fn facets(&self) -> &[Facet<D>] {
+        &self.facets
+    }
+
+    /// Largest length of an edge, m.
+    pub(super) fn largest_length(&self) -> f64 {
+        self.facets.iter().map(Facet::length).fold(0.0, f64::max)
+    }
+
+    /// Largest stiffness of a facet, Pa/m.
+    pub(super) fn largest_stiffness(&self) -> f64 {
+        self.stiffness.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Mean stiffness of the facets of each side over their areas, Pa/m.
+    pub(super) fn mean_stiffness(&self) -> Vec<f64> {
+        let n_sides = self.sides.iter().max().map_or(0, |it| *it as usize + 1);
+        let mut sums = vec![[0.0; 2]; n_sides];
+        for ((facet, side), stiffness) in self.facets.iter().zip(&self.sides).zip(&self.stiffness) {
+            let [area, weighted] = &mut sums[*side as usize];
+            *area += facet.area;
+            *weighted += facet.area * stiffness;
+        }
+        sums.iter()
+            .map(|[area, weighted]| weighted / area)
+            .collect()
+    }
+
+    /// Degrees of freedom of the points of the facets, ascending.
+    pub(super) fn degrees_of_freedom(&self) -> Vec<u32> {
+        let mut points: Vec<u32> = self.facets.iter().flat_map(Facet::points).collect();
+        points.sort_unstable();
+        points.dedup();
+        let of_point = |point: u32| self.layout.range(point).map(|it| it as u32);
+        points.into_iter().flat_map(of_point).collect()
+    }
+
+    /// Adds a stiffness (N/m) against motions of a place of a facet to that at the degrees of freedom of its points, so that their diagonal
+    /// matrix is above it: with (u + phi x r)^2 <= 3 u^2 + 3/2 r^2 phi^2, which suits a cube, where points have rotations.
+    pub(super) fn add_bound(
+        &self,
+        facet: usize,
+        weights: &[f64],
+        stiffness: f64,
+        sums: &mut [f64],
+    ) {
+        let Facet { corners, .. } = &self.facets[facet];
+        let moves_as_one = corners.iter().all(|it| it.point == corners[0].point);
+        let mean = weighted(&corners.map(|it| it.arm), weights);
+        for (corner, weight) in corners.iter().zip(weights) {
+            let own = &mut sums[self.layout.range(corner.point)];
+            let has_rotations = own.len() > D;
+            let (moves, turns) = own.split_at_mut(D);
+            let arm = if moves_as_one { mean } else { corner.arm };
+            let share = weight * stiffness;
+            for sum in moves {
+                *sum += if has_rotations { 3.0 * share } else { share };
+            }
+            for sum in turns {
+                *sum += 1.5 * dot(arm, arm) * share;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::layout::Component;
+
+    /// The work of a force on the motion of its place is that of the forces and moments on the points.
+    #[test]
+    fn forces_do_the_work_of_their_place() {
+        let cloud =
+            PointCloud::<3>::from_points(&[[0.0; 3], [1.0, 0.0, 0.0]], &[1.0; 2], 1.0, &[0, 0], 1);
+        let corners = [
+            (0, [0.1, 0.2, 0.3]),
+            (1, [0.9, 0.0, -0.4]),
+            (0, [0.5, 1.0, 0.0]),
+        ];
+        let facet = Facet::new(&cloud, corners);
+        let layout = Layout {
+            n_points: 2,
+            components: &Component::IN_SPACE,
+        };
+        let motions: Vec<f64> = (0..12).map(|it| (f64::from(it) * 0.7).sin()).collect();
+        let (weights, force) = ([0.2, 0.5, 0.3], [1.0, -2.0, 0.5]);
+        let place = |motions: &[f64]| weighted(&facet.moved(layout, motions), &weights);
+        let way = minus(place(&motions), place(&[0.0; 12]));
+        let mut forces = vec![0.0; 12];
+        facet.add_force(layout, &weights, force, &mut forces);
+        let work: f64 = forces.iter().zip(&motions).map(|(f, u)| f * u).sum();
+        assert!((work - dot(way, force)).abs() < 1e-14);
+    }
+}

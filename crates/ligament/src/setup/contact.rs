@@ -1,0 +1,166 @@
+//! Contact between surfaces and with rigid bodies, in a motion.
+
+use ligament_analysis::load_program::Amplitude;
+
+use super::Position;
+use super::Setup;
+use super::check::{Checked, contradiction, positive, require, require_unique};
+use crate::error::Field;
+
+/// Contact between parts of the body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurfaceContact {
+    /// What comes into contact.
+    pub between: Between,
+    /// Law of the contact.
+    pub law: ContactLaw,
+}
+
+/// Parts of the body that come into contact.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Between {
+    /// The outlines of two groups.
+    Groups([String; 2]),
+    /// The outlines of all parts that no bond connects at the start.
+    Parts,
+}
+
+/// Penalty and friction of a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactLaw {
+    /// Coefficient mu of Coulomb's friction, from 0.
+    pub friction: f64,
+    /// Factor of the contact stiffness: k is this times E'/h of the material, with the spacing h of the points.
+    pub stiffness: f64,
+}
+
+/// A rigid body, which moves without turning.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rigid {
+    /// Name in results.
+    pub name: String,
+    /// Shape and place at time zero.
+    pub form: RigidForm,
+    /// Groups whose outlines it meets; that of the whole body where there is none.
+    pub against: Vec<String>,
+    /// Law of the contact.
+    pub law: ContactLaw,
+    /// Velocity, m/s: at time zero where the body has a mass, otherwise times the amplitude.
+    pub velocity: Position,
+    /// Amplitude of a prescribed velocity.
+    pub amplitude: Amplitude,
+    /// Mass, kg; without one the motion is prescribed.
+    pub mass: Option<f64>,
+}
+
+/// Shape and place of a rigid body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum RigidForm {
+    /// A circle in the plane, a sphere in space.
+    Ball {
+        /// Centre, m.
+        centre: Position,
+        /// Radius, m.
+        radius: f64,
+    },
+    /// A half-plane or half-space.
+    Wall {
+        /// A point of its surface, m.
+        point: Position,
+        /// Outward normal, of arbitrary length.
+        normal: Position,
+    },
+    /// A rectangle or box with sides along the axes.
+    Box {
+        /// Centre, m.
+        centre: Position,
+        /// Sides, m.
+        size: Position,
+    },
+}
+
+impl Default for ContactLaw {
+    /// Without friction, and with the stiffness of a layer of material as thick as a point.
+    fn default() -> Self {
+        Self {
+            friction: 0.0,
+            stiffness: 1.0,
+        }
+    }
+}
+
+impl Setup {
+    /// Whether surfaces may come into contact.
+    pub fn has_contact(&self) -> bool {
+        !self.contacts.is_empty() || !self.rigid_bodies.is_empty()
+    }
+
+    pub(super) fn check_contacts(&self) -> Checked {
+        for (index, contact) in self.contacts.iter().enumerate() {
+            let field = Field::element("contacts", index);
+            self.check_contact_law(field, contact.law)?;
+            if let Between::Groups([one, other]) = &contact.between
+                && one == other
+            {
+                let reason = "contact is between two different groups: give two, or all parts";
+                return contradiction(field.part("between"), reason);
+            }
+        }
+        require_unique(
+            "rigid_bodies",
+            self.rigid_bodies.iter().map(|it| it.name.as_str()),
+        )?;
+        for (index, body) in self.rigid_bodies.iter().enumerate() {
+            let field = Field::element("rigid_bodies", index);
+            self.check_contact_law(field, body.law)?;
+            positive(field.part("mass"), body.mass)?;
+            self.check_form(field, &body.form)?;
+            let is_number = body.velocity.iter().all(|it| it.is_finite());
+            let expected = "of finite components";
+            require(is_number, field.part("velocity"), expected, body.velocity)?;
+            if body.mass.is_some() && body.amplitude != Amplitude::constant() {
+                let reason = "a body with a mass moves by itself from its first velocity: give an amplitude or a mass";
+                return contradiction(field.part("amplitude"), reason);
+            }
+        }
+        Ok(())
+    }
+
+    fn check_contact_law(&self, field: Field, law: ContactLaw) -> Checked {
+        let ContactLaw {
+            friction,
+            stiffness,
+        } = law;
+        let is_coefficient = friction >= 0.0 && friction.is_finite();
+        require(
+            is_coefficient,
+            field.part("friction"),
+            "0 or more",
+            friction,
+        )?;
+        positive(field.part("stiffness"), Some(stiffness))?;
+        let reason = "surfaces come into contact in a motion in time only";
+        match self.analysis.is_motion() {
+            true => Ok(()),
+            false => contradiction(field, reason),
+        }
+    }
+
+    fn check_form(&self, field: Field, form: &RigidForm) -> Checked {
+        let dimensions = self.body.dimensions();
+        match form {
+            RigidForm::Ball { radius, .. } => positive(field.part("radius"), Some(*radius)),
+            RigidForm::Wall { normal, .. } => {
+                let is_direction = *normal != [0.0; 3] && normal.iter().all(|it| it.is_finite());
+                let expected = format!("a direction other than {:?}", vec![0; dimensions]);
+                require(is_direction, field.part("normal"), expected, normal)
+            }
+            RigidForm::Box { size, .. } => {
+                let sides = size[..dimensions].iter();
+                sides
+                    .map(|&side| positive(field.part("size"), Some(side)))
+                    .collect()
+            }
+        }
+    }
+}
