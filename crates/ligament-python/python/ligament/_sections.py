@@ -614,6 +614,91 @@ class Quiet(TypedDict, total=False):
     """The physical group on the outline of the mesh, or the set or hole of the lattice."""
 
 
+class Contact(TypedDict, total=False):
+    """Contact between parts of the body in a motion, with friction."""
+
+    between: Sequence[str]
+    """Two groups whose outlines meet, `["a", "b"]`; without it all parts that no bond connects at the start."""
+    friction: float
+    """Coefficient of Coulomb's friction. Default 0.0."""
+    stiffness: float
+    """Stiffness of the contact over E'/h of the material, with the spacing h of the points. Default 1.0."""
+
+
+class RigidVelocity(TypedDict, total=False):
+    """Velocity, m/s: of a body with a `mass` at time zero, of another one times its `amplitude`."""
+
+    x: float
+    """Along x, in the unit of the force. Default 0.0."""
+    y: float
+    """Along y, in the unit of the force. Default 0.0."""
+    z: float
+    """Along z of a solid, in the unit of the force."""
+
+
+class RigidAmplitude(TypedDict, total=False):
+    """Factor of the velocity as a function of time; without it 1."""
+
+    points: Sequence[Numbers]
+    """Times (s) with the factors there, `[[0.0, 0.0], [1e-3, 1.0]]`: straight between them, constant before and after."""
+    file: str | PathLike[str]
+    """A CSV file with the columns `time` (s) and `factor`, from the folder of the case file; as `points`."""
+    shape: Literal["sine", "half-sine", "triangle", "rectangle", "ramp", "smooth-ramp", "ricker"]
+    """A shape, from its start on.
+
+- `sine`: sin(2 pi n x) of n `periods`.
+- `half-sine`: sin(pi x).
+- `triangle`: From 0 to 1 at half of the duration, and back.
+- `rectangle`: 1 until the end.
+- `ramp`: From 0 to 1, where it stays.
+- `smooth-ramp`: From 0 to 1, where it stays, without kinks: 10 x^3 - 15 x^4 + 6 x^5.
+- `ricker`: (1 - 2 a) exp(-a), a = (pi f (t - t_p))^2 with the `frequency` f and the `peak_time` t_p."""
+    start: float
+    """Start of the shape, s; without it 0. Default 0.0."""
+    duration: float
+    """Duration of the whole shape, s."""
+    periods: int
+    """Periods of a sine within its duration. Default 1."""
+    peak_time: float
+    """Time of the peak of a Ricker wavelet, s."""
+    frequency: float
+    """Frequency at which a Ricker wavelet has its most energy, Hz."""
+
+
+class Rigid(TypedDict, total=False):
+    """A rigid body that parts of the body meet in a motion; it does not turn."""
+
+    name: str
+    """Name in results."""
+    shape: Literal["circle", "sphere", "wall", "box"]
+    """Its shape.
+
+- `circle`: A circle, for a body in the plane.
+- `sphere`: A sphere, for a solid.
+- `wall`: A half-plane, for a solid a half-space.
+- `box`: A rectangle, for a solid a box, with sides along the axes."""
+    centre: Numbers
+    """Its centre at time zero, of a wall a point of its surface, m."""
+    radius: float
+    """Radius of a circle or sphere, m."""
+    normal: Numbers
+    """Outward normal of a wall."""
+    size: Numbers
+    """Sides of a box, m."""
+    velocity: RigidVelocity
+    """Velocity, m/s: of a body with a `mass` at time zero, of another one times its `amplitude`."""
+    amplitude: RigidAmplitude
+    """Factor of the velocity as a function of time; without it 1."""
+    mass: float
+    """Mass of a body that contact alone moves, in the plane that of the whole thickness, kg; without it the motion is prescribed."""
+    friction: float
+    """Coefficient of Coulomb's friction. Default 0.0."""
+    stiffness: float
+    """Stiffness of the contact over E'/h of the material, with the spacing h of the points. Default 1.0."""
+    against: Sequence[str]
+    """Groups whose outlines it meets; without it that of the whole body."""
+
+
 class NoFail(TypedDict, total=False):
     """A part of the body."""
 
@@ -848,14 +933,18 @@ class Motion(TypedDict, total=False):
     """Time at the end, s."""
     rows: int
     """Rows of the history, at equal times. Default 200."""
-    scheme: Literal["explicit"]
+    scheme: Literal["explicit", "implicit"]
     """Scheme of the integration in time.
 
-- `explicit`: Central differences: steps without equations to solve, shorter than a critical step. Default "explicit"."""
+- `explicit`: Central differences: steps without equations to solve, shorter than a critical step.
+- `implicit`: Newmark's scheme: steps of any length, each an equilibrium with inertia; of `[fracture]` the keys of a load step hold for each. Default "explicit"."""
     step: float
-    """Time step, s; without it `safety` times the critical step of the body. It is shortened so that rows are at multiples of it."""
+    """Time step, s; explicit steps without it are `safety` times the critical step of the body. It is shortened so that rows are at
+multiples of it, and implicit steps are halved where bonds break fast."""
     safety: float
     """Share of the critical step, beyond which explicit steps are unstable. Default 0.8."""
+    dissipation: float
+    """Dissipation of fast motions by implicit steps, after Hilber, Hughes and Taylor: 0 takes no energy. Default 0.0."""
     rotary_inertia: float
     """Factor on the rotational inertia of the points; a larger one allows longer steps where rotations limit them. Default 1.0."""
     damping: MotionDamping
@@ -957,6 +1046,10 @@ class SectionsOnBody(TypedDict, total=False):
     """Velocities at time zero of a motion."""
     quiet: Sequence[Quiet]
     """Parts of the outline through which waves leave the body in a motion."""
+    contact: Sequence[Contact]
+    """Contact between parts of the body in a motion."""
+    rigid: Sequence[Rigid]
+    """Rigid bodies that parts of the body meet in a motion."""
     no_fail: Sequence[NoFail]
     """Parts of the body where bonds never break."""
     probe: Sequence[Probe]
