@@ -154,6 +154,7 @@ cells = [10, 20]
 spacing = 0.1
 [lattice.set]
 right = { right = 1 }
+left = { left = 1 }
 [material]
 young = 1e9
 poisson = 0.2
@@ -183,7 +184,7 @@ velocity = { y = 1 }
 [[quiet]]
 group = "right"
 [[contact]]
-between = ["right", "right"]
+between = ["left", "right"]
 [[rigid]]
 name = "ball"
 shape = "circle"
