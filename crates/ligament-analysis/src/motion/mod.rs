@@ -32,6 +32,8 @@ pub struct MotionProblem {
     pub dashpots: Arc<[Dashpot]>,
     /// Contacts between surfaces and with rigid bodies.
     pub contact: ContactProblem,
+    /// Coefficient of friction on faces of cracks that close.
+    pub face_friction: f64,
 }
 
 /// Dashpot between a point and the ground: the force -C v for the velocity v of the point.
@@ -147,7 +149,7 @@ pub enum MotionError {
         /// Critical step, s.
         critical: f64,
     },
-    /// Contact between surfaces was required in implicit steps.
+    /// Contact between surfaces or friction on crack faces was required in implicit steps.
     #[error(
         "contact between surfaces needs explicit steps; implicit ones know that of crack faces alone"
     )]

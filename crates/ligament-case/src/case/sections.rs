@@ -386,6 +386,7 @@ impl Case {
             bonds_through_voids: self.model.bonds_through_voids,
             correction: self.correction.setup(&law),
             closing: self.model.closing,
+            closing_friction: self.model.closing_friction,
             no_fail: each("no_fail", &self.no_fail, |it, key| {
                 it.place(key, dimensions)
             })?,

@@ -6,12 +6,14 @@
 //! With the kinetic energy 1/2 v-^T M v+ and the trapezoidal rule for work, damping and released energy the energies balance to rounding for forces
 //! that are linear in the displacements: 1/2 (M a + M a')^T (u' - u) is the change of the kinetic energy.
 
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 use rayon::prelude::*;
 
 use super::body::{Body, TimeStep};
 use super::clock::Clock;
+use super::face_friction::{Anchored, FaceFriction, FrictionEnergies};
 use super::inertia::{Inertia, Velocities};
 use super::progress::{EXPLICIT, Progress};
 use super::record;
@@ -63,7 +65,8 @@ pub(super) fn run(
 ) -> Result<Outcome, SetupError> {
     let (clock, choice) = chosen(problem, settings, explicit)?;
     let numbers = BondNumbers::new(&*problem.problem.system)?;
-    let body = Body::new(&problem.problem, numbers, None);
+    let friction = FaceFriction::new(problem.face_friction, BTreeMap::new());
+    let body = Body::new(&problem.problem, numbers, friction, None);
     let n = body.state.displacement.len();
     let velocities = Velocities {
         half: vec![0.0; n],
@@ -117,6 +120,9 @@ impl ExplicitKept {
     ) {
         body.state.write(&body.numbers, out);
         velocities.write(out);
+        let anchored = body.friction.pairs.iter();
+        let anchored: Vec<(u32, Anchored)> = anchored.map(|(pair, it)| (*pair, *it)).collect();
+        anchored.write(out);
         contacts.map(|it| it.state().clone()).write(out);
         body.costs.write(out);
         CheckValues::new(&body.problem, &body.balanced).write(out);
@@ -128,6 +134,7 @@ impl ExplicitKept {
         let numbers = BondNumbers::new(&*problem.problem.system)?;
         let state = State::read(&numbers, from)?;
         let velocities: Velocities = Serial::read(from).map_err(damaged)?;
+        let anchored: Vec<(u32, Anchored)> = Serial::read(from).map_err(damaged)?;
         let contact: Option<ContactState> = Serial::read(from).map_err(damaged)?;
         let costs = Serial::read(from).map_err(damaged)?;
         let system = &*problem.problem.system;
@@ -141,7 +148,8 @@ impl ExplicitKept {
             return Err(CheckpointError::OtherModel.into());
         }
         problem.problem = with_begun(&problem.problem, &state)?;
-        let mut body = Body::new(&problem.problem, numbers, Some(state));
+        let friction = FaceFriction::new(problem.face_friction, anchored.into_iter().collect());
+        let mut body = Body::new(&problem.problem, numbers, friction, Some(state));
         body.costs = costs;
         body.measure();
         let resumed = |it| {
@@ -317,6 +325,12 @@ impl<'a> Explicit<'a> {
         };
         let is_row = time_step == row * self.progress.clock.steps_per_row;
         let breakage = self.body.move_to(&step, is_row, self.observer)?;
+        let FrictionEnergies { stored, work } = self.body.of_friction;
+        let motion = &mut self.progress.motion;
+        let of_faces = stored - self.progress.sticking;
+        motion.friction_energy += work - of_faces;
+        motion.contact_energy += of_faces;
+        self.progress.sticking = stored;
         self.apply_contacts();
         self.apply_loads();
         self.advance();
@@ -366,7 +380,7 @@ impl<'a> Explicit<'a> {
         let now = contacts.advance(time, step, &state.displacement);
         contacts.add_forces(-1.0, internal);
         let motion = &mut self.progress.motion;
-        motion.contact_energy = now.stored;
+        motion.contact_energy += now.stored - before.stored;
         motion.friction_energy += now.dissipated - before.dissipated;
         self.energies
             .add_driving_work(now.driving_work - before.driving_work);

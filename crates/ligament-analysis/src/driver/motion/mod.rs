@@ -3,6 +3,7 @@
 mod body;
 mod clock;
 mod explicit;
+mod face_friction;
 mod here;
 mod implicit;
 mod implicit_kept;

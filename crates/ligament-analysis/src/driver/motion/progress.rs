@@ -20,6 +20,8 @@ pub(super) struct Progress {
     pub(super) motion: InMotion,
     /// Forces of damping at the time (n_degrees_of_freedom), N and N m; empty where nothing damps.
     pub(super) damping_forces: Vec<f64>,
+    /// Energy stored in faces of cracks that stick, J.
+    pub(super) sticking: f64,
     pub(super) history: Vec<StepRecord>,
     /// Largest overlap of crack faces so far.
     pub(super) overlap: Option<LargestOverlap>,
@@ -29,6 +31,7 @@ serial!(Progress {
     clock,
     motion,
     damping_forces,
+    sticking,
     history,
     overlap,
 });
@@ -39,6 +42,7 @@ impl Progress {
             clock,
             motion: InMotion::default(),
             damping_forces: Vec::new(),
+            sticking: 0.0,
             history: Vec::new(),
             overlap: None,
         }
