@@ -323,7 +323,8 @@ fn of_stored_results(place: &Place, names: &Names, wrong: &mut Vec<String>) {
         compare(file, &headers, names, wrong);
     }
     place.call("crack solid");
-    let growth = ["brittle", "moving", "solid"].map(|run| place.header(&format!("{run}/crack_growth.csv")));
+    let growth =
+        ["brittle", "moving", "solid"].map(|run| place.header(&format!("{run}/crack_growth.csv")));
     compare("crack_growth.csv", &growth, names, wrong);
     place.call(
         "profile soft --from 0,0.03 --to 0.12,0.03 --field damage displacement.x --out profile.csv",

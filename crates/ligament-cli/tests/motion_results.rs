@@ -74,7 +74,11 @@ fn table(path: &Path) -> Vec<std::collections::BTreeMap<String, f64>> {
     let number = |it: &str| it.parse().unwrap_or(f64::NAN);
     let row = |line: &str| {
         let values = line.split(',').map(number);
-        names.iter().map(|it| (*it).to_owned()).zip(values).collect()
+        names
+            .iter()
+            .map(|it| (*it).to_owned())
+            .zip(values)
+            .collect()
     };
     lines.map(row).collect()
 }
@@ -96,7 +100,10 @@ fn a_run_and_its_summary_tell_times_steps_and_energies() {
     ] {
         assert!(words.contains(expected), "{expected} in\n{words}");
     }
-    assert!(!words.contains("load factor") && !words.contains("first peak"), "{words}");
+    assert!(
+        !words.contains("load factor") && !words.contains("first peak"),
+        "{words}"
+    );
     let text = fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
     let summary: Value = serde_json::from_str(&text).unwrap();
     let motion = &summary["motion"];
@@ -129,12 +136,17 @@ fn cracks_have_speeds_that_add_up_to_their_ways() {
     assert!(growth[0]["length_rate"].is_nan());
     let grown = |rate: &str| -> f64 {
         let pairs = growth.windows(2);
-        pairs.map(|it| it[1][rate] * (it[1]["time"] - it[0]["time"])).sum()
+        pairs
+            .map(|it| it[1][rate] * (it[1]["time"] - it[0]["time"]))
+            .sum()
     };
     let (first, last) = (&growth[0], growth.last().unwrap());
     for (rate, size) in [("length_rate", "length"), ("area_rate", "area")] {
         let whole = last[size] - first[size];
-        assert!(whole > 0.0 && (grown(rate) / whole - 1.0).abs() < 1e-9, "{rate}");
+        assert!(
+            whole > 0.0 && (grown(rate) / whole - 1.0).abs() < 1e-9,
+            "{rate}"
+        );
     }
     let tips = table(&folder.path().join("out/crack_tips.csv"));
     let alone: Vec<_> = (tips.iter())
@@ -144,7 +156,9 @@ fn cracks_have_speeds_that_add_up_to_their_ways() {
     for pair in alone.windows(2) {
         let time = pair[1]["time"] - pair[0]["time"];
         let straight = (pair[1]["x"] - pair[0]["x"]).hypot(pair[1]["y"] - pair[0]["y"]);
-        let between = tips.iter().filter(|it| it["time"] > pair[0]["time"] && it["time"] < pair[1]["time"]);
+        let between = tips
+            .iter()
+            .filter(|it| it["time"] > pair[0]["time"] && it["time"] < pair[1]["time"]);
         if between.count() == 0 && !pair[1]["speed"].is_nan() {
             // Smoothing moves the line that the way follows by less than a cell.
             let away = (pair[1]["speed"] * time - straight).abs();
@@ -164,15 +178,30 @@ fn curves_and_pictures_are_over_the_time() {
         fs::read_to_string(folder.path().join("a.svg")).unwrap()
     };
     let force = svg("--curve out");
-    assert!(force.contains(">time (µs)<") && force.contains(">reaction (N)<"), "{force}");
+    assert!(
+        force.contains(">time (µs)<") && force.contains(">reaction (N)<"),
+        "{force}"
+    );
     assert!(!force.contains("first peak"));
     let energies = svg("--curve out --y energies");
-    for name in ["external work", "kinetic energy", "stored energy", "released energy"] {
+    for name in [
+        "external work",
+        "kinetic energy",
+        "stored energy",
+        "released energy",
+    ] {
         assert!(energies.contains(&format!(">{name}<")), "{name}");
     }
-    assert!(!energies.contains("friction") && energies.contains(">energy ("), "{energies}");
+    assert!(
+        !energies.contains("friction") && energies.contains(">energy ("),
+        "{energies}"
+    );
     let probes = svg("--curve out --y probes");
-    assert!(probes.contains(">mouth<") && probes.contains(">edge<") && probes.contains(">velocity (m/s)<"));
+    assert!(
+        probes.contains(">mouth<")
+            && probes.contains(">edge<")
+            && probes.contains(">velocity (m/s)<")
+    );
     let refused = |words: &str| {
         let arguments: Vec<&str> = words.split_whitespace().collect();
         let output = ligament_in(folder.path(), &arguments);
@@ -187,7 +216,10 @@ fn curves_and_pictures_are_over_the_time() {
     assert!(svg("--curve out --y length_rate").contains(">length rate (m/s)<"));
     assert!(svg("--curve out --y speed").contains(">speed (m/s)<"));
     let strip = svg("out --step t=0 t=14e-6");
-    assert!(strip.contains("t = 0") && strip.contains("t = 15.00 µs"), "{strip}");
+    assert!(
+        strip.contains("t = 0") && strip.contains("t = 15.00 µs"),
+        "{strip}"
+    );
     assert!(!strip.contains("step "), "{strip}");
 }
 
@@ -197,8 +229,14 @@ fn bonds_and_the_page_tell_times() {
     let breaks = table(&folder.path().join("out/breaks.csv"));
     let [a, b] = ["cell_a", "cell_b"].map(|it| breaks[0][it]);
     let words = said(folder.path(), &format!("explain out --bond {a} {b}"));
-    assert!(words.contains("It broke after ") && words.contains(" us, in time step "), "{words}");
-    assert!(words.contains("times with fields") && !words.contains("load factor"), "{words}");
+    assert!(
+        words.contains("It broke after ") && words.contains(" us, in time step "),
+        "{words}"
+    );
+    assert!(
+        words.contains("times with fields") && !words.contains("load factor"),
+        "{words}"
+    );
     said(folder.path(), "report out");
     let page = fs::read_to_string(folder.path().join("out/report.html")).unwrap();
     let (_, rest) = page.split_once("id=\"description\">").unwrap();

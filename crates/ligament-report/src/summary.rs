@@ -6,8 +6,8 @@ use ligament_output::Error;
 use ligament_output::quantity::{settled, without_rounding};
 use ligament_output::results::outputs::OutputKind;
 use ligament_output::summary::{
-    self, BondEvent, Input, ModalSummary, ModeSummary, ModelSummary, MotionSummary, PathPoint, Provenance, Stage,
-    Summary, UnitsSummary,
+    self, BondEvent, Input, ModalSummary, ModeSummary, ModelSummary, MotionSummary, PathPoint,
+    Provenance, Stage, Summary, UnitsSummary,
 };
 use ligament_plot::picture::units::Shown;
 
@@ -218,11 +218,16 @@ fn of_motion(motion: &MotionSummary) -> Vec<Entry> {
     let mut rows = vec![entry("Time", time), entry("Time step", step)];
     if let (Some(critical), Some(by)) = (motion.critical_step, &motion.limited_by) {
         let critical = quantity(critical, "s");
-        rows.push(entry("Critical step", format!("{critical}, limited by {by}")));
+        rows.push(entry(
+            "Critical step",
+            format!("{critical}, limited by {by}"),
+        ));
     }
     let energies = motion.energies.named().into_iter();
     let energies = energies.filter(|it| it.1 != 0.0);
-    rows.extend(energies.map(|(name, energy)| entry(&format!("Energy, {name}"), quantity(energy, "J"))));
+    rows.extend(
+        energies.map(|(name, energy)| entry(&format!("Energy, {name}"), quantity(energy, "J"))),
+    );
     rows
 }
 
