@@ -28,6 +28,7 @@ impl StoredLoading {
         match column {
             "displacement" => self.units.displacement,
             "reaction" => self.units.force,
+            "load_factor" if self.in_time => "s",
             name => (self.probes.get(name).copied()).unwrap_or_else(|| columns::unit_of(name)),
         }
     }
