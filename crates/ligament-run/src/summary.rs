@@ -135,11 +135,11 @@ pub fn write(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
         summary.model.bonds,
         quantity(summary.model.volume, "m^3")
     )?;
-    write_loads(summary, out)?;
-    write_first_bonds(summary, out)?;
     if let Some(motion) = &summary.motion {
         write_motion(motion, out)?;
     }
+    write_loads(summary, out)?;
+    write_first_bonds(summary, out)?;
     let softened = (summary.softened_bonds).map_or(String::new(), |it| {
         format!(", and {it} more that softened,")
     });

@@ -14,6 +14,9 @@ use ligament::suggestion::hint;
 const ENERGIES: &str = "energies";
 const PROBES: &str = "probes";
 
+/// Share of the largest energy below which none is seen beside it.
+const SEEN: f64 = 1e-3;
+
 /// Columns of [`ENERGIES`], in the order of the ledger.
 const OF_ENERGIES: [&str; 9] = [
     "external_work",
@@ -73,19 +76,21 @@ impl<'a> Tables<'a> {
         }
     }
 
-    /// The columns that names mean: those of these names, all energies that are not zero throughout, or all probes.
+    /// The columns that names mean: those of these names, all energies that can be seen beside the largest, or all probes.
     pub(super) fn meant(&self, names: &[String]) -> Result<Vec<String>, PictureError> {
         let has = |name: &str| self.history.columns().iter().any(|it| it == name);
         let mut meant = Vec::new();
         for name in names {
             match name.as_str() {
                 ENERGIES if !has(ENERGIES) => {
+                    let mut sizes = Vec::new();
                     for name in OF_ENERGIES.into_iter().filter(|it| has(it)) {
-                        let values = self.history.values::<f64>(name)?;
-                        if values.iter().any(|it| *it != 0.0) {
-                            meant.push(name.to_owned());
-                        }
+                        let values = self.history.values::<f64>(name)?.into_iter();
+                        sizes.push((name, values.fold(0.0, |most, it| it.abs().max(most))));
                     }
+                    let largest = sizes.iter().fold(0.0, |most, it| it.1.max(most));
+                    let seen = sizes.iter().filter(|it| it.1 > SEEN * largest);
+                    meant.extend(seen.map(|it| it.0.to_owned()));
                 }
                 PROBES if !has(PROBES) => {
                     let probes = self.loading.iter().flat_map(|it| it.probes.keys());
@@ -210,5 +215,5 @@ fn first(folder: &Path, steps: &[usize], points: &[[f64; 2]]) -> Option<(&'stati
     let choice = StepChoice::One(StepName::First);
     let (what, step) = choice.steps(folder, steps).ok()?.first()?.happened?;
     let row = steps.iter().position(|it| *it == step)?;
-    Some((what, points[row]))
+    Some((what, points[row])).filter(|it| it.1[1].is_finite())
 }

@@ -38,6 +38,9 @@ ENERGIES = [
     "initial_energy", "dissipated_energy",
 ]
 
+# Share of the largest energy below which none is seen beside it.
+SEEN = 1e-3
+
 # Components by which vectors and their norm are named.
 VECTOR = ["x", "y", "z"]
 NORM = "magnitude"
@@ -482,7 +485,8 @@ def _columns(result: Result, name: str) -> list[str]:
     if name in result.columns:
         return [name]
     if name == "energies":
-        return [it for it in ENERGIES if np.any(result.columns.get(it, 0.0))]
+        sizes = {it: float(np.abs(result.columns[it]).max()) for it in ENERGIES if it in result.columns}
+        return [it for it, size in sizes.items() if size > SEEN * max(sizes.values())]
     if name == "probes" and result.probes:
         return list(result.probes)
     near = difflib.get_close_matches(name, result.columns, 1)

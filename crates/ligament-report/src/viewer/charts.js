@@ -2,6 +2,9 @@
 
 const ENERGIES = ["external_work", "stored_energy", "released_energy", "dissipated_energy", "kinetic_energy", "damping_energy", "contact_energy", "friction_energy", "initial_energy"];
 
+// Share of the largest energy of a motion below which none is seen beside it.
+const SEEN = 1e-3;
+
 class Charts {
   // `go` is called with the number of a run and the place of a step.
   constructor(runs, measured, go) {
@@ -133,13 +136,17 @@ class Charts {
     }));
     const energy = run.history.get(ENERGIES[0]);
     const isStatic = x.length < 2 || run.isModes;
-    const energies = isStatic ? [] : over(ENERGIES.filter((it) => run.history.get(it)?.values.some((value) => value !== 0)), energy?.shift);
+    const sizes = new Map(ENERGIES.map((it) => [it, Math.max(0, ...(run.history.get(it)?.values ?? []).map(Math.abs))]));
+    const least = run.time ? SEEN * Math.max(...sizes.values()) : 0;
+    const energies = isStatic ? [] : over(ENERGIES.filter((it) => sizes.get(it) > least), energy?.shift);
     this.energies.show({ series: energies, xLabel, yLabel: labelWithUnit("energy", energy?.unit), pick });
-    const broken = isStatic ? [] : over(["broken_bonds", "broken_in_step"]);
+    // A motion may have nothing that breaks and nothing that iterates.
+    const told = (names) => names.filter((it) => !run.time || run.history.get(it)?.values.some((value) => value > 0));
+    const broken = isStatic ? [] : over(told(["broken_bonds", "broken_in_step"]));
     this.broken.show({ series: broken, xLabel, yLabel: "bonds", pick });
-    const residuals = isStatic ? [] : over(["residual"], 0);
+    const residuals = isStatic ? [] : over(told(["residual"]), 0);
     this.convergence.show({ series: residuals, xLabel, yLabel: "last residual", logarithmic: true, pick });
-    const iterations = isStatic ? [] : over(["iterations", "rounds"]);
+    const iterations = isStatic ? [] : over(told(["iterations", "rounds"]));
     this.iterations.show({ series: iterations, xLabel, yLabel: "in a step", pick });
     const probes = [...run.history.values()].filter((it) => it.isProbe && run.time);
     const units = [...new Set(probes.map((it) => it.si))];
@@ -174,7 +181,7 @@ class Charts {
     const sizes = run.size?.values ?? [];
     const y = times.map((time, place) => (place ? (sizes[place] - sizes[place - 1]) / (time - times[place - 1]) : NaN));
     const series = isThere ? [{ label: run.label, colour: 1, x: run.axis.ofSteps, y, steps: [...y.keys()] }] : [];
-    this.speed.show({ series, xLabel: run.axis.label, yLabel: `${run.size?.name} (${run.size?.si}/s)`, pick: (_, place) => this.go(number, place) });
+    this.speed.show({ series, xLabel: run.axis.label, yLabel: run.isSolid ? "area rate (m²/s)" : "speed (m/s)", pick: (_, place) => this.go(number, place) });
   }
 
   // Length or area of the cracks over the displacement, or the time of a motion.
