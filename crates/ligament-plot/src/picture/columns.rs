@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use ligament_output::csv::read::Sheet;
-use ligament_output::results::columns::{TIME, is_in_time, unit_of, unit_of_crack};
+use ligament_output::results::columns::{HISTORY, TIME, is_in_time, unit_of, unit_of_crack};
 use ligament_output::results::steps::{StepChoice, StepName};
 
 use super::PictureError;
@@ -168,9 +168,9 @@ impl<'a> Tables<'a> {
     fn unknown(&self, name: &str, sheet: &Sheet) -> PictureError {
         let nearest = hint(name, sheet.columns(), "columns", '`');
         let all = sheet.columns().join(", ");
-        let of_cracks = TABLES[1..]
-            .iter()
-            .any(|it| unit_of_crack(it, name).is_some());
+        let mut beside = TABLES[1..].iter();
+        let of_cracks = beside.any(|it| unit_of_crack(it, name).is_some())
+            && !HISTORY.iter().any(|it| it.0.name == name);
         PictureError::UnknownColumn {
             path: sheet.path().to_path_buf(),
             name: name.to_owned(),
