@@ -73,10 +73,8 @@ impl Setup {
                 require(is_direction, field.part("normal"), expected, normal)
             }
             RigidForm::Box { size, .. } => {
-                let sides = size[..dimensions].iter();
-                sides
-                    .map(|&side| positive(field.part("size"), Some(side)))
-                    .collect()
+                let mut sides = size[..dimensions].iter();
+                sides.try_for_each(|&side| positive(field.part("size"), Some(side)))
             }
         }
     }
