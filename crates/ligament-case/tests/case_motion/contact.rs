@@ -22,7 +22,7 @@ const REFUSED: [[&str; 2]; 18] = [
     ],
     [
         "contact=[{friction=-0.1}]",
-        "contact.0.friction: must be at least 0, found -0.1",
+        "contact.0.friction: must be 0 or more, found -0.1",
     ],
     [
         "contact=[{stiffness=0.0}]",

@@ -69,7 +69,9 @@ fn a_motion_has_defaults() {
         panic!("another analysis");
     };
     assert_eq!(settings, ligament::setup::motion(1e-5));
-    let Scheme::Explicit(explicit) = settings.scheme;
+    let Scheme::Explicit(explicit) = settings.scheme else {
+        panic!("another scheme");
+    };
     assert_eq!(
         (settings.rows, explicit.safety, explicit.step),
         (200, 0.8, None)
@@ -101,7 +103,9 @@ fn all_settings_reach_the_setup() {
         let Kind::Motion(found) = &setup.analysis else {
             panic!("another analysis");
         };
-        let Scheme::Explicit(explicit) = found.scheme;
+        let Scheme::Explicit(explicit) = found.scheme else {
+            panic!("another scheme");
+        };
         assert_eq!((found.rows, found.rotary_inertia), (50, 2.0));
         assert_eq!((explicit.step, explicit.safety), (Some(1e-9), 0.5));
         assert_eq!((found.damping.mass, found.damping.stiffness), (3.0, 4e-9));

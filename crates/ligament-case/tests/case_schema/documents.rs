@@ -153,6 +153,7 @@ const MOTION: &str = r#"
 cells = [10, 20]
 spacing = 0.1
 [lattice.set]
+left = { left = 1 }
 right = { right = 1 }
 [material]
 young = 1e9
@@ -180,7 +181,7 @@ velocity = { x = 1 }
 [[quiet]]
 group = "right"
 [[contact]]
-between = ["right", "right"]
+between = ["left", "right"]
 [[rigid]]
 name = "ball"
 shape = "circle"

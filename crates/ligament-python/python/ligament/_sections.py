@@ -325,6 +325,44 @@ class LoadDisplacement(TypedDict, total=False):
     """Rotation about z in a solid, rad, right-handed."""
 
 
+class LoadVelocity(TypedDict, total=False):
+    """Prescribed velocities in a motion, m/s, of the rotation rad/s."""
+
+    x: float
+    """Along x."""
+    y: float
+    """Along y."""
+    rotation: float
+    """Of the rotation in the plane, counter-clockwise, with rad in the place of m."""
+    z: float
+    """Along z of a solid."""
+    rotation_x: float
+    """Of the rotation about x in a solid, right-handed."""
+    rotation_y: float
+    """Of the rotation about y in a solid, right-handed."""
+    rotation_z: float
+    """Of the rotation about z in a solid, right-handed."""
+
+
+class LoadBaseAcceleration(TypedDict, total=False):
+    """Prescribed accelerations in a motion, such as those of the ground, m/s^2, of the rotation rad/s^2."""
+
+    x: float
+    """Along x."""
+    y: float
+    """Along y."""
+    rotation: float
+    """Of the rotation in the plane, counter-clockwise, with rad in the place of m."""
+    z: float
+    """Along z of a solid."""
+    rotation_x: float
+    """Of the rotation about x in a solid, right-handed."""
+    rotation_y: float
+    """Of the rotation about y in a solid, right-handed."""
+    rotation_z: float
+    """Of the rotation about z in a solid, right-handed."""
+
+
 class LoadForce(TypedDict, total=False):
     """A force in total over the points, N."""
 
@@ -421,6 +459,35 @@ class LoadProfile(TypedDict, total=False):
 the case file."""
 
 
+class LoadAmplitude(TypedDict, total=False):
+    """How the load varies in time, in a motion: it is multiplied by this factor. Without it the load is as given from the start."""
+
+    points: Sequence[Numbers]
+    """Times (s) with the factors there, `[[0.0, 0.0], [1e-3, 1.0]]`: straight between them, constant before and after."""
+    file: str | PathLike[str]
+    """A CSV file with the columns `time` (s) and `factor`, from the folder of the case file; as `points`."""
+    shape: Literal["sine", "half-sine", "triangle", "rectangle", "ramp", "smooth-ramp", "ricker"]
+    """A shape, from its start on.
+
+- `sine`: sin(2 pi n x) of n `periods`.
+- `half-sine`: sin(pi x).
+- `triangle`: From 0 to 1 at half of the duration, and back.
+- `rectangle`: 1 until the end.
+- `ramp`: From 0 to 1, where it stays.
+- `smooth-ramp`: From 0 to 1, where it stays, without kinks: 10 x^3 - 15 x^4 + 6 x^5.
+- `ricker`: (1 - 2 a) exp(-a), a = (pi f (t - t_p))^2 with the `frequency` f and the `peak_time` t_p."""
+    start: float
+    """Start of the shape, s; without it 0. Default 0.0."""
+    duration: float
+    """Duration of the whole shape, s."""
+    periods: int
+    """Periods of a sine within its duration. Default 1."""
+    peak_time: float
+    """Time of the peak of a Ricker wavelet, s."""
+    frequency: float
+    """Frequency at which a Ricker wavelet has its most energy, Hz."""
+
+
 class Load(TypedDict, total=False):
     """A load, given as it is at load factor 1."""
 
@@ -434,6 +501,10 @@ class Load(TypedDict, total=False):
     """The point nearest to `[x, y]`, in a solid to `[x, y, z]`, m."""
     displacement: LoadDisplacement
     """Prescribed displacements, m, rotation in rad."""
+    velocity: LoadVelocity
+    """Prescribed velocities in a motion, m/s, of the rotation rad/s."""
+    base_acceleration: LoadBaseAcceleration
+    """Prescribed accelerations in a motion, such as those of the ground, m/s^2, of the rotation rad/s^2."""
     force: LoadForce
     """A force in total over the points, N."""
     force_per_length: LoadForcePerLength
@@ -453,6 +524,8 @@ class Load(TypedDict, total=False):
     """A pressure on the outline of a group, Pa; positive pushes on the body."""
     profile: LoadProfile | Function
     """How the load varies: what a point takes is multiplied by (c - zero)/(one - zero), or by the factor of a table."""
+    amplitude: LoadAmplitude
+    """How the load varies in time, in a motion: it is multiplied by this factor. Without it the load is as given from the start."""
     stiffness: float
     """Stiffness in total of springs through which a `displacement` moves the points, N/m: what gives way in a testing machine."""
     tilts: bool
@@ -510,6 +583,122 @@ class Temperature(TypedDict, total=False):
     """Subtracted from the values of the `mesh_field`, K. Default 0.0."""
 
 
+class InitialVelocityVelocity(TypedDict, total=False):
+    """The velocity, m/s."""
+
+    x: float
+    """Along x, in the unit of the force. Default 0.0."""
+    y: float
+    """Along y, in the unit of the force. Default 0.0."""
+    z: float
+    """Along z of a solid, in the unit of the force."""
+
+
+class InitialVelocity(TypedDict, total=False):
+    """A velocity at time zero. Where several reach, the last of them holds."""
+
+    group: str
+    """The points of this physical group of the mesh, or of this set or hole of the lattice; without a place the whole body moves."""
+    box: Sequence[Numbers]
+    """The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, in a solid in this box, m."""
+    at: Numbers
+    """The point nearest to `[x, y]`, in a solid to `[x, y, z]`, m."""
+    velocity: InitialVelocityVelocity
+    """The velocity, m/s."""
+
+
+class Quiet(TypedDict, total=False):
+    """A part of the outline through which waves leave the body, by dashpots that take those at a right angle to it."""
+
+    group: str
+    """The physical group on the outline of the mesh, or the set or hole of the lattice."""
+
+
+class Contact(TypedDict, total=False):
+    """Contact between parts of the body in a motion, with friction."""
+
+    between: Sequence[str]
+    """Two groups whose outlines meet, `["a", "b"]`; without it all parts that no bond connects at the start."""
+    friction: float
+    """Coefficient of Coulomb's friction. Default 0.0."""
+    stiffness: float
+    """Stiffness of the contact over E'/h of the material, with the spacing h of the points. Default 1.0."""
+
+
+class RigidVelocity(TypedDict, total=False):
+    """Velocity, m/s: of a body with a `mass` at time zero, of another one times its `amplitude`."""
+
+    x: float
+    """Along x, in the unit of the force. Default 0.0."""
+    y: float
+    """Along y, in the unit of the force. Default 0.0."""
+    z: float
+    """Along z of a solid, in the unit of the force."""
+
+
+class RigidAmplitude(TypedDict, total=False):
+    """Factor of the velocity as a function of time; without it 1."""
+
+    points: Sequence[Numbers]
+    """Times (s) with the factors there, `[[0.0, 0.0], [1e-3, 1.0]]`: straight between them, constant before and after."""
+    file: str | PathLike[str]
+    """A CSV file with the columns `time` (s) and `factor`, from the folder of the case file; as `points`."""
+    shape: Literal["sine", "half-sine", "triangle", "rectangle", "ramp", "smooth-ramp", "ricker"]
+    """A shape, from its start on.
+
+- `sine`: sin(2 pi n x) of n `periods`.
+- `half-sine`: sin(pi x).
+- `triangle`: From 0 to 1 at half of the duration, and back.
+- `rectangle`: 1 until the end.
+- `ramp`: From 0 to 1, where it stays.
+- `smooth-ramp`: From 0 to 1, where it stays, without kinks: 10 x^3 - 15 x^4 + 6 x^5.
+- `ricker`: (1 - 2 a) exp(-a), a = (pi f (t - t_p))^2 with the `frequency` f and the `peak_time` t_p."""
+    start: float
+    """Start of the shape, s; without it 0. Default 0.0."""
+    duration: float
+    """Duration of the whole shape, s."""
+    periods: int
+    """Periods of a sine within its duration. Default 1."""
+    peak_time: float
+    """Time of the peak of a Ricker wavelet, s."""
+    frequency: float
+    """Frequency at which a Ricker wavelet has its most energy, Hz."""
+
+
+class Rigid(TypedDict, total=False):
+    """A rigid body that parts of the body meet in a motion; it does not turn."""
+
+    name: str
+    """Name in results."""
+    shape: Literal["circle", "sphere", "wall", "box"]
+    """Shape of the body.
+
+- `circle`: A circle, for a body in the plane.
+- `sphere`: A sphere, for a solid.
+- `wall`: A half-plane, for a solid a half-space.
+- `box`: A rectangle, for a solid a box, with sides along the axes."""
+    centre: Numbers
+    """Centre of the body at time zero, of a wall a point of its surface, m."""
+    radius: float
+    """Radius of a circle or sphere, m."""
+    normal: Numbers
+    """Outward normal of a wall."""
+    size: Numbers
+    """Sides of a box, m."""
+    velocity: RigidVelocity
+    """Velocity, m/s: of a body with a `mass` at time zero, of another one times its `amplitude`."""
+    amplitude: RigidAmplitude
+    """Factor of the velocity as a function of time; without it 1."""
+    mass: float
+    """Mass of a body that contact alone moves, in the plane that of the whole thickness, kg; without it the motion is prescribed."""
+    friction: float
+    """Coefficient of Coulomb's friction. Default 0.0."""
+    stiffness: float
+    """Stiffness of the contact over E'/h of the material, with the spacing h of the points. Default 1.0."""
+    against: Sequence[str]
+    """Groups whose outlines it meets; without it that of the whole body."""
+
+
 class NoFail(TypedDict, total=False):
     """A part of the body."""
 
@@ -541,7 +730,7 @@ class Probe(TypedDict, total=False):
 - `rotation_x`: Rotation about x in a solid, rad, right-handed.
 - `rotation_y`: Rotation about y in a solid, rad, right-handed.
 - `rotation_z`: Rotation about z in a solid, rad, right-handed."""
-    field: Literal["damage", "strain_energy_density", "damage_tension", "damage_compression", "damage_sliding", "stress.xx", "stress.yy", "stress.xy", "stress.zz", "stress.xz", "stress.yz", "stress_principal.1", "stress_principal.2", "stress_principal.3", "displacement_x", "displacement_y", "rotation", "displacement_z", "rotation_x", "rotation_y", "rotation_z", "stress_xx", "stress_yy", "stress_xy", "stress_zz", "stress_xz", "stress_yz"]
+    field: Literal["damage", "strain_energy_density", "damage_tension", "damage_compression", "damage_sliding", "stress.xx", "stress.yy", "stress.xy", "stress.zz", "stress.xz", "stress.yz", "stress_principal.1", "stress_principal.2", "stress_principal.3", "displacement_x", "displacement_y", "rotation", "displacement_z", "rotation_x", "rotation_y", "rotation_z", "velocity_x", "velocity_y", "velocity_z", "acceleration_x", "acceleration_y", "acceleration_z", "stress_xx", "stress_yy", "stress_xy", "stress_zz", "stress_xz", "stress_yz"]
     """The field that is read `at` the position.
 
 - `damage`: Share of the point's bonds that are broken, weighted with volumes, 0 to 1.
@@ -565,6 +754,12 @@ class Probe(TypedDict, total=False):
 - `rotation_x`: Rotation about x in a solid, rad, right-handed.
 - `rotation_y`: Rotation about y in a solid, rad, right-handed.
 - `rotation_z`: Rotation about z in a solid, rad, right-handed.
+- `velocity_x`: Velocity along x in a motion, m/s.
+- `velocity_y`: Velocity along y in a motion, m/s.
+- `velocity_z`: Velocity along z of a solid in a motion, m/s.
+- `acceleration_x`: Acceleration along x in a motion, m/s^2.
+- `acceleration_y`: Acceleration along y in a motion, m/s^2.
+- `acceleration_z`: Acceleration along z of a solid in a motion, m/s^2.
 - `stress_xx`: Virial stress xx, Pa.
 - `stress_yy`: Virial stress yy, Pa.
 - `stress_xy`: Virial stress xy, Pa.
@@ -713,6 +908,51 @@ class Modal(TypedDict, total=False):
     """Residual of the search, relative to 1/omega^2. Default 1e-10."""
 
 
+class MotionDamping(TypedDict, total=False):
+    """Damping C = `mass` M + `stiffness` K."""
+
+    mass: float
+    """alpha, 1/s: slow motions are damped most. Default 0.0."""
+    stiffness: float
+    """beta, s: fast motions are damped most; it shortens the critical step. Default 0.0."""
+
+
+class MotionStop(TypedDict, total=False):
+    """When to stop before the end; whichever comes first."""
+
+    bonds: int
+    """When so many bonds are broken."""
+    wall_time: float
+    """After so much time of the machine, s."""
+
+
+class Motion(TypedDict, total=False):
+    """A motion in time under loads that depend on time."""
+
+    duration: float
+    """Time at the end, s."""
+    rows: int
+    """Rows of the history, at equal times. Default 200."""
+    scheme: Literal["explicit", "implicit"]
+    """Scheme of the integration in time.
+
+- `explicit`: Central differences: steps without equations to solve, shorter than a critical step.
+- `implicit`: Newmark's scheme: steps of any length, each an equilibrium with inertia; of `[fracture]` the keys of a load step hold for each. Default "explicit"."""
+    step: float
+    """Time step, s; explicit steps without it are `safety` times the critical step of the body. It is shortened so that rows are at
+multiples of it, and implicit steps are halved where bonds break fast."""
+    safety: float
+    """Share of the critical step, beyond which explicit steps are unstable. Default 0.8."""
+    dissipation: float
+    """Dissipation of fast motions by implicit steps, after Hilber, Hughes and Taylor: 0 takes no energy. Default 0.0."""
+    rotary_inertia: float
+    """Factor on the rotational inertia of the points; a larger one allows longer steps where rotations limit them. Default 1.0."""
+    damping: MotionDamping
+    """Damping C = `mass` M + `stiffness` K."""
+    stop: MotionStop
+    """When to stop before the end; whichever comes first."""
+
+
 class Solver(TypedDict, total=False):
     """How the equations are solved. The results are the same up to rounding."""
 
@@ -756,7 +996,7 @@ class Output(TypedDict, total=False):
     """What a run writes."""
 
     fields_every: int
-    """Load steps (default 10) or events of the exact path (100) between two field files; 0: the first and the last state alone."""
+    """Load steps or rows of a motion (default 10) or events of the exact path (100) between two field files; 0: the first and the last state alone."""
     bonds: bool
     """Whether the bonds are written as lines with each field file. Default false."""
     model: bool
@@ -776,12 +1016,14 @@ class SectionsOnBody(TypedDict, total=False):
 
     title: str
     """One line on what the case is. Default ""."""
-    analysis: Literal["static", "fracture", "modal"]
-    """What is computed; without it `fracture` where there is a `[fracture]` section, else `static`.
+    analysis: Literal["static", "fracture", "modal", "motion"]
+    """What is computed; without it `motion` where there is a `[motion]` section, `fracture` where there is a `[fracture]` section, else
+`static`.
 
 - `static`: One linear elastic solution at load factor 1.
 - `fracture`: The breaking of bonds under rising loads.
-- `modal`: Natural frequencies and modes."""
+- `modal`: Natural frequencies and modes.
+- `motion`: A motion in time, in which bonds break where `[fracture]` has criteria."""
     curve: str
     """Name of the load, or `temperature`, that is the axis of the force-displacement curve; without it the first load."""
     material: Material | Mapping[str, MaterialPart]
@@ -800,6 +1042,14 @@ class SectionsOnBody(TypedDict, total=False):
     """Stages one after the other, in which each load follows a factor of its own; without any all grow with one load factor."""
     temperature: Sequence[Temperature]
     """Changes of temperature at load factor 1; where several reach, the last holds."""
+    initial_velocity: Sequence[InitialVelocity]
+    """Velocities at time zero of a motion."""
+    quiet: Sequence[Quiet]
+    """Parts of the outline through which waves leave the body in a motion."""
+    contact: Sequence[Contact]
+    """Contact between parts of the body in a motion."""
+    rigid: Sequence[Rigid]
+    """Rigid bodies that parts of the body meet in a motion."""
     no_fail: Sequence[NoFail]
     """Parts of the body where bonds never break."""
     probe: Sequence[Probe]
@@ -808,6 +1058,8 @@ class SectionsOnBody(TypedDict, total=False):
     """How bonds break; without it the case is one linear elastic solution."""
     modal: Modal
     """Natural modes that are wanted, with `analysis = "modal"`."""
+    motion: Motion
+    """A motion in time under loads that depend on time."""
     solver: Literal["auto"] | Solver
     """How the equations are solved; nothing need be said."""
     output: Output
