@@ -304,10 +304,8 @@ fn damped_modes_decay() {
             );
         }
         let n = problem.problem.system.layout().n_points as u32;
-        let dashpot = |point: u32| Dashpot {
-            point,
-            damping: [[9e3, 2e3, 0.0], [2e3, 6e3, 0.0], [0.0, 0.0, 5e3]],
-        };
+        const DAMPING: [[f64; 3]; 3] = [[9e3, 2e3, 0.0], [2e3, 6e3, 0.0], [0.0, 0.0, 5e3]];
+        let dashpot = |point: u32| Dashpot::new(point, |row, column| DAMPING[row][column]);
         problem.dashpots = (n / 2..n).map(dashpot).collect();
         for settings in of_schemes_with_dashpots(duration) {
             let (outcome, _) = followed(&problem, &settings);

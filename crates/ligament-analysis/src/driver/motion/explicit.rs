@@ -15,7 +15,7 @@ use super::body::{Body, TimeStep};
 use super::clock::Clock;
 use super::face_friction::{Anchored, FaceFriction, FrictionEnergies};
 use super::inertia::{Inertia, Velocities};
-use super::progress::{EXPLICIT, Progress};
+use super::progress::{EXPLICIT, Progress, Resumed};
 use super::record;
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
@@ -84,9 +84,15 @@ pub(super) fn run(
 pub(super) fn resume(
     settings: &MotionSettings,
     explicit: ExplicitSettings,
-    (problem, energies, progress, kept): (MotionProblem, Energies, Progress, ExplicitKept),
+    resumed: Resumed<ExplicitKept>,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
+    let Resumed {
+        problem,
+        energies,
+        progress,
+        kept,
+    } = resumed;
     let ExplicitKept {
         body,
         velocities,
