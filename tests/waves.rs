@@ -33,24 +33,40 @@ fn peak(history: &[StepRecord], probe: usize, before: f64) -> [f64; 2] {
     values.fold([0.0; 2], |most, it| if it[1] > most[1] { it } else { most })
 }
 
-/// The pulse runs with the speed of a bar from the quarter to the middle, and at the free end the points move twice as fast. Rows are half a
-/// microsecond apart, and the sides are free: speed and size differ by the correction of four rows of points.
+/// Time at which the velocity at a probe falls through zero after its largest value before a time, between rows by a straight line.
+fn turn(history: &[StepRecord], probe: usize, before: f64) -> f64 {
+    let [from, _] = peak(history, probe, before);
+    let pairs = history.windows(2).filter(|it| it[0].load_factor >= from);
+    let mut values =
+        pairs.map(|it| [&it[0], &it[1]].map(|row| [row.load_factor, row.probes[probe]]));
+    let falls = values.find(|[one, other]| one[1] > 0.0 && other[1] <= 0.0);
+    let [[start, high], [end, low]] = falls.unwrap();
+    start + (end - start) * high / (high - low)
+}
+
+/// The middle of the pulse runs with the speed of a bar from the quarter to the middle and to the end: long waves have that of the modulus,
+/// which the patch correction makes exact. The pulse begins with a kink, whose short waves add some
+/// per cent to its largest values. At the free end points move twice as fast.
 #[test]
 fn a_pulse_runs_along_a_bar_and_is_doubled_at_its_free_end() {
     let outcome = run(&["motion.rows=1600"]);
     let history = &outcome.history;
-    let [quarter, middle, end] = [0, 1, 2].map(|probe| peak(history, probe, 45e-6));
-    let speed = 0.05 / (middle[0] - quarter[0]);
-    println!("speed {speed}, {quarter:?} {middle:?} {end:?}");
-    assert!((speed / BAR - 1.0).abs() < 0.02, "{speed}");
-    assert!((middle[1] / SPEED - 1.0).abs() < 0.02, "{middle:?}");
-    assert!((end[1] / (2.0 * SPEED) - 1.0).abs() < 0.03, "{end:?}");
+    let [quarter, middle, end] = [0, 1, 2].map(|probe| turn(history, probe, 45e-6));
+    for (speed, tolerance) in [
+        (0.05 / (middle - quarter), 2e-3),
+        // The last points have fewer bonds than those within.
+        (0.09975 / (end - middle), 1e-2),
+    ] {
+        assert!((speed / BAR - 1.0_f64).abs() < tolerance, "{speed}");
+    }
+    let [middle, end] = [1, 2].map(|probe| peak(history, probe, 45e-6)[1]);
+    assert!((middle / SPEED - 1.0).abs() < 0.03, "{middle}");
+    assert!((end / (2.0 * SPEED) - 1.0).abs() < 0.03, "{end}");
     // Work of the end: rho A v^2 c T/2, half kinetic and half stored.
     let expected = 7850.0 * 4e-6 * SPEED.powi(2) * BAR * PERIOD / 2.0;
     let last = history.last().unwrap();
-    println!("{} {expected}", last.external_work);
     assert!(
-        (last.external_work / expected - 1.0).abs() < 0.02,
+        (last.external_work / expected - 1.0).abs() < 2e-3,
         "{}",
         last.external_work
     );
@@ -68,7 +84,6 @@ fn a_quiet_edge_lets_a_pulse_out() {
     let last = outcome.history.last().unwrap();
     let motion = last.motion.unwrap();
     let rest = (motion.kinetic_energy + last.stored_energy) / work;
-    println!("{rest} {}", motion.damping_energy / work);
     assert!(rest < 1e-3, "{rest}");
     assert!(last.energy_error().abs() < 1e-8, "{}", last.energy_error());
 }

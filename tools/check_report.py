@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Checks in Chromium the page that `ligament report` makes of result folders: check_report.py PROGRAM FOLDER...
 
-The last of the folders in the plane must have broken bonds and several steps, and so must solids. Values under the pointer must be those of
-the VTU files to half of the last digit shown, bonds those of model.vtu and breaks.csv. Solids turn and are cut. Nothing may be asked of a network
-or complained of in the console.
+The last of the folders in the plane must have broken bonds and several steps, and so must solids; one in the plane must be a mesh that breaks.
+Values under the pointer must be those of the VTU files to half of the last digit shown, bonds those of model.vtu and breaks.csv. Meshes open along
+their cracks. Solids turn and are cut. Nothing may be asked of a network or complained of in the console.
 """
 
 import csv
@@ -271,20 +271,32 @@ def check_turning(page, folder, run):
 
 
 def check_opening(page, run):
-    """The body opens along its crack, and the surface of the crack is shown."""
+    """The body opens along its crack, and the crack is shown as lines or, of a solid, as a surface."""
     go(page, len(run["steps"]) - 1)
     drawn(page, run["steps"][-1])
-    choose(page, "cracks", "none")
     modes = page.value("[...document.getElementById('cracks').options].map((it) => it.value)")
-    assert len(modes) >= 3, modes
-    for mode in modes:
+    body = run["body"]
+    assert {"surface" if body["dimension"] == 3 else "lines", "bonds"} <= set(modes), modes
+    assert modes[0] == "open" == page.value("document.getElementById('cracks').value"), modes
+    assert (modes[-1] == "none") == (not body.get("half")), modes
+    # From one to the next, and of a mesh at the end from the closed body to the opened one.
+    for mode in [*modes[1:], modes[0]]:
         before = page.value(PICTURE)
         choose(page, "cracks", mode)
-        if mode != "none":
-            page.until(f"{PICTURE} !== {json.dumps(before)}")
+        page.until(f"{PICTURE} !== {json.dumps(before)}")
         said = page.value("document.getElementById('legend-name').textContent")
         assert ("crack opening" in said) == (mode == "surface"), (mode, said)
-    choose(page, "cracks", "none")
+
+
+def check_opened_meshes(page):
+    """The meshes in the plane that break open along their cracks."""
+    runs = enumerate(described(page)["runs"])
+    broken = [(number, run) for number, run in runs if run["cracks"].get("simplices")]
+    assert broken, "a mesh in the plane breaks"
+    for number, run in broken:
+        choose(page, "run", number)
+        drawn(page, run["label"])
+        check_opening(page, run)
 
 
 def check_solid(program, folder, plane, place):
@@ -363,6 +375,7 @@ def main(program, *folders):
             names = page.value("[...document.querySelectorAll('#curve .series span')].map((it) => it.textContent)")
             assert {it.name for it in results} <= set(names), names
             check_measured(page)
+            check_opened_meshes(page)
             assert not page.complaints(), page.complaints()
         check_layouts(report)
         for solid in solids:

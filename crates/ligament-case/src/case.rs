@@ -67,7 +67,7 @@ pub use mesh_section::MeshSection;
 pub use model::ModelSection;
 pub use motion::{Damping, InitialVelocity, Motion, MotionStop, Quiet, Scheme};
 pub use output::{Output, StressField};
-pub use overrides::unset;
+pub use overrides::{parts as override_parts, unset};
 pub use precrack::Precrack;
 pub use probe::Probe;
 pub use region::{Corners, Rectangle, Region};

@@ -74,7 +74,7 @@ fn profiles_and_couples_are_checked() {
         ),
         (
             "moment = 1.0\nbody_couple = 1.0",
-            "30:1: load.0: needs exactly one of `displacement`, `force`, `force_per_length`, `force_per_area`, `body_force`, `acceleration`, `moment`, \
+            "30:1: load.0: needs exactly one of `displacement`, `velocity`, `base_acceleration`, `force`, `force_per_length`, `force_per_area`, `body_force`, `acceleration`, `moment`, \
              `body_couple`, `pressure`; found `moment`, `body_couple`",
         ),
         (

@@ -294,7 +294,7 @@ fn faults_of_overrides_are_blamed_on_them() {
         ),
         (
             "load.0.force.y=1",
-            "load.0: needs exactly one of `displacement`, `force`, `force_per_length`, `force_per_area`, \
+            "load.0: needs exactly one of `displacement`, `velocity`, `base_acceleration`, `force`, `force_per_length`, `force_per_area`, \
              `body_force`, `acceleration`, `moment`, `body_couple`, `pressure`; found `displacement`, `force`",
         ),
     ] {

@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::Parser;
+use ligament_output::remedy::{Terms, causes};
 use ligament_run::end::StoppedBeforeSolution;
 
 use crate::stop_signal::report_large_files;
@@ -66,12 +67,20 @@ fn code_of(error: &anyhow::Error) -> ExitCode {
     stopped.map_or(ExitCode::FAILURE, |it| it.exit_code().into())
 }
 
+/// Options that remedies name.
+const TERMS: Terms = Terms {
+    elsewhere: " with --out",
+    replace: " with --force",
+    setting: |key, value| format!("--set {key}={value}"),
+};
+
 /// Prints the error and its causes; failures of the output are ignored.
 fn print_error(error: &anyhow::Error) {
     let mut stderr = terminal::stderr();
-    let _ = writeln!(stderr, "error: {error}");
-    for cause in error.chain().skip(1) {
-        let _ = writeln!(stderr, "  because: {cause}");
+    let mut before = "error";
+    for cause in causes(error.chain(), &TERMS) {
+        let _ = writeln!(stderr, "{before}: {cause}");
+        before = "  because";
     }
 }
 

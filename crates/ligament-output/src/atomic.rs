@@ -166,7 +166,7 @@ mod tests {
         let path = folder.path().join("taken");
         fs::create_dir(&path).unwrap();
         let error = replace_file(&path, b"text").unwrap_err();
-        assert!(matches!(error, Error::NoPlaceForFile(p) if p == path));
+        assert!(matches!(error, Error::NoPlaceForFile(p, _) if p == path));
         assert_eq!(names_in(folder.path()), ["taken"]);
     }
 

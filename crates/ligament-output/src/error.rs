@@ -4,6 +4,8 @@ use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::remedy::Remedy;
+
 /// Location of the values of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FieldLocation {
@@ -26,7 +28,7 @@ impl fmt::Display for FieldLocation {
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The operating system refused an operation.
-    #[error("cannot {action} {path}{}", remedy(action, source))]
+    #[error("cannot {action} {path}{}", advice(action, source))]
     System {
         /// The operation, a verb.
         action: &'static str,
@@ -59,14 +61,17 @@ pub enum Error {
         /// The mismatch, with its numbers.
         reason: String,
     },
-    /// The folder has the results of an earlier run and may not be replaced.
+    /// A run without the file of its model.
     #[error(
-        "{0} already holds the results of an earlier run; choose another folder with --out, or replace them with --force"
+        "{0} holds no results of a run: it has no model.vtu: the case has `output.model = false`, or an earlier version ran it"
     )]
-    ResultsExist(PathBuf),
+    NoModel(PathBuf, #[source] Remedy),
+    /// The folder has the results of an earlier run and may not be replaced.
+    #[error("{0} already holds the results of an earlier run")]
+    ResultsExist(PathBuf, #[source] Remedy),
     /// Another process writes to the folder.
     #[error(
-        "{path} is in use: {} writes its results there; wait for its end, or choose another folder with --out",
+        "{path} is in use: {} writes its results there",
         process.map_or_else(|| "another run".to_owned(), |it| format!("another run (process {it})"))
     )]
     Busy {
@@ -74,29 +79,32 @@ pub enum Error {
         path: PathBuf,
         /// Number of the process, where known.
         process: Option<u32>,
+        /// What the user can do.
+        #[source]
+        remedy: Remedy,
     },
     /// The folder has files but no marker of results, so it is never replaced.
     #[error(
-        "{path} exists and is not a result folder (it holds files, but no {marker}), so \
-         not even --force replaces it; choose another folder with --out, or remove it yourself"
+        "{path} exists and is not a result folder (it holds files, but no {marker}), so it is never replaced"
     )]
     NotAResultFolder {
         /// Path of the folder.
         path: PathBuf,
         /// Name of the missing marker file.
         marker: &'static str,
+        /// What the user can do.
+        #[source]
+        remedy: Remedy,
     },
     /// The file to be written exists.
-    #[error("{0} exists already: write to another file with --out, or replace it with --force")]
-    FileExists(PathBuf),
+    #[error("{0} exists already")]
+    FileExists(PathBuf, #[source] Remedy),
     /// The path of a file to be written is a folder, a disk or the like.
-    #[error(
-        "{0} exists and is not a file, so nothing is written there; choose another file with --out"
-    )]
-    NoPlaceForFile(PathBuf),
+    #[error("{0} exists and is not a file, so nothing is written there")]
+    NoPlaceForFile(PathBuf, #[source] Remedy),
     /// The path of the folder is not a folder.
-    #[error("{0} exists and is not a folder; choose another folder with --out")]
-    NotAFolder(PathBuf),
+    #[error("{0} exists and is not a folder")]
+    NotAFolder(PathBuf, #[source] Remedy),
     /// The path of a file or folder of the program is a link, whose target may be anything.
     #[error(
         "{0} is a link, and results are neither read nor written through links: put the file itself in its place, or remove the link"
@@ -104,19 +112,16 @@ pub enum Error {
     Link(PathBuf),
     /// The path to which earlier results are moved during their replacement exists.
     #[error(
-        "cannot move the old results aside: {0} exists, probably left by an interrupted run; look into it, then \
-         remove or rename it, or choose another folder with --out"
+        "cannot move the old results aside: {0} exists, probably left by an interrupted run, and may hold what is needed"
     )]
-    ReplacedExists(PathBuf),
+    ReplacedExists(PathBuf, #[source] Remedy),
     /// A path such as `..` or `/`, without the name of a folder that could be renamed.
-    #[error(
-        "{0} cannot be replaced because the path does not end in a folder name; choose a named folder with --out"
-    )]
-    UnnamedFolder(PathBuf),
+    #[error("{0} cannot be replaced because the path does not end in a folder name")]
+    UnnamedFolder(PathBuf, #[source] Remedy),
 }
 
 /// Advice for an operation that the system refused.
-fn remedy(action: &str, source: &io::Error) -> &'static str {
+fn advice(action: &str, source: &io::Error) -> &'static str {
     match source.kind() {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
             ": free space on its disk, or choose a folder on another one"

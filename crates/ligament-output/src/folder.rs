@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 
 use crate::Error;
 use crate::atomic::remove_file;
+use crate::remedy::{Place, Remedy, Way};
 use crate::replace_file;
 use entries::{remove_files, resolved};
 use lock::Lock;
@@ -244,8 +245,9 @@ impl Occupant {
             Err(error) => return Err(Error::system("look at", path)(error)),
         };
         let (given, marker) = (given.to_path_buf(), kind.marker);
+        let elsewhere = |way| Remedy::Elsewhere(Place::Folder, way);
         if !metadata.is_dir() {
-            return Err(Error::NotAFolder(given));
+            return Err(Error::NotAFolder(given, elsewhere(None)));
         }
         let entries = fs::read_dir(path).map_err(Error::system("list", path))?;
         let mut names = entries.flatten().map(|entry| entry.file_name());
@@ -256,10 +258,11 @@ impl Occupant {
         }
         match path.join(marker).is_file() {
             true if replace => Ok(Self::Results),
-            true => Err(Error::ResultsExist(given)),
+            true => Err(Error::ResultsExist(given, elsewhere(Some(Way::Replace)))),
             false => Err(Error::NotAResultFolder {
                 path: given,
                 marker,
+                remedy: elsewhere(Some(Way::Remove)),
             }),
         }
     }
@@ -310,12 +313,10 @@ mod tests {
     fn refuses_results_without_replace() {
         let (_parent, path) = results_with(&[RESOLVED_CASE]);
         let error = ResultFolder::create(&path, false).unwrap_err();
-        assert!(matches!(&error, Error::ResultsExist(p) if *p == path));
-        let message = error.to_string();
-        assert!(
-            message.contains("--out") && message.contains("--force"),
-            "{message}"
-        );
+        assert!(matches!(&error, Error::ResultsExist(p, _) if *p == path));
+        let source = std::error::Error::source(&error).unwrap();
+        let remedy = Remedy::Elsewhere(Place::Folder, Some(Way::Replace));
+        assert_eq!(source.downcast_ref(), Some(&remedy));
         assert_eq!(n_entries(&path), 1);
     }
 
@@ -402,7 +403,7 @@ mod tests {
                 fs::write(parent.path().join("results.new").join(RESOLVED_CASE), "new").unwrap();
             }
             let error = ResultFolder::check(&path, false).unwrap_err();
-            assert!(matches!(error, Error::ResultsExist(_)));
+            assert!(matches!(error, Error::ResultsExist(..)));
             let text = fs::read_to_string(path.join(RESOLVED_CASE)).unwrap();
             assert_eq!(text, if new { "new" } else { "old" });
             assert!(path.join("thesis.tex").is_file());
@@ -458,7 +459,7 @@ mod tests {
             let path = parent.path().join("results");
             fs::write(&path, "a file").unwrap();
             let error = ResultFolder::create(&path, replace).unwrap_err();
-            assert!(matches!(error, Error::NotAFolder(_)));
+            assert!(matches!(error, Error::NotAFolder(..)));
             assert_eq!(fs::read_to_string(&path).unwrap(), "a file");
         }
     }
@@ -469,7 +470,7 @@ mod tests {
         let aside = parent.path().join("results.replaced");
         fs::create_dir(&aside).unwrap();
         let error = ResultFolder::create(&path, true).unwrap_err();
-        assert!(matches!(error, Error::ReplacedExists(p) if p == aside));
+        assert!(matches!(error, Error::ReplacedExists(p, _) if p == aside));
         assert_eq!(n_entries(&path), 1);
     }
 
@@ -478,7 +479,7 @@ mod tests {
         let (_parent, path) = results_with(&[RESOLVED_CASE]);
         fs::create_dir(path.join("sub")).unwrap();
         let error = ResultFolder::create(path.join("sub/.."), true).unwrap_err();
-        assert!(matches!(error, Error::UnnamedFolder(_)));
+        assert!(matches!(error, Error::UnnamedFolder(..)));
         assert_eq!(n_entries(&path), 2);
     }
 

@@ -9,6 +9,7 @@
 //! | [`checkpoint`] | the state of a run, from which it can be resumed |
 //! | [`folder`] | the folder of results, without loss of earlier files |
 //! | [`summary`] | a run in numbers |
+//! | [`remedy`] | nothing: what the user can do about an error |
 //! | [`results`] | all of these files from a run, as its observer |
 //!
 //! A file is either appended to by whole rows (CSV) or replaced as a whole by a rename (all others), so the results of a job can be opened
@@ -22,6 +23,7 @@ mod error;
 pub mod folder;
 pub mod pvd;
 pub mod quantity;
+pub mod remedy;
 pub mod results;
 mod single_file;
 pub mod summary;

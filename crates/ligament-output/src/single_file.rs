@@ -9,6 +9,7 @@ use std::path::Path;
 
 use crate::Error;
 use crate::atomic::replace_regular;
+use crate::remedy::{Place, Remedy, Way};
 
 /// Kind of the object at the path of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,7 +29,10 @@ enum Occupant {
 /// If a file exists and may not be replaced, or the path can be neither replaced nor written to.
 pub fn check_file(path: &Path, replace: bool) -> Result<(), Error> {
     match occupant(path)? {
-        Occupant::File if !replace => Err(Error::FileExists(path.to_path_buf())),
+        Occupant::File if !replace => {
+            let remedy = Remedy::Elsewhere(Place::File, Some(Way::Replace));
+            Err(Error::FileExists(path.to_path_buf(), remedy))
+        }
         _ => Ok(()),
     }
 }
@@ -84,7 +88,10 @@ fn occupant(path: &Path) -> Result<Occupant, Error> {
         Ok(target) if is_pipe_or_device(target) => Ok(Occupant::Stream),
         _ if kind.is_symlink() => Err(Error::Link(path.to_path_buf())),
         _ if kind.is_file() => Ok(Occupant::File),
-        _ => Err(Error::NoPlaceForFile(path.to_path_buf())),
+        _ => {
+            let remedy = Remedy::Elsewhere(Place::File, None);
+            Err(Error::NoPlaceForFile(path.to_path_buf(), remedy))
+        }
     }
 }
 

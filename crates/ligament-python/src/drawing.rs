@@ -48,7 +48,7 @@ pub(crate) fn draw_fields(
 ) -> PyResult<(Drawn, String)> {
     let request = request(folder, step, wanted).map_err(|it| errors::of_request(py, &it))?;
     let drawn = py.detach(|| picture_of_fields(&request));
-    let (drawing, title) = drawn.map_err(|error| errors::of_request(py, &error.to_string()))?;
+    let (drawing, title) = drawn.map_err(|error| errors::of_error(py, &error))?;
     Ok((Drawn(drawing), title))
 }
 

@@ -1,10 +1,21 @@
 //! Exceptions of the package: message and machine-readable parts.
 
+use std::error::Error;
+use std::iter::successors;
+
 use ligament::SetupError;
 use ligament_case::case::key_path::KeyPath;
-use ligament_case::case::{CaseError, CaseFile, Fault, Location};
+use ligament_case::case::{CaseError, CaseFile, Fault, Location, override_parts};
+use ligament_output::remedy::{Terms, causes};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+
+/// Arguments that remedies name; every function has one for the path.
+const TERMS: Terms = Terms {
+    elsewhere: "",
+    replace: " with replace=True",
+    setting: |key, value| format!("{}={value}", key.replace('.', "__")),
+};
 
 /// Machine-readable parts of an error.
 #[derive(Debug, Default)]
@@ -45,7 +56,7 @@ impl Failure {
             Self::Other(error) => match error.downcast_ref::<CaseError>() {
                 Some(error) => of_case(py, error),
                 None => {
-                    let message = format!("{error:#}");
+                    let message = causes(error.chain(), &TERMS).join(": ");
                     raised(py, "SolutionError", &message, Parts::of_message(&message))
                 }
             },
@@ -79,16 +90,7 @@ impl Parts {
 
 /// The exception for an error of a case.
 pub(crate) fn of_case(py: Python<'_>, error: &CaseError) -> PyErr {
-    let mut message = error.to_string();
-    if let CaseError::Key {
-        location, fault, ..
-    } = error
-        && let (Location::Document { .. }, Fault::SingleBrackets { section }) = (location, &**fault)
-    {
-        message = format!(
-            "{section}: this section may be repeated, so it is a list; write {section}=[{{...}}] instead of {section}={{...}}"
-        );
-    }
+    let message = of_sections(error);
     let mut parts = Parts::of_message(&message);
     match error {
         CaseError::Key { location, key, .. } => {
@@ -97,15 +99,37 @@ pub(crate) fn of_case(py: Python<'_>, error: &CaseError) -> PyErr {
         }
         CaseError::Syntax { location, .. } => parts.place(location),
         CaseError::Override { given, .. } => {
-            let key = given.split('=').next().unwrap_or_default();
-            parts.key = Some(key.trim_start_matches('-').to_owned());
+            parts.key = Some(override_parts(given).0.to_owned());
         }
-        CaseError::Read { path, source } => {
-            parts.path = Some(path.display().to_string());
-            message = format!("{message}: {source}");
-        }
+        CaseError::Read { path, .. } => parts.path = Some(path.display().to_string()),
     }
     raised(py, "CaseError", &message, parts)
+}
+
+/// Message of an error of a case, in which overrides are keyword arguments and sections are values.
+fn of_sections(error: &CaseError) -> String {
+    match error {
+        CaseError::Override { given, reason } => format!("{}: {reason}", keyword(given)),
+        CaseError::Key {
+            location,
+            key,
+            fault,
+        } => match (location, &**fault) {
+            (Location::Override { given }, _) => format!("{}: {key}: {fault}", keyword(given)),
+            (Location::Document { .. }, Fault::SingleBrackets { section }) => format!(
+                "{section}: this section may be repeated, so it is a list; write {section}=[{{...}}] instead of {section}={{...}}"
+            ),
+            (Location::Position { .. } | Location::Document { .. }, _) => error.to_string(),
+        },
+        CaseError::Read { source, .. } => format!("{error}: {source}"),
+        CaseError::Syntax { .. } => error.to_string(),
+    }
+}
+
+/// An override as a keyword argument: `model__law=x`, or `title=None` where it removes a key.
+fn keyword(given: &str) -> String {
+    let (key, value) = override_parts(given);
+    format!("{}={}", key.replace('.', "__"), value.unwrap_or("None"))
 }
 
 impl Parts {
@@ -135,47 +159,25 @@ pub(crate) fn of_body(py: Python<'_>, fault: &str) -> PyErr {
     raised(py, "BodyError", fault, Parts::of_message(fault))
 }
 
+/// The exception for an error of the program, with its causes.
+pub(crate) fn of_error(py: Python<'_>, error: &(dyn Error + 'static)) -> PyErr {
+    let chain = successors(Some(error), |it| (*it).source());
+    of_request(py, &causes(chain, &TERMS).join(": "))
+}
+
 /// The exception for a request that cannot be fulfilled.
 pub(crate) fn of_request(py: Python<'_>, fault: &str) -> PyErr {
     raised(py, "LigamentError", fault, Parts::of_message(fault))
 }
 
-/// A message of the program in the words of Python: `--set model.law=x` as `model__law=x`, `--unset title` as `title=None`.
-pub(crate) fn in_python(message: &str) -> String {
-    let keyword = |key: &str| key.replace('.', "__");
-    let message = message
-        .replace("--force", "replace=True")
-        .replace("--out", "folder");
-    let mut words = String::new();
-    let mut rest = message.as_str();
-    while let Some((before, after)) = rest.split_once("--") {
-        words.push_str(before);
-        let ends = |it: char| it.is_whitespace() || [':', ',', ';', ')', '`'].contains(&it);
-        if let Some(setting) = after.strip_prefix("set ") {
-            let (key, value) = setting.split_once('=').unwrap_or((setting, ""));
-            words.push_str(&format!("{}=", keyword(key)));
-            rest = value;
-        } else if let Some(key) = after.strip_prefix("unset ") {
-            let end = key.find(ends).unwrap_or(key.len());
-            words.push_str(&format!("{}=None", keyword(&key[..end])));
-            rest = &key[end..];
-        } else {
-            words.push_str("--");
-            rest = after;
-        }
-    }
-    words + rest
-}
-
 fn raised(py: Python<'_>, kind: &str, message: &str, parts: Parts) -> PyErr {
-    let (message, hint) = (in_python(message), parts.hint.as_deref().map(in_python));
     let made = || {
         let keywords = PyDict::new(py);
         keywords.set_item("key", parts.key)?;
         keywords.set_item("path", parts.path)?;
         keywords.set_item("line", parts.line)?;
         keywords.set_item("column", parts.column)?;
-        keywords.set_item("hint", hint)?;
+        keywords.set_item("hint", parts.hint)?;
         let kind = py.import("ligament._errors")?.getattr(kind)?;
         kind.call((message,), Some(&keywords))
     };

@@ -40,7 +40,7 @@ type Line<'py> = (Bound<'py, PyAny>, [&'static str; 2], f64);
 
 /// The exception of a fault in a folder.
 fn told(py: Python<'_>) -> impl Fn(Error) -> PyErr {
-    move |error| errors::of_request(py, &error.to_string())
+    move |error| errors::of_error(py, &error)
 }
 
 #[pymethods]
@@ -105,7 +105,7 @@ impl Folder {
             .parse()
             .map_err(|it| fault(format!("step `{name}`: {it}")))?;
         let steps = choice.steps(&self.path, &all);
-        match steps.map_err(|it| fault(it.to_string()))?.as_slice() {
+        match steps.map_err(|it| errors::of_error(py, &it))?.as_slice() {
             [one] => Ok(one.step),
             _ => Err(fault(format!(
                 "`{name}` means several steps; name one of them"
@@ -243,8 +243,8 @@ impl Folder {
         };
         let mut words = Vec::new();
         let explained = py.detach(|| explain::explain(&request, &mut words));
-        explained.map_err(|error| errors::of_request(py, &format!("{error:#}")))?;
-        Ok(errors::in_python(&String::from_utf8_lossy(&words)))
+        explained.map_err(|error| errors::of_error(py, error.as_ref()))?;
+        Ok(String::from_utf8_lossy(&words).into_owned())
     }
 
     /// Copies the results into another folder, where earlier results are replaced if `replace` is set.
@@ -279,7 +279,7 @@ pub(crate) fn report(
         unit_of: |key| KeyPath::parse(key).and_then(|key| unit_of(&key)),
     };
     let written = py.detach(|| write_report(&request));
-    let written = written.map_err(|error| errors::of_request(py, &error.to_string()))?;
+    let written = written.map_err(|error| errors::of_error(py, &error))?;
     Ok(written.path)
 }
 

@@ -78,6 +78,14 @@ def test_errors_speak_python(plate: dict[str, Any]) -> None:
         ligament.run({**plate, "young": 1e9})
 
 
+def test_remedies_speak_python(result: Any, tmp_path: Path) -> None:
+    result.save(tmp_path / "saved")
+    with pytest.raises(ligament.LigamentError, match=r"saved already holds .*, or replace it with replace=True$"):
+        result.save(tmp_path / "saved")
+    with pytest.raises(ligament.CaseError, match=r"^model__lw=None: "):
+        ligament.Case.from_toml(result.folder / "case.resolved.toml").with_changes(model__lw=None)
+
+
 def test_a_number_that_is_not_there_is_told_with_those_that_are(result: Any) -> None:
     with pytest.raises(ligament.LigamentError, match="no result `peek`.*`peak.displacement`, `peak.reaction`"):
         result.number("peek")

@@ -78,10 +78,10 @@ impl Body {
         (0..3).map(side).fold(0.0, f64::max)
     }
 
-    /// Indices of the tetrahedra of the page by their corners in the file.
-    pub(crate) fn tetrahedra(&self) -> HashMap<[u32; 4], u32> {
-        let (all, _) = self.simplices.as_chunks::<4>();
-        let in_file = |corners: &[u32; 4]| corners.map(|it| self.order[it as usize]);
+    /// Indices of the simplices of N corners by these corners in the file.
+    pub(crate) fn numbered<const N: usize>(&self) -> HashMap<[u32; N], u32> {
+        let (all, _) = self.simplices.as_chunks::<N>();
+        let in_file = |corners: &[u32; N]| corners.map(|it| self.order[it as usize]);
         all.iter().map(in_file).zip(0..).collect()
     }
 }

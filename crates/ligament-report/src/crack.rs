@@ -1,6 +1,6 @@
-//! Cracks of a run over the steps of a page: lines in the plane, sides of tetrahedra in a solid, and their size.
+//! Cracks of a run over the steps of a page: lines in the plane, sides of the triangles and tetrahedra that they cut, and their size.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
 
 use ligament_output::Error;
@@ -30,12 +30,13 @@ pub(crate) fn describe(
 ) -> Result<Value, Error> {
     match body.dimension {
         3 => Ok(of_solid(&SolidCracks::open(folder)?, steps, body, texts)),
-        _ => Ok(in_plane(&StoredCracks::open(folder)?, steps)),
+        _ => Ok(in_plane(&StoredCracks::open(folder)?, steps, body, texts)),
     }
 }
 
-/// Crack lines of the steps, each a list of lines of coordinates x, y, `null` where unchanged from the step before; and their length.
-fn in_plane(cracks: &StoredCracks, steps: &[usize]) -> Value {
+/// Crack lines of the steps, each a list of lines of coordinates x, y, `null` where unchanged from the step before, and their length; triangles
+/// of a mesh that are cut at some time, with the sides of their corners in each step.
+fn in_plane(cracks: &StoredCracks, steps: &[usize], body: &Body, texts: &mut Texts) -> Value {
     let (mut before, mut lengths) = (Value::Null, Vec::new());
     let mut of_steps = Vec::new();
     for &step in steps {
@@ -53,11 +54,52 @@ fn in_plane(cracks: &StoredCracks, steps: &[usize]) -> Value {
         before = now;
     }
     let areas: Vec<f64> = lengths.iter().map(|it| cracks.thickness * it).collect();
-    json!({
+    let mut described = json!({
         "lines": of_steps,
         "size": column("crack length", "m", &lengths),
         "area": column("crack area", "m^2", &areas),
-    })
+    });
+    let triangles = triangles(cracks, steps);
+    if !triangles.is_empty() {
+        let corners: Vec<[u32; 3]> = triangles.iter().map(|it| it.0).collect();
+        described["of"] = of_mesh(&corners, body, texts);
+        let sides = (0..steps.len()).map(|step| triangles.iter().map(|it| it.1[step]).collect());
+        add_sides(&mut described, sides, texts);
+    }
+    described
+}
+
+/// Triangles of the cells that are cut at some time, by their corners in the files, with the codes of their sides in each step.
+fn triangles(cracks: &StoredCracks, steps: &[usize]) -> Vec<([u32; 3], Vec<f64>)> {
+    let of_step = |step: &usize| -> BTreeMap<usize, [u8; 4]> {
+        let sides = cracks.sides(*step).into_iter().enumerate();
+        sides.filter(|it| it.1 != [0; 4]).collect()
+    };
+    let of_steps: Vec<BTreeMap<usize, [u8; 4]>> = steps.par_iter().map(of_step).collect();
+    let cut: BTreeSet<usize> = of_steps.iter().flat_map(BTreeMap::keys).copied().collect();
+    let mut triangles = Vec::new();
+    for number in cut {
+        let corners = cracks.cells()[number].corners();
+        for triangle in (2..corners.len()).map(|last| [0, last - 1, last]) {
+            let codes = of_steps.iter().map(|it| match it.get(&number) {
+                Some(sides) => code(&from_first(triangle.map(|corner| sides[corner]))),
+                None => 0.0,
+            });
+            triangles.push((triangle.map(|corner| corners[corner]), codes.collect()));
+        }
+    }
+    triangles
+}
+
+/// Sides of the corners of a triangle, numbered in the order of these corners.
+fn from_first([first, second, third]: [u8; 3]) -> [u8; 4] {
+    let of_second = u8::from(second != first);
+    let of_third = match third {
+        _ if third == first => 0,
+        _ if third == second => of_second,
+        _ => of_second + 1,
+    };
+    [0, of_second, of_third, 0]
 }
 
 /// Tetrahedra that are cut at some time, with the sides of their corners in each step; and the area of the crack surface.
@@ -71,32 +113,38 @@ fn of_solid(cracks: &SolidCracks, steps: &[usize], body: &Body, texts: &mut Text
     if tetrahedra.corners.is_empty() {
         return json!({"size": area, "area": area});
     }
-    let mut sides = Encoder::new(Digits::Whole);
-    for (of_step, _) in &of_steps {
-        let codes: Vec<f64> = of_step.iter().map(code).collect();
-        sides.append(&codes);
-    }
     let mut described = match body.halves.is_empty() {
-        true => of_mesh(&tetrahedra.corners, body, texts),
+        true => json!({"of": of_mesh(&tetrahedra.corners, body, texts)}),
         false => of_lattice(cracks, body, texts),
     };
-    described["tetrahedra"] = json!(tetrahedra.corners.len());
-    described["sides"] = texts.add(sides.finish());
+    let sides = of_steps.iter().map(|it| it.0.iter().map(code).collect());
+    add_sides(&mut described, sides, texts);
     described["size"] = area.clone();
     described["area"] = area;
     described
 }
 
-/// Sides of four corners, the first of which is 0, as one number.
+/// Adds the number of simplices that are cut at some time, and the codes of their sides in each step.
+fn add_sides(described: &mut Value, of_steps: impl Iterator<Item = Vec<f64>>, texts: &mut Texts) {
+    let (mut sides, mut count) = (Encoder::new(Digits::Whole), 0);
+    for codes in of_steps {
+        count = codes.len();
+        sides.append(&codes);
+    }
+    described["simplices"] = json!(count);
+    described["sides"] = texts.add(sides.finish());
+}
+
+/// Sides of four corners, the first of which is 0, as one number; the fourth of a triangle is 0.
 fn code(sides: &[u8; 4]) -> f64 {
     f64::from(sides[1] + 2 * sides[2] + 8 * sides[3])
 }
 
-/// The tetrahedra by their numbers among those of the body.
-fn of_mesh(corners: &[[u32; 4]], body: &Body, texts: &mut Texts) -> Value {
-    let all = body.tetrahedra();
+/// Simplices of a mesh, by their corners in the files, as their numbers among those of the body.
+fn of_mesh<const N: usize>(corners: &[[u32; N]], body: &Body, texts: &mut Texts) -> Value {
+    let all = body.numbered();
     let numbers = corners.iter().filter_map(|it| all.get(it).copied());
-    json!({"of": texts.add_whole(numbers)})
+    texts.add_whole(numbers)
 }
 
 /// The tetrahedra by their nodes, with position and point of each node.
@@ -129,4 +177,20 @@ fn of_lattice(cracks: &SolidCracks, body: &Body, texts: &mut Texts) -> Value {
         "position": position,
         "points": texts.add_whole(points),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Halves of a quadrangle have the sides of its corners, whichever numbers these had around it.
+    #[test]
+    fn sides_of_halves_are_numbered_from_their_first_corner() {
+        assert_eq!(from_first([0, 0, 0]), [0; 4]);
+        assert_eq!(from_first([2, 2, 0]), [0, 0, 1, 0]);
+        assert_eq!(from_first([1, 2, 1]), [0, 1, 0, 0]);
+        assert_eq!(from_first([0, 2, 2]), [0, 1, 1, 0]);
+        assert_eq!(from_first([3, 0, 1]), [0, 1, 2, 0]);
+        assert_eq!(code(&from_first([3, 0, 1])), 5.0);
+    }
 }

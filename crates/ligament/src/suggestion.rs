@@ -1,7 +1,7 @@
 //! Most similar names for "did you mean".
 
 /// Lists longer than this are not printed in an error.
-const SHORT_LIST: usize = 16;
+const SHORT_LIST: usize = 20;
 
 /// Smallest similarity of a suggested name (Jaro-Winkler, 0 to 1).
 const LIKENESS: f64 = 0.8;

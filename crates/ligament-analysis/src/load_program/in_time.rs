@@ -209,10 +209,6 @@ impl LoadProgram for LoadsInTime {
             .map_or(0.0, |load| self.courses[load].factor(time))
     }
 
-    fn is_in_time(&self) -> bool {
-        true
-    }
-
     fn loaded_degrees_of_freedom(&self) -> Vec<u32> {
         self.loads.loaded_degrees_of_freedom()
     }

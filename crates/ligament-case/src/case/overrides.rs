@@ -13,6 +13,17 @@ pub fn unset(key: &str) -> String {
     format!("{UNSET}{key}")
 }
 
+/// The key of an override, and its value, or `None` where it removes the key.
+pub fn parts(given: &str) -> (&str, Option<&str>) {
+    match given.strip_prefix(UNSET) {
+        Some(key) => (key, None),
+        None => {
+            let (key, value) = given.split_once('=').unwrap_or((given, ""));
+            (key.trim(), Some(value))
+        }
+    }
+}
+
 /// An override in the form of the command line: `--set key=value` or `--unset key`.
 pub(super) fn as_option(given: &str) -> String {
     match given.strip_prefix(UNSET) {

@@ -53,8 +53,8 @@ fn unknown_keys_get_the_nearest_valid_one() {
     assert_eq!(
         error_with("group = \"platen-top\"", "grup = \"platen-top\""),
         "32:1: load.0.grup: unknown key `grup` in [[load]]; did you mean `group`? valid keys: \
-         `name`, `group`, `box`, `at`, `displacement`, `force`, `force_per_length`, `force_per_area`, `body_force`, `acceleration`, \
-         `moment`, `body_couple`, `pressure`, `profile`, `stiffness`, `tilts`"
+         `name`, `group`, `box`, `at`, `displacement`, `velocity`, `base_acceleration`, `force`, `force_per_length`, `force_per_area`, `body_force`, `acceleration`, \
+         `moment`, `body_couple`, `pressure`, `profile`, `amplitude`, `stiffness`, `tilts`"
     );
     assert_eq!(
         error_with("{ x = 0 }", "{ z = 0 }"),
@@ -384,7 +384,7 @@ fn keys_that_exclude_each_other_are_listed() {
             "displacement = { y = -4.0e-4 }",
             "force = { y = 1 }\nforce_per_length = { y = 1 }"
         ),
-        "30:1: load.0: needs exactly one of `displacement`, `force`, `force_per_length`, `force_per_area`, \
+        "30:1: load.0: needs exactly one of `displacement`, `velocity`, `base_acceleration`, `force`, `force_per_length`, `force_per_area`, \
          `body_force`, `acceleration`, `moment`, `body_couple`, `pressure`; found `force`, `force_per_length`"
     );
 }

@@ -155,6 +155,7 @@ spacing = 0.1
 [lattice.set]
 left = { left = 1 }
 right = { right = 1 }
+left = { left = 1 }
 [material]
 young = 1e9
 poisson = 0.2
@@ -171,13 +172,16 @@ amplitude = { points = [[0, 0], [1e-3, 1]] }
 name = "shaken"
 at = [0, 0]
 base_acceleration = { y = 1 }
-amplitude = { shape = "sine", duration = 1e-3, periods = 2 }
+amplitude = { shape = "sine", duration = 1e-3 }
 [[load]]
 name = "read"
 body_force = { y = 1 }
 amplitude = { file = "pulse.csv" }
 [[initial_velocity]]
 velocity = { x = 1 }
+[[initial_velocity]]
+at = [0, 0]
+velocity = { y = 1 }
 [[quiet]]
 group = "right"
 [[contact]]
@@ -203,7 +207,7 @@ size = [1, 1]
 mass = 2
 [motion]
 duration = 1e-2
-damping = { mass = 1 }
+damping = {}
 stop = { bonds = 3 }
 "#;
 

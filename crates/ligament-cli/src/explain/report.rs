@@ -149,7 +149,7 @@ fn missing(out: &mut dyn Write, run: &StoredRun, lives: &BondHistories) -> io::R
     if shown < all {
         writeln!(
             out,
-            "note: {shown} of {all} steps have fields; to see the others run again with --set output.fields_every=1"
+            "note: {shown} of {all} steps have fields; with `output.fields_every = 1` all have them"
         )?;
     }
     Ok(())

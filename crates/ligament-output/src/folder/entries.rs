@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use super::kind::{Kind, REPORT, unfinished};
 use crate::Error;
 use crate::atomic::remove_file;
+use crate::remedy::{Place, Remedy};
 
 /// Names of the entries of a folder.
 ///
@@ -61,7 +62,8 @@ pub fn refuse_link(path: &Path) -> Result<(), Error> {
         Ok(found) if found.is_symlink() => Err(Error::Link(path.to_path_buf())),
         // A pipe would block until it is opened at its other end.
         Ok(found) if !found.is_file() && !found.is_dir() => {
-            Err(Error::NoPlaceForFile(path.to_path_buf()))
+            let remedy = Remedy::Elsewhere(Place::File, None);
+            Err(Error::NoPlaceForFile(path.to_path_buf(), remedy))
         }
         _ => Ok(()),
     }

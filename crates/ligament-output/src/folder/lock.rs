@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::kind::LOCK;
 use crate::Error;
+use crate::remedy::{Place, Remedy, Way};
 
 /// A lock on a folder, which is released with this value or at the end of the process.
 ///
@@ -87,6 +88,7 @@ fn busy(folder: &Path, file: &mut File) -> Error {
     Error::Busy {
         path: folder.to_path_buf(),
         process: process.trim().parse().ok(),
+        remedy: Remedy::Elsewhere(Place::Folder, Some(Way::Wait)),
     }
 }
 

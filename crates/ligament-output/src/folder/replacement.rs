@@ -12,6 +12,7 @@ use super::entries::{names, refuse_link};
 use super::kind::{Kind, REPLACED};
 use crate::Error;
 use crate::atomic::rename;
+use crate::remedy::{Place, Remedy, Way};
 use crate::replace_file;
 
 /// A folder with `suffix` behind its name.
@@ -21,7 +22,8 @@ use crate::replace_file;
 /// If the path has no name, such as `..`.
 pub(super) fn sibling(folder: &Path, suffix: &str) -> Result<PathBuf, Error> {
     let name = folder.file_name();
-    let name = name.ok_or_else(|| Error::UnnamedFolder(folder.to_path_buf()))?;
+    let remedy = Remedy::Elsewhere(Place::Folder, None);
+    let name = name.ok_or_else(|| Error::UnnamedFolder(folder.to_path_buf(), remedy))?;
     let mut longer = OsString::from(name);
     longer.push(suffix);
     Ok(folder.with_file_name(longer))
@@ -49,7 +51,10 @@ pub(super) fn free_place_aside(folder: &Path) -> Result<PathBuf, Error> {
     let aside = sibling(folder, ".replaced")?;
     // `exists` would follow a dangling link.
     match fs::symlink_metadata(&aside) {
-        Ok(_) => Err(Error::ReplacedExists(aside)),
+        Ok(_) => {
+            let remedy = Remedy::Elsewhere(Place::Folder, Some(Way::Remove));
+            Err(Error::ReplacedExists(aside, remedy))
+        }
         Err(_) => Ok(aside),
     }
 }

@@ -7,7 +7,7 @@ use ligament_analysis::result_fields::{HORIZON, VOLUME};
 use ligament_mesh::Cell;
 use ligament_model::Canvas;
 use ligament_post::OpenedCells;
-use ligament_post::crack::{CrackLine, Faces, Part, crack_lines, opened_cells};
+use ligament_post::crack::{CrackLine, Faces, Part, crack_lines, opened_cells, sides_of_cells};
 
 use super::outputs::{OutputKind, Outputs, cut_pairs};
 use super::point_fields::location;
@@ -21,6 +21,9 @@ use crate::{Error, FieldLocation, vtu};
 pub struct StoredCracks {
     /// Thickness of the body, its volume over its area, m.
     pub thickness: f64,
+    /// Positions of the points, shape (n_points), m.
+    positions: Vec<[f64; 2]>,
+    cells: Vec<Cell>,
     faces: Faces,
     /// Horizons, shape (n_points), m.
     horizon: Vec<f64>,
@@ -104,6 +107,11 @@ impl StoredCracks {
             opened: opened.collect(),
             horizon: body.horizon,
             records: history.rows(CrackRecord::read)?,
+            positions: body.positions,
+            cells: match body.canvas {
+                Canvas::Between(cells) => cells,
+                Canvas::Around(_) | Canvas::Solid(_) | Canvas::Boxes(_) => Vec::new(),
+            },
             faces,
         })
     }
@@ -119,20 +127,31 @@ impl StoredCracks {
         crack_lines(&self.faces, &self.parts(Some(record)), &self.horizon)
     }
 
-    /// Cells between the points (n_points, m) of the body, opened along the cracks and the pre-cracks in the state of a step, or of the last
-    /// step before it.
-    pub fn opened_cells(
-        &self,
-        positions: &[[f64; 2]],
-        cells: &[Cell],
-        step: usize,
-    ) -> OpenedCells<Cell> {
+    /// The cells between the points of the body, opened along the cracks and the pre-cracks in the state of a step, or of the last step
+    /// before it.
+    pub fn opened_cells(&self, step: usize) -> OpenedCells<Cell> {
+        opened_cells((&self.positions, &self.cells), self.is_parted(step))
+    }
+
+    /// Sides of the cracks and the pre-cracks on which the corners of the [cells](Self::cells) lie in the state of a step, or of the last
+    /// step before it, shape (n_cells).
+    pub fn sides(&self, step: usize) -> Vec<[u8; 4]> {
+        sides_of_cells(&self.cells, self.is_parted(step))
+    }
+
+    /// The cells between the points of the body, in the order of the files; none of a lattice.
+    pub fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    /// Whether the face between a pair of points is open in the state of a step, or of the last step before it.
+    fn is_parted(&self, step: usize) -> impl Fn([u32; 2]) -> bool {
         let record = self.records.iter().take_while(|it| it.step <= step).last();
         let parts = self.parts(record);
-        opened_cells((positions, cells), |pair| {
+        move |pair| {
             let face = self.faces.between(pair);
             face.is_some_and(|it| parts[it] != Part::Whole)
-        })
+        }
     }
 
     /// State of the faces (n_faces) in that of a record; before the first load without one.

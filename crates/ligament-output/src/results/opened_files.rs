@@ -47,13 +47,11 @@ pub(super) fn write_opened_plane(
     step: usize,
     fields: &VtuFile,
 ) -> Result<bool, Error> {
-    let cells: Option<Vec<_>> = fields.cells()?.iter().map(Cell::planar).collect();
-    let (Some(cells), Some(_)) = (cells, fields.integers(FieldLocation::Point, "node")?) else {
-        return Ok(false);
-    };
-    let opened = cracks.opened_cells(&fields.points_in_plane()?, &cells, step);
-    write(path, opened, fields)?;
-    Ok(true)
+    let has_cells = !cracks.cells().is_empty();
+    if has_cells {
+        write(path, cracks.opened_cells(step), fields)?;
+    }
+    Ok(has_cells)
 }
 
 /// Writes opened cells: corners on the crack have the mean of the points on their side.

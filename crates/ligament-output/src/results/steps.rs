@@ -7,6 +7,7 @@ use std::str::FromStr;
 
 use crate::Error;
 use crate::csv::read::Sheet;
+use crate::remedy::Remedy;
 
 /// Selection of a load step, or of an event of the exact path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -82,10 +83,7 @@ pub enum StepError {
         n_stored: usize,
     },
     /// The step with the number is not stored.
-    #[error(
-        "{path} has no output of step {number}; there are {} (run it again with --set output.fields_every=1 for all)",
-        listed(stored)
-    )]
+    #[error("{path} has no output of step {number}; there are {}", listed(stored))]
     NotStored {
         /// The folder.
         path: PathBuf,
@@ -93,6 +91,9 @@ pub enum StepError {
         number: usize,
         /// Numbers of the stored steps.
         stored: Vec<usize>,
+        /// What the user can do.
+        #[source]
+        remedy: Remedy,
     },
 }
 
@@ -148,6 +149,10 @@ impl StepChoice {
             path: folder.to_path_buf(),
             number,
             stored: stored.to_vec(),
+            remedy: Remedy::RunAgain {
+                key: "output.fields_every",
+                value: "1",
+            },
         };
         let last = *stored.last().ok_or_else(|| not_stored(0))?;
         Ok(match self {
@@ -312,7 +317,7 @@ mod tests {
                 .to_string()
         };
         assert!(error("-3", HISTORY).contains("no step -3: there is output of 2 steps"));
-        assert!(error("7", HISTORY).contains("no output of step 7; there are 0, 1 ("));
+        assert!(error("7", HISTORY).ends_with("no output of step 7; there are 0, 1"));
         let intact = HISTORY.lines().take(2).collect::<Vec<_>>().join("\n") + "\n";
         assert!(error("first", &intact).contains("no bond broke or softened"));
         assert!(error("peak", &intact).contains("no step under load is at rest"));

@@ -15,6 +15,7 @@ use super::model_file::{COEFFICIENTS, model_file};
 use super::outputs::{OutputKind, kind_of, numbered_files, require_results};
 use super::tables::told;
 use crate::csv::read::{Row, Sheet};
+use crate::remedy::Remedy;
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation};
 
@@ -256,10 +257,11 @@ fn require_run(folder: &Path) -> Result<(), Error> {
         );
     }
     if model_file(folder).is_none() {
-        return no_results(
-            "it has no model.vtu: the case has `output.model = false`, or an earlier version ran it; run it again with \
-             --set output.model=true",
-        );
+        let remedy = Remedy::RunAgain {
+            key: "output.model",
+            value: "true",
+        };
+        return Err(Error::NoModel(folder.to_path_buf(), remedy));
     }
     if !folder.join("history.csv").is_file() {
         return no_results("it has no history.csv");

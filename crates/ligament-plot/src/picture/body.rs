@@ -71,11 +71,10 @@ impl Body {
         step: usize,
         values: Option<&mut Vec<f64>>,
     ) {
-        let cells: Option<Vec<_>> = self.cells.iter().map(Cell::planar).collect();
-        let Some(cells) = cells.filter(|_| self.is_mesh()) else {
+        if !self.is_mesh() {
             return;
-        };
-        let opened = cracks.opened_cells(&self.reference, &cells, step);
+        }
+        let opened = cracks.opened_cells(step);
         let moved = [0, 1].map(|axis| opened.means(|point| self.displacement[point][axis]));
         self.displacement = moved[0]
             .iter()

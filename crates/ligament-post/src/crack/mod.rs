@@ -13,7 +13,8 @@
 //! 4. Lines follow cells and are jagged on their scale: each position of a line becomes the mean of the line within a horizon on both sides
 //!    of it, less near its ends, which are fixed.
 //!
-//! Open faces also cut cells into pieces that move apart ([`opened_cells`]).
+//! Open faces also put the corners of cells on sides of the crack ([`sides_of_cells`]), and cut the cells into pieces that move apart
+//! ([`opened_cells`]).
 //!
 //! The error of a tip is one cell, that of the length of a line some per cent (`tests/crack_lines.rs`).
 
@@ -26,4 +27,4 @@ mod smooth;
 
 pub use faces::{Faces, Part};
 pub use lines::{CrackEnd, CrackLine, crack_lines};
-pub use opened::opened_cells;
+pub use opened::{opened_cells, sides_of_cells};

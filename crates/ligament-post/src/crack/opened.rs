@@ -8,33 +8,21 @@ use ligament_model::raised;
 use crate::opened::{Found, OpenedCells};
 
 /// The cells of a mesh, cut along the faces between the cells of its points ([`Faces`](super::Faces)) where pairs of points are parted: a
-/// cell with two or more such edges falls into pieces between the middles of these edges and the middle of the cell, and the corners of a
-/// piece on the crack follow the points of the piece. A cell that alone has such edges, where no crack goes on, stays whole.
+/// cell with corners on several [sides](sides_of_cells) falls into pieces between the middles of its parted edges and the middle of the
+/// cell, and the corners of a piece on the crack follow the points of the piece.
 pub fn opened_cells(
     (positions, cells): (&[[f64; 2]], &[Cell]),
     is_parted: impl Fn([u32; 2]) -> bool,
 ) -> OpenedCells<Cell> {
-    let parted_sides = |cell: &Cell| -> Vec<usize> {
-        let sides = (0..cell.corners().len()).filter(|&place| is_parted(side(cell, place)));
-        sides.collect()
-    };
-    let mut n_cracked: HashMap<[u32; 2], usize> = HashMap::new();
-    let cracked: Vec<Vec<usize>> = cells.iter().map(parted_sides).collect();
-    let with_two = |(_, parted): &(&Cell, &Vec<usize>)| parted.len() > 1;
-    for (cell, parted) in cells.iter().zip(&cracked).filter(with_two) {
-        for &place in parted {
-            *n_cracked.entry(side(cell, place)).or_default() += 1;
-        }
-    }
     let mut opened = OpenedCells::at_points(raised(positions));
     let mut found = Found::new();
-    for ((number, cell), parted) in (0..).zip(cells).zip(&cracked) {
+    let sides = sides_of_cells(cells, is_parted);
+    for ((number, cell), sides) in (0..).zip(cells).zip(&sides) {
         let corners = cell.corners();
         let next = |place: usize| (place + 1) % corners.len();
-        let goes_on = parted
-            .iter()
-            .any(|&place| n_cracked.get(&side(cell, place)) == Some(&2));
-        if parted.len() < 2 || !goes_on {
+        let parted = (0..corners.len()).filter(|&it| sides[it] != sides[next(it)]);
+        let parted: Vec<usize> = parted.collect();
+        if parted.is_empty() {
             opened.cells.push(*cell);
             opened.of.push(number);
             continue;
@@ -68,8 +56,40 @@ pub fn opened_cells(
     opened
 }
 
-/// Points at the ends of the side of a cell from a corner to the next, ascending.
-fn side(cell: &Cell, place: usize) -> [u32; 2] {
+/// Sides of the crack on which the corners of the cells (n_cells) of a mesh lie where pairs of points are parted, numbered from that of the
+/// first corner: two or more parted edges of a cell separate the corners between them. All are 0 in a cell that alone has such edges, where
+/// no crack goes on; the fourth of a triangle is always 0.
+pub fn sides_of_cells(cells: &[Cell], is_parted: impl Fn([u32; 2]) -> bool) -> Vec<[u8; 4]> {
+    let parted_edges = |cell: &Cell| -> Vec<usize> {
+        let edges = (0..cell.corners().len()).filter(|&place| is_parted(edge(cell, place)));
+        edges.collect()
+    };
+    let mut n_cracked: HashMap<[u32; 2], usize> = HashMap::new();
+    let cracked: Vec<Vec<usize>> = cells.iter().map(parted_edges).collect();
+    let with_two = |(_, parted): &(&Cell, &Vec<usize>)| parted.len() > 1;
+    for (cell, parted) in cells.iter().zip(&cracked).filter(with_two) {
+        for &place in parted {
+            *n_cracked.entry(edge(cell, place)).or_default() += 1;
+        }
+    }
+    let sides = |(cell, parted): (&Cell, &Vec<usize>)| {
+        let mut goes_on = parted
+            .iter()
+            .map(|&place| n_cracked.get(&edge(cell, place)));
+        let mut sides = [0; 4];
+        if parted.len() > 1 && goes_on.any(|count| count == Some(&2)) {
+            for (corner, side) in sides.iter_mut().enumerate().take(cell.corners().len()) {
+                let before = parted.iter().filter(|&&place| place < corner).count();
+                *side = (before % parted.len()) as u8;
+            }
+        }
+        sides
+    };
+    cells.iter().zip(&cracked).map(sides).collect()
+}
+
+/// Points at the ends of the edge of a cell from a corner to the next, ascending.
+fn edge(cell: &Cell, place: usize) -> [u32; 2] {
     let corners = cell.corners();
     let [a, b] = [corners[place], corners[(place + 1) % corners.len()]];
     [a.min(b), a.max(b)]
@@ -127,6 +147,20 @@ mod tests {
         let count = |opened: &OpenedCells<Cell>| opened.of.iter().filter(|it| **it == 2).count();
         assert_eq!(count(&opened(&[[0, 3], [3, 4], [4, 6]])), 5);
         assert_eq!(count(&opened(&[[0, 3], [3, 4], [3, 6], [4, 6]])), 6);
+    }
+
+    /// Sides are numbered around the cell from that of its first corner.
+    #[test]
+    fn corners_between_parted_edges_are_on_one_side() {
+        let sides = |parted: &[[u32; 2]]| sides_of_cells(&CELLS, |pair| parted.contains(&pair));
+        let [left, right, above, whole] = sides(&[[0, 3], [1, 4], [2, 5]])[..] else {
+            panic!("a cell is missing");
+        };
+        assert_eq!(left, [0, 0, 1, 1]);
+        assert_eq!(right, [0, 0, 1, 1]);
+        assert_eq!([above, whole], [[0; 4]; 2]);
+        assert_eq!(sides(&[[0, 3], [0, 1], [1, 4], [2, 5]])[0], [0, 1, 2, 2]);
+        assert_eq!(sides(&[[0, 3], [3, 4], [3, 6], [4, 6]])[2], [0, 1, 2, 0]);
     }
 
     #[test]

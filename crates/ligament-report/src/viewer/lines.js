@@ -110,7 +110,8 @@ class Lines {
     const crack = isOverRed ? CRACK_OVER_RED : CRACK;
     const layers = [
       lineLayer((broken ?? []).map((it) => this.bond(it)), [...crack.slice(0, 3), 0.6], 1),
-      lineLayer(mode === "none" ? [] : this.precracks(), PRECRACK, 3),
+      // Pre-cracks open as well.
+      lineLayer(["none", "open"].includes(mode) ? [] : this.precracks(), PRECRACK, 3),
       lineLayer(mode === "lines" ? this.cracks(step) : [], crack, 3),
       lineLayer(this.forces(reaction), FORCE, 2),
     ];

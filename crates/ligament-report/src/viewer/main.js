@@ -92,11 +92,14 @@ class Page {
   offerCracks() {
     const choices = [];
     const { cracks, body } = this.run.description;
+    if (cracks?.simplices > 0) choices.push(["open", body.half ? "between cells" : "open"]);
     if (cracks?.lines) choices.push(["lines", "lines"]);
-    if (cracks?.tetrahedra > 0) choices.push(["open", body.half ? "between cells" : "open"], ["surface", "surface, by its opening"]);
+    if (cracks?.simplices > 0 && this.run.isSolid) choices.push(["surface", "surface, by its opening"]);
     if (this.run.bonds) choices.push(["bonds", "broken bonds"]);
-    options(element("cracks"), [...choices, ["none", "none"]]);
     element("cracks").closest("label").hidden = choices.length === 0;
+    // Cells of a cracked lattice are apart in any case.
+    if (!(cracks?.simplices > 0 && body.half)) choices.push(["none", "none"]);
+    options(element("cracks"), choices);
   }
 
   get choice() {

@@ -46,15 +46,15 @@ class Run {
     return { x, y, z, tags, simplices, half, positionColumns, dimension: body.dimension, tagged: body.tagged };
   }
 
-  // Tetrahedra of a solid that cracks pass through at some time: of a mesh their numbers, of a lattice nodes that follow points; read once.
-  tetrahedra() {
-    this.tetrahedraPromise ??= this.readTetrahedra();
-    return this.tetrahedraPromise;
+  // Triangles or tetrahedra that cracks pass through at some time: of a mesh their numbers, of a lattice nodes that follow points; read once.
+  cracked() {
+    this.crackedPromise ??= this.readCracked();
+    return this.crackedPromise;
   }
 
-  async readTetrahedra() {
+  async readCracked() {
     const { cracks } = this.description;
-    const count = cracks?.tetrahedra ?? 0;
+    const count = cracks?.simplices ?? 0;
     if (count === 0) return null;
     const whole = (column, length) => new Column(column, length).multiples(0);
     const sides = new Column(cracks.sides, count);
@@ -66,17 +66,17 @@ class Run {
     return { sides, nodes: { points, corners, position } };
   }
 
-  // Pairs of each tetrahedron that the crack cuts in a step and the sides of its corners, with a key that tells such lists apart.
+  // Pairs of each triangle or tetrahedron that the crack cuts in a step and the sides of its corners, with a key that tells such lists apart.
   async cut(step) {
-    const tetrahedra = await this.tetrahedra();
-    if (!tetrahedra) return { list: [], key: "" };
-    const codes = await tetrahedra.sides.multiples(step);
+    const cracked = await this.cracked();
+    if (!cracked) return { list: [], key: "" };
+    const codes = await cracked.sides.multiples(step);
     const list = [];
     codes.forEach((code, place) => {
       const sides = sidesOf(code);
-      if (sides) list.push([tetrahedra.of ? tetrahedra.of[place] : place, sides]);
+      if (sides) list.push([cracked.of ? cracked.of[place] : place, sides]);
     });
-    return { list, key: codes.join(), nodes: tetrahedra.nodes };
+    return { list, key: codes.join(), nodes: cracked.nodes };
   }
 
   field(name) {

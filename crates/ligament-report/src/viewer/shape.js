@@ -1,8 +1,8 @@
 // What is drawn of a body: vertices that follow points, triangles between them, and tetrahedra that planes cut.
 //
 // A vertex follows the mean of one point or more. Cells of a lattice have vertices of their own, so that cracks open between them. A crack
-// passes through tetrahedra of a mesh: the corners of each lie on sides of it, which the page has for each step. Such a tetrahedron is cut at
-// the middles of edges, faces and of itself, where a vertex of each side follows the corners of that side: the crack opens there.
+// passes through triangles or tetrahedra of a mesh: the corners of each lie on sides of it, which the page has for each step. It is cut at the
+// middles of edges, faces and of itself, where a vertex of each side follows the corners of that side: the crack opens there.
 
 // Edges of a tetrahedron: its ends, and the other two corners.
 const EDGES = [[0, 1, 2, 3], [0, 2, 3, 1], [0, 3, 1, 2], [1, 2, 0, 3], [1, 3, 2, 0], [2, 3, 0, 1]];
@@ -115,33 +115,34 @@ function quadrangle(triangles, [a, b, c, d]) {
   triangles.push(a, b, c, a, c, d);
 }
 
-// The shape of a body with triangles, or tetrahedra, between its points; `cut` are pairs of a tetrahedron with the sides of a crack at its
+// The shape of a body with triangles, or tetrahedra, between its points; `cut` are pairs of one of them with the sides of a crack at its
 // corners. Only a section needs the inside.
 function shapeOfMesh(body, cut, withInside) {
   const shape = new Shape();
   for (let point = 0; point < body.x.length; point++) shape.add([body.x[point], body.y[point], body.z[point]], [point]);
-  if (body.dimension === 2) {
-    shape.outside = body.simplices;
-    return shape.finished();
-  }
   const { simplices } = body;
-  const corners = (tetrahedron) => simplices.subarray(4 * tetrahedron, 4 * tetrahedron + 4);
+  const size = body.dimension + 1;
+  const corners = (simplex) => simplices.subarray(size * simplex, size * simplex + size);
   const cutting = new Cutting(shape, (node) => [shape.reference[3 * node], shape.reference[3 * node + 1], shape.reference[3 * node + 2]], (node) => node);
   const sidesAt = new Map(cut);
+  const show = (simplex, [a, b, c]) => {
+    const sides = sidesAt.get(simplex);
+    if (sides) cutting.face(corners(simplex), sides, [a, b, c]);
+    else shape.outside.push(...[a, b, c].map((it) => corners(simplex)[it]));
+  };
+  if (body.dimension === 2) {
+    for (let triangle = 0; size * triangle < simplices.length; triangle++) show(triangle, [0, 1, 2]);
+    return shape.finished();
+  }
   if (withInside) {
-    for (let tetrahedron = 0; 4 * tetrahedron < simplices.length; tetrahedron++) {
+    for (let tetrahedron = 0; size * tetrahedron < simplices.length; tetrahedron++) {
       const sides = sidesAt.get(tetrahedron);
       if (sides) cutting.fill(corners(tetrahedron), sides);
       else shape.tetrahedra.push(...corners(tetrahedron));
     }
   }
   body.outside ??= outsideOf(simplices);
-  for (const [tetrahedron, face] of body.outside) {
-    const [a, b, c] = FACES[face];
-    const sides = sidesAt.get(tetrahedron);
-    if (sides) cutting.face(corners(tetrahedron), sides, [a, b, c]);
-    else shape.outside.push(...[a, b, c].map((it) => corners(tetrahedron)[it]));
-  }
+  for (const [tetrahedron, face] of body.outside) show(tetrahedron, FACES[face]);
   for (const [tetrahedron, sides] of cut) cutting.crack(corners(tetrahedron), sides);
   return shape.finished();
 }
@@ -204,7 +205,7 @@ function outsideOf(simplices) {
   return [...found.values()].filter(Boolean);
 }
 
-// Cuts tetrahedra at the middles of their edges, faces and of themselves, with a vertex for each side of the crack.
+// Cuts triangles and tetrahedra at the middles of their edges, faces and of themselves, with a vertex for each side of the crack.
 class Cutting {
   // `placeOf` and `pointOf` give the place of a node, and the point that it follows.
   constructor(shape, placeOf, pointOf) {
@@ -212,7 +213,7 @@ class Cutting {
     this.found = new Map();
   }
 
-  // The vertex on the side of a corner in the middle of some corners of a tetrahedron: in the mean of the middles of cut edges between them.
+  // The vertex on the side of a corner in the middle of some corners: in the mean of the middles of cut edges between them.
   vertex(nodes, sides, among, corner) {
     const own = among.filter((it) => sides[it] === sides[corner]);
     if (own.length === among.length && among.length === 1) return this.single(nodes[corner]);
@@ -246,17 +247,20 @@ class Cutting {
     }
   }
 
-  // A face at the outside: each corner has the part up to the middles of its edges.
+  // A triangle in the plane or at the outside of a solid: each side has the parts of its edges, up to the middle of the triangle. Other edges
+  // stay whole, as they are in the triangle beside them.
   face(nodes, sides, corners) {
     const isCut = corners.some((it) => sides[it] !== sides[corners[0]]);
     if (!isCut) {
       this.shape.outside.push(...corners.map((it) => nodes[it]));
       return;
     }
-    corners.forEach((corner, place) => {
-      const [next, last] = [corners[(place + 1) % 3], corners[(place + 2) % 3]];
-      const at = (among) => this.vertex(nodes, sides, among, corner);
-      quadrangle(this.shape.outside, [at([corner]), at([corner, next]), at(corners), at([corner, last])]);
+    corners.forEach((one, place) => {
+      const other = corners[(place + 1) % 3];
+      const at = (corner, among) => this.vertex(nodes, sides, among, corner);
+      const middle = (corner) => [at(corner, [one, other]), at(corner, corners)];
+      if (sides[one] === sides[other]) this.shape.outside.push(nodes[one], nodes[other], at(one, corners));
+      else this.shape.outside.push(nodes[one], ...middle(one), ...middle(other), nodes[other]);
     });
   }
 
@@ -272,7 +276,7 @@ class Cutting {
   }
 }
 
-// Sides of the four corners of a tetrahedron from their code; null where it is not cut.
+// Sides of the corners of a triangle or tetrahedron from their code; null where it is not cut.
 function sidesOf(code) {
   return code === 0 ? null : [0, code & 1, code >> 1 & 3, code >> 3];
 }

@@ -1,0 +1,141 @@
+//! What the user can do about an error, in the terms of each front end.
+
+use std::error::Error;
+use std::fmt;
+
+/// What the user can do about an error. It stands at the end of the sources of the error, and so passes through all errors around it to the
+/// front end ([`causes`]), which has its own terms for it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Remedy {
+    /// Another path for what is written, or another way.
+    Elsewhere(Place, Option<Way>),
+    /// Another run, with this value of a key of the case.
+    RunAgain {
+        /// Path of the key, `output.model`.
+        key: &'static str,
+        /// The value, in TOML.
+        value: &'static str,
+    },
+}
+
+/// What a path is meant for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// A file.
+    File,
+    /// A folder of results.
+    Folder,
+}
+
+/// A way to write to the same path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// What is there is replaced.
+    Replace,
+    /// The user removes what is there.
+    Remove,
+    /// Another process ends.
+    Wait,
+}
+
+/// Terms of a front end.
+#[derive(Debug, Clone, Copy)]
+pub struct Terms {
+    /// What asks for another path, behind the words: " with --out".
+    pub elsewhere: &'static str,
+    /// What asks for a replacement, behind the words: " with --force".
+    pub replace: &'static str,
+    /// What sets a key to a value.
+    pub setting: fn(&str, &str) -> String,
+}
+
+/// Terms for no front end in particular.
+const COMMON: Terms = Terms {
+    elsewhere: "",
+    replace: "",
+    setting: |key, value| format!("`{key} = {value}`"),
+};
+
+impl Remedy {
+    /// The remedy in the terms of a front end.
+    pub fn worded(self, terms: &Terms) -> String {
+        let (place, way) = match self {
+            Self::Elsewhere(place, way) => (place, way),
+            Self::RunAgain { key, value } => {
+                return format!("run it again with {}", (terms.setting)(key, value));
+            }
+        };
+        let place = match place {
+            Place::File => "file",
+            Place::Folder => "folder",
+        };
+        let way = match way {
+            Some(Way::Replace) => format!(", or replace it{}", terms.replace),
+            Some(Way::Remove) => ", or remove it yourself".to_owned(),
+            Some(Way::Wait) => ", or wait for its end".to_owned(),
+            None => String::new(),
+        };
+        format!("choose another {place}{}{way}", terms.elsewhere)
+    }
+}
+
+impl fmt::Display for Remedy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.worded(&COMMON))
+    }
+}
+
+impl Error for Remedy {}
+
+/// Messages of an error and its causes, the outermost first; the last is followed by the remedy, if there is one, in the terms of a front end.
+pub fn causes<'a>(
+    chain: impl Iterator<Item = &'a (dyn Error + 'static)>,
+    terms: &Terms,
+) -> Vec<String> {
+    let mut causes: Vec<String> = Vec::new();
+    for cause in chain {
+        match (cause.downcast_ref::<Remedy>(), causes.last_mut()) {
+            (Some(remedy), Some(last)) => *last += &format!("; {}", remedy.worded(terms)),
+            _ => causes.push(cause.to_string()),
+        }
+    }
+    causes
+}
+
+#[cfg(test)]
+mod tests {
+    use std::iter::successors;
+
+    use super::*;
+
+    /// Another error around one that has a remedy, as front ends see it.
+    #[derive(Debug, thiserror::Error)]
+    enum Around {
+        #[error(transparent)]
+        Inner(#[from] Inner),
+    }
+
+    #[derive(Debug, thiserror::Error)]
+    #[error("out has results")]
+    struct Inner(#[source] Remedy);
+
+    #[test]
+    fn each_front_end_words_the_remedy() {
+        let terms = Terms {
+            elsewhere: " by PATH",
+            replace: " by REPLACE",
+            setting: |key, value| format!("{key}:{value}"),
+        };
+        let remedy = Remedy::Elsewhere(Place::Folder, Some(Way::Replace));
+        let error = Around::from(Inner(remedy));
+        let chain = successors(Some(&error as &(dyn Error + 'static)), |it| (*it).source());
+        let said = "out has results; choose another folder by PATH, or replace it by REPLACE";
+        assert_eq!(causes(chain, &terms), [said]);
+        let again = Remedy::RunAgain {
+            key: "output.model",
+            value: "true",
+        };
+        assert_eq!(again.worded(&terms), "run it again with output.model:true");
+        assert_eq!(again.to_string(), "run it again with `output.model = true`");
+    }
+}
