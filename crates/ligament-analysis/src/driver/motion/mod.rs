@@ -3,6 +3,7 @@
 mod body;
 mod clock;
 mod explicit;
+mod explicit_kept;
 mod face_friction;
 mod here;
 mod implicit;
