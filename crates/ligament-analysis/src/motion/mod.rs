@@ -10,6 +10,7 @@ pub mod contact;
 use std::sync::Arc;
 
 use ligament_model::LumpedMass;
+use nalgebra::Matrix3;
 use thiserror::Error;
 
 use crate::breaking::BreakingRule;
@@ -42,7 +43,17 @@ pub struct Dashpot {
     /// The point.
     pub point: u32,
     /// Damping C, symmetric and positive semidefinite, N s/m; in the plane without a third row.
-    pub damping: [[f64; 3]; 3],
+    pub damping: Matrix3<f64>,
+}
+
+impl Dashpot {
+    /// Dashpot of a point with the entries of its damping by row and column, N s/m.
+    pub fn new(point: u32, damping: impl FnMut(usize, usize) -> f64) -> Self {
+        Self {
+            point,
+            damping: Matrix3::from_fn(damping),
+        }
+    }
 }
 
 /// Settings of a motion.

@@ -85,8 +85,8 @@ pub(super) const REFUSED: [[&str; 2]; 45] = [
     ],
     ["-load", "the case has no [[load]] section"],
     [
-        "model.closing=true",
-        "model.closing: a motion does not find the faces that close: remove it",
+        "model.closing_friction=0.3",
+        "model.closing_friction: ",
     ],
     [
         "load.0.amplitude={points=[[0,0],[2,1],[1,0]]}",

@@ -153,8 +153,8 @@ const MOTION: &str = r#"
 cells = [10, 20]
 spacing = 0.1
 [lattice.set]
-right = { right = 1 }
 left = { left = 1 }
+right = { right = 1 }
 [material]
 young = 1e9
 poisson = 0.2

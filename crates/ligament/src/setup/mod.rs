@@ -2,6 +2,7 @@
 
 mod analysis;
 pub(crate) mod check;
+mod check_contact;
 mod check_control;
 mod check_dimension;
 mod check_motion;

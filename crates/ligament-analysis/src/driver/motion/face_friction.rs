@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 
 use ligament_model::contact::{ClosedPair, ContactPair};
 use ligament_model::layout::Layout;
+use ligament_model::surface::Vector;
 use ligament_model::tensor::{dot, minus, norm};
 
 use crate::serial;
@@ -25,11 +26,11 @@ pub(super) struct FaceFriction {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Anchored {
     /// Anchor s, m.
-    anchor: [f64; 3],
+    anchor: Vector,
     /// Force of friction on the second end, N.
-    force: [f64; 3],
+    force: Vector,
     /// Motion of the faces against each other along the crack, P w, m.
-    slip: [f64; 3],
+    slip: Vector,
 }
 
 serial!(Anchored {
@@ -72,8 +73,8 @@ impl FaceFriction {
             let before = *of_pair;
             of_pair.slip = pair.slip(layout, motions);
             of_pair.load(pair.stiffness, self.coefficient * pressure);
-            let mean = [0, 1, 2].map(|axis| 0.5 * (before.force[axis] + of_pair.force[axis]));
-            energies.work += dot(mean, minus(of_pair.slip, before.slip));
+            let way = minus(of_pair.slip, before.slip);
+            energies.work += 0.5 * (dot(before.force, way) + dot(of_pair.force, way));
             energies.stored += 0.5 * dot(of_pair.force, minus(of_pair.slip, of_pair.anchor));
             pair.add_along(layout, of_pair.force, internal);
         }
@@ -98,7 +99,7 @@ impl Anchored {
         let share = if size > limit { limit / size } else { 1.0 };
         self.force = trial.map(|it| share * it);
         if share < 1.0 {
-            self.anchor = [0, 1, 2].map(|axis| self.slip[axis] - self.force[axis] / stiffness);
+            self.anchor = minus(self.slip, self.force.map(|it| it / stiffness));
         }
     }
 }
@@ -112,7 +113,7 @@ mod tests {
     fn a_pair_sticks_and_slides() {
         let mut pair = Anchored::default();
         let at = |pair: &mut Anchored, slip: f64, limit: f64| {
-            pair.slip = [slip, 0.0, 0.0];
+            pair.slip[0] = slip;
             pair.load(2.0, limit);
             pair.force[0]
         };

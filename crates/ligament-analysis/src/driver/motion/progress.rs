@@ -3,6 +3,7 @@
 use super::clock::Clock;
 use crate::driver::recorder::Energies;
 use crate::history::{InMotion, LargestOverlap, StepRecord};
+use crate::motion::MotionProblem;
 use crate::serial;
 use crate::serial::Serial;
 
@@ -62,4 +63,12 @@ impl Progress {
         energies.write(&mut out);
         out
     }
+}
+
+/// A motion that continues from a checkpoint, with its state under a scheme.
+pub(super) struct Resumed<K> {
+    pub(super) problem: MotionProblem,
+    pub(super) energies: Energies,
+    pub(super) progress: Progress,
+    pub(super) kept: K,
 }
