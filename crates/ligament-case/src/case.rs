@@ -18,6 +18,7 @@ pub mod document;
 pub mod fault;
 pub mod file;
 mod fracture;
+mod in_time;
 pub mod key_path;
 pub mod keys;
 mod kind;

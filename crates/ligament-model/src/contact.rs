@@ -15,8 +15,8 @@
 
 use crate::bonds::{BondSet, Incidence};
 use crate::communicator::Wire;
-use crate::layout::Component;
-use crate::tensor::SymTensor;
+use crate::layout::{Component, Layout};
+use crate::tensor::{SymTensor, cross, dot, minus};
 use crate::thermal::ThermalStrain;
 
 /// A bond that a pre-crack cut.
@@ -50,6 +50,8 @@ pub struct ContactPair {
     pub ends: [u32; 2],
     /// Unit normal n of the crack, from A to B; without a component along z in the plane.
     pub normal: [f64; 3],
+    /// Way r from A to B, m.
+    pub way: [f64; 3],
     /// Stiffness k along the normal, N/m.
     pub stiffness: f64,
     /// Symmetric part of l n (x) e, m: the gap changes by its contraction with a strain of both points, and the contact force contributes to
@@ -103,6 +105,42 @@ impl ContactPair {
             return 0.0;
         }
         self.spread.contracted(&expansion.of_bond(self.ends))
+    }
+}
+
+impl ContactPair {
+    /// Motion P w of the faces against each other along the crack for the motions of all points (n_degrees_of_freedom), m: w = u_B - u_A -
+    /// (phi_A + phi_B)/2 x r, of which n . w is the gap, and P = I - n n^T.
+    pub fn slip(&self, layout: Layout, motions: &[f64]) -> [f64; 3] {
+        let mut whole = [0.0; 3];
+        let mut turn = [0.0; 3];
+        for (end, sign) in self.ends.into_iter().zip([-1.0, 1.0]) {
+            for (component, dof) in layout.components.iter().zip(layout.range(end)) {
+                let axis = component.in_space() % 3;
+                match component.is_rotation() {
+                    false => whole[axis] += sign * motions[dof],
+                    true => turn[axis] += 0.5 * motions[dof],
+                }
+            }
+        }
+        let whole = minus(whole, cross(turn, self.way));
+        let across = dot(whole, self.normal);
+        [0, 1, 2].map(|axis| whole[axis] - across * self.normal[axis])
+    }
+
+    /// Adds the internal forces of a force f (N) on B along the crack and of its opposite on A to those of all points
+    /// (n_degrees_of_freedom), with the moments -r x f/2 on both, which belong to the rotations in [`slip`](Self::slip).
+    pub fn add_along(&self, layout: Layout, force: [f64; 3], internal: &mut [f64]) {
+        let moment = cross(self.way, force).map(|it| -0.5 * it);
+        for (end, sign) in self.ends.into_iter().zip([-1.0, 1.0]) {
+            for (component, dof) in layout.components.iter().zip(layout.range(end)) {
+                let axis = component.in_space() % 3;
+                internal[dof] += match component.is_rotation() {
+                    false => sign * force[axis],
+                    true => moment[axis],
+                };
+            }
+        }
     }
 }
 

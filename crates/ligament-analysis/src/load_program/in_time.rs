@@ -156,6 +156,10 @@ fn moved(load: &ProportionalLoading) -> Vec<(u32, f64)> {
 }
 
 impl LoadProgram for LoadsInTime {
+    fn is_in_time(&self) -> bool {
+        true
+    }
+
     fn is_prescribed(&self, degree_of_freedom: usize) -> bool {
         self.loads.is_prescribed(degree_of_freedom)
     }

@@ -10,6 +10,7 @@ pub mod contact;
 use std::sync::Arc;
 
 use ligament_model::LumpedMass;
+use nalgebra::Matrix3;
 use thiserror::Error;
 
 use crate::breaking::BreakingRule;
@@ -32,6 +33,8 @@ pub struct MotionProblem {
     pub dashpots: Arc<[Dashpot]>,
     /// Contacts between surfaces and with rigid bodies.
     pub contact: ContactProblem,
+    /// Coefficient of friction on faces of cracks that close.
+    pub face_friction: f64,
 }
 
 /// Dashpot between a point and the ground: the force -C v for the velocity v of the point.
@@ -40,7 +43,17 @@ pub struct Dashpot {
     /// The point.
     pub point: u32,
     /// Damping C, symmetric and positive semidefinite, N s/m; in the plane without a third row.
-    pub damping: [[f64; 3]; 3],
+    pub damping: Matrix3<f64>,
+}
+
+impl Dashpot {
+    /// Dashpot of a point with the entries of its damping by row and column, N s/m.
+    pub fn new(point: u32, damping: impl FnMut(usize, usize) -> f64) -> Self {
+        Self {
+            point,
+            damping: Matrix3::from_fn(damping),
+        }
+    }
 }
 
 /// Settings of a motion.
@@ -147,7 +160,7 @@ pub enum MotionError {
         /// Critical step, s.
         critical: f64,
     },
-    /// Contact between surfaces was required in implicit steps.
+    /// Contact between surfaces or friction on crack faces was required in implicit steps.
     #[error(
         "contact between surfaces needs explicit steps; implicit ones know that of crack faces alone"
     )]

@@ -98,7 +98,7 @@ impl Amplitude {
                 key,
                 "`points` or `file`",
                 "it belongs to a `shape`",
-                [true; 4],
+                &["start", "duration", "periods", "peak_time", "frequency"],
             )?;
         }
         Ok(factor)
@@ -111,7 +111,10 @@ impl Amplitude {
             let is_sine = matches!(shape, S::Sine { .. });
             let reason = "it belongs to another shape";
             let setting = format!("shape = \"{word}\"");
-            self.refuse_others(key, &setting, reason, [false, !is_sine, true, true])?;
+            self.refuse_others(key, &setting, reason, &["peak_time", "frequency"])?;
+            if !is_sine {
+                self.refuse_others(key, &setting, reason, &["periods"])?;
+            }
             let duration = number("duration", self.duration)?;
             let start = self.start.unwrap_or(0.0);
             require(start >= 0.0, || key.child("start"), "at least 0", start)?;
@@ -130,7 +133,8 @@ impl Amplitude {
             Shape::Ricker => {
                 let reason = "a wavelet has a `peak_time` and a `frequency`";
                 let setting = "shape = \"ricker\"";
-                self.refuse_others(key, setting, reason, [true, true, false, false])?;
+                let others = ["start", "duration", "periods"];
+                self.refuse_others(key, setting, reason, &others)?;
                 let peak_time = number("peak_time", self.peak_time)?;
                 Ok(Factor::ricker(
                     peak_time,
@@ -140,21 +144,22 @@ impl Amplitude {
         }
     }
 
-    /// Refuses given keys among `start` and `duration`, `periods`, `peak_time`, and `frequency`.
+    /// Refuses given keys among some.
     fn refuse_others(
         &self,
         key: &KeyPath,
         setting: &str,
         reason: &'static str,
-        [span, periods, peak_time, frequency]: [bool; 4],
+        others: &[&str],
     ) -> Result<(), KeyFault> {
         let given = [
-            ("start", span && self.start.is_some()),
-            ("duration", span && self.duration.is_some()),
-            ("periods", periods && self.periods.is_some()),
-            ("peak_time", peak_time && self.peak_time.is_some()),
-            ("frequency", frequency && self.frequency.is_some()),
+            ("start", self.start.is_some()),
+            ("duration", self.duration.is_some()),
+            ("periods", self.periods.is_some()),
+            ("peak_time", self.peak_time.is_some()),
+            ("frequency", self.frequency.is_some()),
         ];
+        let given = given.map(|(name, is_given)| (name, is_given && others.contains(&name)));
         refuse(key, given, setting, reason)
     }
 }

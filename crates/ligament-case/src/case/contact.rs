@@ -37,9 +37,9 @@ pub struct Contact {
 pub struct Rigid {
     /// Name in results.
     pub name: String,
-    /// Its shape.
+    /// Shape of the body.
     pub shape: RigidShape,
-    /// Its centre at time zero, of a wall a point of its surface, m.
+    /// Centre of the body at time zero, of a wall a point of its surface, m.
     #[schemars(extend("x-unit" = "m"))]
     pub centre: Coordinates,
     /// Radius of a circle or sphere, m.

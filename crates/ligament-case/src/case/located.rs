@@ -57,7 +57,7 @@ impl Case {
             "body" if self.mesh.is_some() => "mesh",
             "body" if self.solid_lattice.is_some() => "solid_lattice",
             "body" => "lattice",
-            "law" | "horizon" | "rotational_scale" | "closing" => "model",
+            "law" | "horizon" | "rotational_scale" | "closing" | "closing_friction" => "model",
             "materials" => "material",
             "precracks" => "precrack",
             "supports" => "support",
@@ -77,6 +77,7 @@ impl Case {
             let part = match (field.name, field.part) {
                 ("law", None) => Some("law"),
                 ("closing", None) => Some("closing"),
+                ("closing_friction", None) => Some("closing_friction"),
                 ("rotational_scale", Some("length")) => Some("cosserat_length"),
                 ("rotational_scale", _) => Some("rotational_factor"),
                 (_, part) => part,

@@ -31,6 +31,10 @@ pub struct ModelSection {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     #[schemars(extend("default" = false))]
     pub closing: bool,
+    /// Coefficient of friction on faces that close, in an explicit motion.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    #[schemars(range(min = 0), extend("default" = 0.0))]
+    pub closing_friction: f64,
     /// Where the constants of the law come from.
     #[schemars(extend("description" = of_laws("Where the constants of the law come from", |it| it.options.calibration.is_some())))]
     pub calibration: Option<Word<Calibration>>,
@@ -49,6 +53,10 @@ pub struct ModelSection {
     pub form: Option<Word<Form>>,
     /// What the strains of `mbb-pd` are taken over.
     pub strains: Option<Word<Strains>>,
+}
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 impl ModelSection {

@@ -103,6 +103,14 @@ fn one() -> f64 {
 }
 
 impl Motion {
+    /// Fills in the missing keys of the scheme.
+    pub(super) fn complete(&mut self) {
+        match self.scheme {
+            Scheme::Explicit => self.safety = self.safety.or(Some(explicit().safety)),
+            Scheme::Implicit => self.dissipation = self.dissipation.or(Some(0.0)),
+        }
+    }
+
     /// Settings, with the keys of `[fracture]` about the breakages in implicit steps.
     pub(super) fn setup(
         &self,

@@ -3,7 +3,8 @@
 use toml_edit::visit_mut::{VisitMut, visit_value_mut};
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, Value};
 
-use super::sections::{Case, keys_of_statics};
+use super::in_time::keys_of_statics;
+use super::sections::Case;
 
 /// The case as TOML, with a header for each section and nested tables inline.
 pub(super) fn to_toml(case: &Case) -> Result<String, toml_edit::ser::Error> {

@@ -26,7 +26,7 @@ use super::load::Load;
 use super::material::{self, Material};
 use super::mesh_section::MeshSection;
 use super::model::ModelSection;
-use super::motion::{InitialVelocity, Motion, Quiet, Scheme};
+use super::motion::{InitialVelocity, Motion, Quiet};
 use super::output::{Output, StressField};
 use super::precrack::Precrack;
 use super::probe::Probe;
@@ -36,27 +36,6 @@ use super::solver::{self, Solver};
 use super::stage::Stage;
 use super::temperature::Temperature;
 use super::values::{exactly_one, metre, refuse};
-
-/// Keys of `[fracture]` about load steps.
-const STEPPING: [&str; 3] = ["control", "steps", "refine_first_break"];
-
-/// Keys of `[fracture]` about breakages and equilibrium within a step.
-const BALANCING: [&str; 5] = [
-    "bonds_per_iteration",
-    "order",
-    "max_iterations",
-    "tie_tolerance",
-    "energy_tolerance",
-];
-
-/// Keys of `[fracture]` that a motion does not have.
-pub(super) fn keys_of_statics(scheme: Scheme) -> Vec<&'static str> {
-    let of_steps = STEPPING.into_iter().chain(["stop"]);
-    match scheme {
-        Scheme::Explicit => of_steps.chain(BALANCING).collect(),
-        Scheme::Implicit => of_steps.collect(),
-    }
-}
 
 /// A case: the sections of its file, with every default filled in.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -160,8 +139,10 @@ impl Case {
             mesh.complete(&root().child("mesh"), folder, body)?;
         }
         case.complete_analysis(document.get("output").is_some())?;
-        if let Some(motion) = &case.motion {
-            case.refuse_statics(document, motion.scheme)?;
+        if let Some(motion) = &mut case.motion {
+            motion.complete();
+            let scheme = motion.scheme;
+            case.refuse_statics(document, scheme)?;
         }
         let is_idle = case.loads.is_empty()
             && case.temperatures.is_empty()
@@ -259,41 +240,6 @@ impl Case {
         }
     }
 
-    /// Sections of a motion, each with whether it is given.
-    fn in_time(&self) -> [(&'static str, bool); 5] {
-        [
-            ("motion", self.motion.is_some()),
-            ("initial_velocity", !self.initial_velocities.is_empty()),
-            ("quiet", !self.quiet.is_empty()),
-            ("contact", !self.contacts.is_empty()),
-            ("rigid", !self.rigid_bodies.is_empty()),
-        ]
-    }
-
-    /// Refuses keys of load steps and of equations in a motion without them.
-    fn refuse_statics(&self, document: &Node, scheme: Scheme) -> Result<(), KeyFault> {
-        let given = document.get("fracture");
-        let is_given = |key: &'static str| (key, given.is_some_and(|it| it.get(key).is_some()));
-        let fracture = root().child("fracture");
-        let setting = "analysis = \"motion\"";
-        let reason =
-            "a motion has no load steps: bonds break at the time at which they reach their limits";
-        refuse(&fracture, STEPPING.map(is_given), setting, reason)?;
-        let reason = "a motion has a `stop` of its own, in [motion]";
-        refuse(&fracture, [is_given("stop")], setting, reason)?;
-        match scheme {
-            Scheme::Implicit => Ok(()),
-            Scheme::Explicit => {
-                let setting = "motion.scheme = \"explicit\"";
-                let reason = "all bonds at their limits break in an explicit step";
-                refuse(&fracture, BALANCING.map(is_given), setting, reason)?;
-                let (key, reason) = (root().child("solver"), "explicit steps solve no equations");
-                let keys = self.solver.of_equations();
-                refuse(&key, keys, "motion.scheme = \"explicit\"", reason)
-            }
-        }
-    }
-
     fn require_one_body(&self) -> Result<(), KeyFault> {
         let given = [
             self.mesh.is_some(),
@@ -386,6 +332,7 @@ impl Case {
             bonds_through_voids: self.model.bonds_through_voids,
             correction: self.correction.setup(&law),
             closing: self.model.closing,
+            closing_friction: self.model.closing_friction,
             no_fail: each("no_fail", &self.no_fail, |it, key| {
                 it.place(key, dimensions)
             })?,

@@ -153,6 +153,7 @@ const MOTION: &str = r#"
 cells = [10, 20]
 spacing = 0.1
 [lattice.set]
+left = { left = 1 }
 right = { right = 1 }
 left = { left = 1 }
 [material]

@@ -69,7 +69,7 @@ mod tests {
         let (mut sum, mut area) = ([0.0; D], 0.0);
         for facet in Facet::of_lattice(lattice, &cloud) {
             let corners = facet.moved(layout, &motions);
-            let outward = normal(&corners).unwrap();
+            let outward = normal(&corners).expect("faces of cells have an area");
             assert!(facet.corners.iter().all(|it| dot(it.arm, outward) > 0.0));
             let vector = area_vector(&corners);
             sum = std::array::from_fn(|axis| sum[axis] + vector[axis]);

@@ -10,7 +10,7 @@
 //! F = k A (<g_0 - g> n - s), |s| <= mu <g_0 - g>,
 //!
 //! and the opposite one acts on the surface that is met: a penalty against penetration, and Coulomb's friction by return mapping, where the
-//! elastic part s of the sliding keeps its size at most (Wriggers, Computational Contact Mechanics, 2006, ch. 5 and 10). The energy 1/2 k A
+//! elastic part s of the sliding keeps its size at most (Wriggers 2006, chapters 5 and 10). The energy 1/2 k A
 //! (<g_0 - g>^2 + |s|^2) is stored. The depth g_0 <= 0 is the overlap that a contact was found with beyond what the step explains: at the
 //! start, or where surfaces are born that overlap. Nothing jumps there; g_0 follows the gap as it opens, and is never restored.
 

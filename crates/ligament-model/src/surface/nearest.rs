@@ -16,7 +16,7 @@ pub(super) fn nearest_weights<const D: usize>(
     on_triangle([corners[0], corners[1], corners[2]], position)
 }
 
-/// Weights of the corners of a triangle at its place nearest to a position (Ericson, Real-Time Collision Detection, 2005, section 5.1.5).
+/// Weights of the corners of a triangle at its place nearest to a position (Ericson 2005, section 5.1.5).
 fn on_triangle<const D: usize>([a, b, c]: [[f64; D]; 3], position: [f64; D]) -> [f64; 3] {
     let (ab, ac) = (minus(b, a), minus(c, a));
     let along = |corner: [f64; D]| {

@@ -109,6 +109,7 @@ impl<const D: usize> BondSystem<D> {
             number,
             ends,
             normal: in_space(normal),
+            way: in_space(way),
             stiffness: resisted.max(0.0) / (length * length),
             spread: SymTensor::dyad(in_space(normal), in_space(way)),
             row: row_of_gap(

@@ -50,6 +50,8 @@ pub struct Loading {
     pub inertia: Option<Inertia>,
     /// Contacts between surfaces; empty without a motion.
     pub contact: ContactProblem,
+    /// Coefficient of friction on faces of cracks that close, in a motion.
+    pub face_friction: f64,
     /// Probes.
     pub probes: Arc<[Probe]>,
     /// Settings of the equation solver.
@@ -92,6 +94,7 @@ impl Loading {
             in_time: in_time.map(Arc::new),
             inertia,
             contact,
+            face_friction: setup.closing_friction,
             boundary: Arc::new(boundary),
             probes,
             solver: setup.solver.clone(),
@@ -123,6 +126,7 @@ impl Loading {
             initial_velocity: inertia.initial_velocity.clone(),
             dashpots: inertia.dashpots.clone(),
             contact: self.contact.clone(),
+            face_friction: self.face_friction,
         })
     }
 }

@@ -113,20 +113,21 @@ impl<const D: usize> Places<'_, D> {
         if normals.is_empty() {
             return Err(field.error(Fault::NoQuietOutline));
         }
-        let dashpot = |(point, along): (u32, [f64; D])| Dashpot {
-            point,
-            damping: self.impedance(point, along, densities),
+        let dashpot = |(point, along): (u32, [f64; D])| {
+            let impedance = self.impedance(point, along, densities);
+            let entry = |row: usize, column: usize| impedance.get(row)?.get(column).copied();
+            Dashpot::new(point, |row, column| entry(row, column).unwrap_or(0.0))
         };
         Ok(normals.into_iter().map(dashpot).collect())
     }
 
     /// Impedance of the materials at a point, in the mean over their shares, for waves along a normal times a length (m), in space an area
     /// (m^2); times the area, N s/m.
-    fn impedance(&self, point: u32, along: [f64; D], densities: &[f64]) -> [[f64; 3]; 3] {
+    fn impedance(&self, point: u32, along: [f64; D], densities: &[f64]) -> [[f64; D]; D] {
         let length = along.iter().map(|it| it * it).sum::<f64>().sqrt();
         let normal = along.map(|it| it / length);
         let area = length * self.cloud.thickness;
-        let mut sum = [[0.0; 3]; 3];
+        let mut sum = [[0.0; D]; D];
         let materials = self.setup.materials.iter().zip(densities);
         let shares = self.cloud.shares(point as usize);
         for ((region, &density), share) in materials.zip(shares) {

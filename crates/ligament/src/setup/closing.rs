@@ -1,17 +1,38 @@
 //! Checks of closing faces against law, correction and analysis.
 
+use ligament_analysis::motion::{MotionSettings, Scheme};
 use ligament_model::law::{BondLaw, listed, suited};
 use ligament_model::{Advice, ElementKind};
 
-use super::check::{Checked, contradiction};
+use super::check::{Checked, contradiction, require};
 use super::setting::Setting;
 use super::{Analysis, CorrectionDomain, Setup};
 use crate::error::Field;
 
 impl Setup {
     pub(super) fn check_closing(&self) -> Checked {
+        let friction = Field::whole("closing_friction");
+        let is_fit = self.closing_friction >= 0.0 && self.closing_friction.is_finite();
+        require(is_fit, friction, "at least 0", self.closing_friction)?;
+        if self.closing_friction > 0.0 && !self.closing {
+            let reason =
+                "faces that do not close carry no pressure, and so no friction: let them close";
+            return contradiction(friction, reason);
+        }
         if !self.closing {
             return Ok(());
+        }
+        let is_explicit = matches!(
+            &self.analysis,
+            Analysis::Motion(MotionSettings {
+                scheme: Scheme::Explicit(_),
+                ..
+            })
+        );
+        if self.closing_friction > 0.0 && !is_explicit {
+            let reason = "friction on closed faces depends on the way to a state, which explicit steps of a motion alone follow: remove it, or \
+                take an explicit motion";
+            return contradiction(friction, reason);
         }
         let field = Field::whole("closing");
         let law = self.law.name();
@@ -30,10 +51,6 @@ impl Setup {
         }
         if matches!(self.analysis, Analysis::Modal(_)) {
             let reason = "natural modes assume that crack faces do not close: remove it";
-            return contradiction(field, reason);
-        }
-        if self.analysis.is_motion() {
-            let reason = "a motion does not find the faces that close: remove it";
             return contradiction(field, reason);
         }
         if matches!(self.analysis, Analysis::Event(_)) && !self.stages.is_empty() {

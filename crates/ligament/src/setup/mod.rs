@@ -2,6 +2,7 @@
 
 mod analysis;
 pub(crate) mod check;
+mod check_contact;
 mod check_control;
 mod check_dimension;
 mod check_motion;
@@ -74,6 +75,8 @@ pub struct Setup {
     pub precracks: Vec<PreCrack>,
     /// Whether the faces of pre-cracks and of broken bonds carry pressure where they close; for laws with rotations of points.
     pub closing: bool,
+    /// Coefficient of friction on faces that close, in an explicit motion.
+    pub closing_friction: f64,
     /// Contacts between parts of the body in a motion.
     pub contacts: Vec<SurfaceContact>,
     /// Rigid bodies that parts of the body meet in a motion.
@@ -150,6 +153,7 @@ impl Setup {
             correction: Correction::of_paper(&law),
             precracks: Vec::new(),
             closing: false,
+            closing_friction: 0.0,
             contacts: Vec::new(),
             rigid_bodies: Vec::new(),
             no_fail: Vec::new(),

@@ -8,6 +8,7 @@ use ligament_model::failure::{Criteria, Criterion};
 use ligament_model::product::{ForceSum, NearLimits};
 use ligament_model::thermal::ThermalStrain;
 
+use super::face_friction::{FaceFriction, FrictionEnergies};
 use super::record::Now;
 use crate::balanced::Balanced;
 use crate::bond_numbers::BondNumbers;
@@ -39,6 +40,9 @@ pub(super) struct Body {
     pub(super) numbers: BondNumbers,
     pub(super) connectivity: Connectivity,
     contact: Contact,
+    /// Friction on the faces of cracks, with its energies in the last step.
+    pub(super) friction: FaceFriction,
+    pub(super) of_friction: FrictionEnergies,
     pub(super) state: State,
     /// Deformations, forces and energy of the bonds at the time of the state.
     pub(super) balanced: Balanced,
@@ -94,7 +98,12 @@ fn in_one_sweep(problem: &Problem) -> Option<ForceSum> {
 
 impl Body {
     /// Unloaded body with all its bonds, or the body of a restored state.
-    pub(super) fn new(problem: &Problem, numbers: BondNumbers, restored: Option<State>) -> Self {
+    pub(super) fn new(
+        problem: &Problem,
+        numbers: BondNumbers,
+        friction: FaceFriction,
+        restored: Option<State>,
+    ) -> Self {
         let system = &*problem.system;
         let n_bonds = system.ends().len();
         let state = restored.unwrap_or_else(|| State {
@@ -108,6 +117,8 @@ impl Body {
                 _ => Connectivity::held(system, &state.intact),
             },
             contact: Contact::new(system, &state.intact),
+            friction,
+            of_friction: FrictionEnergies::default(),
             balanced: Balanced::unloaded(system),
             sum: in_one_sweep(problem),
             problem: problem.clone(),
@@ -168,6 +179,13 @@ impl Body {
             }
         }
         self.sum_forces();
+        let layout = self.problem.system.layout();
+        self.of_friction = self.friction.advance(
+            (self.contact.pairs(), &self.balanced.closed),
+            layout,
+            &self.state.displacement,
+            &mut self.balanced.internal.values,
+        );
         Ok(breakage)
     }
 
@@ -233,6 +251,10 @@ impl Body {
     pub(super) fn measure(&mut self) {
         self.deform();
         self.sum_forces();
+        let layout = self.problem.system.layout();
+        let internal = &mut self.balanced.internal.values;
+        self.friction
+            .add_forces(self.contact.pairs(), layout, internal);
     }
 
     fn deform(&mut self) {

@@ -6,52 +6,61 @@
 //! With the kinetic energy 1/2 v-^T M v+ and the trapezoidal rule for work, damping and released energy the energies balance to rounding for forces
 //! that are linear in the displacements: 1/2 (M a + M a')^T (u' - u) is the change of the kinetic energy.
 
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 use rayon::prelude::*;
 
 use super::body::{Body, TimeStep};
 use super::clock::Clock;
+use super::explicit_kept::ExplicitKept;
+use super::face_friction::{FaceFriction, FrictionEnergies};
 use super::inertia::{Inertia, Velocities};
-use super::progress::{EXPLICIT, Progress};
+use super::progress::{EXPLICIT, Progress, Resumed};
 use super::record;
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
-use crate::driver::course::{CheckValues, with_begun};
 use crate::driver::outcome::Outcome;
 use crate::driver::recorder::Energies;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
-use crate::motion::contact::{ContactForces, ContactProblem, ContactState};
+use crate::motion::contact::{ContactForces, ContactProblem};
 use crate::motion::{ExplicitSettings, MotionError, MotionProblem, MotionSettings, critical_step};
-use crate::serial::Serial;
 use crate::solver::{ExplicitChoice, SolverChoice};
-use crate::state::State;
 use crate::vectors::{CHUNK, sum_of_chunks};
 
 /// Motion in explicit steps.
-pub(super) struct Explicit<'a> {
-    pub(super) settings: &'a MotionSettings,
-    pub(super) choice: ExplicitChoice,
-    pub(super) inertia: Inertia,
-    pub(super) body: Body,
-    pub(super) velocities: Velocities,
-    pub(super) energies: Energies,
-    pub(super) progress: Progress,
-    pub(super) contacts: Option<ContactForces>,
+struct Explicit<'a> {
+    settings: &'a MotionSettings,
+    choice: ExplicitChoice,
+    inertia: Inertia,
+    body: Body,
+    velocities: Velocities,
+    energies: Energies,
+    progress: Progress,
+    contacts: Option<ContactForces>,
     /// Degrees of freedom that are prescribed or loaded, ascending.
-    pub(super) loaded: Vec<u32>,
+    loaded: Vec<u32>,
     /// External forces, shape (n_degrees_of_freedom), N and N m.
-    pub(super) external: Vec<f64>,
+    external: Vec<f64>,
     /// Forces of restraints on the body, shape (n_degrees_of_freedom), N and N m; empty without restraints.
-    pub(super) restraining: Vec<f64>,
+    restraining: Vec<f64>,
     /// Prescribed displacements at the end of the next step, shape (n_degrees_of_freedom); zero at others.
-    pub(super) ahead: Vec<f64>,
+    ahead: Vec<f64>,
     /// Product of the stiffness with the velocities, shape (n_degrees_of_freedom); empty without damping by stiffness.
-    pub(super) damped: Vec<f64>,
-    pub(super) observer: &'a mut dyn Observer,
-    pub(super) started: Instant,
+    damped: Vec<f64>,
+    observer: &'a mut dyn Observer,
+    started: Instant,
+}
+
+/// What changes in a motion.
+struct Parts {
+    body: Body,
+    velocities: Velocities,
+    contacts: Option<ContactForces>,
+    energies: Energies,
+    progress: Progress,
 }
 
 /// Follows a motion from time zero to its end.
@@ -63,7 +72,8 @@ pub(super) fn run(
 ) -> Result<Outcome, SetupError> {
     let (clock, choice) = chosen(problem, settings, explicit)?;
     let numbers = BondNumbers::new(&*problem.problem.system)?;
-    let body = Body::new(&problem.problem, numbers, None);
+    let friction = FaceFriction::new(problem.face_friction, BTreeMap::new());
+    let body = Body::new(&problem.problem, numbers, friction, None);
     let n = body.state.displacement.len();
     let velocities = Velocities {
         half: vec![0.0; n],
@@ -71,8 +81,14 @@ pub(super) fn run(
     };
     let energies = Energies::unloaded(&problem.problem);
     let progress = Progress::at_start(clock);
-    let parts = (body, velocities, energies, progress);
-    let mut motion = Explicit::new(problem, (settings, choice), parts, observer);
+    let parts = Parts {
+        contacts: None,
+        body,
+        velocities,
+        energies,
+        progress,
+    };
+    let mut motion = Explicit::new(problem, settings, choice, parts, observer);
     motion.begin(&problem.initial_velocity, &problem.contact);
     motion.follow()
 }
@@ -81,9 +97,15 @@ pub(super) fn run(
 pub(super) fn resume(
     settings: &MotionSettings,
     explicit: ExplicitSettings,
-    (problem, energies, progress, kept): (MotionProblem, Energies, Progress, ExplicitKept),
+    resumed: Resumed<ExplicitKept>,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
+    let Resumed {
+        problem,
+        energies,
+        progress,
+        kept,
+    } = resumed;
     let ExplicitKept {
         body,
         velocities,
@@ -93,75 +115,16 @@ pub(super) fn resume(
     if clock != progress.clock {
         return Err(CheckpointError::OtherTimes.into());
     }
-    let parts = (body, velocities, energies, progress);
-    let mut motion = Explicit::new(&problem, (settings, choice), parts, observer);
-    motion.contacts = contacts;
+    let parts = Parts {
+        body,
+        velocities,
+        contacts,
+        energies,
+        progress,
+    };
+    let mut motion = Explicit::new(&problem, settings, choice, parts, observer);
     motion.apply_loads();
     motion.follow()
-}
-
-/// Motion in explicit steps as a checkpoint has it.
-pub(super) struct ExplicitKept {
-    pub(super) body: Body,
-    velocities: Velocities,
-    contacts: Option<ContactForces>,
-}
-
-impl ExplicitKept {
-    /// Appends the motion at a row.
-    fn write(
-        body: &Body,
-        velocities: &Velocities,
-        contacts: Option<&ContactForces>,
-        out: &mut Vec<u8>,
-    ) {
-        body.state.write(&body.numbers, out);
-        velocities.write(out);
-        contacts.map(|it| it.state().clone()).write(out);
-        body.costs.write(out);
-        CheckValues::new(&body.problem, &body.balanced).write(out);
-    }
-
-    /// Restores the motion of a problem at a row, with the criteria of bonds that had begun to soften.
-    pub(super) fn read(problem: &mut MotionProblem, from: &mut &[u8]) -> Result<Self, SetupError> {
-        let damaged = CheckpointError::Damaged;
-        let numbers = BondNumbers::new(&*problem.problem.system)?;
-        let state = State::read(&numbers, from)?;
-        let velocities: Velocities = Serial::read(from).map_err(damaged)?;
-        let contact: Option<ContactState> = Serial::read(from).map_err(damaged)?;
-        let costs = Serial::read(from).map_err(damaged)?;
-        let system = &*problem.problem.system;
-        let lengths = [velocities.half.len(), velocities.acceleration.len()];
-        let fits = state.fits(system, system.ends().len(), &problem.problem.criteria);
-        let can_touch = match &contact {
-            Some(contact) => contact.fits(&problem.contact),
-            None => problem.contact.is_empty(),
-        };
-        if !fits || !can_touch || lengths != [state.displacement.len(); 2] {
-            return Err(CheckpointError::OtherModel.into());
-        }
-        problem.problem = with_begun(&problem.problem, &state)?;
-        let mut body = Body::new(&problem.problem, numbers, Some(state));
-        body.costs = costs;
-        body.measure();
-        let resumed = |it| {
-            let motions = &body.state.displacement;
-            ContactForces::resumed(problem.contact.clone(), motions, it)
-        };
-        let contacts = contact.map(resumed);
-        if let Some(contacts) = &contacts {
-            contacts.add_forces(-1.0, &mut body.balanced.internal.values);
-        }
-        let values_then = CheckValues::read(from).map_err(damaged)?;
-        if !CheckValues::new(&body.problem, &body.balanced).agrees(&values_then) {
-            return Err(CheckpointError::OtherArithmetic.into());
-        }
-        Ok(Self {
-            body,
-            velocities,
-            contacts,
-        })
-    }
 }
 
 /// Times of a motion, with the critical step.
@@ -187,10 +150,18 @@ pub(super) fn chosen(
 impl<'a> Explicit<'a> {
     fn new(
         problem: &MotionProblem,
-        (settings, choice): (&'a MotionSettings, ExplicitChoice),
-        (body, velocities, energies, progress): (Body, Velocities, Energies, Progress),
+        settings: &'a MotionSettings,
+        choice: ExplicitChoice,
+        parts: Parts,
         observer: &'a mut dyn Observer,
     ) -> Self {
+        let Parts {
+            body,
+            velocities,
+            contacts,
+            energies,
+            progress,
+        } = parts;
         let (alpha, step) = (settings.damping.mass, choice.step);
         let loads = &problem.problem.loads;
         let n = body.state.displacement.len();
@@ -208,7 +179,7 @@ impl<'a> Explicit<'a> {
             velocities,
             energies,
             progress,
-            contacts: None,
+            contacts,
             observer,
             started: Instant::now(),
         }
@@ -317,6 +288,12 @@ impl<'a> Explicit<'a> {
         };
         let is_row = time_step == row * self.progress.clock.steps_per_row;
         let breakage = self.body.move_to(&step, is_row, self.observer)?;
+        let FrictionEnergies { stored, work } = self.body.of_friction;
+        let motion = &mut self.progress.motion;
+        let of_faces = stored - self.progress.sticking;
+        motion.friction_energy += work - of_faces;
+        motion.contact_energy += of_faces;
+        self.progress.sticking = stored;
         self.apply_contacts();
         self.apply_loads();
         self.advance();
@@ -366,7 +343,7 @@ impl<'a> Explicit<'a> {
         let now = contacts.advance(time, step, &state.displacement);
         contacts.add_forces(-1.0, internal);
         let motion = &mut self.progress.motion;
-        motion.contact_energy = now.stored;
+        motion.contact_energy += now.stored - before.stored;
         motion.friction_energy += now.dissipated - before.dissipated;
         self.energies
             .add_driving_work(now.driving_work - before.driving_work);

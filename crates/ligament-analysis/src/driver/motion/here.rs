@@ -2,7 +2,7 @@
 
 use crate::balanced::Balanced;
 use crate::history::Rates;
-use crate::motion::MotionProblem;
+use crate::motion::{Damping, MotionProblem};
 use crate::problem::Problem;
 use crate::serial;
 use crate::state::State;
@@ -45,8 +45,7 @@ pub(super) struct Inertia<'a> {
     pub(super) problem: &'a MotionProblem,
     /// Mass of each degree of freedom, zero where its motion is prescribed, shape (n_degrees_of_freedom).
     pub(super) masses: &'a [f64],
-    /// Damping over the mass, 1/s, and over the stiffness, s.
-    pub(super) damping: [f64; 2],
+    pub(super) damping: Damping,
 }
 
 /// Mass of each degree of freedom, zero where its motion is prescribed.
@@ -116,7 +115,10 @@ impl Inertia<'_> {
 
     /// Forces C v of damping for velocities (n_degrees_of_freedom), N and N m.
     pub(super) fn damping_forces(&self, state: &State, velocity: &[f64]) -> Vec<f64> {
-        let [alpha, beta] = self.damping;
+        let Damping {
+            mass: alpha,
+            stiffness: beta,
+        } = self.damping;
         let MotionProblem {
             problem, dashpots, ..
         } = self.problem;
@@ -136,7 +138,7 @@ impl Inertia<'_> {
             let dofs: Vec<usize> = displacements
                 .filter(|&dof| !layout.component(dof).is_rotation())
                 .collect();
-            for (row, &dof) in it.damping.iter().zip(&dofs) {
+            for (row, &dof) in it.damping.row_iter().zip(&dofs) {
                 let parts = row.iter().zip(&dofs);
                 forces[dof] += parts.map(|(c, &dof)| c * velocity[dof]).sum::<f64>();
             }

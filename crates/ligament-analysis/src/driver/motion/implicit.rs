@@ -11,7 +11,7 @@ use std::time::Instant;
 use super::clock::Clock;
 use super::here::{Here, Inertia, Motion, free_masses};
 use super::implicit_kept::ImplicitKept;
-use super::progress::{IMPLICIT, Progress};
+use super::progress::{IMPLICIT, Progress, Resumed};
 use super::record;
 use super::stepping::{HALVINGS, Pace, Stepping, scheme};
 use super::taken::{Taken, next};
@@ -106,9 +106,15 @@ pub(super) fn run(
 pub(super) fn resume(
     settings: &MotionSettings,
     implicit: ImplicitSettings,
-    (problem, energies, progress, kept): (MotionProblem, Energies, Progress, ImplicitKept),
+    resumed: Resumed<ImplicitKept>,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
+    let Resumed {
+        problem,
+        energies,
+        progress,
+        kept,
+    } = resumed;
     if progress.clock != Clock::new(settings, implicit.step) {
         return Err(CheckpointError::OtherTimes.into());
     }
@@ -144,7 +150,7 @@ fn check(problem: &MotionProblem, settings: &MotionSettings) -> Result<(), Motio
     if !system.subdomain().is_whole() {
         return Err(MotionError::SeveralProcesses);
     }
-    if !problem.contact.is_empty() {
+    if !problem.contact.is_empty() || problem.face_friction > 0.0 {
         return Err(MotionError::ImplicitContact);
     }
     let is_heated = !loads.temperature_change(0.0).is_empty();

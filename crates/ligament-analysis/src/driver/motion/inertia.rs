@@ -71,8 +71,7 @@ impl Inertia {
         let layout = problem.problem.system.layout();
         let mut dampings = BTreeMap::<u32, Matrix3<f64>>::new();
         for it in problem.dashpots.iter() {
-            let damping = Matrix3::from_fn(|row, column| it.damping[row][column]);
-            *dampings.entry(it.point).or_default() += damping;
+            *dampings.entry(it.point).or_default() += it.damping;
         }
         let is_free = |dof: &usize| !problem.problem.loads.is_prescribed(*dof);
         let dashed = |(point, whole): (u32, Matrix3<f64>)| {
@@ -222,7 +221,25 @@ impl Inertia {
                 internal[dof] = external[dof];
             }
         }
-        for (&dof, before) in self.prescribed.iter().zip(prescribed_before) {
+        self.prescribe(
+            (velocities, &prescribed_before),
+            internal,
+            displacement,
+            ahead,
+        );
+    }
+
+    /// Sets the velocities of prescribed degrees of freedom, given those of the step before (n_prescribed), and the forces of their inertia.
+    fn prescribe(
+        &self,
+        (velocities, before): (&mut Velocities, &[f64]),
+        internal: &mut [f64],
+        displacement: &[f64],
+        ahead: &[f64],
+    ) {
+        let Velocities { half, acceleration } = velocities;
+        let (step, alpha) = (self.step, self.alpha);
+        for (&dof, before) in self.prescribed.iter().zip(before) {
             let dof = dof as usize;
             // The free motion that was computed gave the internal force its inertia, which that of the prescribed motion replaces.
             let (mass, free) = (self.mass[dof], half[dof]);

@@ -3,6 +3,8 @@
 mod body;
 mod clock;
 mod explicit;
+mod explicit_kept;
+mod face_friction;
 mod here;
 mod implicit;
 mod implicit_kept;
@@ -22,6 +24,7 @@ use crate::solver::ExplicitChoice;
 
 use super::Outcome;
 use clock::Clock;
+use progress::Resumed;
 use restored::Kept;
 pub use restored::Restored;
 
@@ -90,12 +93,24 @@ pub fn resume(
     } = restored;
     match (settings.scheme, kept) {
         (Scheme::Explicit(explicit), Kept::Explicit(kept)) => {
-            let parts = (problem, energies, progress, *kept);
-            explicit::resume(settings, explicit, parts, observer)
+            let kept = *kept;
+            let resumed = Resumed {
+                problem,
+                energies,
+                progress,
+                kept,
+            };
+            explicit::resume(settings, explicit, resumed, observer)
         }
         (Scheme::Implicit(implicit), Kept::Implicit(kept)) => {
-            let parts = (problem, energies, progress, *kept);
-            implicit::resume(settings, implicit, parts, observer)
+            let kept = *kept;
+            let resumed = Resumed {
+                problem,
+                energies,
+                progress,
+                kept,
+            };
+            implicit::resume(settings, implicit, resumed, observer)
         }
         (Scheme::Explicit(_), Kept::Implicit(_)) | (Scheme::Implicit(_), Kept::Explicit(_)) => {
             Err(CheckpointError::OtherDriver.into())

@@ -1,4 +1,4 @@
-//! Newmark's scheme with the averaging of Hilber, Hughes and Taylor (1977): coefficients, and the loads of a step as those of an equilibrium.
+//! Newmark's scheme with the averaging of Hilber and others (Hilber 1977): coefficients, and the loads of a step as those of an equilibrium.
 //!
 //! M a' + (1 - d) (C v' + f(u') - F') + d (C v + f(u) - F) = 0 with u' = u~ + beta dt^2 a', u~ = u + dt v + (1/2 - beta) dt^2 a, v' = v~ + gamma dt a',
 //! v~ = v + (1 - gamma) dt a, beta = (1 + d)^2/4, gamma = 1/2 + d, for the dissipation 0 <= d <= 1/3; d = 0 is the trapezoidal rule.
@@ -11,7 +11,7 @@ use ligament_model::thermal::ThermalStrain;
 
 use crate::internal::InternalForces;
 use crate::load_program::{BoundaryGroup, Control, LoadProgram};
-use crate::motion::MotionProblem;
+use crate::motion::{Damping, MotionProblem};
 use crate::restraints::{Restraint, Restraints};
 
 /// Coefficients of a step.
@@ -21,8 +21,7 @@ pub(super) struct Newmark {
     pub(super) step: f64,
     /// Dissipation d.
     pub(super) dissipation: f64,
-    /// Damping alpha over the mass, 1/s, and beta_K over the stiffness, s.
-    pub(super) damping: [f64; 2],
+    pub(super) damping: Damping,
 }
 
 impl Newmark {
@@ -46,7 +45,7 @@ impl Newmark {
 
     /// Factor 1 + beta_K gamma/(beta dt) of the stiffness, by which the equations of a step are divided.
     pub(super) fn of_stiffness(&self) -> f64 {
-        1.0 + self.damping[1] * self.velocity()
+        1.0 + self.damping.stiffness * self.velocity()
     }
 
     /// Share d/(1 - d) of the forces at the start in those of a step.
@@ -57,7 +56,7 @@ impl Newmark {
     /// Stiffness of inertia and damping by mass between a mass and the ground, N/m.
     pub(super) fn ground(&self, mass: f64) -> f64 {
         let inertia = self.acceleration() / (1.0 - self.dissipation);
-        mass * (inertia + self.damping[0] * self.velocity()) / self.of_stiffness()
+        mass * (inertia + self.damping.mass * self.velocity()) / self.of_stiffness()
     }
 
     /// Restraints of a step for the masses of the degrees of freedom: those of the loads, the dashpots, and the inertia.
@@ -71,10 +70,10 @@ impl Newmark {
             let displacements = displacements.filter(|&dof| !layout.component(dof).is_rotation());
             let degrees_of_freedom: Vec<u32> = displacements.map(|dof| dof as u32).collect();
             let n = degrees_of_freedom.len();
-            let rows = it.damping.iter().take(n);
-            let entries = rows.flat_map(|row| row.iter().take(n));
+            // A symmetric matrix has the same rows and columns.
+            let block = it.damping.view((0, 0), (n, n));
             Restraint {
-                stiffness: entries.map(|c| factor * self.velocity() * c).collect(),
+                stiffness: block.iter().map(|c| factor * self.velocity() * c).collect(),
                 degrees_of_freedom,
             }
         }));

@@ -3,6 +3,7 @@
 use super::clock::Clock;
 use crate::driver::recorder::Energies;
 use crate::history::{InMotion, LargestOverlap, StepRecord};
+use crate::motion::MotionProblem;
 use crate::serial;
 use crate::serial::Serial;
 
@@ -20,6 +21,8 @@ pub(super) struct Progress {
     pub(super) motion: InMotion,
     /// Forces of damping at the time (n_degrees_of_freedom), N and N m; empty where nothing damps.
     pub(super) damping_forces: Vec<f64>,
+    /// Energy stored in faces of cracks that stick, J.
+    pub(super) sticking: f64,
     pub(super) history: Vec<StepRecord>,
     /// Largest overlap of crack faces so far.
     pub(super) overlap: Option<LargestOverlap>,
@@ -29,6 +32,7 @@ serial!(Progress {
     clock,
     motion,
     damping_forces,
+    sticking,
     history,
     overlap,
 });
@@ -39,6 +43,7 @@ impl Progress {
             clock,
             motion: InMotion::default(),
             damping_forces: Vec::new(),
+            sticking: 0.0,
             history: Vec::new(),
             overlap: None,
         }
@@ -58,4 +63,12 @@ impl Progress {
         energies.write(&mut out);
         out
     }
+}
+
+/// A motion that continues from a checkpoint, with its state under a scheme.
+pub(super) struct Resumed<K> {
+    pub(super) problem: MotionProblem,
+    pub(super) energies: Energies,
+    pub(super) progress: Progress,
+    pub(super) kept: K,
 }

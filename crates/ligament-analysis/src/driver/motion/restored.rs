@@ -1,6 +1,6 @@
 //! A motion restored from a checkpoint.
 
-use super::explicit::ExplicitKept;
+use super::explicit_kept::ExplicitKept;
 use super::implicit_kept::ImplicitKept;
 use super::progress::{EXPLICIT, IMPLICIT, Progress};
 use crate::checkpoint::CheckpointError;

@@ -50,7 +50,7 @@ pub(super) fn scheme(
     Newmark {
         step: clock.step() / f64::from(1_u32 << pace.halvings),
         dissipation: implicit.dissipation,
-        damping: [settings.damping.mass, settings.damping.stiffness],
+        damping: settings.damping,
     }
 }
 

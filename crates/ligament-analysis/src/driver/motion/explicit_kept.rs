@@ -1,0 +1,82 @@
+//! Checkpoint of an explicit motion.
+
+use super::body::Body;
+use super::face_friction::{Anchored, FaceFriction};
+use super::inertia::Velocities;
+use crate::bond_numbers::BondNumbers;
+use crate::checkpoint::CheckpointError;
+use crate::driver::course::{CheckValues, with_begun};
+use crate::error::SetupError;
+use crate::motion::MotionProblem;
+use crate::motion::contact::{ContactForces, ContactState};
+use crate::serial::Serial;
+use crate::state::State;
+
+/// Motion in explicit steps as a checkpoint has it.
+pub(super) struct ExplicitKept {
+    pub(super) body: Body,
+    pub(super) velocities: Velocities,
+    pub(super) contacts: Option<ContactForces>,
+}
+
+impl ExplicitKept {
+    /// Appends the motion at a row.
+    pub(super) fn write(
+        body: &Body,
+        velocities: &Velocities,
+        contacts: Option<&ContactForces>,
+        out: &mut Vec<u8>,
+    ) {
+        body.state.write(&body.numbers, out);
+        velocities.write(out);
+        let anchored = body.friction.pairs.iter();
+        let anchored: Vec<(u32, Anchored)> = anchored.map(|(pair, it)| (*pair, *it)).collect();
+        anchored.write(out);
+        contacts.map(|it| it.state().clone()).write(out);
+        body.costs.write(out);
+        CheckValues::new(&body.problem, &body.balanced).write(out);
+    }
+
+    /// Restores the motion of a problem at a row, with the criteria of bonds that had begun to soften.
+    pub(super) fn read(problem: &mut MotionProblem, from: &mut &[u8]) -> Result<Self, SetupError> {
+        let damaged = CheckpointError::Damaged;
+        let numbers = BondNumbers::new(&*problem.problem.system)?;
+        let state = State::read(&numbers, from)?;
+        let velocities: Velocities = Serial::read(from).map_err(damaged)?;
+        let anchored: Vec<(u32, Anchored)> = Serial::read(from).map_err(damaged)?;
+        let contact: Option<ContactState> = Serial::read(from).map_err(damaged)?;
+        let costs = Serial::read(from).map_err(damaged)?;
+        let system = &*problem.problem.system;
+        let lengths = [velocities.half.len(), velocities.acceleration.len()];
+        let fits = state.fits(system, system.ends().len(), &problem.problem.criteria);
+        let can_touch = match &contact {
+            Some(contact) => contact.fits(&problem.contact),
+            None => problem.contact.is_empty(),
+        };
+        if !fits || !can_touch || lengths != [state.displacement.len(); 2] {
+            return Err(CheckpointError::OtherModel.into());
+        }
+        problem.problem = with_begun(&problem.problem, &state)?;
+        let friction = FaceFriction::new(problem.face_friction, anchored.into_iter().collect());
+        let mut body = Body::new(&problem.problem, numbers, friction, Some(state));
+        body.costs = costs;
+        body.measure();
+        let resumed = |it| {
+            let motions = &body.state.displacement;
+            ContactForces::resumed(problem.contact.clone(), motions, it)
+        };
+        let contacts = contact.map(resumed);
+        if let Some(contacts) = &contacts {
+            contacts.add_forces(-1.0, &mut body.balanced.internal.values);
+        }
+        let values_then = CheckValues::read(from).map_err(damaged)?;
+        if !CheckValues::new(&body.problem, &body.balanced).agrees(&values_then) {
+            return Err(CheckpointError::OtherArithmetic.into());
+        }
+        Ok(Self {
+            body,
+            velocities,
+            contacts,
+        })
+    }
+}

@@ -1,0 +1,81 @@
+//! Checks of contacts and rigid bodies.
+
+use ligament_analysis::load_program::Amplitude;
+
+use super::check::{Checked, contradiction, positive, require, require_unique};
+use super::{Between, ContactLaw, RigidForm, Setup};
+use crate::error::Field;
+
+impl Setup {
+    /// Whether surfaces may come into contact.
+    pub fn has_contact(&self) -> bool {
+        !self.contacts.is_empty() || !self.rigid_bodies.is_empty()
+    }
+
+    pub(super) fn check_contacts(&self) -> Checked {
+        for (index, contact) in self.contacts.iter().enumerate() {
+            let field = Field::element("contacts", index);
+            self.check_contact_law(field, contact.law)?;
+            if let Between::Groups([one, other]) = &contact.between
+                && one == other
+            {
+                let reason = "contact is between two different groups: give two, or all parts";
+                return contradiction(field.part("between"), reason);
+            }
+        }
+        require_unique(
+            "rigid_bodies",
+            self.rigid_bodies.iter().map(|it| it.name.as_str()),
+        )?;
+        for (index, body) in self.rigid_bodies.iter().enumerate() {
+            let field = Field::element("rigid_bodies", index);
+            self.check_contact_law(field, body.law)?;
+            positive(field.part("mass"), body.mass)?;
+            self.check_form(field, &body.form)?;
+            let is_number = body.velocity.iter().all(|it| it.is_finite());
+            let expected = "of finite components";
+            require(is_number, field.part("velocity"), expected, body.velocity)?;
+            if body.mass.is_some() && body.amplitude != Amplitude::constant() {
+                let reason = "a body with a mass moves by itself from its first velocity: give an amplitude or a mass";
+                return contradiction(field.part("amplitude"), reason);
+            }
+        }
+        Ok(())
+    }
+
+    fn check_contact_law(&self, field: Field, law: ContactLaw) -> Checked {
+        let ContactLaw {
+            friction,
+            stiffness,
+        } = law;
+        let is_coefficient = friction >= 0.0 && friction.is_finite();
+        require(
+            is_coefficient,
+            field.part("friction"),
+            "0 or more",
+            friction,
+        )?;
+        positive(field.part("stiffness"), Some(stiffness))?;
+        let reason = "surfaces come into contact in a motion in time only";
+        match self.analysis.is_motion() {
+            true => Ok(()),
+            false => contradiction(field, reason),
+        }
+    }
+
+    fn check_form(&self, field: Field, form: &RigidForm) -> Checked {
+        let dimensions = self.body.dimensions();
+        match form {
+            RigidForm::Ball { radius, .. } => positive(field.part("radius"), Some(*radius)),
+            RigidForm::Wall { normal, .. } => {
+                let is_direction = *normal != [0.0; 3] && normal.iter().all(|it| it.is_finite());
+                let expected = format!("a direction other than {:?}", vec![0; dimensions]);
+                require(is_direction, field.part("normal"), expected, normal)
+            }
+            RigidForm::Box { size, .. } => {
+                let mut sides = size[..dimensions].iter();
+                sides.try_for_each(|&side| positive(field.part("size"), Some(side)))
+            }
+        }
+    }
+}
