@@ -52,8 +52,8 @@ struct Reading {
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut memory = Memory::default();
     let sets = published!("motion-branching").judge(extent, |labels| entry(labels, &mut memory))?;
-    let spread =
-        published!("motion-branching-spread").judge(extent, |labels| spread(labels, &mut memory))?;
+    let spread = published!("motion-branching-spread")
+        .judge(extent, |labels| spread(labels, &mut memory))?;
     let laws =
         published!("motion-branching-laws").judge(extent, |labels| entry(labels, &mut memory))?;
     Ok(Findings {

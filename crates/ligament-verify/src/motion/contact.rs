@@ -21,8 +21,8 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
     setup: "Collision: two bars of 40 x 3 points of 1 mm, nu = 0; one flies at 20 m/s into the other, and 80 us later both are apart. Shares of the first \
             momentum and energy. Circle: a rigid circle of 0.4 m pressed into a block of 120 x 60 points of 1 mm, E = 70 GPa, nu = 0.25, plane strain, with \
             damping until it rests; the compression of the 20 mm below its middle, over that of the half-plane under Hertz's pressure for the force on the base. \
-            Slope: a block of 8 x 4 points of 1 mm on a rigid slope of 25 degrees; its mean acceleration once gravity is constant, over g, and the way it goes in \
-            8 ms over that without friction.",
+            Slope: a block of 8 x 4 points of 1 mm on a rigid slope of 25 degrees, with damping; its mean acceleration once gravity is constant, over g, and its last \
+            velocity over that without friction.",
     cases: &[&COLLISION, &CIRCLE, &SLOPE],
     compute,
 };
@@ -67,7 +67,8 @@ struct Velocities(Vec<Vec<f64>>);
 
 impl Observer for Velocities {
     fn step(&mut self, _: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
-        self.0.extend(view.motion.map(|rates| rates.velocity.to_vec()));
+        self.0
+            .extend(view.motion.map(|rates| rates.velocity.to_vec()));
         Ok(())
     }
 }

@@ -75,8 +75,7 @@ pub(super) fn direction(places: &[[f64; 2]]) -> f64 {
 /// root x = c^2/c_S^2 of x^3 - 8 x^2 + (24 - 16 k) x - 16 (1 - k) = 0, k = (1 - 2 nu)/(2 - 2 nu) (Rayleigh 1885).
 pub(super) fn rayleigh(poisson: f64) -> f64 {
     let ratio = (1.0 - 2.0 * poisson) / (2.0 - 2.0 * poisson);
-    let value =
-        |x: f64| ((x - 8.0) * x + 24.0 - 16.0 * ratio) * x - 16.0 * (1.0 - ratio);
+    let value = |x: f64| ((x - 8.0) * x + 24.0 - 16.0 * ratio) * x - 16.0 * (1.0 - ratio);
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..60 {
         let half = 0.5 * (low + high);

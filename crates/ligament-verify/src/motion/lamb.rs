@@ -53,10 +53,9 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
             Ok(all)
         })
     };
-    let times =
-        published!("motion-lamb-times").judge(extent, |labels| {
-            Ok(1e6 * (extremum(labels, &stations()?)?[0] - PEAK_TIME))
-        })?;
+    let times = published!("motion-lamb-times").judge(extent, |labels| {
+        Ok(1e6 * (extremum(labels, &stations()?)?[0] - PEAK_TIME))
+    })?;
     let sizes = published!("motion-lamb-sizes").judge(extent, |labels| {
         Ok(1e9 * extremum(labels, &stations()?)?[1])
     })?;
