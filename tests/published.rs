@@ -54,6 +54,8 @@ fn is_stored(experiment: &Experiment, table: &Table) {
         "strength_disk",
         "strength_crack",
         "strength_glass",
+        "motion_branching",
+        "motion_kalthoff",
     ]
     .contains(&experiment.name)
     {
@@ -136,5 +138,13 @@ experiments!(
     strength_crack,
     strength_bar,
     strength_cube,
-    strength_glass
+    strength_glass,
+    motion_waves,
+    motion_vibration,
+    motion_lamb,
+    motion_branching,
+    motion_kalthoff,
+    motion_spall,
+    motion_contact,
+    motion_schemes
 );

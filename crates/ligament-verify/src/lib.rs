@@ -44,6 +44,7 @@ mod lamina;
 mod lamina_elements;
 mod maps;
 mod moduli;
+mod motion;
 mod named_modes;
 mod papers;
 mod patch_test;
@@ -75,7 +76,7 @@ use table::Extent;
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 32] = [
+pub static EXPERIMENTS: [Experiment; 40] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     readings::EXPERIMENT,
@@ -108,6 +109,14 @@ pub static EXPERIMENTS: [Experiment; 32] = [
     strength::bar::EXPERIMENT,
     strength::cube::EXPERIMENT,
     strength::glass::EXPERIMENT,
+    motion::waves::EXPERIMENT,
+    motion::vibration::EXPERIMENT,
+    motion::lamb::EXPERIMENT,
+    motion::branching::EXPERIMENT,
+    motion::kalthoff::EXPERIMENT,
+    motion::spall::EXPERIMENT,
+    motion::contact::EXPERIMENT,
+    motion::schemes::EXPERIMENT,
 ];
 
 const EXAMPLES: &str = "\

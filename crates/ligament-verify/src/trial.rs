@@ -112,13 +112,21 @@ impl Trial {
 
     /// Runs the case, as `ligament run` does.
     pub(super) fn solve(&self) -> anyhow::Result<Solution> {
-        self.with_setup(|case, setup| run(case, setup, &mut NoObserver))
+        self.solve_seen(&mut NoObserver)
+    }
+
+    /// Runs the case with an observer.
+    pub(super) fn solve_seen(
+        &self,
+        observer: &mut (dyn Observer + Send),
+    ) -> anyhow::Result<Solution> {
+        self.with_setup(|case, setup| run(case, setup, observer))
     }
 
     /// Runs the case, and returns all breakages in their order.
     pub(super) fn solve_with_breakages(&self) -> anyhow::Result<(Solution, Vec<BreakRecord>)> {
         let mut breakages = Breakages::default();
-        let solution = self.with_setup(|case, setup| run(case, setup, &mut breakages))?;
+        let solution = self.solve_seen(&mut breakages)?;
         Ok((solution, breakages.records))
     }
 

@@ -1,0 +1,12 @@
+//! Motions in time: waves, vibrations, collisions and fast cracks against closed forms, tests and the results of others.
+
+pub(super) mod branching;
+pub(super) mod contact;
+mod fast_crack;
+pub(super) mod kalthoff;
+pub(super) mod lamb;
+mod record;
+pub(super) mod schemes;
+pub(super) mod spall;
+pub(super) mod vibration;
+pub(super) mod waves;

@@ -1,0 +1,155 @@
+//! A quantity of the history of a motion over time: its extrema, zeros and phases.
+
+use std::f64::consts::{PI, TAU};
+
+use anyhow::Context;
+use ligament::run::Solution;
+use ligament_analysis::history::StepRecord;
+
+/// Share of the duration after which a record fades out before its Fourier transform.
+const FADE: f64 = 0.8;
+
+/// Values at equal times.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Record {
+    /// Times, s.
+    pub(super) times: Vec<f64>,
+    /// Values at the times.
+    pub(super) values: Vec<f64>,
+}
+
+impl Record {
+    /// A quantity of every row of a motion.
+    pub(super) fn of(solution: &Solution, value: impl Fn(&StepRecord) -> f64) -> Self {
+        let rows = &solution.outcome.history;
+        Self {
+            times: rows.iter().map(|row| row.load_factor).collect(),
+            values: rows.iter().map(value).collect(),
+        }
+    }
+
+    /// The values of a probe.
+    pub(super) fn of_probe(solution: &Solution, name: &str) -> anyhow::Result<Self> {
+        let place = solution.probes.iter().position(|probe| probe.name == name);
+        let place = place.with_context(|| format!("the run has no probe `{name}`"))?;
+        Ok(Self::of(solution, |row| row.probes[place]))
+    }
+
+    /// The record with the weighted values of another one at the same times added.
+    pub(super) fn plus(mut self, weight: f64, other: &Self) -> Self {
+        for (value, added) in self.values.iter_mut().zip(&other.values) {
+            *value += weight * added;
+        }
+        self
+    }
+
+    /// The record times a factor.
+    pub(super) fn times_factor(mut self, factor: f64) -> Self {
+        self.values.iter_mut().for_each(|value| *value *= factor);
+        self
+    }
+
+    /// Time and size of the largest value within a window of time, by the parabola through it and its neighbours.
+    pub(super) fn peak(&self, [from, to]: [f64; 2]) -> anyhow::Result<[f64; 2]> {
+        let inner = 1..self.values.len().saturating_sub(1);
+        let places = inner.filter(|&it| (from..=to).contains(&self.times[it]));
+        let place = places.max_by(|&one, &other| self.values[one].total_cmp(&self.values[other]));
+        let place = place.context("the motion has no rows in the window")?;
+        let [before, at, after] = [place - 1, place, place + 1].map(|it| self.values[it]);
+        let curvature = before - 2.0 * at + after;
+        let shift = match curvature {
+            0.0 => 0.0,
+            _ => 0.5 * (before - after) / curvature,
+        };
+        let spacing = self.times[place + 1] - self.times[place];
+        Ok([
+            self.times[place] + shift * spacing,
+            at - 0.25 * (before - after) * shift,
+        ])
+    }
+
+    /// First time after `from` at which the values fall through zero, between rows by a straight line.
+    pub(super) fn fall(&self, from: f64) -> anyhow::Result<f64> {
+        self.falls(from).first().copied().context("no zero follows")
+    }
+
+    /// All times after `from` at which the values fall through zero.
+    pub(super) fn falls(&self, from: f64) -> Vec<f64> {
+        let pairs = self.times.windows(2).zip(self.values.windows(2));
+        let falling =
+            pairs.filter(|(times, values)| times[0] >= from && values[0] > 0.0 && values[1] <= 0.0);
+        falling
+            .map(|(times, values)| {
+                times[0] + (times[1] - times[0]) * values[0] / (values[0] - values[1])
+            })
+            .collect()
+    }
+
+    /// Real and imaginary part of the Fourier transform at an angular frequency; the last fifth of the record fades out.
+    fn transform(&self, omega: f64) -> [f64; 2] {
+        let end = self.times.last().copied().unwrap_or_default();
+        let weight = |time: f64| match time / end {
+            share if share < FADE => 1.0,
+            share => 0.5 + 0.5 * (PI * (share - FADE) / (1.0 - FADE)).cos(),
+        };
+        let rows = self.times.iter().zip(&self.values);
+        rows.fold([0.0; 2], |[real, imaginary], (&time, value)| {
+            let value = value * weight(time);
+            let (sine, cosine) = (omega * time).sin_cos();
+            [real + value * cosine, imaginary - value * sine]
+        })
+    }
+
+    /// Phases, rad, by which another record is behind this one at multiples of a small angular frequency.
+    pub(super) fn delays(&self, other: &Self, step: f64, count: usize) -> Vec<[f64; 2]> {
+        let mut last = 0.0;
+        let mut delays = Vec::with_capacity(count);
+        for place in 1..=count {
+            let omega = step * place as f64;
+            let angle = |record: &Self| {
+                let [real, imaginary] = record.transform(omega);
+                imaginary.atan2(real)
+            };
+            let mut delay = angle(self) - angle(other);
+            delay += TAU * ((last - delay) / TAU).round();
+            last = delay;
+            delays.push([omega, delay]);
+        }
+        delays
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record(value: impl Fn(f64) -> f64) -> Record {
+        let times: Vec<f64> = (0..1000).map(|row| 0.01 * f64::from(row)).collect();
+        Record {
+            values: times.iter().map(|&time| value(time)).collect(),
+            times,
+        }
+    }
+
+    #[test]
+    fn a_late_pulse_is_behind_by_its_delay() {
+        let pulse = |time: f64| (-20.0 * (time - 2.0).powi(2)).exp();
+        let (first, second) = (record(pulse), record(|time| pulse(time - 3.004)));
+        for [omega, delay] in first.delays(&second, 0.1, 60) {
+            assert!((delay / omega - 3.004).abs() < 1e-9, "{omega} {delay}");
+        }
+        let [time, size] = second.peak([0.0, 10.0]).unwrap();
+        assert!((time - 5.004).abs() < 1e-4 && (size - 1.0).abs() < 1e-4);
+        assert!(second.peak([11.0, 12.0]).is_err());
+    }
+
+    #[test]
+    fn zeros_lie_between_rows() {
+        let wave = record(|time| (time - 0.1234).cos());
+        let falls = wave.falls(0.0);
+        assert_eq!(falls.len(), 2);
+        assert!((falls[0] - 0.1234 - PI / 2.0).abs() < 1e-5);
+        assert!((wave.fall(3.0).unwrap() - 0.1234 - 2.5 * PI).abs() < 1e-5);
+        assert!(wave.fall(9.0).is_err());
+    }
+}
