@@ -299,7 +299,7 @@ mod tests {
         assert_eq!(early.units.stiffness(), "N/m");
         assert!(early.provenance.is_none() && early.solver.iteration.is_none());
         assert_eq!(early.solver.factor.as_ref().unwrap().update, "incremental");
-        let bond = early.first_broken_bond.as_ref().unwrap().to_string();
+        let bond = early.first_broken_bond.as_ref().unwrap().words(false);
         assert!(bond.starts_with("points 3 and 7 at "), "{bond}");
 
         let folder = tempfile::tempdir().unwrap();

@@ -188,12 +188,7 @@ fn results_of_steps(summary: &Summary) -> Vec<Entry> {
             quantity(it, &summary.units.stiffness()),
         )
     };
-    let (count, steps) = match &summary.motion {
-        Some(motion) => (motion.time_steps, "time steps"),
-        None if summary.exact_path => (summary.steps, "states of the exact path"),
-        None => (summary.steps, "load steps"),
-    };
-    let broken = format!("{} in {count} {steps}", summary.broken_bonds);
+    let broken = format!("{} in {}", summary.broken_bonds, steps_in_words(summary));
     let balance = Some(summary.energy_balance_error).filter(|it| it.is_finite());
     let balance = balance.map(|it| entry("Energy balance", format!("off by {it:.1e} of the work")));
     let rows = [
@@ -209,6 +204,15 @@ fn results_of_steps(summary: &Summary) -> Vec<Entry> {
     ];
     let motion = summary.motion.iter().flat_map(of_motion);
     rows.into_iter().flatten().chain(motion).collect()
+}
+
+/// The number of steps with what they are called.
+fn steps_in_words(summary: &Summary) -> String {
+    match &summary.motion {
+        Some(motion) => format!("{} time steps", motion.time_steps),
+        None if summary.exact_path => format!("{} states of the exact path", summary.steps),
+        None => format!("{} load steps", summary.steps),
+    }
 }
 
 /// Time, steps and energies of a motion.

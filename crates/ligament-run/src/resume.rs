@@ -125,15 +125,7 @@ impl Request<'_> {
             .zip(restored)
             .map(|((checkpoint, results), restored)| {
                 let kept = kept(checkpoint, results, restored, &problem)?;
-                let reached = kept.restored.load_factor();
-                let reached = match model.setup.analysis.is_motion() {
-                    true => quantity(reached, "s"),
-                    false => format!("load factor {reached:.4}"),
-                };
-                progress.stage(&format!(
-                    "resuming at {reached} with {} broken",
-                    kept.restored.broken_bonds()
-                ));
+                progress.stage(&resuming(&kept.restored, &model));
                 anyhow::Ok(kept)
             });
         let kept = kept.transpose()?;
@@ -155,6 +147,16 @@ impl Request<'_> {
         )?;
         Ok(Report::Loading(Box::new(summary)))
     }
+}
+
+/// The line that tells where a run goes on.
+fn resuming(restored: &Restored, model: &Model) -> String {
+    let (reached, broken) = (restored.load_factor(), restored.broken_bonds());
+    let reached = match model.setup.analysis.is_motion() {
+        true => quantity(reached, "s"),
+        false => format!("load factor {reached:.4}"),
+    };
+    format!("resuming at {reached} with {broken} broken")
 }
 
 /// The run of a checkpoint's solution.

@@ -80,9 +80,8 @@ pub fn summary(
     let scale = |step: &StepRecord| step.external_work.abs().max(step.energy_floor);
     let work = largest(&mut history.iter().map(scale));
     let missing = largest(&mut history.iter().map(|step| step.missing_energy().abs()));
-    let is_cut_short =
-        !without_equilibrium && matches!(outcome.termination, Termination::NoEquilibrium { .. });
-    let of_end = is_cut_short.then(|| UP_TO_THERE.to_owned());
+    let is_cut_short = matches!(outcome.termination, Termination::NoEquilibrium { .. });
+    let of_end = (is_cut_short && !without_equilibrium).then(|| UP_TO_THERE.to_owned());
     Summary {
         model: model::model_summary(case, model),
         temperature_change: temperature_change(boundary),

@@ -4,7 +4,7 @@ use ligament_model::Absence;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::{Measure, Softened};
 use ligament_output::quantity::quantity;
-use ligament_output::results::stored::StoredRun;
+use ligament_output::results::stored::{StoredBreak, StoredRun, StoredStep};
 
 use super::bond_history::{BondHistories, BondHistory, Limit, Nearest};
 
@@ -89,6 +89,28 @@ pub(super) fn limits(life: &BondHistory) -> Vec<(String, String)> {
         .collect()
 }
 
+/// When a bond broke.
+fn when(lives: &BondHistories, broke: &StoredBreak) -> String {
+    match lives.in_time {
+        true => {
+            let time = quantity(broke.at.load_factor, "s");
+            format!("after {time}, in time step {}", broke.round)
+        }
+        false => format!("in step {}, round {}", broke.at.step, broke.round),
+    }
+}
+
+/// The load of a state, in a motion without its factor, which is the time.
+fn load_words(lives: &BondHistories, at: &StoredStep) -> String {
+    let load = match lives.in_time {
+        true => "Load:".to_owned(),
+        false => format!("Load factor {:.6},", at.load_factor),
+    };
+    let displacement = quantity(at.displacement, lives.units.displacement);
+    let reaction = quantity(at.reaction, lives.units.force);
+    format!("{load} displacement {displacement}, reaction {reaction}.")
+}
+
 /// Description of the breakage or the state of a bond, one sentence per line.
 pub(super) fn bond_description(
     run: &StoredRun,
@@ -96,13 +118,7 @@ pub(super) fn bond_description(
     life: &BondHistory,
 ) -> Vec<String> {
     if let Some((broke, criterion)) = &life.breakage {
-        let when = match lives.in_time {
-            true => {
-                let time = quantity(broke.at.load_factor, "s");
-                format!("after {time}, in time step {}", broke.round)
-            }
-            false => format!("in step {}, round {}", broke.at.step, broke.round),
-        };
+        let when = when(lives, broke);
         let mut lines = vec![format!(
             "It broke {when}, as number {} of {} broken bonds, by `{}`.",
             broke.order,
@@ -130,15 +146,7 @@ pub(super) fn bond_description(
             "Deformation at breakage: {}.",
             deformed(lives, &deformation)
         ));
-        let load = match lives.in_time {
-            true => "Load:".to_owned(),
-            false => format!("Load factor {:.6},", broke.at.load_factor),
-        };
-        lines.push(format!(
-            "{load} displacement {}, reaction {}.",
-            quantity(broke.at.displacement, lives.units.displacement),
-            quantity(broke.at.reaction, lives.units.force)
-        ));
+        lines.push(load_words(lives, &broke.at));
         return lines;
     }
     if life.limits.is_empty() {

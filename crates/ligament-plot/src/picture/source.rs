@@ -143,6 +143,12 @@ fn default_field(sources: &[Source]) -> Result<&'static str, PictureError> {
     Ok(DISPLACEMENT.name)
 }
 
+/// The largest size of a value of the moments.
+fn largest(moments: &BTreeMap<usize, Moment>, of: fn(&Moment) -> f64) -> f64 {
+    let sizes = moments.values().map(|it| of(it).abs());
+    sizes.fold(0.0, f64::max)
+}
+
 impl Source {
     fn open(folder: &Path, label: String, request: &FieldRequest) -> Result<Self, PictureError> {
         let mut source = Self {
@@ -174,18 +180,15 @@ impl Source {
         }
         source.moments = moments(folder)?;
         let loading = stored_loading(folder).ok();
-        let largest = |of: fn(&Moment) -> f64| {
-            let sizes = source.moments.values().map(|it| of(it).abs());
-            sizes.fold(0.0, f64::max)
-        };
+        let largest = |of: fn(&Moment) -> f64| largest(&source.moments, of);
         source.shown = loading.as_ref().map(|it| {
             [
                 Shown::new(it.units.displacement, largest(|it| it.displacement)),
                 Shown::new(it.units.force, largest(|it| it.reaction)),
             ]
         });
-        let in_time = loading.as_ref().is_some_and(|it| it.in_time);
-        source.time = in_time.then(|| Shown::new("s", largest(|it| it.load_factor)));
+        let moving = loading.as_ref().filter(|it| it.in_time);
+        source.time = moving.map(|_| Shown::new("s", largest(|it| it.load_factor)));
         if request.crack.is_some() && has_solid(folder)? {
             source.solid_cracks = Some(SolidCracks::open(folder)?);
             return Ok(source);

@@ -12,12 +12,13 @@ from typing import Any
 
 from ligament import _native, _progress
 from ligament._case import Case, Source, case_of
+from ligament._curves import curves
 from ligament._errors import Interrupted, LigamentError, NotCalibrated
 from ligament._home import Home
 from ligament._modes import Modes
 from ligament._picture import Picture
 from ligament._progress import Report
-from ligament._result import Result, curves, table
+from ligament._result import Result, table
 
 
 def run(
