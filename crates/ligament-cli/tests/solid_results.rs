@@ -162,7 +162,7 @@ fn a_page_of_a_solid_has_its_body_and_its_crack() {
     );
     assert!(run["bonds"]["count"].as_u64().unwrap() > 500);
     let cracks = &run["cracks"];
-    assert!(cracks["tetrahedra"].as_u64().unwrap() > 50);
+    assert!(cracks["simplices"].as_u64().unwrap() > 50);
     let areas: Vec<f64> = serde_json::from_value(cracks["area"]["values"].clone()).unwrap();
     assert!(
         areas.len() == 5 && areas[0] == 0.0 && areas[4] > 0.0,

@@ -138,26 +138,26 @@ pub fn restore<'a>(
     let problem = match (posed.into(), analysis) {
         (Posed::Motion(problem), Analysis::Motion(settings)) => {
             let restored = motion::restore(problem, settings, checkpoint)?;
-            return Ok(Restored::Motion(restored));
+            return Ok(Restored::Motion(Box::new(restored)));
         }
         (Posed::Motion(_), _) => return Err(other_analysis(analysis, "a motion")),
         (Posed::Statics(problem), _) => problem,
     };
-    Ok(Restored::Statics(match analysis {
+    Ok(Restored::Statics(Box::new(match analysis {
         Analysis::Stepped(settings) => driver::stepped::restore(problem, settings, checkpoint)?,
         Analysis::Event(settings) => driver::event::restore(problem, settings, checkpoint)?,
         Analysis::Elastic { .. } | Analysis::Modal(_) | Analysis::Motion(_) => {
             return Err(without_fracture());
         }
-    }))
+    })))
 }
 
 /// A restored run, ready to continue.
 pub enum Restored {
     /// Equilibrium under loads.
-    Statics(driver::Restored),
+    Statics(Box<driver::Restored>),
     /// Motion in time.
-    Motion(motion::Restored),
+    Motion(Box<motion::Restored>),
 }
 
 impl Restored {
@@ -190,13 +190,13 @@ pub fn resume(
 ) -> Result<Outcome, Error> {
     Ok(match (analysis, restored) {
         (Analysis::Stepped(settings), Restored::Statics(restored)) => {
-            driver::stepped::resume(settings, restored, observer)?
+            driver::stepped::resume(settings, *restored, observer)?
         }
         (Analysis::Event(settings), Restored::Statics(restored)) => {
-            driver::event::resume(settings, restored, observer)?
+            driver::event::resume(settings, *restored, observer)?
         }
         (Analysis::Motion(settings), Restored::Motion(restored)) => {
-            motion::resume(settings, restored, observer)?
+            motion::resume(settings, *restored, observer)?
         }
         (
             Analysis::Elastic { .. }
