@@ -47,7 +47,7 @@ pub enum Termination {
         seconds: f64,
     },
     /// The motion reached its end.
-    #[error("the end of the motion, {time} s, was reached")]
+    #[error("the end of the motion, {time:?} s, was reached")]
     TimeReached {
         /// Duration, s.
         time: f64,

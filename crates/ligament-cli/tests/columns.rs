@@ -48,6 +48,16 @@ component = "x"
 steps = 10
 "#;
 
+/// The bar pulled by a sudden force that tears it from the slit on.
+fn moving() -> String {
+    let steps = "[fracture]\nsteps = 10";
+    let motion = "[fracture]\n[motion]\nduration = 3e-4\nrows = 30";
+    let load = "displacement = { x = 4e-4 }";
+    BAR.replace(steps, motion)
+        .replace(load, "force = { x = 600.0 }")
+        .replace("young = 1e9", "young = 1e9\ndensity = 2000.0")
+}
+
 /// A bar in space of 8 x 4 x 4 cells.
 const SOLID: &str = include_str!("support/small-solid.toml");
 
@@ -194,8 +204,8 @@ fn compare(heading: &str, written: &[Vec<String>], names: &Names, wrong: &mut Ve
 }
 
 /// Runs whose tables together have all columns: on a lattice, brittle and softening; with strains of their own; on a mesh; with cracks that close; in stages;
-/// in space; between points of a table; modes.
-fn runs(place: &Place) -> [&'static str; 8] {
+/// in space; between points of a table; in time; modes.
+fn runs(place: &Place) -> [&'static str; 9] {
     fs::write(place.path("bar.toml"), BAR).unwrap();
     let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes");
     let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/brazilian-disk/case.toml");
@@ -244,8 +254,10 @@ fn runs(place: &Place) -> [&'static str; 8] {
         "run solid.toml --out solid-modal --quiet --set analysis=\"modal\" --set modal.modes=1 --unset fracture --unset load --unset probe \
          --unset no_fail --unset output",
     );
+    fs::write(place.path("moving.toml"), moving()).unwrap();
+    place.call("run moving.toml --out moving --quiet");
     [
-        "brittle", "soft", "mbb", "mesh", "closing", "stages", "solid", "cloud",
+        "brittle", "soft", "mbb", "mesh", "closing", "stages", "solid", "cloud", "moving",
     ]
 }
 
@@ -305,16 +317,14 @@ fn the_page_has_every_column_that_is_written() {
 
 fn of_stored_results(place: &Place, names: &Names, wrong: &mut Vec<String>) {
     place.call("crack brittle");
+    place.call("crack moving");
     for file in ["crack.csv", "crack_tips.csv"] {
-        compare(
-            file,
-            &[place.header(&format!("brittle/{file}"))],
-            names,
-            wrong,
-        );
+        let headers = ["brittle", "moving"].map(|run| place.header(&format!("{run}/{file}")));
+        compare(file, &headers, names, wrong);
     }
     place.call("crack solid");
-    let growth = ["brittle", "solid"].map(|run| place.header(&format!("{run}/crack_growth.csv")));
+    let growth =
+        ["brittle", "moving", "solid"].map(|run| place.header(&format!("{run}/crack_growth.csv")));
     compare("crack_growth.csv", &growth, names, wrong);
     place.call(
         "profile soft --from 0,0.03 --to 0.12,0.03 --field damage displacement.x --out profile.csv",

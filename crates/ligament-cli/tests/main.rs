@@ -9,6 +9,7 @@ mod faults;
 mod foresight;
 mod lattice_command;
 mod modal_command;
+mod motion_results;
 mod plot;
 mod repeat_command;
 mod report_command;

@@ -28,6 +28,8 @@ impl Shown {
         };
         let symbol = if unit == "-" { "" } else { unit };
         match unit {
+            // Longer times are no kiloseconds.
+            "s" if exact >= 3.0 => return Self::plain(symbol),
             "m^2" => return Self::of_lengths(symbol, exact, 2),
             "m^3" => return Self::of_lengths(symbol, exact, 3),
             _ => {}
@@ -36,7 +38,8 @@ impl Shown {
         let shift = if unit == "m" { 1.0 } else { 0.0 };
         let thousands = ((exact + shift) / 3.0 + 1e-9).floor() as i32;
         let first = ["Pa", "Hz", "N", "J", "rad"];
-        let takes_prefix = unit == "m" || first.iter().any(|it| unit.starts_with(it));
+        let takes_prefix =
+            ["m", "s"].contains(&unit) || first.iter().any(|it| unit.starts_with(it));
         let prefix = usize::try_from(thousands + 4)
             .ok()
             .and_then(|it| PREFIXES.get(it));
@@ -201,6 +204,10 @@ mod tests {
             ("m^2", 1e-11, "10.00 um^2"),
             ("m^3", 7.852e-3, "0.007852 m^3"),
             ("m^3", 2e-6, "2000 mm^3"),
+            ("s", 7.25e-5, "72.50 us"),
+            ("s", 0.25, "250.0 ms"),
+            ("s", 3600.0, "3600 s"),
+            ("m/s", 1250.0, "1250 m/s"),
             ("K", 120.0, "120.0 K"),
             ("1/K", 1.1e-5, "11.00e-6 1/K"),
             ("-", 0.4, "0.4000"),

@@ -2,12 +2,12 @@
 
 mod modal;
 mod model;
+mod motion;
 mod provenance;
 mod solver;
 mod values;
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::path::Path;
 
 use ligament_analysis::balanced::Stability;
@@ -18,10 +18,11 @@ use serde::{Deserialize, Serialize};
 use crate::Error;
 use crate::atomic::read_text;
 use crate::folder::ResultFolder;
-use crate::quantity::place;
+use crate::quantity::{place, quantity};
 
 pub use modal::{ModalSummary, ModeSummary};
 pub use model::{CorrectionSummary, ModelSummary, ScatterSummary, Spread};
+pub use motion::{EnergiesSummary, MotionSummary};
 pub use provenance::{Build, Identity, Input, Provenance, Stage};
 use values::number;
 
@@ -64,10 +65,13 @@ pub struct Summary {
     /// Number of unbroken softening bonds at the end; only where bonds soften.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub softened_bonds: Option<usize>,
-    /// Number of load steps, or events of the exact path, including the last state.
+    /// Number of load steps, events of the exact path, or rows of a motion, including the last state.
     pub steps: usize,
     /// Whether [`steps`](Self::steps) counts events of the exact path.
     pub exact_path: bool,
+    /// Time, steps and energies of a motion in time, of which each load factor is a time in s; none in statics.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub motion: Option<MotionSummary>,
     /// Reason of the run's end, as a short name.
     pub termination: Text,
     /// Reason of the run's end, as a message.
@@ -189,16 +193,21 @@ fn point() -> &'static str {
     "point"
 }
 
-impl fmt::Display for BondEvent {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl BondEvent {
+    /// When it happened: in a step, or at a time of a motion.
+    pub fn when(&self, in_time: bool) -> String {
+        match in_time {
+            true => format!("after {}", quantity(self.load_factor, "s")),
+            false => format!("in step {}", self.step),
+        }
+    }
+
+    /// The bond in words, with the place, [when](Self::when) it happened and by which criterion.
+    pub fn words(&self, in_time: bool) -> String {
         let [a, b] = self.ends;
         let (tagged, criterion) = (self.tagged, &self.criterion);
-        write!(
-            f,
-            "{tagged}s {a} and {b} at {}, in step {}, by {criterion}",
-            place(&self.place),
-            self.step
-        )
+        let (place, when) = (place(&self.place), self.when(in_time));
+        format!("{tagged}s {a} and {b} at {place}, {when}, by {criterion}")
     }
 }
 
@@ -290,7 +299,7 @@ mod tests {
         assert_eq!(early.units.stiffness(), "N/m");
         assert!(early.provenance.is_none() && early.solver.iteration.is_none());
         assert_eq!(early.solver.factor.as_ref().unwrap().update, "incremental");
-        let bond = early.first_broken_bond.as_ref().unwrap().to_string();
+        let bond = early.first_broken_bond.as_ref().unwrap().words(false);
         assert!(bond.starts_with("points 3 and 7 at "), "{bond}");
 
         let folder = tempfile::tempdir().unwrap();

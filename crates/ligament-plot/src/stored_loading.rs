@@ -14,6 +14,8 @@ use ligament::units::Units;
 pub struct StoredLoading {
     /// Whether the rows of the history are events, each just before its bonds break.
     pub follows_path: bool,
+    /// Whether the run is a motion in time, of which the load factor is the time in s.
+    pub in_time: bool,
     /// Units of the first load.
     pub units: Units,
     /// Units of the probes by their names.
@@ -26,6 +28,7 @@ impl StoredLoading {
         match column {
             "displacement" => self.units.displacement,
             "reaction" => self.units.force,
+            "load_factor" if self.in_time => "s",
             name => (self.probes.get(name).copied()).unwrap_or_else(|| columns::unit_of(name)),
         }
     }
@@ -42,8 +45,13 @@ pub fn stored_loading(folder: &Path) -> Result<StoredLoading, Error> {
     let first = case.get("load").and_then(|loads| loads.get(0));
     let given = |key: &str| first.and_then(|load| load.get(key));
     let moves = |motion: &toml::Value| ["x", "y", "z"].iter().any(|it| motion.get(it).is_some());
-    let turns = given("displacement").is_some_and(|motion| !moves(motion));
-    let units = if first.is_none() {
+    let motion = given("displacement").or(given("velocity"));
+    let motion = motion.or(given("base_acceleration"));
+    let turns = motion.is_some_and(|motion| !moves(motion));
+    let in_time = case.contains_key("motion");
+    let units = if first.is_none() && in_time {
+        Units::FORCE
+    } else if first.is_none() {
         Units::TEMPERATURE
     } else if given("pressure").is_some() {
         Units::PRESSURE
@@ -53,6 +61,7 @@ pub fn stored_loading(folder: &Path) -> Result<StoredLoading, Error> {
         Units::FORCE
     };
     Ok(StoredLoading {
+        in_time,
         follows_path: control.and_then(toml::Value::as_str) == Some("event"),
         units,
         probes: probes(&case),

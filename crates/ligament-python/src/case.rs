@@ -88,6 +88,12 @@ impl Case {
         self.file.case.modal.is_some()
     }
 
+    /// Whether the case is a motion in time.
+    #[getter]
+    fn is_motion(&self) -> bool {
+        self.file.case.motion.is_some()
+    }
+
     /// The number at a key, as given or by default; `None` where there is none.
     fn number(&self, py: Python<'_>, key: &str) -> PyResult<Option<f64>> {
         let number = self.file.number(key);

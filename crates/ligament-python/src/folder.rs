@@ -86,6 +86,12 @@ impl Folder {
         Ok(units)
     }
 
+    /// Names of the probes.
+    fn probes(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        let loading = stored_loading(&self.path).map_err(told(py))?;
+        Ok(loading.probes.into_keys().collect())
+    }
+
     /// Steps with fields.
     fn steps(&self, py: Python<'_>) -> PyResult<Vec<usize>> {
         Ok(self.outputs(py)?.files.into_keys().collect())

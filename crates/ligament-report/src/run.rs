@@ -84,7 +84,11 @@ impl PageRun {
             "title": title,
             "kind": if is_modes { "modes" } else { "steps" },
             "steps": steps,
-            "opensAt": steps.iter().position(|it| Some(*it) == peak).unwrap_or(0),
+            "opensAt": match loading.in_time {
+                true => steps.len().saturating_sub(1),
+                false => steps.iter().position(|it| Some(*it) == peak).unwrap_or(0),
+            },
+            "inTime": loading.in_time,
             "beforeBreakages": loading.follows_path,
             "history": history,
             "firstField": first_field_of(&outputs)?.name,

@@ -6,8 +6,8 @@ use ligament_output::Error;
 use ligament_output::quantity::{settled, without_rounding};
 use ligament_output::results::outputs::OutputKind;
 use ligament_output::summary::{
-    self, BondEvent, Input, ModalSummary, ModeSummary, ModelSummary, PathPoint, Provenance, Stage,
-    Summary, UnitsSummary,
+    self, BondEvent, Input, ModalSummary, ModeSummary, ModelSummary, MotionSummary, PathPoint,
+    Provenance, Stage, Summary, UnitsSummary,
 };
 use ligament_plot::picture::units::Shown;
 
@@ -157,6 +157,11 @@ fn results_of_steps(summary: &Summary) -> Vec<Entry> {
     };
     let load_at = |name: &str, point: Option<PathPoint>| {
         let point = point.filter(|it| it.reaction.is_finite() && it.displacement.is_finite())?;
+        if summary.motion.is_some() {
+            let [load, at] = [(point.reaction, &**force), (point.load_factor, "s")]
+                .map(|(value, unit)| quantity(value, unit));
+            return (point.reaction != 0.0).then(|| entry(name, format!("{load} at {at}")));
+        }
         let [load, at] = [
             (point.reaction, largest(|it| it.reaction), force),
             (
@@ -168,8 +173,10 @@ fn results_of_steps(summary: &Summary) -> Vec<Entry> {
         .map(|(value, largest, unit)| quantity(settled(value, largest), unit));
         Some(entry(name, format!("{load} at {at}")))
     };
-    let bond =
-        |name: &str, bond: &Option<BondEvent>| bond.as_ref().map(|it| entry(name, words(it)));
+    let in_time = summary.motion.is_some();
+    let bond = |name: &str, bond: &Option<BondEvent>| {
+        bond.as_ref().map(|it| entry(name, words(it, in_time)))
+    };
     let onset = match summary.first_softened_bond {
         Some(_) => "First softening",
         None => "First breakage",
@@ -181,11 +188,7 @@ fn results_of_steps(summary: &Summary) -> Vec<Entry> {
             quantity(it, &summary.units.stiffness()),
         )
     };
-    let steps = match summary.exact_path {
-        true => "states of the exact path",
-        false => "load steps",
-    };
-    let broken = format!("{} in {} {steps}", summary.broken_bonds, summary.steps);
+    let broken = format!("{} in {}", summary.broken_bonds, steps_in_words(summary));
     let balance = Some(summary.energy_balance_error).filter(|it| it.is_finite());
     let balance = balance.map(|it| entry("Energy balance", format!("off by {it:.1e} of the work")));
     let rows = [
@@ -199,15 +202,45 @@ fn results_of_steps(summary: &Summary) -> Vec<Entry> {
         balance,
         Some(entry("Ended because", &*summary.termination_message)),
     ];
-    rows.into_iter().flatten().collect()
+    let motion = summary.motion.iter().flat_map(of_motion);
+    rows.into_iter().flatten().chain(motion).collect()
 }
 
-fn words(bond: &BondEvent) -> String {
+/// The number of steps with what they are called.
+fn steps_in_words(summary: &Summary) -> String {
+    match &summary.motion {
+        Some(motion) => format!("{} time steps", motion.time_steps),
+        None if summary.exact_path => format!("{} states of the exact path", summary.steps),
+        None => format!("{} load steps", summary.steps),
+    }
+}
+
+/// Time, steps and energies of a motion.
+fn of_motion(motion: &MotionSummary) -> Vec<Entry> {
+    let time = quantity(motion.time, "s");
+    let step = quantity(motion.time_step, "s");
+    let mut rows = vec![entry("Time", time), entry("Time step", step)];
+    if let (Some(critical), Some(by)) = (motion.critical_step, &motion.limited_by) {
+        let critical = quantity(critical, "s");
+        rows.push(entry(
+            "Critical step",
+            format!("{critical}, limited by {by}"),
+        ));
+    }
+    let energies = motion.energies.named().into_iter();
+    let energies = energies.filter(|it| it.1 != 0.0);
+    rows.extend(
+        energies.map(|(name, energy)| entry(&format!("Energy, {name}"), quantity(energy, "J"))),
+    );
+    rows
+}
+
+fn words(bond: &BondEvent, in_time: bool) -> String {
     let [a, b] = bond.ends;
     let place = bond.place.iter().map(|it| format!("{:.2}", 1e3 * it));
     let place = place.collect::<Vec<String>>().join(", ");
-    let (step, criterion) = (bond.step, &bond.criterion);
-    format!("{a} to {b} at ({place}) mm, in step {step}, by {criterion}")
+    let (when, criterion) = (bond.when(in_time), &bond.criterion);
+    format!("{a} to {b} at ({place}) mm, {when}, by {criterion}")
 }
 
 fn results_of_modes(summary: &ModalSummary) -> Vec<Entry> {

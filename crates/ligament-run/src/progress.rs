@@ -43,10 +43,12 @@ impl ProgressMode {
 /// State of the run in or at the end of a load step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepLine {
-    /// The load step, from 1.
+    /// The load step, or the row of a motion, from 1.
     pub step: u64,
-    /// Load factor of the step.
+    /// Load factor of the step; the time of a motion, s.
     pub load_factor: f64,
+    /// Whether the run is a motion in time.
+    pub in_time: bool,
     /// Displacement of the load, if there is one, in [`units`](Self::units).
     pub displacement: Option<f64>,
     /// Size of the load, if there is one, in [`units`](Self::units).
@@ -65,6 +67,7 @@ impl StepLine {
     fn text(&self) -> String {
         let factor = self.load_factor;
         let mut text = match &self.stage {
+            None if self.in_time => quantity(factor, "s"),
             Some(stage) => format!("stage {stage}, load factor {factor:.4}"),
             None => format!("load factor {factor:.4}"),
         };
@@ -134,13 +137,15 @@ impl Progress {
     }
 
     /// Starts the load steps; `total` is their largest number, where known.
-    pub fn begin_steps(&mut self, total: Option<u64>) {
+    ///
+    /// `noun` is what they are called.
+    pub fn begin_steps(&mut self, total: Option<u64>, noun: &str) {
         self.total = total;
         self.started = Instant::now();
         self.pace = LogPace::default();
         if self.mode == ProgressMode::Terminal {
             let bar = total.map_or_else(ProgressBar::no_length, ProgressBar::new);
-            bar.set_style(style(total.is_some()));
+            bar.set_style(style(total.is_some(), noun));
             bar.enable_steady_tick(Duration::from_millis(200));
             self.bar = Some(bar);
         }
@@ -186,14 +191,13 @@ impl Progress {
     }
 }
 
-fn style(has_total: bool) -> ProgressStyle {
-    let template = if has_total {
-        "step {pos}/{len} [{bar:24}] {msg}, {eta} left"
-    } else {
-        "{spinner} step {pos} {msg}, {elapsed} so far"
+fn style(has_total: bool, noun: &str) -> ProgressStyle {
+    let template = match has_total {
+        true => format!("{noun} {{pos}}/{{len}} [{{bar:24}}] {{msg}}, {{eta}} left"),
+        false => format!("{{spinner}} {noun} {{pos}} {{msg}}, {{elapsed}} so far"),
     };
     // The templates are constants, so the fallback is never seen.
-    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
+    ProgressStyle::with_template(&template).unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
 /// Writes a line to stderr; a failure, such as a closed pipe, must not end the run.
@@ -201,12 +205,18 @@ fn write_line(line: &str) {
     let _ = writeln!(io::stderr().lock(), "{}", plain(line));
 }
 
+/// What a record of a run is called.
+pub(crate) fn noun(in_time: bool) -> &'static str {
+    if in_time { "row" } else { "step" }
+}
+
 fn log_line(line: &StepLine, done: bool, total: Option<u64>, elapsed: Duration) -> String {
     let of = total
         .map(|total| format!(" of {total}"))
         .unwrap_or_default();
     let state = if done { "" } else { " (under way)" };
-    let mut text = format!("step {}{of}{state}: {}", line.step, line.text());
+    let noun = noun(line.in_time);
+    let mut text = format!("{noun} {}{of}{state}: {}", line.step, line.text());
     if let Some(total) = total.filter(|&total| done && line.step > 0 && line.step < total) {
         let left = elapsed.mul_f64((total - line.step) as f64 / line.step as f64);
         let _ = write!(text, ", {} left", duration_text(left));
@@ -256,6 +266,7 @@ mod tests {
     const LINE: StepLine = StepLine {
         step: 25,
         load_factor: 0.25,
+        in_time: false,
         displacement: Some(-1e-4),
         load: Some(1234.5),
         units: Units::FORCE,
@@ -287,6 +298,15 @@ mod tests {
         assert_eq!(
             log_line(&softening, false, None, Duration::ZERO),
             "step 25 (under way): stage pull, load factor 0.2500, 7 bonds broken, 340 softened"
+        );
+        let moving = StepLine {
+            load_factor: 7.25e-5,
+            in_time: true,
+            ..LINE
+        };
+        assert_eq!(
+            log_line(&moving, true, Some(25), Duration::ZERO),
+            "row 25 of 25: 72.50 us, 1.234 kN at -0.1000 mm, 7 bonds broken"
         );
     }
 

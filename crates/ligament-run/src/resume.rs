@@ -12,6 +12,7 @@ use ligament_analysis::serial::Serial;
 use ligament_case::case::CaseFile;
 use ligament_output::checkpoint::Checkpoint;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
+use ligament_output::quantity::quantity;
 use ligament_output::results::OutputState;
 use ligament_output::results::outputs::{clear, require_results};
 use ligament_output::summary::{self, Build, SUMMARY, Summary};
@@ -124,11 +125,7 @@ impl Request<'_> {
             .zip(restored)
             .map(|((checkpoint, results), restored)| {
                 let kept = kept(checkpoint, results, restored, &problem)?;
-                progress.stage(&format!(
-                    "resuming at load factor {:.4} with {} broken",
-                    kept.restored.load_factor(),
-                    kept.restored.broken_bonds()
-                ));
+                progress.stage(&resuming(&kept.restored, &model));
                 anyhow::Ok(kept)
             });
         let kept = kept.transpose()?;
@@ -150,6 +147,16 @@ impl Request<'_> {
         )?;
         Ok(Report::Loading(Box::new(summary)))
     }
+}
+
+/// The line that tells where a run goes on.
+fn resuming(restored: &Restored, model: &Model) -> String {
+    let (reached, broken) = (restored.load_factor(), restored.broken_bonds());
+    let reached = match model.setup.analysis.is_motion() {
+        true => quantity(reached, "s"),
+        false => format!("load factor {reached:.4}"),
+    };
+    format!("resuming at {reached} with {broken} broken")
 }
 
 /// The run of a checkpoint's solution.

@@ -2,6 +2,7 @@
 
 mod modal;
 mod model;
+mod motion;
 mod places;
 mod solver;
 
@@ -22,6 +23,7 @@ use ligament_case::case::CaseFile;
 
 pub use modal::{modal_summary, write_modal};
 pub use model::{correction_line, family, formulation_line, heading, scatter};
+use motion::{motion_summary, write_motion};
 use places::{bond_event, resultants_at_peak};
 use solver::solver_summary;
 
@@ -78,9 +80,8 @@ pub fn summary(
     let scale = |step: &StepRecord| step.external_work.abs().max(step.energy_floor);
     let work = largest(&mut history.iter().map(scale));
     let missing = largest(&mut history.iter().map(|step| step.missing_energy().abs()));
-    let is_cut_short =
-        !without_equilibrium && matches!(outcome.termination, Termination::NoEquilibrium { .. });
-    let of_end = is_cut_short.then(|| UP_TO_THERE.to_owned());
+    let is_cut_short = matches!(outcome.termination, Termination::NoEquilibrium { .. });
+    let of_end = (is_cut_short && !without_equilibrium).then(|| UP_TO_THERE.to_owned());
     Summary {
         model: model::model_summary(case, model),
         temperature_change: temperature_change(boundary),
@@ -95,11 +96,13 @@ pub fn summary(
         first_broken_bond: noted.first.broken.map(|it| bond_event(model, &it)),
         peak: loaded(outcome.peak()),
         reactions_at_peak: resultants_at_peak(boundary, model.system.layout(), outcome),
-        first_peak: loaded(outcome.first_peak(DROP)),
+        // The force of a motion rises and falls with its waves.
+        first_peak: loaded(outcome.first_peak(DROP)).filter(|_| outcome.rows != Rows::Times),
         broken_bonds: outcome.broken_bonds,
         softened_bonds: (model.criteria.soften()).then_some(outcome.softened_bonds),
         steps: history.len().saturating_sub(1),
         exact_path: outcome.rows == Rows::Events,
+        motion: motion_summary(&model.setup.analysis, outcome),
         termination: outcome.termination.name().into(),
         termination_message: ending(outcome, model),
         without_equilibrium,
@@ -131,20 +134,23 @@ pub fn write(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
         summary.model.bonds,
         quantity(summary.model.volume, "m^3")
     )?;
+    if let Some(motion) = &summary.motion {
+        write_motion(motion, out)?;
+    }
     write_loads(summary, out)?;
     write_first_bonds(summary, out)?;
-    let unit = if summary.exact_path {
-        "states of the exact path"
-    } else {
-        "load steps"
-    };
     let softened = (summary.softened_bonds).map_or(String::new(), |it| {
         format!(", and {it} more that softened,")
     });
+    let of_steps = match &summary.motion {
+        Some(motion) => format!("{} time steps", motion.time_steps),
+        None if summary.exact_path => format!("{} states of the exact path", summary.steps),
+        None => format!("{} load steps", summary.steps),
+    };
     writeln!(
         out,
-        "  broken bonds       {}{softened} in {} {unit}",
-        summary.broken_bonds, summary.steps
+        "  broken bonds       {}{softened} in {of_steps}",
+        summary.broken_bonds
     )?;
     writeln!(
         out,
@@ -190,7 +196,8 @@ fn write_first_bonds(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
         ("first broken", &summary.first_broken_bond),
     ] {
         if let Some(bond) = bond {
-            writeln!(out, "  {name:<18} {bond}")?;
+            let words = bond.words(summary.motion.is_some());
+            writeln!(out, "  {name:<18} {words}")?;
         }
     }
     Ok(())
@@ -241,11 +248,14 @@ fn write_loads(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
         if let Some(PathPoint {
             displacement,
             reaction,
-            ..
-        }) = point
+            load_factor,
+        }) = point.filter(|it| summary.motion.is_none() || it.reaction != 0.0)
         {
             let load = quantity(settled(reaction, most), force);
-            let at = quantity(settled(displacement, farthest), along);
+            let at = match summary.motion {
+                Some(_) => quantity(load_factor, "s"),
+                None => quantity(settled(displacement, farthest), along),
+            };
             writeln!(out, "  {name:<18} {load} at {at}")?;
         }
     }

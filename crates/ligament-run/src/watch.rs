@@ -12,7 +12,7 @@ use ligament_output::results::ResultWriter;
 
 use crate::checkpoints::{Checkpoints, Stops};
 use crate::notices::words;
-use crate::progress::{Progress, StepLine};
+use crate::progress::{Progress, StepLine, noun};
 
 /// Largest number of notices shown during the run; all are in `summary.json`.
 const SHOWN: usize = 5;
@@ -41,10 +41,12 @@ impl<'a> Watch<'a> {
         setup: &'a Setup,
         notices: Vec<String>,
     ) -> Self {
-        progress.begin_steps(setup.n_steps().map(|steps| steps as u64));
+        let in_time = setup.analysis.is_motion();
+        progress.begin_steps(setup.n_steps().map(|steps| steps as u64), noun(in_time));
         let last = StepLine {
             step: 0,
             load_factor: 0.0,
+            in_time,
             displacement: None,
             load: None,
             units: setup.units(),
@@ -148,6 +150,7 @@ impl Observer for Watch<'_> {
         self.last = StepLine {
             step: record.step as u64,
             load_factor: record.load_factor,
+            in_time: record.motion.is_some(),
             displacement: Some(record.displacement),
             load: Some(record.reaction),
             units: self.last.units,

@@ -31,7 +31,7 @@ const REFUSED: [[&str; 2]; 18] = [
     ["contact=[{betwen=[\"left\",\"right\"]}]", "`betwen`"],
     [
         "rigid=[{name=\"it\",shape=\"circle\",centre=[0.005,0.003],radius=1.5e-3}]",
-        "rigid.0: begins 4.901e-4 m deep inside the body, at cell ",
+        "rigid.0: begins 5.000e-4 m deep inside the body, at cell ",
     ],
     [
         "rigid=[{name=\"it\",shape=\"sphere\",centre=[0.0,1.0],radius=0.1}]",

@@ -84,10 +84,7 @@ pub(super) const REFUSED: [[&str; 2]; 45] = [
         "fracture.stop: `stop` does not apply with analysis = \"motion\": a motion has a `stop` of its own, in [motion]",
     ],
     ["-load", "the case has no [[load]] section"],
-    [
-        "model.closing=true",
-        "model.closing: a motion does not find the faces that close: remove it",
-    ],
+    ["model.closing_friction=0.3", "model.closing_friction: "],
     [
         "load.0.amplitude={points=[[0,0],[2,1],[1,0]]}",
         "load.0.amplitude.points.2.0: must be a time later than that of the point before, 2.0 s, found 1.0",

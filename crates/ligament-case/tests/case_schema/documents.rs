@@ -155,7 +155,6 @@ spacing = 0.1
 [lattice.set]
 left = { left = 1 }
 right = { right = 1 }
-left = { left = 1 }
 [material]
 young = 1e9
 poisson = 0.2

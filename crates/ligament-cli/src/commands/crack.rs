@@ -1,14 +1,14 @@
 //! `ligament crack`.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use ligament_output::quantity::{place, quantity};
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::solid_cracks::{SolidCracks, has_solid};
-use ligament_output::results::steps::{StepChoice, StepName};
+use ligament_output::results::steps::{StepChoice, StepName, time_of};
 use ligament_output::results::{
     CRACK_FILES, CrackedBelow, SURFACE_FILES, write_cracks, write_series, write_surface,
 };
@@ -28,7 +28,7 @@ Examples:
 
 Writes crack.csv and crack.vtu (the lines of the step), opened.vtu (the cells of a mesh, opened along them),
 crack_tips.csv (the tips over the load) and crack_growth.csv (length, area and energy release rate over the load) into the
-folder. A crack runs along the faces between the cells of points whose bond broke. Cracks closer than a horizon count as
+folder; of a motion they have the speed of each tip and the rates of length and area over the time. A crack runs along the faces between the cells of points whose bond broke. Cracks closer than a horizon count as
 one, and shorter ones are ignored.
 
 In a solid the crack is a surface of triangles: crack.vtu and crack.stl have it with its opening, and crack_growth.csv its
@@ -42,7 +42,7 @@ pub struct CrackArgs {
     /// The folder with the results of a run
     #[arg(value_name = "RESULT")]
     pub results: PathBuf,
-    /// Step of the crack: a number, -1 for the last, first (breakage), peak or last; in a solid also all
+    /// Step of the crack: a number, -1 for the last, first (breakage), peak or last, of a motion a time in s as t=4e-5; in a solid also all
     #[arg(
         long,
         value_name = "STEP",
@@ -81,10 +81,11 @@ impl CrackArgs {
         let step = steps.first().map_or(0, |it| it.step);
         let lines = write_cracks(&self.results, &cracks, step)?;
         let mut out = terminal::stdout();
+        let when = when(&self.results, step)?;
         let length = lines.iter().fold(0.0, |sum, line| sum + line.length());
         writeln!(
             out,
-            "step {step}: {} crack line(s), {} long, {} in area",
+            "{when}: {} crack line(s), {} long, {} in area",
             lines.len(),
             quantity(length, "m"),
             quantity(length * cracks.thickness, "m^2")
@@ -108,6 +109,15 @@ impl CrackArgs {
             self.results.display()
         )?)
     }
+}
+
+/// The step, or of a motion the time, in words.
+fn when(folder: &Path, step: usize) -> anyhow::Result<String> {
+    let time = time_of(folder, step)?;
+    Ok(match time {
+        Some(time) => format!("t = {}", quantity(time, "s")),
+        None => format!("step {step}"),
+    })
 }
 
 /// Reads the share of a force from those that `softening.csv` has.
@@ -143,7 +153,7 @@ impl CrackArgs {
         let steps = choice.steps(&self.results, &cracks.steps())?;
         let step = steps.first().map_or(0, |it| it.step);
         let surface = write_surface(&self.results, &cracks, step)?;
-        write_measures(&mut out, step, &surface)?;
+        write_measures(&mut out, &when(&self.results, step)?, &surface)?;
         let names = SURFACE_FILES
             .into_iter()
             .filter(|it| self.results.join(it).is_file());
@@ -193,13 +203,10 @@ fn number(text: &str) -> Result<f64, String> {
 }
 
 /// Writes area, plane and parts of a surface.
-fn write_measures(out: &mut dyn Write, step: usize, surface: &CrackSurface) -> std::io::Result<()> {
+fn write_measures(out: &mut dyn Write, when: &str, surface: &CrackSurface) -> std::io::Result<()> {
     let parts = surface.parts();
     let (area, count) = (quantity(surface.area(), "m^2"), parts.len());
-    writeln!(
-        out,
-        "step {step}: crack surface of {area} in {count} part(s)"
-    )?;
+    writeln!(out, "{when}: crack surface of {area} in {count} part(s)")?;
     if let Some(plane) = surface.best_plane() {
         let [x, y, z] = plane.normal.map(|it| format!("{it:.3}"));
         let away = quantity(plane.largest_distance, "m");

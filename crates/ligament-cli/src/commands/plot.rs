@@ -26,6 +26,8 @@ Examples:
   ligament plot results/disk --field none --crack --box -0.01,-0.02,0.01,0.02
   ligament plot results/disk --crack=lines --with-lines experiment.csv --out path.pdf
   ligament plot --curve results/coarse results/fine --labels '4 mm' '2 mm' --out curves.svg
+  ligament plot --curve results/wave --y energies           of a motion over the time, as the force without --y
+  ligament plot results/wave --step t=2e-5 t=4e-5           the outputs nearest to these times
   ligament plot results/disk --animate crack.gif --field damage --fps 12
   ligament plot results/plate-modes                         the first six modes
   ligament plot results/beam --view -40,20 --crack          a solid, opened along its crack
@@ -44,8 +46,8 @@ pub struct PlotArgs {
     /// Field to draw, or none [default: damage where bonds broke, of softening bonds by their way of failing, else displacement]
     #[arg(long, value_name = "NAME")]
     pub field: Option<String>,
-    /// Steps or modes to draw: numbers, -1 for the last, first (breakage), peak, last, or all: a picture each, in files with numbers [default: the
-    /// last step, the first six modes]
+    /// Steps or modes to draw: numbers, -1 for the last, first (breakage), peak, last, of a motion times in s as t=4e-5, or all: a picture each,
+    /// in files with numbers [default: the last step, the first six modes]
     #[arg(long, visible_alias = "mode", value_name = "STEP", num_args = 1.., value_delimiter = ',', allow_negative_numbers = true)]
     pub step: Vec<StepChoice>,
     /// Draw this number of outputs, evenly spaced, side by side
@@ -89,25 +91,15 @@ pub struct PlotArgs {
     /// Bodies in a row
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100))]
     pub columns: Option<u32>,
-    /// Draw curves over the load history in place of bodies: reaction over displacement
+    /// Draw curves over the load history in place of bodies: reaction over displacement, of a motion over time
     #[arg(long, conflicts_with_all = ["field", "step", "strip", "displacements", "scale", "crack", "lines", "window", "levels", "range", "map", "columns", "view", "section", "iso"])]
     pub curve: bool,
-    /// Column of history.csv along x
-    #[arg(
-        long,
-        value_name = "COLUMN",
-        default_value = "displacement",
-        requires = "curve"
-    )]
-    pub x: String,
-    /// Column of history.csv along y
-    #[arg(
-        long,
-        value_name = "COLUMN",
-        default_value = "reaction",
-        requires = "curve"
-    )]
-    pub y: String,
+    /// Column along x [default: displacement, of a motion time]
+    #[arg(long, value_name = "COLUMN", requires = "curve")]
+    pub x: Option<String>,
+    /// Columns along y, of history.csv or of the tables of `ligament crack`; `energies` and `probes` are all of these
+    #[arg(long, value_name = "COLUMN", num_args = 1.., default_value = "reaction", requires = "curve")]
+    pub y: Vec<String>,
     /// Names of the results [default: the names of their folders]
     #[arg(long, value_name = "TEXT", num_args = 1..)]
     pub labels: Vec<String>,
@@ -154,7 +146,8 @@ impl PlotArgs {
             vec![draw_curves(&CurveRequest {
                 folders: self.results,
                 labels: self.labels,
-                columns: [self.x, self.y],
+                x: self.x,
+                y: self.y,
                 target,
             })?]
         } else {

@@ -29,6 +29,8 @@ pub(super) struct BondHistories {
     pub(super) before_breakages: bool,
     /// Whether bonds have strains of their own.
     pub(super) has_own_strains: bool,
+    /// Whether the moments are times of a motion.
+    pub(super) in_time: bool,
     /// Names of the components of a deformation.
     pub(super) components: &'static [&'static str],
     /// Units of the displacement and the reaction of the moments.
@@ -104,6 +106,7 @@ impl BondHistories {
             of_bonds: Vec::new(),
             absent,
             before_breakages: loading.follows_path,
+            in_time: loading.in_time,
             has_own_strains: run.has_own_strains(),
             components: run.deformation_names,
             units: loading.units,

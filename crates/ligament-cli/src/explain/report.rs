@@ -6,7 +6,7 @@ use std::ops::Add;
 
 use ligament_model::Absence;
 use ligament_output::quantity::{quantity, settled};
-use ligament_output::results::stored::{StoredRun, StoredStep};
+use ligament_output::results::stored::{StoredBreak, StoredRun, StoredStep};
 
 use super::bond_history::{BondHistories, BondHistory};
 use super::words::{self, label, metres, number, place};
@@ -114,11 +114,19 @@ pub(super) fn angle(life: &BondHistory) -> f64 {
 fn counts(run: &StoredRun, lives: &BondHistories) -> String {
     let n_bonds = lives.of_bonds.len();
     let broken = lives.of_bonds.iter().filter_map(|it| it.breakage.as_ref());
-    let orders: Vec<(usize, usize)> = broken.map(|(it, _)| (it.order, it.at.step)).collect();
-    let mut words = match (orders.iter().min(), orders.iter().max()) {
-        (Some((first, in_step)), Some((last, to_step))) => format!(
-            "{n_bonds}: {} broke, from number {first} (step {in_step}) to number {last} (step {to_step}) of {}",
-            orders.len(),
+    let broken = broken.map(|it| &it.0);
+    let mut broken: Vec<&StoredBreak> = broken.collect();
+    broken.sort_by_key(|it| it.order);
+    let number = |it: &StoredBreak| match lives.in_time {
+        true => format!("{} ({})", it.order, quantity(it.at.load_factor, "s")),
+        false => format!("{} (step {})", it.order, it.at.step),
+    };
+    let mut words = match broken.as_slice() {
+        [first, ..] => format!(
+            "{n_bonds}: {} broke, from number {} to number {} of {}",
+            broken.len(),
+            number(first),
+            number(broken[broken.len() - 1]),
             run.breaks.len()
         ),
         _ => format!("{n_bonds}, all intact"),
@@ -157,17 +165,23 @@ fn missing(out: &mut dyn Write, run: &StoredRun, lives: &BondHistories) -> io::R
 
 /// Writes a table with a row for each moment.
 fn write_path(out: &mut dyn Write, lives: &BondHistories, rows: &Columns) -> io::Result<()> {
-    let when = if lives.before_breakages {
-        "events with fields, just before their bonds break"
-    } else {
-        "steps with fields, at their end"
+    let when = match (lives.in_time, lives.before_breakages) {
+        (true, _) => "times with fields",
+        (false, true) => "events with fields, just before their bonds break",
+        (false, false) => "steps with fields, at their end",
     };
     writeln!(out, "path ({when})")?;
     rows.write(out)
 }
 
 /// Names of the columns of [`load`].
-const LOAD_HEADER: [&str; 4] = ["step", "load factor", "displacement", "reaction"];
+fn load_header(lives: &BondHistories) -> Vec<String> {
+    let names = match lives.in_time {
+        true => ["row", "time", "displacement", "reaction"],
+        false => ["step", "load factor", "displacement", "reaction"],
+    };
+    names.map(str::to_owned).to_vec()
+}
 
 /// Cells of the load of a moment; what is nothing beside the largest of all moments is zero.
 fn load(moment: &StoredStep, lives: &BondHistories) -> Vec<String> {
@@ -181,7 +195,10 @@ fn load(moment: &StoredStep, lives: &BondHistories) -> Vec<String> {
         } else {
             format!("{} (not converged)", moment.step)
         },
-        format!("{:.6}", moment.load_factor),
+        match lives.in_time {
+            true => shown(|it| it.load_factor, "s"),
+            false => format!("{:.6}", moment.load_factor),
+        },
         shown(|it| it.displacement, lives.units.displacement),
         shown(|it| it.reaction, lives.units.force),
     ]
@@ -189,7 +206,7 @@ fn load(moment: &StoredStep, lives: &BondHistories) -> Vec<String> {
 
 /// Deformation and utilisations of a bond over the moments.
 fn bond_path(lives: &BondHistories, life: &BondHistory) -> Columns {
-    let mut header: Vec<String> = LOAD_HEADER.map(str::to_owned).to_vec();
+    let mut header = load_header(lives);
     let names: &[&str] = match lives.components {
         strains @ [_, _, _] => strains,
         _ => &["stretch", "sliding"],
@@ -232,7 +249,8 @@ fn family_table(run: &StoredRun, point: u32, lives: &BondHistories) -> Columns {
     header.extend(["length", along, "H", "alpha", "Omega"].map(str::to_owned));
     let criteria = run.model.criteria.iter();
     header.extend(criteria.map(|it| format!("limit {}", it.name)));
-    header.extend(["largest", "in step", "by", "fate"].map(str::to_owned));
+    let in_step = if lives.in_time { "in row" } else { "in step" };
+    header.extend(["largest", in_step, "by", "fate"].map(str::to_owned));
     let mut table = Columns::new(header);
     let mut order: Vec<&BondHistory> = lives.of_bonds.iter().collect();
     let number_of_breakage = |life: &BondHistory| {
@@ -278,7 +296,7 @@ fn other_end([a, b]: [u32; 2], point: u32) -> usize {
 /// Table of the number of intact bonds, damage and the bond nearest to breakage over the moments.
 fn family_path(run: &StoredRun, point: u32, lives: &BondHistories) -> Columns {
     let tagged = run.model.tagged;
-    let mut header: Vec<String> = LOAD_HEADER.map(str::to_owned).to_vec();
+    let mut header = load_header(lives);
     header.extend(["intact", "damage", "largest"].map(str::to_owned));
     header.extend([format!("to {tagged}"), "by".to_owned()]);
     let mut table = Columns::new(header);

@@ -4,7 +4,7 @@ use ligament_model::Absence;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::{Measure, Softened};
 use ligament_output::quantity::quantity;
-use ligament_output::results::stored::StoredRun;
+use ligament_output::results::stored::{StoredBreak, StoredRun, StoredStep};
 
 use super::bond_history::{BondHistories, BondHistory, Limit, Nearest};
 
@@ -89,6 +89,28 @@ pub(super) fn limits(life: &BondHistory) -> Vec<(String, String)> {
         .collect()
 }
 
+/// When a bond broke.
+fn when(lives: &BondHistories, broke: &StoredBreak) -> String {
+    match lives.in_time {
+        true => {
+            let time = quantity(broke.at.load_factor, "s");
+            format!("after {time}, in time step {}", broke.round)
+        }
+        false => format!("in step {}, round {}", broke.at.step, broke.round),
+    }
+}
+
+/// The load of a state, in a motion without its factor, which is the time.
+fn load_words(lives: &BondHistories, at: &StoredStep) -> String {
+    let load = match lives.in_time {
+        true => "Load:".to_owned(),
+        false => format!("Load factor {:.6},", at.load_factor),
+    };
+    let displacement = quantity(at.displacement, lives.units.displacement);
+    let reaction = quantity(at.reaction, lives.units.force);
+    format!("{load} displacement {displacement}, reaction {reaction}.")
+}
+
 /// Description of the breakage or the state of a bond, one sentence per line.
 pub(super) fn bond_description(
     run: &StoredRun,
@@ -96,10 +118,9 @@ pub(super) fn bond_description(
     life: &BondHistory,
 ) -> Vec<String> {
     if let Some((broke, criterion)) = &life.breakage {
+        let when = when(lives, broke);
         let mut lines = vec![format!(
-            "It broke in step {}, round {}, as number {} of {} broken bonds, by `{}`.",
-            broke.at.step,
-            broke.round,
+            "It broke {when}, as number {} of {} broken bonds, by `{}`.",
             broke.order,
             run.breaks.len(),
             broke.criterion
@@ -125,12 +146,7 @@ pub(super) fn bond_description(
             "Deformation at breakage: {}.",
             deformed(lives, &deformation)
         ));
-        lines.push(format!(
-            "Load factor {:.6}, displacement {}, reaction {}.",
-            broke.at.load_factor,
-            quantity(broke.at.displacement, lives.units.displacement),
-            quantity(broke.at.reaction, lives.units.force)
-        ));
+        lines.push(load_words(lives, &broke.at));
         return lines;
     }
     if life.limits.is_empty() {
@@ -141,7 +157,7 @@ pub(super) fn bond_description(
     }
     let mut lines = Vec::new();
     match life.nearest.filter(|it| it.utilisation > 0.0) {
-        Some(nearest) => lines.push(nearest_words(lives, life, nearest)),
+        Some(nearest) => lines.push(nearest_words(run, lives, life, nearest)),
         None => lines.push("It is intact: its utilisation was 0 throughout.".to_owned()),
     }
     lines.extend(end_words(lives, life));
@@ -198,17 +214,24 @@ fn never_fails(run: &StoredRun, life: &BondHistory) -> String {
     }
 }
 
-fn nearest_words(lives: &BondHistories, life: &BondHistory, nearest: Nearest) -> String {
+fn nearest_words(
+    run: &StoredRun,
+    lives: &BondHistories,
+    life: &BondHistory,
+    nearest: Nearest,
+) -> String {
     let limit = &life.limits[nearest.criterion];
     let moment = lives.moments.iter().position(|it| it.step == nearest.step);
     let seen = moment.map(|moment| {
         let deformation = &life.deformation[moment];
         format!(" ({})", deformed(lives, deformation))
     });
+    let row = run.step(nearest.step).filter(|_| lives.in_time);
+    let when = row.map(|it| format!("after {}", quantity(it.load_factor, "s")));
     format!(
-        "It is intact: its largest utilisation was {:.4}, in step {}, by `{}`{}.",
+        "It is intact: its largest utilisation was {:.4}, {}, by `{}`{}.",
         nearest.utilisation,
-        nearest.step,
+        when.unwrap_or_else(|| format!("in step {}", nearest.step)),
         limit.name,
         seen.unwrap_or_default()
     )
@@ -229,9 +252,13 @@ fn end_words(lives: &BondHistories, life: &BondHistory) -> Option<String> {
     } else {
         ""
     };
-    let (step, deformed) = (moment.step, deformed(lives, deformation));
+    let end = match lives.in_time {
+        true => quantity(moment.load_factor, "s"),
+        false => format!("step {}", moment.step),
+    };
+    let deformed = deformed(lives, deformation);
     Some(format!(
-        "At the end (step {step}) its utilisation is {largest:.4}{why} ({deformed})."
+        "At the end ({end}) its utilisation is {largest:.4}{why} ({deformed})."
     ))
 }
 

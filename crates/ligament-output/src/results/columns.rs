@@ -48,7 +48,7 @@ columns! { "Columns of every history."
     HISTORY of StepRecord, Value<'static>:
     "step" "" ANY "number of the load step or event of the exact path" => |it| it.step.into();
     "load_factor" "-" ANY
-        "factor of all loads; with [stages](programmes.md) the share of the stage that is over; in a [motion](motion.md) the time, s" => |it| it.load_factor.into();
+        "factor of all loads; with [stages](programmes.md) the share of the stage that is over; in a motion the time" => |it| it.load_factor.into();
     "displacement" "m" ANY
         "displacement of the load, in its direction; with a couple rad (the mean [turn of the loaded points](loads.md#couples)), with a \
          pressure m^3, with a temperature alone K" => |it| it.displacement.into();
@@ -91,14 +91,15 @@ columns! { "The column of a history of a body whose crack faces close."
         "pairs of points across cracks that carry pressure; with `model.closing = true` alone" => |it| it.closed_pairs.into();
 }
 
-columns! { "Columns of a history of a motion in time."
-    MOTION of InMotion, Value<'static>:
-    "time_steps" "" ANY "time steps so far; the time, s, is `load_factor`" => |it| it.time_steps.into();
-    "kinetic_energy" "J" ANY "kinetic energy of displacements and rotations" => |it| it.kinetic_energy.into();
-    "damping_energy" "J" ANY "energy that damping and quiet edges took so far" => |it| it.damping_energy.into();
-    "contact_energy" "J" ANY "energy stored in contacts between surfaces" => |it| it.contact_energy.into();
-    "friction_energy" "J" ANY "energy that friction and the birth and end of contacts took so far" => |it| it.friction_energy.into();
-    "initial_energy" "J" ANY "energy of the body at time zero" => |it| it.initial_energy.into();
+columns! { "Columns of a history of a motion in time, by the time and what is recorded there."
+    MOTION of (f64, InMotion), Value<'static>:
+    "time" "s" ANY "time of a [motion](motion.md), the same as `load_factor`" => |it| it.0.into();
+    "time_steps" "" ANY "time steps so far" => |it| it.1.time_steps.into();
+    "kinetic_energy" "J" ANY "kinetic energy of displacements and rotations" => |it| it.1.kinetic_energy.into();
+    "damping_energy" "J" ANY "energy that damping and quiet edges took so far" => |it| it.1.damping_energy.into();
+    "contact_energy" "J" ANY "energy stored in contacts between surfaces" => |it| it.1.contact_energy.into();
+    "friction_energy" "J" ANY "energy that friction and the birth and end of contacts took so far" => |it| it.1.friction_energy.into();
+    "initial_energy" "J" ANY "energy of the body at time zero" => |it| it.1.initial_energy.into();
 }
 
 columns! { "Columns of a history for each group with supports or loads."
@@ -243,6 +244,13 @@ columns! { "Columns of the tips of cracks."
     "y" "m" ANY "the tip";
 }
 
+columns! { "Columns of the tips of cracks in a motion."
+    TIP_SPEED:
+    "time" "s" ANY "time, in a [motion](motion.md)";
+    "speed" "m/s" ANY
+        "in a motion: way of the tip along its line since the step before in the table, over the time between; empty for a tip that is new";
+}
+
 columns! { "Columns of the growth of cracks."
     CRACK_GROWTH:
     "step" "" ANY "step or event";
@@ -257,6 +265,13 @@ columns! { "Columns of the growth of cracks."
     "release_rate_compliance" "J/m^2" ANY "energy release rate from the change of compliance";
     "release_rate_energy" "J/m^2" ANY "released energy over the new area";
     "dissipated_per_area" "J/m^2" ANY "energy that bonds took for good over the new area";
+}
+
+columns! { "Columns of the growth of cracks in a motion."
+    GROWTH_RATE:
+    "time" "s" ANY "time, in a motion";
+    "length_rate" "m/s" PLANE "in a motion, in the plane: what all lines together grew since the row before, over the time between";
+    "area_rate" "m^2/s" ANY "in a motion: what the area grew since the row before, over the time between";
 }
 
 columns! { "The first column of the table of times."
@@ -284,8 +299,8 @@ pub fn tables() -> Vec<(&'static str, Vec<Column>)> {
         ("timings.csv", joined(&[STEP, &timings])),
         ("modes.csv", MODES.to_vec()),
         ("crack.csv", CRACK.to_vec()),
-        ("crack_tips.csv", CRACK_TIPS.to_vec()),
-        ("crack_growth.csv", CRACK_GROWTH.to_vec()),
+        ("crack_tips.csv", joined(&[CRACK_TIPS, TIP_SPEED])),
+        ("crack_growth.csv", joined(&[CRACK_GROWTH, GROWTH_RATE])),
     ]
 }
 
@@ -309,6 +324,30 @@ pub fn is_count(table: &str, column: &str) -> bool {
     let tables = tables().into_iter().filter(|it| it.0 == table);
     let mut columns = tables.flat_map(|it| it.1);
     columns.any(|it| it.name == column && it.unit.is_empty())
+}
+
+/// Name of the column of the time of a motion.
+pub const TIME: &str = MOTION[0].0.name;
+
+/// Whether a history with these columns is that of a motion in time.
+pub fn is_in_time(columns: &[String]) -> bool {
+    let mut own = MOTION.iter();
+    own.all(|it| columns.iter().any(|column| column == it.0.name))
+}
+
+/// SI unit of a column of a table of cracks, by the name of its file; none of another.
+pub fn unit_of_crack(file: &str, column: &str) -> Option<&'static str> {
+    let all: [&[Column]; 2] = match file {
+        "crack_growth.csv" => [CRACK_GROWTH, GROWTH_RATE],
+        "crack_tips.csv" => [CRACK_TIPS, TIP_SPEED],
+        _ => return None,
+    };
+    let found = all.into_iter().flatten().find(|it| it.name == column)?;
+    Some(if found.unit.is_empty() {
+        "-"
+    } else {
+        found.unit
+    })
 }
 
 /// SI unit of a column of a history; `-` for a number without a unit, and for probes, whose units follow from the case.

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `crack.csv`, `crack.vtu` | the lines of a step |
 //! | `opened.vtu` | the cells of a mesh, opened along the lines, with the displacement and the damage of the step |
-//! | `crack_tips.csv` | the tips in every record of the history in which cracks grew |
+//! | `crack_tips.csv` | the tips in every record of the history in which cracks grew; in a motion their speeds |
 //! | `crack_growth.csv` | length and area of all cracks there, and energies over the new area |
 
 use std::path::Path;
@@ -12,7 +12,7 @@ use std::path::Path;
 use ligament_model::raised;
 use ligament_post::crack::CrackLine;
 
-use super::columns::{CRACK, CRACK_TIPS, names};
+use super::columns::{CRACK, CRACK_TIPS, TIP_SPEED, names};
 use super::crack_growth::{CrackSize, write_growth};
 use super::cracks::{CrackRecord, StoredCracks};
 use super::opened_files::{OPENED, write_opened_plane};
@@ -64,11 +64,11 @@ pub fn write_cracks(
             record,
         })
         .collect();
-    write_tips(&folder.join(CRACK_FILES[2]), &grown)?;
+    write_tips(&folder.join(CRACK_FILES[2]), cracks, &grown)?;
     let least = cracks.thickness * cracks.mean_horizon();
     write_growth(
         &folder.join(CRACK_FILES[3]),
-        false,
+        [false, cracks.in_time],
         &sizes(cracks, &grown),
         least,
     )?;
@@ -122,21 +122,35 @@ fn write_grid(path: &Path, lines: &[CrackLine]) -> Result<(), Error> {
     vtu::write_vtu(path, &grid)
 }
 
-fn write_tips(path: &Path, grown: &[WithLines<'_>]) -> Result<(), Error> {
-    let mut table = Table::create(path, &names(CRACK_TIPS, false))?;
+fn write_tips(path: &Path, cracks: &StoredCracks, grown: &[WithLines<'_>]) -> Result<(), Error> {
+    let mut columns = names(CRACK_TIPS, false);
+    if cracks.in_time {
+        columns.extend(names(TIP_SPEED, false));
+    }
+    let mut table = Table::create(path, &columns)?;
+    let reach = cracks.mean_horizon();
+    let (mut earlier, mut time) = (Vec::new(), f64::NAN);
     for WithLines { record, lines } in grown {
+        let tips: Vec<[f64; 2]> = lines.iter().flat_map(CrackLine::tips).collect();
         for (number, line) in (1_u32..).zip(lines) {
-            for [x, y] in line.tips() {
-                table.append(&[
+            let ways = line.ways_of_tips(&earlier, reach);
+            for ([x, y], way) in line.tips().zip(ways) {
+                let speed = way.map(|it| it / (record.load_factor - time));
+                let mut row = vec![
                     record.step.into(),
                     record.load_factor.into(),
                     record.displacement.into(),
                     number.into(),
                     x.into(),
                     y.into(),
-                ])?;
+                    record.load_factor.into(),
+                    speed.map_or(Value::Missing, Value::from),
+                ];
+                row.truncate(columns.len());
+                table.append(&row)?;
             }
         }
+        (earlier, time) = (tips, record.load_factor);
     }
     Ok(())
 }
@@ -151,6 +165,7 @@ fn sizes<'a>(cracks: &StoredCracks, records: &[WithLines<'a>]) -> Vec<CrackSize<
             record,
             area: cracks.thickness * length,
             counts: vec![lines.len().into(), tips.into(), length.into()],
+            length: Some(length),
         }
     };
     records.iter().map(size).collect()

@@ -9,6 +9,7 @@ use ligament_model::Canvas;
 use ligament_post::OpenedCells;
 use ligament_post::crack::{CrackLine, Faces, Part, crack_lines, opened_cells, sides_of_cells};
 
+use super::columns::is_in_time;
 use super::outputs::{OutputKind, Outputs, cut_pairs};
 use super::point_fields::location;
 use super::softening_table::{self, CrackedBelow};
@@ -32,6 +33,8 @@ pub struct StoredCracks {
     /// Faces that opened, with the moment of opening.
     opened: Vec<(usize, Moment)>,
     records: Vec<CrackRecord>,
+    /// Whether the run is a motion, of which the load factor is the time.
+    pub(super) in_time: bool,
 }
 
 /// The moment from which a face is open.
@@ -106,6 +109,7 @@ impl StoredCracks {
             cut: cut.into_iter().filter_map(place).collect(),
             opened: opened.collect(),
             horizon: body.horizon,
+            in_time: is_in_time(history.columns()),
             records: history.rows(CrackRecord::read)?,
             positions: body.positions,
             cells: match body.canvas {

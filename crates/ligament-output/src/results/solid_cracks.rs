@@ -8,6 +8,7 @@ use ligament_post::surfaces::{
     CrackSurface, Link, Links, Tetrahedra, crack_surface, sides_of_tetrahedra,
 };
 
+use super::columns::is_in_time;
 use super::cracks::{CrackRecord, Moment, broken_pairs, grown, softened_pairs};
 use super::outputs::{OutputKind, Outputs, bonded_pairs, cut_pairs};
 use super::softening_table::CrackedBelow;
@@ -29,6 +30,8 @@ pub struct SolidCracks {
     opened: Vec<([u32; 2], Moment, usize)>,
     /// Rows of the history.
     pub(super) records: Vec<CrackRecord>,
+    /// Whether the run is a motion, of which the load factor is the time.
+    pub(super) in_time: bool,
     /// Mean horizon of the points, m.
     mean_horizon: f64,
 }
@@ -76,7 +79,8 @@ impl SolidCracks {
         let file = VtuFile::open(path)?;
         let body = SolidBody::read(&file)?;
         let horizon = file.finite_numbers(body.location, HORIZON.name)?;
-        let records = Sheet::read(folder.join("history.csv"))?.rows(CrackRecord::read)?;
+        let history = Sheet::read(folder.join("history.csv"))?;
+        let records = history.rows(CrackRecord::read)?;
         let opened = opened((folder, cracked), &body, &records)?;
         let cut = cut_pairs(folder)?.unwrap_or_default();
         let cut: Vec<[u32; 2]> = cut.into_iter().filter_map(|it| body.points(it)).collect();
@@ -96,6 +100,7 @@ impl SolidCracks {
             at_first,
             opened,
             records,
+            in_time: is_in_time(history.columns()),
         })
     }
 

@@ -5,12 +5,13 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use super::columns::{TIME, is_in_time};
 use crate::Error;
 use crate::csv::read::Sheet;
 use crate::remedy::Remedy;
 
-/// Selection of a load step, or of an event of the exact path.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Selection of a load step, of an event of the exact path, or of a time of a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StepName {
     /// The step in which the first bond broke or softened.
     First,
@@ -22,10 +23,12 @@ pub enum StepName {
     Number(usize),
     /// The step so many before the end: 1 is the last, 2 the one before.
     FromEnd(usize),
+    /// The stored step nearest to this time of a motion, s.
+    At(f64),
 }
 
 /// Selection of stored steps by a word.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StepChoice {
     /// All stored steps.
     All,
@@ -57,6 +60,12 @@ pub enum StepError {
         path: PathBuf,
         /// Requested name.
         name: StepName,
+    },
+    /// A time of a run in statics.
+    #[error("{path} has no times: it is no motion; choose steps by number, first, peak or last")]
+    NoTimes {
+        /// The folder.
+        path: PathBuf,
     },
     /// The run ended before the event.
     #[error(
@@ -105,6 +114,7 @@ impl fmt::Display for StepName {
             Self::Last => f.write_str("last"),
             Self::Number(number) => write!(f, "{number}"),
             Self::FromEnd(number) => write!(f, "-{number}"),
+            Self::At(time) => write!(f, "t={time:?}"),
         }
     }
 }
@@ -112,13 +122,17 @@ impl fmt::Display for StepName {
 impl FromStr for StepChoice {
     type Err = String;
 
-    /// Parses `first`, `peak`, `last`, `all` or a number; -1 is the last step, -2 the one before.
+    /// Parses `first`, `peak`, `last`, `all`, a number, where -1 is the last step and -2 the one before, or a time in s such as `t=4e-5`.
     fn from_str(text: &str) -> Result<Self, String> {
         Ok(Self::One(match text.trim() {
             "all" => return Ok(Self::All),
             "first" => StepName::First,
             "peak" => StepName::Peak,
             "last" => StepName::Last,
+            time if time.starts_with("t=") => {
+                let time = time[2..].parse().ok().filter(|it: &f64| it.is_finite());
+                StepName::At(time.ok_or("expected a time in s, such as t=4e-5")?)
+            }
             number => {
                 let (number, name): (&str, fn(usize) -> StepName) = match number.strip_prefix('-') {
                     Some(back) => (back, StepName::FromEnd),
@@ -127,7 +141,7 @@ impl FromStr for StepChoice {
                 let number = number.parse().ok().map(name);
                 let number = number.filter(|it| *it != StepName::FromEnd(0));
                 number.ok_or(
-                    "expected the number of a step, -1 for the last, -2 for the one before, or first (breakage), peak, last or all",
+                    "expected the number of a step, -1 for the last, -2 for the one before, first (breakage), peak, last or all, or a time of a motion in s such as t=4e-5",
                 )?
             }
         }))
@@ -168,6 +182,7 @@ impl StepChoice {
                     })?],
                 )]
             }
+            Self::One(StepName::At(time)) => vec![numbered(nearest(time, folder, stored)?)],
             Self::One(StepName::Number(number)) if stored.contains(&number) => {
                 vec![numbered(number)]
             }
@@ -201,6 +216,23 @@ impl NamedStep {
     }
 }
 
+/// The stored step nearest to a time of a motion, the earlier of two.
+fn nearest(time: f64, folder: &Path, stored: &[usize]) -> Result<usize, StepError> {
+    let no_times = || StepError::NoTimes {
+        path: folder.to_path_buf(),
+    };
+    let path = folder.join("history.csv");
+    let sheet = Sheet::read(path)?;
+    if !is_in_time(sheet.columns()) {
+        return Err(no_times());
+    }
+    let rows = sheet.numbers(["step", TIME])?.into_iter();
+    let rows = rows.filter(|it| stored.contains(&(it[0] as usize)));
+    let away = |it: &[f64; 2]| (it[1] - time).abs();
+    let nearest = rows.min_by(|one, other| away(one).total_cmp(&away(other)));
+    nearest.map(|it| it[0] as usize).ok_or_else(no_times)
+}
+
 /// Description and step of the event of a name, from the history.
 fn event(name: StepName, folder: &Path) -> Result<(&'static str, usize), StepError> {
     let path = folder.join("history.csv");
@@ -232,6 +264,21 @@ fn event(name: StepName, folder: &Path) -> Result<(&'static str, usize), StepErr
         path: folder.to_path_buf(),
         name,
     })
+}
+
+/// Time of a step of a motion, s; none in statics.
+///
+/// # Errors
+///
+/// If the history cannot be used.
+pub fn time_of(folder: &Path, step: usize) -> Result<Option<f64>, Error> {
+    let sheet = Sheet::read(folder.join("history.csv"))?;
+    if !is_in_time(sheet.columns()) {
+        return Ok(None);
+    }
+    let rows = sheet.numbers(["step", TIME])?;
+    let row = rows.into_iter().find(|it| it[0] == step as f64);
+    Ok(row.map(|it| it[1]))
 }
 
 /// List of numbers for a message, abbreviated if long.
@@ -284,6 +331,25 @@ mod tests {
         let choice = StepChoice::One(StepName::First);
         let first = choice.steps(folder(&brittle).path(), &[3]).unwrap()[0];
         assert_eq!(first.words().unwrap()[0], "first breakage");
+    }
+
+    #[test]
+    fn a_time_leads_to_the_nearest_stored_step_of_a_motion() {
+        let columns = "step,time,time_steps,kinetic_energy,damping_energy,contact_energy,friction_energy,initial_energy";
+        let row = |step: usize| format!("{step},{step}e-6,1,0,0,0,0,0");
+        let rows: Vec<String> = (0..5).map(row).collect();
+        let motion = folder(&format!("{columns}\n{}\n", rows.join("\n")));
+        let step = |text: &str| {
+            let choice: StepChoice = text.parse().unwrap();
+            choice.steps(motion.path(), &[0, 2, 4]).unwrap()[0].step
+        };
+        assert_eq!(["t=0", "t=1.2e-6", "t=1"].map(step), [0, 2, 4]);
+        assert!("t=soon".parse::<StepChoice>().is_err());
+        let choice: StepChoice = "t=1e-6".parse().unwrap();
+        let error = choice.steps(folder(HISTORY).path(), &[0]).unwrap_err();
+        assert!(error.to_string().contains("it is no motion"), "{error}");
+        assert_eq!(time_of(motion.path(), 3).unwrap(), Some(3e-6));
+        assert_eq!(time_of(folder(HISTORY).path(), 3).unwrap(), None);
     }
 
     #[test]

@@ -53,7 +53,7 @@ pub fn write_surface(
         None => remove_file(&opened)?,
     }
     let least = cracks.mean_horizon().powi(2);
-    write_growth(&growth, true, &sizes(cracks), least)?;
+    write_growth(&growth, [true, cracks.in_time], &sizes(cracks), least)?;
     Ok(surface)
 }
 
@@ -208,6 +208,7 @@ fn sizes(cracks: &SolidCracks) -> Vec<CrackSize<'_>> {
             record,
             area: surface.area(),
             counts: vec![surface.parts().len().into()],
+            length: None,
         })
         .collect()
 }

@@ -141,7 +141,8 @@ pub(super) fn history_row<'a>(record: &StepRecord, view: &View<'a>) -> Vec<Value
     let closing = CLOSING.iter().filter(|_| view.system.faces_close());
     row.extend(closing.map(|column| column.1(record)));
     if let Some(motion) = &record.motion {
-        row.extend(MOTION.iter().map(|column| column.1(motion)));
+        let moment = (record.load_factor, *motion);
+        row.extend(MOTION.iter().map(|column| column.1(&moment)));
     }
     let layout = view.system.layout();
     let of_groups = record.group_forces.iter().flat_map(|force| {

@@ -2,17 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use ligament_output::csv::read::Sheet;
-use ligament_output::results::columns::unit_of;
 use ligament_output::results::outputs::{OutputKind, kind_of, require_results};
-use ligament_output::results::steps::{StepChoice, StepName};
 use ligament_output::summary::{self, Summary};
 
+use super::columns::{Curve, Tables, in_common, in_words};
 use super::units::Shown;
 use super::{PictureError, Target, labels_of};
 use crate::plots::{Colour, Mark, Plot, Series};
-use crate::stored_loading::stored_loading;
-use ligament::suggestion::hint;
 
 /// Rows up to which each of them is marked by a dot.
 const DOTTED: usize = 100;
@@ -27,26 +23,16 @@ pub struct CurveRequest {
     pub folders: Vec<PathBuf>,
     /// Labels of the curves; where empty, the names of the folders.
     pub labels: Vec<String>,
-    /// Columns of the histories along x and y.
-    pub columns: [String; 2],
+    /// Column along x; None: the time of a motion, else the displacement.
+    pub x: Option<String>,
+    /// Columns along y: of the history, or of the growth and the tips of cracks; `energies` and `probes` are all of these.
+    pub y: Vec<String>,
     /// Size and file.
     pub target: Target,
 }
 
-/// A curve in SI units.
-struct Curve {
-    points: Vec<[f64; 2]>,
-    units: [String; 2],
-    /// Whether each point is an answer to its load; bonds were still failing in the others.
-    at_rest: Vec<bool>,
-    /// Where the first bond broke or softened, and which of them.
-    first: Option<(&'static str, [f64; 2])>,
-    /// The load before its first fall, on curves of force over displacement.
-    first_peak: Option<[f64; 2]>,
-}
-
-/// A kind of points that stand out.
-type Landmark<'a> = (Mark, &'a dyn Fn(&Curve) -> Vec<(&'static str, [f64; 2])>);
+/// A kind of points that stand out, by the number of their curve.
+type Landmark<'a> = (Mark, &'a dyn Fn(usize) -> Vec<(&'static str, [f64; 2])>);
 
 /// Draws the picture and returns where it is.
 ///
@@ -65,48 +51,130 @@ pub fn draw_curves(request: &CurveRequest) -> Result<PathBuf, PictureError> {
         target.out = Some(file.clone());
     }
     target.check(&file)?;
-    let mut curves = Vec::new();
-    for folder in &request.folders {
-        curves.push(Curve::read(folder, &request.columns)?);
-    }
-    let shown = [shown(&curves, 0, request)?, shown(&curves, 1, request)?];
-    let place = |point: [f64; 2]| [0, 1].map(|axis| point[axis] * shown[axis].factor);
-    let is_single = curves.len() == 1;
-    let mut series = Vec::new();
-    for (number, (curve, label)) in curves.iter().zip(&labels).enumerate() {
-        let mark = match (number / N_COLOURS, curve.points.len()) {
-            (0, 0..=DOTTED) => Mark::Line,
-            (0, _) => Mark::Curve,
-            _ => Mark::Dashes,
-        };
-        let label = if is_single { "" } else { label };
-        let answers = curve.points.iter().zip(&curve.at_rest);
-        let answers = answers.filter(|it| *it.1).map(|it| place(*it.0));
-        series.push(Series::new(label, mark, colour(number), answers.collect()));
-    }
-    series.extend(landmarks(&curves, &place));
-    let title = match curves[0].first_peak.filter(|_| is_single) {
-        Some(peak) => {
-            let [x, y] = [0, 1].map(|axis| shown[axis].value(peak[axis]));
-            format!("first peak {y} at {x}")
-        }
-        None => String::new(),
-    };
-    let words = |column: &str| column.replace('_', " ");
-    let [x, y] = [0, 1].map(|axis| shown[axis].label(&words(&request.columns[axis])));
-    let plot = Plot::new("curves", title, [&x, &y], series);
-    let width = request
-        .target
-        .width
-        .unwrap_or(WIDTHS[usize::from(!is_single)]);
-    let drawing = plot.for_paper(width)?;
-    let title = format!(
-        "{} over {} of {}",
-        words(&request.columns[1]),
-        words(&request.columns[0]),
-        labels.join(", ")
-    );
+    let axes = Axes::read(request, &labels)?;
+    let drawing = axes
+        .plot()
+        .for_paper((request.target.width).unwrap_or(WIDTHS[usize::from(axes.curves.len() > 1)]))?;
+    let [x, y] = &axes.names;
+    let title = format!("{y} over {x} of {}", labels.join(", "));
     target.write(file, &drawing, &title)
+}
+
+/// The curves between their axes.
+struct Axes {
+    /// The curves with their labels.
+    curves: Vec<(String, Curve)>,
+    /// Words for what is along x and y, and its units.
+    names: [String; 2],
+    shown: [Shown; 2],
+    /// The load before its first fall, of each result, on curves of force over displacement.
+    first_peaks: Vec<Option<[f64; 2]>>,
+}
+
+impl Axes {
+    fn read(request: &CurveRequest, labels: &[String]) -> Result<Self, PictureError> {
+        let (mut curves, mut first_peaks) = (Vec::new(), Vec::new());
+        let (mut x, mut meant) = (request.x.clone(), Vec::new());
+        for (folder, label) in request.folders.iter().zip(labels) {
+            require_history(folder)?;
+            let tables = Tables::open(folder)?;
+            let x = x.get_or_insert_with(|| tables.usual_x().to_owned());
+            if meant.is_empty() {
+                meant = tables.meant(&request.y)?;
+            }
+            let is_of_load = x == "displacement" && meant == ["reaction"];
+            for y in &meant {
+                let curve = tables.curve(x, y)?;
+                let label = match (meant.len(), request.folders.len()) {
+                    (1, _) => label.clone(),
+                    (_, 1) => curve.name.clone(),
+                    _ => format!("{label}, {}", curve.name),
+                };
+                curves.push((label, curve));
+                let first_peak = || is_of_load.then(|| first_peak(folder)).flatten();
+                first_peaks.push(first_peak());
+            }
+        }
+        let x = x.unwrap_or_default();
+        let y = match meant.as_slice() {
+            [only] => in_words(only),
+            _ => in_common(&curves[0].1.units[1]).to_owned(),
+        };
+        let names = [in_words(&x), y];
+        let shown = [shown(&curves, 0, &names[0])?, shown(&curves, 1, &names[1])?];
+        Ok(Self {
+            curves,
+            names,
+            shown,
+            first_peaks,
+        })
+    }
+
+    /// A point in the units of the axes.
+    fn place(&self, point: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| point[axis] * self.shown[axis].factor)
+    }
+
+    fn plot(&self) -> Plot {
+        let is_single = self.curves.len() == 1;
+        let mut series = Vec::new();
+        for (number, (label, curve)) in self.curves.iter().enumerate() {
+            let mark = match (number / N_COLOURS, curve.points.len()) {
+                _ if curve.is_scattered => Mark::Circles,
+                (0, 0..=DOTTED) => Mark::Line,
+                (0, _) => Mark::Curve,
+                _ => Mark::Dashes,
+            };
+            let label = if is_single { "" } else { label.as_str() };
+            let answers = curve.points.iter().zip(&curve.at_rest);
+            let answers = answers.filter(|it| *it.1 && it.0[1].is_finite());
+            let answers = answers.map(|it| self.place(*it.0));
+            series.push(Series::new(label, mark, colour(number), answers.collect()));
+        }
+        series.extend(self.landmarks());
+        let title = match self.first_peaks[0].filter(|_| is_single) {
+            Some(peak) => {
+                let [x, y] = [0, 1].map(|axis| self.shown[axis].value(peak[axis]));
+                format!("first peak {y} at {x}")
+            }
+            None => String::new(),
+        };
+        let [x, y] = [0, 1].map(|axis| self.shown[axis].label(&self.names[axis]));
+        Plot::new("curves", title, [&x, &y], series)
+    }
+    /// The points that stand out on the curves, each kind with an entry of the legend.
+    fn landmarks(&self) -> Vec<Series> {
+        let kinds: [Landmark<'_>; 3] = [
+            (Mark::Triangles, &|it| {
+                self.curves[it].1.first.into_iter().collect()
+            }),
+            (Mark::Circles, &|it| {
+                let peak = self.first_peaks[it].into_iter();
+                peak.map(|it| ("first peak", it)).collect()
+            }),
+            (Mark::Crosses, &|it| {
+                let curve = &self.curves[it].1;
+                let all = curve.points.iter().zip(&curve.at_rest);
+                let unsettled = all.filter(|it| !it.1);
+                unsettled.map(|it| ("not converged", *it.0)).collect()
+            }),
+        ];
+        let mut series: Vec<Series> = Vec::new();
+        let mut named: Vec<&str> = Vec::new();
+        for (mark, of) in kinds {
+            for number in 0..self.curves.len() {
+                let marked = of(number);
+                let Some(&(words, _)) = marked.first() else {
+                    continue;
+                };
+                let label = if named.contains(&words) { "" } else { words };
+                named.push(words);
+                let points = marked.iter().map(|it| self.place(it.1)).collect();
+                series.push(Series::new(label, mark, colour(number), points));
+            }
+        }
+        series
+    }
 }
 
 /// Curves up to which each has a colour of its own.
@@ -117,93 +185,17 @@ fn colour(curve: usize) -> Colour {
     Colour::CYCLE.get(place).copied().unwrap_or(Colour::Black)
 }
 
-/// The points that stand out on the curves, each kind with an entry of the legend.
-fn landmarks(curves: &[Curve], place: &impl Fn([f64; 2]) -> [f64; 2]) -> Vec<Series> {
-    let kinds: [Landmark<'_>; 3] = [
-        (Mark::Triangles, &|curve| curve.first.into_iter().collect()),
-        (Mark::Circles, &|curve| {
-            let peak = curve.first_peak.into_iter();
-            peak.map(|it| ("first peak", it)).collect()
-        }),
-        (Mark::Crosses, &|curve| {
-            let all = curve.points.iter().zip(&curve.at_rest);
-            let unsettled = all.filter(|it| !it.1);
-            unsettled.map(|it| ("not converged", *it.0)).collect()
-        }),
-    ];
-    let mut series: Vec<Series> = Vec::new();
-    let mut named: Vec<&str> = Vec::new();
-    for (mark, of) in kinds {
-        for (number, curve) in curves.iter().enumerate() {
-            let marked = of(curve);
-            let Some(&(words, _)) = marked.first() else {
-                continue;
-            };
-            let label = if named.contains(&words) { "" } else { words };
-            named.push(words);
-            let points = marked.iter().map(|it| place(it.1)).collect();
-            series.push(Series::new(label, mark, colour(number), points));
-        }
+/// Makes sure that a folder has the history of a run.
+fn require_history(folder: &Path) -> Result<(), PictureError> {
+    require_results(folder)?;
+    if kind_of(folder) == OutputKind::Modes {
+        return Err(PictureError::Modes {
+            path: folder.to_path_buf(),
+            what: "history",
+            option: "--curve",
+        });
     }
-    series
-}
-
-impl Curve {
-    fn read(folder: &Path, columns: &[String; 2]) -> Result<Self, PictureError> {
-        require_results(folder)?;
-        if kind_of(folder) == OutputKind::Modes {
-            return Err(PictureError::Modes {
-                path: folder.to_path_buf(),
-                what: "history",
-                option: "--curve",
-            });
-        }
-        let sheet = Sheet::read(folder.join("history.csv"))?;
-        // Of a table that is none of a run nothing is told.
-        let steps = sheet.values::<usize>("step")?;
-        let column = |name: &String| {
-            if sheet.columns().contains(name) {
-                return Ok(sheet.values::<f64>(name)?);
-            }
-            Err(PictureError::UnknownColumn {
-                path: sheet.path().to_path_buf(),
-                name: name.clone(),
-                hint: known_columns(name, sheet.columns()),
-            })
-        };
-        let (x, y) = (column(&columns[0])?, column(&columns[1])?);
-        let loading = stored_loading(folder).ok();
-        let unit = |column: &String| {
-            let known = loading.as_ref().map(|it| it.unit_of(column));
-            known.unwrap_or_else(|| unit_of(column)).to_owned()
-        };
-        let is_of_load = columns[0] == "displacement" && columns[1] == "reaction";
-        let points: Vec<[f64; 2]> = x.into_iter().zip(y).map(|(x, y)| [x, y]).collect();
-        Ok(Self {
-            at_rest: at_rest(&sheet, points.len())?,
-            first: first(folder, &steps, &points),
-            points,
-            units: [unit(&columns[0]), unit(&columns[1])],
-            first_peak: is_of_load.then(|| first_peak(folder)).flatten(),
-        })
-    }
-}
-
-/// Whether each of so many rows is an answer to its load; earlier versions did not tell.
-fn at_rest(sheet: &Sheet, n_rows: usize) -> Result<Vec<bool>, PictureError> {
-    if !sheet.columns().iter().any(|name| name == "at_rest") {
-        return Ok(vec![true; n_rows]);
-    }
-    let flags = sheet.values::<u8>("at_rest")?;
-    Ok(flags.into_iter().map(|flag| flag != 0).collect())
-}
-
-/// The point of the first breakage or softening, with what it is.
-fn first(folder: &Path, steps: &[usize], points: &[[f64; 2]]) -> Option<(&'static str, [f64; 2])> {
-    let choice = StepChoice::One(StepName::First);
-    let (what, step) = choice.steps(folder, steps).ok()?.first()?.happened?;
-    let row = steps.iter().position(|it| *it == step)?;
-    Some((what, points[row]))
+    Ok(())
 }
 
 /// The load before its first fall, from the summary; a run that was cut short has none.
@@ -212,26 +204,18 @@ fn first_peak(folder: &Path) -> Option<[f64; 2]> {
     Some([peak.displacement, peak.reaction])
 }
 
-fn known_columns(name: &str, columns: &[String]) -> String {
-    let nearest = hint(name, columns, "columns", '`');
-    if nearest.contains("columns: ") {
-        return nearest;
-    }
-    format!("{nearest}; columns: {}", columns.join(", "))
-}
-
 /// The unit to show an axis in.
-fn shown(curves: &[Curve], axis: usize, request: &CurveRequest) -> Result<Shown, PictureError> {
-    let unit = &curves[0].units[axis];
-    let mut units = curves.iter().map(|it| &it.units[axis]);
+fn shown(curves: &[(String, Curve)], axis: usize, name: &str) -> Result<Shown, PictureError> {
+    let unit = &curves[0].1.units[axis];
+    let mut units = curves.iter().map(|it| &it.1.units[axis]);
     if let Some(other) = units.find(|it| *it != unit) {
         return Err(PictureError::Units {
-            axis: request.columns[axis].clone(),
+            axis: name.to_owned(),
             first: unit.clone(),
             other: other.clone(),
         });
     }
-    let points = curves.iter().flat_map(|it| &it.points);
+    let points = curves.iter().flat_map(|it| &it.1.points);
     let values = points.map(|point| point[axis].abs());
     let largest = values.filter(|it| it.is_finite()).fold(0.0, f64::max);
     Ok(Shown::new(unit, largest))

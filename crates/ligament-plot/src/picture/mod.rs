@@ -7,6 +7,7 @@
 mod body;
 mod colour_bar;
 pub mod colour_map;
+mod columns;
 mod contour;
 mod crack;
 pub mod curve;
@@ -154,7 +155,7 @@ pub enum PictureError {
     },
     /// Curves in different units.
     #[error(
-        "the results have {axis} in different units ({first} and {other}); draw them separately"
+        "there are values of {axis} in different units ({first} and {other}); draw them separately"
     )]
     Units {
         /// The column.

@@ -18,7 +18,7 @@ pub fn asks_for_pictures(folder: &Path) -> bool {
     case.and_then(asked).unwrap_or(false)
 }
 
-/// Draws the last state of a run, or its first modes, and of a run that breaks bonds the curve of force over displacement, as PNG into
+/// Draws the last state of a run, or its first modes, and of a run that breaks bonds the curve of force over displacement, of a motion over time, as PNG into
 /// its folder; returns where they are.
 ///
 /// # Errors
@@ -26,12 +26,14 @@ pub fn asks_for_pictures(folder: &Path) -> bool {
 /// If there are no such results, or a picture cannot be written.
 pub fn draw_run(folder: &Path) -> Result<Vec<PathBuf>, PictureError> {
     let mut drawn = vec![draw_fields(&FieldRequest::usual(folder.to_path_buf()))?];
-    let breaks = resolved_case(folder)?.contains_key("fracture");
-    if breaks && kind_of(folder) == OutputKind::Steps {
+    let case = resolved_case(folder)?;
+    let has_curve = case.contains_key("fracture") || case.contains_key("motion");
+    if has_curve && kind_of(folder) == OutputKind::Steps {
         drawn.push(draw_curves(&CurveRequest {
             folders: vec![folder.to_path_buf()],
             labels: Vec::new(),
-            columns: ["displacement", "reaction"].map(str::to_owned),
+            x: None,
+            y: vec!["reaction".to_owned()],
             target: Target::default(),
         })?);
     }

@@ -28,6 +28,8 @@ pub enum Choice {
 /// The row of the history of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Moment {
+    /// Load factor, of a motion the time, s.
+    pub(super) load_factor: f64,
     /// Displacement of the first load.
     pub(super) displacement: f64,
     /// Force of the first load.
@@ -46,6 +48,8 @@ pub(super) fn moments(folder: &Path) -> Result<BTreeMap<usize, Moment>, PictureE
         let displacement = row.value("displacement")?;
         let reaction = row.value("reaction")?;
         let moment = Moment {
+            // Of a motion alone.
+            load_factor: row.number("load_factor").unwrap_or(f64::NAN),
             displacement,
             reaction,
             at_rest: row.value::<u8>("at_rest").map_or(true, |it| it != 0),
@@ -140,13 +144,13 @@ fn require_mode(outputs: &Outputs, name: StepChoice, all: &[usize]) -> Result<()
                 known,
             })
         }
-        StepChoice::One(StepName::First | StepName::Peak | StepName::FromEnd(_)) => {
-            Err(PictureError::Modes {
-                path,
-                what: "first breakage and no peak",
-                option: "--step",
-            })
-        }
+        StepChoice::One(
+            StepName::First | StepName::Peak | StepName::FromEnd(_) | StepName::At(_),
+        ) => Err(PictureError::Modes {
+            path,
+            what: "first breakage and no peak",
+            option: "--step",
+        }),
         StepChoice::All | StepChoice::One(StepName::Last | StepName::Number(_)) => Ok(()),
     }
 }
@@ -173,6 +177,7 @@ mod tests {
                 (
                     step,
                     Moment {
+                        load_factor: 0.0,
                         displacement,
                         reaction: 0.0,
                         at_rest: true,

@@ -36,6 +36,8 @@ pub(super) struct Source {
     moments: BTreeMap<usize, Moment>,
     /// Units to show displacement and force in.
     shown: Option<[Shown; 2]>,
+    /// Unit to show the time of a motion in; none in statics.
+    time: Option<Shown>,
     pub(super) crack: Option<Crack>,
     /// Lines that are drawn over the body in all steps.
     lines: Vec<Lines>,
@@ -141,6 +143,12 @@ fn default_field(sources: &[Source]) -> Result<&'static str, PictureError> {
     Ok(DISPLACEMENT.name)
 }
 
+/// The largest size of a value of the moments.
+fn largest(moments: &BTreeMap<usize, Moment>, of: fn(&Moment) -> f64) -> f64 {
+    let sizes = moments.values().map(|it| of(it).abs());
+    sizes.fold(0.0, f64::max)
+}
+
 impl Source {
     fn open(folder: &Path, label: String, request: &FieldRequest) -> Result<Self, PictureError> {
         let mut source = Self {
@@ -148,6 +156,7 @@ impl Source {
             label,
             moments: BTreeMap::new(),
             shown: None,
+            time: None,
             crack: None,
             lines: Vec::new(),
             cracks: None,
@@ -171,16 +180,15 @@ impl Source {
         }
         source.moments = moments(folder)?;
         let loading = stored_loading(folder).ok();
-        let largest = |of: fn(&Moment) -> f64| {
-            let sizes = source.moments.values().map(|it| of(it).abs());
-            sizes.fold(0.0, f64::max)
-        };
+        let largest = |of: fn(&Moment) -> f64| largest(&source.moments, of);
         source.shown = loading.as_ref().map(|it| {
             [
                 Shown::new(it.units.displacement, largest(|it| it.displacement)),
                 Shown::new(it.units.force, largest(|it| it.reaction)),
             ]
         });
+        let moving = loading.as_ref().filter(|it| it.in_time);
+        source.time = moving.map(|_| Shown::new("s", largest(|it| it.load_factor)));
         if request.crack.is_some() && has_solid(folder)? {
             source.solid_cracks = Some(SolidCracks::open(folder)?);
             return Ok(source);
@@ -226,6 +234,11 @@ impl Output<'_> {
             let frequency =
                 frequency.map_or(String::new(), |it| format!(": {} Hz", four_digits(*it)));
             words.push(same(format!("mode {number}{frequency}")));
+            return words;
+        }
+        if let (Some(moment), Some(shown)) = (self.moment(), &source.time) {
+            words.push(same(format!("t = {}", shown.value(moment.load_factor))));
+            words.extend(self.chosen.happened.clone());
             return words;
         }
         words.push(same(format!("step {number}")));

@@ -24,6 +24,7 @@ mod lines;
 mod opened;
 mod paths;
 mod smooth;
+mod tips;
 
 pub use faces::{Faces, Part};
 pub use lines::{CrackEnd, CrackLine, crack_lines};

@@ -18,17 +18,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ligament import _native
+from ligament._curves import WIDTH, curves
 from ligament._errors import LigamentError
 from ligament._home import Home
 from ligament._picture import Picture
 
 Floats = NDArray[np.float64]
 
-# A step by its number, from the end (-1 is the last) or by what happened in it: the first breakage or softening, the largest load.
+# A step by its number, from the end (-1 is the last) or by what happened in it: the first breakage or softening, the largest load. In a motion a
+# step is a row of the history, and a time in s means the nearest one.
 Step = int | Literal["first", "peak", "last"]
 
-# Widths of pictures, mm: alone, and two beside each other.
-WIDTH = 140.0
+# Width of one of two pictures beside each other, mm.
 HALF = 100.0
 
 # Components by which vectors and their norm are named.
@@ -142,6 +143,26 @@ class Result:
         """The history as a table of pandas, with ``attrs["units"]``, or of polars, whichever is installed, else as a dictionary."""
         return table(self.columns, self.units)
 
+    @property
+    def is_motion(self) -> bool:
+        """Whether the run is a motion in time, whose history has the column `time` in s."""
+        return {"time", "time_steps"} <= self.columns.keys()
+
+    @property
+    def duration(self) -> float | None:
+        """The time that a motion reached, s; `None` in statics."""
+        return float(self.columns["time"][-1]) if self.is_motion else None
+
+    @property
+    def times(self) -> Floats | None:
+        """The times of `steps` in a motion, s; `None` in statics."""
+        return np.asarray(self.columns["time"])[self._rows] if self.is_motion else None
+
+    @functools.cached_property
+    def probes(self) -> dict[str, Any]:
+        """The probes over the rows of the history, as arrays by their names; `units` has their units."""
+        return {name: self.columns[name] for name in self._run.probes() if name in self.columns}
+
     @functools.cached_property
     def _breaks(self) -> dict[str, Any]:
         return self._run.table("breaks.csv")
@@ -220,6 +241,11 @@ class Result:
         return self._run.steps()
 
     @property
+    def _rows(self) -> list[int]:
+        """The rows of the history of the steps of which there are fields."""
+        return [int(np.flatnonzero(self.columns["step"] == step)[0]) for step in self.steps]
+
+    @property
     def field_names(self) -> list[str]:
         """Names of the fields of the points that change with the steps."""
         return [name for name, (_, stays, _) in self._info(self.steps[-1]).items() if not stays]
@@ -228,8 +254,10 @@ class Result:
         """A number of the summary by its dotted name, such as ``first_peak.reaction``."""
         return _native.numbers(self._summary_text, name)[name]
 
-    def field(self, name: str, step: Step | None = None) -> NDArray[Any]:
+    def field(self, name: str, step: Step | None = None, *, time: float | None = None) -> NDArray[Any]:
         """The values of a field over the points, or of a component of it, in a step, the last one where none is said.
+
+        Of a motion also at a `time` in s: in the step with fields that is nearest to it.
 
         Components are named as on the command line: ``displacement.y``, ``displacement.magnitude``, ``stress.xx``. A step is a number, -1
         for the last, or ``"first"`` (breakage or softening), ``"peak"`` or ``"last"``; where fields of a named step were not kept, those of
@@ -239,7 +267,7 @@ class Result:
         ``stress_virial`` at single points of an irregular mesh is off by a tenth to a quarter inside the body and by a third and more
         at its edges; its mean over many points is right.
         """
-        at = self._step(step)
+        at = self._step(step, time)
         base, part = self._named(name, at)
         values = self._whole(base, at)
         if part is None:
@@ -248,9 +276,9 @@ class Result:
             return self._fields.setdefault((at, name), _read_only(np.linalg.norm(values, axis=1)))
         return values[:, self._info(at)[base][0].index(part)]
 
-    def _step(self, step: Step | None) -> int:
+    def _step(self, step: Step | None, time: float | None = None) -> int:
         """The step with fields that is meant."""
-        return self._run.step("last" if step is None else str(step), True)
+        return self._run.step(_meant(step, time), True)
 
     def _info(self, step: int) -> dict[str, tuple[list[str], bool, str]]:
         if step not in self._infos:
@@ -278,29 +306,30 @@ class Result:
         hint = (f"did you mean `{meant[0]}`? " if meant else "") + f"fields: {', '.join(below or fields)}"
         raise LigamentError(f"there is no field `{name}`; {hint}", hint=hint)
 
-    def crack_path(self, step: Step | None = None) -> list[CrackLine]:
-        """The cracks of a body in the plane in a step as lines, the last step where none is said."""
+    def crack_path(self, step: Step | None = None, *, time: float | None = None) -> list[CrackLine]:
+        """The cracks of a body in the plane in a step, or at a time of a motion, as lines, the last step where none is said."""
         if self.is_solid:
             hint = "`crack_surface` has its crack as triangles"
             raise LigamentError(f"lines of cracks are those of a body in the plane, and this one is a solid; {hint}", hint=hint)
-        lines = self._run.cracks(self._run.step("last" if step is None else str(step), False))
+        lines = self._run.cracks(self._run.step(_meant(step, time), False))
         return [CrackLine(points, (ends[0], ends[1]), length) for points, ends, length in lines]
 
-    def crack_surface(self, step: Step | None = None) -> CrackSurface:
-        """The crack of a solid in a step as a surface, the last step where none is said.
+    def crack_surface(self, step: Step | None = None, *, time: float | None = None) -> CrackSurface:
+        """The crack of a solid in a step, or at a time of a motion, as a surface, the last step where none is said.
 
         Openings are those of the step's fields, or of the last fields before it.
         """
         if not self.is_solid:
             hint = "`crack_path` has its cracks as lines"
             raise LigamentError(f"a crack surface is that of a solid, and this body lies in the plane; {hint}", hint=hint)
-        return CrackSurface(**self._run.surface(self._run.step("last" if step is None else str(step), False)))
+        return CrackSurface(**self._run.surface(self._run.step(_meant(step, time), False)))
 
     def plot(
         self,
         field: str | None = None,
         step: Step | None = None,
         *,
+        time: float | None = None,
         width: float = WIDTH,
         scale: float | None = None,
         crack: Literal["bonds", "lines"] | None = None,
@@ -317,7 +346,7 @@ class Result:
         solid is seen from ``"x"``, ``"y"``, ``"z"``, ``"iso"`` or an azimuth and an elevation in degrees; `section` is a plane such as
         ``"z=0.05"``, and `level` draws the surface on which the field has this value.
         """
-        at = self._step(step)
+        at = self._step(step, time)
         if field not in (None, "none"):
             self._named(str(field), at)
         seen = view if view is None or isinstance(view, str) else f"{view[0]},{view[1]}"
@@ -325,10 +354,13 @@ class Result:
             "label": self.title, "field": field, "scale": scale, "crack": crack, "view": seen, "section": section, "level": level,
             "width": width,
         }
-        return Picture(*_native.draw_fields(self.folder, "last" if step is None else str(step), wanted))
+        return Picture(*_native.draw_fields(self.folder, _meant(step, time), wanted))
 
-    def curve(self, x: str = "displacement", y: str = "reaction", *, width: float = WIDTH) -> Picture:
-        """A picture of a column of the history over another, at first of the force over the displacement."""
+    def curve(self, x: str | None = None, y: str | Sequence[str] = "reaction", *, width: float = WIDTH) -> Picture:
+        """A picture of a column of the history over another, at first of the force over the displacement, of a motion over the time.
+
+        `y` may be several columns of one unit; ``"energies"`` and ``"probes"`` are all of these.
+        """
         return curves([self], [self.title], (x, y), width)
 
     def explain(
@@ -344,21 +376,23 @@ class Result:
         is replaced."""
         return report([self], path, measured)
 
-    def to_pyvista(self, step: Step | None = None) -> Any:
-        """The body in a step as a grid of PyVista, with all fields."""
+    def to_pyvista(self, step: Step | None = None, *, time: float | None = None) -> Any:
+        """The body in a step, or at a time of a motion, as a grid of PyVista, with all fields."""
         import pyvista
 
-        return pyvista.read(self._run.file(self._step(step)))
+        return pyvista.read(self._run.file(self._step(step, time)))
 
     def to_xarray(self) -> Any:
-        """The fields over the steps and points as a data set of xarray, with units and, at each step, displacement and force of the load."""
+        """The fields over the steps and points as a data set of xarray, with units and, at each step, displacement and force of the load, and
+        in a motion the time."""
         import xarray
 
-        rows = [int(np.flatnonzero(self.columns["step"] == step)[0]) for step in self.steps]
         coordinates: dict[str, Any] = {"step": self.steps}
         for name in ("load_factor", "displacement", "reaction"):
-            of_steps = np.asarray(self.columns[name])[rows]
+            of_steps = np.asarray(self.columns[name])[self._rows]
             coordinates[f"load_{name}" if name != "load_factor" else name] = ("step", of_steps, {"units": self.units[name]})
+        if self.is_motion:
+            coordinates["time"] = coordinates.pop("load_factor")[:2] + ({"units": "s"},)
         for axis, values in zip(VECTOR, self.points["position"].T, strict=False):
             coordinates[axis] = ("point", values, {"units": "m"})
         fields: dict[str, Any] = {}
@@ -395,7 +429,8 @@ class Result:
             point = summary.get(name)
             if point:
                 force, along = units["force"], units["displacement"]
-                told.append((words, f"{point['reaction']:.4g} {force} at {point['displacement']:.4g} {along}"))
+                at = f"{point['load_factor']:.4g} s" if self.is_motion else f"{point['displacement']:.4g} {along}"
+                told.append((words, f"{point['reaction']:.4g} {force} at {at}"))
         told.append(("broken bonds", str(summary["broken_bonds"])))
         told.append(("ended because", summary["termination_message"]))
         return told + [("warning", words) for words in self.warnings]
@@ -406,6 +441,16 @@ def _restored(files: dict[str, bytes], title: str) -> Result:
     home = Home()
     home.restore(files)
     return Result(home.path, title, home)
+
+
+def _meant(step: Step | None, time: float | None) -> str:
+    """The name of a step or of a time."""
+    if time is None:
+        return "last" if step is None else str(step)
+    if step is not None:
+        hint = "give one of them"
+        raise LigamentError(f"`step` and `time` both mean a step; {hint}", hint=hint)
+    return f"t={float(time)!r}"
 
 
 def _read_only(values: NDArray[Any]) -> NDArray[Any]:
@@ -424,22 +469,3 @@ def report(
 ) -> Path:
     """Writes one page for a browser with several results, and gives its path; a file that is there is replaced."""
     return _native.report([it.folder for it in results], [it.title for it in results], Path(path), [Path(it) for it in measured])
-
-
-def curves(results: list[Result], labels: list[str], axes: tuple[str, str] = ("displacement", "reaction"), width: float = WIDTH) -> Picture:
-    """A picture of a column of the histories of several results over another."""
-    for name in axes:
-        if name not in results[0].columns:
-            near = difflib.get_close_matches(name, results[0].columns, 1)
-            hint = (f"did you mean `{near[0]}`? " if near else "") + f"columns: {', '.join(results[0].columns)}"
-            raise LigamentError(f"the history has no column `{name}`; {hint}", hint=hint)
-    drawn = []
-    for result, label in zip(results, labels, strict=True):
-        columns = result.columns
-        rests = np.asarray(columns["at_rest"], dtype=bool)
-        x, y = (np.asarray(columns[name], dtype=np.float64)[rests] for name in axes)
-        drawn.append((label, x, y))
-    words = [{"reaction": "force"}.get(name, name.replace("_", " ")) for name in axes]
-    units = results[0].units
-    named = [(word, units[name]) for word, name in zip(words, axes, strict=True)]
-    return Picture(_native.draw_curves(drawn, named[0], named[1], "", width), f"{words[1]} over {words[0]}")

@@ -154,6 +154,8 @@ class Model(TypedDict, total=False):
     """Whether bonds run through holes, slots and notches of a mesh, as if these were filled. Default false."""
     closing: bool
     """Whether the faces of cracks carry pressure again where they close; of laws whose points turn. Default false."""
+    closing_friction: float
+    """Coefficient of friction on faces that close, in an explicit motion. Default 0.0."""
     calibration: Literal["integral", "discrete"]
     """Where the constants of the law come from; of `bbpd`, `bbpd-conical`, `pds`, `mppd`, `mppd-beam`.
 
@@ -671,14 +673,14 @@ class Rigid(TypedDict, total=False):
     name: str
     """Name in results."""
     shape: Literal["circle", "sphere", "wall", "box"]
-    """Its shape.
+    """Shape of the body.
 
 - `circle`: A circle, for a body in the plane.
 - `sphere`: A sphere, for a solid.
 - `wall`: A half-plane, for a solid a half-space.
 - `box`: A rectangle, for a solid a box, with sides along the axes."""
     centre: Numbers
-    """Its centre at time zero, of a wall a point of its surface, m."""
+    """Centre of the body at time zero, of a wall a point of its surface, m."""
     radius: float
     """Radius of a circle or sphere, m."""
     normal: Numbers

@@ -12,12 +12,13 @@ from typing import Any
 
 from ligament import _native, _progress
 from ligament._case import Case, Source, case_of
+from ligament._curves import curves
 from ligament._errors import Interrupted, LigamentError, NotCalibrated
 from ligament._home import Home
 from ligament._modes import Modes
 from ligament._picture import Picture
 from ligament._progress import Report
-from ligament._result import Result, curves, table
+from ligament._result import Result, table
 
 
 def run(
@@ -35,7 +36,7 @@ def run(
     results there.
 
     Changes are keys with two underscores for a dot: ``run("case.toml", model__horizon_factor=4)``. `progress` shows how far the run
-    is, by default in a notebook or a terminal; a function is called after each step with its number, load factor, displacement, force and
+    is, by default in a notebook or a terminal; a function is called after each step with its number, load factor (the time of a motion, s), displacement, force and
     the number of broken bonds. Other threads go on meanwhile, and Ctrl-C ends the run at the end of its step by `Interrupted`, which has the
     result so far.
     """
@@ -52,7 +53,7 @@ def _run(
         home = Home()
         folder = home.path
     place = Path(folder)
-    report = _progress.report_of(progress)
+    report = _progress.report_of(progress, case._native.is_motion)
     try:
         stopped = _native.run(case._native, place, replace, report)
     finally:

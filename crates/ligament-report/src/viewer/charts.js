@@ -1,6 +1,9 @@
 // The curves of the page, all linked to the step that is seen.
 
-const ENERGIES = ["external_work", "stored_energy", "released_energy", "dissipated_energy"];
+const ENERGIES = ["external_work", "stored_energy", "released_energy", "dissipated_energy", "kinetic_energy", "damping_energy", "contact_energy", "friction_energy", "initial_energy"];
+
+// Share of the largest energy of a motion below which none is seen beside it.
+const SEEN = 1e-3;
 
 class Charts {
   // `go` is called with the number of a run and the place of a step.
@@ -14,11 +17,15 @@ class Charts {
     const chart = (id, title) => new Chart(document.getElementById(id), title);
     this.curve = chart("curve", "Force over displacement");
     this.size = chart("size", "Size of the cracks");
+    this.speed = chart("speed", "Growth of the cracks over the time");
+    this.probes = chart("probes", "Probes over the time");
     this.spent = chart("spent", "Energy spent on the cracks");
     this.energies = chart("energies", "Energies over the steps");
     this.broken = chart("broken", "Broken bonds over the steps");
     this.convergence = chart("convergence", "Last residual of each step");
     this.iterations = chart("iterations", "Iterations over the steps");
+    this.probed = document.getElementById("probed");
+    this.probed.addEventListener("change", () => this.showProbes(this.run));
     this.over = document.getElementById("over");
     this.over.addEventListener("change", () => this.showCurve());
     this.offer();
@@ -27,10 +34,11 @@ class Charts {
     this.showCurve();
   }
 
-  // What the force can be drawn over: the displacement, and motions that were probed.
+  // What the force can be drawn over: the time of a motion, the displacement, and motions that were probed.
   offer() {
     const [first] = this.runs;
-    const columns = [...first.history.values()].filter((it) => it.name === "displacement" || it.isProbe);
+    const time = first.time ? [first.time] : [];
+    const columns = [...time, ...[...first.history.values()].filter((it) => it.name === "displacement" || it.isProbe)];
     this.columns = columns.map((it) => ({ ...it, words: inWords(it.name) }));
     options(this.over, this.columns.map((it) => [it.name, it.words]));
     document.getElementById("over-label").hidden = this.columns.length < 2;
@@ -117,40 +125,73 @@ class Charts {
   showRun(run) {
     this.run = run;
     const number = this.runs.indexOf(run);
-    const steps = run.history.get("step")?.values ?? [];
+    const { x, label: xLabel } = run.axis;
     const pick = (_, place) => this.go(number, run.rows.indexOf(place));
     const over = (names, shift) => names.filter((name) => run.history.has(name)).map((name, place) => ({
       label: inWords(name),
-      colour: place + 1,
-      x: steps,
+      colour: (place % 8) + 1,
+      x,
       y: valuesIn(run.history.get(name), shift ?? run.history.get(name).shift),
       steps: run.rows,
     }));
-    const xLabel = "step";
     const energy = run.history.get(ENERGIES[0]);
-    const isStatic = steps.length < 2 || run.isModes;
-    const energies = isStatic ? [] : over(ENERGIES.filter((it) => run.history.get(it)?.values.some((value) => value !== 0)), energy?.shift);
+    const isStatic = x.length < 2 || run.isModes;
+    const sizes = new Map(ENERGIES.map((it) => [it, Math.max(0, ...(run.history.get(it)?.values ?? []).map(Math.abs))]));
+    const least = run.time ? SEEN * Math.max(...sizes.values()) : 0;
+    const energies = isStatic ? [] : over(ENERGIES.filter((it) => sizes.get(it) > least), energy?.shift);
     this.energies.show({ series: energies, xLabel, yLabel: labelWithUnit("energy", energy?.unit), pick });
-    const broken = isStatic ? [] : over(["broken_bonds", "broken_in_step"]);
+    // A motion may have nothing that breaks and nothing that iterates.
+    const told = (names) => names.filter((it) => !run.time || run.history.get(it)?.values.some((value) => value > 0));
+    const broken = isStatic ? [] : over(told(["broken_bonds", "broken_in_step"]));
     this.broken.show({ series: broken, xLabel, yLabel: "bonds", pick });
-    const residuals = isStatic ? [] : over(["residual"], 0);
+    const residuals = isStatic ? [] : over(told(["residual"]), 0);
     this.convergence.show({ series: residuals, xLabel, yLabel: "last residual", logarithmic: true, pick });
-    const iterations = isStatic ? [] : over(["iterations", "rounds"]);
+    const iterations = isStatic ? [] : over(told(["iterations", "rounds"]));
     this.iterations.show({ series: iterations, xLabel, yLabel: "in a step", pick });
+    const probes = [...run.history.values()].filter((it) => it.isProbe && run.time);
+    const units = [...new Set(probes.map((it) => it.si))];
+    options(this.probed, units.map((unit) => [unit, probes.filter((it) => it.si === unit).map((it) => inWords(it.name)).join(", ")]));
+    document.getElementById("probed-label").hidden = units.length < 2;
+    this.showProbes(run);
     this.showSize(run, number);
+    this.showSpeed(run, number);
     this.showSpent(run, number);
     for (const chart of [...this.ofSteps, ...this.ofCracks]) chart.parent.closest("section").hidden = chart.series.length === 0;
     document.getElementById("numerics").hidden = this.convergence.series.length + this.iterations.series.length === 0;
   }
 
-  // Length or area of the cracks over the displacement.
+  // Probes of one unit over the time.
+  showProbes(run) {
+    const probes = [...run.history.values()].filter((it) => it.isProbe && run.time && it.si === this.probed.value);
+    const largest = Math.min(...probes.map((it) => it.shift));
+    const { unit } = probes.find((it) => it.shift === largest) ?? {};
+    const { x, label: xLabel } = run.axis;
+    const series = probes.map((it, place) => ({ label: inWords(it.name), colour: (place % 8) + 1, x, y: valuesIn(it, largest), steps: run.rows }));
+    this.probes.show({
+      series, xLabel, yLabel: series.length === 1 ? labelWithUnit(series[0].label, unit) : unit ?? "",
+      pick: (_, place) => this.go(this.runs.indexOf(run), run.rows.indexOf(place)),
+    });
+    if (this.marked) this.probes.markAt(this.marked[0].rows[this.marked[1]]);
+  }
+
+  // What the cracks grew from step to step of a motion, over the time between.
+  showSpeed(run, number) {
+    const isThere = run.size?.values.some((it) => it > 0) && run.time;
+    const times = isThere ? run.rows.map((row) => run.time.values[row]) : [];
+    const sizes = run.size?.values ?? [];
+    const y = times.map((time, place) => (place ? (sizes[place] - sizes[place - 1]) / (time - times[place - 1]) : NaN));
+    const series = isThere ? [{ label: run.label, colour: 1, x: run.axis.ofSteps, y, steps: [...y.keys()] }] : [];
+    this.speed.show({ series, xLabel: run.axis.label, yLabel: run.isSolid ? "area rate (m²/s)" : "speed (m/s)", pick: (_, place) => this.go(number, place) });
+  }
+
+  // Length or area of the cracks over the displacement, or the time of a motion.
   showSize(run, number) {
-    const displacement = run.history.get("displacement");
-    const isThere = run.size?.values.some((it) => it > 0) && displacement;
-    const x = isThere && run.rows.map((row) => displacement.values[row] * 10 ** displacement.shift);
+    const along = run.time ?? run.history.get("displacement");
+    const isThere = run.size?.values.some((it) => it > 0) && along;
+    const x = isThere && run.rows.map((row) => along.values[row] * 10 ** along.shift);
     const series = isThere ? [{ label: run.label, colour: 1, x, y: valuesIn(run.size, run.size.shift), steps: [...x.keys()] }] : [];
     this.size.show({
-      series, xLabel: labelWithUnit("displacement", displacement?.unit), yLabel: labelWithUnit(run.size?.name ?? "", run.size?.unit),
+      series, xLabel: labelWithUnit(inWords(along?.name ?? ""), along?.unit), yLabel: labelWithUnit(run.size?.name ?? "", run.size?.unit),
       pick: (_, place) => this.go(number, place),
     });
   }
@@ -179,11 +220,11 @@ class Charts {
   }
 
   get ofSteps() {
-    return [this.energies, this.broken, this.convergence, this.iterations];
+    return [this.energies, this.broken, this.probes, this.convergence, this.iterations];
   }
 
   get ofCracks() {
-    return [this.size, this.spent];
+    return [this.size, this.speed, this.spent];
   }
 
   mark(run, step) {

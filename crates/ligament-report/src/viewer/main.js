@@ -137,8 +137,9 @@ class Page {
   tellStep() {
     const { run, step } = this;
     const row = run.rows[step];
-    const words = [`${run.isModes ? "mode" : "step"} ${run.steps[step]}`];
-    for (const name of run.isModes ? ["frequency"] : ["displacement", "reaction"]) {
+    const words = [run.when(run.steps[step])];
+    const told = run.isModes ? ["frequency"] : ["displacement", "reaction"];
+    for (const name of run.time ? [] : told) {
       const column = run.history.get(name);
       if (column && row >= 0) words.push(withUnit(shortText(column.values[row] * 10 ** column.shift), column.unit));
     }

@@ -2,7 +2,7 @@
 // units, as in `opening (mm),force (kN)`.
 
 const UNIT_PREFIXES = { "": 1, p: 1e-12, n: 1e-9, u: 1e-6, µ: 1e-6, μ: 1e-6, m: 1e-3, c: 1e-2, k: 1e3, M: 1e6, G: 1e9 };
-const UNITS = ["m", "N", "Pa", "rad", "J", "K", "N m", "J/K", "m^3", "mm^3"];
+const UNITS = ["m", "s", "N", "Pa", "rad", "J", "K", "N m", "J/K", "m^3", "mm^3"];
 
 // The SI unit of a unit with a prefix, and the factor to it; null of an unknown one.
 function siUnit(text) {

@@ -48,8 +48,8 @@ class Panel {
     if (run.steps.length < 2) return;
     const y = await run.valuesOfPoint(choice, point);
     if (asked !== this.asked) return;
-    const series = [{ label: choice.label, colour: 1, x: run.steps, y, steps: [...run.steps.keys()] }];
-    const xLabel = run.isModes ? "mode" : "step";
+    const { ofSteps: x, label: xLabel } = run.axis;
+    const series = [{ label: choice.label, colour: 1, x, y, steps: [...run.steps.keys()] }];
     this.history.show({ series, xLabel, yLabel: labelWithUnit(choice.label, choice.field.unit) });
     this.history.markAt(step);
   }
@@ -70,7 +70,7 @@ class Panel {
     const list = document.createElement("table");
     list.className = "bonds";
     const head = list.createTHead().insertRow();
-    for (const name of [`to ${body.tagged}`, "length (mm)", "largest", "in step", "fate"]) head.append(cell("th", name));
+    for (const name of [`to ${body.tagged}`, "length (mm)", "largest", run.time ? "in row" : "in step", "fate"]) head.append(cell("th", name));
     const rows = list.createTBody();
     for (const { bond, other, length } of sorted) {
       const row = rows.insertRow();
@@ -109,13 +109,14 @@ class Panel {
     const seen = properties.get("step_of_largest");
     const by = criteria[properties.get("criterion_of_largest")?.multiple];
     const largest = properties.get("utilisation");
-    if (largest?.multiple > 0) rows.push(["largest utilisation", `${exactText(largest.multiple, largest.exponent, 0)} in step ${seen?.multiple}, by ${by}`]);
+    if (largest?.multiple > 0) rows.push(["largest utilisation", `${exactText(largest.multiple, largest.exponent, 0)} ${run.time ? "at" : "in"} ${run.when(seen?.multiple)}, by ${by}`]);
     rows.push(["fate", fateOf(breaks, bond, properties.get("absent")?.multiple ?? 0)]);
     const order = breaks.order[bond];
     if (order >= 0) {
       const [step, round] = [breaks.step[order], breaks.round[order]];
       const limit = `${shortText(breaks.utilisation[order], 5)} of the limit at which it breaks`;
-      rows.push(["broke", `in step ${step}, round ${round}, by ${criteria[breaks.criterion[order]]}, at ${limit}; ${breaks.step.length} broke in all`]);
+      const when = run.time ? `by ${run.when(step)}, in time step ${round}` : `in step ${step}, round ${round}`;
+      rows.push(["broke", `${when}, by ${criteria[breaks.criterion[order]]}, at ${limit}; ${breaks.step.length} broke in all`]);
     }
     this.bond.replaceChildren(table(rows));
     for (const row of this.bondValues.querySelectorAll("tbody tr[data-bond]")) row.classList.toggle("chosen", Number(row.dataset.bond) === bond);

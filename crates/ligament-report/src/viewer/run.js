@@ -18,11 +18,27 @@ class Run {
     const rows = this.history.get("step")?.values ?? [];
     // The row of the history of each step of the page.
     this.rows = this.steps.map((step) => rows.indexOf(step));
+    // The time of each row of a motion; null in statics.
+    this.time = description.inTime ? this.history.get("time") : null;
     // Size and area of the cracks over the steps of the page.
     const { cracks } = description;
     this.size = cracks?.size ?? null;
     this.area = cracks?.area ?? null;
     this.bonds = description.bonds ? new Bonds(description.bonds, this) : null;
+  }
+
+  // What curves of the run are drawn over: places of all rows, and of the steps of the page, with their label.
+  get axis() {
+    const x = this.time ? valuesIn(this.time, this.time.shift) : this.history.get("step")?.values ?? [];
+    const label = this.time ? labelWithUnit("time", this.time.unit) : this.isModes ? "mode" : "step";
+    return { x, ofSteps: this.time ? this.rows.map((row) => x[row]) : this.steps, label };
+  }
+
+  // The number of a step, or the time of a motion, in words.
+  when(number) {
+    const row = this.time ? this.history.get("step").values.indexOf(number) : -1;
+    if (row < 0) return `${this.isModes ? "mode" : "step"} ${number}`;
+    return `t = ${withUnit(shortText(this.time.values[row] * 10 ** this.time.shift), this.time.unit)}`;
   }
 
   // Positions, tags and triangles; read once.

@@ -26,16 +26,18 @@ fn factor(choice: &DirectChoice) -> FactorSummary {
     }
 }
 
-/// What limits the time step of an explicit motion.
-fn limit(choice: &ExplicitChoice) -> String {
-    let CriticalStep {
-        step, of_rotations, ..
-    } = choice.critical;
-    let by = if of_rotations > 0.5 {
+/// Motions of the points that limit the critical step of an explicit scheme.
+pub(super) fn limited_by(critical: &CriticalStep) -> &'static str {
+    if critical.of_rotations > 0.5 {
         "rotations"
     } else {
         "displacements"
-    };
+    }
+}
+
+/// What limits the time step of an explicit motion.
+fn limit(ExplicitChoice { critical, .. }: &ExplicitChoice) -> String {
+    let (step, by) = (critical.step, limited_by(critical));
     format!("the critical step is {step:.4e} s, limited by {by}")
 }
 

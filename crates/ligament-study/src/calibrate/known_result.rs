@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use ligament_output::summary::{
     BondEvent, CorrectionSummary, IterationSummary, ModalSummary, ModeSummary, ModelSummary,
-    OverlapSummary, PathPoint, ScatterSummary, SolverSummary, Spread, StabilitySummary, Summary,
-    UnitsSummary,
+    MotionSummary, OverlapSummary, PathPoint, ScatterSummary, SolverSummary, Spread,
+    StabilitySummary, Summary, UnitsSummary,
 };
 use serde::Serialize;
 
@@ -70,6 +70,11 @@ fn complete_summary() -> Summary {
         softened_bonds: Some(0),
         steps: 0,
         exact_path: false,
+        motion: Some(MotionSummary {
+            critical_step: Some(0.0),
+            limited_by: Some("".into()),
+            ..MotionSummary::default()
+        }),
         termination: "".into(),
         termination_message: String::new(),
         without_equilibrium: false,

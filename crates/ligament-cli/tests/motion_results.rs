@@ -1,0 +1,250 @@
+//! Results of a motion in time: words, tables, pictures and the page are over the time.
+
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::support::{assert_success, ligament_in, stderr, stdout};
+
+/// A plate of 60 x 24 cells with a slit, pulled by sudden forces that drive a crack through it.
+const PLATE: &str = r#"title = "Plate with a slit"
+[lattice]
+cells = [60, 24]
+spacing = 5e-4
+thickness = 1e-3
+[lattice.set]
+top = { top = 1 }
+bottom = { bottom = 1 }
+[material]
+young = 32e9
+poisson = 0.2
+density = 2450.0
+fracture_energy = 3.0
+[model]
+law = "nhpd"
+horizon_factor = 3.0
+[[precrack]]
+points = [[-0.001, 0.006], [0.01, 0.006]]
+[motion]
+duration = 30e-6
+rows = 30
+[fracture]
+criterion = [{ kind = "critical-stretch" }]
+[[load]]
+group = "top"
+force_per_length = { y = 2.5e3 }
+[[load]]
+group = "bottom"
+force_per_length = { y = -2.5e3 }
+[[probe]]
+name = "mouth"
+at = [0.0, 0.0063]
+field = "velocity_y"
+[[probe]]
+name = "edge"
+at = [0.0, 0.0118]
+field = "velocity_y"
+[output]
+fields_every = 5
+"#;
+
+/// Runs a command and gives what it says on both streams.
+fn said(folder: &Path, words: &str) -> String {
+    let arguments: Vec<&str> = words.split_whitespace().collect();
+    let output = ligament_in(folder, &arguments);
+    assert_success(&output);
+    stdout(&output) + &stderr(&output)
+}
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("plate.toml"), PLATE).unwrap();
+    said(folder.path(), "run plate.toml --out out --quiet");
+    folder
+}
+
+/// Rows of a table by the names of its columns; what is empty is NaN.
+fn table(path: &Path) -> Vec<std::collections::BTreeMap<String, f64>> {
+    let text = fs::read_to_string(path).unwrap();
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let number = |it: &str| it.parse().unwrap_or(f64::NAN);
+    let row = |line: &str| {
+        let values = line.split(',').map(number);
+        names
+            .iter()
+            .map(|it| (*it).to_owned())
+            .zip(values)
+            .collect()
+    };
+    lines.map(row).collect()
+}
+
+#[test]
+fn a_run_and_its_summary_tell_times_steps_and_energies() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("plate.toml"), PLATE).unwrap();
+    let words = said(folder.path(), "run plate.toml --out out");
+    for expected in [
+        "row 1 of 30: 1.000 us, ",
+        "row 30 of 30: 30.00 us, ",
+        "\n  motion             30.00 us in ",
+        "\n  critical step      ",
+        "\n  energies           work ",
+        ", kinetic ",
+        " us, by critical-stretch",
+        " time steps\n",
+    ] {
+        assert!(words.contains(expected), "{expected} in\n{words}");
+    }
+    assert!(
+        !words.contains("load factor") && !words.contains("first peak"),
+        "{words}"
+    );
+    let text = fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
+    let summary: Value = serde_json::from_str(&text).unwrap();
+    let motion = &summary["motion"];
+    let history = table(&folder.path().join("out/history.csv"));
+    let last = history.last().unwrap();
+    assert_eq!(motion["duration"], 30e-6);
+    assert_eq!(motion["time"].as_f64().unwrap(), last["time"]);
+    assert_eq!(motion["time_steps"].as_f64().unwrap(), last["time_steps"]);
+    let step = motion["time_step"].as_f64().unwrap();
+    assert!(step < motion["critical_step"].as_f64().unwrap());
+    // All steps have one length, but for rounding.
+    assert!((step * last["time_steps"] / last["time"] - 1.0).abs() < 1e-12);
+    let energies = motion["energies"].as_object().unwrap();
+    for (name, value) in energies {
+        assert_eq!(value.as_f64().unwrap(), last[name], "{name}");
+    }
+    // Columns of time are the load factor under its name.
+    assert!(history.iter().all(|it| it["time"] == it["load_factor"]));
+    assert!(summary["first_peak"].is_null());
+}
+
+/// What the crack grew by its rates is its length, and each tip moved by its speed.
+#[test]
+fn cracks_have_speeds_that_add_up_to_their_ways() {
+    let folder = folder();
+    let words = said(folder.path(), "crack out --step t=21.2e-6");
+    assert!(words.starts_with("t = 21.00 us: "), "{words}");
+    let growth = table(&folder.path().join("out/crack_growth.csv"));
+    assert!(growth.len() > 5, "{growth:?}");
+    assert!(growth[0]["length_rate"].is_nan());
+    let grown = |rate: &str| -> f64 {
+        let pairs = growth.windows(2);
+        pairs
+            .map(|it| it[1][rate] * (it[1]["time"] - it[0]["time"]))
+            .sum()
+    };
+    let (first, last) = (&growth[0], growth.last().unwrap());
+    for (rate, size) in [("length_rate", "length"), ("area_rate", "area")] {
+        let whole = last[size] - first[size];
+        assert!(
+            whole > 0.0 && (grown(rate) / whole - 1.0).abs() < 1e-9,
+            "{rate}"
+        );
+    }
+    let tips = table(&folder.path().join("out/crack_tips.csv"));
+    let alone: Vec<_> = (tips.iter())
+        .filter(|tip| tips.iter().filter(|it| it["time"] == tip["time"]).count() == 1)
+        .collect();
+    assert!(alone.len() > 3, "{tips:?}");
+    for pair in alone.windows(2) {
+        let time = pair[1]["time"] - pair[0]["time"];
+        let straight = (pair[1]["x"] - pair[0]["x"]).hypot(pair[1]["y"] - pair[0]["y"]);
+        let between = tips
+            .iter()
+            .filter(|it| it["time"] > pair[0]["time"] && it["time"] < pair[1]["time"]);
+        if between.count() == 0 && !pair[1]["speed"].is_nan() {
+            // Smoothing moves the line that the way follows by less than a cell.
+            let away = (pair[1]["speed"] * time - straight).abs();
+            assert!(away < 5e-4, "{pair:?}: {away}");
+        }
+    }
+    // No crack is faster than waves of pressure, sqrt(E/rho/(1 - nu^2)).
+    let fastest = tips.iter().map(|it| it["speed"]).fold(0.0, f64::max);
+    assert!(fastest > 100.0 && fastest < 3700.0, "{fastest}");
+}
+
+#[test]
+fn curves_and_pictures_are_over_the_time() {
+    let folder = folder();
+    let svg = |words: &str| {
+        said(folder.path(), &format!("plot {words} --out a.svg --force"));
+        fs::read_to_string(folder.path().join("a.svg")).unwrap()
+    };
+    let force = svg("--curve out");
+    assert!(
+        force.contains(">time (µs)<") && force.contains(">reaction (N)<"),
+        "{force}"
+    );
+    assert!(!force.contains("first peak"));
+    let energies = svg("--curve out --y energies");
+    for name in [
+        "external work",
+        "kinetic energy",
+        "stored energy",
+        "released energy",
+    ] {
+        assert!(energies.contains(&format!(">{name}<")), "{name}");
+    }
+    assert!(
+        !energies.contains("friction") && energies.contains(">energy ("),
+        "{energies}"
+    );
+    let probes = svg("--curve out --y probes");
+    assert!(
+        probes.contains(">mouth<")
+            && probes.contains(">edge<")
+            && probes.contains(">velocity (m/s)<")
+    );
+    let refused = |words: &str| {
+        let arguments: Vec<&str> = words.split_whitespace().collect();
+        let output = ligament_in(folder.path(), &arguments);
+        assert_ne!(output.status.code(), Some(0));
+        stderr(&output)
+    };
+    let error = refused("plot --curve out --y mouth reaction");
+    assert!(error.contains("different units (m/s and N)"), "{error}");
+    let error = refused("plot --curve out --y length_rate");
+    assert!(error.contains("`ligament crack` writes it"), "{error}");
+    said(folder.path(), "crack out");
+    assert!(svg("--curve out --y length_rate").contains(">length rate (m/s)<"));
+    assert!(svg("--curve out --y speed").contains(">speed (m/s)<"));
+    let strip = svg("out --step t=0 t=14e-6");
+    assert!(
+        strip.contains("t = 0") && strip.contains("t = 15.00 µs"),
+        "{strip}"
+    );
+    assert!(!strip.contains("step "), "{strip}");
+}
+
+#[test]
+fn bonds_and_the_page_tell_times() {
+    let folder = folder();
+    let breaks = table(&folder.path().join("out/breaks.csv"));
+    let [a, b] = ["cell_a", "cell_b"].map(|it| breaks[0][it]);
+    let words = said(folder.path(), &format!("explain out --bond {a} {b}"));
+    assert!(
+        words.contains("It broke after ") && words.contains(" us, in time step "),
+        "{words}"
+    );
+    assert!(
+        words.contains("times with fields") && !words.contains("load factor"),
+        "{words}"
+    );
+    said(folder.path(), "report out");
+    let page = fs::read_to_string(folder.path().join("out/report.html")).unwrap();
+    let (_, rest) = page.split_once("id=\"description\">").unwrap();
+    let page: Value = serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap();
+    let run = &page["runs"][0];
+    assert_eq!(run["inTime"], true);
+    assert_eq!(run["opensAt"], 6);
+    let columns = run["history"].as_array().unwrap();
+    let time = columns.iter().find(|it| it["name"] == "time").unwrap();
+    assert_eq!((&time["unit"], &time["si"]), (&"µs".into(), &"s".into()));
+}

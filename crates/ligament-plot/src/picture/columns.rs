@@ -1,0 +1,219 @@
+//! The columns that curves show: of the history, or of the growth and the tips of cracks beside it.
+
+use std::path::Path;
+
+use ligament_output::csv::read::Sheet;
+use ligament_output::results::columns::{HISTORY, TIME, is_in_time, unit_of, unit_of_crack};
+use ligament_output::results::steps::{StepChoice, StepName};
+
+use super::PictureError;
+use crate::stored_loading::{StoredLoading, stored_loading};
+use ligament::suggestion::hint;
+
+/// Words for all energies and for all probes, where no column is called so.
+const ENERGIES: &str = "energies";
+const PROBES: &str = "probes";
+
+/// Share of the largest energy below which none is seen beside it.
+const SEEN: f64 = 1e-3;
+
+/// Columns of [`ENERGIES`], in the order of the ledger.
+const OF_ENERGIES: [&str; 9] = [
+    "external_work",
+    "kinetic_energy",
+    "stored_energy",
+    "released_energy",
+    "damping_energy",
+    "contact_energy",
+    "friction_energy",
+    "initial_energy",
+    "dissipated_energy",
+];
+
+/// Files with columns over the records of a run, the first of which is always there.
+const TABLES: [&str; 3] = ["history.csv", "crack_growth.csv", "crack_tips.csv"];
+
+/// The tables of a run whose columns are drawn.
+pub(super) struct Tables<'a> {
+    folder: &'a Path,
+    history: Sheet,
+    loading: Option<StoredLoading>,
+}
+
+/// A curve in SI units.
+pub(super) struct Curve {
+    /// Words for the column along y.
+    pub(super) name: String,
+    pub(super) points: Vec<[f64; 2]>,
+    pub(super) units: [String; 2],
+    /// Whether each point is an answer to its load; bonds were still failing in the others.
+    pub(super) at_rest: Vec<bool>,
+    /// Whether the points are no line, such as the tips of several cracks.
+    pub(super) is_scattered: bool,
+    /// Where the first bond broke or softened, and which of them.
+    pub(super) first: Option<(&'static str, [f64; 2])>,
+}
+
+impl<'a> Tables<'a> {
+    /// The tables in a folder.
+    pub(super) fn open(folder: &'a Path) -> Result<Self, PictureError> {
+        let history = Sheet::read(folder.join(TABLES[0]))?;
+        // Of a table that is none of a run nothing is told.
+        history.values::<usize>("step")?;
+        let loading = stored_loading(folder).ok();
+        Ok(Self {
+            folder,
+            history,
+            loading,
+        })
+    }
+
+    /// The column along x where none is named: the time of a motion, else the displacement.
+    pub(super) fn usual_x(&self) -> &'static str {
+        match is_in_time(self.history.columns()) {
+            true => TIME,
+            false => "displacement",
+        }
+    }
+
+    /// The columns that names mean: those of these names, all energies that can be seen beside the largest, or all probes.
+    pub(super) fn meant(&self, names: &[String]) -> Result<Vec<String>, PictureError> {
+        let has = |name: &str| self.history.columns().iter().any(|it| it == name);
+        let mut meant = Vec::new();
+        for name in names {
+            match name.as_str() {
+                ENERGIES if !has(ENERGIES) => {
+                    let mut sizes = Vec::new();
+                    for name in OF_ENERGIES.into_iter().filter(|it| has(it)) {
+                        let values = self.history.values::<f64>(name)?.into_iter();
+                        sizes.push((name, values.fold(0.0, |most, it| it.abs().max(most))));
+                    }
+                    let largest = sizes.iter().fold(0.0, |most, it| it.1.max(most));
+                    let seen = sizes.iter().filter(|it| it.1 > SEEN * largest);
+                    meant.extend(seen.map(|it| it.0.to_owned()));
+                }
+                PROBES if !has(PROBES) => {
+                    let probes = self.loading.iter().flat_map(|it| it.probes.keys());
+                    meant.extend(probes.filter(|it| has(it)).cloned());
+                }
+                name => meant.push(name.to_owned()),
+            }
+        }
+        match meant.is_empty() {
+            true => Err(self.unknown(&names.join(", "), &self.history)),
+            false => Ok(meant),
+        }
+    }
+
+    /// The curve of a column over another one of the same table.
+    pub(super) fn curve(&self, x: &str, y: &str) -> Result<Curve, PictureError> {
+        let beside = || -> Result<Option<(usize, Sheet)>, PictureError> {
+            for (place, file) in TABLES.iter().enumerate().skip(1) {
+                let path = self.folder.join(file);
+                if path.is_file() {
+                    let sheet = Sheet::read(path)?;
+                    if sheet.columns().iter().any(|it| it == y) {
+                        return Ok(Some((place, sheet)));
+                    }
+                }
+            }
+            Ok(None)
+        };
+        let is_of_history = self.history.columns().iter().any(|it| it == y);
+        let other = if is_of_history { None } else { beside()? };
+        let (place, sheet) = other
+            .as_ref()
+            .map_or((0, &self.history), |it| (it.0, &it.1));
+        let numbers = |name: &str| {
+            if sheet.columns().iter().any(|it| it == name) {
+                let texts = sheet.texts(name).into_iter().flatten();
+                // What is not known in a row is empty.
+                let known = texts.map(|it| {
+                    if it.is_empty() {
+                        Ok(f64::NAN)
+                    } else {
+                        it.parse()
+                    }
+                });
+                return known
+                    .collect::<Result<Vec<f64>, _>>()
+                    .or_else(|_| Ok(sheet.values::<f64>(name)?));
+            }
+            Err(self.unknown(name, sheet))
+        };
+        let (of_x, of_y) = (numbers(x)?, numbers(y)?);
+        let points: Vec<[f64; 2]> = of_x.into_iter().zip(of_y).map(|(x, y)| [x, y]).collect();
+        let steps = sheet.values::<usize>("step")?;
+        Ok(Curve {
+            name: in_words(y),
+            at_rest: at_rest(sheet, points.len())?,
+            is_scattered: place == 2,
+            first: first(self.folder, &steps, &points).filter(|_| place < 2),
+            points,
+            units: [x, y].map(|it| self.unit_of(it, place).to_owned()),
+        })
+    }
+
+    fn unit_of(&self, column: &str, table: usize) -> &'static str {
+        let of_crack = unit_of_crack(TABLES[table], column);
+        let of_history = || match &self.loading {
+            Some(loading) => loading.unit_of(column),
+            None => unit_of(column),
+        };
+        // Those of the load follow from the case.
+        let of_load = ["displacement", "reaction"].contains(&column);
+        of_crack.filter(|_| !of_load).unwrap_or_else(of_history)
+    }
+
+    fn unknown(&self, name: &str, sheet: &Sheet) -> PictureError {
+        let nearest = hint(name, sheet.columns(), "columns", '`');
+        let all = sheet.columns().join(", ");
+        let mut beside = TABLES[1..].iter();
+        let of_cracks = beside.any(|it| unit_of_crack(it, name).is_some())
+            && !HISTORY.iter().any(|it| it.0.name == name);
+        PictureError::UnknownColumn {
+            path: sheet.path().to_path_buf(),
+            name: name.to_owned(),
+            hint: match nearest {
+                _ if of_cracks => "; `ligament crack` writes it beside the history".to_owned(),
+                nearest if nearest.contains("columns: ") => nearest,
+                nearest => format!("{nearest}; columns: {all}"),
+            },
+        }
+    }
+}
+
+/// A column in words.
+pub(super) fn in_words(column: &str) -> String {
+    column.replace('_', " ")
+}
+
+/// Words for what several columns of a unit have in common.
+pub(super) fn in_common(unit: &str) -> &'static str {
+    match unit {
+        "J" => "energy",
+        "m" => "displacement",
+        "m/s" => "velocity",
+        "m/s^2" => "acceleration",
+        "N" => "force",
+        "Pa" => "stress",
+        _ => "value",
+    }
+}
+
+/// Whether each of so many rows is an answer to its load; earlier versions did not tell, and other tables do not.
+fn at_rest(sheet: &Sheet, n_rows: usize) -> Result<Vec<bool>, PictureError> {
+    if !sheet.columns().iter().any(|name| name == "at_rest") {
+        return Ok(vec![true; n_rows]);
+    }
+    let flags = sheet.values::<u8>("at_rest")?;
+    Ok(flags.into_iter().map(|flag| flag != 0).collect())
+}
+
+/// The point of the first breakage or softening, with what it is.
+fn first(folder: &Path, steps: &[usize], points: &[[f64; 2]]) -> Option<(&'static str, [f64; 2])> {
+    let choice = StepChoice::One(StepName::First);
+    let (what, step) = choice.steps(folder, steps).ok()?.first()?.happened?;
+    let row = steps.iter().position(|it| *it == step)?;
+    Some((what, points[row])).filter(|it| it.1[1].is_finite())
+}
