@@ -12,7 +12,7 @@ use crate::trial::{Memory, Template, template};
 pub(crate) const EXPERIMENT: Experiment = Experiment {
     name: "motion_spall",
     title: "A bar that spalls",
-    source: "closed form: the incident pulse less the reflected one; granite of Saadati 2016",
+    source: "closed form: the incident pulse less the reflected one; Bohus granite",
     setup: "Bar of granite, 140 mm long, rho = 2660 kg/m^3, c = 4050 m/s (E = 43.63 GPa, nu = 0), tensile strength 18.9 MPa, `bond-rankine`, NHPD, patch \
             correction, lambda = 3. A pressure on its left end grows to 41.5 MPa in 8 us and falls to zero in 32 us. The peak comes back from the free end, and the \
             stress first reaches the strength at d = F_t c 32 us/(2 x 41.5 MPa) = 29.5 mm from this end, 140 mm/c + 8 us + d/c after the beginning. Distance and time of \
