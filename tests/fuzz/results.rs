@@ -142,7 +142,8 @@ impl Results {
         let curves = draw_curves(&CurveRequest {
             folders: vec![self.out()],
             labels: Vec::new(),
-            columns: ["displacement", "reaction"].map(str::to_owned),
+            x: Some("displacement".to_owned()),
+            y: vec!["reaction".to_owned()],
             target: target(),
         });
         let drawn = [fields, curves].map(|it| it.map_err(|it| it.to_string()));
