@@ -13,12 +13,11 @@ use crate::critical_step::CriticalStep;
 use crate::internal;
 use crate::state::State;
 
-/// Relative residual of the largest eigenvalue, by which it may be too small. The largest ones of a uniform body lie close to each other, so that
-/// a smaller residual would take hundreds of products more, for a step that is half a per cent longer.
-const TOLERANCE: f64 = 0.01;
+/// Relative residual of the largest eigenvalue, by which it may be too small. With 1 % the search ended at a smaller eigenvalue of a small body.
+const TOLERANCE: f64 = 1e-3;
 
-/// Largest number of products with the stiffness; some tens are usual.
-const PRODUCTS: usize = 500;
+/// Largest number of products with the stiffness; a hundred are usual.
+const PRODUCTS: usize = 1000;
 
 /// Displacement over the spacing of the points for the derivative of forces that are not linear in the displacements.
 const PROBE: f64 = 1e-7;

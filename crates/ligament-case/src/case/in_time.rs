@@ -1,10 +1,10 @@
-//! What only a motion has, and what it does not have.
+//! What a motion does not have.
 
 use super::document::Node;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::motion::Scheme;
-use super::sections::Case;
+use super::solver::Solver;
 use super::values::refuse;
 
 /// Keys of `[fracture]` about load steps.
@@ -28,42 +28,33 @@ pub(super) fn keys_of_statics(scheme: Scheme) -> Vec<&'static str> {
     }
 }
 
-impl Case {
-    /// Sections of a motion, each with whether it is given.
-    pub(super) fn in_time(&self) -> [(&'static str, bool); 5] {
-        [
-            ("motion", self.motion.is_some()),
-            ("initial_velocity", !self.initial_velocities.is_empty()),
-            ("quiet", !self.quiet.is_empty()),
-            ("contact", !self.contacts.is_empty()),
-            ("rigid", !self.rigid_bodies.is_empty()),
-        ]
-    }
-
-    /// Refuses keys of load steps and of equations in a motion without them.
-    pub(super) fn refuse_statics(&self, document: &Node, scheme: Scheme) -> Result<(), KeyFault> {
-        let given = document.get("fracture");
-        let is_given = |key: &'static str| (key, given.is_some_and(|it| it.get(key).is_some()));
-        let fracture = KeyPath::default().child("fracture");
-        let setting = "analysis = \"motion\"";
-        let reason =
-            "a motion has no load steps: bonds break at the time at which they reach their limits";
-        refuse(&fracture, STEPPING.map(is_given), setting, reason)?;
-        let reason = "a motion has a `stop` of its own, in [motion]";
-        refuse(&fracture, [is_given("stop")], setting, reason)?;
-        match scheme {
-            Scheme::Implicit => Ok(()),
-            Scheme::Explicit => {
-                let setting = "motion.scheme = \"explicit\"";
-                let reason = "all bonds at their limits break in an explicit step";
-                refuse(&fracture, BALANCING.map(is_given), setting, reason)?;
-                let (key, reason) = (
-                    KeyPath::default().child("solver"),
-                    "explicit steps solve no equations",
-                );
-                let keys = self.solver.of_equations();
-                refuse(&key, keys, "motion.scheme = \"explicit\"", reason)
-            }
+/// Refuses keys of load steps and of equations in a motion without them.
+pub(super) fn refuse_statics(
+    document: &Node,
+    scheme: Scheme,
+    solver: &Solver,
+) -> Result<(), KeyFault> {
+    let given = document.get("fracture");
+    let is_given = |key: &'static str| (key, given.is_some_and(|it| it.get(key).is_some()));
+    let fracture = KeyPath::default().child("fracture");
+    let setting = "analysis = \"motion\"";
+    let reason =
+        "a motion has no load steps: bonds break at the time at which they reach their limits";
+    refuse(&fracture, STEPPING.map(is_given), setting, reason)?;
+    let reason = "a motion has a `stop` of its own, in [motion]";
+    refuse(&fracture, [is_given("stop")], setting, reason)?;
+    match scheme {
+        Scheme::Implicit => Ok(()),
+        Scheme::Explicit => {
+            let setting = "motion.scheme = \"explicit\"";
+            let reason = "all bonds at their limits break in an explicit step";
+            refuse(&fracture, BALANCING.map(is_given), setting, reason)?;
+            let (key, reason) = (
+                KeyPath::default().child("solver"),
+                "explicit steps solve no equations",
+            );
+            let keys = solver.of_equations();
+            refuse(&key, keys, "motion.scheme = \"explicit\"", reason)
         }
     }
 }

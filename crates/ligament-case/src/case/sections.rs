@@ -19,6 +19,7 @@ use super::decode::decode;
 use super::document::Node;
 use super::fault::{Fault as F, KeyFault};
 use super::fracture::{Control, Fracture};
+use super::in_time::refuse_statics;
 use super::key_path::KeyPath;
 use super::lattice_keys;
 use super::lattice_section::LatticeSection;
@@ -142,7 +143,7 @@ impl Case {
         if let Some(motion) = &mut case.motion {
             motion.complete();
             let scheme = motion.scheme;
-            case.refuse_statics(document, scheme)?;
+            refuse_statics(document, scheme, &case.solver)?;
         }
         let is_idle = case.loads.is_empty()
             && case.temperatures.is_empty()
@@ -199,8 +200,16 @@ impl Case {
         }
         if analysis != Analysis::Motion {
             let reason = "only a motion takes place in time";
-            let mut given = self.in_time().into_iter();
-            given.try_for_each(|(key, is_given)| refuse(key, is_given, reason))?;
+            let given = [
+                ("motion", self.motion.is_some()),
+                ("initial_velocity", !self.initial_velocities.is_empty()),
+                ("quiet", !self.quiet.is_empty()),
+                ("contact", !self.contacts.is_empty()),
+                ("rigid", !self.rigid_bodies.is_empty()),
+            ];
+            given
+                .into_iter()
+                .try_for_each(|(key, is_given)| refuse(key, is_given, reason))?;
         }
         match analysis {
             Analysis::Motion if self.motion.is_none() => {

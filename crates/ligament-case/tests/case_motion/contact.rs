@@ -39,7 +39,7 @@ const REFUSED: [[&str; 2]; 18] = [
     ],
     [
         "rigid=[{name=\"it\",shape=\"circle\",centre=[0.0,1.0]}]",
-        "rigid.0.radius: missing key `radius` in [[rigid]]",
+        "rigid.0.radius: missing key `radius`",
     ],
     [
         "rigid=[{name=\"it\",shape=\"circle\",centre=[0.0,1.0],radius=-1.0}]",

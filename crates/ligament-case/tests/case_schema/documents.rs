@@ -190,8 +190,8 @@ name = "ball"
 shape = "circle"
 centre = [0, 3]
 radius = 1
-velocity = { y = -1 }
-amplitude = { shape = "ramp", duration = 1 }
+velocity = { x = -1 }
+amplitude = { shape = "sine", duration = 1 }
 [[rigid]]
 name = "floor"
 shape = "wall"
@@ -255,12 +255,15 @@ pub(super) fn documents() -> Vec<Value> {
     );
     // Keys of one correction stand in another document than those of the other.
     let patch = ORTHOTROPIC.replace("\"domain\"", "\"patch\"");
+    let scheme = "duration = 1e-2\nscheme = \"implicit\"\nstep = 1e-4";
+    let implicit = MOTION.replace("duration = 1e-2", scheme);
     [
         mesh.as_str(),
         LATTICE,
         SOLID,
         MODAL,
         MOTION,
+        &implicit,
         ORTHOTROPIC,
         &patch,
     ]

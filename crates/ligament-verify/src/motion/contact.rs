@@ -8,6 +8,7 @@ use ligament_analysis::history::{ObserverError, StepRecord, View};
 use ligament_analysis::{Component, Observer};
 
 use super::record::Record;
+use super::waves::with_law;
 use crate::experiment::{Experiment, Findings};
 use crate::published::published;
 use crate::table::{Extent, Labels};
@@ -88,11 +89,7 @@ impl Velocities {
 /// Share of the first momentum or energy after a collision.
 fn collision(labels: Labels<'_>) -> anyhow::Result<f64> {
     let mut velocities = Velocities::default();
-    let trial = COLLISION.trial().set("model.law", labels.text("law")?);
-    let trial = match labels.text("law")? {
-        "bbpd" => trial.set("material.poisson", 1.0 / 3.0),
-        _ => trial,
-    };
+    let trial = with_law(COLLISION.trial(), labels.text("law")?, "plane");
     let solution = trial.solve_seen(&mut velocities)?;
     let first = POINTS * VELOCITY;
     let last = solution.outcome.history.last().context("no rows")?;
@@ -129,7 +126,7 @@ fn slope(labels: Labels<'_>) -> anyhow::Result<f64> {
     let mut velocities = Velocities::default();
     let solution = trial.solve_seen(&mut velocities)?;
     let end = velocities.last(&solution, |_| true)?;
-    let times = Record::of(&solution, |row| row.load_factor).times;
+    let times = Record::of_rows(&solution, |row| row.load_factor).times;
     let kept = times.partition_point(|time| *time < GROWTH * (1.0 - 1e-9)) + 1;
     velocities.0.truncate(kept);
     let start = velocities.last(&solution, |_| true)?;

@@ -20,7 +20,7 @@ pub(super) struct Record {
 
 impl Record {
     /// A quantity of every row of a motion.
-    pub(super) fn of(solution: &Solution, value: impl Fn(&StepRecord) -> f64) -> Self {
+    pub(super) fn of_rows(solution: &Solution, value: impl Fn(&StepRecord) -> f64) -> Self {
         let rows = &solution.outcome.history;
         Self {
             times: rows.iter().map(|row| row.load_factor).collect(),
@@ -32,7 +32,7 @@ impl Record {
     pub(super) fn of_probe(solution: &Solution, name: &str) -> anyhow::Result<Self> {
         let place = solution.probes.iter().position(|probe| probe.name == name);
         let place = place.with_context(|| format!("the run has no probe `{name}`"))?;
-        Ok(Self::of(solution, |row| row.probes[place]))
+        Ok(Self::of_rows(solution, |row| row.probes[place]))
     }
 
     /// The record with the weighted values of another one at the same times added.

@@ -42,6 +42,12 @@ const GAUGE: f64 = 40e-3;
 /// Spacing of the points of the lattice with the plane wave, m.
 const SPACING: f64 = 1e-3;
 
+/// Laws with one Poisson's ratio alone.
+const OF_ONE_RATIO: [&str; 2] = ["bbpd", "bbpd-conical"];
+
+/// The law whose energies are right without a correction of surfaces.
+const WITHOUT_CORRECTION: &str = "mbb-pd";
+
 /// Number of angular frequencies of a spectrum, and the least number of points per wavelength of the fastest wave in it.
 const SPECTRUM: (usize, f64) = (400, 6.0);
 
@@ -89,9 +95,9 @@ fn bar(labels: Labels<'_>) -> anyhow::Result<f64> {
     let trial = with_law(trial, law, space)
         .set("motion.duration", 40e-6)
         .set("motion.rows", 800);
-    let trial = match law {
-        "mbb-pd" => trial.set("correction.surface", "none"),
-        _ => trial,
+    let trial = match WITHOUT_CORRECTION == law {
+        true => trial.set("correction.surface", "none"),
+        false => trial,
     };
     let solution = trial.solve()?;
     let turn = |name: &str| {
@@ -103,12 +109,12 @@ fn bar(labels: Labels<'_>) -> anyhow::Result<f64> {
 }
 
 /// The trial with a law, and the Poisson's ratio of the law where it has only one.
-fn with_law(trial: Trial, law: &str, space: &str) -> Trial {
+pub(super) fn with_law(trial: Trial, law: &str, space: &str) -> Trial {
     let trial = trial.set("model.law", law);
-    match (law, space) {
-        ("bbpd" | "bbpd-conical", "plane") => trial.set("material.poisson", 1.0 / 3.0),
-        ("bbpd", "space") => trial.set("material.poisson", 0.25),
-        _ => trial,
+    match (OF_ONE_RATIO.contains(&law), space) {
+        (true, "plane") => trial.set("material.poisson", 1.0 / 3.0),
+        (true, _) => trial.set("material.poisson", 0.25),
+        (false, _) => trial,
     }
 }
 

@@ -290,9 +290,8 @@ impl<'a> Explicit<'a> {
         let breakage = self.body.move_to(&step, is_row, self.observer)?;
         let FrictionEnergies { stored, work } = self.body.of_friction;
         let motion = &mut self.progress.motion;
-        let of_faces = stored - self.progress.sticking;
-        motion.friction_energy += work - of_faces;
-        motion.contact_energy += of_faces;
+        motion.friction_energy += work - (stored - self.progress.sticking);
+        motion.contact_energy = stored;
         self.progress.sticking = stored;
         self.apply_contacts();
         self.apply_loads();
@@ -343,7 +342,7 @@ impl<'a> Explicit<'a> {
         let now = contacts.advance(time, step, &state.displacement);
         contacts.add_forces(-1.0, internal);
         let motion = &mut self.progress.motion;
-        motion.contact_energy += now.stored - before.stored;
+        motion.contact_energy += now.stored;
         motion.friction_energy += now.dissipated - before.dissipated;
         self.energies
             .add_driving_work(now.driving_work - before.driving_work);
