@@ -13,11 +13,11 @@ use crate::critical_step::CriticalStep;
 use crate::internal;
 use crate::state::State;
 
-/// Relative residual of the largest eigenvalue, by which it may be too small. With 1 % the search ended at a smaller eigenvalue of a small body.
-const TOLERANCE: f64 = 1e-3;
+/// Relative residual of the largest eigenvalue, by which it may be too small. With 1e-3 the search ends at a smaller eigenvalue of some bodies.
+const TOLERANCE: f64 = 1e-4;
 
-/// Largest number of products with the stiffness; a hundred are usual.
-const PRODUCTS: usize = 1000;
+/// Largest number of products with the stiffness; a hundred or more are usual.
+const PRODUCTS: usize = 2000;
 
 /// Displacement over the spacing of the points for the derivative of forces that are not linear in the displacements.
 const PROBE: f64 = 1e-7;
