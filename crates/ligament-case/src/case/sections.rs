@@ -200,16 +200,8 @@ impl Case {
         }
         if analysis != Analysis::Motion {
             let reason = "only a motion takes place in time";
-            let given = [
-                ("motion", self.motion.is_some()),
-                ("initial_velocity", !self.initial_velocities.is_empty()),
-                ("quiet", !self.quiet.is_empty()),
-                ("contact", !self.contacts.is_empty()),
-                ("rigid", !self.rigid_bodies.is_empty()),
-            ];
-            given
-                .into_iter()
-                .try_for_each(|(key, is_given)| refuse(key, is_given, reason))?;
+            let mut given = self.in_time().into_iter();
+            given.try_for_each(|(key, is_given)| refuse(key, is_given, reason))?;
         }
         match analysis {
             Analysis::Motion if self.motion.is_none() => {
@@ -247,6 +239,17 @@ impl Case {
                 refuse("output", has_output, reason)
             }
         }
+    }
+
+    /// Sections of a motion, each with whether it is given.
+    fn in_time(&self) -> [(&'static str, bool); 5] {
+        [
+            ("motion", self.motion.is_some()),
+            ("initial_velocity", !self.initial_velocities.is_empty()),
+            ("quiet", !self.quiet.is_empty()),
+            ("contact", !self.contacts.is_empty()),
+            ("rigid", !self.rigid_bodies.is_empty()),
+        ]
     }
 
     fn require_one_body(&self) -> Result<(), KeyFault> {

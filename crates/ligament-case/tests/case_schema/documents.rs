@@ -203,6 +203,7 @@ name = "block"
 shape = "box"
 centre = [0, 9]
 size = [1, 1]
+velocity = { y = -1 }
 mass = 2
 [motion]
 duration = 1e-2
