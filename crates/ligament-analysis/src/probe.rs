@@ -109,32 +109,32 @@ const OF_VECTORS_AND_TENSORS: [PointField; 19] = [
         "Rotation about z in a solid, rad, right-handed.",
         Component::RotationZ,
     ),
-    rate(
+    point_field(
         "velocity_x",
         "Velocity along x in a motion, m/s.",
         PointReading::Velocity(Component::X),
     ),
-    rate(
+    point_field(
         "velocity_y",
         "Velocity along y in a motion, m/s.",
         PointReading::Velocity(Component::Y),
     ),
-    rate(
+    point_field(
         "velocity_z",
         "Velocity along z of a solid in a motion, m/s.",
         PointReading::Velocity(Component::Z),
     ),
-    rate(
+    point_field(
         "acceleration_x",
         "Acceleration along x in a motion, m/s^2.",
         PointReading::Acceleration(Component::X),
     ),
-    rate(
+    point_field(
         "acceleration_y",
         "Acceleration along y in a motion, m/s^2.",
         PointReading::Acceleration(Component::Y),
     ),
-    rate(
+    point_field(
         "acceleration_z",
         "Acceleration along z of a solid in a motion, m/s^2.",
         PointReading::Acceleration(Component::Z),
@@ -165,24 +165,18 @@ pub fn motion_unit(is_rotation: bool) -> &'static str {
 }
 
 const fn motion(word: &'static str, meaning: &'static str, component: Component) -> PointField {
-    let reading = PointReading::Motion(component);
-    PointField {
-        word,
-        meaning,
-        reading,
-    }
-}
-
-const fn rate(word: &'static str, meaning: &'static str, reading: PointReading) -> PointField {
-    PointField {
-        word,
-        meaning,
-        reading,
-    }
+    point_field(word, meaning, PointReading::Motion(component))
 }
 
 const fn stress(word: &'static str, meaning: &'static str, it: StressComponent) -> PointField {
-    let reading = PointReading::Stress(it);
+    point_field(word, meaning, PointReading::Stress(it))
+}
+
+const fn point_field(
+    word: &'static str,
+    meaning: &'static str,
+    reading: PointReading,
+) -> PointField {
     PointField {
         word,
         meaning,

@@ -166,6 +166,13 @@ pub struct ExplicitChoice {
     pub critical: CriticalStep,
 }
 
+impl ExplicitChoice {
+    /// Time step over the critical one.
+    pub(crate) fn of_critical(&self) -> f64 {
+        self.step / self.critical.step
+    }
+}
+
 /// Solver chosen for several processes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DistributedChoice {

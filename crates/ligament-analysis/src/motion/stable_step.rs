@@ -13,7 +13,7 @@ use crate::critical_step::CriticalStep;
 use crate::internal;
 use crate::state::State;
 
-/// Relative residual of the largest eigenvalue, by which it may be too small. With 1e-3 the search ends at a smaller eigenvalue of some bodies.
+/// Relative residual of the largest eigenvalue, by which it may be too small.
 const TOLERANCE: f64 = 1e-4;
 
 /// Largest number of products with the stiffness; a hundred or more are usual.
@@ -43,7 +43,7 @@ pub fn critical_step(
             point: layout.point(dof as usize),
         });
     }
-    if system_is_unstable(problem) {
+    if has_unstable_rotations(problem) {
         return Err(MotionError::UnstableRotations);
     }
     let root = |dof: u32| masses[dof as usize].sqrt();
@@ -143,7 +143,7 @@ impl<'a> Product<'a> {
 }
 
 /// Whether points with inertia of rotation turn without bound, because bonds have a negative shear stiffness.
-fn system_is_unstable(problem: &MotionProblem) -> bool {
+fn has_unstable_rotations(problem: &MotionProblem) -> bool {
     let system = &problem.problem.system;
     let rotates = system.components().iter().any(|it| it.is_rotation());
     rotates && system.some_negative_shear()

@@ -147,3 +147,27 @@ fn damped_modes_decay() {
 fn of_schemes_with_dashpots(duration: f64) -> [MotionSettings; 2] {
     [settings(duration, 10), implicit(duration, 10, 30, 0.0)]
 }
+
+/// Bonds that resist shear with a negative stiffness make the body unstable at Poisson's ratios near 1/2: its motion grows, and says so.
+#[test]
+fn a_motion_that_grows_without_cause_ends() {
+    let mut setup = plate(Law::PDS);
+    setup.materials[0].material = Material {
+        density: Some(DENSITY),
+        ..Material::isotropic(YOUNG, 0.49)
+    };
+    setup.section = Section::Plane {
+        state: Plane::Strain,
+        thickness: 1.0,
+    };
+    let problem = motion_of(&setup, |model| {
+        wavy(model.system.to_bonds().layout().n_degrees_of_freedom())
+    });
+    let (outcome, _) = followed(&problem, &settings(2e-3, 20));
+    println!("{:?}", outcome.termination);
+    assert!(matches!(
+        outcome.termination,
+        Termination::EnergyGrew { .. }
+    ));
+    assert!(outcome.history.len() < 20);
+}

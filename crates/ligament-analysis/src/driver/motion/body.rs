@@ -33,6 +33,12 @@ const RULE: BreakingRule = BreakingRule {
     tie_tolerance: 1e-8,
 };
 
+/// Largest share of the critical step for the bound of the kinetic energy, which is infinite at the critical step.
+///
+/// An oscillator of central differences with the phase theta a step, sin(theta/2) = omega dt/2, has the energy e = k A^2/2 cos^2(theta/2), of which
+/// 1/2 v- m v+ = k A^2/4 (cos theta - cos 2 n theta) is at least -e tan^2(theta/2): with s = dt/dt_critical that is -e s^2/(1 - s^2).
+const NEARLY_CRITICAL: f64 = 0.999;
+
 /// Bonds of a body in motion.
 pub(super) struct Body {
     /// Problem with the criteria of bonds that began to soften.
@@ -232,9 +238,16 @@ impl Body {
         Ok(breakage)
     }
 
-    /// The body at its time for a row of the history.
-    pub(super) fn now<'a>(&'a self, energies: &'a Energies, rates: Rates<'a>) -> Now<'a> {
+    /// The body at its time for a row of the history, after steps of a share of the critical one.
+    pub(super) fn now<'a>(
+        &'a self,
+        energies: &'a Energies,
+        rates: Rates<'a>,
+        of_critical: f64,
+    ) -> Now<'a> {
+        let square = of_critical.min(NEARLY_CRITICAL).powi(2);
         Now {
+            below_zero: square / (1.0 - square),
             problem: &self.problem,
             numbers: &self.numbers,
             fragments: self.connectivity.fragments(),
@@ -331,11 +344,7 @@ impl Body {
                 load_factor: time,
                 displacement: loads.control_displacement(time, &self.state.displacement),
                 reaction: loads.control_force(time, &self.balanced.internal),
-                bond: 0,
-                ends: [0; 2],
-                criterion: 0,
-                ratio: 0.0,
-                deformation: BondDeformation::default(),
+                ..BreakRecord::default()
             },
         };
         let bonds = &beyond.bonds;

@@ -245,7 +245,9 @@ impl<'a> Explicit<'a> {
         let termination = end.unwrap_or(Termination::TimeReached { time: duration });
         let velocity = self.velocities.at_time(self.inertia.step());
         let rates = self.velocities.rates(&velocity);
-        let now = self.body.now(&self.energies, rates);
+        let now = self
+            .body
+            .now(&self.energies, rates, self.choice.of_critical());
         let solver = SolverChoice::Explicit(self.choice);
         Ok(record::outcome(&now, self.progress, solver, termination))
     }
@@ -263,7 +265,8 @@ impl<'a> Explicit<'a> {
             ..
         } = self;
         let velocity = velocities.at_time(self.inertia.step());
-        let now = body.now(energies, velocities.rates(&velocity));
+        let of_critical = self.choice.of_critical();
+        let now = body.now(energies, velocities.rates(&velocity), of_critical);
         let stop = (&self.settings.stop, self.started);
         let end = now.record(progress, stop, *observer)?;
         let checkpoint = || {

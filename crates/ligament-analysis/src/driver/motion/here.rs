@@ -41,7 +41,7 @@ serial!(Motion {
 
 /// Masses and damping of a body.
 #[derive(Clone, Copy)]
-pub(super) struct Inertia<'a> {
+pub(super) struct MassAndDamping<'a> {
     pub(super) problem: &'a MotionProblem,
     /// Mass of each degree of freedom, zero where its motion is prescribed, shape (n_degrees_of_freedom).
     pub(super) masses: &'a [f64],
@@ -96,7 +96,7 @@ impl Motion {
     }
 }
 
-impl Inertia<'_> {
+impl MassAndDamping<'_> {
     /// Forces of loads and restraints, and of damping, at the time of a state with its velocities (n_degrees_of_freedom).
     pub(super) fn forces(&self, state: &State, velocity: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let loads = &self.problem.problem.loads;

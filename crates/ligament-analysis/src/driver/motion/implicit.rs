@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::clock::Clock;
-use super::here::{Here, Inertia, Motion, free_masses};
+use super::here::{Here, MassAndDamping, Motion, free_masses};
 use super::implicit_kept::ImplicitKept;
 use super::progress::{IMPLICIT, Progress, Resumed};
 use super::record;
@@ -271,8 +271,8 @@ impl Implicit<'_> {
         Ok(())
     }
 
-    fn inertia(&self) -> Inertia<'_> {
-        Inertia {
+    fn inertia(&self) -> MassAndDamping<'_> {
+        MassAndDamping {
             problem: &self.problem,
             masses: &self.masses,
             damping: self.stepping.scheme.damping,

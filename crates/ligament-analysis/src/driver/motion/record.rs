@@ -36,6 +36,8 @@ pub(super) struct Now<'a> {
     pub(super) rates: Rates<'a>,
     /// Number of broken bonds.
     pub(super) broken: usize,
+    /// Share of the energy by which the kinetic energy of the scheme may be negative in a stable motion.
+    pub(super) below_zero: f64,
 }
 
 impl Now<'_> {
@@ -118,16 +120,14 @@ impl Now<'_> {
     ) -> Option<Termination> {
         let motion = record.motion.unwrap_or_default();
         let scale = record.external_work.abs() + motion.initial_energy;
-        let floor = -GROWN * scale.max(record.energy_floor);
+        let scale = scale.max(record.energy_floor);
         let is_heated = self.problem.loads.temperature_factor(record.load_factor) != 0.0;
-        let lowest = match is_heated {
-            true => motion.kinetic_energy,
-            false => record.stored_energy.min(motion.kinetic_energy),
-        };
+        let is_stored = is_heated || record.stored_energy >= -GROWN * scale;
+        let is_moving = motion.kinetic_energy >= -(self.below_zero + GROWN) * scale;
         let error = record.energy_error();
         let has_energy = self.problem.system.has_energy();
         let balances = error.is_finite() && (error.abs() <= GROWN || !has_energy);
-        if !balances || lowest < floor {
+        if !(balances && is_stored && is_moving) {
             let time = record.load_factor;
             return Some(Termination::EnergyGrew { time, error });
         }

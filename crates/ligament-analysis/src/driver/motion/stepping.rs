@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::clock::Clock;
-use super::here::{Here, Inertia, Motion};
+use super::here::{Here, MassAndDamping, Motion};
 use super::newmark::{Newmark, StepLoads};
 use super::record::Now;
 use super::taken::Taken;
@@ -107,7 +107,7 @@ impl Stepping {
     }
 
     /// Loads of a step from here.
-    pub(super) fn loads(&self, here: &Here, inertia: Inertia<'_>) -> StepLoads {
+    pub(super) fn loads(&self, here: &Here, inertia: MassAndDamping<'_>) -> StepLoads {
         let Stepping {
             scheme, restraints, ..
         } = self;
@@ -147,7 +147,7 @@ impl Stepping {
     }
 
     /// Velocities, accelerations and forces after a step.
-    pub(super) fn after(&self, here: &Here, taken: &Taken, inertia: Inertia<'_>) -> Motion {
+    pub(super) fn after(&self, here: &Here, taken: &Taken, inertia: MassAndDamping<'_>) -> Motion {
         let scheme = &self.scheme;
         let Here { state, motion, .. } = here;
         let (dt, beta, gamma) = (scheme.step, scheme.beta(), scheme.gamma());
@@ -188,6 +188,7 @@ impl Stepping {
             balanced: &here.balanced,
             rates: here.motion.rates(),
             broken: here.broken,
+            below_zero: 0.0,
             energies,
             problem,
             costs,
