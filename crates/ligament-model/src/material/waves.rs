@@ -68,6 +68,7 @@ impl<const D: usize> PlaneWaves<D> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 mod tests {
     use super::*;
     use crate::material::{Isotropic, Orthotropic};

@@ -63,6 +63,7 @@ impl Clock {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 mod tests {
     use super::*;
     use crate::motion::{Damping, ExplicitSettings, MotionStop, Scheme};

@@ -1,3 +1,5 @@
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
 use std::sync::Arc;
 
 use super::{Amplitude, LoadInTime, LoadProgram, LoadsInTime, ProportionalLoading, Timed};
