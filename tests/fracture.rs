@@ -8,6 +8,7 @@ mod crack_surfaces;
 mod determinism;
 mod every_law;
 mod exact_path;
+mod face_friction;
 mod failure_criteria;
 mod fracture_energy;
 mod incremental;

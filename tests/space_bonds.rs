@@ -293,6 +293,8 @@ fn problem(
         loads: Arc::new(loads),
         solver,
         probes: Arc::new([]),
+        face_friction: 0.0,
+        contact: Default::default(),
     }
 }
 

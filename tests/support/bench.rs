@@ -128,6 +128,8 @@ impl Bench {
             loads: Arc::new(self.boundary.clone()),
             solver: self.model.setup.solver.clone(),
             probes: self.probes.clone(),
+            face_friction: self.model.setup.closing_friction,
+            contact: Default::default(),
         }
     }
 

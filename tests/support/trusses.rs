@@ -153,6 +153,8 @@ impl Truss {
             loads: Arc::new(self.boundary.clone()),
             solver: SolverSettings::default(),
             probes: Arc::default(),
+            face_friction: 0.0,
+            contact: Default::default(),
         }
     }
 

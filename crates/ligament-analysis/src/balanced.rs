@@ -3,12 +3,13 @@
 use std::sync::OnceLock;
 
 use ligament_model::Bonds;
-use ligament_model::contact::ClosedPair;
+use ligament_model::contact::{ClosedPair, Rubbing};
 use ligament_model::deformation::Deformations;
 use ligament_model::failure::Stresses;
 
 use crate::internal::InternalForces;
 use crate::serial;
+use crate::surfaces::Touching;
 use crate::unbalanced::Unbalanced;
 
 /// Result of an attempt to bring a state into equilibrium.
@@ -52,6 +53,8 @@ pub struct Balanced {
     pub mechanisms: Vec<u32>,
     /// Closed pairs across cracks, in the order of their numbers; none where faces do not close.
     pub closed: Vec<ClosedPair>,
+    /// Contact between surfaces.
+    pub touching: Touching,
     /// Stresses across the bonds for each criterion, once some criterion was [asked](crate::problem::Problem::criteria_in).
     pub(crate) stresses: OnceLock<Vec<Stresses>>,
 }
@@ -74,6 +77,7 @@ impl Balanced {
             negative_energy: None,
             mechanisms: Vec::new(),
             closed: Vec::new(),
+            touching: Touching::default(),
             stresses: OnceLock::new(),
         }
     }
@@ -100,9 +104,14 @@ impl Balanced {
             closed: (self.closed.iter())
                 .map(|it| ClosedPair {
                     gap: factor * it.gap,
+                    rubbing: it.rubbing.map(|it| Rubbing {
+                        force: it.force.map(|it| factor * it),
+                        ..it
+                    }),
                     ..*it
                 })
                 .collect(),
+            touching: Touching::default(),
             stresses: match self.stresses.get() {
                 Some(stresses) => {
                     let scaled: Vec<Stresses> =

@@ -3,14 +3,13 @@
 //! The closure of pairs follows from the displacements alone, without history.
 
 use ligament_model::Bonds;
-use ligament_model::contact::{ClosedPair, ContactPair};
-use ligament_model::element::Term;
+use ligament_model::contact::{ClosedPair, ContactPair, Rubbing};
 use ligament_model::layout::{Component, Layout};
 use ligament_model::sweep::BondSweep;
+use ligament_model::tensor::{dot, minus};
 use ligament_model::thermal::ThermalStrain;
 
 use crate::balanced::Balanced;
-use crate::serial;
 use crate::state::State;
 
 /// Pairs across the cracks of a body with given intact bonds.
@@ -45,7 +44,11 @@ impl Contact {
     pub(crate) fn closed(&self, gaps: &[f64]) -> Vec<ClosedPair> {
         let closed = self.pairs.iter().zip(gaps).filter(|(_, gap)| **gap < 0.0);
         closed
-            .map(|(&pair, &gap)| ClosedPair { pair, gap })
+            .map(|(&pair, &gap)| ClosedPair {
+                pair,
+                gap,
+                rubbing: None,
+            })
             .collect()
     }
 }
@@ -59,7 +62,7 @@ pub(crate) fn add_to(
 ) {
     for it in closed {
         let force = it.force();
-        for (dof, value) in end_forces(it) {
+        for (dof, value) in end_forces(it, layout) {
             swept.internal.values[dof] += value;
             swept.sizes[dof] += value.abs();
             let scale = if layout.component(dof).is_rotation() {
@@ -79,18 +82,17 @@ pub(crate) fn add_to(
 }
 
 /// Internal forces and moments of a closed pair by degree of freedom, N and N m.
-pub(crate) fn end_forces(closed: &ClosedPair) -> impl Iterator<Item = (usize, f64)> {
+pub(crate) fn end_forces(
+    closed: &ClosedPair,
+    layout: Layout,
+) -> impl Iterator<Item = (usize, f64)> {
     let force = closed.force();
     let row = closed.pair.row.into_iter();
     let row = row.filter(|(_, factor)| *factor != 0.0);
+    let of_friction = |it: Rubbing| closed.pair.row_along(layout, it.force);
+    let along = closed.rubbing.map(of_friction).unwrap_or_default();
     row.map(move |(dof, factor)| (dof as usize, force * factor))
-}
-
-/// Rank-one stiffness term of a pair.
-pub(crate) fn term(pair: &ContactPair) -> Term {
-    let row = pair.row.iter().filter(|(_, factor)| *factor != 0.0);
-    let entries = row.map(|&(dof, factor)| (dof as usize, factor));
-    (pair.stiffness, entries.collect())
+        .chain(along)
 }
 
 /// Sum of a force component that the far ends of closed pairs exert on the near ones, N, given the numbers of crossing bonds and
@@ -124,6 +126,15 @@ pub(crate) fn add_virial(
     }
 }
 
+/// Energies that left by contact from one equilibrium to the next, J.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct ContactLoss {
+    /// By pairs that opened, closed or came about.
+    pub(crate) closure: f64,
+    /// By friction.
+    pub(crate) friction: f64,
+}
+
 /// Changes of the energies by closed pairs from one equilibrium to the next.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ContactEnergy {
@@ -142,22 +153,24 @@ impl ContactEnergy {
         }
     }
 
-    /// Moves to the next equilibrium, and returns sum 1/2 k g g' over the pairs that opened minus that over the pairs that closed,
-    /// J.
+    /// Moves to the next equilibrium, after bonds broke by their numbers. The energy that left by closing and opening is sum 1/2 k g g' over the
+    /// pairs that opened minus that over the pairs that closed.
     ///
     /// This is the energy released by forces that are linear between the two equilibria: after a breakage at fixed load it is
     /// released, and between two loads it is the error of the trapezoidal rule for the work, because there pairs open and close
-    /// without force.
+    /// without force. Friction takes its work by the same rule, less what is stored in the pairs that stick; a pair that comes about where a bond
+    /// broke takes over a part of its energy.
     pub(crate) fn follow<'a>(
         &mut self,
-        state: &State,
-        balanced: &Balanced,
+        (state, balanced): (&State, &Balanced),
+        layout: Layout,
+        broken: &[u32],
         expansion: &dyn Fn(f64) -> ThermalStrain<'a>,
-    ) -> f64 {
+    ) -> ContactLoss {
         let (closed, motions) = (&balanced.closed, &state.displacement);
         if closed.is_empty() && self.closed.is_empty() {
             self.keep(state, balanced);
-            return 0.0;
+            return ContactLoss::default();
         }
         let (before, now) = (expansion(self.load_factor), expansion(state.load_factor));
         let mutual = |it: &ClosedPair, other_gap: f64| 0.5 * it.force() * other_gap;
@@ -168,9 +181,29 @@ impl ContactEnergy {
         let lost: f64 = lost.sum();
         let gained = newly_closed.iter();
         let gained = gained.map(|it| mutual(it, it.pair.gap(&self.motions, before)));
-        let change = lost - gained.sum::<f64>();
+        let mut loss = ContactLoss {
+            closure: lost - gained.sum::<f64>(),
+            friction: 0.0,
+        };
+        // Each half of the trapezoidal rule has the forces of one equilibrium.
+        let half = |it: &ClosedPair| {
+            let of = |it: &ClosedPair, motions: &[f64]| it.pair.slip(layout, motions);
+            let way = minus(of(it, motions), of(it, &self.motions));
+            it.rubbing.map_or(0.0, |on| 0.5 * dot(on.force, way))
+        };
+        for it in &self.closed {
+            loss.friction += half(it) + it.stored_in_friction();
+        }
+        for it in closed {
+            let taken = half(it) - it.stored_in_friction();
+            if broken.contains(&it.pair.number) {
+                loss.closure += taken;
+            } else {
+                loss.friction += taken;
+            }
+        }
         self.keep(state, balanced);
-        change
+        loss
     }
 
     /// Begins a part of a programme, in which the last equilibrium has another load factor.
@@ -205,14 +238,3 @@ pub(crate) fn changes(
     };
     (only(before, now), only(now, before))
 }
-
-serial!(ContactPair {
-    number,
-    ends,
-    normal,
-    way,
-    stiffness,
-    spread,
-    row
-});
-serial!(ClosedPair { pair, gap });

@@ -100,7 +100,7 @@ impl Equilibrium {
             equations: Equations::new(problem, &numbers, energy_tolerance)?,
             numbers,
             connectivity: Connectivity::new(&*problem.system),
-            iteration: if problem.system.faces_close() {
+            iteration: if problem.may_press() {
                 Iteration::ActiveSet
             } else {
                 Iteration::Newton
@@ -126,7 +126,8 @@ impl Equilibrium {
         from: &mut &[u8],
     ) -> Result<(Self, State, Balanced), SetupError> {
         let n_bonds = problem.system.ends().len();
-        let fits = state.fits(&*problem.system, n_bonds, &problem.criteria);
+        let fits = state.fits(&*problem.system, n_bonds, &problem.criteria)
+            && state.surfaces.fits(&problem.contact);
         if problem.system.subdomain().any(!fits) {
             return Err(CheckpointError::OtherModel.into());
         }
@@ -368,6 +369,9 @@ impl Equilibrium {
         };
         let fragments = self.connectivity.fragments();
         let imbalance = external::imbalance(&self.equations, state, balanced, fragments);
+        if imbalance.is_none() {
+            self.equations.settle_contact(state, balanced);
+        }
         Ok(imbalance.map_or(attempt, Attempt::Unbalanced))
     }
 }

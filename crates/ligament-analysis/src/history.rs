@@ -40,6 +40,8 @@ pub struct StepRecord {
     /// Energy dissipated by the laws of the bonds so far, J; for a brittle bond the energy stored at its limit. Energy released
     /// beyond that became kinetic.
     pub dissipated_energy: f64,
+    /// Energies of contact; None without friction and contact between surfaces, and in a motion, where [`InMotion`] has them.
+    pub contact: Option<ContactAtRest>,
     /// Work done by supports and loads so far, J.
     pub external_work: f64,
     /// Lower bound of the scale of energy errors, J: energy due to rounding and to free thermal expansions.
@@ -70,6 +72,20 @@ pub struct StepRecord {
     /// Time steps and energies of a motion, whose load factor is the time; None in statics.
     pub motion: Option<InMotion>,
 }
+
+/// Energies of contact in statics.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ContactAtRest {
+    /// Energy stored in contacts between surfaces, J.
+    pub contact_energy: f64,
+    /// Energy that friction and the begin and end of contacts between surfaces have taken so far, J.
+    pub friction_energy: f64,
+}
+
+serial!(ContactAtRest {
+    contact_energy,
+    friction_energy
+});
 
 /// Time steps and energies of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -117,6 +133,7 @@ serial!(StepRecord {
     stored_energy,
     released_energy,
     dissipated_energy,
+    contact,
     external_work,
     energy_floor,
     broken_bonds,
@@ -152,10 +169,13 @@ impl StepRecord {
         }
     }
 
-    /// External work - stored - released energy, J; in a motion the kinetic energy, the energies of damping, contact and friction count as
+    /// External work - stored - released energy - that of contact and friction, J; in a motion the kinetic energy, the energies of damping, contact and friction count as
     /// well, and the energy at time zero.
     pub fn missing_energy(&self) -> f64 {
         let of_bonds = self.external_work - self.stored_energy - self.released_energy;
+        let of_bonds = self.contact.map_or(of_bonds, |it| {
+            of_bonds - it.contact_energy - it.friction_energy
+        });
         self.motion
             .map_or(of_bonds, |it| of_bonds - it.beside_bonds())
     }

@@ -9,6 +9,7 @@ use ligament_model::stress::point_strain::Motion;
 
 use crate::balanced::Balanced;
 use crate::load_program::LoadProgram;
+use crate::motion::contact::ContactProblem;
 use crate::probe::Probe;
 use crate::result_fields::Solution;
 use crate::solver::SolverSettings;
@@ -27,9 +28,23 @@ pub struct Problem {
     pub solver: SolverSettings,
     /// Probes of the history.
     pub probes: Arc<[Probe]>,
+    /// Coefficient of friction on faces of cracks that close.
+    pub face_friction: f64,
+    /// Contacts between surfaces and with rigid bodies in equilibria.
+    pub contact: ContactProblem,
 }
 
 impl Problem {
+    /// Whether contact takes energy in the equilibria of a body at rest.
+    pub fn has_contact_at_rest(&self) -> bool {
+        (self.face_friction > 0.0 || !self.contact.is_empty()) && !self.loads.is_in_time()
+    }
+
+    /// Whether parts of the body may be pressed against each other or against rigid bodies.
+    pub fn may_press(&self) -> bool {
+        self.system.faces_close() || !self.contact.is_empty()
+    }
+
     /// The criteria with the limits and stresses that the bonds have in an equilibrium.
     pub fn criteria_in(&self, state: &State, balanced: &Balanced) -> Cow<'_, Criteria> {
         let deformations = &balanced.deformations;

@@ -6,8 +6,10 @@ use ligament_model::failure::Criteria;
 
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
+use crate::friction::Friction;
 use crate::serial::{Serial, write_list};
 use crate::softening::Softening;
+use crate::surfaces::LastTouching;
 
 /// Motion of the points and state of the bonds.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +28,10 @@ pub struct State {
     pub dissipated: Vec<f64>,
     /// Whether each degree of freedom has an added support, for want of stiffness, shape (n_degrees_of_freedom).
     pub held: Vec<bool>,
+    /// Friction on the faces of cracks in the last equilibrium.
+    pub friction: Friction,
+    /// Contact between surfaces in the last equilibrium.
+    pub surfaces: LastTouching,
 }
 
 impl State {
@@ -57,6 +63,8 @@ impl State {
             softening: Softening::default(),
             dissipated: vec![0.0; n_bonds],
             held: vec![false; n],
+            friction: Friction::default(),
+            surfaces: LastTouching::default(),
         }
     }
 
@@ -69,6 +77,8 @@ impl State {
         self.softening.write(numbers, out);
         numbers.write(&self.dissipated, 0.0, out);
         self.held.write(out);
+        self.friction.write(out);
+        self.surfaces.touching().write(out);
     }
 
     /// Reads a state with all bonds, and keeps the local bonds.
@@ -77,7 +87,7 @@ impl State {
     ///
     /// If the bytes are damaged or belong to another body.
     pub(crate) fn read(numbers: &BondNumbers, from: &mut &[u8]) -> Result<Self, CheckpointError> {
-        Ok(Self {
+        let mut state = Self {
             load_factor: Serial::read(from)?,
             displacement: Serial::read(from)?,
             intact: numbers.read(from)?,
@@ -85,7 +95,11 @@ impl State {
             softening: Softening::read(numbers, from)?,
             dissipated: numbers.read(from)?,
             held: Serial::read(from)?,
-        })
+            friction: Serial::read(from)?,
+            surfaces: LastTouching::default(),
+        };
+        state.surfaces = LastTouching::new(Serial::read(from)?, &state.displacement);
+        Ok(state)
     }
 
     /// Number of broken bonds.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use ligament_linalg::{FactorKind, Pattern, Symbolic, SymmetricMatrix};
+use ligament_linalg::{FactorError, FactorKind, Pattern, Symbolic, SymmetricMatrix};
 use ligament_model::{Bonds, UnbrokenBonds};
 
 use crate::assembly;
@@ -18,6 +18,8 @@ use crate::unknowns::Unknowns;
 pub struct Stiffness {
     system: Arc<dyn Bonds>,
     unknowns: Arc<Unknowns>,
+    /// Unknowns without what contacts couple.
+    uncoupled: Arc<Unknowns>,
     pattern: Arc<Pattern>,
     symbolic: Arc<Symbolic>,
     choice: DirectChoice,
@@ -70,9 +72,52 @@ impl Stiffness {
                 most_bonds_in_place: most_bonds_in_place(&symbolic, system.components().len()),
             },
             symbolic,
+            uncoupled: unknowns.clone(),
             unknowns,
             analysis: start.elapsed(),
             system: system.clone(),
+        })
+    }
+
+    /// The stiffness with entries between the points of some groups as well, which contacts may couple.
+    ///
+    /// # Errors
+    ///
+    /// If the factor is too large.
+    pub(crate) fn with_coupled(&self, groups: &[Vec<u32>]) -> Result<Self, FactorError> {
+        let start = Instant::now();
+        let restraints =
+            (self.uncoupled.restraints()).with_coupled(self.uncoupled.layout(), groups);
+        let unknowns = (*self.uncoupled)
+            .clone()
+            .restrained_by(&Arc::new(restraints));
+        let pattern = assembly::pattern(&*self.system, &unknowns);
+        let pattern = Arc::new(pattern.expect("the points of a pattern ascend"));
+        let elimination = self.choice.ordering.elimination(&*self.system, &unknowns);
+        let symbolic = Arc::new(Symbolic::analyse(pattern.clone(), elimination)?);
+        let n_components = self.system.components().len();
+        Ok(Self {
+            choice: DirectChoice {
+                most_bonds_in_place: most_bonds_in_place(&symbolic, n_components),
+                ..self.choice
+            },
+            pattern,
+            symbolic,
+            unknowns: Arc::new(unknowns),
+            uncoupled: self.uncoupled.clone(),
+            analysis: self.analysis + start.elapsed(),
+            system: self.system.clone(),
+        })
+    }
+
+    /// Whether bonds or restraints couple all of some points (ascending) with each other.
+    pub(crate) fn couples(&self, points: &[u32]) -> bool {
+        let (restraints, layout) = (self.unknowns.restraints(), self.unknowns.layout());
+        points.iter().enumerate().all(|(place, &point)| {
+            let lower =
+                restraints.lower_points(layout, self.system.coupled_points(), point as usize);
+            let mut others = points[..place].iter();
+            others.all(|it| lower.binary_search(it).is_ok())
         })
     }
 

@@ -13,8 +13,8 @@ use ligament_linalg::{FactorError, Factorisation, ForwardSubstituted, Inertia};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
+use crate::resisting::Resisting;
 use crate::state::State;
-use ligament_model::contact::ClosedPair;
 use ligament_model::thermal::ThermalStrain;
 
 /// Share of its diagonal that an added support adds where faces close: enough to make a detached part definite, and little enough
@@ -90,8 +90,8 @@ pub(crate) trait TangentSolver {
     /// Updates the solver for the softening of bonds.
     fn update_for_softening(&mut self, state: &State, costs: &mut Costs);
 
-    /// Updates the solver for the closed pairs across cracks; none are closed where faces do not close.
-    fn close(&mut self, closed: &[ClosedPair], costs: &mut Costs);
+    /// Updates the solver for what faces in contact resist, in the order of the keys; nothing where none can meet.
+    fn close(&mut self, resisting: Vec<Resisting>, costs: &mut Costs);
 
     /// Makes the solver ready for a state. Returns the degrees of freedom of vanishing pivots, which must be fixed in the state
     /// before the solver is made ready again.

@@ -11,7 +11,8 @@
 //!
 //! k = (K_n (e . n)^2 + K_s |e x n|^2)/l^2 is the stiffness of the bond along n, with its axial rigidity K_n and its shear rigidity K_s: in
 //! a uniform strain eps_nn the closed pairs across a straight crack exert the traction of the body without the crack. The contribution of
-//! strain along the crack to the traction (Poisson) is not recovered, nor is shear along the crack: there is no friction.
+//! strain along the crack to the traction (Poisson) is not recovered. With friction the pair resists the motion of its faces along the crack
+//! with the same stiffness, up to the coefficient times its pressure.
 
 use crate::bonds::{BondSet, Incidence};
 use crate::communicator::Wire;
@@ -68,6 +69,17 @@ pub struct ClosedPair {
     pub pair: ContactPair,
     /// Gap of the pair, negative, m.
     pub gap: f64,
+    /// Friction of the pair; `None` without friction.
+    pub rubbing: Option<Rubbing>,
+}
+
+/// Friction on a closed pair.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rubbing {
+    /// Internal force on the second end along the crack, N; the first end has the opposite one.
+    pub force: [f64; 3],
+    /// Share of the elastic force that friction holds: 1 where the pair sticks, less where it slides.
+    pub share: f64,
 }
 
 /// Two points whose crack faces overlap.
@@ -142,6 +154,24 @@ impl ContactPair {
             }
         }
     }
+
+    /// Degrees of freedom and coefficients c of the motion of the faces along a direction d of the crack, d . P w = c . u, which are the
+    /// internal forces of a unit force along d ([`add_along`](Self::add_along)); without zeros.
+    pub fn row_along(&self, layout: Layout, direction: [f64; 3]) -> Vec<(usize, f64)> {
+        let moment = cross(self.way, direction).map(|it| -0.5 * it);
+        let ends = self.ends.into_iter().zip([-1.0, 1.0]);
+        let row = ends.flat_map(|(end, sign)| {
+            let components = layout.components.iter().zip(layout.range(end));
+            components.map(move |(component, dof)| {
+                let axis = component.in_space() % 3;
+                match component.is_rotation() {
+                    false => (dof, sign * direction[axis]),
+                    true => (dof, moment[axis]),
+                }
+            })
+        });
+        row.filter(|(_, factor)| *factor != 0.0).collect()
+    }
 }
 
 impl ClosedPair {
@@ -153,20 +183,31 @@ impl ClosedPair {
     /// Force of the second end on the first along a component, N.
     pub fn pull(&self, component: Component) -> f64 {
         if component.is_rotation() {
-            0.0
-        } else {
-            self.force() * self.pair.normal[component.in_space()]
+            return 0.0;
         }
+        let axis = component.in_space();
+        let across = self.force() * self.pair.normal[axis];
+        self.rubbing.map_or(across, |it| across + it.force[axis])
     }
 
     /// Contribution of the pair to the virial stress of an end with a given volume (m^3), Pa: half of the force dyad over the volume.
     pub fn virial_share(&self, volume: f64) -> SymTensor<3> {
-        self.pair.spread.scaled(0.5 * self.force() / volume)
+        let across = self.pair.spread.scaled(0.5 * self.force() / volume);
+        self.rubbing.map_or(across, |it| {
+            let along = SymTensor::dyad(it.force, self.pair.way);
+            across.plus(&along.scaled(0.5 / volume))
+        })
     }
 
-    /// Energy 1/2 k g^2, J.
+    /// Energy 1/2 k g^2, J, and where the pair sticks that of its elastic motion along the crack.
     pub fn energy(&self) -> f64 {
-        0.5 * self.force() * self.gap
+        0.5 * self.force() * self.gap + self.stored_in_friction()
+    }
+
+    /// Energy 1/2 f^2/k of the elastic motion along the crack that holds the friction f, J.
+    pub fn stored_in_friction(&self) -> f64 {
+        let of = |it: Rubbing| 0.5 * dot(it.force, it.force) / self.pair.stiffness;
+        self.rubbing.map_or(0.0, of)
     }
 }
 

@@ -151,6 +151,8 @@ fn displacements(
         loads: loads[0].clone(),
         solver: setup.solver.clone(),
         probes: Arc::default(),
+        face_friction: 0.0,
+        contact: Default::default(),
     };
     let mut equilibrium = Equilibrium::new(&problem, ELASTIC_ENERGY_TOLERANCE)?;
     let mut state = State::fresh(&**system);

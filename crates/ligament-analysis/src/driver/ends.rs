@@ -70,7 +70,7 @@ impl Path<'_> {
         }
         let carried = self.load_of_damaged_body(balanced)?;
         // Separated parts may carry load again where their faces close.
-        let is_over = !self.problem.system.faces_close();
+        let is_over = !self.problem.may_press();
         let carries_nothing = match self.problem.loads.course() {
             None => carried <= NO_LOAD * self.largest_load(),
             Some(course) => self.carries_no_programme_load(course, balanced),

@@ -96,7 +96,7 @@ impl<'a> Path<'a> {
     /// Refuses loads that cause no deformation; `at_one` is the equilibrium at load factor one, if there is one.
     pub(super) fn require_resistance(&self, at_one: Option<&State>) -> Result<(), SetupError> {
         // Parts that the full load separates may be pressed together by a smaller load.
-        let may_press = self.problem.system.faces_close();
+        let may_press = self.problem.may_press();
         if at_one.is_some() && self.course.elastic.stiffness.is_nan() && !may_press {
             return Err(SetupError::NothingResists);
         }
@@ -146,6 +146,7 @@ impl<'a> Path<'a> {
     ) -> Result<Attempt, SetupError> {
         let displacement = self.state.displacement.clone();
         let softening = self.state.softening.clone();
+        let contact = (self.state.friction.clone(), self.state.surfaces.clone());
         let load_factor = self.state.load_factor;
         let mut attempt = (self.equilibrium).balance(&mut self.state, breakage, self.observer)?;
         let mut is_negative = false;
@@ -167,6 +168,7 @@ impl<'a> Path<'a> {
         if let Attempt::Unbalanced(_) = attempt {
             self.state.displacement = displacement;
             self.state.softening = softening;
+            (self.state.friction, self.state.surfaces) = contact;
             self.state.load_factor = load_factor;
             return Ok(attempt);
         }
@@ -317,7 +319,7 @@ impl<'a> Path<'a> {
         }
         let breakage = self.equilibrium.break_bonds(&mut self.state, bonds);
         // Where faces close, a detached part may be pressed against others, which the equilibrium decides.
-        let may_press = self.problem.system.faces_close();
+        let may_press = self.problem.may_press();
         self.collapsed |= !may_press && self.loaded_part_is_detached(&breakage.holds);
         let fragments = self.equilibrium.fragments();
         report_detached_parts(step, fragments, &breakage.holds, self.observer)?;

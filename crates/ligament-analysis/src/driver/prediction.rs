@@ -200,7 +200,7 @@ fn in_proportion(
     let along = balanced.deformations;
     // Faces that close under a load are open under the opposite one.
     let reversed = factors.iter().position(|factor| *factor < 0.0);
-    let open = reversed.filter(|_| path.problem.system.faces_close());
+    let open = reversed.filter(|_| path.problem.may_press());
     let told = open.unwrap_or(factors.len());
     let forward = Nearest::new(&path, &criteria, &along);
     let backward =

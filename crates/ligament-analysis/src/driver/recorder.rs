@@ -10,14 +10,15 @@ use crate::bond_numbers::{add_over_bonds, sum_over_bonds};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::connectivity::Fragments;
-use crate::contact::ContactEnergy;
-use crate::history::StepRecord;
+use crate::contact::{ContactEnergy, ContactLoss};
+use crate::history::{ContactAtRest, StepRecord};
 use crate::probe;
 use crate::problem::Problem;
 use crate::result_fields::Solution;
 use crate::serial;
 use crate::serial::Serial;
 use crate::state::State;
+use crate::surfaces::{SurfaceEnergy, SurfaceWork};
 
 /// Share of the largest work of a run below which the work counts as returned: the work of a hundredth of the load.
 const UNLOADED: f64 = 1e-4;
@@ -32,6 +33,10 @@ const UNLOADED: f64 = 1e-4;
 pub(super) struct Energies {
     pub(super) external_work: f64,
     pub(super) released: f64,
+    /// Energy that friction took.
+    friction: f64,
+    /// Energy stored in contacts between surfaces.
+    in_contact: f64,
     /// Largest external work so far.
     largest_work: f64,
     /// Degrees of freedom that are prescribed or loaded.
@@ -44,6 +49,8 @@ pub(super) struct Energies {
     last: (Deformations, Vec<StiffnessFactors>),
     /// Closed pairs across cracks in the last state; none where faces do not close.
     contact: ContactEnergy,
+    /// Contact between surfaces in the last state.
+    surfaces: SurfaceEnergy,
 }
 
 /// Force and displacement of a degree of freedom in the last state.
@@ -64,15 +71,20 @@ impl Energies {
         let Self {
             external_work,
             released,
+            friction,
+            in_contact,
             largest_work,
             last_loaded,
             thermal,
             loaded: _,
             last: _,
             contact: _,
+            surfaces: _,
         } = self;
         external_work.write(out);
         released.write(out);
+        friction.write(out);
+        in_contact.write(out);
         largest_work.write(out);
         last_loaded.write(out);
         thermal.write(out);
@@ -88,6 +100,8 @@ impl Energies {
         let mut energies = Self {
             external_work: Serial::read(from)?,
             released: Serial::read(from)?,
+            friction: Serial::read(from)?,
+            in_contact: Serial::read(from)?,
             largest_work: Serial::read(from)?,
             last_loaded: Serial::read(from)?,
             thermal: Serial::read(from)?,
@@ -98,6 +112,9 @@ impl Energies {
         }
         energies.keep(state, balanced);
         energies.contact.keep(state, balanced);
+        if !problem.contact.is_empty() {
+            energies.surfaces = SurfaceEnergy::at(&balanced.touching, &state.displacement);
+        }
         Ok(energies)
     }
 
@@ -107,6 +124,9 @@ impl Energies {
         Self {
             external_work: 0.0,
             released: 0.0,
+            friction: 0.0,
+            in_contact: 0.0,
+            surfaces: SurfaceEnergy::default(),
             largest_work: 0.0,
             thermal: (0.0, 0.0),
             last: Default::default(),
@@ -198,23 +218,42 @@ impl Energies {
         breakage: &Breakage,
         balanced: &Balanced,
     ) {
-        let change = self.follow_contact(problem, state, balanced);
+        let loss = self.follow_contact(problem, (state, balanced), &breakage.bonds);
+        self.friction += loss.friction;
         if breakage.bonds.is_empty() {
-            self.external_work -= change;
+            self.external_work -= loss.closure;
         } else {
-            self.released += change;
+            self.released += loss.closure;
         }
+        let surfaces = self.follow_surfaces(problem, state, balanced);
+        self.friction += surfaces.dissipated;
+        self.in_contact = surfaces.stored;
     }
 
-    /// Moves to the closed pairs of the next state, and returns the energy that left by pairs that opened or closed since the last one, J.
-    pub(super) fn follow_contact(
+    /// Moves to the contact between surfaces of the next state, and adds the work of what moves rigid bodies.
+    pub(super) fn follow_surfaces(
         &mut self,
         problem: &Problem,
         state: &State,
         balanced: &Balanced,
-    ) -> f64 {
+    ) -> SurfaceWork {
+        let touching = &balanced.touching;
+        let work = (self.surfaces).follow(&problem.contact, touching, &state.displacement);
+        self.add_driving_work(work.driving);
+        work
+    }
+
+    /// Moves to the closed pairs of the next state, after bonds broke by their numbers, and returns the energy that left by them since the last
+    /// one.
+    pub(super) fn follow_contact(
+        &mut self,
+        problem: &Problem,
+        at: (&State, &Balanced),
+        broken: &[u32],
+    ) -> ContactLoss {
         let expansion = |load_factor| problem.loads.thermal_strain(load_factor);
-        self.contact.follow(state, balanced, &expansion)
+        let layout = problem.system.layout();
+        self.contact.follow(at, layout, broken, &expansion)
     }
 
     /// Stores the deformations and the remaining stiffness of the bonds.
@@ -276,6 +315,10 @@ pub(super) fn step_record(
         reaction: loads.control_force(state.load_factor, &balanced.internal),
         stored_energy: balanced.stored_energy,
         released_energy: energies.released,
+        contact: problem.has_contact_at_rest().then_some(ContactAtRest {
+            contact_energy: energies.in_contact,
+            friction_energy: energies.friction,
+        }),
         external_work: energies.external_work,
         energy_floor: balanced.energy_floor.max(energies.floor()),
         dissipated_energy: sum_over_bonds(&*problem.system, state.dissipated.iter().copied()),

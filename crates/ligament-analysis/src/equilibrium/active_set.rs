@@ -4,9 +4,14 @@
 //! The energy is piecewise quadratic with a continuous derivative, and convex where that of the bonds is. Each iteration solves
 //! with the stiffness of the pairs closed at present; where other pairs close along the step, it ends at the minimum of the energy
 //! along it. The energy therefore falls from iteration to iteration and no set of closed pairs recurs.
+//!
+//! With friction the tangent has what sticking pairs resist, but not the change of the friction of sliding ones with their pressure, so that
+//! it stays symmetric: the iteration converges linearly with mu times the coupling of pressure and shear, where that is below one. There
+//! is no energy then; a step ends where the residual forces do no work along it.
 
 use super::equations::Equations;
 use super::iterate::Iterate;
+use super::line_search;
 use super::residual::Residual;
 use crate::balanced::Attempt;
 use crate::breakage::Breakage;
@@ -20,12 +25,18 @@ const ITERATION_LIMIT: usize = 60;
 /// Ratio of the final to the initial slope of the energy along a step up to which the whole step is taken.
 const ACCEPTED_SLOPE: f64 = 0.1;
 
+/// Largest number of iterations with friction, which converge linearly, and with surfaces that move towards each other in parts.
+const WAY_LIMIT: usize = 300;
+
 /// Residual that is sought as long as it falls from iteration to iteration.
 const REFINED: f64 = 1e-12;
 
 /// Ratio of successive residuals below which the residual counts as falling. Where it does not fall with the same pairs closed, an
 /// updated factor has lost its accuracy.
 const FALLS: f64 = 0.1;
+
+/// That ratio with friction, where the residual falls by a constant factor.
+const WAY_FALLS: f64 = 0.9;
 
 /// Residual up to which the last iterate, or else the nearest one, is accepted: a part that only touches another one carries no
 /// force, and residuals relative to a small share of the largest force so far do not fall below the rounding of that force.
@@ -49,6 +60,11 @@ pub(super) fn balance(
     let mut iterate = equations.measure(state);
     let mut before = f64::INFINITY;
     let largest = sought.max(LARGEST_RESIDUAL);
+    let (limit, slowly) = if equations.depends_on_way() {
+        (WAY_LIMIT, WAY_FALLS)
+    } else {
+        (ITERATION_LIMIT, FALLS)
+    };
     // Pairs of parts that only touch each other close and open by rounding, so that a worse iterate can follow a solution.
     let mut nearest: Option<(f64, Vec<f64>)> = None;
     loop {
@@ -56,7 +72,7 @@ pub(super) fn balance(
         if iterations > 0 {
             observer.iteration(iterations, residual.relative, iterate.stored_energy)?;
         }
-        let is_over = iterations == ITERATION_LIMIT;
+        let is_over = iterations == limit;
         // One more iteration removes the residual due to the soft supports of detached parts.
         let falls = is_exact && residual.relative < FALLS * before;
         let tolerance = match is_over {
@@ -82,13 +98,16 @@ pub(super) fn balance(
         }
         keep_nearer(&mut nearest, &residual, largest, state);
         let correction = match equations.correction(state, &iterate, sought, &mut mechanisms) {
-            Ok(correction) => correction,
+            Ok(mut correction) => {
+                equations.shorten(&mut correction);
+                correction
+            }
             Err(unbalanced) => return Ok(Attempt::Unbalanced(unbalanced)),
         };
         let next = search(equations, state, &iterate, &correction);
         let (opened, closed) = contact::changes(&iterate.closed, &next.closed);
         let is_same = opened.is_empty() && closed.is_empty();
-        if is_same && next.residual.relative > FALLS * residual.relative {
+        if is_same && next.residual.relative > slowly * residual.relative {
             equations.solver.discard();
         }
         iterate = next;
@@ -124,6 +143,9 @@ fn search(
     if start >= 0.0 || end <= -ACCEPTED_SLOPE * start {
         return next;
     }
+    if equations.depends_on_way() {
+        return search_along_way(equations, state, next, [start, end], correction);
+    }
     let pairs = equations.contact.pairs().iter();
     let gaps = iterate.gaps.iter().zip(&next.gaps);
     let moved: Vec<Moved> = (pairs.zip(gaps))
@@ -136,6 +158,25 @@ fn search(
     let length = lowest(start, end, &moved);
     equations.add_correction(state, length - 1.0, correction);
     equations.measure(state)
+}
+
+/// Moves the state back from the end of a correction, an iterate, to where the residual forces do little work along it, from the slopes at
+/// both ends.
+fn search_along_way(
+    equations: &mut Equations,
+    state: &mut State,
+    mut iterate: Iterate,
+    [start, end]: [f64; 2],
+    correction: &[f64],
+) -> Iterate {
+    let mut at = 1.0;
+    line_search::part(-start, -end, |part| {
+        equations.add_correction(state, part - at, correction);
+        at = part;
+        iterate = equations.measure(state);
+        -equations.slope(state, &iterate, correction)
+    });
+    iterate
 }
 
 /// A pair whose gap changes along a step.

@@ -24,10 +24,12 @@ use crate::halo::HaloExchange;
 use crate::internal::{BondSweep, InternalForces};
 use crate::load_program::LoadProgram;
 use crate::problem::Problem;
+use crate::resisting;
 use crate::serial::Serial;
 use crate::solver::SolverChoice;
 use crate::state::State;
 use crate::stiffness::Stiffness;
+use crate::surfaces::{LastTouching, Surfaces, Touching};
 use crate::tangent::solving::Solving;
 use crate::tangent::{AllowedResidual, TangentSolver, Unsolved, distributed};
 use crate::unbalanced::{Place, Unbalanced};
@@ -52,6 +54,7 @@ pub(super) struct Equations {
     pub(super) accuracy: Accuracy,
     /// Pairs across cracks, where faces close.
     pub(super) contact: Contact,
+    pub(super) surfaces: Surfaces,
     /// Earlier equilibria of softening bonds.
     pub(super) earlier: EarlierEquilibria,
     pub(super) costs: Costs,
@@ -72,7 +75,12 @@ impl Equations {
             stiffness,
             choice,
             solver,
-        } = Solving::new(system, &unknowns, &problem.solver, numbers)?;
+        } = Solving::new(
+            system,
+            &unknowns,
+            &problem.solver,
+            (numbers, problem.may_press()),
+        )?;
         let analysis = stiffness.as_ref().map(|it| it.analysis_time());
         let accuracy = Accuracy::new(&**system, &**loads, solver.tolerance());
         Ok(Self {
@@ -84,6 +92,7 @@ impl Equations {
             },
             accuracy,
             contact: Contact::default(),
+            surfaces: Surfaces::new(&problem.contact, system.layout()),
             earlier: EarlierEquilibria::default(),
             costs: Costs {
                 analysis: analysis.unwrap_or_default(),
@@ -117,6 +126,7 @@ impl Equations {
             choice: _,
             energy_tolerance: _,
             contact: _,
+            surfaces: _,
             earlier,
         } = self;
         accuracy.largest_extents.write(out);
@@ -159,6 +169,59 @@ impl Equations {
 
     pub(super) fn layout(&self) -> Layout {
         self.unknowns.layout()
+    }
+
+    /// Whether faces of cracks rub on each other.
+    pub(super) fn rubs(&self) -> bool {
+        self.problem.face_friction > 0.0 && self.problem.system.faces_close()
+    }
+
+    /// Whether forces depend on the way to a state or on present positions, so that there is no energy to lower.
+    pub(super) fn depends_on_way(&self) -> bool {
+        self.rubs() || !self.surfaces.is_empty()
+    }
+
+    /// Contact between surfaces in a state.
+    fn touching(&mut self, state: &State) -> Touching {
+        if self.surfaces.is_empty() {
+            return Touching::default();
+        }
+        let motions = &state.displacement;
+        (self.surfaces).touching(&state.surfaces, motions, state.load_factor)
+    }
+
+    /// Shortens a correction (n_unknowns) where surfaces would move too far at once to see each other.
+    pub(super) fn shorten(&self, correction: &mut [f64]) {
+        if self.surfaces.is_empty() {
+            return;
+        }
+        let moved = self.at_degrees_of_freedom(correction);
+        let part = self.surfaces.part_within_reach(&moved);
+        if part < 1.0 {
+            correction.iter_mut().for_each(|it| *it *= part);
+        }
+    }
+
+    /// Moves friction and contact of a state to its equilibrium.
+    pub(super) fn settle_contact(&self, state: &mut State, balanced: &Balanced) {
+        if !self.surfaces.is_empty() {
+            let touching = balanced.touching.clone();
+            state.surfaces = LastTouching::new(touching, &state.displacement);
+        }
+        if self.rubs() {
+            let faces = (self.contact.pairs(), &*balanced.closed);
+            let State {
+                friction,
+                displacement,
+                ..
+            } = state;
+            friction.settle(
+                self.problem.face_friction,
+                faces,
+                self.layout(),
+                displacement,
+            );
+        }
     }
 
     /// Sets the prescribed motions of a state at its load factor.
@@ -346,8 +409,14 @@ impl Equations {
         let expansion = self.problem.loads.thermal_strain(state.load_factor);
         let mut swept = (self.problem.system).forces(state.bonds(), deformations, expansion);
         let gaps = self.contact.gaps(&state.displacement, expansion);
-        let closed = self.contact.closed(&gaps);
+        let mut closed = self.contact.closed(&gaps);
+        if self.rubs() {
+            let (mu, motions) = (self.problem.face_friction, &state.displacement);
+            state.friction.rub(mu, &mut closed, self.layout(), motions);
+        }
         contact::add_to(&mut swept, &closed, self.layout(), expansion);
+        let touching = self.touching(state);
+        touching.add_to(&mut swept, self.surfaces.problem(), self.layout());
         let factor = self.problem.loads.temperature_factor(state.load_factor);
         let energy_of_motion = swept.energy_of_motion(factor);
         self.halo.update_forces(&mut swept.internal.values);
@@ -378,6 +447,7 @@ impl Equations {
             negative_energy: Some(energy_of_motion).filter(|_| has_negative),
             gaps,
             closed,
+            touching,
         }
     }
 
@@ -446,7 +516,11 @@ impl Equations {
         state: &mut State,
         iterate: &Iterate,
     ) -> Result<Vec<u32>, Unbalanced> {
-        self.solver.close(&iterate.closed, &mut self.costs);
+        let layout = self.layout();
+        let mut resisting = resisting::by_faces(&iterate.closed, layout);
+        let surfaces = self.surfaces.problem();
+        resisting.extend(iterate.touching.resisting(surfaces, layout));
+        self.solver.close(resisting, &mut self.costs);
         self.prepare_solver(state)
     }
 

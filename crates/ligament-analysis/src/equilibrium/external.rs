@@ -38,8 +38,10 @@ pub(super) fn imbalance(
             external[dof as usize] = given;
         }
     }
+    let closed = balanced.closed.iter();
+    let closed_forces = closed.flat_map(|it| contact::end_forces(it, layout));
     // Forces that other parts exert through closed faces are external to a part.
-    for (dof, force) in balanced.closed.iter().flat_map(contact::end_forces) {
+    for (dof, force) in closed_forces {
         external[dof] -= force;
     }
     let rounding = equations.accuracy.rounding(layout, state);

@@ -8,6 +8,7 @@ use ligament_model::deformation::Deformations;
 use super::residual::{Extents, Residual};
 use crate::balanced::Balanced;
 use crate::internal::InternalForces;
+use crate::surfaces::Touching;
 
 /// Deformations, forces, energy and residual of a state during the iteration.
 pub(super) struct Iterate {
@@ -21,6 +22,7 @@ pub(super) struct Iterate {
     /// Gaps of the pairs across cracks, shape (n_pairs), m.
     pub(super) gaps: Vec<f64>,
     pub(super) closed: Vec<ClosedPair>,
+    pub(super) touching: Touching,
 }
 
 impl Iterate {
@@ -36,6 +38,7 @@ impl Iterate {
             negative_energy: self.negative_energy,
             mechanisms,
             closed: self.closed,
+            touching: self.touching,
             stresses: OnceLock::new(),
         }
     }

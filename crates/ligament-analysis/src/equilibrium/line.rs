@@ -42,7 +42,7 @@ pub(super) fn growth(
     let solution = equations.solve(state, force, left)?;
     equations.add_correction(&mut line, 1.0, &solution);
     // Forces of closed faces are in the stiffness only, not among the forces that judge the solution.
-    let faces_close = equations.problem.system.faces_close();
+    let faces_close = equations.problem.may_press();
     let tolerance = equations.solver.tolerance().filter(|_| !faces_close);
     let Some(tolerance) = tolerance else {
         return Ok(line.displacement);

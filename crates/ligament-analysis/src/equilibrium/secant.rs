@@ -92,7 +92,7 @@ fn sought(
     let mut growth = None;
     let mut mechanisms = Vec::new();
     let mut previous_energy = f64::NAN;
-    let faces_close = equations.problem.system.faces_close();
+    let faces_close = equations.problem.may_press();
     let largest_residual = largest_residual(target.is_some() || faces_close);
     loop {
         let residual = iterate.residual;
@@ -153,7 +153,7 @@ fn largest_residual(follows: bool) -> f64 {
 /// affect where the drop ends.
 fn applicable_precedents(equations: &mut Equations, breakage: &Breakage) -> EarlierEquilibria {
     let mut earlier = std::mem::take(&mut equations.earlier);
-    if equations.problem.system.faces_close() {
+    if equations.problem.may_press() {
         return EarlierEquilibria::default();
     }
     if !breakage.bonds.is_empty() {

@@ -47,7 +47,7 @@ pub struct RigidBody {
 pub enum RigidMotion {
     /// A prescribed velocity.
     Prescribed {
-        /// Velocity at amplitude 1, m/s.
+        /// Velocity at amplitude 1, m/s; in statics the load factor is the time, and this is the displacement at load factor 1.
         velocity: Vector,
         /// Factor as a function of time.
         amplitude: Amplitude,
@@ -93,6 +93,20 @@ impl ContactProblem {
 }
 
 impl RigidMotion {
+    /// Displacement since time zero of a body with a prescribed motion, m; zero of a free one.
+    pub(crate) fn displacement(&self, time: f64) -> Vector {
+        match self {
+            Self::Prescribed {
+                velocity,
+                amplitude,
+            } => {
+                let so_far = amplitude.integral(time);
+                velocity.map(|it| so_far * it)
+            }
+            Self::Free { .. } => Vector::default(),
+        }
+    }
+
     /// Velocity at time zero, m/s.
     fn first_velocity(&self) -> Vector {
         match self {

@@ -33,8 +33,6 @@ pub struct MotionProblem {
     pub dashpots: Arc<[Dashpot]>,
     /// Contacts between surfaces and with rigid bodies.
     pub contact: ContactProblem,
-    /// Coefficient of friction on faces of cracks that close.
-    pub face_friction: f64,
 }
 
 /// Dashpot between a point and the ground: the force -C v for the velocity v of the point.
@@ -160,11 +158,11 @@ pub enum MotionError {
         /// Critical step, s.
         critical: f64,
     },
-    /// Contact between surfaces or friction on crack faces was required in implicit steps.
+    /// A rigid body with a mass was required in implicit steps.
     #[error(
-        "contact between surfaces needs explicit steps; implicit ones know that of crack faces alone"
+        "a rigid body with a mass needs explicit steps; implicit ones move rigid bodies by a prescribed velocity alone"
     )]
-    ImplicitContact,
+    FreeRigidBody,
     /// Several processes cannot compute a motion.
     #[error("several processes cannot compute a motion in time; use one process")]
     SeveralProcesses,

@@ -96,6 +96,21 @@ impl Restraints {
         self.list.iter().map(scaled).collect()
     }
 
+    /// The restraints, and groups of points that are coupled without any stiffness.
+    pub(crate) fn with_coupled(&self, layout: Layout, groups: &[Vec<u32>]) -> Self {
+        let mut list = self.list.clone();
+        list.extend(groups.iter().map(|points| {
+            Restraint {
+                degrees_of_freedom: points
+                    .iter()
+                    .map(|it| layout.range(*it).start as u32)
+                    .collect(),
+                stiffness: vec![0.0; points.len() * points.len()],
+            }
+        }));
+        Self::new(layout, list).with_ground(self.ground.clone())
+    }
+
     /// Whether there are no restraints.
     pub fn is_empty(&self) -> bool {
         self.list.is_empty() && self.ground.is_empty()

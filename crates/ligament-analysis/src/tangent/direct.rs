@@ -6,7 +6,6 @@ use std::time::Instant;
 use ligament_linalg::{
     FactorError, Factorisation, Inertia, RankOne, SymmetricMatrix, VANISHING_PIVOT,
 };
-use ligament_model::contact::ClosedPair;
 use ligament_model::element::StiffnessFactors;
 
 use super::factor_record::FactorRecord;
@@ -15,8 +14,8 @@ use super::terms::{Coupled, due_bonds};
 use super::{AllowedResidual, HalfUpdated, SOFT_HOLD, TangentSolver, Unsolved};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
-use crate::contact;
 use crate::costs::Costs;
+use crate::resisting::{self, Resisting};
 use crate::serial::Serial;
 use crate::solver::{DirectChoice, Update};
 use crate::state::State;
@@ -34,15 +33,24 @@ pub(crate) struct DirectSolver {
     /// Remaining stiffness of softening bonds in the factor, shape (n_bonds); empty where none softens.
     remaining: Vec<StiffnessFactors>,
     /// Closed pairs across cracks, which are in the factor if there is one.
-    closed: Vec<ClosedPair>,
+    closed: Vec<Resisting>,
+    /// Whether faces may be pressed against each other.
+    presses: bool,
+    /// Groups of points that contacts between surfaces have coupled.
+    coupled_by_contact: Vec<Vec<u32>>,
+    /// Whether the pattern lacks some of these groups.
+    lacks_coupled: bool,
     /// Number of elements lost or changed so far.
     n_changed: usize,
 }
 
 impl DirectSolver {
-    /// Builds a solver without a factor.
-    pub(crate) fn new(stiffness: Arc<Stiffness>) -> Self {
+    /// Builds a solver without a factor; `presses` where faces may be pressed against each other.
+    pub(crate) fn new(stiffness: Arc<Stiffness>, presses: bool) -> Self {
         Self {
+            presses,
+            coupled_by_contact: Vec::new(),
+            lacks_coupled: false,
             stiffness,
             factor: None,
             stale: None,
@@ -73,7 +81,23 @@ impl DirectSolver {
 
     /// Whether added supports only make the tangent definite, because closing faces may carry their loads.
     fn supports_are_soft(&self) -> bool {
-        self.stiffness.system().faces_close()
+        self.presses
+    }
+
+    /// Adds the points of contacts to the pattern that it does not couple. The factor is then due anew.
+    fn couple(&mut self, come: &[Resisting]) {
+        let layout = self.stiffness.unknowns().layout();
+        for it in come.iter().filter(|it| it.is_of_surfaces()) {
+            let points = it.points(layout);
+            if !self.stiffness.couples(&points) && !self.coupled_by_contact.contains(&points) {
+                self.coupled_by_contact.push(points);
+                self.lacks_coupled = true;
+            }
+        }
+        if self.lacks_coupled {
+            // Factors of another pattern are of no use.
+            (self.factor, self.stale) = (None, None);
+        }
     }
 
     /// Bonds and supports of a state for a new factor.
@@ -231,10 +255,11 @@ impl TangentSolver for DirectSolver {
         self.change(factor, terms, costs);
     }
 
-    fn close(&mut self, closed: &[ClosedPair], costs: &mut Costs) {
-        let (opened, newly_closed) = contact::changes(&self.closed, closed);
-        self.closed = closed.to_vec();
-        let n_changes = opened.len() + newly_closed.len();
+    fn close(&mut self, mut resisting: Vec<Resisting>, costs: &mut Costs) {
+        let (gone, come) = resisting::changes(&self.closed, &mut resisting);
+        self.closed = resisting;
+        self.couple(&come);
+        let n_changes = gone.len() + come.len();
         if self.factor.is_none() || n_changes == 0 {
             return;
         }
@@ -243,8 +268,8 @@ impl TangentSolver for DirectSolver {
             return;
         };
         // Terms that add stiffness come first, so that every intermediate matrix is definite if the last one is.
-        let mut terms = self.coupled().of_contact(&newly_closed, 1.0);
-        terms.extend(self.coupled().of_contact(&opened, -1.0));
+        let mut terms = self.coupled().of_contact(&come, 1.0);
+        terms.extend(self.coupled().of_contact(&gone, -1.0));
         self.change(factor, terms, costs);
     }
 
@@ -253,6 +278,9 @@ impl TangentSolver for DirectSolver {
             return Ok(Vec::new());
         }
         let start = Instant::now();
+        if std::mem::take(&mut self.lacks_coupled) {
+            self.stiffness = Arc::new(self.stiffness.with_coupled(&self.coupled_by_contact)?);
+        }
         let making = self.begun(state);
         let matrix = making.matrix(&self.stiffness);
         costs.assembly += start.elapsed();
@@ -323,6 +351,7 @@ impl TangentSolver for DirectSolver {
 
     fn write(&self, out: &mut Vec<u8>) {
         self.n_changed.write(out);
+        self.coupled_by_contact.write(out);
         let factor = self.factor.as_ref().map(|factor| factor.digest());
         factor.write(out);
         if factor.is_some() {
@@ -337,6 +366,15 @@ impl TangentSolver for DirectSolver {
             return Err(CheckpointError::OtherMethod);
         }
         self.n_changed = Serial::read(from)?;
+        self.coupled_by_contact = Serial::read(from)?;
+        let mut points = self.coupled_by_contact.iter().flatten();
+        if points.any(|it| *it as usize >= self.stiffness.system().n_points()) {
+            return Err(CheckpointError::OtherModel);
+        }
+        if !self.coupled_by_contact.is_empty() {
+            let stiffness = self.stiffness.with_coupled(&self.coupled_by_contact);
+            self.stiffness = Arc::new(stiffness.map_err(|_| CheckpointError::OtherModel)?);
+        }
         let Some(digest) = Option::<u64>::read(from)? else {
             return Ok(());
         };

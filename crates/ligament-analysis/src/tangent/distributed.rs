@@ -15,7 +15,6 @@ use std::time::Instant;
 use ligament_linalg::{FactorError, Inertia};
 use ligament_model::Bonds;
 use ligament_model::communicator::Communicator;
-use ligament_model::contact::ClosedPair;
 use ligament_model::element::StiffnessFactors;
 use ligament_model::subdomain::Partition;
 use ligament_model::thermal::ThermalStrain;
@@ -30,6 +29,7 @@ use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
 use crate::distributed_matrix::{DistributedMatrix, MatrixCommunicator, Pivots, Solved, Tolerated};
+use crate::resisting::Resisting;
 use crate::serial::Serial;
 use crate::state::State;
 use crate::unknowns::Unknowns;
@@ -315,7 +315,7 @@ impl TangentSolver for DistributedSolver {
         self.kept.stale.extend(of_due);
     }
 
-    fn close(&mut self, _: &[ClosedPair], _: &mut Costs) {}
+    fn close(&mut self, _: Vec<Resisting>, _: &mut Costs) {}
 
     fn prepare(&mut self, state: &State, costs: &mut Costs) -> Result<Vec<usize>, FactorError> {
         let start = Instant::now();

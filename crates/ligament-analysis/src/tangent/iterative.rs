@@ -19,7 +19,6 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use ligament_linalg::{FactorError, Inertia, RankOne};
-use ligament_model::contact::ClosedPair;
 use ligament_model::element::{StiffnessFactors, Term};
 use ligament_model::thermal::ThermalStrain;
 use ligament_model::{Bonds, UnbrokenBonds};
@@ -33,8 +32,8 @@ use super::terms::{Coupled, due_bonds};
 use super::{AllowedResidual, SOFT_HOLD, TangentSolver, Unsolved};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
-use crate::contact;
 use crate::costs::Costs;
+use crate::resisting::{self, Resisting};
 use crate::serial::Serial;
 use crate::solver::IterativeChoice;
 use crate::state::State;
@@ -73,7 +72,9 @@ pub(crate) struct IterativeSolver {
     /// Iterations in excess of that rate since then.
     excess: f64,
     /// Closed pairs across cracks.
-    closed: Vec<ClosedPair>,
+    closed: Vec<Resisting>,
+    /// Whether faces may be pressed against each other.
+    presses: bool,
 }
 
 /// Free degrees of freedom and additional terms of the equations of one state.
@@ -88,8 +89,10 @@ impl IterativeSolver {
         system: Arc<dyn Bonds>,
         unknowns: Arc<Unknowns>,
         choice: IterativeChoice,
+        presses: bool,
     ) -> Self {
         Self {
+            presses,
             system,
             unknowns,
             choice,
@@ -107,7 +110,7 @@ impl IterativeSolver {
 
     /// Bonds and supports of a state.
     fn made_of(&self, state: &State) -> FactorRecord {
-        if !self.system.faces_close() {
+        if !self.presses {
             return FactorRecord::begun(state, state.held.clone(), Vec::new());
         }
         let cut_off = vec![false; state.held.len()];
@@ -298,12 +301,13 @@ impl TangentSolver for IterativeSolver {
         costs.change += start.elapsed();
     }
 
-    fn close(&mut self, closed: &[ClosedPair], _: &mut Costs) {
-        let (opened, newly_closed) = contact::changes(&self.closed, closed);
-        let changed = opened.iter().chain(&newly_closed);
-        let ends: Vec<u32> = changed.flat_map(|it| it.pair.ends).collect();
-        self.stale.extend(ends);
-        self.closed = closed.to_vec();
+    fn close(&mut self, mut resisting: Vec<Resisting>, _: &mut Costs) {
+        let (gone, come) = resisting::changes(&self.closed, &mut resisting);
+        let layout = self.unknowns.layout();
+        let entries = gone.iter().chain(&come).flat_map(|it| &it.row);
+        self.stale
+            .extend(entries.map(|(dof, _)| layout.point(*dof)));
+        self.closed = resisting;
     }
 
     fn prepare(&mut self, state: &State, costs: &mut Costs) -> Result<Vec<usize>, FactorError> {

@@ -11,7 +11,7 @@ use super::iterative::IterativeSolver;
 use super::unsymmetric::UnsymmetricSolver;
 use crate::bond_numbers::BondNumbers;
 use crate::error::SetupError;
-use crate::solver::{Method, Reason, SolverChoice, SolverSettings};
+use crate::solver::{IterativeChoice, Method, Reason, SolverChoice, SolverSettings};
 use crate::stiffness::{self, Stiffness};
 use crate::unknowns::Unknowns;
 
@@ -24,7 +24,8 @@ pub(crate) struct Solving {
 }
 
 impl Solving {
-    /// Chooses a solver for unknowns, with the global numbers of the local bonds, without factorising.
+    /// Chooses a solver for unknowns, with the global numbers of the local bonds and whether faces may be pressed against each other, without
+    /// factorising.
     ///
     /// # Errors
     ///
@@ -33,7 +34,7 @@ impl Solving {
         system: &Arc<dyn Bonds>,
         unknowns: &Arc<Unknowns>,
         settings: &SolverSettings,
-        numbers: &Arc<BondNumbers>,
+        (numbers, presses): (&Arc<BondNumbers>, bool),
     ) -> Result<Self, SetupError> {
         let communicator = &settings.communicator;
         if communicator.has_matrices() {
@@ -53,18 +54,22 @@ impl Solving {
             });
         }
         let (method, reason) = settings.chosen_method(&**system)?;
+        let iterating = |reason| {
+            let choice = settings.iterative_choice(&**system, reason);
+            Self::iterating(system, unknowns, choice, presses)
+        };
         let Some(available) = settings.bound_of_factor(&**system) else {
             return match method {
-                Method::Iterative => Ok(Self::iterating(system, unknowns, settings, reason)),
+                Method::Iterative => Ok(iterating(reason)),
                 Method::Direct => {
                     let stiffness = Stiffness::new(system, unknowns.clone(), settings, reason)?;
-                    Ok(Self::factorising(stiffness))
+                    Ok(Self::factorising(stiffness, presses))
                 }
             };
         };
         let too_large = |needed| {
             let reason = Reason::Memory { needed, available };
-            Self::iterating(system, unknowns, settings, reason)
+            iterating(reason)
         };
         // The analysis of a factor that is far too large needs much memory itself.
         let least = stiffness::least_bytes(&**system);
@@ -79,17 +84,16 @@ impl Solving {
         if method == Method::Iterative {
             stiffness.chosen_for(Reason::Memory { needed, available });
         }
-        Ok(Self::factorising(stiffness))
+        Ok(Self::factorising(stiffness, presses))
     }
 
-    /// Conjugate gradients, with the reason of the choice.
+    /// Conjugate gradients.
     fn iterating(
         system: &Arc<dyn Bonds>,
         unknowns: &Arc<Unknowns>,
-        settings: &SolverSettings,
-        reason: Reason,
+        choice: IterativeChoice,
+        presses: bool,
     ) -> Self {
-        let choice = settings.iterative_choice(&**system, reason);
         Self {
             stiffness: None,
             choice: SolverChoice::Iterative(choice),
@@ -97,19 +101,20 @@ impl Solving {
                 system.clone(),
                 unknowns.clone(),
                 choice,
+                presses,
             )),
         }
     }
 
     /// Direct solver with a symmetric or unsymmetric factor.
-    fn factorising(stiffness: Stiffness) -> Self {
+    fn factorising(stiffness: Stiffness, presses: bool) -> Self {
         let stiffness = Arc::new(stiffness);
         let choice = *stiffness.choice();
         Self {
             solver: if choice.unsymmetric {
                 Box::new(UnsymmetricSolver::new(stiffness.clone()))
             } else {
-                Box::new(DirectSolver::new(stiffness.clone()))
+                Box::new(DirectSolver::new(stiffness.clone(), presses))
             },
             stiffness: Some(stiffness),
             choice: SolverChoice::Direct(choice),

@@ -2,12 +2,11 @@
 
 use ligament_linalg::RankOne;
 use ligament_model::Bonds;
-use ligament_model::contact::ClosedPair;
 use ligament_model::element::{StiffnessFactors, Term};
 use rayon::prelude::*;
 
 use crate::breakage::Breakage;
-use crate::contact;
+use crate::resisting::Resisting;
 use crate::state::State;
 use crate::unknowns::Unknowns;
 
@@ -79,9 +78,9 @@ impl Coupled<'_> {
         holds.collect()
     }
 
-    /// Terms of closed pairs across cracks, multiplied by `sign`.
-    pub(super) fn of_contact(self, pairs: &[ClosedPair], sign: f64) -> Vec<RankOne> {
-        let terms = pairs.iter().map(|it| contact::term(&it.pair));
+    /// Terms of what faces in contact resist, multiplied by `sign`.
+    pub(super) fn of_contact(self, resisting: &[Resisting], sign: f64) -> Vec<RankOne> {
+        let terms = resisting.iter().map(Resisting::term);
         terms
             .filter_map(|term| self.at_unknowns(term, sign))
             .collect()

@@ -10,10 +10,10 @@ use super::{AllowedResidual, TangentSolver, Unsolved};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
+use crate::resisting::Resisting;
 use crate::serial::Serial;
 use crate::state::State;
 use crate::stiffness::Stiffness;
-use ligament_model::contact::ClosedPair;
 use ligament_model::thermal::ThermalStrain;
 
 /// A direct solver for unsymmetric stiffnesses, of bonds that do not break.
@@ -72,7 +72,7 @@ impl TangentSolver for UnsymmetricSolver {
     }
 
     /// Only bonds with an energy have faces that close.
-    fn close(&mut self, _: &[ClosedPair], _: &mut Costs) {}
+    fn close(&mut self, _: Vec<Resisting>, _: &mut Costs) {}
 
     fn prepare(&mut self, state: &State, costs: &mut Costs) -> Result<Vec<usize>, FactorError> {
         if self.factor.is_none() {

@@ -93,6 +93,33 @@ impl<const D: usize> Facet<D> {
             }
         }
     }
+
+    /// Degrees of freedom and coefficients c of the motion of a place of the facet along a direction d, d . u = c . u: the forces and moments of
+    /// a unit force along d, corner by corner.
+    pub(super) fn row(
+        &self,
+        layout: Layout,
+        weights: &[f64],
+        direction: [f64; D],
+    ) -> Vec<(usize, f64)> {
+        let of_corner = |(corner, weight): (&Corner<D>, &f64)| {
+            let part = direction.map(|it| weight * it);
+            let moment = moment(corner.arm, part);
+            let moments = if D == 2 {
+                moment[2..].to_vec()
+            } else {
+                moment.to_vec()
+            };
+            let values = part.into_iter().chain(moments);
+            let row: Vec<(usize, f64)> = layout.range(corner.point).zip(values).collect();
+            row
+        };
+        self.corners
+            .iter()
+            .zip(weights)
+            .flat_map(of_corner)
+            .collect()
+    }
 }
 
 /// Displacement phi x r of an arm by the rotations of its point: one in the plane, three in space, or none.

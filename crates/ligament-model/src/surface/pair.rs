@@ -41,6 +41,16 @@ pub trait SurfacePair: Debug + Send + Sync {
     /// contacts.
     fn add_forces(&self, touches: &[Touch], forces: &mut [f64]);
 
+    /// Degrees of freedom and coefficients c of a motion of a contact along a direction d: d . (u - u_met) = c . u with the motions u and u_met of
+    /// the two surfaces there; by degree of freedom, ascending.
+    fn row(&self, touch: &Touch, direction: Vector) -> Vec<(usize, f64)>;
+
+    /// Coefficient of Coulomb's friction.
+    fn friction(&self) -> f64;
+
+    /// Length of the longest edge of a facet, m: a deeper overlap is not seen.
+    fn reach(&self) -> f64;
+
     /// Whether numbers of integration points and facets exist, in an ascending order.
     fn can_have(&self, touches: &[Touch]) -> bool;
 
@@ -306,6 +316,36 @@ impl<const D: usize> SurfacePair for FacetPair<D> {
                 facets[onto as usize].add_force(layout, &touch.weights, opposite, forces);
             }
         }
+    }
+
+    fn row(&self, touch: &Touch, direction: Vector) -> Vec<(usize, f64)> {
+        let (layout, facets) = (self.surface.layout, &self.surface.facets);
+        let along: [f64; D] = std::array::from_fn(|axis| direction[axis]);
+        let place = Self::place(touch.place);
+        let mut row = facets[place.facet].row(layout, &place.weights, along);
+        if let Some(onto) = touch.onto {
+            let opposite = along.map(|it| -it);
+            row.extend(facets[onto as usize].row(layout, &touch.weights, opposite));
+        }
+        // Corners of a facet may move with one point.
+        row.sort_by_key(|(dof, _)| *dof);
+        row.dedup_by(|next, sum| {
+            let is_same = next.0 == sum.0;
+            if is_same {
+                sum.1 += next.1;
+            }
+            is_same
+        });
+        row.retain(|(_, factor)| *factor != 0.0);
+        row
+    }
+
+    fn friction(&self) -> f64 {
+        self.friction
+    }
+
+    fn reach(&self) -> f64 {
+        self.reach
     }
 
     fn can_have(&self, touches: &[Touch]) -> bool {

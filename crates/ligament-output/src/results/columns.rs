@@ -6,7 +6,7 @@
 use std::time::Duration;
 
 use ligament_analysis::costs::Costs;
-use ligament_analysis::history::{BreakRecord, InMotion, StepRecord};
+use ligament_analysis::history::{BreakRecord, ContactAtRest, InMotion, StepRecord};
 use ligament_analysis::probe::{PointField, motion_unit};
 
 use crate::csv::Value;
@@ -89,6 +89,12 @@ columns! { "The column of a history of a body whose crack faces close."
     CLOSING of StepRecord, Value<'static>:
     "closed_pairs" "" ANY
         "pairs of points across cracks that carry pressure; with `model.closing = true` alone" => |it| it.closed_pairs.into();
+}
+
+columns! { "Columns of a history of a body at rest with friction or contact between surfaces."
+    CONTACT of ContactAtRest, Value<'static>:
+    "contact_energy" "J" ANY "energy stored in contacts between surfaces" => |it| it.contact_energy.into();
+    "friction_energy" "J" ANY "energy that friction and the birth and end of contacts took so far" => |it| it.friction_energy.into();
 }
 
 columns! { "Columns of a history of a motion in time, by the time and what is recorded there."

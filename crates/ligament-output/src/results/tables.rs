@@ -7,8 +7,8 @@ use ligament_analysis::{Bonds, serial};
 use ligament_model::BodyGrid;
 
 use super::columns::{
-    BREAKS, CLOSING, CRITERIA, ENDS, FAILURE, HISTORY, ITERATIONS, MOTION, STAGES, STEP, TIMINGS,
-    names,
+    BREAKS, CLOSING, CONTACT, CRITERIA, ENDS, FAILURE, HISTORY, ITERATIONS, MOTION, STAGES, STEP,
+    TIMINGS, names,
 };
 use crate::Error;
 use crate::csv::{Table, Value};
@@ -120,10 +120,12 @@ pub(super) fn history_columns(problem: &Problem) -> Vec<String> {
         names.map(|it| format!("{}.{it}", group.name))
     });
     let closing = CLOSING.iter().filter(|_| problem.system.faces_close());
+    let contact = CONTACT.iter().filter(|_| problem.has_contact_at_rest());
     let motion = MOTION.iter().filter(|_| problem.loads.is_in_time());
     (HISTORY.iter().map(|it| it.0.name.to_owned()))
         .chain(stage_columns(problem))
         .chain(closing.map(|it| it.0.name.to_owned()))
+        .chain(contact.map(|it| it.0.name.to_owned()))
         .chain(motion.map(|it| it.0.name.to_owned()))
         .chain(of_groups)
         .chain(problem.probes.iter().map(|probe| probe.name.clone()))
@@ -140,6 +142,9 @@ pub(super) fn history_row<'a>(record: &StepRecord, view: &View<'a>) -> Vec<Value
     }
     let closing = CLOSING.iter().filter(|_| view.system.faces_close());
     row.extend(closing.map(|column| column.1(record)));
+    if let Some(contact) = &record.contact {
+        row.extend(CONTACT.iter().map(|column| column.1(contact)));
+    }
     if let Some(motion) = &record.motion {
         let moment = (record.load_factor, *motion);
         row.extend(MOTION.iter().map(|column| column.1(&moment)));

@@ -50,7 +50,7 @@ pub struct Loading {
     pub inertia: Option<Inertia>,
     /// Contacts between surfaces; empty without a motion.
     pub contact: ContactProblem,
-    /// Coefficient of friction on faces of cracks that close, in a motion.
+    /// Coefficient of friction on faces of cracks that close.
     pub face_friction: f64,
     /// Probes.
     pub probes: Arc<[Probe]>,
@@ -114,6 +114,8 @@ impl Loading {
             loads,
             solver: self.solver.clone(),
             probes: self.probes.clone(),
+            face_friction: self.face_friction,
+            contact: self.contact.clone(),
         }
     }
 
@@ -126,7 +128,6 @@ impl Loading {
             initial_velocity: inertia.initial_velocity.clone(),
             dashpots: inertia.dashpots.clone(),
             contact: self.contact.clone(),
-            face_friction: self.face_friction,
         })
     }
 }

@@ -1,6 +1,5 @@
 //! Checks of closing faces against law, correction and analysis.
 
-use ligament_analysis::motion::{MotionSettings, Scheme};
 use ligament_model::law::{BondLaw, listed, suited};
 use ligament_model::{Advice, ElementKind};
 
@@ -22,16 +21,9 @@ impl Setup {
         if !self.closing {
             return Ok(());
         }
-        let is_explicit = matches!(
-            &self.analysis,
-            Analysis::Motion(MotionSettings {
-                scheme: Scheme::Explicit(_),
-                ..
-            })
-        );
-        if self.closing_friction > 0.0 && !is_explicit {
-            let reason = "friction on closed faces depends on the way to a state, which explicit steps of a motion alone follow: remove it, or \
-                take an explicit motion";
+        if self.closing_friction > 0.0 && matches!(self.analysis, Analysis::Event(_)) {
+            let reason = "friction on closed faces depends on the way to a state and is not in proportion to the load between two breakages, so \
+                that the exact path does not follow it: take load steps";
             return contradiction(friction, reason);
         }
         let field = Field::whole("closing");

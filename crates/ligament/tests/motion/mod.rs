@@ -98,8 +98,9 @@ fn motion_of(setup: &Setup, velocity: impl FnOnce(&Model) -> Vec<f64>) -> Motion
         initial_velocity: velocity(&model).into(),
         dashpots: Arc::new([]),
         contact: Default::default(),
-        face_friction: setup.closing_friction,
         problem: Problem {
+            face_friction: setup.closing_friction,
+            contact: Default::default(),
             system,
             criteria: model.criteria.clone(),
             loads: Arc::new(loads),

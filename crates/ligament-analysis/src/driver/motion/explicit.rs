@@ -72,7 +72,7 @@ pub(super) fn run(
 ) -> Result<Outcome, SetupError> {
     let (clock, choice) = chosen(problem, settings, explicit)?;
     let numbers = BondNumbers::new(&*problem.problem.system)?;
-    let friction = FaceFriction::new(problem.face_friction, BTreeMap::new());
+    let friction = FaceFriction::new(problem.problem.face_friction, BTreeMap::new());
     let body = Body::new(&problem.problem, numbers, friction, None);
     let n = body.state.displacement.len();
     let velocities = Velocities {
@@ -308,8 +308,8 @@ impl<'a> Explicit<'a> {
         self.energies.add_work(problem, state, balanced);
         self.energies
             .add_released(problem, state, &breakage, balanced);
-        self.progress.motion.friction_energy +=
-            self.energies.follow_contact(problem, state, balanced);
+        let loss = (self.energies).follow_contact(problem, (state, balanced), &breakage.bonds);
+        self.progress.motion.friction_energy += loss.closure;
         self.damp();
         Ok(())
     }

@@ -1,12 +1,13 @@
 //! Checkpoint of an explicit motion.
 
 use super::body::Body;
-use super::face_friction::{Anchored, FaceFriction};
+use super::face_friction::FaceFriction;
 use super::inertia::Velocities;
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
 use crate::driver::course::{CheckValues, with_begun};
 use crate::error::SetupError;
+use crate::friction::Anchored;
 use crate::motion::MotionProblem;
 use crate::motion::contact::{ContactForces, ContactState};
 use crate::serial::Serial;
@@ -57,7 +58,10 @@ impl ExplicitKept {
             return Err(CheckpointError::OtherModel.into());
         }
         problem.problem = with_begun(&problem.problem, &state)?;
-        let friction = FaceFriction::new(problem.face_friction, anchored.into_iter().collect());
+        let friction = FaceFriction::new(
+            problem.problem.face_friction,
+            anchored.into_iter().collect(),
+        );
         let mut body = Body::new(&problem.problem, numbers, friction, Some(state));
         body.costs = costs;
         body.measure();

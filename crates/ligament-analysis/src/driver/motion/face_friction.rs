@@ -1,17 +1,12 @@
-//! Coulomb's friction on the closed faces of cracks, with stick and slip.
-//!
-//! A closed pair resists the motion P w - s of its faces along the crack ([`ContactPair::slip`]) with its stiffness k, up to mu times its pressure: where the force exceeds that, the
-//! anchor s follows. The anchor of a pair that was never open is zero, so that the force along the crack begins from that of its bond; the
-//! anchor of an open pair follows its faces.
+//! Friction on the faces of cracks along an explicit motion ([`friction`](crate::friction)).
 
 use std::collections::BTreeMap;
 
 use ligament_model::contact::{ClosedPair, ContactPair};
 use ligament_model::layout::Layout;
-use ligament_model::surface::Vector;
-use ligament_model::tensor::{dot, minus, norm};
+use ligament_model::tensor::{dot, minus};
 
-use crate::serial;
+use crate::friction::Anchored;
 
 /// Friction on the faces of cracks.
 #[derive(Debug, Clone, Default)]
@@ -21,23 +16,6 @@ pub(super) struct FaceFriction {
     /// Pairs that were met, by their numbers.
     pub(super) pairs: BTreeMap<u32, Anchored>,
 }
-
-/// Motion along the crack at which a pair of faces carries no force, and the force that it carries.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Anchored {
-    /// Anchor s, m.
-    anchor: Vector,
-    /// Force of friction on the second end, N.
-    force: Vector,
-    /// Motion of the faces against each other along the crack, P w, m.
-    slip: Vector,
-}
-
-serial!(Anchored {
-    anchor,
-    force,
-    slip
-});
 
 /// Energies of friction in a step, J.
 #[derive(Debug, Clone, Copy, Default)]
@@ -88,40 +66,5 @@ impl FaceFriction {
                 pair.add_along(layout, of_pair.force, internal);
             }
         }
-    }
-}
-
-impl Anchored {
-    /// Returns the force to Coulomb's limit, N, for a stiffness, N/m.
-    fn load(&mut self, stiffness: f64, limit: f64) {
-        let trial = minus(self.slip, self.anchor).map(|it| stiffness * it);
-        let size = norm(trial);
-        let share = if size > limit { limit / size } else { 1.0 };
-        self.force = trial.map(|it| share * it);
-        if share < 1.0 {
-            self.anchor = minus(self.slip, self.force.map(|it| it / stiffness));
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A pair sticks below mu times its pressure, slides at it, sticks where it turns back, and lets go where it opens.
-    #[test]
-    fn a_pair_sticks_and_slides() {
-        let mut pair = Anchored::default();
-        let at = |pair: &mut Anchored, slip: f64, limit: f64| {
-            pair.slip[0] = slip;
-            pair.load(2.0, limit);
-            pair.force[0]
-        };
-        assert_eq!(at(&mut pair, 1.0, 5.0), 2.0);
-        assert_eq!(at(&mut pair, 4.0, 5.0), 5.0);
-        assert_eq!(pair.anchor[0], 1.5);
-        assert_eq!(at(&mut pair, 3.0, 5.0), 3.0);
-        assert_eq!(at(&mut pair, 3.0, 0.0), 0.0);
-        assert_eq!(pair.anchor[0], 3.0);
     }
 }

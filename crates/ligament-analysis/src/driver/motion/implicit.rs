@@ -24,6 +24,7 @@ use crate::driver::recorder::Energies;
 use crate::driver::start::NoObserver;
 use crate::error::SetupError;
 use crate::history::{BreakRecord, Observer, Termination};
+use crate::motion::contact::{RigidBody, RigidMotion};
 use crate::motion::{ImplicitSettings, MotionError, MotionProblem, MotionSettings};
 use crate::problem::Problem;
 use crate::softening::Softening;
@@ -150,11 +151,13 @@ fn check(problem: &MotionProblem, settings: &MotionSettings) -> Result<(), Motio
     if !system.subdomain().is_whole() {
         return Err(MotionError::SeveralProcesses);
     }
-    if !problem.contact.is_empty() || problem.face_friction > 0.0 {
-        return Err(MotionError::ImplicitContact);
+    let has_free = |it: &RigidBody| matches!(it.motion, RigidMotion::Free { .. });
+    if problem.problem.contact.rigid_bodies.iter().any(has_free) {
+        return Err(MotionError::FreeRigidBody);
     }
     let is_heated = !loads.temperature_change(0.0).is_empty();
-    let is_plain = system.is_linear() && !system.faces_close() && !criteria.soften() && !is_heated;
+    let is_plain =
+        system.is_linear() && !problem.problem.may_press() && !criteria.soften() && !is_heated;
     if settings.damping.stiffness > 0.0 && !is_plain {
         return Err(MotionError::StiffnessDamping);
     }
@@ -297,6 +300,9 @@ impl Implicit<'_> {
         let mut breakage = Breakage::default();
         let mut rounds = 0;
         loop {
+            let before = &self.here.state;
+            taken.state.friction.clone_from(&before.friction);
+            taken.state.surfaces.clone_from(&before.surfaces);
             let attempt = equilibrium.balance(&mut taken.state, &breakage, &mut NoObserver)?;
             taken.balanced = match attempt {
                 Attempt::Balanced(balanced) => balanced,
@@ -371,8 +377,11 @@ impl Implicit<'_> {
         self.energies.add_work(problem, state, balanced);
         self.energies
             .add_released(problem, state, &breakage, balanced);
-        self.progress.motion.friction_energy +=
-            self.energies.follow_contact(problem, state, balanced);
+        let loss = (self.energies).follow_contact(problem, (state, balanced), &taken.broken);
+        let surfaces = self.energies.follow_surfaces(problem, state, balanced);
+        let motion = &mut self.progress.motion;
+        motion.friction_energy += loss.closure + loss.friction + surfaces.dissipated;
+        motion.contact_energy = surfaces.stored;
         Ok(())
     }
 

@@ -1,0 +1,314 @@
+//! Contact between surfaces in equilibria: where they touch in a state, the forces there, and what they resist.
+//!
+//! The law is that of a motion ([`ligament_model::surface`]) at the present positions. The last equilibrium takes the place of the last time
+//! step: friction and the depth of contacts that began with an overlap follow from it.
+
+use ligament_model::layout::Layout;
+use ligament_model::surface::{Search, Step, Touch, Vector};
+use ligament_model::sweep::BondSweep;
+use ligament_model::tensor::{dot, minus, norm};
+
+use crate::motion::contact::ContactProblem;
+use crate::resisting::{ACROSS, Resisting, held_along};
+use crate::serial;
+
+/// Share of the length of a facet by which surfaces move in an iteration at most: deeper overlaps than a facet is long are not seen.
+const FARTHEST: f64 = 0.25;
+
+/// Share of the elastic stiffness that a sliding contact is taken to have across its way.
+const SLIDING: f64 = 0.5;
+
+/// Rounding by which friction at its limit falls short of it.
+const ROUNDING: f64 = 1e-10;
+
+/// Contact between surfaces in a state.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Touching {
+    /// Integration points in contact, of each contact in the order of their numbers.
+    pub touches: Vec<Vec<Touch>>,
+    /// Displacement of each rigid body, m.
+    pub rigid: Vec<Vector>,
+}
+
+serial!(Touching { touches, rigid });
+
+impl Touching {
+    /// Stored energy, J.
+    pub fn energy(&self) -> f64 {
+        let touches = self.touches.iter().flatten();
+        touches.map(Touch::energy).fold(0.0, |sum, it| sum + it)
+    }
+
+    /// Forces of the contacts on the points of a body, shape (n), N and N m.
+    fn forces(&self, problem: &ContactProblem, n: usize) -> Vec<f64> {
+        let mut forces = vec![0.0; n];
+        for (contact, touches) in problem.contacts.iter().zip(&self.touches) {
+            contact.surfaces.add_forces(touches, &mut forces);
+        }
+        forces
+    }
+
+    /// Force of the contacts on each rigid body, N.
+    pub fn on_rigid_bodies(&self, problem: &ContactProblem) -> Vec<Vector> {
+        let mut forces = vec![Vector::default(); problem.rigid_bodies.len()];
+        for (contact, touches) in problem.contacts.iter().zip(&self.touches) {
+            let Some(body) = contact.rigid_body else {
+                continue;
+            };
+            for touch in touches.iter().filter(|it| it.depth() > 0.0) {
+                forces[body] = minus(forces[body], touch.force());
+            }
+        }
+        forces
+    }
+
+    /// Adds the internal forces that keep the points in place against the contacts to those of the bonds.
+    pub(crate) fn add_to(&self, swept: &mut BondSweep, problem: &ContactProblem, layout: Layout) {
+        let forces = self.forces(problem, swept.internal.values.len());
+        for (dof, force) in forces.into_iter().enumerate().filter(|it| it.1 != 0.0) {
+            swept.internal.values[dof] -= force;
+            swept.sizes[dof] += force.abs();
+            let scale = if layout.component(dof).is_rotation() {
+                &mut swept.internal.moment_scale
+            } else {
+                &mut swept.internal.force_scale
+            };
+            *scale = scale.max(swept.sizes[dof]);
+        }
+    }
+
+    /// What the contacts resist, in the order of the keys, behind those of the faces of cracks.
+    pub(crate) fn resisting(&self, problem: &ContactProblem, layout: Layout) -> Vec<Resisting> {
+        let numbered = (1_u64..).zip(problem.contacts.iter().zip(&self.touches));
+        let of_contact = |(number, (contact, touches)): (u64, (_, &Vec<Touch>))| {
+            let contact: &crate::motion::contact::SurfaceContact = contact;
+            let surfaces = &contact.surfaces;
+            let pressed = touches.iter().filter(|it| it.depth() > 0.0);
+            let of_touch = |touch: &Touch| {
+                let number = (number << 32) | u64::from(touch.place);
+                let term = |(motion, direction, share): (usize, Vector, f64)| Resisting {
+                    key: (number, motion),
+                    direction,
+                    stiffness: share * touch.stiffness,
+                    row: surfaces.row(touch, direction),
+                };
+                let mut all = vec![term((ACROSS, touch.normal, 1.0))];
+                if surfaces.friction() > 0.0 {
+                    let held = (
+                        touch.friction_force(),
+                        share_held(touch, surfaces.friction()),
+                    );
+                    let along = held_along(layout, touch.normal, held);
+                    all.extend(along.into_iter().map(term));
+                }
+                all
+            };
+            pressed.flat_map(of_touch).collect::<Vec<Resisting>>()
+        };
+        numbered.flat_map(of_contact).collect()
+    }
+}
+
+/// Share of the elastic stiffness that friction holds: 1 where the contact sticks.
+fn share_held(touch: &Touch, friction: f64) -> f64 {
+    let limit = friction * touch.depth();
+    if norm(touch.slip) < (1.0 - ROUNDING) * limit {
+        1.0
+    } else {
+        SLIDING
+    }
+}
+
+/// Contact between surfaces in the last equilibrium; empty before the first.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LastTouching {
+    touching: Touching,
+    /// Motions of all points, shape (n_degrees_of_freedom).
+    motions: Vec<f64>,
+}
+
+impl LastTouching {
+    /// Contact in an equilibrium with the motions of all points (n_degrees_of_freedom).
+    pub(crate) fn new(touching: Touching, motions: &[f64]) -> Self {
+        Self {
+            touching,
+            motions: motions.to_vec(),
+        }
+    }
+
+    pub(crate) fn touching(&self) -> &Touching {
+        &self.touching
+    }
+
+    /// Whether it can be that of a problem.
+    pub(crate) fn fits(&self, problem: &ContactProblem) -> bool {
+        let Touching { touches, rigid } = &self.touching;
+        touches.is_empty()
+            || (touches.len() == problem.contacts.len()
+                && rigid.len() == problem.rigid_bodies.len()
+                && (problem.contacts.iter().zip(touches))
+                    .all(|(contact, touches)| contact.surfaces.can_have(touches)))
+    }
+}
+
+/// Finds where surfaces touch. What was found before only saves time.
+#[derive(Debug, Default)]
+pub(crate) struct Surfaces {
+    problem: ContactProblem,
+    searches: Vec<Search>,
+    /// Displacements of the points of the surfaces, ascending.
+    degrees_of_freedom: Vec<u32>,
+    /// Largest motion of a surface in an iteration, m.
+    farthest: f64,
+}
+
+impl Surfaces {
+    pub(crate) fn new(problem: &ContactProblem, layout: Layout) -> Self {
+        let surfaces = || problem.contacts.iter().map(|it| &it.surfaces);
+        let dofs = surfaces().flat_map(|it| it.degrees_of_freedom());
+        let is_displacement = |dof: &u32| !layout.component(*dof as usize).is_rotation();
+        let mut dofs: Vec<u32> = dofs.filter(is_displacement).collect();
+        dofs.sort_unstable();
+        dofs.dedup();
+        let reach = surfaces()
+            .map(|it| it.reach())
+            .fold(f64::INFINITY, f64::min);
+        Self {
+            searches: vec![Search::default(); problem.contacts.len()],
+            degrees_of_freedom: dofs,
+            farthest: FARTHEST * reach,
+            problem: problem.clone(),
+        }
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.problem.is_empty()
+    }
+
+    pub(crate) fn problem(&self) -> &ContactProblem {
+        &self.problem
+    }
+
+    /// Where surfaces touch at motions of all points (n_degrees_of_freedom) and a load factor, which is the time in a motion.
+    ///
+    /// Where nothing has moved since the last equilibrium, the contact has its bits.
+    pub(crate) fn touching(
+        &mut self,
+        last: &LastTouching,
+        motions: &[f64],
+        load_factor: f64,
+    ) -> Touching {
+        let bodies = self.problem.rigid_bodies.iter();
+        let rigid: Vec<Vector> = bodies
+            .map(|it| it.motion.displacement(load_factor))
+            .collect();
+        if last.motions == motions && last.touching.rigid == rigid {
+            return last.touching.clone();
+        }
+        let still = vec![
+            0.0;
+            if last.motions.is_empty() {
+                motions.len()
+            } else {
+                0
+            }
+        ];
+        let before = if last.motions.is_empty() {
+            &still
+        } else {
+            &last.motions
+        };
+        let contacts = self.problem.contacts.iter().zip(&mut self.searches);
+        let touches = contacts.enumerate().map(|(index, (contact, search))| {
+            let place = |all: &[Vector]| {
+                let body = contact.rigid_body.and_then(|it| all.get(it));
+                body.copied().unwrap_or_default()
+            };
+            let step = Step {
+                before,
+                now: motions,
+                rigid: [place(&last.touching.rigid), place(&rigid)],
+            };
+            let then = last.touching.touches.get(index).map_or(&[][..], |it| it);
+            contact.surfaces.touches(search, step, then)
+        });
+        Touching {
+            touches: touches.collect(),
+            rigid,
+        }
+    }
+
+    /// Part of a correction (n_degrees_of_freedom) by which surfaces move as far as they may in an iteration, at most 1.
+    pub(crate) fn part_within_reach(&self, correction: &[f64]) -> f64 {
+        let dofs = self.degrees_of_freedom.iter();
+        let largest = dofs.map(|&dof| correction[dof as usize].abs());
+        let largest = largest.fold(0.0, f64::max);
+        if largest > self.farthest {
+            self.farthest / largest
+        } else {
+            1.0
+        }
+    }
+}
+
+/// Energies of contact between surfaces along equilibria.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct SurfaceEnergy {
+    last: Touching,
+    motions: Vec<f64>,
+}
+
+/// Energies of a step, J.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct SurfaceWork {
+    /// Energy stored at the end of the step.
+    pub(crate) stored: f64,
+    /// Energy that friction and the begin and end of contacts took.
+    pub(crate) dissipated: f64,
+    /// Work of what moves rigid bodies.
+    pub(crate) driving: f64,
+}
+
+impl SurfaceEnergy {
+    /// Energies from an equilibrium on.
+    pub(crate) fn at(touching: &Touching, motions: &[f64]) -> Self {
+        Self {
+            last: touching.clone(),
+            motions: motions.to_vec(),
+        }
+    }
+
+    /// Moves to the next equilibrium with the motions of all points (n_degrees_of_freedom), with works by the trapezoidal rule.
+    pub(crate) fn follow(
+        &mut self,
+        problem: &ContactProblem,
+        touching: &Touching,
+        motions: &[f64],
+    ) -> SurfaceWork {
+        if problem.is_empty() {
+            return SurfaceWork::default();
+        }
+        self.motions.resize(motions.len(), 0.0);
+        let n = motions.len();
+        let [before, now] = [&self.last, touching].map(|it| it.forces(problem, n));
+        let mut on_body = 0.0;
+        for dof in (0..n).filter(|&dof| before[dof] != 0.0 || now[dof] != 0.0) {
+            on_body += 0.5 * (before[dof] + now[dof]) * (motions[dof] - self.motions[dof]);
+        }
+        let forces = [&self.last, touching].map(|it| it.on_rigid_bodies(problem));
+        let mut on_driven = 0.0;
+        for (body, place) in touching.rigid.iter().enumerate() {
+            let then = self.last.rigid.get(body).copied().unwrap_or_default();
+            let way = minus(*place, then);
+            on_driven += 0.5 * (dot(forces[0][body], way) + dot(forces[1][body], way));
+        }
+        let stored = touching.energy();
+        let dissipated = -(on_body + on_driven) - (stored - self.last.energy());
+        *self = Self::at(touching, motions);
+        SurfaceWork {
+            stored,
+            dissipated,
+            driving: -on_driven,
+        }
+    }
+}
