@@ -3,6 +3,7 @@
 mod breaking;
 mod cases;
 mod closing;
+mod contact_at_rest;
 mod crack_lines;
 mod crack_surfaces;
 mod determinism;

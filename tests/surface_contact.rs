@@ -66,6 +66,7 @@ fn rigid(form: RigidForm) -> Rigid {
         form,
         against: Vec::new(),
         law: ContactLaw::default(),
+        displacement: [0.0; 3],
         velocity: [0.0; 3],
         amplitude: Amplitude::constant(),
         mass: None,

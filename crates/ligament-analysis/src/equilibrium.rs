@@ -12,6 +12,7 @@ mod iterate;
 mod line;
 mod line_search;
 mod mechanism;
+mod meeting;
 mod newton;
 mod residual;
 mod secant;
@@ -238,7 +239,7 @@ impl Equilibrium {
         let Equations {
             problem,
             unknowns,
-            contact,
+            meeting,
             costs,
             ..
         } = &mut self.equations;
@@ -260,7 +261,7 @@ impl Equilibrium {
         for hold in &breakage.holds {
             state.held[hold.degree_of_freedom] = true;
         }
-        *contact = Contact::new(system, &state.intact);
+        meeting.faces = Contact::new(system, &state.intact);
         costs.connectivity += start.elapsed();
         breakage
     }
@@ -370,7 +371,7 @@ impl Equilibrium {
         let fragments = self.connectivity.fragments();
         let imbalance = external::imbalance(&self.equations, state, balanced, fragments);
         if imbalance.is_none() {
-            self.equations.settle_contact(state, balanced);
+            self.equations.meeting.settle(state, balanced);
         }
         Ok(imbalance.map_or(attempt, Attempt::Unbalanced))
     }

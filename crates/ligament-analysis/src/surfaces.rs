@@ -40,7 +40,7 @@ impl Touching {
     }
 
     /// Forces of the contacts on the points of a body, shape (n), N and N m.
-    fn forces(&self, problem: &ContactProblem, n: usize) -> Vec<f64> {
+    pub(crate) fn forces(&self, problem: &ContactProblem, n: usize) -> Vec<f64> {
         let mut forces = vec![0.0; n];
         for (contact, touches) in problem.contacts.iter().zip(&self.touches) {
             contact.surfaces.add_forces(touches, &mut forces);
@@ -136,7 +136,8 @@ impl LastTouching {
         }
     }
 
-    pub(crate) fn touching(&self) -> &Touching {
+    /// The contact.
+    pub fn touching(&self) -> &Touching {
         &self.touching
     }
 
@@ -267,6 +268,8 @@ pub(crate) struct SurfaceWork {
     pub(crate) dissipated: f64,
     /// Work of what moves rigid bodies.
     pub(crate) driving: f64,
+    /// What the trapezoidal rule takes too much for the work, because contacts begin and end without force on the way.
+    pub(crate) excess: f64,
 }
 
 impl SurfaceEnergy {
@@ -302,6 +305,7 @@ impl SurfaceEnergy {
             let way = minus(*place, then);
             on_driven += 0.5 * (dot(forces[0][body], way) + dot(forces[1][body], way));
         }
+        let excess = self.excess(problem, touching, motions);
         let stored = touching.energy();
         let dissipated = -(on_body + on_driven) - (stored - self.last.energy());
         *self = Self::at(touching, motions);
@@ -309,6 +313,45 @@ impl SurfaceEnergy {
             stored,
             dissipated,
             driving: -on_driven,
+            excess,
         }
     }
+
+    /// Sum of 1/2 N (a - d) over the contacts that began, with the pressing force N, the approach a of the surfaces along the normal and the
+    /// depth d that it explains, less that of those that ended.
+    fn excess(&self, problem: &ContactProblem, touching: &Touching, motions: &[f64]) -> f64 {
+        let way: Vec<f64> = motions
+            .iter()
+            .zip(&self.motions)
+            .map(|(now, then)| now - then)
+            .collect();
+        let mut sum = 0.0;
+        for (index, contact) in problem.contacts.iter().enumerate() {
+            let body = contact.rigid_body;
+            let place =
+                |all: &[Vector]| body.and_then(|it| all.get(it)).copied().unwrap_or_default();
+            let carried = minus(place(&touching.rigid), place(&self.last.rigid));
+            let of = |it: &Touching| it.touches.get(index).cloned().unwrap_or_default();
+            let (before, now) = (of(&self.last), of(touching));
+            for (one, other, sign) in [(&now, &before, 1.0), (&before, &now, -1.0)] {
+                for it in only_in(one, other) {
+                    let row = contact.surfaces.row(it, it.normal);
+                    let moved: f64 = row.iter().map(|(dof, factor)| factor * way[*dof]).sum();
+                    let approach = sign * (dot(carried, it.normal) - moved);
+                    let force = it.stiffness * it.depth();
+                    sum += sign * 0.5 * force * (approach - it.depth());
+                }
+            }
+        }
+        sum
+    }
+}
+
+/// Pressed contacts of a list whose integration points are not pressed in another one; both are in the order of their numbers.
+fn only_in<'a>(touches: &'a [Touch], others: &'a [Touch]) -> impl Iterator<Item = &'a Touch> {
+    let pressed = touches.iter().filter(|it| it.depth() > 0.0);
+    pressed.filter(|it| {
+        let place = others.binary_search_by_key(&it.place, |other| other.place);
+        !place.is_ok_and(|place| others[place].depth() > 0.0)
+    })
 }

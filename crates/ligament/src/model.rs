@@ -198,9 +198,10 @@ impl Model {
 }
 
 /// The processes between which the body of a setup is divided. Elements that couple more points than the bond's ends, closing faces,
-/// natural modes and motions need the whole body on each process.
+/// contact between surfaces, natural modes and motions need the whole body on each process.
 pub fn partition_communicator(setup: &Setup) -> Arc<dyn Communicator> {
     let needs_all = setup.closing
+        || setup.has_contact()
         || !setup.law.row.couples_ends_alone
         || matches!(setup.analysis, Analysis::Modal(_) | Analysis::Motion(_));
     match needs_all {

@@ -226,8 +226,12 @@ impl Energies {
             self.released += loss.closure;
         }
         let surfaces = self.follow_surfaces(problem, state, balanced);
-        self.friction += surfaces.dissipated;
         self.in_contact = surfaces.stored;
+        self.friction += surfaces.dissipated;
+        if breakage.bonds.is_empty() {
+            self.friction -= surfaces.excess;
+            self.external_work -= surfaces.excess;
+        }
     }
 
     /// Moves to the contact between surfaces of the next state, and adds the work of what moves rigid bodies.

@@ -72,7 +72,8 @@ fn begin_proportional(
         equilibrium.fragments(),
         &breakage.holds,
     );
-    for body in free {
+    // Contact may hold a free body.
+    for body in free.into_iter().filter(|_| problem.contact.is_empty()) {
         observer.notice(&Notice::FreeBody(body))?;
     }
     let mut at_one = State {

@@ -24,8 +24,8 @@ pub(super) struct Accuracy {
     loaded: Vec<u32>,
     /// Degrees of freedom with prescribed motions, ascending.
     prescribed: Vec<u32>,
-    /// Whether the temperature changes, so that the forces in the body have no bound here.
-    is_heated: bool,
+    /// Whether the temperature changes or rigid bodies press, so that the forces in the body have no bound here.
+    pub(super) is_unbounded: bool,
     /// Largest stiffness of a point against displacements, N/m.
     pub(super) stiffest: f64,
     /// Diagonal of the box around the body, m.
@@ -53,7 +53,7 @@ impl Accuracy {
         let prescribed = (0..n_dofs).filter(|&dof| loads.is_prescribed(dof));
         Self {
             prescribed: prescribed.map(|dof| dof as u32).collect(),
-            is_heated: !loads.thermal_strain(1.0).is_none(),
+            is_unbounded: !loads.thermal_strain(1.0).is_none(),
             stiffest: of_bonds.largest(),
             size: system.extent(),
             local_stiffness: of_bonds.restrained_by(loads.restraints()),
@@ -154,7 +154,7 @@ impl Accuracy {
     }
 
     fn bound_by(&self, given: &[(u32, f64)], state: &State) -> f64 {
-        if self.is_heated {
+        if self.is_unbounded {
             return f64::INFINITY;
         }
         let layout = self.local_stiffness.layout();

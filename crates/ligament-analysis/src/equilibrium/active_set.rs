@@ -60,7 +60,7 @@ pub(super) fn balance(
     let mut iterate = equations.measure(state);
     let mut before = f64::INFINITY;
     let largest = sought.max(LARGEST_RESIDUAL);
-    let (limit, slowly) = if equations.depends_on_way() {
+    let (limit, slowly) = if equations.meeting.depends_on_way() {
         (WAY_LIMIT, WAY_FALLS)
     } else {
         (ITERATION_LIMIT, FALLS)
@@ -97,15 +97,13 @@ pub(super) fn balance(
             return Ok(equations.not_settled(&residual, iterations));
         }
         keep_nearer(&mut nearest, &residual, largest, state);
-        let correction = match equations.correction(state, &iterate, sought, &mut mechanisms) {
-            Ok(mut correction) => {
-                equations.shorten(&mut correction);
-                correction
-            }
+        let mut correction = match equations.correction(state, &iterate, sought, &mut mechanisms) {
+            Ok(correction) => correction,
             Err(unbalanced) => return Ok(Attempt::Unbalanced(unbalanced)),
         };
+        equations.shorten(&mut correction);
         let next = search(equations, state, &iterate, &correction);
-        let (opened, closed) = contact::changes(&iterate.closed, &next.closed);
+        let (opened, closed) = contact::changes(&iterate.met.closed, &next.met.closed);
         let is_same = opened.is_empty() && closed.is_empty();
         if is_same && next.residual.relative > slowly * residual.relative {
             equations.solver.discard();
@@ -143,11 +141,11 @@ fn search(
     if start >= 0.0 || end <= -ACCEPTED_SLOPE * start {
         return next;
     }
-    if equations.depends_on_way() {
+    if equations.meeting.depends_on_way() {
         return search_along_way(equations, state, next, [start, end], correction);
     }
-    let pairs = equations.contact.pairs().iter();
-    let gaps = iterate.gaps.iter().zip(&next.gaps);
+    let pairs = equations.meeting.faces.pairs().iter();
+    let gaps = iterate.met.gaps.iter().zip(&next.met.gaps);
     let moved: Vec<Moved> = (pairs.zip(gaps))
         .map(|(pair, (&gap, &next))| Moved {
             stiffness: pair.stiffness,

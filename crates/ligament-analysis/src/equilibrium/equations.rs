@@ -12,24 +12,23 @@ use super::accuracy::{Accuracy, Loaded};
 use super::earlier_equilibria::EarlierEquilibria;
 use super::iterate::Iterate;
 use super::mechanism::Measure;
+use super::meeting::{Meeting, Met};
 use super::residual::{Extents, ROUNDING, Residual};
 use crate::balanced::{Attempt, Balanced};
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
-use crate::contact::{self, Contact};
+use crate::contact::Contact;
 use crate::costs::Costs;
 use crate::error::SetupError;
 use crate::halo::HaloExchange;
 use crate::internal::{BondSweep, InternalForces};
 use crate::load_program::LoadProgram;
 use crate::problem::Problem;
-use crate::resisting;
 use crate::serial::Serial;
 use crate::solver::SolverChoice;
 use crate::state::State;
 use crate::stiffness::Stiffness;
-use crate::surfaces::{LastTouching, Surfaces, Touching};
 use crate::tangent::solving::Solving;
 use crate::tangent::{AllowedResidual, TangentSolver, Unsolved, distributed};
 use crate::unbalanced::{Place, Unbalanced};
@@ -52,9 +51,7 @@ pub(super) struct Equations {
     /// Relative change of the energy that ends the iteration, NHPD eq. 21.
     pub(super) energy_tolerance: f64,
     pub(super) accuracy: Accuracy,
-    /// Pairs across cracks, where faces close.
-    pub(super) contact: Contact,
-    pub(super) surfaces: Surfaces,
+    pub(super) meeting: Meeting,
     /// Earlier equilibria of softening bonds.
     pub(super) earlier: EarlierEquilibria,
     pub(super) costs: Costs,
@@ -82,7 +79,8 @@ impl Equations {
             (numbers, problem.may_press()),
         )?;
         let analysis = stiffness.as_ref().map(|it| it.analysis_time());
-        let accuracy = Accuracy::new(&**system, &**loads, solver.tolerance());
+        let mut accuracy = Accuracy::new(&**system, &**loads, solver.tolerance());
+        accuracy.is_unbounded |= !problem.contact.rigid_bodies.is_empty();
         Ok(Self {
             // The residual alone decides where strains are not linear in the displacements or forces have no energy.
             energy_tolerance: if system.is_linear() && system.has_energy() {
@@ -91,8 +89,7 @@ impl Equations {
                 0.0
             },
             accuracy,
-            contact: Contact::default(),
-            surfaces: Surfaces::new(&problem.contact, system.layout()),
+            meeting: Meeting::new(problem),
             earlier: EarlierEquilibria::default(),
             costs: Costs {
                 analysis: analysis.unwrap_or_default(),
@@ -125,8 +122,7 @@ impl Equations {
             stiffness: _,
             choice: _,
             energy_tolerance: _,
-            contact: _,
-            surfaces: _,
+            meeting: _,
             earlier,
         } = self;
         accuracy.largest_extents.write(out);
@@ -156,7 +152,7 @@ impl Equations {
         if self.problem.criteria.soften() {
             self.earlier = EarlierEquilibria::restored(from, &self.unknowns)?;
         }
-        self.contact = Contact::new(&*self.problem.system, &state.intact);
+        self.meeting.faces = Contact::new(&*self.problem.system, &state.intact);
         let measured = self.measure(state).balanced(0, Vec::new());
         self.costs = costs;
         Ok(measured)
@@ -171,56 +167,12 @@ impl Equations {
         self.unknowns.layout()
     }
 
-    /// Whether faces of cracks rub on each other.
-    pub(super) fn rubs(&self) -> bool {
-        self.problem.face_friction > 0.0 && self.problem.system.faces_close()
-    }
-
-    /// Whether forces depend on the way to a state or on present positions, so that there is no energy to lower.
-    pub(super) fn depends_on_way(&self) -> bool {
-        self.rubs() || !self.surfaces.is_empty()
-    }
-
-    /// Contact between surfaces in a state.
-    fn touching(&mut self, state: &State) -> Touching {
-        if self.surfaces.is_empty() {
-            return Touching::default();
-        }
-        let motions = &state.displacement;
-        (self.surfaces).touching(&state.surfaces, motions, state.load_factor)
-    }
-
     /// Shortens a correction (n_unknowns) where surfaces would move too far at once to see each other.
     pub(super) fn shorten(&self, correction: &mut [f64]) {
-        if self.surfaces.is_empty() {
-            return;
-        }
-        let moved = self.at_degrees_of_freedom(correction);
-        let part = self.surfaces.part_within_reach(&moved);
-        if part < 1.0 {
+        let surfaces = &self.meeting.surfaces;
+        if !surfaces.is_empty() {
+            let part = surfaces.part_within_reach(&self.at_degrees_of_freedom(correction));
             correction.iter_mut().for_each(|it| *it *= part);
-        }
-    }
-
-    /// Moves friction and contact of a state to its equilibrium.
-    pub(super) fn settle_contact(&self, state: &mut State, balanced: &Balanced) {
-        if !self.surfaces.is_empty() {
-            let touching = balanced.touching.clone();
-            state.surfaces = LastTouching::new(touching, &state.displacement);
-        }
-        if self.rubs() {
-            let faces = (self.contact.pairs(), &*balanced.closed);
-            let State {
-                friction,
-                displacement,
-                ..
-            } = state;
-            friction.settle(
-                self.problem.face_friction,
-                faces,
-                self.layout(),
-                displacement,
-            );
         }
     }
 
@@ -408,15 +360,8 @@ impl Equations {
         let start = Instant::now();
         let expansion = self.problem.loads.thermal_strain(state.load_factor);
         let mut swept = (self.problem.system).forces(state.bonds(), deformations, expansion);
-        let gaps = self.contact.gaps(&state.displacement, expansion);
-        let mut closed = self.contact.closed(&gaps);
-        if self.rubs() {
-            let (mu, motions) = (self.problem.face_friction, &state.displacement);
-            state.friction.rub(mu, &mut closed, self.layout(), motions);
-        }
-        contact::add_to(&mut swept, &closed, self.layout(), expansion);
-        let touching = self.touching(state);
-        touching.add_to(&mut swept, self.surfaces.problem(), self.layout());
+        let met = self.meeting.met(state, expansion);
+        self.meeting.add_to(&mut swept, &met, expansion);
         let factor = self.problem.loads.temperature_factor(state.load_factor);
         let energy_of_motion = swept.energy_of_motion(factor);
         self.halo.update_forces(&mut swept.internal.values);
@@ -434,9 +379,8 @@ impl Equations {
         let residual = (self.accuracy).residual(loaded, extents, displacement, out_of_balance);
         self.costs.bonds += start.elapsed();
         let of_expansions = factor.powi(2) * expansion_energy.abs();
-        let cancelled = CANCELLED * of_expansions;
         let rounding = ROUNDING * self.accuracy.stiffest * displacement.powi(2);
-        let has_negative = energy_of_motion < -(rounding + cancelled);
+        let has_negative = energy_of_motion < -(rounding + CANCELLED * of_expansions);
         Iterate {
             deformations,
             internal,
@@ -445,9 +389,7 @@ impl Equations {
             residual,
             extents,
             negative_energy: Some(energy_of_motion).filter(|_| has_negative),
-            gaps,
-            closed,
-            touching,
+            met,
         }
     }
 
@@ -516,10 +458,10 @@ impl Equations {
         state: &mut State,
         iterate: &Iterate,
     ) -> Result<Vec<u32>, Unbalanced> {
-        let layout = self.layout();
-        let mut resisting = resisting::by_faces(&iterate.closed, layout);
-        let surfaces = self.surfaces.problem();
-        resisting.extend(iterate.touching.resisting(surfaces, layout));
+        let Met {
+            closed, touching, ..
+        } = &iterate.met;
+        let resisting = self.meeting.resisting(closed, touching);
         self.solver.close(resisting, &mut self.costs);
         self.prepare_solver(state)
     }

@@ -44,6 +44,11 @@ pub(super) fn imbalance(
     for (dof, force) in closed_forces {
         external[dof] -= force;
     }
+    let surfaces = equations.meeting.surfaces.problem();
+    let by_surfaces = balanced.touching.forces(surfaces, external.len());
+    for (sum, force) in external.iter_mut().zip(by_surfaces) {
+        *sum += force;
+    }
     let rounding = equations.accuracy.rounding(layout, state);
     let mut sums = vec![Sum::default(); n_components * fragments.points.len()];
     let of_points = external

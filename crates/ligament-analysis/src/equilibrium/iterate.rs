@@ -2,13 +2,12 @@
 
 use std::sync::OnceLock;
 
-use ligament_model::contact::ClosedPair;
 use ligament_model::deformation::Deformations;
 
+use super::meeting::Met;
 use super::residual::{Extents, Residual};
 use crate::balanced::Balanced;
 use crate::internal::InternalForces;
-use crate::surfaces::Touching;
 
 /// Deformations, forces, energy and residual of a state during the iteration.
 pub(super) struct Iterate {
@@ -19,10 +18,7 @@ pub(super) struct Iterate {
     pub(super) residual: Residual,
     pub(super) extents: Extents,
     pub(super) negative_energy: Option<f64>,
-    /// Gaps of the pairs across cracks, shape (n_pairs), m.
-    pub(super) gaps: Vec<f64>,
-    pub(super) closed: Vec<ClosedPair>,
-    pub(super) touching: Touching,
+    pub(super) met: Met,
 }
 
 impl Iterate {
@@ -37,8 +33,8 @@ impl Iterate {
             iterations,
             negative_energy: self.negative_energy,
             mechanisms,
-            closed: self.closed,
-            touching: self.touching,
+            closed: self.met.closed,
+            touching: self.met.touching,
             stresses: OnceLock::new(),
         }
     }

@@ -71,6 +71,13 @@ pub struct MotionSettings {
     pub stop: MotionStop,
 }
 
+impl MotionSettings {
+    /// Whether the scheme is explicit.
+    pub fn is_explicit(&self) -> bool {
+        matches!(self.scheme, Scheme::Explicit(_))
+    }
+}
+
 /// Scheme of the integration in time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Scheme {

@@ -1,4 +1,4 @@
-//! `[[contact]]` and `[[rigid]]`: contact between parts of the body and with rigid bodies, in a motion.
+//! `[[contact]]` and `[[rigid]]`: contact between parts of the body and with rigid bodies.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{missing, refuse, require_column_name};
 
-/// Contact between parts of the body in a motion, with friction.
+/// Contact between parts of the body, with friction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
@@ -31,7 +31,7 @@ pub struct Contact {
     pub stiffness: f64,
 }
 
-/// A rigid body that parts of the body meet in a motion; it does not turn.
+/// A rigid body that parts of the body meet; it does not turn.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Rigid {
@@ -39,7 +39,7 @@ pub struct Rigid {
     pub name: String,
     /// Shape of the body.
     pub shape: RigidShape,
-    /// Centre of the body at time zero, of a wall a point of its surface, m.
+    /// Centre of the body at the start, of a wall a point of its surface, m.
     #[schemars(extend("x-unit" = "m"))]
     pub centre: Coordinates,
     /// Radius of a circle or sphere, m.
@@ -53,7 +53,11 @@ pub struct Rigid {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "m"))]
     pub size: Option<Coordinates>,
-    /// Velocity, m/s: of a body with a `mass` at time zero, of another one times its `amplitude`.
+    /// Displacement at load factor 1, m; in statics.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m"))]
+    pub displacement: Option<Vector>,
+    /// Velocity in a motion, m/s: of a body with a `mass` at time zero, of another one times its `amplitude`.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "m/s"))]
     pub velocity: Option<Vector>,
@@ -122,6 +126,9 @@ impl Rigid {
         let velocity = self
             .velocity
             .map(|it| it.for_body(&key.child("velocity"), dimensions));
+        let displacement = self
+            .displacement
+            .map(|it| it.for_body(&key.child("displacement"), dimensions));
         let amplitude = self.amplitude.as_ref();
         let amplitude = amplitude.map(|it| it.setup(&key.child("amplitude")));
         Ok(setup::Rigid {
@@ -132,6 +139,7 @@ impl Rigid {
                 friction: self.friction,
                 stiffness: self.stiffness,
             },
+            displacement: displacement.transpose()?.unwrap_or_default(),
             velocity: velocity.transpose()?.unwrap_or_default(),
             amplitude: (amplitude.transpose()?).unwrap_or_else(load_program::Amplitude::constant),
             mass: self.mass,

@@ -31,7 +31,7 @@ pub struct ModelSection {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     #[schemars(extend("default" = false))]
     pub closing: bool,
-    /// Coefficient of friction on faces that close, in an explicit motion.
+    /// Coefficient of friction on faces that close; not along the exact path.
     #[serde(default, skip_serializing_if = "is_zero")]
     #[schemars(range(min = 0), extend("default" = 0.0))]
     pub closing_friction: f64,

@@ -242,13 +242,11 @@ impl Case {
     }
 
     /// Sections of a motion, each with whether it is given.
-    fn in_time(&self) -> [(&'static str, bool); 5] {
+    fn in_time(&self) -> [(&'static str, bool); 3] {
         [
             ("motion", self.motion.is_some()),
             ("initial_velocity", !self.initial_velocities.is_empty()),
             ("quiet", !self.quiet.is_empty()),
-            ("contact", !self.contacts.is_empty()),
-            ("rigid", !self.rigid_bodies.is_empty()),
         ]
     }
 

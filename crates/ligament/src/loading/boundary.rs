@@ -167,7 +167,8 @@ impl<const D: usize> Places<'_, D> {
         let index = self.setup.curve_load();
         let field = Field::element("loads", index.unwrap_or(0));
         let Some(load) = index.map(|index| &self.setup.loads[index]) else {
-            if self.setup.analysis.is_motion() {
+            let is_driven = heating.is_none() && !self.setup.rigid_bodies.is_empty();
+            if self.setup.analysis.is_motion() || is_driven {
                 return Ok(Control {
                     kind: ControlKind::Force,
                     points: Vec::new(),

@@ -274,8 +274,9 @@ fn motion(body: &Rigid) -> RigidMotion {
             mass,
             velocity: body.velocity,
         },
+        // One of both is zero; in statics the load factor takes the place of the time.
         None => RigidMotion::Prescribed {
-            velocity: body.velocity,
+            velocity: std::array::from_fn(|axis| body.velocity[axis] + body.displacement[axis]),
             amplitude: body.amplitude.clone(),
         },
     }

@@ -1,9 +1,10 @@
 //! Checks of contacts and rigid bodies.
 
 use ligament_analysis::load_program::Amplitude;
+use ligament_model::ElementKind;
 
 use super::check::{Checked, contradiction, positive, require, require_unique};
-use super::{Between, ContactLaw, RigidForm, Setup};
+use super::{Analysis, Between, ContactLaw, Rigid, RigidForm, Setup};
 use crate::error::Field;
 
 impl Setup {
@@ -32,9 +33,14 @@ impl Setup {
             self.check_contact_law(field, body.law)?;
             positive(field.part("mass"), body.mass)?;
             self.check_form(field, &body.form)?;
-            let is_number = body.velocity.iter().all(|it| it.is_finite());
-            let expected = "of finite components";
-            require(is_number, field.part("velocity"), expected, body.velocity)?;
+            for (part, given) in [
+                ("velocity", body.velocity),
+                ("displacement", body.displacement),
+            ] {
+                let is_number = given.iter().all(|it| it.is_finite());
+                require(is_number, field.part(part), "of finite components", given)?;
+            }
+            self.check_rigid_motion(field, body)?;
             if body.mass.is_some() && body.amplitude != Amplitude::constant() {
                 let reason = "a body with a mass moves by itself from its first velocity: give an amplitude or a mass";
                 return contradiction(field.part("amplitude"), reason);
@@ -56,11 +62,70 @@ impl Setup {
             friction,
         )?;
         positive(field.part("stiffness"), Some(stiffness))?;
-        let reason = "surfaces come into contact in a motion in time only";
-        match self.analysis.is_motion() {
-            true => Ok(()),
-            false => contradiction(field, reason),
+        match &self.analysis {
+            Analysis::Motion(settings) if settings.is_explicit() => Ok(()),
+            Analysis::Motion(_) | Analysis::Stepped(_) | Analysis::Elastic { .. } => {
+                self.check_contact_in_equilibria(field)
+            }
+            Analysis::Event(_) => {
+                let reason = "surfaces meet after a way, so that between two breakages the body is not linear in the load, and the exact \
+                    path does not follow it: take load steps";
+                contradiction(field, reason)
+            }
+            Analysis::Modal(_) => {
+                let reason = "natural modes assume that no surfaces touch: remove it";
+                contradiction(field, reason)
+            }
         }
+    }
+
+    /// Refuses contact in the equilibria of what they cannot solve with it.
+    fn check_contact_in_equilibria(&self, field: Field) -> Checked {
+        if matches!(
+            self.law.element(),
+            ElementKind::TrueStrain | ElementKind::Pairwise
+        ) {
+            let law = self.law.name();
+            let reason = format!(
+                "the stiffness of the law \"{law}\" is not symmetric, and equilibria with contact need one that is: take another law, or \
+                 explicit steps of a motion"
+            );
+            return contradiction(field, reason);
+        }
+        if self.stages.iter().any(|it| it.control.is_some()) {
+            let reason = "a stage with `control` finds its load along straight lines, and contact bends them: let loads lead";
+            return contradiction(field, reason);
+        }
+        Ok(())
+    }
+
+    /// Refuses what does not move a rigid body in the analysis.
+    fn check_rigid_motion(&self, field: Field, body: &Rigid) -> Checked {
+        if let Analysis::Motion(settings) = &self.analysis {
+            if body.displacement != [0.0; 3] {
+                let reason = "a displacement grows with the load factor, which a motion does not have: give a `velocity` and an `amplitude`";
+                return contradiction(field.part("displacement"), reason);
+            }
+            if body.mass.is_some() && !settings.is_explicit() {
+                let reason = "implicit steps move rigid bodies by a prescribed velocity alone: remove the mass, or take explicit steps";
+                return contradiction(field.part("mass"), reason);
+            }
+            return Ok(());
+        }
+        let of_time = [
+            ("velocity", body.velocity != [0.0; 3]),
+            ("mass", body.mass.is_some()),
+            ("amplitude", body.amplitude != Amplitude::constant()),
+        ];
+        if let Some((part, _)) = of_time.iter().find(|it| it.1) {
+            let reason = "there is no time in this analysis, only in a motion: give a `displacement`, which grows with the load factor";
+            return contradiction(field.part(part), reason);
+        }
+        if body.displacement != [0.0; 3] && !self.stages.is_empty() {
+            let reason = "with stages each load has a factor of its own, and a rigid body has none: let it rest and move the body by a load";
+            return contradiction(field.part("displacement"), reason);
+        }
+        Ok(())
     }
 
     fn check_form(&self, field: Field, form: &RigidForm) -> Checked {

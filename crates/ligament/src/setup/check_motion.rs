@@ -55,7 +55,10 @@ impl Setup {
                 return contradiction(field, NO_Z);
             }
         }
-        self.refuse_rigid_restraints()
+        match settings.is_explicit() {
+            true => self.refuse_rigid_restraints(),
+            false => Ok(()),
+        }
     }
 
     /// Refuses what depends on time in an analysis without time.

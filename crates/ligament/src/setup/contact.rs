@@ -1,4 +1,4 @@
-//! Contact between surfaces and with rigid bodies, in a motion.
+//! Contact between surfaces and with rigid bodies.
 
 use ligament_analysis::load_program::Amplitude;
 
@@ -36,13 +36,15 @@ pub struct ContactLaw {
 pub struct Rigid {
     /// Name in results.
     pub name: String,
-    /// Shape and place at time zero.
+    /// Shape and place at the start.
     pub form: RigidForm,
     /// Groups whose outlines it meets; that of the whole body where there is none.
     pub against: Vec<String>,
     /// Law of the contact.
     pub law: ContactLaw,
-    /// Velocity, m/s: at time zero where the body has a mass, otherwise times the amplitude.
+    /// In statics the displacement at load factor 1, m.
+    pub displacement: Position,
+    /// In a motion the velocity, m/s: at time zero where the body has a mass, otherwise times the amplitude.
     pub velocity: Position,
     /// Amplitude of a prescribed velocity.
     pub amplitude: Amplitude,

@@ -1,0 +1,252 @@
+//! Contact between surfaces and with rigid bodies in equilibria, against closed forms.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+use std::f64::consts::PI;
+
+use ligament::run::{self, NoObserver, Posed, Solution};
+use ligament::{Loading, Model};
+use ligament_analysis::driver::Outcome;
+use ligament_analysis::history::{
+    Moment, Observer, ObserverError, Onward, StepRecord, Termination, View,
+};
+use ligament_model::surface::Touch;
+use rayon::ThreadPoolBuilder;
+use verification::bench::case;
+
+/// A block of 20 x 10 cells of 1 mm on a rigid floor with friction; loads press and slide its top.
+const BLOCK: &str = r#"
+lattice = { cells = [20, 10], spacing = 0.001, corner = [0.0, 0.0], thickness = 0.01, set = { bottom = { bottom = 1 }, top = { top = 1 } } }
+material = { young = 15e9, poisson = 0.21, tensile_strength = 3.81e6 }
+model = { law = "nhpd", horizon_factor = 3.0 }
+rigid = [{ name = "floor", shape = "wall", centre = [0.0, 0.0], normal = [0.0, 1.0], friction = 0.3 }]
+no_fail = [{ group = "bottom" }, { group = "top" }]
+fracture = { criterion = [{ kind = "strength", limit = 1.0 }] }
+"#;
+
+/// Pressed by 1 kN, then slid by a force that grows to 400 N in steps of 10 N.
+const BY_FORCES: &str = r#"
+load = [{ name = "press", group = "top", force = { y = -1e3 } }, { name = "slide", group = "top", force = { x = 4e2 } }]
+stage = [{ name = "press", loads = { press = 1.0 }, steps = 1 }, { name = "slide", loads = { slide = 1.0 }, steps = 40 }]
+"#;
+
+/// Pressed, then slid to and fro by 100 um.
+const BY_DISPLACEMENTS: &str = r#"
+load = [{ name = "press", group = "top", displacement = { y = -1e-5 } }, { name = "slide", group = "top", displacement = { x = 1e-4 } }]
+stage = [{ name = "press", loads = { press = 1.0 }, steps = 1 }, { name = "slide", loads = { slide = [1.0, -1.0] }, steps = 20 }]
+"#;
+
+fn solved(text: &str, settings: &[&str]) -> Solution {
+    let setup = case(text, settings).setup(&mut ()).unwrap();
+    setup.solve(&mut NoObserver).unwrap()
+}
+
+/// Largest of what the ledger of energy misses, over the largest work.
+fn missing(outcome: &Outcome) -> f64 {
+    let largest = |of: &dyn Fn(&StepRecord) -> f64| {
+        let values = outcome.history.iter().map(|it| of(it).abs());
+        values.fold(0.0, f64::max)
+    };
+    largest(&|it| it.missing_energy()) / largest(&|it| it.external_work)
+}
+
+/// Contacts that press in the last equilibrium.
+fn pressed(outcome: &Outcome) -> Vec<Touch> {
+    let all = outcome.state.surfaces.touching().touches.iter().flatten();
+    all.filter(|it| it.depth() > 0.0).copied().collect()
+}
+
+/// A block that nothing but a floor with friction holds is in equilibrium as long as the shear force is below mu times the pressing one, and
+/// slides beyond: within a step of 1 % of the pressing force. The floor carries the load to the residual.
+#[test]
+fn a_block_slides_off_where_the_force_exceeds_its_friction() {
+    let outcome = solved(&format!("{BLOCK}{BY_FORCES}"), &[]).outcome;
+    let miss = missing(&outcome);
+    println!(
+        "{} rows, {}, energies miss {miss:.1e}",
+        outcome.history.len(),
+        outcome.termination
+    );
+    assert!(matches!(
+        outcome.termination,
+        Termination::NoEquilibrium { .. }
+    ));
+    // The unloaded body, the pressed one, and steps of 10 N up to 300 N, or 290 N: the last one is on the limit.
+    assert!((31..=32).contains(&outcome.history.len()));
+    assert!(miss < 1e-9, "{miss:e}");
+}
+
+/// Slid by 100 um a block has mu times the pressing force as its shear force (1e-8), both ways. Its floor presses with the depth of the overlap:
+/// E'/h times it, over the area of the integration points, is the pressing force.
+#[test]
+fn a_block_that_is_moved_slides_with_mu_times_the_pressure() {
+    let outcome = solved(&format!("{BLOCK}{BY_DISPLACEMENTS}"), &[]).outcome;
+    for (row, sign) in [(14, 1.0), (41, -1.0)] {
+        let Some(record) = outcome.history.get(row) else {
+            panic!("{}", outcome.termination);
+        };
+        let force = &record.group_forces[0];
+        let ratio = -sign * force[0] / force[1];
+        println!("row {row}: shear over pressure {ratio:.10}");
+        assert!((ratio / 0.3 - 1.0).abs() < 1e-8, "{ratio}");
+    }
+    let modulus = 15e9 / (1.0 - 0.21_f64.powi(2));
+    let by_depth = |it: &Touch| modulus / 1e-3 * it.depth() * it.area;
+    let floor: f64 = pressed(&outcome).iter().map(by_depth).sum();
+    let pressing = -outcome.history.last().unwrap().group_forces[0][1];
+    assert!((floor / pressing - 1.0).abs() < 1e-8, "{floor} {pressing}");
+    assert!(missing(&outcome) < 1e-9);
+}
+
+/// Two blocks that are pressed together over a gap transmit the load through all their facets alike, but for the strain of Poisson's ratio
+/// zero none across: the pressure is uniform to 1e-6 of an area, which is the share of the surface correction, in the middle half to 2 %.
+#[test]
+fn two_blocks_transmit_a_uniform_pressure() {
+    const BLOCKS: &str = r#"
+lattice = { cells = [16, 17], spacing = 0.001, corner = [0.0, 0.0], thickness = 0.01, set = { bottom = { bottom = 1 }, top = { top = 1 } }, remove = [{ rectangle = [[-1.0, 0.008], [1.0, 0.009]] }] }
+material = { young = 15e9, poisson = 0.0 }
+model = { law = "nhpd", horizon_factor = 3.0 }
+support = [{ group = "bottom", displacement = { x = 0.0, y = 0.0 } }]
+contact = [{ friction = 0.2 }]
+load = [{ group = "top", displacement = { x = 0.0, y = -1.01e-3 } }]
+"#;
+    let outcome = solved(BLOCKS, &[]).outcome;
+    let last = outcome.history.last().unwrap();
+    let all = pressed(&outcome);
+    let total: f64 = all.iter().map(|it| it.stiffness * it.depth()).sum();
+    assert!((total / last.reaction - 1.0).abs() < 1e-8, "{total}");
+    let mean = total / all.iter().map(|it| it.area).sum::<f64>();
+    let off = all
+        .iter()
+        .map(|it| (it.stiffness * it.depth() / it.area / mean - 1.0).abs());
+    let worst = off.fold(0.0, f64::max);
+    println!(
+        "{} places press, pressure off by {worst:.4} at most",
+        all.len()
+    );
+    assert_eq!(all.len(), 64);
+    assert!(worst < 0.1, "{worst}");
+    assert!(missing(&outcome) < 1e-9);
+}
+
+/// A rigid cylinder on a block, 16 facets wide in contact (Johnson 1985, section 4.2): p_0 = sqrt(P E/(pi R)) in plane stress for the load P over
+/// the thickness, and the pressure p_0 sqrt(1 - x^2/b^2) with b = 2 P/(pi p_0). The pressure in the middle to 3 %, the width to a facet.
+#[test]
+fn a_cylinder_presses_as_hertz_says() {
+    const HERTZ: &str = r#"
+lattice = { cells = [120, 60], spacing = 0.0005, corner = [-0.03, 0.0], thickness = 0.01, set = { bottom = { bottom = 1 } } }
+material = { young = 70e9, poisson = 0.3 }
+model = { law = "nhpd", horizon_factor = 3.0 }
+support = [{ group = "bottom", displacement = { x = 0.0, y = 0.0 } }]
+rigid = [{ name = "punch", shape = "circle", centre = [0.0, 0.13], radius = 0.1, displacement = { y = -2e-4 } }]
+"#;
+    let outcome = solved(HERTZ, &[]).outcome;
+    let all = pressed(&outcome);
+    let load: f64 = all.iter().map(|it| it.stiffness * it.depth()).sum::<f64>() / 0.01;
+    let largest = (load * 70e9 / (PI * 0.1)).sqrt();
+    let half_width = 2.0 * load / (PI * largest);
+    let found = all.iter().map(|it| it.stiffness * it.depth() / it.area);
+    let found = found.fold(0.0, f64::max);
+    let width = 0.5 * all.iter().map(|it| it.area).sum::<f64>() / 0.01;
+    println!(
+        "half-width {width:.3e} m of {half_width:.3e}, largest pressure {:.4} of Hertz's",
+        found / largest
+    );
+    assert!((found / largest - 1.0).abs() < 0.03);
+    assert!((width - half_width).abs() < 0.5e-3);
+    let support = outcome.history.last().unwrap().group_forces[0][1];
+    assert!((support / (0.01 * load) - 1.0).abs() < 1e-8);
+    assert!(missing(&outcome) < 1e-9);
+}
+
+/// A rigid sphere on a block of a solid (Johnson 1985, section 4.2): the load of 4/3 E* sqrt(a^3/R^...) follows from the radius a of the contact,
+/// P = 4 E* a^3/(3 R), E* = E/(1 - nu^2), so that the mean pressure is 4 E* a/(3 pi R). The area of contact to 10 %: it is some 60 facets.
+#[test]
+fn a_sphere_presses_as_hertz_says() {
+    const HERTZ: &str = r#"
+solid_lattice = { cells = [24, 24, 12], spacing = [0.001, 0.001, 0.001], corner = [-0.012, -0.012, 0.0], set = { bottom = { bottom = 1 } } }
+material = { young = 70e9, poisson = 0.25 }
+model = { law = "bbpd", horizon_factor = 2.5 }
+support = [{ group = "bottom", displacement = { x = 0.0, y = 0.0, z = 0.0 } }]
+rigid = [{ name = "punch", shape = "sphere", centre = [0.0, 0.0, 0.112], radius = 0.1, displacement = { z = -2e-4 } }]
+"#;
+    let outcome = solved(HERTZ, &[]).outcome;
+    let all = pressed(&outcome);
+    let load: f64 = all.iter().map(|it| it.stiffness * it.depth()).sum();
+    let area: f64 = all.iter().map(|it| it.area).sum();
+    let modulus = 70e9 / (1.0 - 0.25_f64.powi(2));
+    let radius = (0.75 * load * 0.1 / modulus).cbrt();
+    let ratio = area / (PI * radius * radius);
+    println!(
+        "load {load:.4e} N, area {ratio:.4} of Hertz's, {} places",
+        all.len()
+    );
+    assert!((ratio - 1.0).abs() < 0.15, "{ratio}");
+}
+
+/// Keeps the last moments of a run and what it tells.
+#[derive(Default)]
+struct Recorder {
+    lines: Vec<String>,
+    moments: Vec<(usize, Vec<u8>)>,
+}
+
+impl Observer for Recorder {
+    fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
+        self.lines.push(format!("{record:?} {:?}", view.state));
+        Ok(())
+    }
+
+    fn moment(&mut self, moment: &Moment<'_>) -> Result<Onward, ObserverError> {
+        if moment.end.is_none() {
+            self.moments.push((self.lines.len(), (moment.checkpoint)()));
+        }
+        Ok(Onward::Go)
+    }
+}
+
+fn on_threads<T: Send>(count: usize, work: impl FnOnce() -> T + Send) -> T {
+    let pool = ThreadPoolBuilder::new().num_threads(count).build().unwrap();
+    pool.install(work)
+}
+
+/// Runs with contact of surfaces, rigid bodies and friction, and with friction on the faces of cracks, have the same bits on one and two
+/// threads, and go on from a checkpoint to the same bits.
+#[test]
+fn contact_goes_on_to_the_same_bits() {
+    let block = format!("{BLOCK}{BY_DISPLACEMENTS}");
+    let faces = format!(
+        "{BLOCK}{BY_DISPLACEMENTS}support = [{{ group = \"bottom\", displacement = {{ x = 0.0, y = 0.0 }} }}]\n"
+    );
+    let cut = [
+        "rigid=[]",
+        "model={ law = \"nhpd\", horizon_factor = 3.0, closing = true, closing_friction = 0.3 }",
+        "precrack=[{ points = [[-0.01, 0.005], [0.03, 0.005]] }]",
+    ];
+    for (name, text, settings) in [("surfaces", block, &[][..]), ("faces", faces, &cut)] {
+        let setup = case(&text, settings).setup(&mut ()).unwrap();
+        let model = Model::build(setup, &mut ()).unwrap();
+        let problem = Loading::new(&model).unwrap().problem(&model);
+        let analysis = &model.setup.analysis;
+        let told = |threads: usize| {
+            on_threads(threads, || {
+                let mut recorder = Recorder::default();
+                run::follow(Posed::Statics(&problem), analysis, &mut recorder).unwrap();
+                recorder
+            })
+        };
+        let [one, two] = [1, 2].map(told);
+        assert!(one.lines == two.lines, "{name}");
+        for (from, checkpoint) in one.moments.iter().step_by(9) {
+            let mut rest = Recorder::default();
+            let restored = run::restore(Posed::Statics(&problem), analysis, checkpoint).unwrap();
+            run::resume(analysis, restored, &mut rest).unwrap();
+            assert!(rest.lines[..] == one.lines[*from..], "{name}, from {from}");
+        }
+        println!(
+            "{name}: {} lines, {} moments",
+            one.lines.len(),
+            one.moments.len()
+        );
+        assert!(one.moments.len() > 20);
+    }
+}
