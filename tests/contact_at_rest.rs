@@ -20,7 +20,7 @@ material = { young = 15e9, poisson = 0.21, tensile_strength = 3.81e6 }
 model = { law = "nhpd", horizon_factor = 3.0 }
 rigid = [{ name = "floor", shape = "wall", centre = [0.0, 0.0], normal = [0.0, 1.0], friction = 0.3 }]
 no_fail = [{ group = "bottom" }, { group = "top" }]
-fracture = { criterion = [{ kind = "strength", limit = 1.0 }] }
+fracture = { criterion = [{ kind = "tension", limit = 1.0 }] }
 "#;
 
 /// Pressed by 1 kN, then slid by a force that grows to 400 N in steps of 10 N.
@@ -97,8 +97,8 @@ fn a_block_that_is_moved_slides_with_mu_times_the_pressure() {
     assert!(missing(&outcome) < 1e-9);
 }
 
-/// Two blocks that are pressed together over a gap transmit the load through all their facets alike, but for the strain of Poisson's ratio
-/// zero none across: the pressure is uniform to 1e-6 of an area, which is the share of the surface correction, in the middle half to 2 %.
+/// Two blocks that are pressed together over a gap transmit the load through all their facets alike: with a Poisson's ratio of zero the pressure
+/// is uniform, to 10 % at the ends of the surfaces, where the surface correction is. The force across is the reaction to the residual.
 #[test]
 fn two_blocks_transmit_a_uniform_pressure() {
     const BLOCKS: &str = r#"
@@ -113,7 +113,10 @@ load = [{ group = "top", displacement = { x = 0.0, y = -1.01e-3 } }]
     let last = outcome.history.last().unwrap();
     let all = pressed(&outcome);
     let total: f64 = all.iter().map(|it| it.stiffness * it.depth()).sum();
-    assert!((total / last.reaction - 1.0).abs() < 1e-8, "{total}");
+    let sign = |it: &Touch| if it.is_first { -1.0 } else { 1.0 };
+    let across: f64 = all.iter().map(|it| sign(it) * it.force()[1]).sum();
+    println!("{across} N of {} N, {total} N in all", last.reaction);
+    assert!((across / last.reaction - 1.0).abs() < 1e-8, "{across}");
     let mean = total / all.iter().map(|it| it.area).sum::<f64>();
     let off = all
         .iter()
@@ -154,12 +157,13 @@ rigid = [{ name = "punch", shape = "circle", centre = [0.0, 0.13], radius = 0.1,
     assert!((found / largest - 1.0).abs() < 0.03);
     assert!((width - half_width).abs() < 0.5e-3);
     let support = outcome.history.last().unwrap().group_forces[0][1];
-    assert!((support / (0.01 * load) - 1.0).abs() < 1e-8);
+    let down: f64 = all.iter().map(|it| -it.force()[1]).sum();
+    assert!((support / down - 1.0).abs() < 1e-8, "{support} {down}");
     assert!(missing(&outcome) < 1e-9);
 }
 
-/// A rigid sphere on a block of a solid (Johnson 1985, section 4.2): the load of 4/3 E* sqrt(a^3/R^...) follows from the radius a of the contact,
-/// P = 4 E* a^3/(3 R), E* = E/(1 - nu^2), so that the mean pressure is 4 E* a/(3 pi R). The area of contact to 10 %: it is some 60 facets.
+/// A rigid sphere on a block of a solid (Johnson 1985, section 4.2): the load P is 4 E* a^3/(3 R) with E* = E/(1 - nu^2) and the radius a of the
+/// contact. Its area to 10 %: it is made of places of half a facet.
 #[test]
 fn a_sphere_presses_as_hertz_says() {
     const HERTZ: &str = r#"
@@ -180,7 +184,7 @@ rigid = [{ name = "punch", shape = "sphere", centre = [0.0, 0.0, 0.112], radius 
         "load {load:.4e} N, area {ratio:.4} of Hertz's, {} places",
         all.len()
     );
-    assert!((ratio - 1.0).abs() < 0.15, "{ratio}");
+    assert!((ratio - 1.0).abs() < 0.1, "{ratio}");
 }
 
 /// Keeps the last moments of a run and what it tells.

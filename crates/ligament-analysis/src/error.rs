@@ -55,6 +55,12 @@ pub enum SetupError {
          through stages does not follow: take load steps, or leave the faces open"
     )]
     ClosingFaces,
+    /// The exact path was required with friction or contact between surfaces.
+    #[error(
+        "friction and contact between surfaces depend on the way to a state, which the exact path from breakage to breakage does not follow: \
+         take load steps"
+    )]
+    ContactOnExactPath,
     /// A motion in time cannot be computed.
     #[error(transparent)]
     Motion(#[from] MotionError),

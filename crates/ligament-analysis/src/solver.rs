@@ -115,8 +115,8 @@ pub enum Unfit {
     /// The forces are not linear in the displacements.
     #[error("the forces of the bonds are not linear in the displacements")]
     NotLinear,
-    /// Faces of cracks carry pressure where they close.
-    #[error("faces of cracks carry pressure where they close")]
+    /// Faces of cracks or surfaces carry pressure where they meet.
+    #[error("faces of cracks or surfaces carry pressure where they meet")]
     ClosingFaces,
     /// The settings contain a key that applies to a factor alone.
     #[error("solver.{0} is about a factor, of which there is none")]

@@ -3,13 +3,14 @@
 //! The law is that of a motion ([`ligament_model::surface`]) at the present positions. The last equilibrium takes the place of the last time
 //! step: friction and the depth of contacts that began with an overlap follow from it.
 
+use ligament_model::held::held_motions;
 use ligament_model::layout::Layout;
 use ligament_model::surface::{Search, Step, Touch, Vector};
 use ligament_model::sweep::BondSweep;
 use ligament_model::tensor::{dot, minus, norm};
 
-use crate::motion::contact::ContactProblem;
-use crate::resisting::{ACROSS, Resisting, held_along};
+use crate::motion::contact::{ContactProblem, SurfaceContact};
+use crate::resisting::{ACROSS, Resisting};
 use crate::serial;
 
 /// Share of the length of a facet by which surfaces move in an iteration at most: deeper overlaps than a facet is long are not seen.
@@ -80,26 +81,23 @@ impl Touching {
     /// What the contacts resist, in the order of the keys, behind those of the faces of cracks.
     pub(crate) fn resisting(&self, problem: &ContactProblem, layout: Layout) -> Vec<Resisting> {
         let numbered = (1_u64..).zip(problem.contacts.iter().zip(&self.touches));
-        let of_contact = |(number, (contact, touches)): (u64, (_, &Vec<Touch>))| {
-            let contact: &crate::motion::contact::SurfaceContact = contact;
+        let of_contact = |(number, (contact, touches)): (u64, (&SurfaceContact, &Vec<Touch>))| {
             let surfaces = &contact.surfaces;
             let pressed = touches.iter().filter(|it| it.depth() > 0.0);
             let of_touch = |touch: &Touch| {
                 let number = (number << 32) | u64::from(touch.place);
-                let term = |(motion, direction, share): (usize, Vector, f64)| Resisting {
+                let term = |motion: usize, way: Vector, share: f64| Resisting {
                     key: (number, motion),
-                    direction,
+                    way,
                     stiffness: share * touch.stiffness,
-                    row: surfaces.row(touch, direction),
+                    row: surfaces.row(touch, way),
                 };
-                let mut all = vec![term((ACROSS, touch.normal, 1.0))];
+                let mut all = vec![term(ACROSS, touch.normal, 1.0)];
                 if surfaces.friction() > 0.0 {
-                    let held = (
-                        touch.friction_force(),
-                        share_held(touch, surfaces.friction()),
-                    );
-                    let along = held_along(layout, touch.normal, held);
-                    all.extend(along.into_iter().map(term));
+                    let share = share_held(touch, surfaces.friction());
+                    let held = held_motions(layout, touch.normal, (touch.friction_force(), share));
+                    let held = held.into_iter();
+                    all.extend(held.map(|it| term(it.number, it.way, it.share)));
                 }
                 all
             };

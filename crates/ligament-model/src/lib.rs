@@ -31,6 +31,7 @@ pub mod fixed;
 mod geometry;
 pub mod ghosts;
 pub mod grid;
+pub mod held;
 pub mod horizon;
 pub mod interface;
 pub mod law;

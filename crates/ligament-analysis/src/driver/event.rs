@@ -95,10 +95,13 @@ pub fn predict(
 ///
 /// # Errors
 ///
-/// If bonds soften; in stages, also if crack faces close or a criterion has no closed form along a line.
+/// If bonds soften, or friction or surfaces meet; in stages, also if crack faces close or a criterion has no closed form along a line.
 pub fn refuse(problem: &Problem) -> Result<(), SetupError> {
     if problem.criteria.soften() {
         return Err(SetupError::Softening);
+    }
+    if problem.has_contact_at_rest() {
+        return Err(SetupError::ContactOnExactPath);
     }
     let is_staged = problem.loads.course().is_some();
     if is_staged && problem.system.faces_close() {

@@ -18,6 +18,7 @@ use crate::breakage::Breakage;
 use crate::contact;
 use crate::history::{Observer, ObserverError};
 use crate::state::State;
+use crate::unbalanced::Unbalanced;
 
 /// Largest number of iterations. Faces that close as a whole take some five; a detached part that is pushed away takes all.
 const ITERATION_LIMIT: usize = 60;
@@ -35,7 +36,7 @@ const REFINED: f64 = 1e-12;
 /// updated factor has lost its accuracy.
 const FALLS: f64 = 0.1;
 
-/// That ratio with friction, where the residual falls by a constant factor.
+/// Ratio of successive residuals with friction below which the residual counts as falling: it falls by a constant factor.
 const WAY_FALLS: f64 = 0.9;
 
 /// Residual up to which the last iterate, or else the nearest one, is accepted: a part that only touches another one carries no
@@ -60,11 +61,7 @@ pub(super) fn balance(
     let mut iterate = equations.measure(state);
     let mut before = f64::INFINITY;
     let largest = sought.max(LARGEST_RESIDUAL);
-    let (limit, slowly) = if equations.meeting.depends_on_way() {
-        (WAY_LIMIT, WAY_FALLS)
-    } else {
-        (ITERATION_LIMIT, FALLS)
-    };
+    let (limit, slowly) = pace(equations);
     // Pairs of parts that only touch each other close and open by rounding, so that a worse iterate can follow a solution.
     let mut nearest: Option<(f64, Vec<f64>)> = None;
     loop {
@@ -97,12 +94,10 @@ pub(super) fn balance(
             return Ok(equations.not_settled(&residual, iterations));
         }
         keep_nearer(&mut nearest, &residual, largest, state);
-        let mut correction = match equations.correction(state, &iterate, sought, &mut mechanisms) {
-            Ok(correction) => correction,
+        let next = match next(equations, state, &iterate, sought, &mut mechanisms) {
+            Ok(next) => next,
             Err(unbalanced) => return Ok(Attempt::Unbalanced(unbalanced)),
         };
-        equations.shorten(&mut correction);
-        let next = search(equations, state, &iterate, &correction);
         let (opened, closed) = contact::changes(&iterate.met.closed, &next.met.closed);
         let is_same = opened.is_empty() && closed.is_empty();
         if is_same && next.residual.relative > slowly * residual.relative {
@@ -111,6 +106,28 @@ pub(super) fn balance(
         iterate = next;
         iterations += 1;
     }
+}
+
+/// Largest number of iterations, and the ratio of successive residuals above which the factor is made anew.
+fn pace(equations: &Equations) -> (usize, f64) {
+    if equations.meeting.depends_on_way() {
+        (WAY_LIMIT, WAY_FALLS)
+    } else {
+        (ITERATION_LIMIT, FALLS)
+    }
+}
+
+/// Corrects a state for the relative residual `sought` and measures it; appends the points of mechanisms that the solver found.
+fn next(
+    equations: &mut Equations,
+    state: &mut State,
+    iterate: &Iterate,
+    sought: f64,
+    mechanisms: &mut Vec<u32>,
+) -> Result<Iterate, Unbalanced> {
+    let mut correction = equations.correction(state, iterate, sought, mechanisms)?;
+    equations.shorten(&mut correction);
+    Ok(search(equations, state, iterate, &correction))
 }
 
 /// Records the residual and displacements of an iterate without forces at added supports, if its residual is at most `largest` and
@@ -142,7 +159,7 @@ fn search(
         return next;
     }
     if equations.meeting.depends_on_way() {
-        return search_along_way(equations, state, next, [start, end], correction);
+        return search_along_way(equations, state, next, (start, end), correction);
     }
     let pairs = equations.meeting.faces.pairs().iter();
     let gaps = iterate.met.gaps.iter().zip(&next.met.gaps);
@@ -164,7 +181,7 @@ fn search_along_way(
     equations: &mut Equations,
     state: &mut State,
     mut iterate: Iterate,
-    [start, end]: [f64; 2],
+    (start, end): (f64, f64),
     correction: &[f64],
 ) -> Iterate {
     let mut at = 1.0;

@@ -26,29 +26,9 @@ pub(super) fn imbalance(
     balanced: &Balanced,
     fragments: &Fragments,
 ) -> Option<Unbalanced> {
-    let problem = &equations.problem;
-    let layout = problem.system.layout();
+    let layout = equations.layout();
     let n_components = layout.components.len();
-    // External forces at free points are the given loads, at other points the internal forces.
-    let mut external = balanced.internal.values.clone();
-    let dofs = equations.degrees_of_freedom();
-    let given = problem.loads.forces(state.load_factor, dofs);
-    for (&dof, given) in dofs.iter().zip(given) {
-        if !state.held[dof as usize] && !problem.loads.reacts_at(dof as usize) {
-            external[dof as usize] = given;
-        }
-    }
-    let closed = balanced.closed.iter();
-    let closed_forces = closed.flat_map(|it| contact::end_forces(it, layout));
-    // Forces that other parts exert through closed faces are external to a part.
-    for (dof, force) in closed_forces {
-        external[dof] -= force;
-    }
-    let surfaces = equations.meeting.surfaces.problem();
-    let by_surfaces = balanced.touching.forces(surfaces, external.len());
-    for (sum, force) in external.iter_mut().zip(by_surfaces) {
-        *sum += force;
-    }
+    let external = external_forces(equations, state, balanced);
     let rounding = equations.accuracy.rounding(layout, state);
     let mut sums = vec![Sum::default(); n_components * fragments.points.len()];
     let of_points = external
@@ -84,4 +64,30 @@ pub(super) fn imbalance(
         points: points.len(),
         first: points[0],
     })
+}
+
+/// Forces on the points of each part by loads, supports and other parts, shape (n_degrees_of_freedom).
+fn external_forces(equations: &Equations, state: &State, balanced: &Balanced) -> Vec<f64> {
+    let (problem, layout) = (&equations.problem, equations.layout());
+    // External forces at free points are the given loads, at other points the internal forces.
+    let mut external = balanced.internal.values.clone();
+    let dofs = equations.degrees_of_freedom();
+    let given = problem.loads.forces(state.load_factor, dofs);
+    for (&dof, given) in dofs.iter().zip(given) {
+        if !state.held[dof as usize] && !problem.loads.reacts_at(dof as usize) {
+            external[dof as usize] = given;
+        }
+    }
+    let closed = balanced.closed.iter();
+    let closed_forces = closed.flat_map(|it| contact::end_forces(it, layout));
+    // Forces that other parts exert through closed faces are external to a part.
+    for (dof, force) in closed_forces {
+        external[dof] -= force;
+    }
+    let surfaces = equations.meeting.surfaces.problem();
+    let by_surfaces = balanced.touching.forces(surfaces, external.len());
+    for (sum, force) in external.iter_mut().zip(by_surfaces) {
+        *sum += force;
+    }
+    external
 }

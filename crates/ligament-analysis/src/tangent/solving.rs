@@ -11,7 +11,7 @@ use super::iterative::IterativeSolver;
 use super::unsymmetric::UnsymmetricSolver;
 use crate::bond_numbers::BondNumbers;
 use crate::error::SetupError;
-use crate::solver::{IterativeChoice, Method, Reason, SolverChoice, SolverSettings};
+use crate::solver::{IterativeChoice, Method, Reason, SolverChoice, SolverSettings, Unfit};
 use crate::stiffness::{self, Stiffness};
 use crate::unknowns::Unknowns;
 
@@ -40,6 +40,9 @@ impl Solving {
         if communicator.has_matrices() {
             let choice = settings.distributed_choice(&**system, communicator.size());
             let choice = choice.map_err(SetupError::NotDistributed)?;
+            if presses {
+                return Err(SetupError::NotDistributed(Unfit::ClosingFaces));
+            }
             let solver = DistributedSolver::new(
                 system.clone(),
                 unknowns.clone(),

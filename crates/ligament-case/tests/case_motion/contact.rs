@@ -88,19 +88,80 @@ fn contacts_are_refused_where_they_make_no_sense() {
     let twice = "rigid=[{name=\"it\",shape=\"wall\",centre=[0.0,0.0],normal=[0.0,1.0]},{name=\"it\",shape=\"wall\",centre=[0.0,2e-3],normal=[0.0,-1.0]}]";
     let error = motion(BAR, &[twice]).err().unwrap();
     assert!(error.contains("rigid.1.name"), "{error}");
-    let statics = [
-        "analysis=static",
+}
+
+/// What moves a rigid body belongs to the analysis; the exact path, modes, laws without a symmetric stiffness and controlled stages have no
+/// contact.
+#[test]
+fn each_analysis_says_what_contact_it_has() {
+    const STATICS: [&str; 4] = [
         "-motion",
         "-load.0.velocity",
         "-load.0.amplitude",
         "load.0.force.x=1.0",
     ];
-    let statics: Vec<&str> = statics.into_iter().chain(["contact=[{}]"]).collect();
-    let error = motion(BAR, &statics).err().unwrap();
+    const FLOOR: &str = "rigid=[{name=\"it\",shape=\"wall\",centre=[0.0,0.0],normal=[0.0,1.0]}]";
+    const STEPS: &str = "fracture={criterion=[{kind=\"tension\",limit=1.0}]}";
+    let refused = [
+        (
+            &["fracture={control=\"event\",criterion=[{kind=\"tension\",limit=1.0}]}"][..],
+            "rigid.0: surfaces meet after a way",
+        ),
+        (
+            &[STEPS, "rigid.0.velocity.y=1.0"],
+            "rigid.0.velocity: there is no time",
+        ),
+        (
+            &[STEPS, "rigid.0.mass=1.0"],
+            "rigid.0.mass: there is no time",
+        ),
+        (
+            &[
+                STEPS,
+                "rigid.0.displacement.y=1.0",
+                "stage=[{loads={load-1=1.0}}]",
+            ],
+            "rigid.0.displacement: with stages",
+        ),
+    ];
+    for (settings, expected) in refused {
+        let settings: Vec<&str> = [&STATICS[..], &[FLOOR], settings].concat();
+        let error = motion(BAR, &settings).err().unwrap_or_default();
+        assert!(
+            error.contains(expected),
+            "{settings:?}\n{error}\n{expected}"
+        );
+    }
+    let moves = [FLOOR, "rigid.0.displacement.y=1e-6"];
+    let error = motion(BAR, &moves).err().unwrap_or_default();
     assert!(
-        error.contains("contact: `contact` does not apply with analysis = \"static\""),
+        error.contains("rigid.0.displacement: a displacement grows"),
         "{error}"
     );
+    let implicit = [
+        FLOOR,
+        "motion.scheme=implicit",
+        "motion.step=1e-7",
+        "rigid.0.mass=1.0",
+    ];
+    let error = motion(BAR, &implicit).err().unwrap_or_default();
+    assert!(error.contains("rigid.0.mass: implicit steps"), "{error}");
+    let steps: Vec<&str> = [&STATICS[..], &moves, &[STEPS]].concat();
+    let setup = read(BAR, &steps).unwrap().setup(&mut ()).unwrap();
+    assert_eq!(setup.rigid_bodies[0].displacement, [0.0, 1e-6, 0.0]);
+}
+
+/// Inclined rollers are springs so stiff that explicit steps would be a thousand times shorter; implicit ones take them.
+#[test]
+fn inclined_rollers_go_with_implicit_steps() {
+    let rollers = "support=[{group=\"right\",normal=[1.0,1.0]}]";
+    let error = motion(BAR, &[rollers]).err().unwrap_or_default();
+    assert!(
+        error.contains("support.0.normal: an inclined roller"),
+        "{error}"
+    );
+    let implicit = [rollers, "motion.scheme=implicit", "motion.step=1e-7"];
+    assert!(motion(BAR, &implicit).is_ok());
 }
 
 #[test]
