@@ -33,6 +33,9 @@ pub(crate) struct Folder {
     /// Path of the folder.
     #[pyo3(get)]
     pub(crate) path: PathBuf,
+    /// Whether the results are natural modes.
+    #[pyo3(get)]
+    is_modal: bool,
 }
 
 /// A line of a crack: vertices (n, 2), m, kinds of the ends, and length, m.
@@ -49,15 +52,9 @@ impl Folder {
     #[new]
     fn new(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         require_results(&path).map_err(told(py))?;
-        if kind_of(&path) == OutputKind::Modes {
-            let fault = format!(
-                "{} has natural modes; PyVista reads their files, and `ligament.modal` finds them in memory",
-                path.display()
-            );
-            return Err(errors::of_request(py, &fault));
-        }
+        let is_modal = kind_of(&path) == OutputKind::Modes;
         let path = std::path::absolute(&path).unwrap_or(path);
-        Ok(Self { path })
+        Ok(Self { path, is_modal })
     }
 
     /// The summary as JSON; `None` where the run has not ended.
@@ -92,7 +89,7 @@ impl Folder {
         Ok(loading.probes.into_keys().collect())
     }
 
-    /// Steps with fields.
+    /// Steps with fields; of natural modes the numbers of the modes.
     fn steps(&self, py: Python<'_>) -> PyResult<Vec<usize>> {
         Ok(self.outputs(py)?.files.into_keys().collect())
     }

@@ -16,7 +16,7 @@ use crate::summary::escaped;
 /// Template of the page, and the parts of its program in the order in which they are joined.
 const PAGE: &str = include_str!("viewer/page.html");
 const STYLE: &str = include_str!("viewer/style.css");
-const PROGRAM: [&str; 17] = [
+const PROGRAM: [&str; 18] = [
     include_str!("viewer/columns.js"),
     include_str!("viewer/numbers.js"),
     include_str!("viewer/run.js"),
@@ -28,6 +28,7 @@ const PROGRAM: [&str; 17] = [
     include_str!("viewer/drawing.js"),
     include_str!("viewer/scene.js"),
     include_str!("viewer/lines.js"),
+    include_str!("viewer/symbols.js"),
     include_str!("viewer/chart.js"),
     include_str!("viewer/measured.js"),
     include_str!("viewer/charts.js"),
