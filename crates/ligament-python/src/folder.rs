@@ -41,6 +41,9 @@ pub(crate) struct Folder {
 /// A line of a crack: vertices (n, 2), m, kinds of the ends, and length, m.
 type Line<'py> = (Bound<'py, PyAny>, [&'static str; 2], f64);
 
+/// Digits of the largest value of a field, largest number of steps, and size (MB) of a page; the usual ones where they are not given.
+type Limits = (Option<u32>, Option<u32>, Option<f64>);
+
 /// The exception of a fault in a folder.
 fn told(py: Python<'_>) -> impl Fn(Error) -> PyErr {
     move |error| errors::of_error(py, &error)
@@ -257,7 +260,7 @@ impl Folder {
     }
 }
 
-/// Writes the page of results of some folders with their labels, and returns its path.
+/// Writes the page of results of some folders with their labels within limits, and returns its path.
 #[pyfunction]
 pub(crate) fn report(
     py: Python<'_>,
@@ -265,7 +268,9 @@ pub(crate) fn report(
     labels: Vec<String>,
     path: PathBuf,
     measured: Vec<PathBuf>,
+    limits: Limits,
 ) -> PyResult<PathBuf> {
+    let (digits, steps, size) = limits;
     let path = match path.is_dir() {
         true => path.join(REPORT),
         false => path,
@@ -275,9 +280,9 @@ pub(crate) fn report(
         labels,
         output: Some(path),
         force: true,
-        digits: DIGITS,
-        steps: STEPS as usize,
-        size: (SIZE * MEGABYTE) as usize,
+        digits: digits.unwrap_or(DIGITS),
+        steps: steps.unwrap_or(STEPS) as usize,
+        size: (size.unwrap_or(SIZE) * MEGABYTE) as usize,
         measured,
         unit_of: |key| KeyPath::parse(key).and_then(|key| unit_of(&key)),
     };

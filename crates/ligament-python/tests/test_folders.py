@@ -181,6 +181,9 @@ def test_explanations_and_reports(result: Any, tmp_path: Path) -> None:
     page = result.report(tmp_path / "report.html")
     assert page.read_text().lstrip().lower().startswith("<!doctype html") and result.title in page.read_text()
     assert result.report(page) == page
+    assert result.report(tmp_path / "small.html", digits=2, steps=2).stat().st_size < page.stat().st_size
+    with pytest.raises(ligament.LigamentError, match="2 to 8 digits"):
+        result.report(page, digits=9)
     assert ligament.report([result, result], tmp_path / "both.html").stat().st_size > page.stat().st_size
 
 

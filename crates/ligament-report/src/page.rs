@@ -186,7 +186,7 @@ fn page(runs: &[PageRun], texts: &Texts, measured: &[Value], request: &Request) 
             let names = escaped(&run.left_out.join(", "));
             let _ = writeln!(
                 summaries,
-                "<p class=\"note\">Not in this page, for its size: {names}. --size gives more room, --digits shorter numbers.</p>"
+                "<p class=\"note\">Not in this page, for its size: {names}. A larger page has more room, and fewer steps or digits take less.</p>"
             );
         }
         summaries.push_str("</div>\n");

@@ -324,10 +324,21 @@ class Result(Stored):
         tags = [*([] if point is None else [int(point)]), *map(int, bond or ())]
         return Text(self._run.explain(tags, [float(it) for it in at or ()]))
 
-    def report(self, path: str | os.PathLike[str], measured: Sequence[str | os.PathLike[str]] = ()) -> Path:
+    def report(
+        self,
+        path: str | os.PathLike[str],
+        measured: Sequence[str | os.PathLike[str]] = (),
+        *,
+        digits: int | None = None,
+        steps: int | None = None,
+        size: float | None = None,
+    ) -> Path:
         """Writes the page of the results for a browser, one file, with tables of measured curves, and gives its path; a file that is there
-        is replaced."""
-        return report([self], path, measured)
+        is replaced.
+
+        `digits` are those of the largest value of a field in a step, at first 4; `steps` and the `size` in MB are limits, at first 60 and 15.
+        """
+        return report([self], path, measured, digits=digits, steps=steps, size=size)
 
     def to_pyvista(self, step: Step | None = None, *, time: float | None = None) -> Any:
         """The body in a step, or at a time of a motion, as a grid of PyVista, with all fields."""
@@ -406,7 +417,19 @@ def open(folder: str | os.PathLike[str]) -> Result | Modes:
 
 
 def report(
-    results: list[Result], path: str | os.PathLike[str], measured: Sequence[str | os.PathLike[str]] = ()
+    results: list[Result],
+    path: str | os.PathLike[str],
+    measured: Sequence[str | os.PathLike[str]] = (),
+    *,
+    digits: int | None = None,
+    steps: int | None = None,
+    size: float | None = None,
 ) -> Path:
-    """Writes one page for a browser with several results, and gives its path; a file that is there is replaced."""
-    return _native.report([it.folder for it in results], [it.title for it in results], Path(path), [Path(it) for it in measured])
+    """Writes one page for a browser with several results, and gives its path; a file that is there is replaced. The others are those of
+    `Result.report`."""
+    if digits is not None and not 2 <= digits <= 8:
+        raise LigamentError(f"a page has from 2 to 8 digits, and not {digits}", hint="2 to 8 digits")
+    if (steps is not None and steps < 2) or (size is not None and not size > 0):
+        raise LigamentError("a page has 2 steps or more, and a size above 0", hint="2 steps or more, and a size above 0")
+    folders, titles = [it.folder for it in results], [it.title for it in results]
+    return _native.report(folders, titles, Path(path), [Path(it) for it in measured], (digits, steps, size))
