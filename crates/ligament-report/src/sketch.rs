@@ -145,8 +145,7 @@ fn text<'a>(entry: &'a Table, key: &str) -> Option<&'a str> {
     entry.get(key)?.as_str()
 }
 
-/// Points for symbols: an even selection along the longest side of where they are, or the one in the middle where most of the body is
-/// acted on.
+/// Points for symbols, evenly over where they are, or the one in the middle where most of the body is acted on.
 fn chosen(points: &[u32], model: &StoredModel) -> Vec<u32> {
     let at = |point: u32| model.positions[point as usize];
     if 2 * points.len() > model.positions.len() {
@@ -162,18 +161,25 @@ fn chosen(points: &[u32], model: &StoredModel) -> Vec<u32> {
         let nearest = (points.iter()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
         return nearest.copied().into_iter().collect();
     }
-    let side = |axis: &usize| {
-        let along = || points.iter().map(|&it| at(it)[*axis]);
-        along().fold(f64::MIN, f64::max) - along().fold(f64::MAX, f64::min)
-    };
-    let longest = (0..3).max_by(|a, b| side(a).total_cmp(&side(b)));
-    let along = |point: &u32| at(*point)[longest.unwrap_or(0)];
-    let mut sorted = points.to_vec();
-    sorted.sort_by(|a, b| along(a).total_cmp(&along(b)));
-    let count = sorted.len().min(MOST_POINTS);
-    let last = count.saturating_sub(1).max(1);
-    let place = |it: usize| sorted[it * (sorted.len() - 1) / last];
-    (0..count).map(place).collect()
+    // Each is the one that is farthest from those before it.
+    let mut distances = vec![f64::INFINITY; points.len()];
+    let mut found = Vec::new();
+    let mut next = points.first().copied();
+    while let Some(point) = next.filter(|_| found.len() < MOST_POINTS.min(points.len())) {
+        found.push(point);
+        for (distance, &other) in distances.iter_mut().zip(points) {
+            *distance = distance.min(squared(at(point), at(other)));
+        }
+        let farthest = points.iter().zip(&distances);
+        let farthest = farthest.max_by(|a, b| a.1.total_cmp(b.1));
+        next = farthest.map(|it| *it.0);
+    }
+    found
+}
+
+/// Square of a distance, m^2.
+fn squared(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum()
 }
 
 /// Directions of a pressure at points: into the body where it is positive, the mean of the directions of the point's bonds.

@@ -128,11 +128,11 @@ class Symbols {
     return dot3(direction, this.at) > 0 ? direction.map((it) => -it) : direction;
   }
 
-  // The axis along which the point is nearest to the outside of the body.
+  // The axis along which the point is nearest to the outside of the body; at corners the last one, along which bodies stand.
   outermost(axes) {
     const { low, high } = this.scene.box;
     const share = (axis) => Math.abs(this.at[axis]) / Math.max(high[axis] - low[axis], 1e-300);
-    return axes.reduce((most, it) => (share(it) > share(most) ? it : most));
+    return axes.reduce((most, it) => (share(it) > share(most) - 0.02 ? it : most));
   }
 }
 
