@@ -144,6 +144,8 @@ pub fn program() -> String {
 fn entry(kind: &str, key: &str, fields: &[(&str, String)]) -> String {
     let mut text = format!("@{kind}{{{key},\n");
     for (name, value) in fields {
+        // What TeX reads as a column, and what Markdown sets in italics.
+        let value = value.replace('&', "\\&").replace('*', "");
         // Writing to a text does not fail.
         let _ = writeln!(text, "  {name} = {{{value}}},");
     }

@@ -192,6 +192,9 @@ def test_natural_modes_are_kept_and_opened_as_results_are(tmp_path: Path) -> Non
     assert program("run", str(case), "--out", str(tmp_path / "out")).returncode == 0
     opened, found = ligament.open(tmp_path / "out"), ligament.modal(case, folder=tmp_path / "found")
     assert isinstance(opened, ligament.Modes) and found.folder == tmp_path / "found"
+    opened = ligament.open(tmp_path / "out", ligament.Modes)
+    with pytest.raises(ligament.LigamentError, match="has natural modes; `ligament.open"):
+        ligament.open(tmp_path / "out", ligament.Result)
     same_modes(opened, found)
     for copied in (pickle.loads(pickle.dumps(found)), copy.deepcopy(found), ligament.open(found.save(tmp_path / "kept"))):
         same_modes(copied, found)

@@ -10,7 +10,7 @@ import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -410,10 +410,24 @@ def _meant(step: Step | None, time: float | None) -> str:
     return f"t={float(time)!r}"
 
 
-def open(folder: str | os.PathLike[str]) -> Result | Modes:
+@overload
+def open(folder: str | os.PathLike[str]) -> Result: ...
+@overload
+def open(folder: str | os.PathLike[str], kind: type[Result]) -> Result: ...
+@overload
+def open(folder: str | os.PathLike[str], kind: type[Modes]) -> Modes: ...
+def open(folder: str | os.PathLike[str], kind: type[Result] | type[Modes] | None = None) -> Result | Modes:
     """The results in a folder: of ``ligament run``, of `Result.save`, or of a run that is under way, of which it has what is there so far; of a
-    modal analysis its `Modes`."""
-    return Modes(folder) if _native.Folder(folder).is_modal else Result(folder)
+    modal analysis its `Modes`.
+
+    `kind`, ``ligament.Modes`` or ``ligament.Result``, tells type checkers what it is, and refuses the other.
+    """
+    found: type[Result] | type[Modes] = Modes if _native.Folder(folder).is_modal else Result
+    if kind not in (None, found):
+        what = "natural modes" if found is Modes else "the results of loads"
+        hint = f"`ligament.open(folder, ligament.{found.__name__})` opens them"
+        raise LigamentError(f"{folder} has {what}; {hint}", hint=hint)
+    return found(folder)
 
 
 def report(
