@@ -238,6 +238,8 @@ group = "right"
 displacement = { x = 12e-5, y = 4.5e-5 }
 [[no_fail]]
 group = "left"
+[[no_fail]]
+group = "right"
 [[probe]]
 name = "mouth opening"
 between = [[0.02, 0.08], [0.04, 0.08]]
@@ -354,6 +356,8 @@ group = "top"
 displacement = { x = 5e-6, y = 4e-5 }
 [[no_fail]]
 group = "top"
+[[no_fail]]
+group = "bottom"
 [fracture]
 steps = 10
 bonds_per_iteration = 20

@@ -16,14 +16,14 @@ pub enum Remedy {
         /// The value, in TOML.
         value: &'static str,
     },
-    /// The same request with an option.
+    /// An option of the request, with a value.
     Give {
         /// Name of the option on the command line, `at`.
         option: &'static str,
         /// What stands for its value, `X,Y,Z`.
         value: &'static str,
     },
-    /// The same request without an option.
+    /// An option of the request, to be left out.
     LeaveOut(&'static str),
 }
 
