@@ -26,7 +26,7 @@ impl Case {
             }
         }
         let motion = self.motion.as_ref();
-        if motion.is_some_and(|it| it.scheme == Scheme::Implicit) {
+        if motion.is_some_and(|it| it.scheme != Scheme::Explicit) {
             found.push("Hilber 1977");
         }
         if !self.quiet.is_empty() {
