@@ -41,6 +41,7 @@ use crate::state::State;
 use crate::stiffness::Stiffness;
 use crate::unbalanced::Unbalanced;
 use crate::unknowns::Unknowns;
+use earlier_equilibria::EarlierEquilibria;
 use equations::Equations;
 
 pub(crate) use dissipating::Dissipation;
@@ -264,6 +265,23 @@ impl Equilibrium {
         meeting.faces = Contact::new(system, &state.intact);
         costs.connectivity += start.elapsed();
         breakage
+    }
+
+    /// Takes breakages back: the equations are those of the bonds of a state again, with its criteria.
+    pub(crate) fn return_to(&mut self, state: &State, criteria: Arc<Criteria>) {
+        let Equations {
+            problem,
+            meeting,
+            solver,
+            earlier,
+            ..
+        } = &mut self.equations;
+        let system = &*problem.system;
+        self.connectivity = Connectivity::held(system, &state.intact);
+        meeting.faces = Contact::new(system, &state.intact);
+        *earlier = EarlierEquilibria::default();
+        solver.discard();
+        problem.criteria = criteria;
     }
 
     /// Measures a state that is known to be in equilibrium at its load factor, without solving.
