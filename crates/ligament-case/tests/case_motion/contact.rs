@@ -101,7 +101,7 @@ fn each_analysis_says_what_contact_it_has() {
         "load.0.force.x=1.0",
     ];
     const FLOOR: &str = "rigid=[{name=\"it\",shape=\"wall\",centre=[0.0,0.0],normal=[0.0,1.0]}]";
-    const STEPS: &str = "fracture={criterion=[{kind=\"tension\",limit=1.0}]}";
+    const STEPS: &str = "fracture={steps=2,criterion=[{kind=\"tension\",limit=1.0}]}";
     let refused = [
         (
             &["fracture={control=\"event\",criterion=[{kind=\"tension\",limit=1.0}]}"][..],
@@ -117,9 +117,9 @@ fn each_analysis_says_what_contact_it_has() {
         ),
         (
             &[
-                STEPS,
+                "fracture={criterion=[{kind=\"tension\",limit=1.0}]}",
                 "rigid.0.displacement.y=1.0",
-                "stage=[{loads={load-1=1.0}}]",
+                "stage=[{loads={load-1=1.0},steps=2}]",
             ],
             "rigid.0.displacement: with stages",
         ),

@@ -37,6 +37,12 @@ moment = { z = 1 }
 [[load]]
 name = "twisted"
 body_couple = { z = 1 }
+[[rigid]]
+name = "floor"
+shape = "box"
+centre = [0.2, 0.2, -0.2]
+size = [1, 1, 0.2]
+displacement = { z = 0.001 }
 "#;
 
 const MESH: &str = r#"
@@ -259,6 +265,8 @@ pub(super) fn documents() -> Vec<Value> {
     // The scheme that takes all keys of implicit steps.
     let scheme = "duration = 1e-2\nscheme = \"auto\"\nstep = 1e-4";
     let implicit = MOTION.replace("duration = 1e-2", scheme);
+    // A rigid body with a mass takes explicit steps.
+    let implicit = implicit.replace("mass = 2\n", "");
     [
         mesh.as_str(),
         LATTICE,

@@ -155,7 +155,7 @@ class Model(TypedDict, total=False):
     closing: bool
     """Whether the faces of cracks carry pressure again where they close; of laws whose points turn. Default false."""
     closing_friction: float
-    """Coefficient of friction on faces that close, in an explicit motion. Default 0.0."""
+    """Coefficient of friction on faces that close; not along the exact path. Default 0.0."""
     calibration: Literal["integral", "discrete"]
     """Where the constants of the law come from; of `bbpd`, `bbpd-conical`, `pds`, `mppd`, `mppd-beam`.
 
@@ -617,7 +617,7 @@ class Quiet(TypedDict, total=False):
 
 
 class Contact(TypedDict, total=False):
-    """Contact between parts of the body in a motion, with friction."""
+    """Contact between parts of the body, with friction."""
 
     between: Sequence[str]
     """Two groups whose outlines meet, `["a", "b"]`; without it all parts that no bond connects at the start."""
@@ -627,8 +627,19 @@ class Contact(TypedDict, total=False):
     """Stiffness of the contact over E'/h of the material, with the spacing h of the points. Default 1.0."""
 
 
+class RigidDisplacement(TypedDict, total=False):
+    """Displacement at load factor 1, m; in statics."""
+
+    x: float
+    """Along x, in the unit of the force. Default 0.0."""
+    y: float
+    """Along y, in the unit of the force. Default 0.0."""
+    z: float
+    """Along z of a solid, in the unit of the force."""
+
+
 class RigidVelocity(TypedDict, total=False):
-    """Velocity, m/s: of a body with a `mass` at time zero, of another one times its `amplitude`."""
+    """Velocity in a motion, m/s: of a body with a `mass` at time zero, of another one times its `amplitude`."""
 
     x: float
     """Along x, in the unit of the force. Default 0.0."""
@@ -668,7 +679,7 @@ class RigidAmplitude(TypedDict, total=False):
 
 
 class Rigid(TypedDict, total=False):
-    """A rigid body that parts of the body meet in a motion; it does not turn."""
+    """A rigid body that parts of the body meet; it does not turn."""
 
     name: str
     """Name in results."""
@@ -680,15 +691,17 @@ class Rigid(TypedDict, total=False):
 - `wall`: A half-plane, for a solid a half-space.
 - `box`: A rectangle, for a solid a box, with sides along the axes."""
     centre: Numbers
-    """Centre of the body at time zero, of a wall a point of its surface, m."""
+    """Centre of the body at the start, of a wall a point of its surface, m."""
     radius: float
     """Radius of a circle or sphere, m."""
     normal: Numbers
     """Outward normal of a wall."""
     size: Numbers
     """Sides of a box, m."""
+    displacement: RigidDisplacement
+    """Displacement at load factor 1, m; in statics."""
     velocity: RigidVelocity
-    """Velocity, m/s: of a body with a `mass` at time zero, of another one times its `amplitude`."""
+    """Velocity in a motion, m/s: of a body with a `mass` at time zero, of another one times its `amplitude`."""
     amplitude: RigidAmplitude
     """Factor of the velocity as a function of time; without it 1."""
     mass: float
