@@ -30,7 +30,7 @@ no_fail = [{ group = "left" }, { group = "right" }]
 
 /// Pressed, then slid to and fro by 40 um.
 const CYCLES: &str = r#"
-stage = [{ name = "press", loads = { press = 1.0 }, steps = 1 }, { name = "slide", loads = { slide = [4.0, -4.0, 4.0] }, steps = 20 }]
+stage = [{ name = "press", loads = { press = 1.0 }, steps = 1 }, { name = "slide", loads = { slide = [4.0, -4.0, 4.0] }, steps = 60 }]
 fracture = { criterion = [{ kind = "tension", limit = 1.0 }] }
 "#;
 

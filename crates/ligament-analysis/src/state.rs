@@ -98,7 +98,7 @@ impl State {
             friction: Serial::read(from)?,
             surfaces: LastTouching::default(),
         };
-        state.surfaces = LastTouching::new(Serial::read(from)?, &state.displacement);
+        state.surfaces = LastTouching::restored(Serial::read(from)?, &state.displacement);
         Ok(state)
     }
 

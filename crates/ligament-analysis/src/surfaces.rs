@@ -126,6 +126,14 @@ pub struct LastTouching {
 }
 
 impl LastTouching {
+    /// Contact that was stored with a state, of which the motions of all points (n_degrees_of_freedom) are; empty without contacts.
+    pub(crate) fn restored(touching: Touching, motions: &[f64]) -> Self {
+        match touching.touches.is_empty() {
+            true => Self::default(),
+            false => Self::new(touching, motions),
+        }
+    }
+
     /// Contact in an equilibrium with the motions of all points (n_degrees_of_freedom).
     pub(crate) fn new(touching: Touching, motions: &[f64]) -> Self {
         Self {
