@@ -23,6 +23,13 @@ pub enum Remedy {
         /// What stands for its value, `X,Y,Z`.
         value: &'static str,
     },
+    /// An option of the request, with a number.
+    GiveNumber {
+        /// Name of the option on the command line, `point`.
+        option: &'static str,
+        /// The number.
+        value: i64,
+    },
     /// An option of the request, to be left out.
     LeaveOut(&'static str),
 }
@@ -78,6 +85,9 @@ impl Remedy {
             }
             Self::Give { option, value } => {
                 return format!("give {}", (terms.option)(option, value));
+            }
+            Self::GiveNumber { option, value } => {
+                return format!("give {}", (terms.option)(option, &value.to_string()));
             }
             Self::LeaveOut(option) => return format!("leave out {}", (terms.option)(option, "")),
         };

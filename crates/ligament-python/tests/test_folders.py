@@ -216,7 +216,7 @@ def test_errors_name_what_python_takes(result: Any) -> None:
         (lambda: result.explain(at=(0.0, 0.0, 0.0)), r"two coordinates; give `at=\(X, Y\)`"),
         (lambda: result.plot(view="x"), "leave out `view`"),
         (lambda: result.plot(level=0.1), "leave out `level`"),
-        (lambda: result.explain(bond=(5, 5)), "give `point=TAG`"),
+        (lambda: result.explain(bond=(5, 5)), "give `point=5`"),
     ):
         with pytest.raises(ligament.LigamentError, match=words) as error:
             asked()

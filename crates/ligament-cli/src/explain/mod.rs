@@ -122,7 +122,10 @@ pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
             let [a, b] = [point_of(&run, tags[0])?, point_of(&run, tags[1])?];
             if a == b {
                 let (tagged, tag) = (run.model.tagged, tags[0]);
-                let remedy = give("point", "TAG");
+                let remedy = Remedy::GiveNumber {
+                    option: "point",
+                    value: tag,
+                };
                 return Err(ExplainError::OneEnd {
                     tagged,
                     tag,
