@@ -139,6 +139,8 @@ pub struct ContactReading {
     pub normal_force: Vector,
     /// Force of friction on the same surface, N.
     pub friction_force: Vector,
+    /// Sum of the sizes of all pressing forces, N.
+    pub pressing: f64,
     /// Area in contact, m^2.
     pub area: f64,
     /// Largest penetration that causes a force, m.
@@ -175,6 +177,13 @@ pub struct ContactForces {
     /// Contact forces at the present time, shape (n_degrees_of_freedom).
     forces: Vec<f64>,
     state: ContactState,
+}
+
+impl ContactReading {
+    /// Component of the whole force on the first surface along an axis, N.
+    pub fn force(&self, axis: usize) -> f64 {
+        self.normal_force[axis] + self.friction_force[axis]
+    }
 }
 
 impl ContactState {
@@ -281,6 +290,7 @@ impl ContactForces {
                 let sign = if touch.is_first { 1.0 } else { -1.0 };
                 add(&mut reading.normal_force, sign, touch.normal_force());
                 add(&mut reading.friction_force, sign, touch.friction_force());
+                reading.pressing += touch.stiffness * touch.depth();
                 reading.area += touch.area;
                 reading.penetration = reading.penetration.max(touch.depth());
             }
@@ -412,6 +422,13 @@ serial!(RigidState {
     displacement,
     velocity,
     force
+});
+serial!(ContactReading {
+    normal_force,
+    friction_force,
+    pressing,
+    area,
+    penetration
 });
 serial!(ContactEnergies {
     stored,

@@ -15,7 +15,6 @@ use thiserror::Error;
 
 use crate::breaking::BreakingRule;
 use crate::problem::Problem;
-use contact::ContactProblem;
 
 pub use crate::critical_step::CriticalStep;
 pub use stable_step::critical_step;
@@ -31,8 +30,6 @@ pub struct MotionProblem {
     pub initial_velocity: Arc<[f64]>,
     /// Dashpots between points and the ground.
     pub dashpots: Arc<[Dashpot]>,
-    /// Contacts between surfaces and with rigid bodies.
-    pub contact: ContactProblem,
     /// Coefficient of friction on faces of cracks that close.
     pub face_friction: f64,
 }

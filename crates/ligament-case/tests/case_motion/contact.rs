@@ -127,7 +127,7 @@ fn contacts_have_defaults() {
         panic!("another shape");
     };
     assert_eq!(size, [1e-3, 2e-3, 0.0]);
-    let problem = motion(BAR, &settings).unwrap().contact;
+    let problem = motion(BAR, &settings).unwrap().problem.contact;
     let names: Vec<&str> = problem.contacts.iter().map(|it| it.name.as_str()).collect();
     assert_eq!(names, ["left-right", "floor", "hammer"]);
     let ramp = Amplitude::pulse(Shape::Ramp, 0.0, 1e-6);

@@ -74,13 +74,13 @@ impl<'a, const D: usize> Outline<'a, D> {
         let mut problem = ContactProblem::default();
         for (index, contact) in self.setup.contacts.iter().enumerate() {
             let field = Field::element("contacts", index).part("between");
-            let (name, sides) = match &contact.between {
-                Between::Groups(groups) => (groups.join("-"), self.sides_of_groups(field, groups)?),
-                Between::Parts => ("parts".to_owned(), self.sides_of_parts(field)?),
+            let sides = match &contact.between {
+                Between::Groups(groups) => self.sides_of_groups(field, groups)?,
+                Between::Parts => self.sides_of_parts(field)?,
             };
             let surfaces = self.pair(&sides, contact.law, Opposite::OtherSides);
             problem.contacts.push(SurfaceContact {
-                name,
+                name: contact.between.name(),
                 surfaces: Arc::new(surfaces),
                 rigid_body: None,
             });

@@ -22,6 +22,13 @@ impl Setup {
                 let reason = "contact is between two different groups: give two, or all parts";
                 return contradiction(field.part("between"), reason);
             }
+            if self.contacts[..index]
+                .iter()
+                .any(|it| it.between == contact.between)
+            {
+                let reason = "an earlier contact is between the same: give one of them";
+                return contradiction(field.part("between"), reason);
+            }
         }
         require_unique(
             "rigid_bodies",
@@ -31,6 +38,7 @@ impl Setup {
             let field = Field::element("rigid_bodies", index);
             self.check_contact_law(field, body.law)?;
             positive(field.part("mass"), body.mass)?;
+            self.check_rigid_name(field, &body.name)?;
             self.check_form(field, &body.form)?;
             let is_number = body.velocity.iter().all(|it| it.is_finite());
             let expected = "of finite components";
@@ -39,6 +47,19 @@ impl Setup {
                 let reason = "a body with a mass moves by itself from its first velocity: give an amplitude or a mass";
                 return contradiction(field.part("amplitude"), reason);
             }
+        }
+        Ok(())
+    }
+
+    /// Refuses a name whose columns in the history are those of a group or of another contact.
+    fn check_rigid_name(&self, field: Field, name: &str) -> Checked {
+        let is_group = self.body.group_names().iter().any(|it| it == name);
+        let mut others = self.contacts.iter().map(|it| it.between.name());
+        if is_group || others.any(|it| it == name) {
+            let reason = format!(
+                "`{name}` is a group or a contact, whose columns in the history are called so"
+            );
+            return contradiction(field.part("name"), reason);
         }
         Ok(())
     }

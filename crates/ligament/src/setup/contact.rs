@@ -22,6 +22,16 @@ pub enum Between {
     Parts,
 }
 
+impl Between {
+    /// Name in results: those of the groups, or `parts`.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Groups(groups) => groups.join("-"),
+            Self::Parts => "parts".to_owned(),
+        }
+    }
+}
+
 /// Penalty and friction of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactLaw {

@@ -247,6 +247,7 @@ impl Body {
     ) -> Now<'a> {
         let square = of_critical.min(NEARLY_CRITICAL).powi(2);
         Now {
+            contacts: None,
             below_zero: square / (1.0 - square),
             problem: &self.problem,
             numbers: &self.numbers,
