@@ -52,6 +52,7 @@ fn with_contact(setup: Setup, law: ContactLaw) -> Setup {
     let contact = SurfaceContact {
         between: Between::Parts,
         law,
+        cracks: false,
     };
     Setup {
         contacts: vec![contact],
@@ -66,6 +67,7 @@ fn rigid(form: RigidForm) -> Rigid {
         form,
         against: Vec::new(),
         law: ContactLaw::default(),
+        cracks: false,
         velocity: [0.0; 3],
         amplitude: Amplitude::constant(),
         mass: None,
@@ -194,6 +196,7 @@ fn groups_of_a_mesh_meet() {
         let contact = SurfaceContact {
             between: Between::Groups(groups.map(str::to_owned)),
             law,
+            cracks: false,
         };
         let setup = Setup {
             contacts: vec![contact],
@@ -429,7 +432,7 @@ fn states_and_threads_keep_all_bits() {
     let mut bytes = Vec::new();
     two.contacts.state().write(&mut bytes);
     let state = ContactState::read(&mut bytes.as_slice()).unwrap();
-    two.contacts = ContactForces::resumed(two.problem.clone(), &two.motions, state);
+    two.contacts = ContactForces::resumed(two.problem.clone(), &two.motions, state, two.bonded());
     for impact in [&mut one, &mut two] {
         impact.follow(200.0 * impact.step, &Drive::NONE);
     }

@@ -115,6 +115,9 @@ pub static EXPERIMENTS: [Experiment; 40] = [
     motion::branching::EXPERIMENT,
     motion::kalthoff::EXPERIMENT,
     motion::spall::EXPERIMENT,
+    motion::stretching::EXPERIMENT,
+    motion::disk::EXPERIMENT,
+    motion::splitting::EXPERIMENT,
     motion::contact::EXPERIMENT,
     motion::schemes::EXPERIMENT,
 ];

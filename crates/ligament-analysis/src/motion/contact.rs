@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use ligament_model::layout::Layout;
-use ligament_model::surface::{Search, Step, SurfacePair, Touch, Vector};
+use ligament_model::surface::{Bonded, Search, Step, SurfacePair, Touch, Vector};
 use ligament_model::tensor::{dot, minus};
 
 use crate::load_program::Amplitude;
@@ -197,9 +197,9 @@ impl ContactState {
 }
 
 impl ContactForces {
-    /// Contacts of a problem at time zero, for the motions then, shape (n_degrees_of_freedom). Surfaces that overlap there begin without
-    /// force.
-    pub fn new(problem: ContactProblem, motions: &[f64]) -> Self {
+    /// Contacts of a problem at time zero, for the motions then, shape (n_degrees_of_freedom), and the bonds. Surfaces that overlap there
+    /// begin without force.
+    pub fn new(problem: ContactProblem, motions: &[f64], bonds: Bonded<'_>) -> Self {
         let rigid = problem.rigid_bodies.iter().map(|it| RigidState {
             velocity: it.motion.first_velocity(),
             ..RigidState::default()
@@ -209,13 +209,18 @@ impl ContactForces {
             rigid_bodies: rigid.collect(),
             energies: ContactEnergies::default(),
         };
-        let mut contacts = Self::resumed(problem, motions, state);
-        contacts.advance(0.0, 0.0, motions);
+        let mut contacts = Self::resumed(problem, motions, state, bonds);
+        contacts.advance(0.0, 0.0, motions, bonds);
         contacts
     }
 
-    /// Contacts of a problem with the state that they had at some motions, shape (n_degrees_of_freedom).
-    pub fn resumed(problem: ContactProblem, motions: &[f64], state: ContactState) -> Self {
+    /// Contacts of a problem with the state that they had at some motions, shape (n_degrees_of_freedom), and the bonds then.
+    pub fn resumed(
+        problem: ContactProblem,
+        motions: &[f64],
+        state: ContactState,
+        bonds: Bonded<'_>,
+    ) -> Self {
         let surfaces = problem.contacts.iter().map(|it| &it.surfaces);
         let mut loaded: Vec<u32> = surfaces.flat_map(|it| it.degrees_of_freedom()).collect();
         loaded.sort_unstable();
@@ -228,17 +233,34 @@ impl ContactForces {
             problem,
             state,
         };
+        let numbered = (0..).zip(bonds.intact).filter(|it| !it.1);
+        let broken: Vec<u32> = numbered.map(|it| it.0).collect();
+        contacts.join(&broken);
         contacts.load_body();
         contacts
     }
 
-    /// Moves to the next time (s), after a step (s) to given motions, shape (n_degrees_of_freedom).
+    /// Adds the faces of cracks across which bonds broke to the surfaces that have such faces.
+    pub fn join(&mut self, broken: &[u32]) {
+        let contacts = self.problem.contacts.iter();
+        for (contact, search) in contacts.zip(&mut self.searches) {
+            contact.surfaces.join(search, &mut broken.iter().copied());
+        }
+    }
+
+    /// Moves to the next time (s), after a step (s) to given motions, shape (n_degrees_of_freedom), with the bonds that are left.
     ///
     /// Free rigid bodies move by velocity Verlet. The result does not depend on the number of threads.
-    pub fn advance(&mut self, time: f64, step: f64, motions: &[f64]) -> ContactEnergies {
+    pub fn advance(
+        &mut self,
+        time: f64,
+        step: f64,
+        motions: &[f64],
+        bonds: Bonded<'_>,
+    ) -> ContactEnergies {
         let rigid = self.state.rigid_bodies.clone();
         self.move_rigid_bodies(time, step);
-        self.meet(&rigid, motions);
+        self.meet(&rigid, motions, bonds);
         let before: Vec<f64> = self.at_loaded(&self.forces);
         self.load_body();
         let mut on_body = 0.0;
@@ -300,7 +322,7 @@ impl ContactForces {
     }
 
     /// Finds the contacts at new motions, given the rigid bodies before the step.
-    fn meet(&mut self, before: &[RigidState], motions: &[f64]) {
+    fn meet(&mut self, before: &[RigidState], motions: &[f64], bonds: Bonded<'_>) {
         for (index, contact) in self.problem.contacts.iter().enumerate() {
             let place = |all: &[RigidState]| {
                 let body = contact.rigid_body.map(|it| all[it].displacement);
@@ -310,6 +332,7 @@ impl ContactForces {
                 before: &self.motions,
                 now: motions,
                 rigid: [place(before), place(&self.state.rigid_bodies)],
+                bonds,
             };
             let touches = &mut self.state.touches[index];
             *touches = contact

@@ -29,6 +29,9 @@ pub struct Contact {
     #[serde(default = "one")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub stiffness: f64,
+    /// Whether the faces of cracks take part, also those that come about; without `between` all fragments then meet each other.
+    #[serde(default)]
+    pub cracks: bool,
 }
 
 /// A rigid body that parts of the body meet in a motion; it does not turn.
@@ -75,6 +78,9 @@ pub struct Rigid {
     /// Groups whose outlines it meets; without it that of the whole body.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub against: Vec<String>,
+    /// Whether it meets the faces of cracks as well.
+    #[serde(default)]
+    pub cracks: bool,
 }
 
 /// Shape of a rigid body.
@@ -103,6 +109,7 @@ impl Contact {
                 friction: self.friction,
                 stiffness: self.stiffness,
             },
+            cracks: self.cracks,
         }
     }
 }
@@ -132,6 +139,7 @@ impl Rigid {
                 friction: self.friction,
                 stiffness: self.stiffness,
             },
+            cracks: self.cracks,
             velocity: velocity.transpose()?.unwrap_or_default(),
             amplitude: (amplitude.transpose()?).unwrap_or_else(load_program::Amplitude::constant),
             mass: self.mass,

@@ -16,6 +16,7 @@ impl Setup {
         for (index, contact) in self.contacts.iter().enumerate() {
             let field = Field::element("contacts", index);
             self.check_contact_law(field, contact.law)?;
+            self.check_cracks(field, contact.cracks)?;
             if let Between::Groups([one, other]) = &contact.between
                 && one == other
             {
@@ -37,6 +38,7 @@ impl Setup {
         for (index, body) in self.rigid_bodies.iter().enumerate() {
             let field = Field::element("rigid_bodies", index);
             self.check_contact_law(field, body.law)?;
+            self.check_cracks(field, body.cracks)?;
             positive(field.part("mass"), body.mass)?;
             self.check_rigid_name(field, &body.name)?;
             self.check_form(field, &body.form)?;
@@ -82,6 +84,16 @@ impl Setup {
             true => Ok(()),
             false => contradiction(field, reason),
         }
+    }
+
+    /// Refuses contact of faces of cracks that carry pressure already.
+    fn check_cracks(&self, field: Field, cracks: bool) -> Checked {
+        if cracks && self.closing {
+            let reason =
+                "the faces of cracks carry pressure already, by `closing`: give one of both";
+            return contradiction(field.part("cracks"), reason);
+        }
+        Ok(())
     }
 
     fn check_form(&self, field: Field, form: &RigidForm) -> Checked {

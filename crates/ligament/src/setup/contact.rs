@@ -11,6 +11,8 @@ pub struct SurfaceContact {
     pub between: Between,
     /// Law of the contact.
     pub law: ContactLaw,
+    /// Whether faces of cracks take part.
+    pub cracks: bool,
 }
 
 /// Parts of the body that come into contact.
@@ -18,7 +20,7 @@ pub struct SurfaceContact {
 pub enum Between {
     /// The outlines of two groups.
     Groups([String; 2]),
-    /// The outlines of all parts that no bond connects at the start.
+    /// The outlines of all parts that no bond connects at the start; with faces of cracks, all points that no bond connects.
     Parts,
 }
 
@@ -52,6 +54,8 @@ pub struct Rigid {
     pub against: Vec<String>,
     /// Law of the contact.
     pub law: ContactLaw,
+    /// Whether it meets faces of cracks as well.
+    pub cracks: bool,
     /// Velocity, m/s: at time zero where the body has a mass, otherwise times the amplitude.
     pub velocity: Position,
     /// Amplitude of a prescribed velocity.

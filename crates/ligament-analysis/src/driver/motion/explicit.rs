@@ -193,7 +193,7 @@ impl<'a> Explicit<'a> {
         self.body.measure();
         if !contact.is_empty() {
             let motions = &self.body.state.displacement;
-            self.contacts = Some(ContactForces::new(contact, motions));
+            self.contacts = Some(ContactForces::new(contact, motions, self.body.bonded()));
         }
         self.apply_loads();
         let internal = &self.body.balanced.internal.values;
@@ -343,11 +343,13 @@ impl<'a> Explicit<'a> {
             return;
         };
         let before = contacts.energies();
-        let (state, balanced) = (&self.body.state, &mut self.body.balanced);
-        let (time, step) = (state.load_factor, self.inertia.step());
-        let internal = &mut balanced.internal.values;
-        let now = contacts.advance(time, step, &state.displacement);
-        contacts.add_forces(-1.0, internal);
+        let (body, step) = (&mut self.body, self.inertia.step());
+        if !body.broken_last.is_empty() {
+            contacts.join(&body.broken_last);
+        }
+        let (time, motions) = (body.state.load_factor, &body.state.displacement);
+        let now = contacts.advance(time, step, motions, body.bonded());
+        contacts.add_forces(-1.0, &mut body.balanced.internal.values);
         let motion = &mut self.progress.motion;
         motion.contact_energy += now.stored;
         motion.friction_energy += now.dissipated - before.dissipated;

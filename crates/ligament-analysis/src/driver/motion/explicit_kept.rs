@@ -63,7 +63,7 @@ impl ExplicitKept {
         body.measure();
         let resumed = |it| {
             let motions = &body.state.displacement;
-            ContactForces::resumed(problem.problem.contact.clone(), motions, it)
+            ContactForces::resumed(problem.problem.contact.clone(), motions, it, body.bonded())
         };
         let contacts = contact.map(resumed);
         if let Some(contacts) = &contacts {
