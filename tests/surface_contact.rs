@@ -17,7 +17,7 @@ use ligament_analysis::serial::Serial;
 use ligament_mesh::{Cell, Group, Mesh};
 use ligament_model::shape::Shape;
 use ligament_model::{Material, Plane};
-use verification::impact::{Drive, Impact, Ledger};
+use verification::impact::{Drive, Impact, Ledger, rigid};
 
 const YOUNG: f64 = 70e9;
 const DENSITY: f64 = 2700.0;
@@ -57,20 +57,6 @@ fn with_contact(setup: Setup, law: ContactLaw) -> Setup {
     Setup {
         contacts: vec![contact],
         ..setup
-    }
-}
-
-/// A rigid body without a velocity, friction or mass.
-fn rigid(form: RigidForm) -> Rigid {
-    Rigid {
-        name: "rigid".to_owned(),
-        form,
-        against: Vec::new(),
-        law: ContactLaw::default(),
-        cracks: false,
-        velocity: [0.0; 3],
-        amplitude: Amplitude::constant(),
-        mass: None,
     }
 }
 

@@ -4,11 +4,28 @@ use std::sync::Arc;
 
 use ligament::Model;
 use ligament::loading::contact_problem;
-use ligament::setup::Setup;
+use ligament::setup::{ContactLaw, Rigid, RigidForm, Setup};
 use ligament_analysis::Layout;
+use ligament_analysis::load_program::Amplitude;
 use ligament_analysis::motion::contact::{ContactEnergies, ContactForces, ContactProblem};
 use ligament_model::surface::Bonded;
 use ligament_model::{Bonds, LumpedMass, UnbrokenBonds};
+
+/// A rigid body without a velocity, friction or mass.
+pub fn rigid(form: RigidForm) -> Rigid {
+    Rigid {
+        name: "rigid".to_owned(),
+        form,
+        against: Vec::new(),
+        law: ContactLaw::default(),
+        cracks: false,
+        velocity: [0.0; 3],
+        amplitude: Amplitude::constant(),
+        mass: None,
+        inertia: None,
+        acceleration: [0.0; 3],
+    }
+}
 
 /// A body in motion with its contacts, whose bonds never break.
 pub struct Impact {

@@ -34,7 +34,7 @@ pub struct Contact {
     pub cracks: bool,
 }
 
-/// A rigid body that parts of the body meet in a motion; it does not turn.
+/// A rigid body that parts of the body meet in a motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Rigid {
@@ -67,6 +67,14 @@ pub struct Rigid {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "kg"))]
     pub mass: Option<f64>,
+    /// Moment of inertia of a body with a `mass` about its middle, in the plane about z, kg m^2; without it the body does not turn.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "kg m^2"))]
+    pub inertia: Option<f64>,
+    /// Acceleration of a body with a `mass` without contacts, such as gravity, m/s^2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m/s^2"))]
+    pub acceleration: Option<Vector>,
     /// Coefficient of Coulomb's friction.
     #[serde(default)]
     #[schemars(range(min = 0))]
@@ -129,6 +137,9 @@ impl Rigid {
         let velocity = self
             .velocity
             .map(|it| it.for_body(&key.child("velocity"), dimensions));
+        let acceleration = self
+            .acceleration
+            .map(|it| it.for_body(&key.child("acceleration"), dimensions));
         let amplitude = self.amplitude.as_ref();
         let amplitude = amplitude.map(|it| it.setup(&key.child("amplitude")));
         Ok(setup::Rigid {
@@ -143,6 +154,8 @@ impl Rigid {
             velocity: velocity.transpose()?.unwrap_or_default(),
             amplitude: (amplitude.transpose()?).unwrap_or_else(load_program::Amplitude::constant),
             mass: self.mass,
+            inertia: self.inertia,
+            acceleration: acceleration.transpose()?.unwrap_or_default(),
         })
     }
 

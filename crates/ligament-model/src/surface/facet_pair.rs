@@ -5,12 +5,12 @@ use rayon::prelude::*;
 use super::cells::Bonded;
 use super::facet::{Facet, Surface};
 use super::nearest::nearest_weights;
-use super::pair::{Step, SurfacePair};
+use super::pair::{Pose, Step, SurfacePair};
 use super::rigid::RigidShape;
 use super::search::{Search, Sought};
 use super::touch::{Touch, Vector, held_slip};
 use super::{Corners, normal, tangential, weighted};
-use crate::tensor::{dot, minus, norm};
+use crate::tensor::{cross, dot, minus, norm};
 
 /// Cosine between the outward normals of two surfaces above which they do not face each other.
 const FACING: f64 = -0.1;
@@ -50,6 +50,8 @@ struct Meeting<const D: usize> {
     weights: Vector,
     normal: [f64; D],
     overlap: f64,
+    /// Way from the middle of a rigid body, m.
+    arm: Vector,
     /// Motion of the surface that is met in the step, m.
     carried: [f64; D],
 }
@@ -212,6 +214,7 @@ impl<const D: usize> FacetPair<D> {
             weights,
             normal,
             overlap,
+            arm: [0.0; 3],
             carried: minus(now, before),
         })
     }
@@ -221,19 +224,30 @@ impl<const D: usize> FacetPair<D> {
         shape: &RigidShape<D>,
         (at, place): (usize, Place),
         present: &Present<'_, D>,
-        rigid: [Vector; 2],
+        rigid: [Pose; 2],
     ) -> Option<Meeting<D>> {
         let own = &present.now[at];
-        let [before, now] = rigid.map(|it| std::array::from_fn(|axis| it[axis]));
-        let position = minus(weighted(own, &place.weights), now);
+        let [before, now] = rigid.map(|it| std::array::from_fn(|axis| it.displacement[axis]));
+        let mut position = minus(weighted(own, &place.weights), now);
+        let arm = minus(position, shape.middle());
+        let step: Vector = minus(rigid[1].rotation, rigid[0].rotation);
+        let carried = minus(arm, turned(arm, step.map(|it| -it)));
+        // Of the shapes in space only spheres turn.
+        let angle = if D == 2 { rigid[1].rotation } else { [0.0; 3] };
+        if angle != [0.0; 3] {
+            let back = turned(arm, angle.map(|it| -it));
+            position = std::array::from_fn(|axis| shape.middle()[axis] + back[axis]);
+        }
         let (gap, outward) = shape.distance(position);
+        let outward = turned(outward, angle);
         let meets = gap < 0.0 && dot(outward, present.normals[at]?) < FACING;
         meets.then(|| Meeting {
             onto: None,
             weights: [0.0; 3],
             normal: outward,
             overlap: -gap,
-            carried: minus(now, before),
+            arm: in_space(arm),
+            carried: std::array::from_fn(|axis| now[axis] - before[axis] + carried[axis]),
         })
     }
 
@@ -265,6 +279,7 @@ impl<const D: usize> FacetPair<D> {
             place: place.number,
             onto: meeting.onto,
             weights: meeting.weights,
+            arm: meeting.arm,
             normal: in_space(normal),
             overlap,
             offset,
@@ -427,11 +442,29 @@ impl<const D: usize> SurfacePair for FacetPair<D> {
     }
 
     /// Faces of cracks do not count: what a rigid body feels at a time is at most as wide as the body.
-    fn whole_stiffness(&self) -> f64 {
+    fn on_rigid_body(&self) -> [f64; 2] {
         let facets = self.surface.facets.iter().enumerate();
         let of_facet = |(number, it): (usize, &Facet<D>)| it.area * self.stiffness(number, None);
-        facets.map(of_facet).sum()
+        let reach = match &self.opposite {
+            Opposite::Rigid(shape, _) => shape.reach(),
+            Opposite::OtherSides | Opposite::Unbonded => 0.0,
+        };
+        [facets.map(of_facet).sum(), reach]
     }
+}
+
+/// A way turned by rotations about the axes: exactly in the plane, to the first order in space.
+fn turned<const D: usize>(way: [f64; D], by: Vector) -> [f64; D] {
+    if by == [0.0; 3] {
+        return way;
+    }
+    if let [x, y] = way.as_slice() {
+        let (sine, cosine) = by[2].sin_cos();
+        let turned = [cosine * x - sine * y, sine * x + cosine * y];
+        return std::array::from_fn(|axis| turned[axis]);
+    }
+    let added = cross(by, in_space(way));
+    std::array::from_fn(|axis| way[axis] + added[axis])
 }
 
 fn in_space<const D: usize>(vector: [f64; D]) -> Vector {

@@ -29,7 +29,7 @@ pub use cell_facets::CellFaces;
 pub use cells::{Bonded, Boundaries, CrackFaces, InnerFace};
 pub use facet::{Corner, Facet, Surface};
 pub use facet_pair::{FacetPair, Opposite};
-pub use pair::{Step, SurfacePair};
+pub use pair::{Pose, Step, SurfacePair};
 pub use rigid::RigidShape;
 pub use search::Search;
 pub use touch::{Touch, Vector};

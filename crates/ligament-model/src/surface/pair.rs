@@ -13,10 +13,19 @@ pub struct Step<'a> {
     pub before: &'a [f64],
     /// Motions after the step, shape (n_degrees_of_freedom), m and rad.
     pub now: &'a [f64],
-    /// Displacement of the rigid body before and after the step, m.
-    pub rigid: [Vector; 2],
+    /// Place of the rigid body before and after the step.
+    pub rigid: [Pose; 2],
     /// Bonds after the step.
     pub bonds: Bonded<'a>,
+}
+
+/// Displacement of a rigid body and its rotation about its middle.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Pose {
+    /// Displacement, m.
+    pub displacement: Vector,
+    /// Angles about the axes since time zero, rad: in the plane that about z; in space they turn nothing but a sphere.
+    pub rotation: Vector,
 }
 
 /// Surfaces that may come into contact, without their coordinates.
@@ -41,6 +50,7 @@ pub trait SurfacePair: Debug + Send + Sync {
     /// bounds the frequencies of the body with its contact.
     fn add_bound(&self, sums: &mut [f64]);
 
-    /// Sum of the stiffnesses of all integration points, N/m: what a free rigid body can feel, at most.
-    fn whole_stiffness(&self) -> f64;
+    /// Sum of the stiffnesses of all integration points, N/m: what a free rigid body can feel, at most; and the largest square of the arm of a
+    /// force on it, m^2.
+    fn on_rigid_body(&self) -> [f64; 2];
 }

@@ -133,9 +133,14 @@ columns! { "Columns of a history for each rigid body."
     "RIGID.displacement_x" "m" ANY "way of a [rigid body](contact.md) along x" => |it| it.displacement[0].into();
     "RIGID.displacement_y" "m" ANY "way along y" => |it| it.displacement[1].into();
     "RIGID.displacement_z" "m" SOLID "way along z, of a solid" => |it| it.displacement[2].into();
+    "RIGID.rotation" "rad" PLANE "its angle, in the plane; 0 without an `inertia`" => |it| it.rotation[2].into();
     "RIGID.velocity_x" "m/s" ANY "its velocity along x" => |it| it.velocity[0].into();
     "RIGID.velocity_y" "m/s" ANY "velocity along y" => |it| it.velocity[1].into();
     "RIGID.velocity_z" "m/s" SOLID "velocity along z, of a solid" => |it| it.velocity[2].into();
+    "RIGID.angular_velocity" "rad/s" PLANE "its angular velocity, in the plane" => |it| it.angular_velocity[2].into();
+    "RIGID.angular_velocity_x" "rad/s" SOLID "of a solid, about x" => |it| it.angular_velocity[0].into();
+    "RIGID.angular_velocity_y" "rad/s" SOLID "about y" => |it| it.angular_velocity[1].into();
+    "RIGID.angular_velocity_z" "rad/s" SOLID "about z" => |it| it.angular_velocity[2].into();
 }
 
 columns! { "Columns of a history for each probe."

@@ -373,7 +373,9 @@ fn motion(body: &Rigid) -> RigidMotion {
     match body.mass {
         Some(mass) => RigidMotion::Free {
             mass,
+            inertia: body.inertia.unwrap_or(f64::INFINITY),
             velocity: body.velocity,
+            acceleration: body.acceleration,
         },
         None => RigidMotion::Prescribed {
             velocity: body.velocity,

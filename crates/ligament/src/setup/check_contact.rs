@@ -3,7 +3,7 @@
 use ligament_analysis::load_program::Amplitude;
 
 use super::check::{Checked, contradiction, positive, require, require_unique};
-use super::{Between, ContactLaw, RigidForm, Setup};
+use super::{Between, ContactLaw, Rigid, RigidForm, Setup};
 use crate::error::Field;
 
 impl Setup {
@@ -40,6 +40,8 @@ impl Setup {
             self.check_contact_law(field, body.law)?;
             self.check_cracks(field, body.cracks)?;
             positive(field.part("mass"), body.mass)?;
+            positive(field.part("inertia"), body.inertia)?;
+            self.check_free(field, body)?;
             self.check_rigid_name(field, &body.name)?;
             self.check_form(field, &body.form)?;
             let is_number = body.velocity.iter().all(|it| it.is_finite());
@@ -94,6 +96,28 @@ impl Setup {
             return contradiction(field.part("cracks"), reason);
         }
         Ok(())
+    }
+
+    /// Refuses what only a body with a mass can have, and rotations of shapes that do not turn.
+    fn check_free(&self, field: Field, body: &Rigid) -> Checked {
+        let is_number = body.acceleration.iter().all(|it| it.is_finite());
+        let part = field.part("acceleration");
+        require(is_number, part, "of finite components", body.acceleration)?;
+        if body.mass.is_none() && body.acceleration != [0.0; 3] {
+            return contradiction(part, "its motion is prescribed: give it a mass");
+        }
+        let turns = match body.form {
+            RigidForm::Ball { .. } => true,
+            RigidForm::Box { .. } => self.body.dimensions() == 2,
+            RigidForm::Wall { .. } => false,
+        };
+        let reason = match (body.inertia, body.mass) {
+            (None, _) => return Ok(()),
+            (Some(_), None) => "its motion is prescribed: give it a mass",
+            (Some(_), Some(_)) if turns => return Ok(()),
+            (Some(_), Some(_)) => "walls do not turn, nor boxes in space: remove it",
+        };
+        contradiction(field.part("inertia"), reason)
     }
 
     fn check_form(&self, field: Field, form: &RigidForm) -> Checked {

@@ -43,7 +43,7 @@ pub struct ContactLaw {
     pub stiffness: f64,
 }
 
-/// A rigid body, which moves without turning.
+/// A rigid body, which turns where it has an inertia.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rigid {
     /// Name in results.
@@ -62,6 +62,10 @@ pub struct Rigid {
     pub amplitude: Amplitude,
     /// Mass, kg; without one the motion is prescribed.
     pub mass: Option<f64>,
+    /// Moment of inertia of a body with a mass about its middle, kg m^2; without one it does not turn.
+    pub inertia: Option<f64>,
+    /// Acceleration of a body with a mass without contacts, such as gravity, m/s^2.
+    pub acceleration: Position,
 }
 
 /// Shape and place of a rigid body.
