@@ -226,8 +226,8 @@ fn faces_enclose_the_cells_of_points() {
         let model = Model::build(case.setup(&mut ()).unwrap(), &mut ()).unwrap();
         let body = &model.setup.body;
         let sums = match body.dimensions() {
-            2 => vector_areas(&model.plane().cloud, body.geometry::<2>()),
-            _ => vector_areas(&model.solid().cloud, body.geometry::<3>()),
+            2 => vector_areas(&model.plane().cloud, &*body.geometry::<2>()),
+            _ => vector_areas(&model.solid().cloud, &*body.geometry::<3>()),
         };
         let spacing = model.system.to_bonds().spacing()[0];
         let largest = sums.iter().map(|it| norm(*it)).fold(0.0, f64::max);
