@@ -55,13 +55,15 @@ impl ContactProblem {
             RigidMotion::Free { mass, inertia, .. } => {
                 let own = self.contacts.iter();
                 let own = own.filter(|it| it.rigid_body == Some(index));
-                let on = own.map(|it| it.surfaces.on_rigid_body());
                 // With (u + phi x r)^2 <= 2 u^2 + 2 r^2 phi^2 where it turns.
-                let of = |[stiffness, reach]: [f64; 2]| match inertia.is_finite() {
-                    true => 4.0 * stiffness * (1.0 / mass).max(reach / inertia),
-                    false => 2.0 * stiffness / mass,
-                };
-                on.map(of).sum()
+                let share = own.map(|it| {
+                    let [stiffness, reach] = it.surfaces.on_rigid_body();
+                    match inertia.is_finite() {
+                        true => 4.0 * stiffness * (1.0 / mass).max(reach / inertia),
+                        false => 2.0 * stiffness / mass,
+                    }
+                });
+                share.sum()
             }
         };
         let rigid = self.rigid_bodies.iter().enumerate();
