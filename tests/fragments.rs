@@ -248,7 +248,7 @@ thickness = 1e-3
 set = { base = { bottom = 1 } }
 
 [material]
-young = 70e9
+young = 7e6
 poisson = 0.2
 density = 2700.0
 
@@ -257,7 +257,7 @@ law = "nhpd"
 horizon_factor = 3.0
 
 [motion]
-duration = 3e-4
+duration = 6e-3
 rows = 100
 
 [[support]]
@@ -267,20 +267,21 @@ displacement = { x = 0.0, y = 0.0 }
 [[rigid]]
 name = "disk"
 shape = "circle"
-centre = [0.02, 0.009]
+centre = [0.012, 0.009]
 radius = 5e-3
 mass = 1e-3
 inertia = 1.25e-8
 velocity = { x = 2.0 }
-acceleration = { y = -2e4 }
+acceleration = { y = -2e3 }
 friction = 0.3
 "#;
 
 /// A disk with the inertia m R^2/2 that slides on a floor comes to roll with two thirds of its velocity: v - omega R/2 is constant, and v = -omega R
 /// in the end.
 ///
-/// The sum to 5 %: the places at which the floor carries it are half a cell apart, ahead of the middle or behind it. Rolling to 5 % of the first
-/// velocity, for the elastic sway of the contact. Energy to rounding, with the work of the weight and the spin.
+/// The sum to 2 %: the places at which the soft floor carries the disk are half a cell apart, ahead of the middle or behind it. The means over the
+/// second half to 5 % of the first velocity: the disk goes on swaying on its elastic contact. Energy to rounding, with the work of the weight and
+/// the spin.
 #[test]
 fn a_disk_begins_to_roll() {
     let case = CaseFile::parse("case.toml".as_ref(), DISK.to_owned(), &[]).unwrap();
@@ -290,19 +291,18 @@ fn a_disk_begins_to_roll() {
         let disk = row.rigid_bodies[0];
         [disk.velocity[0], 5e-3 * disk.angular_velocity[2]]
     };
-    for row in rows.iter().step_by(10) {
+    for row in rows {
         let [velocity, rim] = of(row);
-        println!(
-            "{:.2e} s: v {velocity:.4}, omega R {rim:.4}",
-            row.load_factor
-        );
-        assert!((velocity - 0.5 * rim - 2.0).abs() < 0.1);
+        assert!((velocity - 0.5 * rim - 2.0).abs() < 0.04);
         assert!(row.energy_error().abs() < 1e-10);
     }
-    let [velocity, rim] = of(rows.last().unwrap());
-    assert!((velocity + rim).abs() < 0.1 && (velocity - 4.0 / 3.0).abs() < 0.07);
+    let late = &rows[50..];
+    let mean = |place: usize| late.iter().map(|it| of(it)[place]).sum::<f64>() / late.len() as f64;
+    let [velocity, rim] = [mean(0), mean(1)];
+    println!("v {velocity:.4}, omega R {rim:.4}");
+    assert!((velocity + rim).abs() < 0.1 && (velocity - 4.0 / 3.0).abs() < 0.1);
     assert!(rows[0].rigid_bodies[0].rotation[2] == 0.0);
-    assert!(rows.last().unwrap().rigid_bodies[0].rotation[2] < -0.02);
+    assert!(rows.last().unwrap().rigid_bodies[0].rotation[2] < -1.0);
 }
 
 /// A sphere with an inertia that hits a block obliquely leaves it with a spin about the axis across its way; the balance of energy closes.
@@ -314,12 +314,12 @@ fn a_sphere_takes_a_spin() {
     );
     let text = text
         .replace("circle", "sphere")
-        .replace("[0.02, 0.009]", "[0.004, 0.004, 0.008]");
+        .replace("[0.012, 0.009]", "[0.004, 0.004, 0.008]");
     let text = text
         .replace("{ x = 2.0 }", "{ x = 1.0, z = -2.0 }")
-        .replace("{ y = -2e4 }", "{ z = -10.0 }");
+        .replace("{ y = -2e3 }", "{ z = -10.0 }");
     let text = text
-        .replace("duration = 3e-4", "duration = 4e-5")
+        .replace("duration = 6e-3", "duration = 4e-3")
         .replace("y = 0.0 }", "y = 0.0, z = 0.0 }");
     let case = CaseFile::parse("case.toml".as_ref(), text, &[]).unwrap_or_else(|it| panic!("{it}"));
     let solution = case.setup(&mut ()).unwrap().solve(&mut NoObserver).unwrap();
@@ -330,6 +330,7 @@ fn a_sphere_takes_a_spin() {
         .fold(0.0, f64::max);
     let spin = rows.last().unwrap().rigid_bodies[0].angular_velocity;
     println!("spin {spin:?}, error {error:.1e}");
-    assert!(spin[1] > 10.0 && spin[0].abs() < 1e-3 * spin[1] && spin[2].abs() < 1e-3 * spin[1]);
+    // The triangles of the faces are not symmetric about the way.
+    assert!(spin[1] > 10.0 && spin[0].abs() < 0.05 * spin[1] && spin[2].abs() < 0.05 * spin[1]);
     assert!(error < 1e-10);
 }

@@ -111,7 +111,7 @@ impl Impact {
             topology: system.topology(),
             intact: &intact,
         };
-        let contacts = ContactForces::new(problem.clone(), &motions, bonds);
+        let contacts = ContactForces::new(problem.clone(), &motions, bonds, 0.0);
         let mass = masses(&model, layout);
         let mut impact = Self {
             acceleration: vec![0.0; mass.len()],

@@ -152,9 +152,9 @@ impl ContactState {
 }
 
 impl ContactForces {
-    /// Contacts of a problem at time zero, for the motions then, shape (n_degrees_of_freedom), and the bonds. Surfaces that overlap there
-    /// begin without force.
-    pub fn new(problem: ContactProblem, motions: &[f64], bonds: Bonded<'_>) -> Self {
+    /// Contacts of a problem at time zero, for the motions then, shape (n_degrees_of_freedom), and the bonds, before steps of a
+    /// length (s). Surfaces that overlap there begin without force.
+    pub fn new(problem: ContactProblem, motions: &[f64], bonds: Bonded<'_>, step: f64) -> Self {
         let rigid = problem.rigid_bodies.iter().map(|it| RigidState {
             velocity: it.motion.first_velocity(),
             ..RigidState::default()
@@ -166,6 +166,7 @@ impl ContactForces {
         };
         let mut contacts = Self::resumed(problem, motions, state, bonds);
         contacts.advance(0.0, 0.0, motions, bonds);
+        contacts.state.energies.kinetic = contacts.kinetic_energy(step);
         contacts
     }
 

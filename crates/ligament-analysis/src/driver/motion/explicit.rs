@@ -193,7 +193,12 @@ impl<'a> Explicit<'a> {
         self.body.measure();
         if !contact.is_empty() {
             let motions = &self.body.state.displacement;
-            self.contacts = Some(ContactForces::new(contact, motions, self.body.bonded()));
+            self.contacts = Some(ContactForces::new(
+                contact,
+                motions,
+                self.body.bonded(),
+                self.inertia.step(),
+            ));
         }
         self.apply_loads();
         let internal = &self.body.balanced.internal.values;
