@@ -12,6 +12,7 @@ mod exact_path;
 mod face_friction;
 mod failure_criteria;
 mod fracture_energy;
+mod fragments;
 mod incremental;
 mod mbb_pd_reference;
 mod properties;

@@ -5,11 +5,11 @@
 
 use ligament_model::held::held_motions;
 use ligament_model::layout::Layout;
-use ligament_model::surface::{Search, Step, Touch, Vector};
+use ligament_model::surface::{Bonded, Pose, Search, Step, Touch, Vector};
 use ligament_model::sweep::BondSweep;
 use ligament_model::tensor::{dot, minus, norm};
 
-use crate::motion::contact::{ContactProblem, SurfaceContact};
+use crate::motion::contact::{ContactProblem, ContactReading, RigidState, SurfaceContact};
 use crate::resisting::{ACROSS, Resisting};
 use crate::serial;
 
@@ -38,6 +38,23 @@ impl Touching {
     pub fn energy(&self) -> f64 {
         let touches = self.touches.iter().flatten();
         touches.map(Touch::energy).fold(0.0, |sum, it| sum + it)
+    }
+
+    /// Resultants of each contact.
+    pub(crate) fn readings(&self) -> Vec<ContactReading> {
+        let touches = self.touches.iter();
+        touches.map(|it| ContactReading::new(it)).collect()
+    }
+
+    /// States of the rigid bodies of a problem, at rest.
+    pub(crate) fn rigid_states(&self, problem: &ContactProblem) -> Vec<RigidState> {
+        let places = self.rigid.iter().zip(self.on_rigid_bodies(problem));
+        let state = |(&displacement, force)| RigidState {
+            displacement,
+            force,
+            ..RigidState::default()
+        };
+        places.map(state).collect()
     }
 
     /// Forces of the contacts on the points of a body, shape (n), N and N m.
@@ -180,8 +197,12 @@ impl Surfaces {
         let reach = surfaces()
             .map(|it| it.reach())
             .fold(f64::INFINITY, f64::min);
+        let mut searches = vec![Search::default(); problem.contacts.len()];
+        for (surfaces, search) in surfaces().zip(&mut searches) {
+            surfaces.join(search, &mut std::iter::empty());
+        }
         Self {
-            searches: vec![Search::default(); problem.contacts.len()],
+            searches,
             degrees_of_freedom: dofs,
             farthest: FARTHEST * reach,
             problem: problem.clone(),
@@ -201,7 +222,7 @@ impl Surfaces {
     /// Where nothing has moved since the last equilibrium, the contact has its bits.
     pub(crate) fn touching(
         &mut self,
-        last: &LastTouching,
+        (last, bonds): (&LastTouching, Bonded<'_>),
         motions: &[f64],
         load_factor: f64,
     ) -> Touching {
@@ -229,12 +250,16 @@ impl Surfaces {
         let touches = contacts.enumerate().map(|(index, (contact, search))| {
             let place = |all: &[Vector]| {
                 let body = contact.rigid_body.and_then(|it| all.get(it));
-                body.copied().unwrap_or_default()
+                Pose {
+                    displacement: body.copied().unwrap_or_default(),
+                    ..Pose::default()
+                }
             };
             let step = Step {
                 before,
                 now: motions,
                 rigid: [place(&last.touching.rigid), place(&rigid)],
+                bonds,
             };
             let then = last.touching.touches.get(index).map_or(&[][..], |it| it);
             contact.surfaces.touches(search, step, then)

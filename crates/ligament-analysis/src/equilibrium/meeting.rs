@@ -1,7 +1,11 @@
 //! Faces and surfaces that meet in a state: pairs across cracks with their friction, and contact between surfaces.
 
+use std::sync::Arc;
+
+use ligament_model::Bonds;
 use ligament_model::contact::ClosedPair;
 use ligament_model::layout::Layout;
+use ligament_model::surface::Bonded;
 use ligament_model::sweep::BondSweep;
 use ligament_model::thermal::ThermalStrain;
 
@@ -14,6 +18,7 @@ use crate::surfaces::{LastTouching, Surfaces, Touching};
 
 /// What may meet in a body.
 pub(super) struct Meeting {
+    system: Arc<dyn Bonds>,
     layout: Layout,
     /// Pairs across cracks, where faces close.
     pub(super) faces: Contact,
@@ -35,6 +40,7 @@ impl Meeting {
     pub(super) fn new(problem: &Problem) -> Self {
         let layout = problem.system.layout();
         Self {
+            system: problem.system.clone(),
             layout,
             faces: Contact::default(),
             face_friction: if problem.system.faces_close() {
@@ -63,7 +69,13 @@ impl Meeting {
         let surfaces = &mut self.surfaces;
         let touching = match surfaces.is_empty() {
             true => Touching::default(),
-            false => surfaces.touching(&state.surfaces, motions, state.load_factor),
+            false => {
+                let bonds = Bonded {
+                    topology: self.system.topology(),
+                    intact: &state.intact,
+                };
+                surfaces.touching((&state.surfaces, bonds), motions, state.load_factor)
+            }
         };
         Met {
             gaps,

@@ -127,7 +127,6 @@ impl Loading {
             mass: inertia.mass.clone(),
             initial_velocity: inertia.initial_velocity.clone(),
             dashpots: inertia.dashpots.clone(),
-            contact: self.contact.clone(),
         })
     }
 }

@@ -99,6 +99,7 @@ fn motion_of(setup: &Setup, velocity: impl FnOnce(&Model) -> Vec<f64>) -> Motion
         initial_velocity: velocity(&model).into(),
         dashpots: Arc::new([]),
         contact: Default::default(),
+        face_friction: setup.closing_friction,
         problem: Problem {
             face_friction: setup.closing_friction,
             contact: Default::default(),
@@ -107,6 +108,7 @@ fn motion_of(setup: &Setup, velocity: impl FnOnce(&Model) -> Vec<f64>) -> Motion
             loads: Arc::new(loads),
             solver: model.setup.solver.clone(),
             probes: Arc::new([]),
+            contact: Default::default(),
         },
         mass,
     }
