@@ -60,20 +60,6 @@ fn with_contact(setup: Setup, law: ContactLaw) -> Setup {
     }
 }
 
-/// A rigid body without a velocity, friction or mass.
-fn rigid(form: RigidForm) -> Rigid {
-    Rigid {
-        name: "rigid".to_owned(),
-        form,
-        against: Vec::new(),
-        law: ContactLaw::default(),
-        displacement: [0.0; 3],
-        velocity: [0.0; 3],
-        amplitude: Amplitude::constant(),
-        mass: None,
-    }
-}
-
 /// Error of the balance of energy from one time to another, over a scale.
 fn imbalance(impact: &Impact, start: &Ledger, now: &Ledger, scale: f64) -> f64 {
     let given = impact.work + now.contact.driving_work - start.contact.driving_work;

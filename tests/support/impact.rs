@@ -19,6 +19,7 @@ pub fn rigid(form: RigidForm) -> Rigid {
         against: Vec::new(),
         law: ContactLaw::default(),
         cracks: false,
+        displacement: [0.0; 3],
         velocity: [0.0; 3],
         amplitude: Amplitude::constant(),
         mass: None,
