@@ -1,5 +1,8 @@
 // The page of results while they come: the viewer of `ligament report`, which goes on with the results of a run as they grow.
 
+// Time between two pictures of the bonds that break, ms.
+const PICTURES = 80;
+
 class LivePage extends Page {
   constructor(description) {
     super(description);
@@ -21,10 +24,19 @@ class LivePage extends Page {
       if (!this.ends) this.ends = ["_a", "_b"].map((end) => row.findIndex((it) => it.endsWith(end)));
       else this.bondsSoFar.push(this.ends.map((column) => Number(row[column])));
     }
-    if (this.isLive && this.placeOfTag) {
+    this.drawBonds();
+  }
+
+  // One picture a while: the program and the graphics may share a processor.
+  drawBonds() {
+    if (this.isDue || !this.isLive) return;
+    this.isDue = true;
+    setTimeout(() => requestAnimationFrame(() => {
+      this.isDue = false;
+      if (!this.isLive || !this.placeOfTag) return;
       this.broken = this.pairsSoFar();
       this.redraw();
-    }
+    }), PICTURES);
   }
 
   pairsSoFar() {

@@ -13,6 +13,7 @@ class Playground {
     this.program = new Program();
     this.editor = new Editor(element("case"), () => this.edited());
     this.task = null;
+    this.order = 0;
     this.meshes = new Map();
     this.page = null;
     this.listen();
@@ -82,6 +83,8 @@ class Playground {
     this.body = body;
     for (const button of document.querySelectorAll(".choice")) button.setAttribute("aria-pressed", button.dataset.body === body?.id);
     if (!body) return;
+    // So that the address leads here again.
+    location.replace(`#${body.id}`);
     element("about").textContent = body.about;
     this.editor.text = this.cases[body.id].text;
     this.edited(false);
@@ -130,7 +133,7 @@ class Playground {
   async files() {
     const files = [{ path: CASE, bytes: new TextEncoder().encode(this.editor.text) }];
     for (const script of document.querySelectorAll("script[data-mesh]")) {
-      if (this.editor.text.includes(script.dataset.mesh)) files.push({ path: script.dataset.mesh, bytes: await bytesOf(script.id) });
+      if (this.editor.text.includes(script.dataset.mesh)) files.push({ path: script.dataset.mesh, bytes: await unzipped(bytesOf(script.id)) });
     }
     for (const [path, bytes] of this.meshes) files.push({ path, bytes });
     return files;
@@ -138,10 +141,11 @@ class Playground {
 
   // Begins a task once the one before it has stopped.
   async begin(task, tells) {
-    this.task?.stop();
+    this.stop();
     clearTimeout(this.pause);
+    const { order } = this;
     const files = await this.files();
-    this.task?.stop();
+    if (order !== this.order) return null;
     const begun = this.program.begin({ ...task, files }, tells);
     this.task = begun;
     const ended = await begun.ended.catch((error) => ({ code: 70, said: `error: ${error.message}` }));
@@ -150,7 +154,9 @@ class Playground {
     return ended;
   }
 
+  // Also of a task that has not begun yet.
   stop() {
+    this.order++;
     this.task?.stop();
   }
 
@@ -203,10 +209,9 @@ class Playground {
   // Progress, from what the program says of it.
   follow(said) {
     this.said += said;
-    const lines = said.trim().split("\n");
     const last = [...said.matchAll(PROGRESS)].pop();
     if (last) element("progress").value = Number(last[1]) / Number(last[2]);
-    this.tell(`${this.seconds()} s: ${lines[lines.length - 1]}`);
+    this.tell(`${this.seconds()} s: ${this.said.trimEnd().split("\n").pop()}`);
   }
 
   // Results so far, or all of them. Of several that come while one is being read only the last is shown.

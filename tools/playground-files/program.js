@@ -1,8 +1,14 @@
 // The program as this page has it: compiled once, run in workers.
 
-async function bytesOf(id) {
+// The bytes of a script of the page.
+function bytesOf(id) {
   const binary = atob(document.getElementById(id).textContent);
-  const bytes = Uint8Array.from(binary, (letter) => letter.charCodeAt(0));
+  const bytes = new Uint8Array(binary.length);
+  for (let place = 0; place < bytes.length; place++) bytes[place] = binary.charCodeAt(place);
+  return bytes;
+}
+
+async function unzipped(bytes) {
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
@@ -15,13 +21,17 @@ class Program {
 
   // Once the whole page has been read.
   compile() {
-    this.module = bytesOf("program").then((bytes) => WebAssembly.compile(bytes));
+    this.module = this.ask({ packed: bytesOf("program") }).ended;
     return this.module;
   }
 
   // Begins a task: `path` of a case to run, or `words` of a command and the path of a file that it `asks` back. `tells` is called with what
   // comes before the end. The promise of its end, which is null once it was stopped, and the function that stops it.
   begin(task, tells = () => {}) {
+    return this.ask(this.module.then((module) => ({ ...task, module })), tells);
+  }
+
+  ask(task, tells) {
     const worker = new Worker(this.worker);
     let stop;
     const ended = new Promise((resolve, reject) => {
@@ -38,7 +48,7 @@ class Program {
         worker.terminate();
         reject(new Error(event.message));
       };
-      this.module.then((module) => worker.postMessage({ ...task, module }), reject);
+      Promise.resolve(task).then((it) => worker.postMessage(it)).catch(reject);
     });
     return { ended, stop };
   }
