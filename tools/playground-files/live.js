@@ -76,7 +76,7 @@ class LivePage extends Page {
       element("field").value = run.choice(keeps.field).id;
     }
     const offered = [...element("cracks").options].map((it) => it.value);
-    const wanted = this.isLive ? ["bonds"] : ["open", "bonds"];
+    const wanted = this.isLive ? ["bonds"] : ["open", "lines", "bonds"];
     element("cracks").value = wanted.find((it) => offered.includes(it)) ?? offered[0];
   }
 
