@@ -194,6 +194,28 @@ fn pairs_are_in_balance() {
     assert_eq!(normals_of_cut, bench.model.cut_bonds());
 }
 
+/// Pairs that follow a row of breakages are those found anew after each of them, to the bit.
+#[test]
+fn pairs_follow_breakages() {
+    let bench = Bench::new(CYCLE, &[]);
+    let system = bench.model.plane();
+    let mut intact = vec![true; system.ends().len()];
+    let mut pairs: Vec<ContactPair> = system.contact_pairs(&intact);
+    for round in 0..6 {
+        let all = (round..intact.len() as u32).step_by(17 + 5 * round as usize);
+        let broken: Vec<u32> = all.filter(|&it| intact[it as usize]).collect();
+        for &bond in &broken {
+            intact[bond as usize] = false;
+        }
+        for (number, pair) in system.changed_pairs(&intact, &broken) {
+            pairs.retain(|it| it.number != number);
+            pairs.extend(pair);
+        }
+        pairs.sort_unstable_by_key(|it| it.number);
+        assert_eq!(pairs, system.contact_pairs(&intact));
+    }
+}
+
 /// Pulled until the plate is in two, unloaded, pressed, pulled and pressed again. In two parts: no tension (1e-6 of the peak: the
 /// residual), and the stiffness of the plate with its edge crack closed and no bond broken, to 2 %: the normals of the broken bonds
 /// are estimates. Work, stored and released energy balance to 1e-8 in every step.

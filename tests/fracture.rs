@@ -10,6 +10,7 @@ mod every_law;
 mod exact_path;
 mod failure_criteria;
 mod fracture_energy;
+mod fragments;
 mod incremental;
 mod mbb_pd_reference;
 mod properties;

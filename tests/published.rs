@@ -145,6 +145,9 @@ experiments!(
     motion_branching,
     motion_kalthoff,
     motion_spall,
+    motion_stretching,
+    motion_disk,
+    motion_splitting,
     motion_contact,
     motion_schemes
 );

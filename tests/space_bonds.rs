@@ -293,6 +293,7 @@ fn problem(
         loads: Arc::new(loads),
         solver,
         probes: Arc::new([]),
+        contact: Default::default(),
     }
 }
 

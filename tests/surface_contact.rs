@@ -17,7 +17,7 @@ use ligament_analysis::serial::Serial;
 use ligament_mesh::{Cell, Group, Mesh};
 use ligament_model::shape::Shape;
 use ligament_model::{Material, Plane};
-use verification::impact::{Drive, Impact, Ledger};
+use verification::impact::{Drive, Impact, Ledger, rigid};
 
 const YOUNG: f64 = 70e9;
 const DENSITY: f64 = 2700.0;
@@ -52,23 +52,11 @@ fn with_contact(setup: Setup, law: ContactLaw) -> Setup {
     let contact = SurfaceContact {
         between: Between::Parts,
         law,
+        cracks: false,
     };
     Setup {
         contacts: vec![contact],
         ..setup
-    }
-}
-
-/// A rigid body without a velocity, friction or mass.
-fn rigid(form: RigidForm) -> Rigid {
-    Rigid {
-        name: "rigid".to_owned(),
-        form,
-        against: Vec::new(),
-        law: ContactLaw::default(),
-        velocity: [0.0; 3],
-        amplitude: Amplitude::constant(),
-        mass: None,
     }
 }
 
@@ -194,6 +182,7 @@ fn groups_of_a_mesh_meet() {
         let contact = SurfaceContact {
             between: Between::Groups(groups.map(str::to_owned)),
             law,
+            cracks: false,
         };
         let setup = Setup {
             contacts: vec![contact],
@@ -429,7 +418,7 @@ fn states_and_threads_keep_all_bits() {
     let mut bytes = Vec::new();
     two.contacts.state().write(&mut bytes);
     let state = ContactState::read(&mut bytes.as_slice()).unwrap();
-    two.contacts = ContactForces::resumed(two.problem.clone(), &two.motions, state);
+    two.contacts = ContactForces::resumed(two.problem.clone(), &two.motions, state, two.bonded());
     for impact in [&mut one, &mut two] {
         impact.follow(200.0 * impact.step, &Drive::NONE);
     }

@@ -128,6 +128,7 @@ impl Bench {
             loads: Arc::new(self.boundary.clone()),
             solver: self.model.setup.solver.clone(),
             probes: self.probes.clone(),
+            contact: Default::default(),
         }
     }
 

@@ -105,6 +105,7 @@ pub fn pulled(system: &Arc<dyn System<3>>, method: Method) -> Problem {
             ..SolverSettings::default()
         },
         probes: Arc::default(),
+        contact: Default::default(),
     }
 }
 

@@ -4,10 +4,28 @@ use std::sync::Arc;
 
 use ligament::Model;
 use ligament::loading::contact_problem;
-use ligament::setup::Setup;
+use ligament::setup::{ContactLaw, Rigid, RigidForm, Setup};
 use ligament_analysis::Layout;
+use ligament_analysis::load_program::Amplitude;
 use ligament_analysis::motion::contact::{ContactEnergies, ContactForces, ContactProblem};
+use ligament_model::surface::Bonded;
 use ligament_model::{Bonds, LumpedMass, UnbrokenBonds};
+
+/// A rigid body without a velocity, friction or mass.
+pub fn rigid(form: RigidForm) -> Rigid {
+    Rigid {
+        name: "rigid".to_owned(),
+        form,
+        against: Vec::new(),
+        law: ContactLaw::default(),
+        cracks: false,
+        velocity: [0.0; 3],
+        amplitude: Amplitude::constant(),
+        mass: None,
+        inertia: None,
+        acceleration: [0.0; 3],
+    }
+}
 
 /// A body in motion with its contacts, whose bonds never break.
 pub struct Impact {
@@ -30,6 +48,7 @@ pub struct Impact {
     /// Work of the loads so far, J.
     pub work: f64,
     system: Arc<dyn Bonds>,
+    intact: Vec<bool>,
     acceleration: Vec<f64>,
     load: Vec<f64>,
 }
@@ -87,7 +106,12 @@ impl Impact {
                 .collect()
         };
         let (motions, velocity) = (over(&motion), over(&velocity));
-        let contacts = ContactForces::new(problem.clone(), &motions);
+        let intact = vec![true; system.ends().len()];
+        let bonds = Bonded {
+            topology: system.topology(),
+            intact: &intact,
+        };
+        let contacts = ContactForces::new(problem.clone(), &motions, bonds, 0.0);
         let mass = masses(&model, layout);
         let mut impact = Self {
             acceleration: vec![0.0; mass.len()],
@@ -101,6 +125,7 @@ impl Impact {
             motions,
             velocity,
             system,
+            intact,
             model,
         };
         impact.step = impact.stable_step();
@@ -118,12 +143,19 @@ impl Impact {
         self.system.layout()
     }
 
+    /// The bonds, which never break.
+    pub fn bonded(&self) -> Bonded<'_> {
+        Bonded {
+            topology: self.system.topology(),
+            intact: &self.intact,
+        }
+    }
+
     /// Forces K u of the bonds.
     fn internal(&self, motions: &[f64]) -> Vec<f64> {
-        let intact = vec![true; self.system.ends().len()];
         let mut forces = vec![0.0; motions.len()];
         self.system
-            .multiply(UnbrokenBonds::whole(&intact), motions, &mut forces);
+            .multiply(UnbrokenBonds::whole(&self.intact), motions, &mut forces);
         forces
     }
 
@@ -161,7 +193,11 @@ impl Impact {
         }
         let internal = self.internal(&self.motions);
         let mut forces = vec![0.0; internal.len()];
-        self.contacts.advance(self.time, step, &self.motions);
+        let bonds = Bonded {
+            topology: self.system.topology(),
+            intact: &self.intact,
+        };
+        self.contacts.advance(self.time, step, &self.motions, bonds);
         self.contacts.add_forces(1.0, &mut forces);
         let mut load = (drive.load)(self.time);
         load.resize(internal.len(), 0.0);

@@ -153,6 +153,7 @@ impl Truss {
             loads: Arc::new(self.boundary.clone()),
             solver: SolverSettings::default(),
             probes: Arc::default(),
+            contact: Default::default(),
         }
     }
 

@@ -30,6 +30,23 @@ impl Contact {
         }
     }
 
+    /// Follows bonds that have just broken, by their numbers, to the intact bonds (n_bonds) that are left.
+    pub(crate) fn follow(&mut self, system: &dyn Bonds, intact: &[bool], broken: &[u32]) {
+        if !system.faces_close() {
+            return;
+        }
+        if !system.subdomain().is_whole() {
+            self.pairs = system.contact_pairs(intact);
+            return;
+        }
+        let changed = system.changed_pairs(intact, broken);
+        let is_changed =
+            |it: &ContactPair| changed.binary_search_by_key(&it.number, |it| it.0).is_ok();
+        self.pairs.retain(|it| !is_changed(it));
+        self.pairs.extend(changed.iter().filter_map(|it| it.1));
+        self.pairs.sort_unstable_by_key(|it| it.number);
+    }
+
     /// Pairs across cracks.
     pub(crate) fn pairs(&self) -> &[ContactPair] {
         &self.pairs

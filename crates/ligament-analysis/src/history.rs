@@ -11,6 +11,7 @@ use crate::connectivity::Fragments;
 use crate::costs::Costs;
 use crate::gauges::FreeBody;
 use crate::load_program::LoadProgram;
+use crate::motion::contact::{ContactReading, RigidState};
 use crate::serial;
 use crate::softened::{FarthestSoftened, SoftenedOfAll};
 use crate::state::State;
@@ -69,6 +70,10 @@ pub struct StepRecord {
     pub probes: Vec<f64>,
     /// Time steps and energies of a motion, whose load factor is the time; None in statics.
     pub motion: Option<InMotion>,
+    /// Resultants of each contact between surfaces.
+    pub contacts: Vec<ContactReading>,
+    /// State of each rigid body.
+    pub rigid_bodies: Vec<RigidState>,
 }
 
 /// Time steps and energies of a motion.
@@ -131,6 +136,8 @@ serial!(StepRecord {
     group_forces,
     probes,
     motion,
+    contacts,
+    rigid_bodies,
 });
 
 impl StepRecord {

@@ -9,6 +9,7 @@ use ligament_model::stress::point_strain::Motion;
 
 use crate::balanced::Balanced;
 use crate::load_program::LoadProgram;
+use crate::motion::contact::ContactProblem;
 use crate::probe::Probe;
 use crate::result_fields::Solution;
 use crate::solver::SolverSettings;
@@ -27,6 +28,8 @@ pub struct Problem {
     pub solver: SolverSettings,
     /// Probes of the history.
     pub probes: Arc<[Probe]>,
+    /// Contacts between surfaces and with rigid bodies, in a motion.
+    pub contact: ContactProblem,
 }
 
 impl Problem {

@@ -312,6 +312,10 @@ pub trait BondContact: BondTopology {
     /// Pairs of points across cracks while the bonds marked in `intact` (n_bonds) are unbroken, in the order of their numbers.
     fn contact_pairs(&self, intact: &[bool]) -> Vec<ContactPair>;
 
+    /// The pairs of a whole body that change with bonds that have just broken, while those marked in `intact` (n_bonds) are unbroken: the numbers
+    /// of bonds, ascending, with their pairs, and none for a bond that is no pair.
+    fn changed_pairs(&self, intact: &[bool], broken: &[u32]) -> Vec<(u32, Option<ContactPair>)>;
+
     /// Pair across a crack with the largest overlap of the faces, beyond a depth (m), among the points marked in `asked` (n_points), for
     /// displacements (n_degrees_of_freedom); none where faces close.
     fn overlap(

@@ -76,7 +76,7 @@ use table::Extent;
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 40] = [
+pub static EXPERIMENTS: [Experiment; 43] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     readings::EXPERIMENT,
@@ -115,6 +115,9 @@ pub static EXPERIMENTS: [Experiment; 40] = [
     motion::branching::EXPERIMENT,
     motion::kalthoff::EXPERIMENT,
     motion::spall::EXPERIMENT,
+    motion::stretching::EXPERIMENT,
+    motion::disk::EXPERIMENT,
+    motion::splitting::EXPERIMENT,
     motion::contact::EXPERIMENT,
     motion::schemes::EXPERIMENT,
 ];

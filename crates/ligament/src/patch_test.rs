@@ -151,6 +151,7 @@ fn displacements(
         loads: loads[0].clone(),
         solver: setup.solver.clone(),
         probes: Arc::default(),
+        contact: Default::default(),
     };
     let mut equilibrium = Equilibrium::new(&problem, ELASTIC_ENERGY_TOLERANCE)?;
     let mut state = State::fresh(&**system);

@@ -320,6 +320,8 @@ pub(super) fn step_record(
         negative_eigenvalues: counters.negative_eigenvalues,
         closed_pairs: balanced.closed.len(),
         motion: None,
+        contacts: Vec::new(),
+        rigid_bodies: Vec::new(),
         group_forces: group_forces(problem, state.load_factor, &reactions),
         probes: probe::values(&problem.probes, solution),
     }

@@ -7,11 +7,13 @@
 use std::sync::Arc;
 
 use ligament_model::layout::Layout;
-use ligament_model::surface::{Search, Step, SurfacePair, Touch, Vector};
-use ligament_model::tensor::{dot, minus};
+use ligament_model::surface::{Bonded, Search, Step, SurfacePair, Touch, Vector};
+use ligament_model::tensor::cross;
 
-use crate::load_program::Amplitude;
+use super::rigid::{RigidWork, add};
 use crate::serial;
+
+pub use super::rigid::{RigidBody, RigidMotion, RigidState};
 
 /// Contacts of a motion and their rigid bodies. A copy shares the surfaces.
 #[derive(Debug, Clone, Default)]
@@ -33,34 +35,6 @@ pub struct SurfaceContact {
     pub rigid_body: Option<usize>,
 }
 
-/// A rigid body, which moves without turning.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RigidBody {
-    /// Name in results.
-    pub name: String,
-    /// How it moves.
-    pub motion: RigidMotion,
-}
-
-/// Motion of a rigid body.
-#[derive(Debug, Clone, PartialEq)]
-pub enum RigidMotion {
-    /// A prescribed velocity.
-    Prescribed {
-        /// Velocity at amplitude 1, m/s.
-        velocity: Vector,
-        /// Factor as a function of time.
-        amplitude: Amplitude,
-    },
-    /// A mass that contacts alone move.
-    Free {
-        /// Mass, kg.
-        mass: f64,
-        /// Velocity at time zero, m/s.
-        velocity: Vector,
-    },
-}
-
 impl ContactProblem {
     /// Whether nothing can come into contact.
     pub fn is_empty(&self) -> bool {
@@ -78,10 +52,18 @@ impl ContactProblem {
         }
         let of_body = |(index, body): (usize, &RigidBody)| match &body.motion {
             RigidMotion::Prescribed { .. } => 0.0,
-            RigidMotion::Free { mass, .. } => {
+            RigidMotion::Free { mass, inertia, .. } => {
                 let own = self.contacts.iter();
                 let own = own.filter(|it| it.rigid_body == Some(index));
-                2.0 * own.map(|it| it.surfaces.whole_stiffness()).sum::<f64>() / mass
+                // With (u + phi x r)^2 <= 2 u^2 + 2 r^2 phi^2 where it turns.
+                let share = own.map(|it| {
+                    let [stiffness, reach] = it.surfaces.on_rigid_body();
+                    match inertia.is_finite() {
+                        true => 4.0 * stiffness * (1.0 / mass).max(reach / inertia),
+                        false => 2.0 * stiffness / mass,
+                    }
+                });
+                share.sum()
             }
         };
         let rigid = self.rigid_bodies.iter().enumerate();
@@ -92,33 +74,6 @@ impl ContactProblem {
     }
 }
 
-impl RigidMotion {
-    /// Velocity at time zero, m/s.
-    fn first_velocity(&self) -> Vector {
-        match self {
-            Self::Prescribed {
-                velocity,
-                amplitude,
-            } => {
-                let factor = amplitude.value(0.0);
-                velocity.map(|it| factor * it)
-            }
-            Self::Free { velocity, .. } => *velocity,
-        }
-    }
-}
-
-/// State of a rigid body.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct RigidState {
-    /// Displacement since time zero, m.
-    pub displacement: Vector,
-    /// Velocity, m/s.
-    pub velocity: Vector,
-    /// Force of the contacts on it, N.
-    pub force: Vector,
-}
-
 /// Energies of contacts, J.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ContactEnergies {
@@ -126,7 +81,7 @@ pub struct ContactEnergies {
     pub stored: f64,
     /// Energy that friction and the birth and end of contacts have taken so far.
     pub dissipated: f64,
-    /// Work so far of what moves the rigid bodies with a prescribed motion.
+    /// Work so far of what moves the rigid bodies with a prescribed motion, and of the accelerations of free ones.
     pub driving_work: f64,
     /// Kinetic energy of the free rigid bodies, with the velocities in the middles of the steps before and after.
     pub kinetic: f64,
@@ -139,6 +94,8 @@ pub struct ContactReading {
     pub normal_force: Vector,
     /// Force of friction on the same surface, N.
     pub friction_force: Vector,
+    /// Sum of the sizes of all pressing forces, N.
+    pub pressing: f64,
     /// Area in contact, m^2.
     pub area: f64,
     /// Largest penetration that causes a force, m.
@@ -177,6 +134,13 @@ pub struct ContactForces {
     state: ContactState,
 }
 
+impl ContactReading {
+    /// Component of the whole force on the first surface along an axis, N.
+    pub fn force(&self, axis: usize) -> f64 {
+        self.normal_force[axis] + self.friction_force[axis]
+    }
+}
+
 impl ContactState {
     /// Whether the state can be that of a problem.
     pub fn fits(&self, problem: &ContactProblem) -> bool {
@@ -188,9 +152,9 @@ impl ContactState {
 }
 
 impl ContactForces {
-    /// Contacts of a problem at time zero, for the motions then, shape (n_degrees_of_freedom). Surfaces that overlap there begin without
-    /// force.
-    pub fn new(problem: ContactProblem, motions: &[f64]) -> Self {
+    /// Contacts of a problem at time zero, for the motions then, shape (n_degrees_of_freedom), and the bonds, before steps of a
+    /// length (s). Surfaces that overlap there begin without force.
+    pub fn new(problem: ContactProblem, motions: &[f64], bonds: Bonded<'_>, step: f64) -> Self {
         let rigid = problem.rigid_bodies.iter().map(|it| RigidState {
             velocity: it.motion.first_velocity(),
             ..RigidState::default()
@@ -200,13 +164,19 @@ impl ContactForces {
             rigid_bodies: rigid.collect(),
             energies: ContactEnergies::default(),
         };
-        let mut contacts = Self::resumed(problem, motions, state);
-        contacts.advance(0.0, 0.0, motions);
+        let mut contacts = Self::resumed(problem, motions, state, bonds);
+        contacts.advance(0.0, 0.0, motions, bonds);
+        contacts.state.energies.kinetic = contacts.kinetic_energy(step);
         contacts
     }
 
-    /// Contacts of a problem with the state that they had at some motions, shape (n_degrees_of_freedom).
-    pub fn resumed(problem: ContactProblem, motions: &[f64], state: ContactState) -> Self {
+    /// Contacts of a problem with the state that they had at some motions, shape (n_degrees_of_freedom), and the bonds then.
+    pub fn resumed(
+        problem: ContactProblem,
+        motions: &[f64],
+        state: ContactState,
+        bonds: Bonded<'_>,
+    ) -> Self {
         let surfaces = problem.contacts.iter().map(|it| &it.surfaces);
         let mut loaded: Vec<u32> = surfaces.flat_map(|it| it.degrees_of_freedom()).collect();
         loaded.sort_unstable();
@@ -219,17 +189,34 @@ impl ContactForces {
             problem,
             state,
         };
+        let numbered = (0..).zip(bonds.intact).filter(|it| !it.1);
+        let broken: Vec<u32> = numbered.map(|it| it.0).collect();
+        contacts.join(&broken);
         contacts.load_body();
         contacts
     }
 
-    /// Moves to the next time (s), after a step (s) to given motions, shape (n_degrees_of_freedom).
+    /// Adds the faces of cracks across which bonds broke to the surfaces that have such faces.
+    pub fn join(&mut self, broken: &[u32]) {
+        let contacts = self.problem.contacts.iter();
+        for (contact, search) in contacts.zip(&mut self.searches) {
+            contact.surfaces.join(search, &mut broken.iter().copied());
+        }
+    }
+
+    /// Moves to the next time (s), after a step (s) to given motions, shape (n_degrees_of_freedom), with the bonds that are left.
     ///
     /// Free rigid bodies move by velocity Verlet. The result does not depend on the number of threads.
-    pub fn advance(&mut self, time: f64, step: f64, motions: &[f64]) -> ContactEnergies {
+    pub fn advance(
+        &mut self,
+        time: f64,
+        step: f64,
+        motions: &[f64],
+        bonds: Bonded<'_>,
+    ) -> ContactEnergies {
         let rigid = self.state.rigid_bodies.clone();
         self.move_rigid_bodies(time, step);
-        self.meet(&rigid, motions);
+        self.meet(&rigid, motions, bonds);
         let before: Vec<f64> = self.at_loaded(&self.forces);
         self.load_body();
         let mut on_body = 0.0;
@@ -239,13 +226,13 @@ impl ContactForces {
             on_body += 0.5 * (before + self.forces[dof]) * way;
             self.motions[dof] = motions[dof];
         }
-        let (on_driven, on_free) = self.load_rigid_bodies(&rigid, step);
+        let work = self.load_rigid_bodies(&rigid, step);
         let touches = self.state.touches.iter().flatten();
         let stored = touches.map(Touch::energy).fold(0.0, |sum, it| sum + it);
         let kinetic = self.kinetic_energy(step);
         let energies = &mut self.state.energies;
-        energies.dissipated -= on_body + on_driven + on_free + (stored - energies.stored);
-        energies.driving_work -= on_driven;
+        energies.dissipated -= on_body + work.on_driven + work.on_free + (stored - energies.stored);
+        energies.driving_work += work.of_acceleration - work.on_driven;
         energies.stored = stored;
         energies.kinetic = kinetic;
         self.state.energies
@@ -281,6 +268,7 @@ impl ContactForces {
                 let sign = if touch.is_first { 1.0 } else { -1.0 };
                 add(&mut reading.normal_force, sign, touch.normal_force());
                 add(&mut reading.friction_force, sign, touch.friction_force());
+                reading.pressing += touch.stiffness * touch.depth();
                 reading.area += touch.area;
                 reading.penetration = reading.penetration.max(touch.depth());
             }
@@ -290,16 +278,17 @@ impl ContactForces {
     }
 
     /// Finds the contacts at new motions, given the rigid bodies before the step.
-    fn meet(&mut self, before: &[RigidState], motions: &[f64]) {
+    fn meet(&mut self, before: &[RigidState], motions: &[f64], bonds: Bonded<'_>) {
         for (index, contact) in self.problem.contacts.iter().enumerate() {
             let place = |all: &[RigidState]| {
-                let body = contact.rigid_body.map(|it| all[it].displacement);
+                let body = contact.rigid_body.map(|it| all[it].pose());
                 body.unwrap_or_default()
             };
             let step = Step {
                 before: &self.motions,
                 now: motions,
                 rigid: [place(before), place(&self.state.rigid_bodies)],
+                bonds,
             };
             let touches = &mut self.state.touches[index];
             *touches = contact
@@ -326,73 +315,37 @@ impl ContactForces {
     fn move_rigid_bodies(&mut self, time: f64, step: f64) {
         let bodies = self.problem.rigid_bodies.iter();
         for (body, state) in bodies.zip(&mut self.state.rigid_bodies) {
-            match &body.motion {
-                RigidMotion::Prescribed {
-                    velocity,
-                    amplitude,
-                } => {
-                    let (now, so_far) = (amplitude.value(time), amplitude.integral(time));
-                    state.velocity = velocity.map(|it| now * it);
-                    state.displacement = velocity.map(|it| so_far * it);
-                }
-                RigidMotion::Free { mass, .. } => {
-                    add(&mut state.displacement, step, state.velocity);
-                    add(
-                        &mut state.displacement,
-                        0.5 * step * step / mass,
-                        state.force,
-                    );
-                }
-            }
+            body.motion.advance(time, step, state);
         }
     }
 
-    /// Loads the rigid bodies with the present contacts, given their states before the step; returns the work of the contact forces on the
-    /// driven and on the free ones.
-    fn load_rigid_bodies(&mut self, before: &[RigidState], step: f64) -> (f64, f64) {
-        let (mut on_driven, mut on_free) = (0.0, 0.0);
+    /// Loads the rigid bodies with the present contacts, given their states before the step; returns the sum of the works on them.
+    fn load_rigid_bodies(&mut self, before: &[RigidState], step: f64) -> RigidWork {
+        let mut sum = RigidWork::default();
         for (index, body) in self.problem.rigid_bodies.iter().enumerate() {
             let state = &mut self.state.rigid_bodies[index];
-            state.force = Vector::default();
+            (state.force, state.moment) = Default::default();
             let contacts = self.problem.contacts.iter().zip(&self.state.touches);
             let own = contacts.filter(|(contact, _)| contact.rigid_body == Some(index));
             for touch in own.flat_map(|(_, touches)| touches) {
                 add(&mut state.force, -1.0, touch.force());
+                add(&mut state.moment, -1.0, cross(touch.arm, touch.force()));
             }
-            let mut mean = state.force.map(|it| 0.5 * it);
-            add(&mut mean, 0.5, before[index].force);
-            let work = dot(mean, minus(state.displacement, before[index].displacement));
-            match &body.motion {
-                RigidMotion::Prescribed { .. } => on_driven += work,
-                RigidMotion::Free { mass, .. } => {
-                    add(&mut state.velocity, step / mass, mean);
-                    on_free += work;
-                }
-            }
+            let work = body.motion.accelerate(step, &before[index], state);
+            sum.on_driven += work.on_driven;
+            sum.on_free += work.on_free;
+            sum.of_acceleration += work.of_acceleration;
         }
-        (on_driven, on_free)
+        sum
     }
 
-    /// Kinetic energy 1/2 m v . v' of the free rigid bodies with the velocities half a step (s) before and after.
+    /// Kinetic energy of the free rigid bodies, with the velocities half a step (s) before and after.
     fn kinetic_energy(&self, step: f64) -> f64 {
         let bodies = self.problem.rigid_bodies.iter();
-        let of_body = |(body, state): (&RigidBody, &RigidState)| match &body.motion {
-            RigidMotion::Prescribed { .. } => 0.0,
-            RigidMotion::Free { mass, .. } => {
-                let change = state.force.map(|it| 0.5 * step * it / mass);
-                0.5 * mass * (dot(state.velocity, state.velocity) - dot(change, change))
-            }
-        };
         bodies
             .zip(&self.state.rigid_bodies)
-            .map(of_body)
+            .map(|(body, state)| body.motion.kinetic_energy(step, state))
             .fold(0.0, |sum, it| sum + it)
-    }
-}
-
-fn add(sum: &mut Vector, factor: f64, vector: Vector) {
-    for (sum, value) in sum.iter_mut().zip(vector) {
-        *sum += factor * value;
     }
 }
 
@@ -400,6 +353,7 @@ serial!(Touch {
     place,
     onto,
     weights,
+    arm,
     normal,
     overlap,
     offset,
@@ -408,10 +362,12 @@ serial!(Touch {
     area,
     is_first
 });
-serial!(RigidState {
-    displacement,
-    velocity,
-    force
+serial!(ContactReading {
+    normal_force,
+    friction_force,
+    pressing,
+    area,
+    penetration
 });
 serial!(ContactEnergies {
     stored,

@@ -3,6 +3,7 @@
 //! The loads of the [`Problem`] are functions of time: the load factor of a [`State`](crate::State) is the time, s.
 //! [`driver::motion`](crate::driver::motion) integrates the equations.
 
+mod rigid;
 mod stable_step;
 
 pub mod contact;
@@ -15,7 +16,6 @@ use thiserror::Error;
 
 use crate::breaking::BreakingRule;
 use crate::problem::Problem;
-use contact::ContactProblem;
 
 pub use crate::critical_step::CriticalStep;
 pub use stable_step::critical_step;
@@ -31,8 +31,6 @@ pub struct MotionProblem {
     pub initial_velocity: Arc<[f64]>,
     /// Dashpots between points and the ground.
     pub dashpots: Arc<[Dashpot]>,
-    /// Contacts between surfaces and with rigid bodies.
-    pub contact: ContactProblem,
     /// Coefficient of friction on faces of cracks that close.
     pub face_friction: f64,
 }

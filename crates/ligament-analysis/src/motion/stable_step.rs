@@ -47,7 +47,7 @@ pub fn critical_step(
         return Err(MotionError::UnstableRotations);
     }
     let root = |dof: u32| masses[dof as usize].sqrt();
-    let contact = problem.contact.stiffness(layout);
+    let contact = problem.problem.contact.stiffness(layout);
     let mut product = Product::new(problem, contact.at_degrees_of_freedom);
     let search = Search {
         count: 1,

@@ -29,9 +29,12 @@ pub struct Contact {
     #[serde(default = "one")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub stiffness: f64,
+    /// Whether the faces of cracks take part, also those that come about; without `between` all fragments then meet each other.
+    #[serde(default)]
+    pub cracks: bool,
 }
 
-/// A rigid body that parts of the body meet in a motion; it does not turn.
+/// A rigid body that parts of the body meet in a motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Rigid {
@@ -64,6 +67,14 @@ pub struct Rigid {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "kg"))]
     pub mass: Option<f64>,
+    /// Moment of inertia of a body with a `mass` about its middle, in the plane about z, kg m^2; without it the body does not turn.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "kg m^2"))]
+    pub inertia: Option<f64>,
+    /// Acceleration of a body with a `mass` without contacts, such as gravity, m/s^2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m/s^2"))]
+    pub acceleration: Option<Vector>,
     /// Coefficient of Coulomb's friction.
     #[serde(default)]
     #[schemars(range(min = 0))]
@@ -75,6 +86,9 @@ pub struct Rigid {
     /// Groups whose outlines it meets; without it that of the whole body.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub against: Vec<String>,
+    /// Whether it meets the faces of cracks as well.
+    #[serde(default)]
+    pub cracks: bool,
 }
 
 /// Shape of a rigid body.
@@ -103,6 +117,7 @@ impl Contact {
                 friction: self.friction,
                 stiffness: self.stiffness,
             },
+            cracks: self.cracks,
         }
     }
 }
@@ -122,6 +137,9 @@ impl Rigid {
         let velocity = self
             .velocity
             .map(|it| it.for_body(&key.child("velocity"), dimensions));
+        let acceleration = self
+            .acceleration
+            .map(|it| it.for_body(&key.child("acceleration"), dimensions));
         let amplitude = self.amplitude.as_ref();
         let amplitude = amplitude.map(|it| it.setup(&key.child("amplitude")));
         Ok(setup::Rigid {
@@ -132,9 +150,12 @@ impl Rigid {
                 friction: self.friction,
                 stiffness: self.stiffness,
             },
+            cracks: self.cracks,
             velocity: velocity.transpose()?.unwrap_or_default(),
             amplitude: (amplitude.transpose()?).unwrap_or_else(load_program::Amplitude::constant),
             mass: self.mass,
+            inertia: self.inertia,
+            acceleration: acceleration.transpose()?.unwrap_or_default(),
         })
     }
 

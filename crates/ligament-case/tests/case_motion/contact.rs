@@ -7,7 +7,7 @@ use ligament_analysis::{Amplitude, Shape};
 use super::{BAR, motion, read};
 
 /// Settings of the bar, and what the error says about them.
-const REFUSED: [[&str; 2]; 18] = [
+const REFUSED: [[&str; 2]; 22] = [
     [
         "contact=[{between=[\"left\",\"rigth\"]}]",
         "contact.0.between: no set of the lattice is called `rigth`; did you mean `right`?",
@@ -64,6 +64,22 @@ const REFUSED: [[&str; 2]; 18] = [
     [
         "rigid=[{name=\"it\",shape=\"wall\",centre=[0.0,0.0],normal=[0.0,1.0],mass=2.0,amplitude={shape=\"ramp\",duration=1.0}}]",
         "rigid.0.amplitude: a body with a mass moves by itself",
+    ],
+    [
+        "rigid=[{name=\"it\",shape=\"wall\",centre=[0.0,0.0],normal=[0.0,1.0],mass=2.0,inertia=1.0}]",
+        "rigid.0.inertia: walls do not turn",
+    ],
+    [
+        "rigid=[{name=\"it\",shape=\"wall\",centre=[0.0,0.0],normal=[0.0,1.0],acceleration={y=1.0}}]",
+        "rigid.0.acceleration: its motion is prescribed",
+    ],
+    [
+        "rigid=[{name=\"left\",shape=\"wall\",centre=[0.0,0.0],normal=[0.0,1.0]}]",
+        "rigid.0.name: `left` is a group or a contact",
+    ],
+    [
+        "contact=[{between=[\"left\",\"right\"]},{between=[\"left\",\"right\"]}]",
+        "contact.1.between: an earlier contact is between the same",
     ],
     [
         "rigid=[{name=\"it\",shape=\"wall\",centre=[0.0,0.0],normal=[0.0,1.0],against=[\"lef\"]}]",
@@ -127,7 +143,7 @@ fn contacts_have_defaults() {
         panic!("another shape");
     };
     assert_eq!(size, [1e-3, 2e-3, 0.0]);
-    let problem = motion(BAR, &settings).unwrap().contact;
+    let problem = motion(BAR, &settings).unwrap().problem.contact;
     let names: Vec<&str> = problem.contacts.iter().map(|it| it.name.as_str()).collect();
     assert_eq!(names, ["left-right", "floor", "hammer"]);
     let ramp = Amplitude::pulse(Shape::Ramp, 0.0, 1e-6);
@@ -138,7 +154,9 @@ fn contacts_have_defaults() {
     assert_eq!(problem.rigid_bodies[0].motion, driven);
     let free = RigidMotion::Free {
         mass: 0.5,
+        inertia: f64::INFINITY,
         velocity: [0.0; 3],
+        acceleration: [0.0; 3],
     };
     assert_eq!(problem.rigid_bodies[1].motion, free);
 }

@@ -1,6 +1,7 @@
 //! Facets of the outline of a body, and how they move with its points.
 
-use super::{Corners, Vector, area_vector, weighted};
+use super::cells::{Boundaries, CrackFaces};
+use super::{Corners, Vector, area_vector, normal, weighted};
 use crate::cloud::PointCloud;
 use crate::layout::Layout;
 use crate::tensor::{dot, minus, norm};
@@ -34,6 +35,8 @@ pub struct Surface<const D: usize> {
     pub(super) sides: Vec<u32>,
     /// Contact stiffness of each facet, Pa/m.
     pub(super) stiffness: Vec<f64>,
+    /// Faces of cracks that belong to the surface once they are there; their sides are numbered after the facets of the outline.
+    pub(super) cracks: Option<CrackFaces<D>>,
 }
 
 impl<const D: usize> Facet<D> {
@@ -51,9 +54,28 @@ impl<const D: usize> Facet<D> {
         }
     }
 
+    /// A side of a face between points by its number: two for each face, of its first and of its second point, with which it moves.
+    fn at_face(boundaries: &Boundaries<D>, number: usize) -> Self {
+        let (corners, point, centre) = boundaries.side(number / 2, number % 2);
+        Self {
+            area: norm(area_vector(&corners)) * boundaries.thickness(),
+            corners: corners.map(|position| Corner {
+                point,
+                position,
+                arm: minus(position, centre),
+            }),
+        }
+    }
+
     /// The points with which its corners move.
     pub fn points(&self) -> [u32; D] {
         self.corners.map(|it| it.point)
+    }
+
+    /// Distance of its plane from its first point, m: positive where the point is behind it.
+    pub(super) fn depth(&self) -> f64 {
+        let positions = self.corners.map(|it| it.position);
+        normal(&positions).map_or(0.0, |it| dot(self.corners[0].arm, it))
     }
 
     /// Length of its longest edge, m.
@@ -125,6 +147,7 @@ impl<const D: usize> Surface<D> {
             facets: Vec::with_capacity(facets.len()),
             sides: Vec::with_capacity(facets.len()),
             stiffness: Vec::with_capacity(facets.len()),
+            cracks: None,
         };
         for (facet, side, stiffness) in facets {
             surface.facets.push(facet);
@@ -134,22 +157,70 @@ impl<const D: usize> Surface<D> {
         surface
     }
 
-    /// Facets.
+    /// The surface with the faces of cracks, once they are there. All its facets move with one point each.
+    #[must_use]
+    pub fn with_cracks(mut self, cracks: CrackFaces<D>) -> Self {
+        self.cracks = Some(cracks);
+        self
+    }
+
+    /// Facets of the outline.
     pub fn facets(&self) -> &[Facet<D>] {
         &self.facets
     }
 
+    /// Number of the facets of the outline and of all faces of cracks that there may be.
+    pub(super) fn n_facets(&self) -> usize {
+        let cracks = self.cracks.as_ref().map(|it| it.boundaries.faces().len());
+        self.facets.len() + 2 * cracks.unwrap_or(0)
+    }
+
+    /// A facet by its number.
+    pub(super) fn facet(&self, number: usize) -> Facet<D> {
+        match (number.checked_sub(self.facets.len()), &self.cracks) {
+            (Some(beyond), Some(cracks)) => Facet::at_face(&cracks.boundaries, beyond),
+            (Some(_), None) | (None, _) => self.facets[number],
+        }
+    }
+
+    /// Side and stiffness (Pa/m) of a facet by its number; none of a face of cracks that does not belong to the surface.
+    pub(super) fn side_and_stiffness(&self, number: usize) -> Option<(u32, f64)> {
+        match (number.checked_sub(self.facets.len()), &self.cracks) {
+            (Some(beyond), Some(cracks)) => cracks.of_facet(beyond),
+            (Some(_), None) | (None, _) => Some((self.sides[number], self.stiffness[number])),
+        }
+    }
+
+    /// Numbers of the facets on both sides of some faces between points, those that belong to the surface.
+    pub(super) fn at_faces(&self, faces: impl Iterator<Item = u32>) -> Vec<u32> {
+        let n_outline = self.facets.len() as u32;
+        let both = faces.flat_map(|face| [0, 1].map(|end| n_outline + 2 * face + end));
+        both.filter(|&it| self.side_and_stiffness(it as usize).is_some())
+            .collect()
+    }
+
+    /// Facets that belong to the surface or may do so, with their numbers.
+    pub(super) fn all(&self) -> impl Iterator<Item = (usize, Facet<D>)> {
+        let outline = self.facets.iter().copied().enumerate();
+        let n_outline = self.facets.len();
+        let others = n_outline..self.n_facets();
+        let others = others.filter(|&it| self.side_and_stiffness(it).is_some());
+        outline.chain(others.map(|it| (it, self.facet(it))))
+    }
+
     /// Largest length of an edge, m.
     pub(super) fn largest_length(&self) -> f64 {
-        self.facets.iter().map(Facet::length).fold(0.0, f64::max)
+        self.all().map(|it| it.1.length()).fold(0.0, f64::max)
     }
 
     /// Largest stiffness of a facet, Pa/m.
     pub(super) fn largest_stiffness(&self) -> f64 {
-        self.stiffness.iter().copied().fold(0.0, f64::max)
+        let cracks = self.cracks.iter().flat_map(|it| &it.of_points).flatten();
+        let all = self.stiffness.iter().copied().chain(cracks.map(|it| it.1));
+        all.fold(0.0, f64::max)
     }
 
-    /// Mean stiffness of the facets of each side over their areas, Pa/m.
+    /// Mean stiffness of the facets of the outline of each side over their areas, Pa/m.
     pub(super) fn mean_stiffness(&self) -> Vec<f64> {
         let n_sides = self.sides.iter().max().map_or(0, |it| *it as usize + 1);
         let mut sums = vec![[0.0; 2]; n_sides];
@@ -165,7 +236,7 @@ impl<const D: usize> Surface<D> {
 
     /// Degrees of freedom of the points of the facets, ascending.
     pub(super) fn degrees_of_freedom(&self) -> Vec<u32> {
-        let mut points: Vec<u32> = self.facets.iter().flat_map(Facet::points).collect();
+        let mut points: Vec<u32> = self.all().flat_map(|it| it.1.points()).collect();
         points.sort_unstable();
         points.dedup();
         let of_point = |point: u32| self.layout.range(point).map(|it| it as u32);
@@ -173,15 +244,16 @@ impl<const D: usize> Surface<D> {
     }
 
     /// Adds a stiffness (N/m) against motions of a place of a facet to that at the degrees of freedom of its points, so that their diagonal
-    /// matrix is above it: with (u + phi x r)^2 <= 3 u^2 + 3/2 r^2 phi^2, which suits a cube, where points have rotations.
+    /// matrix is above it: with (u + phi x r)^2 <= 3 u^2 + 3/2 r^2 phi^2, which suits a cube, where points have rotations. `along` has the
+    /// shares of the axes: 1 where the stiffness acts in all directions.
     pub(super) fn add_bound(
         &self,
-        facet: usize,
-        weights: &[f64],
+        (facet, weights): (&Facet<D>, &[f64]),
         stiffness: f64,
+        along: [f64; D],
         sums: &mut [f64],
     ) {
-        let Facet { corners, .. } = &self.facets[facet];
+        let Facet { corners, .. } = facet;
         let moves_as_one = corners.iter().all(|it| it.point == corners[0].point);
         let mean = weighted(&corners.map(|it| it.arm), weights);
         for (corner, weight) in corners.iter().zip(weights) {
@@ -190,8 +262,8 @@ impl<const D: usize> Surface<D> {
             let (moves, turns) = own.split_at_mut(D);
             let arm = if moves_as_one { mean } else { corner.arm };
             let share = weight * stiffness;
-            for sum in moves {
-                *sum += if has_rotations { 3.0 * share } else { share };
+            for (sum, along) in moves.iter_mut().zip(along) {
+                *sum += along * if has_rotations { 3.0 * share } else { share };
             }
             for sum in turns {
                 *sum += 1.5 * dot(arm, arm) * share;

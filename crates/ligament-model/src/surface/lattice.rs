@@ -1,5 +1,8 @@
 //! Facets of the outline of a lattice: the free faces of its cells, in space two triangles each.
 
+use super::Corners;
+use super::cell_facets::CellFaces;
+use super::cells::InnerFace;
 use super::facet::Facet;
 use crate::cloud::PointCloud;
 use crate::cloud::lattice::Lattice;
@@ -8,45 +11,67 @@ use crate::shape::Region;
 impl<const D: usize> Facet<D> {
     /// Facets of the outline of a lattice, between the points of its cloud; all corners of a facet move with the point of its cell.
     pub fn of_lattice<S: Region<D>>(lattice: &Lattice<D, S>, cloud: &PointCloud<D>) -> Vec<Self> {
-        let half = lattice.spacing.map(|side| 0.5 * side);
         let faces = lattice.outline().into_iter();
         let facets = faces.flat_map(|face| {
             let centre = cloud.positions[face.point as usize];
-            let axis = (0..D).find(|&axis| face.normal[axis] != 0).unwrap_or(0);
-            let outwards = f64::from(face.normal[axis]);
-            let next = (axis + 1) % D;
-            // In the plane (x, -y) and (y, x) are right-handed pairs of normal and direction, in space x, y and z in turn.
-            let handed = if D == 2 && axis == 1 {
-                -outwards
-            } else {
-                outwards
-            };
-            let corner = |along: f64, across: f64| {
-                let mut position = centre;
-                position[axis] += outwards * half[axis];
-                position[next] += handed * along * half[next];
-                if D > 2 {
-                    let last = (axis + 2) % D;
-                    position[last] += across * half[last];
-                }
-                (face.point, position)
-            };
-            let around = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-            let corners = around.map(|(along, across)| corner(along, across));
-            let starts = if D == 2 { 1..2 } else { 1..3 };
-            starts.map(move |second| {
-                let chosen = |place: usize| {
-                    if place == 0 {
-                        corners[0]
-                    } else {
-                        corners[second + place - 1]
-                    }
-                };
-                Self::new(cloud, std::array::from_fn(chosen))
-            })
+            let sides = side_of_cell(lattice.spacing, centre, face.normal);
+            sides.map(move |corners| Self::new(cloud, corners.map(|it| (face.point, it))))
         });
         facets.collect()
     }
+}
+
+impl<const D: usize> CellFaces<D> {
+    /// The cells of a lattice around the points of its cloud.
+    pub fn of_lattice<S: Region<D>>(lattice: &Lattice<D, S>, cloud: &PointCloud<D>) -> Self {
+        let faces = lattice.inner_faces().into_iter();
+        let inner = faces.flat_map(|(point, normal, other)| {
+            let centre = cloud.positions[point as usize];
+            let sides = side_of_cell(lattice.spacing, centre, normal);
+            sides.map(move |corners| InnerFace::new(cloud, [point, other], corners))
+        });
+        Self {
+            outline: Facet::of_lattice(lattice, cloud),
+            inner: inner.collect(),
+        }
+    }
+}
+
+/// Corners (m) of the facets of a side of a cell with a given spacing around a centre (m): one in the plane, two in space.
+fn side_of_cell<const D: usize>(
+    spacing: [f64; D],
+    centre: [f64; D],
+    normal: [i8; D],
+) -> impl Iterator<Item = Corners<D>> {
+    let half = spacing.map(|side| 0.5 * side);
+    let axis = (0..D).find(|&axis| normal[axis] != 0).unwrap_or(0);
+    let outwards = f64::from(normal[axis]);
+    let next = (axis + 1) % D;
+    // In the plane (x, -y) and (y, x) are right-handed pairs of normal and direction, in space x, y and z in turn.
+    let handed = if D == 2 && axis == 1 {
+        -outwards
+    } else {
+        outwards
+    };
+    let corner = |along: f64, across: f64| {
+        let mut position = centre;
+        position[axis] += outwards * half[axis];
+        position[next] += handed * along * half[next];
+        if D > 2 {
+            let last = (axis + 2) % D;
+            position[last] += across * half[last];
+        }
+        position
+    };
+    let around = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    let corners = around.map(|(along, across)| corner(along, across));
+    let starts = if D == 2 { 1..2 } else { 1..3 };
+    starts.map(move |second| {
+        std::array::from_fn(|place| match place {
+            0 => corners[0],
+            _ => corners[second + place - 1],
+        })
+    })
 }
 
 #[cfg(test)]

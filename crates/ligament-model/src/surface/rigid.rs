@@ -81,6 +81,18 @@ impl<const D: usize> RigidShape<D> {
         }
     }
 
+    /// Square of the largest distance of its surface from its middle, m^2; infinite for a wall.
+    pub(super) fn reach(&self) -> f64 {
+        match *self {
+            Self::Ball { radius, .. } => radius * radius,
+            Self::Wall { .. } => f64::INFINITY,
+            Self::Box { lower, upper } => {
+                let half = minus(upper, lower).map(|it| 0.5 * it);
+                dot(half, half)
+            }
+        }
+    }
+
     /// Middle of the shape, of a wall its given point, m.
     pub fn middle(&self) -> [f64; D] {
         match *self {

@@ -1,83 +1,133 @@
-//! Facets near integration points, searched anew when surfaces have moved by more than a skin.
+//! Facets near others, searched anew when surfaces have moved by more than a skin.
+
+use std::collections::BTreeMap;
 
 use rayon::prelude::*;
-use rstar::primitives::{GeomWithData, Rectangle};
-use rstar::{AABB, RTree};
 
 use super::Corners;
 use crate::geometry::bounding_box;
 use crate::tensor::{dot, minus};
 
-/// Integration points with facets near them, as found at the last search. What is found does not change results: it contains at least all
+/// Number of a box of space along each axis.
+type Place = [i64; 3];
+
+/// Facets of a surface so far, with those near them at the last search. What is found does not change results: it contains at least all
 /// facets within reach.
 #[derive(Debug, Clone, Default)]
 pub struct Search {
-    /// Positions of all corners at the last search, m.
-    since: Vec<f64>,
-    /// Integration points with their ranges of `facets`.
-    places: Vec<(u32, [u32; 2])>,
+    /// Numbers of the facets, in the order in which they joined the surface.
     facets: Vec<u32>,
+    /// Positions of the corners of the facets when they were found, m; shorter than the facets before a search.
+    since: Vec<f64>,
+    /// For each facet those near it, as places in `facets`, by their numbers.
+    near: Vec<Vec<u32>>,
+    /// The facets in boxes of space, as places in `facets`.
+    boxes: BTreeMap<Place, Vec<u32>>,
+}
+
+/// What a search looks for.
+pub(super) struct Sought<'a, const D: usize> {
+    /// Present corners of the facets, by their places, m.
+    pub(super) corners: &'a [Corners<D>],
+    /// Distance between the boxes around facets that count as near, m.
+    pub(super) within: f64,
+    /// Whether one facet may ever meet another one, by their numbers.
+    pub(super) may_meet: &'a (dyn Fn(u32, u32) -> bool + Sync),
 }
 
 impl Search {
-    /// Whether a corner has moved so far since the last search that facets within reach may be missing: by half of the skin (m).
-    pub(super) fn is_old<const D: usize>(&self, corners: &[Corners<D>], skin: f64) -> bool {
-        let now = corners.as_flattened();
-        if self.since.len() != D * now.len() {
-            return true;
+    /// Adds facets to the surface.
+    pub(super) fn join(&mut self, facets: impl IntoIterator<Item = u32>) {
+        self.facets.extend(facets);
+    }
+
+    /// Numbers of the facets of the surface so far, by their places.
+    pub(super) fn facets(&self) -> &[u32] {
+        &self.facets
+    }
+
+    /// Facets near that at a place, as places, by their numbers.
+    pub(super) fn near(&self, place: usize) -> &[u32] {
+        &self.near[place]
+    }
+
+    /// Finds what may be missing: everything where a corner has moved by half of the skin (m) since the last search, otherwise the facets near
+    /// those that joined.
+    pub(super) fn update<const D: usize>(&mut self, sought: &Sought<'_, D>, skin: f64) {
+        if self.is_old(sought.corners, skin) {
+            self.since.clear();
+            self.near.clear();
+            self.boxes.clear();
         }
+        let first = self.near.len();
+        if first == self.facets.len() {
+            return;
+        }
+        let boxed = |corners: &Corners<D>| bounding_box(*corners);
+        for (place, corners) in (0..).zip(sought.corners).skip(first) {
+            for at in places(boxed(corners), sought.within) {
+                self.boxes.entry(at).or_default().push(place);
+            }
+        }
+        let found: Vec<Vec<u32>> = (first..self.facets.len())
+            .into_par_iter()
+            .map(|place| self.around(place, sought))
+            .collect();
+        for (place, others) in (first as u32..).zip(&found) {
+            for &other in others.iter().filter(|it| (**it as usize) < first) {
+                let facets = &self.facets;
+                let near = &mut self.near[other as usize];
+                let number = |it: u32| facets[it as usize];
+                let at = near.partition_point(|&it| number(it) < number(place));
+                near.insert(at, place);
+            }
+        }
+        self.near.extend(found);
+        let added = &sought.corners[first..];
+        self.since.extend(added.as_flattened().as_flattened());
+    }
+
+    /// Whether a corner has moved so far since the last search that facets within reach may be missing: by half of the skin (m).
+    fn is_old<const D: usize>(&self, corners: &[Corners<D>], skin: f64) -> bool {
         let (before, _) = self.since.as_chunks::<D>();
         let moved = |(now, before): (&[f64; D], &[f64; D])| {
             let way = minus(*now, *before);
             dot(way, way) > 0.25 * skin * skin
         };
+        let now = &corners.as_flattened()[..before.len()];
         now.par_iter().zip(before).any(moved)
     }
 
-    /// Searches the facets whose box is within a distance (m) of each integration point; of the facet with an integration point,
-    /// `may_meet` says whether the other facet counts.
-    pub(super) fn renew<const D: usize>(
-        &mut self,
-        corners: &[Corners<D>],
-        positions: &(impl Fn(u32) -> [f64; D] + Sync),
-        within: f64,
-        may_meet: &(impl Fn(u32, u32) -> bool + Sync),
-    ) {
-        let boxed = |(facet, corners): (u32, &Corners<D>)| {
-            let [lower, upper] = bounding_box(*corners);
-            GeomWithData::new(Rectangle::from_corners(lower, upper), facet)
+    /// Facets whose box is near that of the facet at a place, by their numbers.
+    fn around<const D: usize>(&self, place: usize, sought: &Sought<'_, D>) -> Vec<u32> {
+        let [lower, upper] = bounding_box(sought.corners[place]);
+        let within = sought.within;
+        let wide = [lower.map(|x| x - within), upper.map(|x| x + within)];
+        let is_near = |other: u32| {
+            let [low, high] = bounding_box(sought.corners[other as usize]);
+            (0..D).all(|axis| low[axis] <= wide[1][axis] && wide[0][axis] <= high[axis])
         };
-        let tree = RTree::bulk_load((0..).zip(corners).map(boxed).collect());
-        let near = |place: u32| {
-            let position = positions(place);
-            let [lower, upper] = [-within, within].map(|by| position.map(|x| x + by));
-            let found = tree.locate_in_envelope_intersecting(AABB::from_corners(lower, upper));
-            let own = place / D as u32;
-            let others = found.map(|it| it.data);
-            let mut others: Vec<u32> = others.filter(|&it| may_meet(own, it)).collect();
-            others.sort_unstable();
-            (!others.is_empty()).then_some((place, others))
-        };
-        let n_places = (D * corners.len()) as u32;
-        let found: Vec<(u32, Vec<u32>)> = (0..n_places).into_par_iter().filter_map(near).collect();
-        self.places.clear();
-        self.facets.clear();
-        for (place, facets) in found {
-            let first = self.facets.len() as u32;
-            self.facets.extend(facets);
-            self.places.push((place, [first, self.facets.len() as u32]));
-        }
-        self.since.clear();
-        self.since.extend(corners.as_flattened().as_flattened());
+        let own = self.facets[place];
+        let boxes = places(wide, within).filter_map(|at| self.boxes.get(&at));
+        let mut others: Vec<u32> = boxes.flatten().copied().collect();
+        others.sort_unstable_by_key(|&it| self.facets[it as usize]);
+        others.dedup();
+        let meets = |it: u32| (sought.may_meet)(own, self.facets[it as usize]);
+        others.retain(|&it| it as usize != place && is_near(it) && meets(it));
+        others
     }
+}
 
-    /// Integration points with facets near them, ascending.
-    pub(super) fn places(&self) -> &[(u32, [u32; 2])] {
-        &self.places
-    }
-
-    /// Facets in a range of one of the [`places`](Self::places), ascending.
-    pub(super) fn facets(&self, [first, end]: [u32; 2]) -> &[u32] {
-        &self.facets[first as usize..end as usize]
-    }
+/// Boxes of space of a size (m) that a box reaches into.
+fn places<const D: usize>([lower, upper]: [[f64; D]; 2], size: f64) -> impl Iterator<Item = Place> {
+    let along = |axis: usize| {
+        let at = |corner: &[f64; D]| corner.get(axis).map_or(0, |x| (x / size).floor() as i64);
+        at(&lower)..=at(&upper)
+    };
+    let [x, y, z] = [0, 1, 2].map(along);
+    x.flat_map(move |x| {
+        let z = z.clone();
+        y.clone()
+            .flat_map(move |y| z.clone().map(move |z| [x, y, z]))
+    })
 }

@@ -14,6 +14,8 @@ pub struct Touch {
     pub onto: Option<u32>,
     /// Weights of the corners of that facet at the place that it meets.
     pub weights: Vector,
+    /// Way from the middle of the rigid body that it meets to it, m.
+    pub arm: Vector,
     /// Outward unit normal of the surface that it meets.
     pub normal: Vector,
     /// Overlap -g, m.

@@ -423,6 +423,10 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondContact for ElementS
         self.system.contact_pairs(self.layout(), intact)
     }
 
+    fn changed_pairs(&self, intact: &[bool], broken: &[u32]) -> Vec<(u32, Option<ContactPair>)> {
+        self.system.changed_pairs(self.layout(), intact, broken)
+    }
+
     fn overlap(
         &self,
         intact: &[bool],

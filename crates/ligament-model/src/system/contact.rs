@@ -1,6 +1,7 @@
 //! Pairs across the cracks of a bond system, and the stresses of closed pairs.
 
 use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::BondSystem;
 use super::crack_axis::AxisSum;
@@ -36,22 +37,77 @@ impl<const D: usize> BondSystem<D> {
         let broken: Vec<usize> = (0..intact.len()).filter(|&bond| !intact[bond]).collect();
         let around = self.crack_directions(&broken);
         let of_broken = broken.iter().filter_map(|&bond| {
-            let ends = bonds.ends[bond];
-            let [a, b] = ends.map(|end| around[end as usize]);
-            let normal = a.plus(b).axis_towards(bonds.direction[bond]);
-            let of_bond = |all: &[f64]| all.get(bond).copied().unwrap_or_default();
-            let parted = CutBond {
-                ends,
-                normal,
-                axial: of_bond(&self.rigidities.axial),
-                shear: of_bond(&self.rigidities.shear),
-            };
-            let pair = self.contact_pair(layout, bond as u32, &parted);
-            (dot(normal, bonds.direction[bond]) >= ALONG_THE_CRACK).then_some(pair)
+            let sums = bonds.ends[bond].map(|end| around[end as usize]);
+            self.pair_of_broken(layout, bond, sums)
         });
         let numbered = (bonds.len() as u32..).zip(cut);
         let of_cut = numbered.map(|(number, it)| self.contact_pair(layout, number, it));
         of_broken.chain(of_cut).collect()
+    }
+
+    /// The pair of a broken bond with the sums of directions around its ends; none of a bond along the crack.
+    fn pair_of_broken(
+        &self,
+        layout: Layout,
+        bond: usize,
+        [a, b]: [AxisSum<D>; 2],
+    ) -> Option<ContactPair> {
+        let bonds = &self.bonds;
+        let normal = a.plus(b).axis_towards(bonds.direction[bond]);
+        let of_bond = |all: &[f64]| all.get(bond).copied().unwrap_or_default();
+        let parted = CutBond {
+            ends: bonds.ends[bond],
+            normal,
+            axial: of_bond(&self.rigidities.axial),
+            shear: of_bond(&self.rigidities.shear),
+        };
+        let pair = self.contact_pair(layout, bond as u32, &parted);
+        (dot(normal, bonds.direction[bond]) >= ALONG_THE_CRACK).then_some(pair)
+    }
+
+    /// The pairs of a whole body that change with bonds that have just broken: of broken bonds at their ends and at the points that broken or
+    /// cut bonds connect to these. Sums are in the order of those over all bonds.
+    pub(crate) fn changed_pairs(
+        &self,
+        layout: Layout,
+        intact: &[bool],
+        broken: &[u32],
+    ) -> Vec<(u32, Option<ContactPair>)> {
+        let near = CrackAround {
+            system: self,
+            intact,
+            cut: self.cut_at_points(),
+        };
+        let mut points = BTreeSet::new();
+        for end in broken.iter().flat_map(|&it| self.bonds.ends[it as usize]) {
+            points.insert(end);
+            points.extend(near.parted(end).map(|(other, _)| other));
+        }
+        let sums: BTreeMap<u32, AxisSum<D>> = {
+            let ends = |point: u32| {
+                near.broken(point)
+                    .flat_map(|it| self.bonds.ends[it as usize])
+            };
+            let all: BTreeSet<u32> = points.iter().flat_map(|&it| ends(it)).collect();
+            all.into_iter().map(|it| (it, near.sum(it))).collect()
+        };
+        let bonds: BTreeSet<u32> = points.iter().flat_map(|&it| near.broken(it)).collect();
+        let pair = |bond: u32| {
+            let ends = self.bonds.ends[bond as usize];
+            self.pair_of_broken(layout, bond as usize, ends.map(|end| sums[&end]))
+        };
+        bonds.into_iter().map(|bond| (bond, pair(bond))).collect()
+    }
+
+    /// The cut bonds of each point that has some, in their order.
+    fn cut_at_points(&self) -> BTreeMap<u32, Vec<usize>> {
+        let mut at_points: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        for (number, cut) in self.faces.cut().iter().enumerate() {
+            for end in cut.ends {
+                at_points.entry(end).or_default().push(number);
+            }
+        }
+        at_points
     }
 
     /// Sums of the directions of the broken and cut bonds at each point and at the points that they connect to, shape (n_points).
@@ -191,6 +247,52 @@ impl<const D: usize> BondSystem<D> {
             }
             StressReading::Traction => self.add_contact_tractions(closed, stresses),
         }
+    }
+}
+
+/// Broken and cut bonds around points.
+struct CrackAround<'a, const D: usize> {
+    system: &'a BondSystem<D>,
+    intact: &'a [bool],
+    cut: BTreeMap<u32, Vec<usize>>,
+}
+
+impl<const D: usize> CrackAround<'_, D> {
+    /// Broken bonds of a point.
+    fn broken(&self, point: u32) -> impl Iterator<Item = u32> {
+        let own = self.system.bonds.incidence.at(point).iter().copied();
+        own.filter(|&it| !self.intact[it as usize])
+    }
+
+    /// Other ends and directions of the broken bonds of a point, then of its cut ones.
+    fn parted(&self, point: u32) -> impl Iterator<Item = (u32, [f64; D])> {
+        let bonds = &self.system.bonds;
+        let of_broken = self.broken(point);
+        let of_broken =
+            of_broken.map(move |it| (bonds.neighbour(it, point), bonds.direction[it as usize]));
+        let cut = self.cut.get(&point).into_iter().flatten();
+        let of_cut = cut.map(move |&it| {
+            let CutBond { ends, normal, .. } = self.system.faces.cut()[it];
+            let other = if ends[0] == point { ends[1] } else { ends[0] };
+            (other, normal)
+        });
+        of_broken.chain(of_cut)
+    }
+
+    /// Sum of the directions at a point.
+    fn own(&self, point: u32) -> AxisSum<D> {
+        let mut sum = AxisSum::default();
+        for (_, direction) in self.parted(point) {
+            sum.add(direction);
+        }
+        sum
+    }
+
+    /// Sum of the directions at a point and at the points that its broken and cut bonds connect to.
+    fn sum(&self, point: u32) -> AxisSum<D> {
+        let own = self.own(point);
+        self.parted(point)
+            .fold(own, |sum, (other, _)| sum.plus(self.own(other)))
     }
 }
 

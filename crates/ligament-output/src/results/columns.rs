@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use ligament_analysis::costs::Costs;
 use ligament_analysis::history::{BreakRecord, InMotion, StepRecord};
+use ligament_analysis::motion::contact::{ContactReading, RigidState};
 use ligament_analysis::probe::{PointField, motion_unit};
 
 use crate::csv::Value;
@@ -113,6 +114,33 @@ columns! { "Columns of a history for each group with supports or loads."
     "GROUP.moment_x" "N m" SOLID "of a solid, about x: sum of the moments on its points, without those of its forces";
     "GROUP.moment_y" "N m" SOLID "about y";
     "GROUP.moment_z" "N m" SOLID "about z";
+}
+
+columns! { "Columns of a history for each contact between surfaces: that of a `[[rigid]]` body has its name, one `between` two groups theirs, \
+    `a-b`, and one between all parts is `parts`."
+    CONTACTS of ContactReading, Value<'static>:
+    "CONTACT.force_x" "N" ANY
+        "force along x, pressing and friction, on the first group of a [contact](contact.md), or by a rigid body on the body" => |it| it.force(0).into();
+    "CONTACT.force_y" "N" ANY "force along y" => |it| it.force(1).into();
+    "CONTACT.force_z" "N" SOLID "force along z, of a solid" => |it| it.force(2).into();
+    "CONTACT.pressing" "N" ANY "sum of the sizes of the pressing forces in all its places" => |it| it.pressing.into();
+    "CONTACT.area" "m^2" ANY "area in contact" => |it| it.area.into();
+    "CONTACT.penetration" "m" ANY "deepest overlap that causes a force" => |it| it.penetration.into();
+}
+
+columns! { "Columns of a history for each rigid body."
+    RIGID_BODIES of RigidState, Value<'static>:
+    "RIGID.displacement_x" "m" ANY "way of a [rigid body](contact.md) along x" => |it| it.displacement[0].into();
+    "RIGID.displacement_y" "m" ANY "way along y" => |it| it.displacement[1].into();
+    "RIGID.displacement_z" "m" SOLID "way along z, of a solid" => |it| it.displacement[2].into();
+    "RIGID.rotation" "rad" PLANE "its angle, in the plane; 0 without an `inertia`" => |it| it.rotation[2].into();
+    "RIGID.velocity_x" "m/s" ANY "its velocity along x" => |it| it.velocity[0].into();
+    "RIGID.velocity_y" "m/s" ANY "velocity along y" => |it| it.velocity[1].into();
+    "RIGID.velocity_z" "m/s" SOLID "velocity along z, of a solid" => |it| it.velocity[2].into();
+    "RIGID.angular_velocity" "rad/s" PLANE "its angular velocity, in the plane" => |it| it.angular_velocity[2].into();
+    "RIGID.angular_velocity_x" "rad/s" SOLID "of a solid, about x" => |it| it.angular_velocity[0].into();
+    "RIGID.angular_velocity_y" "rad/s" SOLID "about y" => |it| it.angular_velocity[1].into();
+    "RIGID.angular_velocity_z" "rad/s" SOLID "about z" => |it| it.angular_velocity[2].into();
 }
 
 columns! { "Columns of a history for each probe."
@@ -222,6 +250,13 @@ columns! { "Columns of the table of natural modes."
     "share_inertia_x" "-" SOLID "of a solid, about x";
     "share_inertia_y" "-" SOLID "about y";
     "share_inertia_z" "-" SOLID "about z";
+    "participation_x" "kg^(1/2)" ANY "participation in a motion along x, whose square is the effective mass";
+    "participation_y" "kg^(1/2)" ANY "along y";
+    "participation_z" "kg^(1/2)" SOLID "along z, of a solid";
+    "participation_rotation" "kg^(1/2) m" PLANE "about the centre of mass, in the plane";
+    "participation_rotation_x" "kg^(1/2) m" SOLID "of a solid, about x";
+    "participation_rotation_y" "kg^(1/2) m" SOLID "about y";
+    "participation_rotation_z" "kg^(1/2) m" SOLID "about z";
 }
 
 columns! { "Columns of the lines of a crack."
@@ -285,12 +320,21 @@ pub fn tables() -> Vec<(&'static str, Vec<Column>)> {
         readings.iter().map(|it| it.0).collect()
     }
     let (history, closing, motion) = (of(HISTORY), of(CLOSING), of(MOTION));
+    let of_contacts = [of(CONTACTS), of(RIGID_BODIES)].concat();
     let (breaks, timings) = (of(BREAKS), of(TIMINGS));
     let joined = |parts: &[&[Column]]| parts.concat();
     vec![
         (
             "history.csv",
-            joined(&[&history, STAGES, &closing, &motion, GROUPS, PROBES]),
+            joined(&[
+                &history,
+                STAGES,
+                &closing,
+                &motion,
+                GROUPS,
+                &of_contacts,
+                PROBES,
+            ]),
         ),
         ("breaks.csv", joined(&[&breaks, ENDS, FAILURE, STRAINS])),
         ("softening.csv", joined(&[SOFTENING, ENDS, SOFTENED_BY])),
@@ -308,6 +352,15 @@ pub fn tables() -> Vec<(&'static str, Vec<Column>)> {
 pub fn names(columns: &[Column], in_space: bool) -> Vec<&'static str> {
     let here = columns.iter().filter(|it| it.spaces[usize::from(in_space)]);
     here.map(|it| it.name).collect()
+}
+
+/// The columns of a table that a body in the plane or a solid has, with the functions that return their values.
+pub(super) fn readings<R, V>(
+    columns: &[Reading<R, V>],
+    in_space: bool,
+) -> impl Iterator<Item = &Reading<R, V>> {
+    let spaces = usize::from(in_space);
+    columns.iter().filter(move |it| it.0.spaces[spaces])
 }
 
 /// SI unit of a probe, by the field that it reads at a point, or by the component of the motion or of the force through a section.
@@ -359,6 +412,8 @@ pub fn unit_of(column: &str) -> &'static str {
     let history = HISTORY.iter().map(|it| &it.0);
     let mut history = history.chain(MOTION.iter().map(|it| &it.0));
     let found = history.find(|it| it.name == column);
-    let found = found.or_else(|| GROUPS.iter().find(|it| of_group(it)));
+    let named = GROUPS.iter().chain(CONTACTS.iter().map(|it| &it.0));
+    let mut named = named.chain(RIGID_BODIES.iter().map(|it| &it.0));
+    let found = found.or_else(|| named.find(|it| of_group(it)));
     found.map_or("-", |it| if it.unit.is_empty() { "-" } else { it.unit })
 }

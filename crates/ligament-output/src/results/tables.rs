@@ -7,8 +7,8 @@ use ligament_analysis::{Bonds, serial};
 use ligament_model::BodyGrid;
 
 use super::columns::{
-    BREAKS, CLOSING, CRITERIA, ENDS, FAILURE, HISTORY, ITERATIONS, MOTION, STAGES, STEP, TIMINGS,
-    names,
+    BREAKS, CLOSING, CONTACTS, CRITERIA, ENDS, FAILURE, HISTORY, ITERATIONS, MOTION, RIGID_BODIES,
+    Reading, STAGES, STEP, TIMINGS, names, readings,
 };
 use crate::Error;
 use crate::csv::{Table, Value};
@@ -111,6 +111,15 @@ pub(super) fn told(names: &'static [&'static str]) -> &'static [&'static str] {
     }
 }
 
+/// Names of columns for a contact or a rigid body of a name.
+fn named<R>(columns: &'static [Reading<R>], name: &str, in_space: bool) -> Vec<String> {
+    let of_it = |column: &Reading<R>| match column.0.name.split_once('.') {
+        Some((_, quantity)) => format!("{name}.{quantity}"),
+        None => column.0.name.to_owned(),
+    };
+    readings(columns, in_space).map(of_it).collect()
+}
+
 /// Names of the columns of the history of a problem.
 pub(super) fn history_columns(problem: &Problem) -> Vec<String> {
     let groups = problem.loads.groups().iter();
@@ -121,11 +130,18 @@ pub(super) fn history_columns(problem: &Problem) -> Vec<String> {
     });
     let closing = CLOSING.iter().filter(|_| problem.system.faces_close());
     let motion = MOTION.iter().filter(|_| problem.loads.is_in_time());
+    let in_space = problem.system.layout().is_in_space();
+    let contacts = problem.contact.contacts.iter().map(|it| &it.name);
+    let contacts = contacts.flat_map(|it| named(CONTACTS, it, in_space));
+    let rigid = problem.contact.rigid_bodies.iter().map(|it| &it.name);
+    let rigid = rigid.flat_map(|it| named(RIGID_BODIES, it, in_space));
     (HISTORY.iter().map(|it| it.0.name.to_owned()))
         .chain(stage_columns(problem))
         .chain(closing.map(|it| it.0.name.to_owned()))
         .chain(motion.map(|it| it.0.name.to_owned()))
         .chain(of_groups)
+        .chain(contacts)
+        .chain(rigid)
         .chain(problem.probes.iter().map(|probe| probe.name.clone()))
         .collect()
 }
@@ -151,6 +167,13 @@ pub(super) fn history_row<'a>(record: &StepRecord, view: &View<'a>) -> Vec<Value
         of_body.map(move |component| layout.value(0, *component, force))
     });
     row.extend(of_groups.map(Value::from));
+    let in_space = layout.is_in_space();
+    for contact in &record.contacts {
+        row.extend(readings(CONTACTS, in_space).map(|column| column.1(contact)));
+    }
+    for body in &record.rigid_bodies {
+        row.extend(readings(RIGID_BODIES, in_space).map(|column| column.1(body)));
+    }
     row.extend(record.probes.iter().map(|&value| Value::from(value)));
     row
 }

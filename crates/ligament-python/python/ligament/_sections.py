@@ -625,6 +625,8 @@ class Contact(TypedDict, total=False):
     """Coefficient of Coulomb's friction. Default 0.0."""
     stiffness: float
     """Stiffness of the contact over E'/h of the material, with the spacing h of the points. Default 1.0."""
+    cracks: bool
+    """Whether the faces of cracks take part, also those that come about; without `between` all fragments then meet each other. Default false."""
 
 
 class RigidVelocity(TypedDict, total=False):
@@ -667,8 +669,19 @@ class RigidAmplitude(TypedDict, total=False):
     """Frequency at which a Ricker wavelet has its most energy, Hz."""
 
 
+class RigidAcceleration(TypedDict, total=False):
+    """Acceleration of a body with a `mass` without contacts, such as gravity, m/s^2."""
+
+    x: float
+    """Along x, in the unit of the force. Default 0.0."""
+    y: float
+    """Along y, in the unit of the force. Default 0.0."""
+    z: float
+    """Along z of a solid, in the unit of the force."""
+
+
 class Rigid(TypedDict, total=False):
-    """A rigid body that parts of the body meet in a motion; it does not turn."""
+    """A rigid body that parts of the body meet in a motion."""
 
     name: str
     """Name in results."""
@@ -693,12 +706,18 @@ class Rigid(TypedDict, total=False):
     """Factor of the velocity as a function of time; without it 1."""
     mass: float
     """Mass of a body that contact alone moves, in the plane that of the whole thickness, kg; without it the motion is prescribed."""
+    inertia: float
+    """Moment of inertia of a body with a `mass` about its middle, in the plane about z, kg m^2; without it the body does not turn."""
+    acceleration: RigidAcceleration
+    """Acceleration of a body with a `mass` without contacts, such as gravity, m/s^2."""
     friction: float
     """Coefficient of Coulomb's friction. Default 0.0."""
     stiffness: float
     """Stiffness of the contact over E'/h of the material, with the spacing h of the points. Default 1.0."""
     against: Sequence[str]
     """Groups whose outlines it meets; without it that of the whole body."""
+    cracks: bool
+    """Whether it meets the faces of cracks as well. Default false."""
 
 
 class NoFail(TypedDict, total=False):

@@ -2,11 +2,14 @@
 
 pub(super) mod branching;
 pub(super) mod contact;
+pub(super) mod disk;
 mod fast_crack;
 pub(super) mod kalthoff;
 pub(super) mod lamb;
 mod record;
 pub(super) mod schemes;
 pub(super) mod spall;
+pub(super) mod splitting;
+pub(super) mod stretching;
 pub(super) mod vibration;
 pub(super) mod waves;

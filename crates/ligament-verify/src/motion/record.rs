@@ -49,6 +49,17 @@ impl Record {
         self
     }
 
+    /// Value at a time within the record, between rows by a straight line.
+    pub(super) fn at(&self, time: f64) -> anyhow::Result<f64> {
+        let after = self.times.partition_point(|it| *it < time);
+        let value = |place: usize| self.times.get(place).copied().zip(self.values.get(place));
+        let (late, end) = value(after).context("the motion ends before the time")?;
+        let Some((early, start)) = after.checked_sub(1).and_then(value) else {
+            return Ok(*end);
+        };
+        Ok(start + (end - start) * (time - early) / (late - early))
+    }
+
     /// Time and size of the largest value within a window of time, by the parabola through it and its neighbours.
     pub(super) fn peak(&self, [from, to]: [f64; 2]) -> anyhow::Result<[f64; 2]> {
         let inner = 1..self.values.len().saturating_sub(1);

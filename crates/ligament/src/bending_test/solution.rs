@@ -119,6 +119,7 @@ impl Solver {
             loads: free_loading(layout, vec![0.0; layout.n_degrees_of_freedom()]),
             solver: strip.setup.solver.clone(),
             probes: Arc::default(),
+            contact: Default::default(),
         };
         Ok(Self {
             layout,

@@ -7,7 +7,7 @@ use ligament_mesh::{Cell, Mesh, NodeField, Numbering, SolidMesh};
 use ligament_model::cloud::lattice::SolidLattice;
 use ligament_model::correction::patch::CellForces;
 use ligament_model::material::Stiffness;
-use ligament_model::surface::Facet;
+use ligament_model::surface::{CellFaces, Facet};
 use ligament_model::{BodyGrid, BondSet, Lattice, PointCloud};
 use thiserror::Error;
 
@@ -189,6 +189,11 @@ pub trait Geometry<const D: usize>: Body {
         let sides = self.outer_sides().into_iter();
         let corner = |node: u32| (node, cloud.positions[node as usize]);
         sides.map(|it| Facet::new(cloud, it.map(corner))).collect()
+    }
+
+    /// The cells around the points of a cloud by their faces, which cracks open; none for bodies without cells.
+    fn cell_faces(&self, _cloud: &PointCloud<D>) -> Option<CellFaces<D>> {
+        None
     }
 
     /// A body of some of the cells (ascending) of a meshed body, without groups; `None` for other bodies.

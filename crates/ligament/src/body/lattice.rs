@@ -8,7 +8,7 @@ use ligament_model::cloud::lattice::Lattice;
 use ligament_model::correction::patch::{self, CellForces};
 use ligament_model::material::Stiffness;
 use ligament_model::shape::{Shape, SolidShape};
-use ligament_model::surface::Facet;
+use ligament_model::surface::{CellFaces, Facet};
 use ligament_model::{BodyGrid, BondSet, PointCloud, raised};
 
 use super::cells::{self, CellSets, Cells, Hole, LatticeError, rim};
@@ -146,6 +146,10 @@ impl<const D: usize, S: LatticeShape<D>> Geometry<D> for BodyOnLattice<D, S> {
 
     fn facets(&self, cloud: &PointCloud<D>) -> Vec<Facet<D>> {
         Facet::of_lattice(&self.lattice, cloud)
+    }
+
+    fn cell_faces(&self, cloud: &PointCloud<D>) -> Option<CellFaces<D>> {
+        Some(CellFaces::of_lattice(&self.lattice, cloud))
     }
 
     fn crosses_holes(&self, bonds: &BondSet<D>, cloud: &PointCloud<D>) -> Vec<bool> {

@@ -6,6 +6,7 @@ use ligament_mesh::{Cell, Group, Mesh, NodeField, Numbering, SolidCell};
 use ligament_model::bonds::outline::{Outline, bonds_outside, spacing_inside};
 use ligament_model::correction::patch::CellForces;
 use ligament_model::material::Stiffness;
+use ligament_model::surface::{CellFaces, InnerFace};
 use ligament_model::{BodyGrid, BondSet, PointCloud, raised};
 
 use super::interface::{Body, BodyOutline, Geometry, OffOutline, Origin};
@@ -189,6 +190,19 @@ impl<const D: usize, C: BodyCell<D>> Geometry<D> for BodyOnMesh<D, C> {
 
     fn outer_sides(&self) -> Vec<[u32; D]> {
         C::outer_sides(&self.mesh.cells, self.mesh.positions.len())
+    }
+
+    /// Cells around the nodes: the corners of the cells of the mesh, cut off by lines between the middles of their edges, faces and cells.
+    fn cell_faces(&self, cloud: &PointCloud<D>) -> Option<CellFaces<D>> {
+        let at = |node: u32| cloud.positions[node as usize];
+        let cells = self.mesh.cells.iter();
+        let faces = cells.flat_map(|cell| cell.faces_between_corners(&at));
+        Some(CellFaces {
+            outline: CellFaces::outline(cloud, &self.outer_sides()),
+            inner: faces
+                .map(|(points, corners)| InnerFace::new(cloud, points, corners))
+                .collect(),
+        })
     }
 
     /// A body of some cells and their nodes, without groups.

@@ -44,6 +44,11 @@ pub trait BodyCell<const D: usize>: MeshCell<D> + Debug + Send + 'static {
     /// outside.
     fn outer_sides(cells: &[Self], n_points: usize) -> Vec<[u32; D]>;
 
+    /// Faces between the parts of a cell that belong to its corners: two corners each, and the corners of the face (m) in any order. `at` has
+    /// the positions of nodes, m.
+    fn faces_between_corners(&self, at: &dyn Fn(u32) -> [f64; D])
+    -> Vec<([u32; 2], [[f64; D]; D])>;
+
     /// Outward normals of the sides of some groups times lengths (m), in space times areas (m^2), in parts at the sides' nodes.
     ///
     /// # Errors
@@ -96,6 +101,18 @@ impl BodyCell<2> for Cell {
         edges
             .filter(|(n_cells, _)| *n_cells == 1)
             .map(|(_, edge)| edge)
+            .collect()
+    }
+
+    /// From the middle of the cell to those of its edges.
+    fn faces_between_corners(
+        &self,
+        at: &dyn Fn(u32) -> [f64; 2],
+    ) -> Vec<([u32; 2], [[f64; 2]; 2])> {
+        let middle = mean(self.corners(), at);
+        let edges = edges_around(self.corners());
+        edges
+            .map(|ends| (ends, [middle, mean(&ends, at)]))
             .collect()
     }
 
@@ -176,6 +193,21 @@ impl BodyCell<3> for SolidCell {
         outer.iter().flat_map(|it| it.face.triangles()).collect()
     }
 
+    /// From the middle of the cell over those of its faces to those of their edges.
+    fn faces_between_corners(
+        &self,
+        at: &dyn Fn(u32) -> [f64; 3],
+    ) -> Vec<([u32; 2], [[f64; 3]; 3])> {
+        let middle = mean(self.corners(), at);
+        let mut parts = Vec::new();
+        for face in self.faces() {
+            let of_face = mean(face.corners(), at);
+            let edges = edges_around(face.corners());
+            parts.extend(edges.map(|ends| (ends, [middle, of_face, mean(&ends, at)])));
+        }
+        parts
+    }
+
     fn outward(mesh: &SolidMesh, groups: &[&Group]) -> Result<Vec<(u32, [f64; 3])>, OffOutline> {
         let faces: Vec<Cell> = groups.iter().flat_map(|it| &it.faces).copied().collect();
         mesh.outward_areas(&faces).map_err(|it| OffOutline {
@@ -212,6 +244,18 @@ fn edges_of(cells: &[Cell]) -> BTreeMap<[u32; 2], (usize, [u32; 2])> {
         }
     }
     edges
+}
+
+/// Edges between corners in their order.
+fn edges_around(corners: &[u32]) -> impl Iterator<Item = [u32; 2]> {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().zip(next).map(|(&from, &to)| [from, to])
+}
+
+/// Mean position of nodes, m.
+fn mean<const D: usize>(nodes: &[u32], at: &dyn Fn(u32) -> [f64; D]) -> [f64; D] {
+    let sum = |axis: usize| nodes.iter().map(|&it| at(it)[axis]).sum::<f64>();
+    std::array::from_fn(|axis| sum(axis) / nodes.len() as f64)
 }
 
 fn ascending([a, b]: [u32; 2]) -> [u32; 2] {

@@ -5,7 +5,9 @@ use std::sync::Arc;
 
 use ligament_analysis::motion::contact::{ContactProblem, RigidBody, RigidMotion, SurfaceContact};
 use ligament_model::System;
-use ligament_model::surface::{Facet, FacetPair, Opposite, RigidShape, Surface};
+use ligament_model::surface::{
+    Boundaries, CellFaces, CrackFaces, Facet, FacetPair, Opposite, RigidShape, Surface,
+};
 
 use super::places::unknown_group;
 use crate::coordinates::narrowed;
@@ -33,7 +35,45 @@ pub(super) fn contacts<const D: usize>(
     setup: &Setup,
     system: &dyn System<D>,
 ) -> Result<ContactProblem, SetupError> {
-    Outline::new(setup, system).contacts()
+    let mut problem = ContactProblem::default();
+    let with = |cracks: bool| {
+        let has = setup.contacts.iter().any(|it| it.cracks == cracks);
+        has || setup.rigid_bodies.iter().any(|it| it.cracks == cracks)
+    };
+    let outlines =
+        [false, true].map(|cracks| with(cracks).then(|| Outline::new(setup, system, cracks)));
+    let outline = |cracks: bool| outlines[usize::from(cracks)].as_ref();
+    for (index, contact) in setup.contacts.iter().enumerate() {
+        let field = Field::element("contacts", index).part("between");
+        let Some(outline) = outline(contact.cracks) else {
+            continue;
+        };
+        let surfaces = match &contact.between {
+            Between::Groups(groups) => {
+                let sides = outline.sides_of_groups(field, groups)?;
+                outline.pair(sides, contact.law, Opposite::OtherSides)
+            }
+            Between::Parts if contact.cracks => {
+                let sides = outline.one_side(field)?;
+                outline.pair(sides, contact.law, Opposite::Unbonded)
+            }
+            Between::Parts => {
+                let sides = outline.sides_of_parts(field)?;
+                outline.pair(sides, contact.law, Opposite::OtherSides)
+            }
+        };
+        problem.contacts.push(SurfaceContact {
+            name: contact.between.name(),
+            surfaces: Arc::new(surfaces),
+            rigid_body: None,
+        });
+    }
+    for (index, body) in setup.rigid_bodies.iter().enumerate() {
+        if let Some(outline) = outline(body.cracks) {
+            outline.meet(index, body, &mut problem)?;
+        }
+    }
+    Ok(problem)
 }
 
 /// The outline of a body, which contacts take facets from.
@@ -41,91 +81,112 @@ struct Outline<'a, const D: usize> {
     setup: &'a Setup,
     system: &'a dyn System<D>,
     facets: Vec<Facet<D>>,
-    /// Stiffness E'/h of each facet, Pa/m.
+    /// Stiffness E'/h at each point, Pa/m.
     stiffness: Vec<f64>,
+    /// Faces between the points, where faces of cracks take part.
+    boundaries: Option<Arc<Boundaries<D>>>,
+}
+
+/// Sides of the facets of the outline, and of the faces of cracks at points; none of those that do not take part.
+struct Sides {
+    /// Shape (n_facets).
+    of_facets: Vec<Option<u32>>,
+    /// Shape (n_points); empty where faces of cracks take no part.
+    of_points: Vec<Option<u32>>,
 }
 
 impl<'a, const D: usize> Outline<'a, D> {
-    fn new(setup: &'a Setup, system: &'a dyn System<D>) -> Self {
+    /// The outline, with the faces of cracks or without them.
+    fn new(setup: &'a Setup, system: &'a dyn System<D>, cracks: bool) -> Self {
         let cloud = &system.cloud;
-        let facets = match setup.has_contact() {
-            true => setup.body.geometry().facets(cloud),
-            false => Vec::new(),
+        let body = setup.body.geometry();
+        let (facets, inner) = match cracks.then(|| body.cell_faces(cloud)).flatten() {
+            Some(CellFaces { outline, inner }) => (outline, Some(inner)),
+            None => (body.facets(cloud), None),
         };
+        let boundaries = inner.map(|it| {
+            Arc::new(Boundaries::new(
+                it,
+                cloud,
+                &system.bonds,
+                system.faces.cut(),
+            ))
+        });
         let moduli: Vec<f64> = setup
             .materials
             .iter()
             .map(|it| modulus(setup, it))
             .collect();
-        let of_point = |point: u32| {
-            let point = point as usize;
-            cloud.mean_property(point, &moduli) / cloud.spacing[point]
-        };
-        let of_facet = |it: &Facet<D>| it.points().map(of_point).iter().sum::<f64>() / D as f64;
+        let of_point = |point: usize| cloud.mean_property(point, &moduli) / cloud.spacing[point];
         Self {
-            stiffness: facets.iter().map(of_facet).collect(),
+            stiffness: (0..cloud.len()).map(of_point).collect(),
             facets,
+            boundaries,
             setup,
             system,
         }
     }
 
-    fn contacts(&self) -> Result<ContactProblem, SetupError> {
-        let mut problem = ContactProblem::default();
-        for (index, contact) in self.setup.contacts.iter().enumerate() {
-            let field = Field::element("contacts", index).part("between");
-            let (name, sides) = match &contact.between {
-                Between::Groups(groups) => (groups.join("-"), self.sides_of_groups(field, groups)?),
-                Between::Parts => ("parts".to_owned(), self.sides_of_parts(field)?),
-            };
-            let surfaces = self.pair(&sides, contact.law, Opposite::OtherSides);
-            problem.contacts.push(SurfaceContact {
-                name,
-                surfaces: Arc::new(surfaces),
-                rigid_body: None,
-            });
-        }
-        for (index, body) in self.setup.rigid_bodies.iter().enumerate() {
-            let field = Field::element("rigid_bodies", index);
-            let shape = self.shape(&body.form);
-            let sides = self.sides_against(field, body)?;
-            self.require_outside(field, (body, &shape), &sides)?;
-            let opposite = Opposite::Rigid(shape, body.mass.is_some());
-            problem.contacts.push(SurfaceContact {
-                name: body.name.clone(),
-                surfaces: Arc::new(self.pair(&sides, body.law, opposite)),
-                rigid_body: Some(index),
-            });
-            problem.rigid_bodies.push(RigidBody {
-                name: body.name.clone(),
-                motion: motion(body),
-            });
-        }
-        Ok(problem)
+    /// Adds a rigid body of the setup and its contact.
+    fn meet(
+        &self,
+        index: usize,
+        body: &Rigid,
+        problem: &mut ContactProblem,
+    ) -> Result<(), SetupError> {
+        let field = Field::element("rigid_bodies", index);
+        let shape = self.shape(&body.form);
+        let sides = self.sides_against(field, body)?;
+        self.require_outside(field, (body, &shape), &sides.of_facets)?;
+        let opposite = Opposite::Rigid(shape, body.mass.is_some());
+        problem.contacts.push(SurfaceContact {
+            name: body.name.clone(),
+            surfaces: Arc::new(self.pair(sides, body.law, opposite)),
+            rigid_body: Some(index),
+        });
+        problem.rigid_bodies.push(RigidBody {
+            name: body.name.clone(),
+            motion: motion(body),
+        });
+        Ok(())
     }
 
-    /// Facets of the outline with a side, as a surface against what they may meet.
-    fn pair(&self, sides: &[Option<u32>], law: ContactLaw, opposite: Opposite<D>) -> FacetPair<D> {
-        let numbered = sides.iter().enumerate();
+    /// The surface of these sides against what they may meet.
+    fn pair(&self, sides: Sides, law: ContactLaw, opposite: Opposite<D>) -> FacetPair<D> {
+        let of_point = |point: u32| self.stiffness[point as usize];
+        let numbered = self.facets.iter().zip(&sides.of_facets);
         let facets = numbered.filter_map(|(facet, side)| {
-            Some((
-                self.facets[facet],
-                (*side)?,
-                law.stiffness * self.stiffness[facet],
-            ))
+            let mean = facet.points().map(of_point).iter().sum::<f64>() / D as f64;
+            Some((*facet, (*side)?, law.stiffness * mean))
         });
-        let surface = Surface::new(self.system.layout(), facets.collect());
+        let mut surface = Surface::new(self.system.layout(), facets.collect());
+        if let Some(boundaries) = &self.boundaries {
+            let points = sides.of_points.iter().zip(&self.stiffness);
+            let of_point = |(side, stiffness): (&Option<u32>, &f64)| {
+                side.map(|side| (side, law.stiffness * stiffness))
+            };
+            surface = surface.with_cracks(CrackFaces {
+                boundaries: boundaries.clone(),
+                of_points: points.map(of_point).collect(),
+            });
+        }
         FacetPair::new(surface, opposite, law.friction)
     }
 
-    /// Whether each facet belongs to the outline of a group: all its points do.
-    fn is_of_group(&self, field: Field, group: &str) -> Result<Vec<bool>, SetupError> {
+    /// Whether each point is in a group.
+    fn is_in_group(&self, field: Field, group: &str) -> Result<Vec<bool>, SetupError> {
         let points = self.setup.body.points_of(group);
         let points = points.ok_or_else(|| field.error(unknown_group(self.setup, group)))?;
         let mut marked = vec![false; self.system.cloud.len()];
         for point in points {
             marked[point as usize] = true;
         }
+        Ok(marked)
+    }
+
+    /// Whether each facet belongs to the outline of a group: all its points do.
+    fn is_of_group(&self, field: Field, group: &str) -> Result<Vec<bool>, SetupError> {
+        let marked = self.is_in_group(field, group)?;
         let is_in = |it: &Facet<D>| it.points().iter().all(|&point| marked[point as usize]);
         let of_group: Vec<bool> = self.facets.iter().map(is_in).collect();
         match of_group.contains(&true) {
@@ -145,7 +206,7 @@ impl<'a, const D: usize> Outline<'a, D> {
         &self,
         field: Field,
         [one, other]: &[String; 2],
-    ) -> Result<Vec<Option<u32>>, SetupError> {
+    ) -> Result<Sides, SetupError> {
         let first = self.is_of_group(field, one)?;
         let second = self.is_of_group(field, other)?;
         let both = first.iter().zip(&second);
@@ -160,11 +221,42 @@ impl<'a, const D: usize> Outline<'a, D> {
             (false, true) => Some(1),
             (false, false) => None,
         };
-        Ok(both.map(side).collect())
+        let of_points = match self.boundaries {
+            Some(_) => {
+                let second = self.is_in_group(field, other)?;
+                let first = self.is_in_group(field, one)?.into_iter().zip(second);
+                // Points of both groups have no side.
+                let apart = first.map(|(one, other)| (one && !other, other && !one));
+                apart.map(|(one, other)| side((&one, &other))).collect()
+            }
+            None => Vec::new(),
+        };
+        Ok(Sides {
+            of_facets: both.map(side).collect(),
+            of_points,
+        })
+    }
+
+    /// One side for all facets and points.
+    fn one_side(&self, field: Field) -> Result<Sides, SetupError> {
+        self.require_outline(field)?;
+        Ok(Sides {
+            of_facets: vec![Some(0); self.facets.len()],
+            of_points: vec![Some(0); self.system.cloud.len()],
+        })
+    }
+
+    /// Refuses bodies of points from arrays.
+    fn require_outline(&self, field: Field) -> Result<(), SetupError> {
+        if self.facets.is_empty() {
+            let reason = "points from arrays have no outline, so that nothing can meet them: take a mesh or a lattice";
+            contradiction(field, reason)?;
+        }
+        Ok(())
     }
 
     /// The number of the part of each facet, in the order of the first points of the parts.
-    fn sides_of_parts(&self, field: Field) -> Result<Vec<Option<u32>>, SetupError> {
+    fn sides_of_parts(&self, field: Field) -> Result<Sides, SetupError> {
         let parts = Parts::of_bonds(&self.system.cloud, &self.system.bonds);
         let part = |it: &Facet<D>| parts.part(it.points()[0]);
         let mut numbers: BTreeMap<u32, u32> = self.facets.iter().map(|it| (part(it), 0)).collect();
@@ -177,22 +269,31 @@ impl<'a, const D: usize> Outline<'a, D> {
             *value = number;
         }
         let side = |it: &Facet<D>| numbers.get(&part(it)).copied();
-        Ok(self.facets.iter().map(side).collect())
+        Ok(Sides {
+            of_facets: self.facets.iter().map(side).collect(),
+            of_points: Vec::new(),
+        })
     }
 
     /// Side 0 for the facets that a rigid body meets.
-    fn sides_against(&self, field: Field, body: &Rigid) -> Result<Vec<Option<u32>>, SetupError> {
+    fn sides_against(&self, field: Field, body: &Rigid) -> Result<Sides, SetupError> {
         let field = field.part("against");
-        if self.facets.is_empty() {
-            let reason = "points from arrays have no outline, so that nothing can meet them: take a mesh or a lattice";
-            contradiction(field, reason)?;
+        if body.against.is_empty() {
+            return self.one_side(field);
         }
-        let mut sides = vec![body.against.is_empty().then_some(0); self.facets.len()];
-        for group in &body.against {
-            let of_group = self.is_of_group(field, group)?;
+        self.require_outline(field)?;
+        let mut sides = Sides {
+            of_facets: vec![None; self.facets.len()],
+            of_points: vec![None; self.system.cloud.len()],
+        };
+        let add = |sides: &mut [Option<u32>], of_group: Vec<bool>| {
             for (side, _) in sides.iter_mut().zip(of_group).filter(|it| it.1) {
                 *side = Some(0);
             }
+        };
+        for group in &body.against {
+            add(&mut sides.of_facets, self.is_of_group(field, group)?);
+            add(&mut sides.of_points, self.is_in_group(field, group)?);
         }
         Ok(sides)
     }
@@ -272,7 +373,9 @@ fn motion(body: &Rigid) -> RigidMotion {
     match body.mass {
         Some(mass) => RigidMotion::Free {
             mass,
+            inertia: body.inertia.unwrap_or(f64::INFINITY),
             velocity: body.velocity,
+            acceleration: body.acceleration,
         },
         None => RigidMotion::Prescribed {
             velocity: body.velocity,

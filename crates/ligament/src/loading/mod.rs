@@ -114,6 +114,7 @@ impl Loading {
             loads,
             solver: self.solver.clone(),
             probes: self.probes.clone(),
+            contact: self.contact.clone(),
         }
     }
 
@@ -125,7 +126,6 @@ impl Loading {
             mass: inertia.mass.clone(),
             initial_velocity: inertia.initial_velocity.clone(),
             dashpots: inertia.dashpots.clone(),
-            contact: self.contact.clone(),
             face_friction: self.face_friction,
         })
     }

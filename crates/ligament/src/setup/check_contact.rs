@@ -3,7 +3,7 @@
 use ligament_analysis::load_program::Amplitude;
 
 use super::check::{Checked, contradiction, positive, require, require_unique};
-use super::{Between, ContactLaw, RigidForm, Setup};
+use super::{Between, ContactLaw, Rigid, RigidForm, Setup};
 use crate::error::Field;
 
 impl Setup {
@@ -16,10 +16,18 @@ impl Setup {
         for (index, contact) in self.contacts.iter().enumerate() {
             let field = Field::element("contacts", index);
             self.check_contact_law(field, contact.law)?;
+            self.check_cracks(field, contact.cracks)?;
             if let Between::Groups([one, other]) = &contact.between
                 && one == other
             {
                 let reason = "contact is between two different groups: give two, or all parts";
+                return contradiction(field.part("between"), reason);
+            }
+            if self.contacts[..index]
+                .iter()
+                .any(|it| it.between == contact.between)
+            {
+                let reason = "an earlier contact is between the same: give one of them";
                 return contradiction(field.part("between"), reason);
             }
         }
@@ -30,7 +38,11 @@ impl Setup {
         for (index, body) in self.rigid_bodies.iter().enumerate() {
             let field = Field::element("rigid_bodies", index);
             self.check_contact_law(field, body.law)?;
+            self.check_cracks(field, body.cracks)?;
             positive(field.part("mass"), body.mass)?;
+            positive(field.part("inertia"), body.inertia)?;
+            self.check_free(field, body)?;
+            self.check_rigid_name(field, &body.name)?;
             self.check_form(field, &body.form)?;
             let is_number = body.velocity.iter().all(|it| it.is_finite());
             let expected = "of finite components";
@@ -39,6 +51,19 @@ impl Setup {
                 let reason = "a body with a mass moves by itself from its first velocity: give an amplitude or a mass";
                 return contradiction(field.part("amplitude"), reason);
             }
+        }
+        Ok(())
+    }
+
+    /// Refuses a name whose columns in the history are those of a group or of another contact.
+    fn check_rigid_name(&self, field: Field, name: &str) -> Checked {
+        let is_group = self.body.group_names().iter().any(|it| it == name);
+        let mut others = self.contacts.iter().map(|it| it.between.name());
+        if is_group || others.any(|it| it == name) {
+            let reason = format!(
+                "`{name}` is a group or a contact, whose columns in the history are called so"
+            );
+            return contradiction(field.part("name"), reason);
         }
         Ok(())
     }
@@ -61,6 +86,38 @@ impl Setup {
             true => Ok(()),
             false => contradiction(field, reason),
         }
+    }
+
+    /// Refuses contact of faces of cracks that carry pressure already.
+    fn check_cracks(&self, field: Field, cracks: bool) -> Checked {
+        if cracks && self.closing {
+            let reason =
+                "the faces of cracks carry pressure already, by `closing`: give one of both";
+            return contradiction(field.part("cracks"), reason);
+        }
+        Ok(())
+    }
+
+    /// Refuses what only a body with a mass can have, and rotations of shapes that do not turn.
+    fn check_free(&self, field: Field, body: &Rigid) -> Checked {
+        let is_number = body.acceleration.iter().all(|it| it.is_finite());
+        let part = field.part("acceleration");
+        require(is_number, part, "of finite components", body.acceleration)?;
+        if body.mass.is_none() && body.acceleration != [0.0; 3] {
+            return contradiction(part, "its motion is prescribed: give it a mass");
+        }
+        let turns = match body.form {
+            RigidForm::Ball { .. } => true,
+            RigidForm::Box { .. } => self.body.dimensions() == 2,
+            RigidForm::Wall { .. } => false,
+        };
+        let reason = match (body.inertia, body.mass) {
+            (None, _) => return Ok(()),
+            (Some(_), None) => "its motion is prescribed: give it a mass",
+            (Some(_), Some(_)) if turns => return Ok(()),
+            (Some(_), Some(_)) => "walls do not turn, nor boxes in space: remove it",
+        };
+        contradiction(field.part("inertia"), reason)
     }
 
     fn check_form(&self, field: Field, form: &RigidForm) -> Checked {

@@ -11,6 +11,8 @@ pub struct SurfaceContact {
     pub between: Between,
     /// Law of the contact.
     pub law: ContactLaw,
+    /// Whether faces of cracks take part.
+    pub cracks: bool,
 }
 
 /// Parts of the body that come into contact.
@@ -18,8 +20,18 @@ pub struct SurfaceContact {
 pub enum Between {
     /// The outlines of two groups.
     Groups([String; 2]),
-    /// The outlines of all parts that no bond connects at the start.
+    /// The outlines of all parts that no bond connects at the start; with faces of cracks, all points that no bond connects.
     Parts,
+}
+
+impl Between {
+    /// Name in results: those of the groups, or `parts`.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Groups(groups) => groups.join("-"),
+            Self::Parts => "parts".to_owned(),
+        }
+    }
 }
 
 /// Penalty and friction of a contact.
@@ -31,7 +43,7 @@ pub struct ContactLaw {
     pub stiffness: f64,
 }
 
-/// A rigid body, which moves without turning.
+/// A rigid body, which turns where it has an inertia.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rigid {
     /// Name in results.
@@ -42,12 +54,18 @@ pub struct Rigid {
     pub against: Vec<String>,
     /// Law of the contact.
     pub law: ContactLaw,
+    /// Whether it meets faces of cracks as well.
+    pub cracks: bool,
     /// Velocity, m/s: at time zero where the body has a mass, otherwise times the amplitude.
     pub velocity: Position,
     /// Amplitude of a prescribed velocity.
     pub amplitude: Amplitude,
     /// Mass, kg; without one the motion is prescribed.
     pub mass: Option<f64>,
+    /// Moment of inertia of a body with a mass about its middle, kg m^2; without one it does not turn.
+    pub inertia: Option<f64>,
+    /// Acceleration of a body with a mass without contacts, such as gravity, m/s^2.
+    pub acceleration: Position,
 }
 
 /// Shape and place of a rigid body.

@@ -98,7 +98,6 @@ fn motion_of(setup: &Setup, velocity: impl FnOnce(&Model) -> Vec<f64>) -> Motion
     MotionProblem {
         initial_velocity: velocity(&model).into(),
         dashpots: Arc::new([]),
-        contact: Default::default(),
         face_friction: setup.closing_friction,
         problem: Problem {
             system,
@@ -106,6 +105,7 @@ fn motion_of(setup: &Setup, velocity: impl FnOnce(&Model) -> Vec<f64>) -> Motion
             loads: Arc::new(loads),
             solver: model.setup.solver.clone(),
             probes: Arc::new([]),
+            contact: Default::default(),
         },
         mass,
     }

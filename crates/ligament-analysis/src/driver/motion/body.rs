@@ -6,6 +6,7 @@ use std::time::Instant;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::{Criteria, Criterion};
 use ligament_model::product::{ForceSum, NearLimits};
+use ligament_model::surface::Bonded;
 use ligament_model::thermal::ThermalStrain;
 
 use super::face_friction::{FaceFriction, FrictionEnergies};
@@ -56,6 +57,8 @@ pub(super) struct Body {
     sum: Option<ForceSum>,
     /// Number of broken bonds.
     pub(super) broken: usize,
+    /// Bonds that broke in the last step.
+    pub(super) broken_last: Vec<u32>,
     pub(super) costs: Costs,
 }
 
@@ -132,6 +135,15 @@ impl Body {
             numbers,
             state,
             broken,
+            broken_last: Vec::new(),
+        }
+    }
+
+    /// Bonds that are left.
+    pub(super) fn bonded(&self) -> Bonded<'_> {
+        Bonded {
+            topology: self.problem.system.topology(),
+            intact: &self.state.intact,
         }
     }
 
@@ -145,6 +157,7 @@ impl Body {
         observer: &mut dyn Observer,
     ) -> Result<Breakage, SetupError> {
         let start = Instant::now();
+        self.broken_last.clear();
         let breakage = match (self.sum.take(), is_whole) {
             (Some(mut sum), false) => {
                 let breakage = self.move_in_one_sweep(step, &mut sum, observer);
@@ -179,7 +192,8 @@ impl Body {
                 deformations,
             };
             breakage = self.break_bonds(&beyond, &criteria, step, observer)?;
-            self.contact = Contact::new(&*problem.system, &self.state.intact);
+            let intact = &self.state.intact;
+            self.contact.follow(&*problem.system, intact, &beyond.bonds);
             if breakage.n_elements() != beyond.bonds.len() {
                 self.deform();
             }
@@ -247,6 +261,7 @@ impl Body {
     ) -> Now<'a> {
         let square = of_critical.min(NEARLY_CRITICAL).powi(2);
         Now {
+            contacts: None,
             below_zero: square / (1.0 - square),
             problem: &self.problem,
             numbers: &self.numbers,
@@ -360,6 +375,7 @@ impl Body {
         let breakage = Breakage::new(system, expansion, &self.state, bonds);
         self.state.displacement = now;
         self.broken += bonds.len();
+        self.broken_last.clone_from(bonds);
         self.connectivity
             .bonds_broke(system, &mut self.state.intact, bonds);
         Ok(breakage)

@@ -17,7 +17,7 @@ use super::explicit_kept::ExplicitKept;
 use super::face_friction::{FaceFriction, FrictionEnergies};
 use super::inertia::{Inertia, Velocities};
 use super::progress::{EXPLICIT, Progress, Resumed};
-use super::record;
+use super::record::{self, Now};
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
@@ -25,7 +25,7 @@ use crate::driver::outcome::Outcome;
 use crate::driver::recorder::Energies;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
-use crate::motion::contact::{ContactForces, ContactProblem};
+use crate::motion::contact::ContactForces;
 use crate::motion::{ExplicitSettings, MotionError, MotionProblem, MotionSettings, critical_step};
 use crate::solver::{ExplicitChoice, SolverChoice};
 use crate::vectors::{CHUNK, sum_of_chunks};
@@ -89,7 +89,7 @@ pub(super) fn run(
         progress,
     };
     let mut motion = Explicit::new(problem, settings, choice, parts, observer);
-    motion.begin(&problem.initial_velocity, &problem.contact);
+    motion.begin(&problem.initial_velocity);
     motion.follow()
 }
 
@@ -186,13 +186,19 @@ impl<'a> Explicit<'a> {
     }
 
     /// Sets the velocities and the energies of time zero.
-    fn begin(&mut self, velocity: &[f64], contact: &ContactProblem) {
+    fn begin(&mut self, velocity: &[f64]) {
         let loads = self.body.problem.loads.clone();
+        let contact = self.body.problem.contact.clone();
         loads.prescribe(0.0, &mut self.body.state.displacement);
         self.body.measure();
         if !contact.is_empty() {
             let motions = &self.body.state.displacement;
-            self.contacts = Some(ContactForces::new(contact.clone(), motions));
+            self.contacts = Some(ContactForces::new(
+                contact,
+                motions,
+                self.body.bonded(),
+                self.inertia.step(),
+            ));
         }
         self.apply_loads();
         let internal = &self.body.balanced.internal.values;
@@ -266,7 +272,10 @@ impl<'a> Explicit<'a> {
         } = self;
         let velocity = velocities.at_time(self.inertia.step());
         let of_critical = self.choice.of_critical();
-        let now = body.now(energies, velocities.rates(&velocity), of_critical);
+        let now = Now {
+            contacts: contacts.as_ref(),
+            ..body.now(energies, velocities.rates(&velocity), of_critical)
+        };
         let stop = (&self.settings.stop, self.started);
         let end = now.record(progress, stop, *observer)?;
         let checkpoint = || {
@@ -339,11 +348,13 @@ impl<'a> Explicit<'a> {
             return;
         };
         let before = contacts.energies();
-        let (state, balanced) = (&self.body.state, &mut self.body.balanced);
-        let (time, step) = (state.load_factor, self.inertia.step());
-        let internal = &mut balanced.internal.values;
-        let now = contacts.advance(time, step, &state.displacement);
-        contacts.add_forces(-1.0, internal);
+        let (body, step) = (&mut self.body, self.inertia.step());
+        if !body.broken_last.is_empty() {
+            contacts.join(&body.broken_last);
+        }
+        let (time, motions) = (body.state.load_factor, &body.state.displacement);
+        let now = contacts.advance(time, step, motions, body.bonded());
+        contacts.add_forces(-1.0, &mut body.balanced.internal.values);
         let motion = &mut self.progress.motion;
         motion.contact_energy += now.stored;
         motion.friction_energy += now.dissipated - before.dissipated;

@@ -50,8 +50,8 @@ impl ExplicitKept {
         let lengths = [velocities.half.len(), velocities.acceleration.len()];
         let fits = state.fits(system, system.ends().len(), &problem.problem.criteria);
         let can_touch = match &contact {
-            Some(contact) => contact.fits(&problem.contact),
-            None => problem.contact.is_empty(),
+            Some(contact) => contact.fits(&problem.problem.contact),
+            None => problem.problem.contact.is_empty(),
         };
         if !fits || !can_touch || lengths != [state.displacement.len(); 2] {
             return Err(CheckpointError::OtherModel.into());
@@ -63,7 +63,7 @@ impl ExplicitKept {
         body.measure();
         let resumed = |it| {
             let motions = &body.state.displacement;
-            ContactForces::resumed(problem.contact.clone(), motions, it)
+            ContactForces::resumed(problem.problem.contact.clone(), motions, it, body.bonded())
         };
         let contacts = contact.map(resumed);
         if let Some(contacts) = &contacts {

@@ -134,7 +134,7 @@ fn check(problem: &MotionProblem, settings: &MotionSettings) -> Result<(), Motio
     if !system.subdomain().is_whole() {
         return Err(MotionError::SeveralProcesses);
     }
-    if !problem.contact.is_empty() || problem.face_friction > 0.0 {
+    if !problem.problem.contact.is_empty() || problem.face_friction > 0.0 {
         return Err(MotionError::ImplicitContact);
     }
     let is_heated = !loads.temperature_change(0.0).is_empty();

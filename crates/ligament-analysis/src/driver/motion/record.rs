@@ -15,6 +15,7 @@ use crate::history::{
     Moment, Observer, ObserverError, Onward, Rates, StepRecord, Termination, View,
 };
 use crate::motion::MotionStop;
+use crate::motion::contact::ContactForces;
 use crate::problem::Problem;
 use crate::result_fields::Solution;
 use crate::softened::SoftenedOfAll;
@@ -34,6 +35,7 @@ pub(super) struct Now<'a> {
     pub(super) energies: &'a Energies,
     pub(super) costs: &'a Costs,
     pub(super) rates: Rates<'a>,
+    pub(super) contacts: Option<&'a ContactForces>,
     /// Number of broken bonds.
     pub(super) broken: usize,
     /// Share of the energy by which the kinetic energy of the scheme may be negative in a stable motion.
@@ -82,6 +84,10 @@ impl Now<'_> {
         };
         StepRecord {
             motion: Some(progress.motion),
+            contacts: self.contacts.map_or_else(Vec::new, ContactForces::readings),
+            rigid_bodies: self
+                .contacts
+                .map_or_else(Vec::new, |it| it.rigid_bodies().to_vec()),
             ..step_record(problem, solution, self.energies, self.fragments, counters)
         }
     }

@@ -251,6 +251,7 @@ impl Stepping {
         (energies, costs): (&'a Energies, &'a Costs),
     ) -> Now<'a> {
         Now {
+            contacts: None,
             numbers: self.equilibrium.numbers(),
             fragments: self.equilibrium.fragments(),
             state: &here.state,

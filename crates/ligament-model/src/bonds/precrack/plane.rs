@@ -75,19 +75,25 @@ impl Cut<2> for PreCrack {
         {
             return false;
         }
+        if self.touches(piece, bond, slack) {
+            return false;
+        }
         let sides = line.map(|end| orientation(a, b, end));
         let mut inner = sides.iter().zip(self.is_inner(piece));
         sides[0] * sides[1] < 0.0 || inner.any(|(side, is_inner)| *side == 0.0 && is_inner)
     }
 
-    fn touches(&self, piece: u32, bond: [[f64; 2]; 2], _slack: f64) -> bool {
+    /// Whether a bond passes through an end of the crack: within the slack, because places that are the same in the case differ by rounding.
+    fn touches(&self, piece: u32, bond: [[f64; 2]; 2], slack: f64) -> bool {
+        let is_on = |end| match slack > 0.0 {
+            true => distance_to(bond, end) <= slack,
+            false => {
+                boxes_meet([end; 2], bounding_box(bond))
+                    && orientation(bond[0], bond[1], end) == 0.0
+            }
+        };
         let mut ends = self.piece(piece).into_iter().zip(self.is_inner(piece));
-        ends.any(|(end, is_inner)| {
-            !is_inner
-                && !bond.contains(&end)
-                && boxes_meet([end; 2], bounding_box(bond))
-                && orientation(bond[0], bond[1], end) == 0.0
-        })
+        ends.any(|(end, is_inner)| !is_inner && !bond.contains(&end) && is_on(end))
     }
 
     fn crossing(&self, piece: u32, [a, b]: [[f64; 2]; 2]) -> Crossing<2> {

@@ -1,0 +1,472 @@
+//! Two sides that may come into contact: which integration points touch, and the forces there.
+
+use rayon::prelude::*;
+
+use super::cells::Bonded;
+use super::facet::{Facet, Surface};
+use super::nearest::nearest_weights;
+use super::pair::{Pose, Step, SurfacePair};
+use super::rigid::RigidShape;
+use super::search::{Search, Sought};
+use super::touch::{Touch, Vector, held_slip};
+use super::{Corners, normal, tangential, weighted};
+use crate::tensor::{cross, dot, minus, norm};
+
+/// Cosine between the outward normals of two surfaces above which they do not face each other.
+const FACING: f64 = -0.1;
+
+/// Skin of the search over the length of the longest edge of a facet.
+const SKIN: f64 = 0.5;
+
+/// Gap between neighbouring facets over the length of an edge that a contact bridges: facets of a lattice move with one cell each.
+const SEAM: f64 = 0.05;
+
+/// What the integration points of a surface may meet.
+#[derive(Debug, Clone)]
+pub enum Opposite<const D: usize> {
+    /// Facets of other sides of the same surface.
+    OtherSides,
+    /// Facets of the same surface whose points no unbroken bond connects with that of the integration point; each facet moves with one point.
+    Unbonded,
+    /// A rigid shape, and whether it is free to move.
+    Rigid(RigidShape<D>, bool),
+}
+
+/// The facets of a body, and what they may meet.
+#[derive(Debug, Clone)]
+pub struct FacetPair<const D: usize> {
+    surface: Surface<D>,
+    opposite: Opposite<D>,
+    friction: f64,
+    /// Mean stiffness of each side, Pa/m.
+    of_sides: Vec<f64>,
+    /// Length of the longest edge of a facet, m.
+    reach: f64,
+}
+
+/// What an integration point meets.
+struct Meeting<const D: usize> {
+    onto: Option<u32>,
+    weights: Vector,
+    normal: [f64; D],
+    overlap: f64,
+    /// Way from the middle of a rigid body, m.
+    arm: Vector,
+    /// Motion of the surface that is met in the step, m.
+    carried: [f64; D],
+}
+
+/// An integration point: the place of a facet that it stands for.
+#[derive(Clone, Copy)]
+struct Place {
+    number: u32,
+    /// Number of the facet.
+    facet: usize,
+    weights: Vector,
+}
+
+/// The facets of a surface so far, by their places in the search.
+struct Present<'a, const D: usize> {
+    /// Numbers of the facets.
+    numbers: &'a [u32],
+    /// Positions before the step, m.
+    before: Vec<Corners<D>>,
+    /// Positions after the step, m.
+    now: Vec<Corners<D>>,
+    /// Outward normals; none of a facet without area.
+    normals: Vec<Option<[f64; D]>>,
+}
+
+impl<const D: usize> FacetPair<D> {
+    /// A surface against what its integration points may meet, with the coefficient of Coulomb's friction.
+    pub fn new(surface: Surface<D>, opposite: Opposite<D>, friction: f64) -> Self {
+        Self {
+            of_sides: surface.mean_stiffness(),
+            reach: surface.largest_length(),
+            surface,
+            opposite,
+            friction,
+        }
+    }
+
+    /// The integration point of a number: D on each facet, by Gauss's rule on a segment and that of degree two on a triangle.
+    fn place(number: u32) -> Place {
+        let own = if D == 2 {
+            0.5 + 0.5 / 3.0_f64.sqrt()
+        } else {
+            2.0 / 3.0
+        };
+        let others = (1.0 - own) / (D - 1) as f64;
+        let corner = number as usize % D;
+        Place {
+            number,
+            facet: number as usize / D,
+            weights: std::array::from_fn(|it| match it {
+                _ if it == corner => own,
+                _ if it < D => others,
+                _ => 0.0,
+            }),
+        }
+    }
+
+    /// Area that an integration point of a facet stands for, m^2: both surfaces of a pair carry half of the pressure each.
+    fn area(&self, facet: &Facet<D>) -> f64 {
+        let share = match self.opposite {
+            Opposite::OtherSides | Opposite::Unbonded => 0.5,
+            Opposite::Rigid(..) => 1.0,
+        };
+        share * facet.area / D as f64
+    }
+
+    /// Side and contact stiffness of a facet that belongs to the surface, Pa/m.
+    fn known(&self, facet: usize) -> (u32, f64) {
+        let known = self.surface.side_and_stiffness(facet);
+        known.expect("facets that join belong to the surface")
+    }
+
+    /// Contact stiffness of a facet against a side, Pa/m: that of both in turn, as springs in series with twice the stiffness each.
+    fn stiffness(&self, facet: usize, of_other: Option<f64>) -> f64 {
+        let own = self.known(facet).1;
+        of_other.map_or(own, |other| 2.0 * own * other / (own + other))
+    }
+
+    fn present<'a>(&self, numbers: &'a [u32], step: Step<'_>) -> Present<'a, D> {
+        let surface = &self.surface;
+        let moved = |motions: &[f64]| -> Vec<Corners<D>> {
+            let facets = numbers.par_iter().map(|&it| surface.facet(it as usize));
+            facets.map(|it| it.moved(surface.layout, motions)).collect()
+        };
+        let now = moved(step.now);
+        Present {
+            numbers,
+            before: moved(step.before),
+            normals: now.par_iter().map(normal).collect(),
+            now,
+        }
+    }
+
+    /// Whether one facet may ever meet another one of the surface.
+    fn may_meet(&self, own: u32, other: u32) -> bool {
+        let of_cells = |it: u32| self.surface.facet(it as usize).corners[0].point;
+        match self.opposite {
+            Opposite::OtherSides => self.known(own as usize).0 != self.known(other as usize).0,
+            Opposite::Unbonded => of_cells(own) != of_cells(other),
+            Opposite::Rigid(..) => false,
+        }
+    }
+
+    /// Largest overlap with a facet that counts, m, and the distance beside it: where all facets move with one point each, an integration
+    /// point that is farther behind than both points met another face.
+    fn limits(&self, own: &Facet<D>, met: &Facet<D>, overlap: f64) -> [f64; 2] {
+        let seam = SEAM * met.length();
+        match self.surface.cracks {
+            None => [f64::INFINITY, seam.max(overlap)],
+            Some(_) => [(own.depth() + met.depth()).max(0.5 * self.reach), seam],
+        }
+    }
+
+    /// The facet that an integration point of the facet at a place meets, among some places: the nearest one that faces its own and that it
+    /// is behind, within reach.
+    fn facet_met(
+        &self,
+        (at, place): (usize, Place),
+        present: &Present<'_, D>,
+        near: &[u32],
+        bonds: Bonded<'_>,
+    ) -> Option<Meeting<D>> {
+        let position = weighted(&present.now[at], &place.weights);
+        let own_normal = present.normals[at]?;
+        let mut nearest = self.reach;
+        let mut met = None;
+        for &other in near {
+            let other = other as usize;
+            let Some(normal) = present.normals[other] else {
+                continue;
+            };
+            if dot(normal, own_normal) >= FACING {
+                continue;
+            }
+            let corners = &present.now[other];
+            let weights = nearest_weights(corners, position);
+            let way = minus(position, weighted(corners, &weights));
+            let distance = norm(way);
+            let gap = dot(way, normal);
+            if distance >= nearest || gap >= 0.0 {
+                continue;
+            }
+            let beside = norm(tangential(way, normal));
+            let number = present.numbers[other] as usize;
+            let [own, facet] = [place.facet, number].map(|it| self.surface.facet(it));
+            let [deepest, aside] = self.limits(&own, &facet, -gap);
+            let [one, another] = [own, facet].map(|it| it.corners[0].point);
+            let is_free =
+                !matches!(self.opposite, Opposite::Unbonded) || !bonds.joins(one, another);
+            if beside <= aside && -gap < deepest && is_free {
+                nearest = distance;
+                met = Some((other, weights, normal, -gap));
+            }
+        }
+        let (other, weights, normal, overlap) = met?;
+        let [before, now] = [&present.before, &present.now];
+        let [before, now] = [before, now].map(|it| weighted(&it[other], &weights));
+        Some(Meeting {
+            onto: Some(present.numbers[other]),
+            weights,
+            normal,
+            overlap,
+            arm: [0.0; 3],
+            carried: minus(now, before),
+        })
+    }
+
+    /// The rigid shape, where an integration point is in it and faces its surface.
+    fn shape_met(
+        shape: &RigidShape<D>,
+        (at, place): (usize, Place),
+        present: &Present<'_, D>,
+        rigid: [Pose; 2],
+    ) -> Option<Meeting<D>> {
+        let own = &present.now[at];
+        let [before, now] = rigid.map(|it| std::array::from_fn(|axis| it.displacement[axis]));
+        let mut position = minus(weighted(own, &place.weights), now);
+        let arm = minus(position, shape.middle());
+        let step: Vector = minus(rigid[1].rotation, rigid[0].rotation);
+        let carried = minus(arm, turned(arm, step.map(|it| -it)));
+        // Of the shapes in space only spheres turn.
+        let angle = if D == 2 { rigid[1].rotation } else { [0.0; 3] };
+        if angle != [0.0; 3] {
+            let back = turned(arm, angle.map(|it| -it));
+            position = std::array::from_fn(|axis| shape.middle()[axis] + back[axis]);
+        }
+        let (gap, outward) = shape.distance(position);
+        let outward = turned(outward, angle);
+        let meets = gap < 0.0 && dot(outward, present.normals[at]?) < FACING;
+        meets.then(|| Meeting {
+            onto: None,
+            weights: [0.0; 3],
+            normal: outward,
+            overlap: -gap,
+            arm: in_space(arm),
+            carried: std::array::from_fn(|axis| now[axis] - before[axis] + carried[axis]),
+        })
+    }
+
+    /// The contact of an integration point with what it meets, given the one before the step.
+    ///
+    /// A new contact whose overlap is deeper than the motion of the step explains begins without force.
+    fn touch(
+        &self,
+        (at, place): (usize, Place),
+        meeting: &Meeting<D>,
+        present: &Present<'_, D>,
+        before: Option<&Touch>,
+    ) -> Touch {
+        let &Meeting {
+            normal, overlap, ..
+        } = meeting;
+        let [then, now] = [&present.before, &present.now];
+        let [then, now] = [then, now].map(|it| weighted(&it[at], &place.weights));
+        let slid = minus(minus(now, then), meeting.carried);
+        let unexplained = (overlap + dot(slid, normal)).max(0.0);
+        let offset = before.map_or(unexplained, |it| it.offset).min(overlap);
+        let held = before.map_or([0.0; D], |it| std::array::from_fn(|axis| it.slip[axis]));
+        let trial = std::array::from_fn(|axis| held[axis] + slid[axis]);
+        let slip = held_slip(tangential(trial, normal), self.friction, overlap - offset);
+        let area = self.area(&self.surface.facet(place.facet));
+        let side_met = meeting.onto.map(|it| self.known(it as usize).0);
+        let other = side_met.map(|it| self.of_sides[it as usize]);
+        Touch {
+            place: place.number,
+            onto: meeting.onto,
+            weights: meeting.weights,
+            arm: meeting.arm,
+            normal: in_space(normal),
+            overlap,
+            offset,
+            slip: in_space(slip),
+            stiffness: area * self.stiffness(place.facet, other),
+            area,
+            is_first: meeting
+                .onto
+                .is_none_or(|it| self.is_first(place.facet, it as usize)),
+        }
+    }
+}
+
+impl<const D: usize> FacetPair<D> {
+    /// Whether the first of two facets comes first among the sides, or, of cells of one side, by its point.
+    fn is_first(&self, one: usize, other: usize) -> bool {
+        let order = |it: usize| (self.known(it).0, self.surface.facet(it).corners[0].point);
+        let [one, other] = [one, other].map(order);
+        match self.opposite {
+            Opposite::OtherSides | Opposite::Rigid(..) => one.0 < other.0,
+            Opposite::Unbonded => one < other,
+        }
+    }
+
+    /// Shares of the axes in the stiffness of a facet: without friction that of a face of cells acts across it alone.
+    fn axes(&self, facet: &Facet<D>) -> [f64; D] {
+        let across = normal(&facet.corners.map(|it| it.position));
+        match across.filter(|_| self.surface.cracks.is_some() && self.friction == 0.0) {
+            Some(normal) => {
+                let sum: f64 = normal.iter().map(|it| it.abs()).sum();
+                normal.map(|it| it.abs() * sum)
+            }
+            None => [1.0; D],
+        }
+    }
+}
+
+impl<const D: usize> SurfacePair for FacetPair<D> {
+    fn join(&self, search: &mut Search, broken: &mut dyn Iterator<Item = u32>) {
+        if search.facets().is_empty() {
+            search.join(0..self.surface.facets.len() as u32);
+            let cut = self
+                .surface
+                .cracks
+                .iter()
+                .flat_map(|it| it.boundaries.cut());
+            search.join(self.surface.at_faces(cut.copied()));
+        }
+        if let Some(cracks) = &self.surface.cracks {
+            let faces = broken.flat_map(|bond| cracks.boundaries.crossed_by(bond));
+            let facets = self.surface.at_faces(faces);
+            search.join(facets);
+        }
+    }
+
+    fn touches(&self, search: &mut Search, step: Step<'_>, before: &[Touch]) -> Vec<Touch> {
+        let facets = search.facets().to_vec();
+        let present = self.present(&facets, step);
+        let known = |place: Place| {
+            let known = before.binary_search_by_key(&place.number, |it| it.place);
+            known.ok().map(|it| &before[it])
+        };
+        let of_facet = |at: usize| (0..D as u32).map(move |corner| (at, corner));
+        let place = |(at, corner): (usize, u32)| (at, Self::place(D as u32 * facets[at] + corner));
+        let places = (0..facets.len())
+            .into_par_iter()
+            .flat_map_iter(of_facet)
+            .map(place);
+        let mut touches: Vec<Touch> = if let Opposite::Rigid(shape, _) = &self.opposite {
+            let met = places.filter_map(|place| {
+                let meeting = Self::shape_met(shape, place, &present, step.rigid)?;
+                Some(self.touch(place, &meeting, &present, known(place.1)))
+            });
+            met.collect()
+        } else {
+            let skin = SKIN * self.reach;
+            let sought = Sought {
+                corners: &present.now,
+                within: self.reach + skin,
+                may_meet: &|own, other| self.may_meet(own, other),
+            };
+            search.update(&sought, skin);
+            let search = &*search;
+            let met = places.filter_map(|place| {
+                let near = search.near(place.0);
+                let meeting = self.facet_met(place, &present, near, step.bonds)?;
+                Some(self.touch(place, &meeting, &present, known(place.1)))
+            });
+            met.collect()
+        };
+        touches.sort_unstable_by_key(|it| it.place);
+        touches
+    }
+
+    fn add_forces(&self, touches: &[Touch], forces: &mut [f64]) {
+        let (layout, surface) = (self.surface.layout, &self.surface);
+        for touch in touches.iter().filter(|it| it.depth() > 0.0) {
+            let force = touch.force();
+            let force: [f64; D] = std::array::from_fn(|axis| force[axis]);
+            let place = Self::place(touch.place);
+            let facet = surface.facet(place.facet);
+            facet.add_force(layout, &place.weights, force, forces);
+            if let Some(onto) = touch.onto {
+                let opposite = force.map(|it| -it);
+                let onto = surface.facet(onto as usize);
+                onto.add_force(layout, &touch.weights, opposite, forces);
+            }
+        }
+    }
+
+    fn can_have(&self, touches: &[Touch]) -> bool {
+        let n_facets = self.surface.n_facets();
+        let exists = |it: &Touch| {
+            let is_facet = it.onto.is_none_or(|facet| (facet as usize) < n_facets);
+            (it.place as usize) < D * n_facets && is_facet
+        };
+        touches.iter().all(exists) && touches.is_sorted_by(|one, other| one.place < other.place)
+    }
+
+    fn degrees_of_freedom(&self) -> Vec<u32> {
+        self.surface.degrees_of_freedom()
+    }
+
+    /// With (x - y)^2 <= 2 x^2 + 2 y^2 for the motions x and y of the two surfaces; an integration point of another side may act on one point
+    /// alone, and as many as the own ones.
+    fn add_bound(&self, sums: &mut [f64]) {
+        let is_driven = matches!(self.opposite, Opposite::Rigid(_, false));
+        let factor = if is_driven { 1.0 } else { 2.0 };
+        let meets_facets = !matches!(self.opposite, Opposite::Rigid(..));
+        let other = meets_facets.then(|| self.surface.largest_stiffness());
+        let of_place =
+            |number: usize, it: &Facet<D>| factor * self.area(it) * self.stiffness(number, other);
+        let times = if meets_facets { 2.0 } else { 1.0 };
+        for (number, facet) in self.surface.all() {
+            let (stiffness, axes) = (times * of_place(number, &facet), self.axes(&facet));
+            for corner in 0..D as u32 {
+                let weights = Self::place(corner).weights;
+                self.surface
+                    .add_bound((&facet, &weights), stiffness, axes, sums);
+            }
+        }
+        if !meets_facets {
+            return;
+        }
+        let all = self.surface.all();
+        let one = all
+            .map(|(number, it)| of_place(number, &it))
+            .fold(0.0, f64::max);
+        let mut seen = vec![false; self.surface.layout.n_points];
+        for (_, facet) in self.surface.all() {
+            for (corner, point) in facet.points().into_iter().enumerate() {
+                if !std::mem::replace(&mut seen[point as usize], true) {
+                    let weights: Vector =
+                        std::array::from_fn(|it| f64::from(u8::from(it == corner)));
+                    self.surface
+                        .add_bound((&facet, &weights), one, [1.0; D], sums);
+                }
+            }
+        }
+    }
+
+    /// Faces of cracks do not count: what a rigid body feels at a time is at most as wide as the body.
+    fn on_rigid_body(&self) -> [f64; 2] {
+        let facets = self.surface.facets.iter().enumerate();
+        let of_facet = |(number, it): (usize, &Facet<D>)| it.area * self.stiffness(number, None);
+        let reach = match &self.opposite {
+            Opposite::Rigid(shape, _) => shape.reach(),
+            Opposite::OtherSides | Opposite::Unbonded => 0.0,
+        };
+        [facets.map(of_facet).sum(), reach]
+    }
+}
+
+/// A way turned by rotations about the axes: exactly in the plane, to the first order in space.
+fn turned<const D: usize>(way: [f64; D], by: Vector) -> [f64; D] {
+    if by == [0.0; 3] {
+        return way;
+    }
+    if let [x, y] = way.as_slice() {
+        let (sine, cosine) = by[2].sin_cos();
+        let turned = [cosine * x - sine * y, sine * x + cosine * y];
+        return std::array::from_fn(|axis| turned[axis]);
+    }
+    let added = cross(by, in_space(way));
+    std::array::from_fn(|axis| way[axis] + added[axis])
+}
+
+fn in_space<const D: usize>(vector: [f64; D]) -> Vector {
+    std::array::from_fn(|axis| vector.get(axis).copied().unwrap_or(0.0))
+}
