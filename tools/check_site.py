@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
-"""Checks in Chromium the site that `tools/site` made, from its folder: the search finds a page, formulas are set, nothing comes from elsewhere."""
+"""Checks in Chromium the site that `tools/site` made, from its folder.
+
+The search finds a page, formulas are set, a button of a tutorial leads to its body in the playground, nothing comes from elsewhere.
+"""
 
 import time
 from pathlib import Path
@@ -26,7 +29,7 @@ def main():
         return
     began = time.monotonic()
     with browser.Browser() as page:
-        page.open(SITE / "index.html", LOADED)
+        page.open(SITE / "overview.html", LOADED)
         page.value(TYPE)
         page.until(f"{FOUND}.length > 0")
         found = page.value(FOUND)
@@ -36,6 +39,10 @@ def main():
         assert (count := page.value("document.querySelectorAll('article math').length")) > 20, count
         assert page.value(FONT), "the font of the formulas is not loaded"
         page.until("document.querySelector('article') && !document.querySelector('article').innerText.includes('$')")
+        page.open(SITE / "docs" / "guide" / "l-panel.html", f"{LOADED} && location.href.includes('l-panel')")
+        page.value("document.querySelector('article .md-button').click()")
+        page.until("document.querySelector('.choice[aria-pressed=true]')?.dataset.body === 'l-panel'")
+        assert page.value("document.querySelectorAll('header nav a').length") > 5
         assert not (complaints := page.complaints()), complaints
     print(f"the site in a browser: {len(found)} results of a search, {count} formulas, {time.monotonic() - began:.1f} s")
 

@@ -4,16 +4,20 @@ use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use signal_hook::consts::{SIGINT, SIGTERM};
-use signal_hook::flag;
+#[cfg(not(target_family = "wasm"))]
+use signal_hook::{
+    consts::{SIGINT, SIGTERM},
+    flag,
+};
 
 /// Signals that stop a program: of the keyboard, of the system, and of a closed terminal.
 #[cfg(unix)]
 const SIGNALS: [i32; 3] = [SIGINT, SIGTERM, signal_hook::consts::SIGHUP];
-#[cfg(not(unix))]
+#[cfg(windows)]
 const SIGNALS: [i32; 2] = [SIGINT, SIGTERM];
 
 /// Exit code of a program ended by a signal, minus the number of the signal.
+#[cfg(not(target_family = "wasm"))]
 const ENDED_BY_SIGNAL: i32 = 128;
 
 /// Flag that is set by a signal to stop; by default no signal is handled, and any ends the program.
@@ -21,13 +25,14 @@ const ENDED_BY_SIGNAL: i32 = 128;
 pub(crate) struct StopSignal(Arc<AtomicBool>);
 
 impl StopSignal {
-    /// Handles the signals from now on: the first sets the flag, the second ends the program.
+    /// Handles the signals from now on: the first sets the flag, the second ends the program. WebAssembly has no signals.
     ///
     /// # Errors
     ///
     /// If the system refuses the handlers.
     pub(crate) fn awaited() -> io::Result<Self> {
         let stop = Self::default();
+        #[cfg(not(target_family = "wasm"))]
         for signal in SIGNALS {
             // The order matters: at the first signal the flag is not yet set.
             flag::register_conditional_shutdown(signal, ENDED_BY_SIGNAL + signal, stop.0.clone())?;

@@ -61,6 +61,8 @@ fn sync_folder(path: &Path) -> io::Result<()> {
     if let Some(folder) = path.parent().filter(|it| !it.as_os_str().is_empty()) {
         File::open(folder)?.sync_all()?;
     }
+    #[cfg(not(unix))]
+    let _ = path;
     Ok(())
 }
 
@@ -131,8 +133,16 @@ fn temporary_path(path: &Path) -> io::Result<PathBuf> {
     })?;
     let mut hidden = std::ffi::OsString::from(".");
     hidden.push(name);
-    hidden.push(format!(".{}.partial", std::process::id()));
+    hidden.push(format!(".{}.partial", process_number()));
     Ok(path.with_file_name(hidden))
+}
+
+/// Number of this process; 0 in WebAssembly, where processes have none.
+pub(crate) fn process_number() -> u32 {
+    match cfg!(target_family = "wasm") {
+        true => 0,
+        false => std::process::id(),
+    }
 }
 
 #[cfg(test)]

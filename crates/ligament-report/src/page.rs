@@ -16,7 +16,7 @@ use crate::summary::escaped;
 /// Template of the page, and the parts of its program in the order in which they are joined.
 const PAGE: &str = include_str!("viewer/page.html");
 const STYLE: &str = include_str!("viewer/style.css");
-const PROGRAM: [&str; 18] = [
+const PROGRAM: [&str; 19] = [
     include_str!("viewer/columns.js"),
     include_str!("viewer/numbers.js"),
     include_str!("viewer/run.js"),
@@ -35,6 +35,7 @@ const PROGRAM: [&str; 18] = [
     include_str!("viewer/panel.js"),
     include_str!("viewer/pointers.js"),
     include_str!("viewer/main.js"),
+    include_str!("viewer/start.js"),
 ];
 
 /// Number of characters of a page besides columns: program, summaries and histories of usual length.

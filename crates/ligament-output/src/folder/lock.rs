@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::kind::LOCK;
 use crate::Error;
+use crate::atomic::process_number;
 use crate::remedy::{Place, Remedy, Way};
 
 /// A lock on a folder, which is released with this value or at the end of the process.
@@ -42,7 +43,7 @@ impl Lock {
                 // The previous process with the lock may have removed the file since it was opened.
                 _ if !is_in_place(&file, &path) => {}
                 _ => {
-                    let process = format!("{}\n", std::process::id());
+                    let process = format!("{}\n", process_number());
                     let written = file
                         .set_len(0)
                         .and_then(|()| file.write_all(process.as_bytes()));

@@ -3,9 +3,14 @@
 const NOT_A_NUMBER = 2 ** 30;
 const STEPS_OF_A_GROUP = 8;
 
-// The bytes of a text of the page.
-async function bytesOfText(number) {
-  const binary = atob(document.getElementById(`t${number}`).textContent);
+// The text of a group of steps: `texts` are the numbers of the first text of the page and of the one after the last, or the texts themselves.
+function textOfGroup(texts, group) {
+  return typeof texts[0] === "string" ? texts[group] : document.getElementById(`t${texts[0] + group}`).textContent;
+}
+
+// What a text of a column packs.
+async function bytesOfText(text) {
+  const binary = atob(text);
   const bytes = new Uint8Array(binary.length);
   for (let place = 0; place < bytes.length; place++) bytes[place] = binary.charCodeAt(place);
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
@@ -60,7 +65,7 @@ class Column {
   // `largest` is the largest value of all steps, where it is known.
   constructor(description, count, largest = 0) {
     this.least = NOTHING * largest;
-    this.first = description.texts[0];
+    this.texts = description.texts;
     this.exponents = description.exponents;
     this.units = this.exponents.map((exponent) => Number(`1e${exponent}`));
     this.count = count;
@@ -83,7 +88,7 @@ class Column {
   async read(group) {
     const from = group * STEPS_OF_A_GROUP;
     const units = this.units.slice(from, from + STEPS_OF_A_GROUP);
-    const steps = stepsOfGroup(await bytesOfText(this.first + group), this.count, units);
+    const steps = stepsOfGroup(await bytesOfText(textOfGroup(this.texts, group)), this.count, units);
     steps.forEach((multiples, place) => {
       const isNothing = (multiple) => multiple >= NOT_A_NUMBER || Math.abs(multiple * units[place]) < this.least;
       if (this.least > 0 && multiples.every(isNothing)) multiples.forEach((it, at) => { if (it < NOT_A_NUMBER) multiples[at] = 0; });

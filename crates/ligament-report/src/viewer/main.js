@@ -422,5 +422,3 @@ function switchTheme() {
   const isDark = dataset.theme ? dataset.theme === "dark" : window.matchMedia("(prefers-color-scheme: dark)").matches;
   dataset.theme = isDark ? "light" : "dark";
 }
-
-new Page(JSON.parse(element("description").textContent)).start();
